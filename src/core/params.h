@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace penumbra {
+
+// A parameter's value: switch, count, quantity or one of a list of words.
+using ParamValue = std::variant<bool, int, float, std::string>;
+
+// How a value reaches GLSL. Either way the shader reads an identifier of the parameter's name with '.'
+// replaced by '_': a std140 uniform block member, or a constant compiled in (loops unroll, branches fold).
+// Words reach GLSL as the int index into `choices`; `host` values do not reach GLSL at all.
+enum class ParamBinding { uniform, compiled, host };
+
+// One parameter, declared once. GLSL constant, preset key, --set, viewer widget, `penumbra help` and the
+// table in docs/techniques.md all come from this row.
+struct Param {
+  std::string name;  // "pcss.filter_taps": lower case, [a-z0-9_.]
+  ParamValue default_value;
+  double min = 0.0;  // range, inclusive; ignored for bool and words
+  double max = 1.0;
+  std::string unit;  // "m", "deg", "px", "taps"; empty for none
+  std::string help;  // one sentence
+  ParamBinding binding = ParamBinding::uniform;
+  std::vector<std::string> choices;  // the allowed words when default_value is a string
+};
+
+// "bool", "int", "float" or "a|b|c".
+std::string type_name(const Param& param);
+// The value as --set takes it, with the fewest digits that read back the same.
+std::string to_text(const ParamValue& value);
+// Parses and range-checks; throws Error that names the parameter, the text and what is allowed.
+ParamValue parse_value(const Param& param, std::string_view text);
+// Checks type and range of a typed value (a preset's); ints convert to float. Throws Error as parse_value.
+ParamValue checked_value(const Param& param, const ParamValue& value);
+
+// The declared rows and their present values. Copyable: a preset is a copy with changes.
+class ParamSet {
+ public:
+  ParamSet() = default;
+  // Throws std::logic_error on a duplicate or ill-formed row: that is a bug.
+  explicit ParamSet(std::vector<Param> rows);
+
+  std::span<const Param> rows() const { return rows_; }
+  std::vector<std::string> names() const;
+  bool contains(std::string_view name) const;
+  // Both throw Error with near names when the name is unknown.
+  const Param& row(std::string_view name) const;
+  const ParamValue& value(std::string_view name) const;
+
+  bool get_bool(std::string_view name) const;
+  int get_int(std::string_view name) const;
+  float get_float(std::string_view name) const;
+  const std::string& get_word(std::string_view name) const;
+
+  void set(std::string_view name, const ParamValue& value);
+  void set_text(std::string_view name, std::string_view text);
+  // "name=value", as --set takes it.
+  void assign(std::string_view assignment);
+  void reset(std::string_view name);
+  bool is_default(std::string_view name) const;
+
+ private:
+  std::vector<Param> rows_;
+  std::vector<ParamValue> values_;
+  std::map<std::string, size_t, std::less<>> index_;
+};
+
+// GLSL text: constants for compiled rows and one std140 block `Params` at `binding_point` for uniform rows.
+std::string glsl_declarations(const ParamSet& params, int binding_point);
+// The bytes of that block, std140 (every uniform row is a 4-byte scalar, in row order).
+std::vector<std::byte> uniform_bytes(const ParamSet& params);
+
+}  // namespace penumbra

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace penumbra::gl {
+
+using GetProcAddress = void* (*)(const char* name);
+
+enum class Backend { egl, osmesa, window };
+
+struct ContextOptions {
+  bool debug = false;  // KHR_debug on, synchronous: an error throws from the call that made it
+  std::optional<int>
+      egl_device;  // EGL device platform, by index; without it the surfaceless Mesa platform, then devices
+  int width = 1280, height = 720;  // the window's size in pixels; offscreen contexts have no surface of note
+  std::string title = "Penumbra";
+  bool visible = true;  // window only
+  bool vsync = true;    // window only
+};
+
+// An OpenGL 4.5 core context. Making it current also points Penumbra's GL entry points at its driver.
+class Context {
+ public:
+  virtual ~Context() = default;
+  virtual void make_current() = 0;
+  virtual Backend backend() const = 0;
+  virtual GetProcAddress get_proc_address() const = 0;
+};
+
+// Each throws Error with the cause when the backend does not work here. The new context is current.
+std::unique_ptr<Context> make_egl_context(const ContextOptions& options = {});
+std::unique_ptr<Context> make_osmesa_context(const ContextOptions& options = {});  // loads libOSMesa at run time
+std::unique_ptr<Context> make_window_context(const ContextOptions& options = {});  // GLFW
+
+// "auto" tries EGL, then OSMesa; else "egl", "osmesa" or "window". Throws Error listing each backend tried and why
+// it failed.
+std::unique_ptr<Context> make_context(std::string_view backend, const ContextOptions& options = {});
+
+// EGL devices as EGL_EXT_device_enumeration lists them (names for `doctor`); empty when unsupported.
+std::vector<std::string> egl_devices();
+
+// What `doctor`, --stats and the bench print of the current context.
+struct DeviceInfo {
+  std::string vendor, renderer, version, glsl_version;
+  bool software = false;  // llvmpipe, softpipe, swr, SwiftShader
+  struct Limit {
+    std::string name;
+    long long value;
+  };
+  std::vector<Limit> limits;
+};
+DeviceInfo device_info();
+
+std::string_view to_string(Backend backend);
+
+}  // namespace penumbra::gl

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shader_library.h"
+#include "texture.h"
+#include "timer.h"
+
+namespace penumbra::gl {
+
+// What passes draw with: programs, timers, and targets that persist from frame to frame so that nothing is allocated
+// after warm-up. One per context; handed to every pass, never global.
+class Device {
+ public:
+  Device(ShaderFiles files, Timers::Mode timing);
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  ShaderLibrary shaders;
+  Timers timers;
+
+  // The texture of that name, made again when the description changes. Valid until then; contents persist.
+  const Texture& target(std::string_view name, const TextureDesc& desc);
+  // A buffer of at least `bytes`, likewise (grows, never shrinks).
+  const class Buffer& scratch(std::string_view name, std::size_t bytes);
+  const Sampler& sampler(const SamplerDesc& desc);
+  // Bytes of all targets whose name starts with `prefix`.
+  std::size_t target_bytes(std::string_view prefix = "") const;
+
+ private:
+  friend class Pass;
+  GLuint framebuffer(const std::vector<struct Attachment>& colors, const struct Attachment* depth);
+  GLuint empty_vertex_array();
+
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+struct Attachment {
+  const Texture* texture = nullptr;
+  int level = 0;
+  int layer = 0;
+  std::optional<glm::vec4> clear;  // nullopt: load. For depth, .x is the depth. Integer colour: converted to uint
+};
+
+enum class DepthTest { off, less_equal, greater_equal, equal };
+enum class Blend { off, premultiplied_over, min, max, add };
+
+// State that a raster pass sets whole: nothing is inherited, so passes can be reordered.
+struct PassDesc {
+  std::string_view name;  // debug group, timer row and bench row
+  std::vector<Attachment> colors;
+  std::optional<Attachment> depth;
+  DepthTest depth_test = DepthTest::off;
+  bool depth_write = false;
+  Blend blend = Blend::off;
+  bool cull_back = false;  // counter-clockwise is front
+  bool depth_clamp = false;
+};
+
+// A pass in a scope. With attachments it binds a framebuffer, the viewport of the first attachment's level, and the
+// state above; without any (compute) it is a debug group and a timer.
+class Pass {
+ public:
+  Pass(Device& device, const PassDesc& desc);
+  ~Pass();
+  Pass(const Pass&) = delete;
+  Pass& operator=(const Pass&) = delete;
+
+  const Program& use(const ProgramDesc& desc);  // compile on first use, and make current
+  void draw_full_screen();                      // one triangle; vertex shader "render/full_screen.vert"
+  void set_cull_back(bool cull);                // double-sided materials
+  void set_front_clockwise(bool clockwise);     // mirrored instances
+  void set_viewport(int x, int y, int width, int height);
+  // Groups of the current compute program that cover width × height × layers invocations; then a barrier for texture
+  // fetches, image access, storage and vertex reads.
+  void dispatch(int width, int height, int layers = 1);
+
+ private:
+  Device& device_;
+  const Program* program_ = nullptr;
+};
+
+}  // namespace penumbra::gl

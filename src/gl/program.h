@@ -1,0 +1,56 @@
+#pragma once
+
+#include <compare>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "handle.h"
+#include "shader_source.h"
+
+namespace penumbra::gl {
+
+void delete_program(GLuint id);
+
+// What a program is made of: file names under glsl/. Either vertex (and, unless depth only, fragment), or compute.
+struct ProgramDesc {
+  std::string name;  // the object's label and the name in messages
+  std::string vertex, fragment, compute;
+  std::vector<Define> defines;
+  auto operator<=>(const ProgramDesc&) const = default;
+};
+
+// A linked program. Uniform blocks, samplers and images have explicit bindings in GLSL; the few loose uniforms are set
+// by name (unknown names are ignored: the compiler may have removed them).
+class Program {
+ public:
+  // Throws Error: "glsl/lib/kernel.glsl:12: message" lines under one heading that names the program.
+  Program(const ProgramDesc& desc, const ShaderFiles& files);
+
+  void use() const;
+  void set(std::string_view name, int value) const;
+  void set(std::string_view name, float value) const;
+  void set(std::string_view name, const glm::ivec2& value) const;
+  void set(std::string_view name, const glm::vec2& value) const;
+  void set(std::string_view name, const glm::vec3& value) const;
+  void set(std::string_view name, const glm::vec4& value) const;
+  void set(std::string_view name, const glm::mat4& value) const;
+
+  glm::ivec3 group_size() const { return group_size_; }             // of a compute program
+  const std::vector<std::string>& files() const { return files_; }  // every file it depends on
+  GLuint id() const { return handle_.id(); }
+
+ private:
+  GLint location(std::string_view name) const;
+
+  Handle<delete_program> handle_;
+  glm::ivec3 group_size_{1};
+  std::vector<std::string> files_;
+  mutable std::map<std::string, GLint, std::less<>> locations_;
+};
+
+}  // namespace penumbra::gl

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace penumbra::gl {
+
+// Shader files by name, names relative to glsl/ ("lib/kernel.glsl"). Built-in ones are embedded in the library; a
+// directory given by the user overlays them.
+class ShaderFiles {
+ public:
+  ShaderFiles() = default;  // built-in only
+  explicit ShaderFiles(std::string overlay_directory);
+
+  // The text of a file, or nullopt when neither the overlay nor the built-in set has it.
+  std::optional<std::string> read(std::string_view name) const;
+  // Adds or replaces an in-memory file (generated declarations: "generated/params.glsl").
+  void put(std::string name, std::string text);
+  const std::string& overlay_directory() const { return overlay_; }
+  static std::vector<std::string> built_in_names();
+
+ private:
+  std::string overlay_;
+  std::map<std::string, std::string, std::less<>> generated_;
+};
+
+struct Define {
+  std::string name, value;
+  auto operator<=>(const Define&) const = default;
+};
+
+// One stage's text, ready for the driver: #version 450 core, defines, then the file with every #include "name" resolved
+// once (include-once), and #line directives that number the files.
+struct ShaderSource {
+  std::string text;
+  std::vector<std::string> files;  // index = the number in #line; [0] is the root
+};
+
+// Throws Error naming file and line when a file is missing, or an include is malformed. Cycles can't happen: each file
+// is included once.
+ShaderSource load_shader_source(const ShaderFiles& files, std::string_view root, const std::vector<Define>& defines);
+
+// Rewrites "0(12)", "0:12(5)" and "0:12:" of a driver's log into "lib/kernel.glsl:12:", one message a line.
+std::string translate_log(std::string_view driver_log, const ShaderSource& source);
+
+}  // namespace penumbra::gl
