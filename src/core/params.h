@@ -15,8 +15,8 @@ namespace penumbra {
 using ParamValue = std::variant<bool, int, float, std::string>;
 
 // How a value reaches GLSL. Either way the shader reads an identifier of the parameter's name with '.'
-// replaced by '_': a std140 uniform block member, or a constant compiled in (loops unroll, branches fold).
-// Words reach GLSL as the int index into `choices`; `host` values do not reach GLSL at all.
+// replaced by '_': a std140 uniform block member, or a preprocessor constant compiled in (loops unroll, branches fold).
+// Switches are int 0 or 1, words the int index into `choices`; `host` values do not reach GLSL at all.
 enum class ParamBinding { uniform, compiled, host };
 
 // One parameter, declared once. GLSL constant, preset key, --set, viewer widget, `penumbra help` and the
@@ -68,14 +68,27 @@ class ParamSet {
   bool is_default(std::string_view name) const;
 
  private:
+  size_t index_of(std::string_view name) const;
+
   std::vector<Param> rows_;
   std::vector<ParamValue> values_;
   std::map<std::string, size_t, std::less<>> index_;
 };
 
-// GLSL text: constants for compiled rows and one std140 block `Params` at `binding_point` for uniform rows.
+// A parameter's identifier in GLSL: its name with '.' replaced by '_'.
+std::string glsl_name(const Param& param);
+
+// GLSL text: for every word of a parameter its index ("const int sun_shape_disc = 0;"), and one std140 block `Params`
+// at `binding_point` for the uniform rows.
 std::string glsl_declarations(const ParamSet& params, int binding_point);
-// The bytes of that block, std140 (every uniform row is a 4-byte scalar, in row order).
+
+// The compiled rows whose name starts with `prefix`, as preprocessor constants.
+struct GlslConstant {
+  std::string name, value;
+};
+std::vector<GlslConstant> compiled_constants(const ParamSet& params, std::string_view prefix);
+
+// The bytes of the block `Params`, std140: every uniform row is a 4-byte scalar, in row order.
 std::vector<std::byte> uniform_bytes(const ParamSet& params);
 
 }  // namespace penumbra
