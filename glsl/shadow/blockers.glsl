@@ -1,0 +1,57 @@
+// Percentage-closer soft shadows in parts (Fernando 2005): mean blocker depth, kernel, filter.
+#include "shadow/search.glsl"
+
+struct Blockers {
+  float depth_sum;  // metres, relative to the receiver
+  float weight;     // share of the texels read that block
+};
+
+// Adds the four texels about a point. A texel blocks when it lies before the receiver and its plane, and within the cone
+// that the light spans above the receiver: what is outside it can't hide the light, however wide the search.
+void add_blockers(inout Blockers blockers, Receiver receiver, vec2 offset, float bias, Light light) {
+  float texel = texel_size(light);
+  Footprint footprint = fetch_footprint(receiver.position, offset, light);
+  vec4 blocks = vec4(lessThan(footprint.depths, blocking_depths(receiver, footprint, bias, texel)));
+  vec4 distance_to = receiver.position.z - footprint.depths;
+  vec2 high = footprint.corner + texel;
+  vec4 dx = vec4(footprint.corner.x, high.x, high.x, footprint.corner.x);
+  vec4 dy = vec4(high.y, high.y, footprint.corner.y, footprint.corner.y);
+  vec4 reach = light.tan_half_angle * distance_to + 1.5 * texel;
+  vec4 inside = light.square ? vec4(lessThanEqual(max(abs(dx), abs(dy)), reach))
+                             : vec4(lessThanEqual(dx * dx + dy * dy, reach * reach));
+  blocks *= inside;
+  blockers.weight += bilinear(blocks, footprint.weight);
+  blockers.depth_sum += bilinear(blocks * distance_to, footprint.weight);
+}
+
+Blockers find_blockers(Receiver receiver, float radius, int taps, float bias, Light light) {
+  Scramble scramble = scramble_of(receiver, 0u);
+  Blockers blockers = Blockers(0.0, 0.0);
+  for (int i = 0; i < taps; ++i) add_blockers(blockers, receiver, radius * blocker_point(i, scramble, light), bias, light);
+  return blockers;
+}
+
+float mean_distance(Blockers blockers) { return max(blockers.depth_sum / blockers.weight, 0.0); }
+
+// Share of light that passes a disc (or square) of that radius about the receiver.
+float filtered_share(Receiver receiver, float radius, int taps, float bias, Light light) {
+  if (radius <= 0.0) return lit_share(receiver, vec2(0.0), bias, light);
+  Scramble scramble = scramble_of(receiver, 1u);
+  float lit = 0.0;
+  for (int i = 0; i < taps; ++i) lit += lit_share(receiver, radius * filter_point(i, scramble, light), bias, light);
+  return lit / float(taps);
+}
+
+// Both steps with so many taps each. With early exits, taps that all agree decide, and so do the bounds on depth.
+Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, int filter_taps, bool early_exits) {
+  float bias = depth_bias(receiver, light);
+  Search search = narrow_search(receiver, light, light.cascade, light.reach);
+  if (early_exits && search.bounds.x >= receiver.position.z - bias) return fully_lit();
+  Blockers blockers = find_blockers(receiver, search.radius, blocker_taps, bias, light);
+  if (blockers.weight == 0.0) return fully_lit();
+  float mean = mean_distance(blockers);
+  float radius = light.tan_half_angle * mean;
+  bool agreed = early_exits && blockers.weight >= float(blocker_taps);
+  float lit = agreed ? 0.0 : filtered_share(receiver, radius, filter_taps, bias, light);
+  return Visibility(lit, radius, mean, radius < texel_size(light));
+}

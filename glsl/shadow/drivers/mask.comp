@@ -1,0 +1,12 @@
+#include "shadow/receive.glsl"
+#include "shadow/drivers/gbuffer.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0, rgba16f) uniform writeonly restrict image2DArray mask;
+uniform int mask_layer;
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, ivec2(shadow.viewport.xy)))) return;
+  imageStore(mask, ivec3(pixel, mask_layer), shade_pixel(pixel));
+}

@@ -1,0 +1,6 @@
+#include "shadow/receive.glsl"
+#include "shadow/drivers/gbuffer.glsl"
+
+layout(location = 0) out vec4 mask;
+
+void main() { mask = shade_pixel(ivec2(gl_FragCoord.xy)); }

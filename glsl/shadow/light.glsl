@@ -1,0 +1,147 @@
+// The light's maps and what every technique does with them: choose a cascade, compare texels with a receiver.
+#include "shared/shadow_block.h"
+#include "generated/params.glsl"
+#include "lib/hash.glsl"
+#include "lib/disc.glsl"
+#include "lib/kernel.glsl"
+
+layout(std140, binding = 1) uniform ShadowData { ShadowBlock shadow; };
+layout(std140, binding = 2) uniform SampleData { SampleBlock samples; };
+
+layout(binding = 0) uniform sampler2DArray shadow_depth;    // light-space depth, linear, one layer a cascade
+layout(binding = 1) uniform sampler2DArray shadow_pyramid;  // minimum, maximum over 4 · 2^level texels squared
+
+// A point to be shaded, in light space (metres, origin in the camera).
+struct Receiver {
+  vec3 position;
+  vec3 normal;    // geometric
+  vec2 gradient;  // of its plane: change of depth per metre across the light
+  vec2 pixel;     // seeds the noise
+};
+
+struct Light {
+  float tan_half_angle;
+  bool square;
+  int cascades;
+  int cascade;  // the one to read
+  float reach;  // metres: what the technique said it reads
+};
+
+struct Visibility {
+  float visibility;        // 1 lit, 0 in shadow
+  float penumbra_radius;   // metres; 0 where there is no blocker
+  float blocker_distance;  // mean, along the light, metres; 0 where there is no blocker
+  bool under_texel;        // the kernel is smaller than a texel of the map
+};
+
+const float max_plane_slope = 50.0;
+
+Visibility fully_lit() { return Visibility(1.0, 0.0, 0.0, false); }
+
+Light frame_light() { return Light(shadow.light.x, shadow.light.y != 0.0, int(shadow.light.z), 0, 0.0); }
+
+float texel_size(Light light) { return shadow.cascades[light.cascade].map.w; }
+
+// A receiver as the cascade's bias rules move it: along its normal by a part of a texel's shadow on it.
+Receiver offset_receiver(Receiver receiver, Light light) {
+  float sine = sqrt(max(1.0 - receiver.normal.z * receiver.normal.z, 0.0));
+  receiver.position += receiver.normal * (bias_normal_offset * texel_size(light) * sine);
+  return receiver;
+}
+
+// Bias along the light, metres: what rounding needs, and a part of the texel's depth range on the receiver's plane.
+float depth_bias(Receiver receiver, Light light) {
+  return shadow.cascades[light.cascade].depth.w +
+         texel_size(light) * (bias_constant + bias_slope * length(receiver.gradient));
+}
+
+// Largest distance from the cascade's centre along either axis, in half widths of its map; over 1 is outside.
+float cascade_edge(int cascade, vec3 position, float radius) {
+  vec4 map = shadow.cascades[cascade].map;
+  vec4 depth = shadow.cascades[cascade].depth;
+  vec2 d = abs(position.xy - map.xy);
+  float inside = 2.0 * map.z * (max(d.x, d.y) + radius + 1.5 * map.w);
+  return position.z - depth.x > depth.y * 1.0001 ? 2.0 : inside;
+}
+
+// The finest cascade that holds the whole disc; the last one holds what no other does.
+int finest_cascade(Light light, vec3 position, float radius) {
+  int cascade = 0;
+  while (cascade < light.cascades - 1 && cascade_edge(cascade, position, radius) > 1.0) ++cascade;
+  return cascade;
+}
+
+// Four texels about a point of the map, their light-space depths, and where they lie.
+struct Footprint {
+  vec4 depths;   // metres; order of textureGather: (0,1) (1,1) (1,0) (0,0)
+  vec2 corner;   // centre of texel (0,0) relative to the receiver, metres
+  vec2 weight;   // bilinear, of the texels with the higher coordinate
+};
+
+Footprint fetch_footprint(vec3 position, vec2 offset, Light light) {
+  CascadeBlock cascade = shadow.cascades[light.cascade];
+  vec2 at = ((position.xy + offset - cascade.map.xy) * cascade.map.z + 0.5) * shadow.light.w - 0.5;
+  vec2 first = floor(at);
+  vec4 stored = textureGather(shadow_depth, vec3((first + 1.0) / shadow.light.w, float(light.cascade)));
+  Footprint footprint;
+  footprint.depths = cascade.depth.x + cascade.depth.y * stored;
+  footprint.weight = at - first;
+  footprint.corner = offset - footprint.weight * cascade.map.w;
+  return footprint;
+}
+
+// The depth before which each of the four texels blocks.
+vec4 blocking_depths(Receiver receiver, Footprint footprint, float bias, float texel) {
+  vec2 low = receiver.gradient * footprint.corner;
+  vec2 high = receiver.gradient * (footprint.corner + texel);
+  vec4 plane = vec4(low.x, high.x, high.x, low.x) + vec4(high.y, high.y, low.y, low.y);
+  return receiver.position.z + min(plane, 0.0) - bias;
+}
+
+float bilinear(vec4 texels, vec2 weight) {
+  vec2 rows = mix(texels.wx, texels.zy, weight.x);
+  return mix(rows.x, rows.y, weight.y);
+}
+
+// Share of light that passes a point of the map: percentage-closer filtering of the four texels about it (Reeves et al.
+// 1987, "Rendering antialiased shadows with depth maps").
+float lit_share(Receiver receiver, vec2 offset, float bias, Light light) {
+  Footprint footprint = fetch_footprint(receiver.position, offset, light);
+  vec4 limit = blocking_depths(receiver, footprint, bias, texel_size(light));
+  return bilinear(vec4(greaterThanEqual(footprint.depths, limit)), footprint.weight);
+}
+
+// Points of the light's shape, -1..1, from the tables. A disc's points are rotated, or like a square's shifted on the
+// torus and then mapped.
+struct Scramble {
+  vec2 value;  // rotation: cosine, sine; shift: of the unit square
+};
+
+vec2 shape_point(vec4 table, int index, Scramble scramble, Light light) {
+  vec2 point = (index & 1) == 0 ? table.xy : table.zw;
+#if SAMPLE_ROTATE
+  return vec2(point.x * scramble.value.x - point.y * scramble.value.y,
+              point.x * scramble.value.y + point.y * scramble.value.x);
+#else
+  vec2 shifted = toroidal_shift(point, scramble.value);
+  return light.square ? 2.0 * shifted - 1.0 : concentric_disc(shifted);
+#endif
+}
+
+Scramble scramble_of(Receiver receiver, uint stream) {
+  vec2 noise = white_noise(uvec2(receiver.pixel), uint(sampling_seed) * 2u + stream);
+#if SAMPLE_ROTATE
+  float angle = 6.2831853 * noise.x;
+  return Scramble(vec2(cos(angle), sin(angle)));
+#else
+  return Scramble(noise);
+#endif
+}
+
+vec2 blocker_point(int index, Scramble scramble, Light light) {
+  return shape_point(samples.blocker[index >> 1], index, scramble, light);
+}
+
+vec2 filter_point(int index, Scramble scramble, Light light) {
+  return shape_point(samples.filter_points[index >> 1], index, scramble, light);
+}

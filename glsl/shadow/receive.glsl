@@ -1,0 +1,49 @@
+// From a receiver to its visibility: choose the cascade, ask the technique, fade across cascades. Included after a
+// technique, which defines
+//   float reach(Receiver, Light)            radius in metres of the disc that visibility() will read
+//   Visibility visibility(Receiver, Light)  with light.cascade chosen
+struct Shaded {
+  Visibility visibility;
+  int cascade;
+};
+
+Shaded shade(Receiver receiver) {
+  Light light = frame_light();
+  if (receiver.normal.z >= 0.0) return Shaded(Visibility(0.0, 0.0, 0.0, false), 0);
+  light.reach = reach(receiver, light);
+  int cascade = finest_cascade(light, receiver.position, light.reach);
+  float edge = cascade_edge(cascade, receiver.position, light.reach);
+  if (cascade == light.cascades - 1 && cascade_edge(cascade, receiver.position, 0.0) > 1.0) {
+    return Shaded(fully_lit(), cascade);
+  }
+  float fade = cascade < light.cascades - 1 ? clamp((edge - 1.0) / cascades_blend + 1.0, 0.0, 1.0) : 0.0;
+  if (cascades_seam == cascades_seam_dither) {
+    cascade += white_noise(uvec2(receiver.pixel), 977u).x < fade ? 1 : 0;
+    fade = 0.0;
+  }
+  light.cascade = cascade;
+  Visibility shaded = visibility(offset_receiver(receiver, light), light);
+  if (fade > 0.0 && cascades_seam == cascades_seam_fade) {
+    light.cascade = cascade + 1;
+    Visibility coarser = visibility(offset_receiver(receiver, light), light);
+    shaded.visibility = mix(shaded.visibility, coarser.visibility, fade);
+    shaded.penumbra_radius = mix(shaded.penumbra_radius, coarser.penumbra_radius, fade);
+    shaded.blocker_distance = mix(shaded.blocker_distance, coarser.blocker_distance, fade);
+  }
+  return Shaded(shaded, cascade);
+}
+
+vec4 mask_texel(Shaded shaded) {
+  return vec4(shaded.visibility.visibility, shaded.visibility.penumbra_radius, shaded.visibility.blocker_distance,
+              float(shaded.cascade) + (shaded.visibility.under_texel ? 0.5 : 0.0));
+}
+
+// A receiver from view space (camera) position and light-space normal.
+Receiver make_receiver(vec3 view_position, vec3 light_normal, vec2 pixel) {
+  Receiver receiver;
+  receiver.position = mat3(shadow.view_to_light) * view_position;
+  receiver.normal = light_normal;
+  receiver.gradient = plane_gradient(light_normal, max_plane_slope);
+  receiver.pixel = pixel;
+  return receiver;
+}

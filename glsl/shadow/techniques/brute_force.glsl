@@ -1,0 +1,78 @@
+// The thesis's reference: PCSS with so many taps that noise is gone, or with every texel of the disc.
+#include "shadow/blockers.glsl"
+
+float reach(Receiver receiver, Light light) { return search_reach(receiver, light); }
+
+#if brute_force_every_texel
+
+// Texels of the square about the receiver that is `radius` wide to each side.
+struct Region {
+  ivec2 low, high;
+};
+
+Region texels_within(Receiver receiver, float radius, Light light) {
+  vec4 map = shadow.cascades[light.cascade].map;
+  vec2 center = ((receiver.position.xy - map.xy) * map.z + 0.5) * shadow.light.w;
+  vec2 reach = vec2(radius / map.w);
+  ivec2 last = ivec2(shadow.light.w) - 1;
+  return Region(clamp(ivec2(floor(center - reach)), ivec2(0), last), clamp(ivec2(floor(center + reach)), ivec2(0), last));
+}
+
+struct Texel {
+  float depth;  // metres
+  vec2 offset;  // of its centre from the receiver
+  bool within;  // of the shape of that radius
+};
+
+Texel read_texel(Receiver receiver, ivec2 at, float radius, Light light) {
+  CascadeBlock cascade = shadow.cascades[light.cascade];
+  vec2 center = (vec2(at) + 0.5) * cascade.map.w - 0.5 / cascade.map.z + cascade.map.xy;
+  Texel texel;
+  texel.depth = cascade.depth.x + cascade.depth.y * texelFetch(shadow_depth, ivec3(at, light.cascade), 0).x;
+  texel.offset = center - receiver.position.xy;
+  texel.within = light.square ? max(abs(texel.offset.x), abs(texel.offset.y)) <= radius : length(texel.offset) <= radius;
+  return texel;
+}
+
+Visibility visibility(Receiver receiver, Light light) {
+  float bias = depth_bias(receiver, light);
+  float search = narrow_search(receiver, light, light.cascade, light.reach).radius;
+  Region region = texels_within(receiver, search, light);
+  float sum = 0.0, count = 0.0;
+  for (int y = region.low.y; y <= region.high.y; ++y) {
+    for (int x = region.low.x; x <= region.high.x; ++x) {
+      Texel texel = read_texel(receiver, ivec2(x, y), search, light);
+      float distance_to = receiver.position.z - texel.depth;
+      float cone = light.tan_half_angle * distance_to;
+      bool in_cone = light.square ? max(abs(texel.offset.x), abs(texel.offset.y)) <= cone : length(texel.offset) <= cone;
+      bool blocks = texel.depth < blocking_depth(receiver.position.z, receiver.gradient, texel.offset, bias);
+      if (texel.within && in_cone && blocks) {
+        sum += distance_to;
+        count += 1.0;
+      }
+    }
+  }
+  if (count == 0.0) return fully_lit();
+  float mean = sum / count;
+  float radius = light.tan_half_angle * mean;
+  region = texels_within(receiver, radius, light);
+  float lit = 0.0, all = 0.0;
+  for (int y = region.low.y; y <= region.high.y; ++y) {
+    for (int x = region.low.x; x <= region.high.x; ++x) {
+      Texel texel = read_texel(receiver, ivec2(x, y), radius, light);
+      if (!texel.within) continue;
+      all += 1.0;
+      lit += texel.depth < blocking_depth(receiver.position.z, receiver.gradient, texel.offset, bias) ? 0.0 : 1.0;
+    }
+  }
+  float share = all > 0.0 ? lit / all : lit_share(receiver, vec2(0.0), bias, light);
+  return Visibility(share, radius, mean, radius < texel_size(light));
+}
+
+#else
+
+Visibility visibility(Receiver receiver, Light light) {
+  return soft_shadow(receiver, light, brute_force_blocker_taps, brute_force_filter_taps, false);
+}
+
+#endif

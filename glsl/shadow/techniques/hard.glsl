@@ -1,0 +1,8 @@
+// The shadow of the light's centre, filtered over the map's texel.
+#include "shadow/light.glsl"
+
+float reach(Receiver receiver, Light light) { return 0.0; }
+
+Visibility visibility(Receiver receiver, Light light) {
+  return Visibility(lit_share(receiver, vec2(0.0), depth_bias(receiver, light), light), 0.0, 0.0, true);
+}

@@ -1,0 +1,35 @@
+// What the shadow passes know of the view and of one light. Read by C++ and GLSL; std140, so only vec4-sized members.
+#ifndef PENUMBRA_SHADOW_BLOCK_H
+#define PENUMBRA_SHADOW_BLOCK_H
+
+#include "language.h"
+
+GLSL_BEGIN
+
+#define SHADOW_MAX_CASCADES 8
+#define SHADOW_MAX_TAPS 256
+
+struct CascadeBlock {
+  vec4 map;    // xy: centre, light space, metres; z: map widths per metre; w: a texel, metres
+  vec4 depth;  // x: near z, metres; y: z range, metres; z: 1 / range; w: constant bias, metres
+};
+
+struct ShadowBlock {
+  mat4 clip_to_view;
+  mat4 view_to_light;   // a rotation: light space has its origin in the camera
+  mat4 world_to_light;  // a rotation
+  vec4 viewport;        // xy: size, pixels; zw: jitter, NDC
+  vec4 depth_to_ndc;    // x: scale; y: offset; z: depth of the sky; w: 1 for octahedral normals, 0 for xyz
+  vec4 light;           // x: tan of the half angle; y: 1 for a square light, 0 for a disc; z: cascades; w: map size, texels
+  CascadeBlock cascades[SHADOW_MAX_CASCADES];
+};
+
+// Sample points, two to a vec4: on the unit disc when rotated by a pixel, on the unit square when shifted.
+struct SampleBlock {
+  vec4 blocker[SHADOW_MAX_TAPS / 2];
+  vec4 filter_points[SHADOW_MAX_TAPS / 2];
+};
+
+GLSL_END
+
+#endif
