@@ -4,19 +4,23 @@ target_compile_options(penumbra_options INTERFACE -Wall -Wextra -Wpedantic -Wsha
   -Woverloaded-virtual -Wno-missing-field-initializers $<$<BOOL:${PENUMBRA_WERROR}>:-Werror>)
 # One command gives one picture: no contraction into fused multiply-adds, which differ from machine to machine.
 target_compile_options(penumbra_options INTERFACE -ffp-contract=off)
+# One source gives one program: no path of the building machine in it.
+target_compile_options(penumbra_options INTERFACE "-ffile-prefix-map=${CMAKE_SOURCE_DIR}/=")
 if(PENUMBRA_SANITIZE)
   target_compile_options(penumbra_options INTERFACE -fsanitize=${PENUMBRA_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all)
   target_link_options(penumbra_options INTERFACE -fsanitize=${PENUMBRA_SANITIZE})
 endif()
 
-# penumbra_layer(NAME LINK targets... PRIVATE targets...): src/NAME and all below it as the static library penumbra_NAME.
-# Sources are globbed so that adding a technique or a filter touches no build file. main.cpp is the program's, not the layer's.
+# penumbra_layer(NAME LINK targets... PRIVATE targets...): src/NAME and all below it as the static library
+# penumbra_NAME. Sources are globbed so that adding a technique or a filter touches no build file. main.cpp is the
+# program's, not the layer's.
 function(penumbra_layer name)
   cmake_parse_arguments(arg "" "" "LINK;PRIVATE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/src/${name}/*.cpp")
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
   add_library(penumbra_${name} STATIC ${sources})
+  set_target_properties(penumbra_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(penumbra_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src>)
   target_link_libraries(penumbra_${name} PUBLIC ${arg_LINK} PRIVATE $<BUILD_INTERFACE:penumbra_options> ${arg_PRIVATE})
   target_compile_definitions(penumbra_${name} PUBLIC GLM_FORCE_DEPTH_ZERO_TO_ONE)

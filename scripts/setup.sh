@@ -1,0 +1,147 @@
+# Shared by run.sh and test.sh: packages and build. Sourced, with $root set. Everything it prints goes to stderr, so
+# that the program's own output can be piped.
+
+note() { printf '%s\n' "$*" >&2; }
+die() {
+  note "error: $*"
+  exit 1
+}
+
+# found KIND FILE: is it on this machine? No package manager is asked: this takes milliseconds, and works anywhere.
+found() {
+  local folder
+  case $1 in
+    command)
+      command -v "$2" >/dev/null
+      return
+      ;;
+    header) set -- "$2" /usr/include /usr/local/include "${triplet_include[@]}" "${extra_include[@]}" ;;
+    library) set -- "$2" /usr/lib /usr/lib64 /usr/local/lib "${triplet_library[@]}" "${extra_library[@]}" ;;
+    *) die "scripts/packages.txt: unknown kind '$1'" ;;
+  esac
+  local file=$1
+  shift
+  for folder; do
+    [[ -e $folder/$file ]] && return
+  done
+  return 1
+}
+
+# Folders beside the usual ones: Debian's per architecture, and those that CMake and the compiler are told of.
+search_paths() {
+  local IFS=':' prefix
+  triplet_include=("/usr/include/$HOSTTYPE-linux-gnu")
+  triplet_library=("/usr/lib/$HOSTTYPE-linux-gnu")
+  extra_include=(${CPATH:-})
+  extra_library=(${LIBRARY_PATH:-} ${LD_LIBRARY_PATH:-})
+  for prefix in ${CMAKE_PREFIX_PATH:-}; do
+    extra_include+=("$prefix/include")
+    extra_library+=("$prefix/lib" "$prefix/lib64")
+  done
+}
+
+# missing_packages STAGES: fills `missing` with "package (file)" and `packages` with the names.
+missing_packages() {
+  local stage kind file package
+  missing=() packages=()
+  search_paths
+  while read -r stage kind file package; do
+    [[ $stage == "#"* || -z $stage || " $1 " != *" $stage "* ]] && continue
+    found "$kind" "$file" && continue
+    missing+=("$package ($file)")
+    packages+=("$package")
+  done <"$root/scripts/packages.txt"
+}
+
+# ensure_packages STAGES ("run", or "run test"): installs what is missing, if this system has apt.
+ensure_packages() {
+  missing_packages "$1"
+  ((${#packages[@]} == 0)) && return
+  if ! command -v apt-get >/dev/null; then
+    note "Not found on this system (Debian's package names; the file looked for in brackets):"
+    printf '  %s\n' "${missing[@]}" >&2
+    die "install these, or build by hand with CMake if they lie where this script does not look"
+  fi
+  local as_root=() log="$root/build/packages.log"
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null || die "packages are missing; run as root: apt-get install ${packages[*]}"
+    as_root=(sudo)
+  fi
+  note "Installing ${packages[*]}"
+  mkdir -p "$root/build"
+  "${as_root[@]}" apt-get -q update >"$log" 2>&1 || note "apt-get update failed; going on with the lists at hand"
+  if ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 install --yes \
+    --no-install-recommends "${packages[@]}" >>"$log" 2>&1 </dev/null; then
+    tail -n 20 "$log" >&2
+    die "apt-get could not install the packages; the whole log is in $log"
+  fi
+  hash -r
+  missing_packages "$1"
+  ((${#packages[@]} == 0)) || die "still not found after installing: ${missing[*]}"
+}
+
+# Compilers of this code take up to 1.5 GiB each: as many jobs as the cores and the free memory carry.
+build_jobs() {
+  local cores kib jobs
+  cores=$(nproc)
+  kib=$(awk '$1 == "MemAvailable:" { print $2 }' /proc/meminfo)
+  jobs=$((${kib:-2000000} / 1572864))
+  ((jobs > cores)) && jobs=$cores
+  ((jobs < 1)) && jobs=1
+  echo "$jobs"
+}
+
+# Only one build at a time in this checkout: ninja does not lock its folder. Held until build_unlock or the end.
+build_lock() {
+  mkdir -p "$root/build"
+  exec 9>"$root/build/.lock"
+  flock --nonblock 9 && return
+  note "Waiting for another build of this checkout"
+  flock 9
+}
+build_unlock() { exec 9>&-; }
+
+# A configured folder serves until the presets change or the checkout moves; the rest ninja notices by itself.
+configured() {
+  local folder=$1
+  [[ -f $folder/build.ninja && ! $root/CMakePresets.json -nt $folder/build.ninja ]] &&
+    grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt"
+}
+
+# configure PRESET [CMAKE ARGUMENTS]
+configure() {
+  local preset=$1 folder=$root/build/$1 log=$root/build/$1.configure.log
+  shift
+  note "Configuring $preset"
+  if [[ -f $folder/CMakeCache.txt ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt"; then
+    rm -rf "$folder"
+  fi
+  if ! (cd "$root" && cmake --preset "$preset" "$@") >"$log" 2>&1 9>&-; then
+    cat "$log" >&2
+    die "CMake could not configure the preset '$preset'"
+  fi
+}
+
+# build PRESET TARGETS...: silent when nothing is to do, a line every few seconds when it takes long, and on failure
+# what failed.
+build() {
+  local preset=$1 log=$root/build/$1.build.log target targets=() reporter status=0
+  shift
+  for target; do targets+=(--target "$target"); done
+  (
+    while sleep 5 >/dev/null 2>&1 </dev/null; do
+      [[ -s $log ]] && note "Building $preset $(grep -o '^\[[0-9]*/[0-9]*\]' "$log" | tail -n 1)"
+    done
+  ) 9>&- &
+  reporter=$!
+  cmake --build "$root/build/$preset" --parallel "$(build_jobs)" "${targets[@]}" >"$log" 2>&1 9>&- || status=$?
+  kill "$reporter" 2>/dev/null || true
+  wait "$reporter" 2>/dev/null || true
+  ((status == 0)) && return
+  if grep -q "rebuilding 'build.ninja'" "$log"; then
+    tail -n 40 "$log" >&2
+  else
+    awk '/^FAILED:/ { failed = 1 } failed' "$log" | head -n 60 >&2
+  fi
+  die "the build of '$preset' failed; the whole log is in $log"
+}
