@@ -39,17 +39,15 @@ struct Box {
   glm::vec3 min{0}, max{0};
 };
 
-// The space from which casters can reach a cascade's map: its square, and within it the frustum's bounding sphere swept
-// towards the light and widened by the light's cone.
+// The space from which casters can reach a cascade's receivers: the frustum's part swept towards the light and widened
+// by the light's cone. The cascade's map is fitted to just that and a receiver whose disc leaves the map reads a
+// coarser cascade, so a caster outside the map's square can't matter.
 struct CullVolume {
   glm::dmat3 world_to_light{1};
   glm::dvec3 anchor{0};
   glm::vec2 center{0};
   float half_extent = 0;
-  float far_z = 0;           // casters wholly behind it can't reach a receiver
-  glm::vec3 sphere{0};       // centre of the receivers' sphere, light space
-  float radius = 0;          // of that sphere
-  float tan_half_angle = 0;  // of the light
+  float far_z = 0;  // casters wholly behind it can't reach a receiver
 
   // False only if nothing in the box can cast on the cascade.
   bool holds(const Box& world_box) const;
@@ -70,6 +68,6 @@ struct CascadeInputs {
 
 Cascades fit_cascades(const CascadeInputs& inputs);
 
-CullVolume cull_volume(const Cascades& cascades, int index, float tan_half_angle);
+CullVolume cull_volume(const Cascades& cascades, int index);
 
 }  // namespace penumbra::shadow

@@ -1,0 +1,205 @@
+#include "cascades.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace penumbra::shadow {
+
+namespace {
+
+struct Sphere {
+  glm::dvec3 center{0};
+  double radius = 0;
+};
+
+struct Range {
+  double min = 0, max = 0;
+};
+
+std::array<glm::dvec3, 8> corners_of(const Box& box) {
+  std::array<glm::dvec3, 8> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners[static_cast<size_t>(i)] = {(i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
+                                       (i & 4) != 0 ? box.max.z : box.min.z};
+  }
+  return corners;
+}
+
+Box joined(const Box& a, const Box& b) { return {glm::min(a.min, b.min), glm::max(a.max, b.max)}; }
+
+Sphere sphere_about(const Box& box) {
+  const glm::dvec3 half = (glm::dvec3(box.max) - glm::dvec3(box.min)) * 0.5;
+  return {glm::dvec3(box.min) + half, glm::length(half)};
+}
+
+// Rows: x horizontal, y up as far as the light allows, z along the rays.
+glm::dmat3 light_axes(const glm::dvec3& to_light) {
+  const glm::dvec3 z = -glm::normalize(to_light);
+  const glm::dvec3 horizontal = glm::cross(z, glm::dvec3(0, 1, 0));
+  const glm::dvec3 x = glm::length(horizontal) > 1e-6 ? glm::normalize(horizontal) : glm::dvec3(1, 0, 0);
+  const glm::dvec3 y = glm::cross(x, z);
+  return glm::transpose(glm::dmat3(x, y, z));
+}
+
+// Distance at which one step of a geometric ladder lies, so that ranges and sizes stay put while the camera moves.
+double step_up(double value, double steps_an_octave) {
+  return value <= 0 ? 0 : std::exp2(std::ceil(std::log2(value) * steps_an_octave - 1e-9) / steps_an_octave);
+}
+
+double step_down(double value, double steps_an_octave) {
+  return value <= 0 ? 0 : std::exp2(std::floor(std::log2(value) * steps_an_octave + 1e-9) / steps_an_octave);
+}
+
+// Part of the view's depth, metres before the camera, in which receivers lie.
+Range view_range(const CascadeInputs& in) {
+  Range range{1e30, -1e30};
+  for (const glm::dvec3& corner : corners_of(in.receivers)) {
+    const double depth = -(glm::dmat4(in.view) * glm::dvec4(corner, 1)).z;
+    range = {std::min(range.min, depth), std::max(range.max, depth)};
+  }
+  const double limit = in.distance > 0 ? in.distance : range.max;
+  const double far = in.distance > 0 ? limit : step_up(std::max(limit, 1e-6), 3);
+  return {std::max(step_down(std::max(range.min, 0.0), 3), far * 1e-3), far};
+}
+
+// The frustum's corner at a depth, in view space, for NDC x and y of -1 or 1.
+glm::dvec3 frustum_corner(const glm::dmat4& projection, double depth, double ndc_x, double ndc_y) {
+  const bool perspective = projection[2][3] != 0;
+  const double scale = perspective ? depth : 1.0;
+  const double shift_x = perspective ? projection[2][0] : -projection[3][0];
+  const double shift_y = perspective ? projection[2][1] : -projection[3][1];
+  return {(ndc_x + shift_x) / projection[0][0] * scale, (ndc_y + shift_y) / projection[1][1] * scale, -depth};
+}
+
+// The smallest sphere with its centre on the frustum's axis that holds the part between two depths.
+Sphere frustum_sphere(const CascadeInputs& in, double near, double far) {
+  const glm::dmat4 projection(in.projection);
+  std::array<glm::dvec3, 8> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners[static_cast<size_t>(i)] =
+        frustum_corner(projection, (i & 4) != 0 ? far : near, (i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1);
+  }
+  const glm::dvec3 near_middle = (corners[0] + corners[3]) * 0.5;
+  const glm::dvec3 far_middle = (corners[4] + corners[7]) * 0.5;
+  const double near_radius = glm::length(corners[0] - near_middle);
+  const double far_radius = glm::length(corners[4] - far_middle);
+  const double length = std::max(glm::length(far_middle - near_middle), 1e-9);
+  const double along =
+      std::clamp(0.5 + (far_radius * far_radius - near_radius * near_radius) / (2 * length * length), 0.0, 1.0);
+  Sphere sphere{glm::mix(near_middle, far_middle, along), 0};
+  for (const glm::dvec3& corner : corners) sphere.radius = std::max(sphere.radius, glm::length(corner - sphere.center));
+  sphere.center = glm::dvec3(glm::inverse(glm::dmat4(in.view)) * glm::dvec4(sphere.center, 1));
+  return sphere;
+}
+
+// Keeps the part of a polygon with dot(p, normal) <= limit.
+std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, const glm::dvec3& normal, double limit) {
+  std::vector<glm::dvec3> kept;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3& a = polygon[i];
+    const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
+    const double da = glm::dot(a, normal) - limit;
+    const double db = glm::dot(b, normal) - limit;
+    if (da <= 0) kept.push_back(a);
+    if ((da < 0 && db > 0) || (da > 0 && db < 0)) kept.push_back(glm::mix(a, b, da / (da - db)));
+  }
+  return kept;
+}
+
+// Depths, light space, that a world box takes within a column about (center, half).
+Range column_range(const std::array<glm::dvec3, 8>& corners, const glm::dvec2& center, double half) {
+  static constexpr std::array<std::array<int, 4>, 6> faces = {
+      {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
+  Range range{1e30, -1e30};
+  for (const auto& face : faces) {
+    std::vector<glm::dvec3> polygon;
+    for (const int corner : face) polygon.push_back(corners[static_cast<size_t>(corner)]);
+    polygon = clipped(polygon, {1, 0, 0}, center.x + half);
+    polygon = clipped(polygon, {-1, 0, 0}, half - center.x);
+    polygon = clipped(polygon, {0, 1, 0}, center.y + half);
+    polygon = clipped(polygon, {0, -1, 0}, half - center.y);
+    for (const glm::dvec3& point : polygon) range = {std::min(range.min, point.z), std::max(range.max, point.z)};
+  }
+  return range;
+}
+
+// Split distances, the last one the far end (Zhang et al. 2006, "Parallel-split shadow maps", eq. 3).
+double split_distance(const Range& range, int index, int count, double blend) {
+  const double part = static_cast<double>(index + 1) / count;
+  const double logarithmic = range.min * std::pow(range.max / range.min, part);
+  const double uniform = range.min + (range.max - range.min) * part;
+  return glm::mix(uniform, logarithmic, blend);
+}
+
+glm::dmat4 clip_from_world(const Cascades& cascades, const Cascade& cascade) {
+  const double range = cascade.far_z - cascade.near_z;
+  const glm::dvec3 scale{1.0 / cascade.half_extent, 1.0 / cascade.half_extent, 1.0 / range};
+  const glm::dvec3 origin{cascade.center.x, cascade.center.y, cascade.near_z};
+  const glm::dmat4 to_light = glm::dmat4(cascades.world_to_light) * glm::translate(glm::dmat4(1), -cascades.anchor);
+  return glm::scale(glm::dmat4(1), scale) * glm::translate(glm::dmat4(1), -origin) * to_light;
+}
+
+}  // namespace
+
+Cascades fit_cascades(const CascadeInputs& in) {
+  assert(in.count >= 1 && in.count <= max_cascades && in.size >= 1);
+  Cascades cascades;
+  cascades.world_to_light = light_axes(in.to_light);
+  cascades.anchor = glm::dvec3(glm::inverse(glm::dmat4(in.view))[3]);
+  cascades.size = in.size;
+
+  std::array<glm::dvec3, 8> corners = corners_of(joined(in.casters, in.receivers));
+  for (glm::dvec3& corner : corners) corner = cascades.world_to_light * (corner - cascades.anchor);
+  const Range view = view_range(in);
+  const Sphere all = sphere_about(in.receivers);
+
+  for (int i = 0; i < in.count; ++i) {
+    Sphere sphere = frustum_sphere(in, view.min, split_distance(view, i, in.count, in.split_blend));
+    if (all.radius < sphere.radius) sphere = all;
+    const glm::dvec3 world_center = cascades.world_to_light * sphere.center;
+    const glm::dvec3 anchor = cascades.world_to_light * cascades.anchor;
+    const glm::dvec3 center = world_center - anchor;
+
+    // Room for the discs of receivers at the rim, as wide as the light makes them; a finer cascade may leave some to
+    // the next.
+    const double reach = column_range(corners, center, sphere.radius).min;
+    const double margin = in.tan_half_angle * std::max(center.z + sphere.radius - reach, 0.0);
+    const double most = i + 1 < in.count ? 0.25 * sphere.radius : sphere.radius;
+    const double half = step_up(sphere.radius + std::min(margin, most), 16) * (1.0 + 4.0 / in.size);
+    const double texel = 2.0 * half / in.size;
+    const glm::dvec2 snapped = glm::floor(glm::dvec2(world_center) / texel) * texel - glm::dvec2(anchor);
+
+    Range range = column_range(corners, snapped, half);
+    if (range.max < range.min) range = {center.z - sphere.radius, center.z + sphere.radius};
+    const double pad = 1e-3 * (range.max - range.min) + texel;
+    Cascade cascade;
+    cascade.center = glm::vec2(snapped);
+    cascade.half_extent = static_cast<float>(half);
+    cascade.near_z = static_cast<float>(range.min - pad);
+    cascade.far_z = static_cast<float>(range.max + pad);
+    cascade.world_to_clip = clip_from_world(cascades, cascade);
+    cascades.items.push_back(cascade);
+  }
+  return cascades;
+}
+
+CullVolume cull_volume(const Cascades& cascades, int index) {
+  const Cascade& cascade = cascades.items[static_cast<size_t>(index)];
+  return {cascades.world_to_light, cascades.anchor, cascade.center, cascade.half_extent, cascade.far_z};
+}
+
+bool CullVolume::holds(const Box& world_box) const {
+  const glm::dvec3 middle = (glm::dvec3(world_box.min) + glm::dvec3(world_box.max)) * 0.5;
+  const glm::dvec3 half = (glm::dvec3(world_box.max) - glm::dvec3(world_box.min)) * 0.5;
+  const glm::dvec3 c = world_to_light * (middle - anchor);
+  glm::dvec3 h{0};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int k = 0; k < 3; ++k) h[axis] += std::abs(world_to_light[k][axis]) * half[k];
+  }
+  const glm::dvec2 away = glm::max(glm::abs(glm::dvec2(c) - glm::dvec2(center)) - glm::dvec2(h), glm::dvec2(0));
+  return std::max(away.x, away.y) <= half_extent && c.z - h.z <= far_z;
+}
+
+}  // namespace penumbra::shadow

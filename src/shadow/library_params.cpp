@@ -1,0 +1,65 @@
+#include "library_params.h"
+
+#include "cascades.h"
+
+namespace penumbra::shadow {
+
+std::vector<Param> library_params() {
+  using enum ParamBinding;
+  return {
+      {"driver",
+       std::string("fragment"),
+       0,
+       0,
+       "",
+       "Shader stage that evaluates the technique.",
+       host,
+       {"fragment", "compute"}},
+      {"sun.angle", 0.53f, 0, 20, "deg", "Full angle that the sun spans as seen from the ground.", host},
+      {"sun.shape",
+       std::string("disc"),
+       0,
+       0,
+       "",
+       "Outline of the sun: a disc, or a square with two horizontal sides.",
+       host,
+       {"disc", "square"}},
+      {"cascades.count", 4, 1, max_cascades, "", "Cascades of the sun's shadow map.", host},
+      {"cascades.size", 2048, 16, 16384, "texels", "Side of each cascade's map.", host},
+      {"cascades.split", 0.75f, 0, 1, "", "Spacing of the cascades: 0 uniform, 1 logarithmic.", host},
+      {"cascades.distance", 0.0f, 0, 1e7, "m", "Range of the last cascade; 0 takes what the view sees of the scene.",
+       host},
+      {"cascades.seam",
+       std::string("fade"),
+       0,
+       0,
+       "",
+       "Transition between cascades.",
+       compiled,
+       {"none", "fade", "dither"}},
+      {"cascades.blend", 0.1f, 0.001, 0.5, "", "Width of the transition, as a part of the cascade's half width."},
+      {"bias.constant", 0.02f, 0, 10, "texels",
+       "Distance along the light that a texel may lie before a receiver without blocking it."},
+      {"bias.slope", 0.02f, 0, 10, "texels", "The same for each unit of the receiver's slope against the light."},
+      {"bias.normal_offset", 0.0f, 0, 10, "texels", "Shift of receivers along their normal."},
+      {"sampling.pattern",
+       std::string("vogel"),
+       0,
+       0,
+       "",
+       "Points that taps are taken at.",
+       host,
+       {"vogel", "hammersley"}},
+      {"sampling.scramble",
+       std::string("rotate"),
+       0,
+       0,
+       "",
+       "What differs from pixel to pixel: a rotation of the points (disc suns) or a shift on the torus.",
+       host,
+       {"rotate", "shift"}},
+      {"sampling.seed", 0, 0, 65535, "", "Number of the noise pattern that turns the points from pixel to pixel."},
+  };
+}
+
+}  // namespace penumbra::shadow

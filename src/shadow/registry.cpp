@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <stdexcept>
+
+#include "../core/names.h"
+#include "library_params.h"
+#include "technique.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+using MakeTechnique = Technique();
+
+// One line a technique; each is defined in techniques/<name>.cpp.
+#define PENUMBRA_TECHNIQUES(X) \
+  X(none)                      \
+  X(hard)                      \
+  X(pcf)                       \
+  X(pcss)                      \
+  X(brute_force)
+
+}  // namespace
+
+#define X(name) MakeTechnique name;
+PENUMBRA_TECHNIQUES(X)
+#undef X
+
+const Registry& built_in_registry() {
+  static const Registry registry(
+      {
+#define X(name) name(),
+          PENUMBRA_TECHNIQUES(X)
+#undef X
+      },
+      {
+          {"pcss_compute", "pcss", "PCSS in a compute shader.", {"driver=compute"}},
+      });
+  return registry;
+}
+
+Registry::Registry(std::vector<Technique> techniques, std::vector<Alias> aliases)
+    : techniques_(std::move(techniques)), aliases_(std::move(aliases)) {
+  std::vector<std::string> sorted = names();
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
+    throw std::logic_error("two techniques share a name");
+  }
+}
+
+std::vector<std::string> Registry::names() const {
+  std::vector<std::string> names;
+  for (const Technique& technique : techniques_) names.push_back(technique.name);
+  for (const Alias& alias : aliases_) names.push_back(alias.name);
+  return names;
+}
+
+const Technique& Registry::find(std::string_view name) const {
+  for (const Technique& technique : techniques_) {
+    if (technique.name == name) return technique;
+  }
+  fail_unknown("technique", name, names());
+}
+
+void Registry::select(ParamSet& params, std::string_view name) const {
+  for (const Alias& alias : aliases_) {
+    if (alias.name != name) continue;
+    params.set("technique", alias.technique);
+    for (const std::string& assignment : alias.assignments) params.assign(assignment);
+    return;
+  }
+  params.set("technique", find(name).name);
+}
+
+std::vector<Param> Registry::params() const {
+  std::vector<std::string> choices;
+  for (const Technique& technique : techniques_) choices.push_back(technique.name);
+  const bool has_pcss = std::find(choices.begin(), choices.end(), "pcss") != choices.end();
+  std::vector<Param> rows{{"technique", has_pcss ? std::string("pcss") : choices.at(0), 0, 0, "",
+                           "How shadows are computed.", ParamBinding::host, choices}};
+  for (Param& row : library_params()) rows.push_back(std::move(row));
+  for (const Technique& technique : techniques_)
+    rows.insert(rows.end(), technique.params.begin(), technique.params.end());
+  return rows;
+}
+
+}  // namespace penumbra::shadow

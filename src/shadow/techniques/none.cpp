@@ -1,0 +1,14 @@
+#include "../technique.h"
+
+namespace penumbra::shadow {
+
+Technique none() {
+  return {.name = "none",
+          .summary = "No shadows: everything that faces the sun is lit.",
+          .source = "",
+          .glsl = "shadow/techniques/none.glsl",
+          .needs = needs_nothing,
+          .params = {}};
+}
+
+}  // namespace penumbra::shadow
