@@ -16,21 +16,23 @@ Shaded shade(Receiver receiver) {
   if (cascade == light.cascades - 1 && cascade_edge(cascade, receiver.position, 0.0) > 1.0) {
     return Shaded(fully_lit(), cascade);
   }
-  float fade = cascade < light.cascades - 1 ? clamp((edge - 1.0) / cascades_blend + 1.0, 0.0, 1.0) : 0.0;
+  bool fades = cascades_seam != cascades_seam_none && cascade < light.cascades - 1;
+  float fade = fades ? clamp((edge - 1.0) / cascades_blend + 1.0, 0.0, 1.0) : 0.0;
   if (cascades_seam == cascades_seam_dither) {
     cascade += white_noise(uvec2(receiver.pixel), 977u).x < fade ? 1 : 0;
     fade = 0.0;
   }
-  light.cascade = cascade;
-  Visibility shaded = visibility(offset_receiver(receiver, light), light);
-  if (fade > 0.0 && cascades_seam == cascades_seam_fade) {
-    light.cascade = cascade + 1;
-    Visibility coarser = visibility(offset_receiver(receiver, light), light);
-    shaded.visibility = mix(shaded.visibility, coarser.visibility, fade);
-    shaded.penumbra_radius = mix(shaded.penumbra_radius, coarser.penumbra_radius, fade);
-    shaded.blocker_distance = mix(shaded.blocker_distance, coarser.blocker_distance, fade);
+  Visibility mixed = Visibility(0.0, 0.0, 0.0, false);
+  int last = fade > 0.0 ? cascade + 1 : cascade;
+  for (light.cascade = cascade; light.cascade <= last; ++light.cascade) {
+    float weight = light.cascade == cascade ? 1.0 - fade : fade;
+    Visibility one = visibility(offset_receiver(receiver, light), light);
+    mixed.visibility += weight * one.visibility;
+    mixed.penumbra_radius += weight * one.penumbra_radius;
+    mixed.blocker_distance += weight * one.blocker_distance;
+    mixed.under_texel = mixed.under_texel || one.under_texel;
   }
-  return Shaded(shaded, cascade);
+  return Shaded(mixed, cascade);
 }
 
 vec4 mask_texel(Shaded shaded) {

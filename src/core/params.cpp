@@ -110,6 +110,12 @@ ParamValue checked_value(const Param& param, const ParamValue& value) {
   fail_value(param, to_text(value));
 }
 
+std::vector<ParamValue> representative_values(const Param& param) {
+  if (std::holds_alternative<bool>(param.default_value)) return {false, true};
+  if (param.choices.empty()) return {param.default_value};
+  return {param.choices.begin(), param.choices.end()};
+}
+
 ParamSet::ParamSet(std::vector<Param> rows) : rows_(std::move(rows)) {
   for (size_t i = 0; i < rows_.size(); ++i) {
     const Param& param = rows_[i];

@@ -35,7 +35,7 @@ std::vector<Param> library_params() {
        0,
        "",
        "Transition between cascades.",
-       compiled,
+       uniform,
        {"none", "fade", "dither"}},
       {"cascades.blend", 0.1f, 0.001, 0.5, "", "Width of the transition, as a part of the cascade's half width."},
       {"bias.constant", 0.02f, 0, 10, "texels",

@@ -90,8 +90,8 @@ struct Mask {
 // Soft shadows for a deferred renderer: depth and normals in, a visibility mask out.
 //
 // render() changes framebuffer, viewport, program, vertex array, texture units 0 to 7, uniform buffer bindings 0 to 3,
-// image unit 0, depth, blend, cull, clip-control and polygon state, and restores none. After the first frame of a size
-// it allocates nothing. Throws Error for bad input and shaders that do not compile.
+// image units 0 and 1, depth, blend, cull, clip-control and polygon state, and restores none. After the first frame of
+// a size it allocates nothing. Throws Error for bad input and shaders that do not compile.
 class SoftShadows {
  public:
   SoftShadows(gl::Device& device, Registry registry = built_in_registry());
@@ -102,15 +102,22 @@ class SoftShadows {
   // `params` holds at least registry().params().
   Mask render(const Inputs& inputs, const ParamSet& params);
 
-  // For surfaces drawn forward, after render(): the text to include is "generated/<technique>/forward.glsl", which
-  // defines `float shadow_visibility(vec3 view_position, vec3 geometric_normal_world, vec2 pixel)`; this binds what it
-  // reads for that light. `defines` go into the program.
-  std::vector<gl::Define> bind_forward(const Mask& mask, size_t light, const ParamSet& params);
+  // For surfaces drawn forward, after render(): the file to include, which defines
+  //   float shadow_visibility(vec3 view_position, vec3 geometric_normal_world, vec2 pixel)
+  std::string forward_include(const ParamSet& params) const;
+  // Binds what that function reads for a light of the mask, and returns the defines that its program needs.
+  std::vector<gl::Define> bind_forward(const Mask& mask, size_t light);
 
   // Every program that render() can build with any parameter, for validation ahead of time.
   std::vector<gl::ProgramDesc> all_programs(const ParamSet& defaults) const;
 
  private:
+  LightFrame prepare_light(const Inputs& inputs, const Light& light, const ParamSet& params, int layer);
+  void upload_light(const Inputs& inputs, const LightFrame& light, size_t index);
+  void bind_light(const LightFrame& light, size_t index);
+  void draw_mask(const Inputs& inputs, const LightFrame& light, size_t index, const gl::Texture& mask);
+  const Technique& forward_technique(const ParamSet& params) const;
+
   gl::Device& device_;
   Registry registry_;
   struct State;

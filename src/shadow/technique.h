@@ -23,7 +23,7 @@ enum Needs : unsigned {
 struct LightFrame {
   Cascades cascades;
   float tan_half_angle = 0;
-  const gl::Texture* depth = nullptr;    // R32F-readable depth array, one layer a cascade
+  unsigned depth = 0;                    // name of the depth array texture, one layer a cascade; 0 when not needed
   const gl::Texture* pyramid = nullptr;  // RG32F: minimum, maximum; level 0 is a quarter of the map's side
   int layer = 0;                         // of the mask
 };
@@ -46,7 +46,10 @@ struct Technique {
   std::string source;   // "Author Year, section"
   std::string glsl;     // file under glsl/, "shadow/techniques/pcss.glsl"
   unsigned needs = needs_shadow_map;
+  // Rows named "<technique>.blocker_taps" and "<technique>.filter_taps" size the tables of sample points.
   std::vector<Param> params;
+  // Fixes sampling.pattern and sampling.scramble; empty leaves them to the parameters.
+  std::string pattern = {}, scramble = {};
   // Makes what only this technique needs from a light's maps, before the mask pass. Optional.
   std::function<void(gl::Device&, LightFrame&, const ParamSet&)> prepare = {};
   // Methods that are no function of one receiver fill the mask themselves; `glsl` of `stand_in` serves blended

@@ -4,18 +4,22 @@ namespace penumbra::shadow {
 
 Technique brute_force() {
   using enum ParamBinding;
-  return {.name = "brute_force",
-          .summary = "PCSS with hundreds of taps a pixel: what the cheaper forms of it converge to.",
-          .source = "Deligiannis 2019, section 4",
-          .glsl = "shadow/techniques/brute_force.glsl",
-          .needs = needs_shadow_map | needs_depth_pyramid,
-          .params = {
+  return {
+      .name = "brute_force",
+      .summary = "PCSS with hundreds of taps a pixel: what the cheaper forms of it converge to.",
+      .source = "Deligiannis 2019, section 4",
+      .glsl = "shadow/techniques/brute_force.glsl",
+      .needs = needs_shadow_map | needs_depth_pyramid,
+      .params =
+          {
               {"brute_force.blocker_taps", 256, 1, 256, "taps", "Points at which blockers are looked for.", compiled},
               {"brute_force.filter_taps", 256, 1, 256, "taps", "Points of the penumbra's disc that are compared.",
                compiled},
               {"brute_force.every_texel", false, 0, 1, "",
                "Reads every texel of both discs instead: exact, and slow for wide kernels.", compiled},
-          }};
+          },
+      .pattern = "hammersley",
+      .scramble = "shift"};
 }
 
 }  // namespace penumbra::shadow

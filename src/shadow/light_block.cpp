@@ -1,0 +1,70 @@
+#include "light_block.h"
+
+#include <algorithm>
+
+#include "sampling.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+static_assert(sizeof(glsl::CascadeBlock) == 32);
+static_assert(offsetof(glsl::ShadowBlock, viewport) == 192);
+static_assert(offsetof(glsl::ShadowBlock, cascades) == 240);
+static_assert(sizeof(glsl::SampleBlock) == 4096);
+
+glsl::CascadeBlock cascade_block(const Cascade& cascade, int size) {
+  const float range = cascade.far_z - cascade.near_z;
+  const float texel = 2.0f * cascade.half_extent / static_cast<float>(size);
+  // A few units in the last place of what a map stores and a rasteriser interpolates.
+  const float rounding = 4e-7f * (range + 2.0f * cascade.half_extent);
+  return {{cascade.center, 0.5f / cascade.half_extent, texel}, {cascade.near_z, range, 1.0f / range, rounding}};
+}
+
+void fill_table(glm::vec4* table, const std::vector<glm::vec2>& points) {
+  for (size_t i = 0; i < points.size(); ++i) {
+    glm::vec4& pair = table[i / 2];
+    (i % 2 == 0 ? pair.x : pair.z) = points[i].x;
+    (i % 2 == 0 ? pair.y : pair.w) = points[i].y;
+  }
+}
+
+int taps(const Technique& technique, const ParamSet& params, const char* step) {
+  const std::string name = technique.name + step;
+  return params.contains(name) ? params.get_int(name) : 0;
+}
+
+}  // namespace
+
+glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, bool square) {
+  const Conventions& conventions = inputs.conventions;
+  const glm::dmat4 view_to_world = glm::inverse(glm::dmat4(inputs.view.view));
+  const bool zero_to_one = conventions.depth_zero_to_one;
+  glsl::ShadowBlock block{};
+  block.clip_to_view = glm::mat4(glm::inverse(glm::dmat4(inputs.view.projection)));
+  block.view_to_light = glm::mat4(glm::dmat4(light.cascades.world_to_light * glm::dmat3(view_to_world)));
+  block.world_to_light = glm::mat4(glm::dmat4(light.cascades.world_to_light));
+  block.viewport = {inputs.depth.width, inputs.depth.height, inputs.view.jitter.x, inputs.view.jitter.y};
+  block.depth_to_ndc = {zero_to_one ? 1.0f : 2.0f, zero_to_one ? 0.0f : -1.0f, conventions.reversed_z ? 0.0f : 1.0f,
+                        conventions.octahedral_normals ? 1.0f : 0.0f};
+  block.light = {light.tan_half_angle, square ? 1.0f : 0.0f, static_cast<float>(light.cascades.items.size()),
+                 static_cast<float>(light.cascades.size)};
+  for (size_t i = 0; i < light.cascades.items.size(); ++i) {
+    block.cascades[i] = cascade_block(light.cascades.items[i], light.cascades.size);
+  }
+  return block;
+}
+
+Sampling sampling_of(const Technique& technique, const ParamSet& params) {
+  const std::string& pattern = technique.pattern.empty() ? params.get_word("sampling.pattern") : technique.pattern;
+  const std::string& scramble = technique.scramble.empty() ? params.get_word("sampling.scramble") : technique.scramble;
+  Sampling sampling;
+  // A turned square would be another light.
+  sampling.rotated = scramble == "rotate" && params.get_word("sun.shape") == "disc";
+  const auto points = sampling.rotated ? disc_points : square_points;
+  fill_table(sampling.points.blocker, points(pattern, taps(technique, params, ".blocker_taps")));
+  fill_table(sampling.points.filter_points, points(pattern, taps(technique, params, ".filter_taps")));
+  return sampling;
+}
+
+}  // namespace penumbra::shadow

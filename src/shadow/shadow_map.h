@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "../gl/pass.h"
+#include "cascades.h"
+
+namespace penumbra::shadow {
+
+struct CasterPass;
+using DrawCasters = std::function<void(const CasterPass&, gl::Pass&)>;
+
+struct ShadowMapInputs {
+  std::string name;  // of the target: one map a light
+  const Cascades& cascades;
+  const DrawCasters& draw;
+};
+
+// Depth of the casters: DEPTH_COMPONENT32F array, one layer a cascade, linear, near 0, far 1.
+const gl::Texture& draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs);
+
+struct DepthPyramidInputs {
+  std::string name;
+  unsigned depth = 0;  // name of a depth array texture
+  int size = 0;        // its side, texels
+  int layers = 0;
+};
+
+// Minimum and maximum depth: RG32F array; texel (x, y) of level l bounds the 4·2^l texels squared from (x, y)·4·2^l on.
+const gl::Texture& build_depth_pyramid(gl::Device& device, const DepthPyramidInputs& inputs);
+
+gl::ProgramDesc depth_pyramid_program(bool from_depth);
+
+}  // namespace penumbra::shadow
