@@ -1,0 +1,31 @@
+# cmake --install: the program with its data, and the library (core, gl, shadow) as the CMake package "penumbra", whose
+# target penumbra::shadow brings the rest. Nothing that is installed names a path of the building machine.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/penumbra")
+set(header_dir "${CMAKE_INSTALL_INCLUDEDIR}/penumbra")
+
+install(TARGETS penumbra_core penumbra_gl penumbra_shadow EXPORT penumbra
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+  INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+foreach(layer core gl shadow)
+  install(DIRECTORY "${CMAKE_SOURCE_DIR}/src/${layer}/" DESTINATION "${header_dir}/${layer}" FILES_MATCHING PATTERN "*.h")
+endforeach()
+install(FILES "${PENUMBRA_GL_API_HEADER}" DESTINATION "${header_dir}/gl")
+
+install(EXPORT penumbra NAMESPACE penumbra:: FILE penumbraTargets.cmake DESTINATION "${package_dir}")
+configure_package_config_file("${CMAKE_SOURCE_DIR}/cmake/penumbraConfig.cmake.in"
+  "${CMAKE_BINARY_DIR}/penumbraConfig.cmake" INSTALL_DESTINATION "${package_dir}")
+write_basic_package_version_file("${CMAKE_BINARY_DIR}/penumbraConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${CMAKE_BINARY_DIR}/penumbraConfig.cmake" "${CMAKE_BINARY_DIR}/penumbraConfigVersion.cmake"
+  DESTINATION "${package_dir}")
+
+install(FILES "${CMAKE_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/penumbra")
+install(DIRECTORY "${CMAKE_SOURCE_DIR}/glsl" DESTINATION "${CMAKE_INSTALL_DATADIR}/penumbra")
+if(PENUMBRA_APP)
+  install(TARGETS penumbra RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  install(DIRECTORY "${CMAKE_SOURCE_DIR}/scenes" DESTINATION "${CMAKE_INSTALL_DATADIR}/penumbra"
+    FILES_MATCHING PATTERN "*.glb" PATTERN "*.gltf")
+  install(DIRECTORY "${CMAKE_SOURCE_DIR}/presets" DESTINATION "${CMAKE_INSTALL_DATADIR}/penumbra" OPTIONAL)
+endif()

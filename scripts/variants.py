@@ -1,0 +1,40 @@
+"""Validates every shader variant that the program can build.
+
+`penumbra-variants FOLDER` writes the stages of each variant and compiles each program with the driver; the reference
+compiler, glslangValidator, then reads every file.
+"""
+
+import argparse
+import concurrent.futures
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+
+def validate(files):
+    """Messages of the reference compiler for files that it refuses."""
+    result = subprocess.run(["glslangValidator", *map(str, files)], capture_output=True, text=True)
+    return result.stdout + result.stderr if result.returncode else ""
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program", type=pathlib.Path, help="the executable penumbra-variants")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        compiled = subprocess.run([arguments.program.resolve(), folder]).returncode == 0
+        files = sorted(path for path in pathlib.Path(folder).rglob("*") if path.suffix in (".vert", ".frag", ".comp"))
+        batches = [files[i : i + 64] for i in range(0, len(files), 64)]
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            messages = [text for text in pool.map(validate, batches) if text]
+    for text in messages:
+        print(text, end="")
+    print(f"shader variants: {len(files)} stages, driver {'accepts' if compiled else 'REFUSES some'}, "
+          f"reference compiler {'refuses some' if messages else 'accepts'}")
+    return 0 if compiled and files and not messages else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

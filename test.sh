@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# Builds everything, runs the test suite and the static checks, and prints the counts last.
+#   ./test.sh [--quick] [-R REGEX]
+#     --quick    leave out what is slow: clang-tidy and the build with sanitizers
+#     -R REGEX   only the tests whose name matches, and no static checks
+# Tests on third-party scenes need PENUMBRA_ASSETS, the folder that holds them; without it they are skipped.
+set -euo pipefail
+root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)
+source "$root/scripts/setup.sh"
+
+quick=0 regex=
+while (($# > 0)); do
+  case $1 in
+    --quick) quick=1 ;;
+    -R) regex=${2:?-R takes a regular expression} && shift ;;
+    *) sed -n '3,6s/^# //p' "$0" && exit 2 ;;
+  esac
+  shift
+done
+[[ -z ${PENUMBRA_ASSETS:-} ]] || PENUMBRA_ASSETS=$(cd "$PENUMBRA_ASSETS" && pwd)
+
+# tests_built PRESET TARGETS...: the preset with its tests, up to date.
+tests_built() {
+  local preset=$1
+  shift
+  build_lock
+  if ! configured "$root/build/$preset" || grep -qx 'PENUMBRA_TESTS:BOOL=OFF' "$root/build/$preset/CMakeCache.txt"; then
+    configure "$preset" -DPENUMBRA_TESTS=ON
+  fi
+  build "$preset" "$@"
+  build_unlock
+}
+
+# suite PRESET CTEST-ARGUMENTS...: results stay in the build folder for the count at the end.
+suite() {
+  local folder=$root/build/$1
+  shift
+  find "$folder/test-results" -type f -delete
+  ctest --test-dir "$folder" --output-on-failure --no-tests=error --parallel "$(nproc)" \
+    --output-junit "$folder/test-results/ctest.xml" "$@" || failed=1
+  result_folders+=("$folder/test-results")
+}
+
+# check NAME COMMAND...: a static check, by its exit code.
+check() {
+  local name=$1 begin=$SECONDS
+  shift
+  if "$@"; then
+    checks_passed=$((checks_passed + 1))
+    note "passed: $name ($((SECONDS - begin)) s)"
+  else
+    checks_failed=$((checks_failed + 1)) failed=1
+    note "FAILED: $name ($((SECONDS - begin)) s)"
+  fi
+}
+
+failed=0 checks_passed=0 checks_failed=0 result_folders=()
+ensure_packages "run test"
+tests_built release all
+suite_begin=$SECONDS
+suite release ${regex:+-R "$regex"}
+suite_seconds=$((SECONDS - suite_begin))
+
+if [[ -z $regex ]]; then
+  check "shader variants" python3 "$root/scripts/variants.py" "$root/build/release/penumbra-variants"
+  check "clang-format" "$root/scripts/format.sh"
+  ((quick)) || check "clang-tidy" python3 "$root/scripts/tidy.py" "$root/build/release"
+fi
+if ((!quick)) && [[ -z $regex ]]; then
+  tests_built asan penumbra_sanitized
+  # Mesa and LLVM keep memory to the end of the process; that is theirs to mend.
+  LSAN_OPTIONS=suppressions=$root/tests/lsan.supp:print_suppressions=0 suite asan -L sanitize
+fi
+
+python3 "$root/scripts/count_tests.py" "${result_folders[@]}"
+printf 'static checks: %d passed, %d failed\n' "$checks_passed" "$checks_failed"
+printf 'time: %d s, of which the suite %d s\n' "$SECONDS" "$suite_seconds"
+exit "$failed"

@@ -1,0 +1,98 @@
+"""Folders under src are layers: includes go downwards only, and each library of others stays in its layer."""
+
+import os
+import re
+import unittest
+
+import support
+
+BELOW = {
+    "core": set(),
+    "gl": {"core"},
+    "scene": {"gl", "core"},
+    "shadow": {"gl", "core"},
+    "truth": {"scene", "gl", "core"},
+    "io": {"scene", "gl", "core"},
+    "render": {"shadow", "truth", "io", "scene", "gl", "core"},
+    "app": {"render", "shadow", "truth", "io", "scene", "gl", "core"},
+}
+INSTALLED = {"core", "gl", "shadow"}
+
+# Which layers may include a library's headers; a library that is not here is not used yet.
+LIBRARIES = {
+    "fmt/": BELOW.keys(),
+    "glm/": BELOW.keys(),
+    "GL/": {"gl"},
+    "EGL/": {"gl"},
+    "GLFW/": {"gl"},
+    "dlfcn.h": {"gl"},
+    "tiny_gltf.h": {"scene"},
+    "draco/": {"scene"},
+    "meshoptimizer.h": {"scene"},
+    "OpenImageIO/": {"io"},
+    "toml++/": {"io"},
+    "nlohmann/": {"scene", "io", "app"},
+    "CLI/": {"app"},
+    "sys/": {"scene", "io", "app"},
+    "fcntl.h": {"io", "app"},
+    "unistd.h": {"io", "app"},
+}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]', re.MULTILINE)
+
+
+def faults_of(path, text):
+    """What is wrong with the includes of src/<path>, one line each."""
+    layer = path.split("/")[0]
+    for mark, name in INCLUDE.findall(text):
+        if mark == "<":
+            owners = [layers for prefix, layers in LIBRARIES.items() if name.startswith(prefix)]
+            standard = re.fullmatch(r"[a-z_0-9]+", name)  # <vector>, <cmath>
+            if not standard and not any(layer in layers for layers in owners):
+                yield f"src/{path}: <{name}> does not belong in the layer '{layer}'"
+            continue
+        beside = os.path.normpath(os.path.join(os.path.dirname(path), name))
+        generated = layer == "gl" and name == "api.h"
+        relative = generated or (support.ROOT / "src" / beside).exists()
+        if relative:
+            target = beside
+        elif (support.ROOT / "src" / name).exists():
+            target = name
+        elif (support.ROOT / "glsl" / name).exists() and name.startswith(("shared/", "lib/")):
+            continue
+        else:
+            yield f"src/{path}: \"{name}\" is not a file of the project"
+            continue
+        if target.split("/")[0] not in BELOW[layer] | {layer}:
+            yield f"src/{path}: \"{name}\" lies above the layer '{layer}'"
+        if path.endswith(".h") and layer in INSTALLED and not relative:
+            yield f"src/{path}: \"{name}\" is not relative to the file, which an installed header needs"
+
+
+class Layers(unittest.TestCase):
+    def test_includes_go_downwards(self):
+        files = [path for ending in ("*.h", "*.cpp") for path in (support.ROOT / "src").rglob(ending)]
+        self.assertGreater(len(files), 20)
+        faults = []
+        for path in files:
+            faults += faults_of(path.relative_to(support.ROOT / "src").as_posix(), path.read_text())
+        self.assertFalse(faults, "\n" + "\n".join(faults))
+
+    def test_forbidden_includes_are_found(self):
+        forbidden = {
+            "shadow/a.cpp": ['#include "scene/scene.h"', "#include <OpenImageIO/imageio.h>", "#include <tiny_gltf.h>"],
+            "core/a.h": ['#include "../gl/buffer.h"'],
+            "gl/a.h": ['#include "core/error.h"'],
+            "render/a.cpp": ["#include <OpenImageIO/imageio.h>", '#include "app/nothing.h"'],
+        }
+        for path, lines in forbidden.items():
+            for line in lines:
+                self.assertEqual(len(list(faults_of(path, line))), 1, f"{path}: {line}")
+
+    def test_usual_includes_are_allowed(self):
+        text = '#include "params.h"\n#include <cmath>\n#include <fmt/format.h>\n#include "error.h"\n'
+        self.assertEqual(list(faults_of("core/a.h", text)), [])
+
+
+if __name__ == "__main__":
+    support.main()

@@ -1,0 +1,93 @@
+"""What the tests of the command line and of the project share."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = os.environ.get("PENUMBRA_PROGRAM") or str(ROOT / "build" / "release" / "penumbra")
+BUILD = pathlib.Path(os.environ.get("PENUMBRA_BUILD") or ROOT / "build" / "release")
+
+
+def run(*arguments, timeout=300, **options):
+    """Runs penumbra; the result has returncode, stdout and stderr (text)."""
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, **options)
+
+
+def assets(folder):
+    """A folder of third-party assets; skips the test where there are none."""
+    base = os.environ.get("PENUMBRA_ASSETS")
+    if not base or not (pathlib.Path(base) / folder).is_dir():
+        raise unittest.SkipTest(f"PENUMBRA_ASSETS has no folder {folder}")
+    return pathlib.Path(base) / folder
+
+
+class TestCase(unittest.TestCase):
+    """A test with a folder of its own, removed afterwards."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def succeed(self, *arguments, **options):
+        result = run(*arguments, **options)
+        self.assertEqual(result.returncode, 0, f"penumbra {' '.join(map(str, arguments))}\n{result.stderr}")
+        return result
+
+    def refuse(self, *arguments, code=1, **options):
+        """The command must end with `code`, one line of error and no stack trace; returns that line."""
+        result = run(*arguments, **options)
+        self.assertEqual(result.returncode, code, f"penumbra {' '.join(map(str, arguments))}\n{result.stderr}")
+        lines = result.stderr.strip().splitlines()
+        errors = [line for line in lines if line.startswith("error: ")]
+        self.assertEqual(len(errors), 1, result.stderr)
+        return errors[0]
+
+
+class _Recorder(unittest.TextTestResult):
+    """Keeps each case's outcome for the report that ./test.sh counts."""
+
+    def __init__(self, *arguments, **options):
+        super().__init__(*arguments, **options)
+        self.outcomes = {}
+
+    def startTest(self, test):
+        super().startTest(test)
+        self.outcomes[test.id()] = None
+
+    def addSkip(self, test, reason):
+        super().addSkip(test, reason)
+        self.outcomes[test.id()] = "skipped"
+
+    def addFailure(self, test, err):
+        super().addFailure(test, err)
+        self.outcomes[test.id()] = "failure"
+
+    def addError(self, test, err):
+        super().addError(test, err)
+        self.outcomes[test.id()] = "failure"
+
+    def addSubTest(self, test, subtest, err):
+        super().addSubTest(test, subtest, err)
+        if err:
+            self.outcomes[test.id()] = "failure"
+
+
+def main():
+    """Runs the tests of the calling file."""
+    runner = unittest.TextTestRunner(verbosity=2, resultclass=_Recorder)
+    result = unittest.main(module="__main__", exit=False, testRunner=runner).result
+    report = os.environ.get("PENUMBRA_RESULTS")
+    if report:
+        suite = ElementTree.Element("testsuite")
+        for name, outcome in result.outcomes.items():
+            case = ElementTree.SubElement(suite, "testcase", name=name)
+            if outcome:
+                ElementTree.SubElement(case, outcome)
+        ElementTree.ElementTree(suite).write(report)
+    sys.exit(not result.wasSuccessful())
