@@ -10,7 +10,7 @@ namespace penumbra::gl {
 
 void delete_buffer(GLuint id);
 
-// A labelled buffer object of fixed size (immutable storage, updatable with write()).
+// A labelled buffer object of fixed size (immutable storage, updatable with write()). Throws Error when memory ends.
 class Buffer {
  public:
   Buffer() = default;

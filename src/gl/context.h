@@ -10,6 +10,11 @@ namespace penumbra::gl {
 
 using GetProcAddress = void* (*)(const char* name);
 
+// Points Penumbra's GL entry points at the driver of the context that is current. The contexts below do it themselves; an
+// engine with a context of its own calls it once before anything else here. Throws Error naming what is missing of
+// OpenGL 4.5 core.
+void load_api(GetProcAddress get_proc_address);
+
 enum class Backend { egl, osmesa, window };
 
 struct ContextOptions {
@@ -22,7 +27,9 @@ struct ContextOptions {
   bool vsync = true;    // window only
 };
 
-// An OpenGL 4.5 core context. Making it current also points Penumbra's GL entry points at its driver.
+// An OpenGL 4.5 core context. Making it current also points Penumbra's GL entry points at its driver. GL objects
+// are destroyed before their context, while it is current. The entry points are the process's: contexts of different
+// backends take turns, on one thread.
 class Context {
  public:
   virtual ~Context() = default;

@@ -1,18 +1,27 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "buffer.h"
+#include "debug.h"
 #include "shader_library.h"
 #include "texture.h"
 #include "timer.h"
 
 namespace penumbra::gl {
+
+struct Attachment {
+  const Texture* texture = nullptr;
+  int level = 0;
+  int layer = 0;
+  std::optional<glm::vec4> clear;  // nullopt: load. For depth, .x is the depth. Integer colour: converted to integers
+};
 
 // What passes draw with: programs, timers, and targets that persist from frame to frame so that nothing is allocated
 // after warm-up. One per context; handed to every pass, never global.
@@ -26,28 +35,22 @@ class Device {
   ShaderLibrary shaders;
   Timers timers;
 
-  // The texture of that name, made again when the description changes. Valid until then; contents persist.
+  // The texture of that name, made again when the description changes. The reference stays valid; contents persist until
+  // then.
   const Texture& target(std::string_view name, const TextureDesc& desc);
   // A buffer of at least `bytes`, likewise (grows, never shrinks).
-  const class Buffer& scratch(std::string_view name, std::size_t bytes);
+  const Buffer& scratch(std::string_view name, std::size_t bytes);
   const Sampler& sampler(const SamplerDesc& desc);
   // Bytes of all targets whose name starts with `prefix`.
   std::size_t target_bytes(std::string_view prefix = "") const;
 
  private:
   friend class Pass;
-  GLuint framebuffer(const std::vector<struct Attachment>& colors, const struct Attachment* depth);
+  GLuint framebuffer(std::span<const Attachment> colors, const Attachment* depth);
   GLuint empty_vertex_array();
 
   struct Impl;
   std::unique_ptr<Impl> impl_;
-};
-
-struct Attachment {
-  const Texture* texture = nullptr;
-  int level = 0;
-  int layer = 0;
-  std::optional<glm::vec4> clear;  // nullopt: load. For depth, .x is the depth. Integer colour: converted to uint
 };
 
 enum class DepthTest { off, less_equal, greater_equal, equal };
@@ -66,25 +69,30 @@ struct PassDesc {
 };
 
 // A pass in a scope. With attachments it binds a framebuffer, the viewport of the first attachment's level, and the
-// state above; without any (compute) it is a debug group and a timer.
+// state above; without any (compute) it is a debug group and a timer. In a debug context every step throws Error for the
+// GL errors so far; those of the caller's own draws at the end of a scope come with the next step, under this pass's name.
 class Pass {
  public:
   Pass(Device& device, const PassDesc& desc);
-  ~Pass();
   Pass(const Pass&) = delete;
   Pass& operator=(const Pass&) = delete;
 
   const Program& use(const ProgramDesc& desc);  // compile on first use, and make current
-  void draw_full_screen();                      // one triangle; vertex shader "render/full_screen.vert"
+  void draw_full_screen();                      // one triangle, for the vertex shader "render/full_screen.vert"
   void set_cull_back(bool cull);                // double-sided materials
   void set_front_clockwise(bool clockwise);     // mirrored instances
   void set_viewport(int x, int y, int width, int height);
-  // Groups of the current compute program that cover width × height × layers invocations; then a barrier for texture
-  // fetches, image access, storage and vertex reads.
+  // Groups of the current compute program that cover width × height × layers invocations; then a barrier for all that
+  // later commands may read: textures, images, storage, vertices, commands, read-backs.
   void dispatch(int width, int height, int layers = 1);
 
  private:
+  void check() const;
+
   Device& device_;
+  DebugGroup group_;
+  Timers::Scope timer_;
+  bool debug_;
   const Program* program_ = nullptr;
 };
 

@@ -1,13 +1,11 @@
 #pragma once
 
 #include <compare>
+#include <glm/glm.hpp>
 #include <map>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <glm/glm.hpp>
 
 #include "handle.h"
 #include "shader_source.h"
@@ -28,10 +26,10 @@ struct ProgramDesc {
 // by name (unknown names are ignored: the compiler may have removed them).
 class Program {
  public:
-  // Throws Error: "glsl/lib/kernel.glsl:12: message" lines under one heading that names the program.
+  // Throws Error: "glsl/lib/kernel.glsl:12: message" lines under one heading that names program and stage.
   Program(const ProgramDesc& desc, const ShaderFiles& files);
 
-  void use() const;
+  void use() const;  // make it current
   void set(std::string_view name, int value) const;
   void set(std::string_view name, float value) const;
   void set(std::string_view name, const glm::ivec2& value) const;

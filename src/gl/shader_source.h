@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <functional>
 #include <map>
 #include <optional>
@@ -16,7 +17,8 @@ class ShaderFiles {
   ShaderFiles() = default;  // built-in only
   explicit ShaderFiles(std::string overlay_directory);
 
-  // The text of a file, or nullopt when neither the overlay nor the built-in set has it.
+  // The text of a file: generated, else the overlay's, else built in. nullopt when none has it, or when the name is
+  // absolute or leaves the folder.
   std::optional<std::string> read(std::string_view name) const;
   // Adds or replaces an in-memory file (generated declarations: "generated/params.glsl").
   void put(std::string name, std::string text);
@@ -34,7 +36,8 @@ struct Define {
 };
 
 // One stage's text, ready for the driver: #version 450 core, defines, then the file with every #include "name" resolved
-// once (include-once), and #line directives that number the files.
+// once (include-once), and #line directives that number the files. Includes are resolved before the preprocessor runs:
+// conditions around them do not count. #include <…> and #pragma once, which C++ needs in shared headers, are dropped.
 struct ShaderSource {
   std::string text;
   std::vector<std::string> files;  // index = the number in #line; [0] is the root
@@ -44,7 +47,7 @@ struct ShaderSource {
 // is included once.
 ShaderSource load_shader_source(const ShaderFiles& files, std::string_view root, const std::vector<Define>& defines);
 
-// Rewrites "0(12)", "0:12(5)" and "0:12:" of a driver's log into "lib/kernel.glsl:12:", one message a line.
+// Rewrites "0(12)", "0:12(5)" and "0:12:" of a driver's log into "glsl/lib/kernel.glsl:12:", one message a line.
 std::string translate_log(std::string_view driver_log, const ShaderSource& source);
 
 }  // namespace penumbra::gl

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <glm/vec3.hpp>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,7 +25,7 @@ struct TextureDesc {
   bool operator==(const TextureDesc&) const = default;
 };
 
-// A labelled texture with immutable storage. Sampled with nearest filtering and clamp-to-edge unless a Sampler says
+// A labelled texture with immutable storage. Throws Error when it is larger than the device allows or memory ends. Sampled with nearest filtering and clamp-to-edge unless a Sampler says
 // otherwise.
 class Texture {
  public:
@@ -33,22 +33,26 @@ class Texture {
   Texture(std::string_view label, const TextureDesc& desc);
 
   // Tightly packed pixels of one level and layer, given in `format`/`type` (GL_RGBA, GL_UNSIGNED_BYTE…).
+  // `pixels` must be exactly the level's size.
   void upload(GLenum format, GLenum type, std::span<const std::byte> pixels, int level = 0, int layer = 0) const;
   void generate_mipmaps() const;
-  void bind(GLuint unit) const;  // texture unit
+  void bind(GLuint unit) const;
   void bind_image(GLuint unit, GLenum access, int level = 0) const;
 
   GLuint id() const { return handle_.id(); }
+  // Differs for every texture ever made, while the driver gives a deleted texture's id out again.
+  std::uint64_t serial() const { return serial_; }
   const TextureDesc& desc() const { return desc_; }
   int width() const { return desc_.width; }
   int height() const { return desc_.height; }
-  // Bytes of storage, all levels and layers.
+  // Bytes of storage, all levels and layers, as the format defines them.
   std::size_t bytes() const;
   explicit operator bool() const { return static_cast<bool>(handle_); }
 
  private:
   Handle<delete_texture> handle_;
   TextureDesc desc_;
+  std::uint64_t serial_ = 0;
 };
 
 struct SamplerDesc {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+#include <cstddef>
 #include <deque>
 #include <map>
 #include <string>
@@ -13,7 +15,7 @@ namespace penumbra::gl {
 void delete_query(GLuint id);
 
 // Time per pass. On a GPU: timer queries read frames later, so that they never stall. On a software rasteriser, which
-// defers work, a finish on both sides of each pass and the CPU's clock.
+// defers work, a finish on both sides of each pass and the CPU's clock. Passes outside of a frame are not recorded.
 class Timers {
  public:
   enum class Mode { off, query, finish };
@@ -25,6 +27,18 @@ class Timers {
   void end();
   void end_frame();
 
+  // begin() and end() in a scope.
+  class Scope {
+   public:
+    Scope(Timers& timers, std::string_view name) : timers_(timers) { timers_.begin(name); }
+    ~Scope() { timers_.end(); }
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    Timers& timers_;
+  };
+
   struct Row {
     std::string name;
     std::vector<double> milliseconds;  // one a frame, oldest first; a pass drawn twice in a frame is summed
@@ -33,23 +47,35 @@ class Timers {
   std::vector<Row> rows();
 
  private:
-  struct Pending {
-    std::string name;
-    Handle<delete_query> begin, end;
-    size_t frame;
+  using Clock = std::chrono::steady_clock;
+  struct Open {
+    std::size_t row = 0;
+    Clock::time_point started;
+    Handle<delete_query> query;
   };
-  void record(const std::string& name, size_t frame, double milliseconds);
+  struct Pending {
+    std::size_t row = 0, frame = 0;
+    Handle<delete_query> begin, end;
+  };
+
+  Open start(std::size_t row);
+  void finish(Open open);
+  std::size_t row_index(const std::string& name);
+  Handle<delete_query> timestamp();
+  void record(std::size_t row, std::size_t frame, double milliseconds);
   void collect(bool wait);
 
+  static constexpr std::size_t frame_row = 0;
+
   Mode mode_;
-  size_t frame_ = 0;
-  std::vector<std::string> stack_;
-  std::vector<double> started_;
-  std::vector<Handle<delete_query>> started_queries_;
+  bool in_frame_ = false;
+  std::size_t frame_ = 0;
+  Open open_frame_;
+  std::vector<Open> stack_;
   std::deque<Pending> pending_;
   std::vector<Handle<delete_query>> free_queries_;
-  std::vector<std::string> order_;
-  std::map<std::string, std::vector<double>, std::less<>> times_;
+  std::vector<Row> rows_;  // [frame_row] is the frame
+  std::map<std::string, std::size_t, std::less<>> row_indices_;
 };
 
 }  // namespace penumbra::gl

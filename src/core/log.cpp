@@ -1,0 +1,36 @@
+#include "log.h"
+
+#include <cstdio>
+#include <mutex>
+
+namespace penumbra {
+namespace {
+
+void write_to_stderr(LogLevel level, std::string_view message) {
+  if (level < LogLevel::warning) return;
+  fmt::print(stderr, "{}: {}\n", level == LogLevel::warning ? "warning" : "error", message);
+}
+
+struct Sink {
+  std::mutex mutex;
+  LogSink write = write_to_stderr;
+};
+
+Sink& sink() {
+  static Sink instance;
+  return instance;
+}
+
+}  // namespace
+
+void set_log_sink(LogSink new_sink) {
+  const std::lock_guard lock(sink().mutex);
+  sink().write = new_sink ? std::move(new_sink) : LogSink(write_to_stderr);
+}
+
+void log(LogLevel level, std::string_view message) {
+  const std::lock_guard lock(sink().mutex);
+  sink().write(level, message);
+}
+
+}  // namespace penumbra

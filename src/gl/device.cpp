@@ -1,0 +1,145 @@
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "../core/error.h"
+#include "pass.h"
+
+namespace penumbra::gl {
+namespace {
+
+void delete_framebuffer(GLuint id) { glDeleteFramebuffers(1, &id); }
+void delete_vertex_array(GLuint id) { glDeleteVertexArrays(1, &id); }
+
+// A texture's serial, level and layer for each attachment, depth first (zeros: none). Serials and not ids: the driver
+// gives the id of a deleted texture out again, and a framebuffer would go on drawing to the dead one.
+using FramebufferKey = std::vector<std::tuple<std::uint64_t, int, int>>;
+
+struct CachedFramebuffer {
+  Handle<delete_framebuffer> handle;
+  std::uint64_t last_use = 0;
+};
+
+using SamplerKey = std::tuple<GLenum, GLenum, GLenum, GLenum, bool, float>;
+
+void attach(GLuint framebuffer, GLenum point, const Attachment& attachment) {
+  const Texture& texture = *attachment.texture;
+  if (texture.desc().target == GL_TEXTURE_2D_ARRAY) {
+    glNamedFramebufferTextureLayer(framebuffer, point, texture.id(), attachment.level, attachment.layer);
+  } else {
+    glNamedFramebufferTexture(framebuffer, point, texture.id(), attachment.level);
+  }
+}
+
+Handle<delete_framebuffer> make_framebuffer(std::span<const Attachment> colors, const Attachment* depth) {
+  GLuint id = 0;
+  glCreateFramebuffers(1, &id);
+  Handle<delete_framebuffer> handle(id);
+  std::vector<GLenum> draw_buffers;
+  for (const Attachment& color : colors) {
+    const GLenum point = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(draw_buffers.size());
+    attach(id, point, color);
+    draw_buffers.push_back(point);
+  }
+  if (depth != nullptr) attach(id, GL_DEPTH_ATTACHMENT, *depth);
+  glNamedFramebufferDrawBuffers(id, static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
+  const GLenum status = glCheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE) fail("the driver refuses a framebuffer (status {:#x})", status);
+  return handle;
+}
+
+}  // namespace
+
+struct Device::Impl {
+  std::map<std::string, Texture, std::less<>> targets;
+  std::map<std::string, Buffer, std::less<>> buffers;
+  std::map<SamplerKey, Sampler> samplers;
+  std::map<FramebufferKey, CachedFramebuffer> framebuffers;
+  std::uint64_t framebuffer_uses = 0;
+  Handle<delete_vertex_array> empty_vertex_array;
+
+  // A framebuffer keeps its textures' memory. Those of a target go with it; those of other textures, when they
+  // have been out of use for long.
+  void drop_framebuffers_of(std::uint64_t serial) {
+    std::erase_if(framebuffers, [&](const auto& entry) {
+      for (const auto& attachment : entry.first) {
+        if (std::get<0>(attachment) == serial) return true;
+      }
+      return false;
+    });
+  }
+  void drop_unused_framebuffers() {
+    constexpr std::uint64_t long_ago = 4096;
+    std::erase_if(framebuffers,
+                  [&](const auto& entry) { return entry.second.last_use + long_ago < framebuffer_uses; });
+  }
+};
+
+Device::Device(ShaderFiles files, Timers::Mode timing)
+    : shaders(std::move(files)), timers(timing), impl_(std::make_unique<Impl>()) {}
+
+Device::~Device() = default;
+
+const Texture& Device::target(std::string_view name, const TextureDesc& desc) {
+  auto found = impl_->targets.find(name);
+  if (found == impl_->targets.end()) found = impl_->targets.emplace(name, Texture()).first;
+  Texture& texture = found->second;
+  if (!texture || texture.desc() != desc) {
+    impl_->drop_framebuffers_of(texture.serial());
+    texture = Texture();  // give the memory back before asking for more
+    texture = Texture(name, desc);
+  }
+  return texture;
+}
+
+const Buffer& Device::scratch(std::string_view name, std::size_t bytes) {
+  auto found = impl_->buffers.find(name);
+  if (found == impl_->buffers.end()) found = impl_->buffers.emplace(name, Buffer()).first;
+  Buffer& buffer = found->second;
+  if (!buffer || buffer.size() < bytes) {
+    buffer = Buffer();
+    buffer = Buffer(name, bytes);
+  }
+  return buffer;
+}
+
+const Sampler& Device::sampler(const SamplerDesc& desc) {
+  const SamplerKey key(desc.min_filter, desc.mag_filter, desc.wrap_s, desc.wrap_t, desc.compare, desc.max_anisotropy);
+  Sampler& sampler = impl_->samplers[key];
+  if (sampler.id() == 0) sampler = Sampler("sampler", desc);
+  return sampler;
+}
+
+std::size_t Device::target_bytes(std::string_view prefix) const {
+  std::size_t bytes = 0;
+  for (const auto& [name, texture] : impl_->targets) {
+    if (name.starts_with(prefix)) bytes += texture.bytes();
+  }
+  return bytes;
+}
+
+GLuint Device::framebuffer(std::span<const Attachment> colors, const Attachment* depth) {
+  const auto key_of = [](const Attachment& a) { return std::tuple(a.texture->serial(), a.level, a.layer); };
+  FramebufferKey key{depth == nullptr ? std::tuple(std::uint64_t{0}, 0, 0) : key_of(*depth)};
+  for (const Attachment& color : colors) key.push_back(key_of(color));
+  const std::uint64_t use = ++impl_->framebuffer_uses;
+  auto found = impl_->framebuffers.find(key);
+  if (found == impl_->framebuffers.end()) {
+    impl_->drop_unused_framebuffers();
+    found = impl_->framebuffers.emplace(std::move(key), CachedFramebuffer{make_framebuffer(colors, depth)}).first;
+  }
+  found->second.last_use = use;
+  return found->second.handle.id();
+}
+
+GLuint Device::empty_vertex_array() {
+  if (!impl_->empty_vertex_array) {
+    GLuint id = 0;
+    glCreateVertexArrays(1, &id);
+    impl_->empty_vertex_array = Handle<delete_vertex_array>(id);
+  }
+  return impl_->empty_vertex_array.id();
+}
+
+}  // namespace penumbra::gl

@@ -1,0 +1,44 @@
+#include "shader_library.h"
+
+#include <algorithm>
+
+#include "../core/error.h"
+
+namespace penumbra::gl {
+
+const Program& ShaderLibrary::get(const ProgramDesc& desc) {
+  const auto found = entries_.find(desc);
+  if (found == entries_.end()) {
+    auto program = std::make_unique<Program>(desc, files_);
+    return *entries_.emplace(desc, Entry{std::move(program)}).first->second.program;
+  }
+  Entry& entry = found->second;
+  if (entry.stale) {
+    entry.stale = false;
+    entry.error.clear();
+    try {
+      *entry.program = Program(desc, files_);
+    } catch (const Error& error) {
+      entry.error = error.what();
+    }
+  }
+  return *entry.program;
+}
+
+void ShaderLibrary::changed(std::string_view file) {
+  for (auto& [desc, entry] : entries_) {
+    // A failed rebuild may depend on files that the last good program does not.
+    const bool depends = std::ranges::find(entry.program->files(), file) != entry.program->files().end();
+    if (depends || !entry.error.empty()) entry.stale = true;
+  }
+}
+
+std::vector<std::string> ShaderLibrary::errors() const {
+  std::vector<std::string> messages;
+  for (const auto& [desc, entry] : entries_) {
+    if (!entry.error.empty()) messages.push_back(entry.error);
+  }
+  return messages;
+}
+
+}  // namespace penumbra::gl

@@ -1,0 +1,188 @@
+#include "shader_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+
+#include "../core/error.h"
+#include "built_in_files.h"
+
+namespace penumbra::gl {
+namespace {
+
+constexpr std::string_view blanks = " \t\r";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+// A name relative to glsl/ that stays inside of it.
+bool is_inside(std::string_view name) {
+  const std::filesystem::path path(name);
+  return !name.empty() && !path.is_absolute() && std::ranges::find(path, "..") == path.end();
+}
+
+std::optional<std::string> read_disk(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+// What a line of a shader file asks of the loader.
+struct Line {
+  enum class Kind { text, include, drop, malformed };
+  Kind kind = Kind::text;
+  std::string_view name = {};  // of an include
+};
+
+Line classify(std::string_view line) {
+  std::string_view rest = trimmed(line);
+  if (!rest.starts_with('#')) return {};
+  rest = trimmed(rest.substr(1));
+  if (rest.starts_with("pragma") && trimmed(rest.substr(6)) == "once") return {Line::Kind::drop};
+  if (!rest.starts_with("include")) return {};
+  rest = trimmed(rest.substr(7));
+  if (rest.starts_with('<')) return {Line::Kind::drop};
+  const std::size_t end = rest.find('"', 1);
+  if (!rest.starts_with('"') || end == rest.npos || end == 1) return {Line::Kind::malformed};
+  return {Line::Kind::include, rest.substr(1, end - 1)};
+}
+
+class Loader {
+ public:
+  explicit Loader(const ShaderFiles& files) : files_(files) {}
+
+  // `asked_by` is "glsl/file:line: " of the include, empty for the root.
+  void append(std::string_view name, const std::string& asked_by) {
+    if (!is_inside(name)) fail("{}shader file '{}' is outside of glsl/", asked_by, name);
+    const std::optional<std::string> text = files_.read(name);
+    if (!text) fail("{}shader file 'glsl/{}' not found", asked_by, name);
+    const std::size_t index = source_.files.size();
+    source_.files.emplace_back(name);
+    source_.text += fmt::format("#line 1 {}\n", index);
+    std::string_view rest = *text;
+    if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
+    for (int number = 1; !rest.empty(); ++number) {
+      const std::size_t end = std::min(rest.find('\n'), rest.size());
+      append_line(rest.substr(0, end), name, number, index);
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+  }
+
+  ShaderSource source_;
+
+ private:
+  void append_line(std::string_view line, std::string_view file, int number, std::size_t index) {
+    const Line what = classify(line);
+    switch (what.kind) {
+      case Line::Kind::text:
+        source_.text += line;
+        break;
+      case Line::Kind::drop:
+        break;
+      case Line::Kind::malformed:
+        fail("glsl/{}:{}: #include takes a name in quotes", file, number);
+      case Line::Kind::include:
+        if (std::ranges::find(source_.files, what.name) == source_.files.end()) {
+          append(what.name, fmt::format("glsl/{}:{}: ", file, number));
+          source_.text += fmt::format("#line {} {}\n", number + 1, index);
+          return;
+        }
+        break;
+    }
+    source_.text += '\n';
+  }
+
+  const ShaderFiles& files_;
+};
+
+// "0(12) : error C1008: …" (NVIDIA), "0:12(5): error: …" (Mesa), "ERROR: 0:12: …" (glslang, AMD, Intel).
+struct Message {
+  std::size_t file = 0;
+  std::string line, text;
+};
+
+std::optional<Message> parse_message(const std::string& line) {
+  static const std::regex nvidia(R"(^(\d+)\((\d+)\) ?: (.*)$)");
+  static const std::regex mesa(R"(^(\d+):(\d+)(?:\(\d+\))?: (.*)$)");
+  static const std::regex glslang(R"(^(ERROR|WARNING): (\d+):(\d+): (.*)$)");
+  std::smatch match;
+  const auto number = [&](int group) {
+    std::size_t value = 0;
+    const std::string digits = match[static_cast<std::size_t>(group)];
+    std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    return value;
+  };
+  if (std::regex_match(line, match, nvidia) || std::regex_match(line, match, mesa)) {
+    return Message{number(1), match[2], match[3]};
+  }
+  if (std::regex_match(line, match, glslang)) {
+    return Message{number(2), match[3], (match[1] == "ERROR" ? "error: " : "warning: ") + match[4].str()};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+ShaderFiles::ShaderFiles(std::string overlay_directory) : overlay_(std::move(overlay_directory)) {}
+
+std::optional<std::string> ShaderFiles::read(std::string_view name) const {
+  if (!is_inside(name)) return std::nullopt;
+  if (const auto found = generated_.find(name); found != generated_.end()) return found->second;
+  if (!overlay_.empty()) {
+    if (auto text = read_disk(std::filesystem::path(overlay_) / name)) return text;
+  }
+  const auto files = built_in_files();
+  const auto found = std::ranges::find(files, name, &BuiltInFile::name);
+  if (found == files.end()) return std::nullopt;
+  return std::string(found->text);
+}
+
+void ShaderFiles::put(std::string name, std::string text) {
+  generated_.insert_or_assign(std::move(name), std::move(text));
+}
+
+std::vector<std::string> ShaderFiles::built_in_names() {
+  std::vector<std::string> names;
+  for (const BuiltInFile& file : built_in_files()) names.emplace_back(file.name);
+  return names;
+}
+
+ShaderSource load_shader_source(const ShaderFiles& files, std::string_view root, const std::vector<Define>& defines) {
+  Loader loader(files);
+  loader.source_.text = "#version 450 core\n";
+  for (const Define& define : defines) {
+    loader.source_.text += fmt::format("#define {} {}\n", define.name, define.value);
+  }
+  loader.append(root, "");
+  return std::move(loader.source_);
+}
+
+std::string translate_log(std::string_view driver_log, const ShaderSource& source) {
+  std::string result;
+  while (!driver_log.empty()) {
+    const std::size_t end = std::min(driver_log.find('\n'), driver_log.size());
+    const std::string line(trimmed(driver_log.substr(0, end)));
+    driver_log.remove_prefix(std::min(end + 1, driver_log.size()));
+    if (line.empty() || line.front() == '\0') continue;
+    const std::optional<Message> message = parse_message(line);
+    if (!result.empty()) result += '\n';
+    if (message && message->file < source.files.size()) {
+      result += fmt::format("glsl/{}:{}: {}", source.files[message->file], message->line, message->text);
+    } else {
+      result += line;
+    }
+  }
+  return result;
+}
+
+}  // namespace penumbra::gl

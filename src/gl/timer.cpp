@@ -1,0 +1,113 @@
+#include "timer.h"
+
+#include <cassert>
+#include <utility>
+
+namespace penumbra::gl {
+
+void delete_query(GLuint id) { glDeleteQueries(1, &id); }
+
+void Timers::begin_frame() {
+  if (mode_ == Mode::off) return;
+  assert(!in_frame_ && stack_.empty());
+  if (rows_.empty()) rows_.push_back({"frame", {}});
+  in_frame_ = true;
+  open_frame_ = start(frame_row);
+}
+
+void Timers::begin(std::string_view name) {
+  if (!in_frame_) return;
+  const std::string full = stack_.empty() ? std::string(name) : rows_[stack_.back().row].name + "/" + std::string(name);
+  stack_.push_back(start(row_index(full)));
+}
+
+void Timers::end() {
+  if (stack_.empty()) return;
+  Open open = std::move(stack_.back());
+  stack_.pop_back();
+  finish(std::move(open));
+}
+
+void Timers::end_frame() {
+  if (!in_frame_) return;
+  assert(stack_.empty());
+  finish(std::move(open_frame_));
+  in_frame_ = false;
+  ++frame_;
+  collect(/*wait=*/false);
+}
+
+std::vector<Timers::Row> Timers::rows() {
+  collect(/*wait=*/true);
+  if (rows_.empty()) return {};
+  std::vector<Row> result(rows_.begin() + 1, rows_.end());
+  result.push_back(rows_[frame_row]);
+  for (Row& row : result) row.milliseconds.resize(frame_, 0.0);
+  return result;
+}
+
+Timers::Open Timers::start(std::size_t row) {
+  Open open;
+  open.row = row;
+  if (mode_ == Mode::query) {
+    open.query = timestamp();
+  } else {
+    glFinish();
+    open.started = Clock::now();
+  }
+  return open;
+}
+
+void Timers::finish(Open open) {
+  if (mode_ == Mode::query) {
+    pending_.push_back({open.row, frame_, std::move(open.query), timestamp()});
+  } else {
+    glFinish();
+    record(open.row, frame_, std::chrono::duration<double, std::milli>(Clock::now() - open.started).count());
+  }
+}
+
+std::size_t Timers::row_index(const std::string& name) {
+  const auto [entry, is_new] = row_indices_.try_emplace(name, rows_.size());
+  if (is_new) rows_.push_back({name, {}});
+  return entry->second;
+}
+
+Handle<delete_query> Timers::timestamp() {
+  Handle<delete_query> query;
+  if (free_queries_.empty()) {
+    GLuint id = 0;
+    glCreateQueries(GL_TIMESTAMP, 1, &id);
+    query = Handle<delete_query>(id);
+  } else {
+    query = std::move(free_queries_.back());
+    free_queries_.pop_back();
+  }
+  glQueryCounter(query.id(), GL_TIMESTAMP);
+  return query;
+}
+
+void Timers::record(std::size_t row, std::size_t frame, double milliseconds) {
+  std::vector<double>& times = rows_[row].milliseconds;
+  if (times.size() <= frame) times.resize(frame + 1, 0.0);
+  times[frame] += milliseconds;
+}
+
+void Timers::collect(bool wait) {
+  while (!pending_.empty()) {
+    Pending& oldest = pending_.front();
+    GLuint available = GL_FALSE;
+    glGetQueryObjectuiv(oldest.end.id(), GL_QUERY_RESULT_AVAILABLE, &available);
+    if (available == GL_FALSE && !wait) return;
+    GLuint64 begin = 0, end = 0;
+    glGetQueryObjectui64v(oldest.begin.id(), GL_QUERY_RESULT, &begin);
+    glGetQueryObjectui64v(oldest.end.id(), GL_QUERY_RESULT, &end);
+    constexpr double milliseconds_per_nanosecond = 1e-6;
+    record(oldest.row, oldest.frame, static_cast<double>(end - begin) * milliseconds_per_nanosecond);
+    free_queries_.push_back(std::move(oldest.begin));
+    free_queries_.push_back(std::move(oldest.end));
+    pending_.pop_front();
+  }
+}
+
+}  // namespace penumbra::gl
