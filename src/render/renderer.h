@@ -2,43 +2,21 @@
 
 #include <glm/glm.hpp>
 #include <memory>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/params.h"
 #include "gl/pass.h"
+#include "render/setup.h"
+#include "render/view.h"
 #include "scene/gpu_scene.h"
-#include "scene/pose.h"
 #include "shadow/soft_shadows.h"
 
 namespace penumbra::render {
 
-// A camera at rest, in world space.
-struct Camera {
-  glm::mat4 view{1};
-  bool orthographic = false;
-  float fov_y = 0.8f;        // radians, of the height
-  float half_height = 1.0f;  // orthographic
-  float near = 0.1f;         // the projection is reversed-Z with an infinite far plane (orthographic: `far`)
-  float far = 1000.0f;
-};
-glm::mat4 projection_of(const Camera& camera, float aspect);
-
-struct Sun {
-  glm::vec3 to_light{0.4f, 0.8f, 0.4f};  // unit
-  glm::vec3 illuminance{100000.0f};      // lux, linear RGB
-};
-
-// What --camera, --eye, --sun and --ground leave open, chosen from the scene.
-struct Setup {
-  Camera camera;
-  Sun sun;
-  bool ground = false;  // a plane under the scene
-  float ground_height = 0;
-};
-
-// What one frame shows. Cameras, sun and pose of the last frame come with it, for motion vectors.
+// What one frame shows. Camera and time of the last frame come with it, for motion vectors; a first frame gives its
+// own.
 struct FrameInputs {
   int width = 1280, height = 720;
   Camera camera, last_camera;
@@ -57,25 +35,28 @@ const std::vector<Aov>& aovs();
 // The finished frame; textures live until the next frame.
 struct Frame {
   const gl::Texture* display = nullptr;  // RGBA8, sRGB-encoded, tone mapped
-  const gl::Texture* color = nullptr;    // RGBA16F or 32F, linear, exposed, before the tone map
+  const gl::Texture* color = nullptr;    // RGBA16F, linear, before the tone map and its automatic exposure
   const gl::Texture* depth = nullptr;
   shadow::Mask mask;
 };
 
 class Renderer {
  public:
-  Renderer(gl::Device& device, shadow::Registry registry);
+  Renderer(gl::Device& device, shadow::Registry registry = shadow::built_in_registry());
   ~Renderer();
 
   // Rows of the shadow library and of the renderer (exposure, sky, …).
   static std::vector<Param> params(const shadow::Registry& registry);
 
+  // `params` holds at least the rows of params().
   const Frame& draw(scene::GpuScene& scene, const FrameInputs& inputs, const ParamSet& params);
   // The last frame's AOV as floats, rows top to bottom, aov.channels.size() a pixel. Throws Error for unknown names.
-  std::vector<float> read_aov(std::string_view name);
+  std::vector<float> read_aov(std::string_view name) const;
+  // The last frame as it is shown: RGB, 8 bits, sRGB, rows top to bottom.
+  std::vector<std::uint8_t> read_display() const;
 
   // Every program that any parameters can build (variants tool, tests).
-  std::vector<gl::ProgramDesc> all_programs(const ParamSet& defaults) const;
+  std::vector<gl::ProgramDesc> all_programs(const ParamSet& defaults);
 
   const shadow::Registry& registry() const;
 

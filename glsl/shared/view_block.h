@@ -1,0 +1,21 @@
+// What passes that draw geometry know of the camera. Read by C++ and GLSL; std140.
+#ifndef PENUMBRA_VIEW_BLOCK_H
+#define PENUMBRA_VIEW_BLOCK_H
+
+#include "language.h"
+
+GLSL_BEGIN
+
+struct ViewBlock {
+  mat4 world_to_clip;
+  mat4 last_world_to_clip;
+  vec4 camera;    // xyz: position, world, metres; w: 1 for orthographic
+  vec4 forward;   // xyz: where it looks, world, unit; w: near plane, metres
+  vec4 ray_x;     // xyz: by how much a ray turns with x in NDC, a ray being forward + x ray_x + y ray_y; 0 if orthographic
+  vec4 ray_y;     // the same with y
+  vec4 viewport;  // xy: size, pixels; zw: its reciprocal
+};
+
+GLSL_END
+
+#endif

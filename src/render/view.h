@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+
+#include "scene/pose.h"
+#include "shared/view_block.h"
+
+namespace penumbra::render {
+
+// A camera at rest, in world space.
+struct Camera {
+  glm::mat4 view{1};  // world to view: right-handed, -Z forward
+  bool orthographic = false;
+  float fov_y = 0.8f;        // radians, of the height
+  float half_height = 1.0f;  // orthographic
+  float near = 0.1f;         // the projection is reversed-Z with an infinite far plane (orthographic: `far`)
+  float far = 1000.0f;
+};
+
+// A camera at `eye` that looks at `target`, upright; straight up and down included.
+Camera look_at(const glm::vec3& eye, const glm::vec3& target, float fov_y, float near);
+
+glm::mat4 projection_of(const Camera& camera, float aspect);
+glm::vec3 position_of(const Camera& camera);
+
+struct Sun {
+  glm::vec3 to_light{0.4f, 0.8f, 0.4f};  // unit
+  glm::vec3 illuminance{100000.0f};      // lux, linear RGB
+};
+
+// What passes that draw geometry know of the camera.
+glsl::ViewBlock view_block(const Camera& camera, const Camera& last_camera, int width, int height);
+
+// The sides of what a camera sees.
+class Frustum {
+ public:
+  explicit Frustum(const glm::mat4& world_to_clip);
+  bool holds(const scene::Bounds& box) const;  // false only if nothing in the box is seen
+
+ private:
+  std::array<glm::vec4, 5> planes_;  // normal and offset, pointing inwards; the far plane is at infinity
+};
+
+}  // namespace penumbra::render

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gl/pass.h"
+#include "scene/pose.h"
+#include "scene/scene.h"
+
+namespace penumbra::scene {
+
+// Decides by an instance's world box whether it is drawn.
+using BoxTest = std::function<bool(const Bounds&)>;
+
+// Which surfaces a pass draws.
+enum class Surfaces { opaque, masked };
+
+enum class Casters {
+  all,
+  moved_now,   // those that moved since the last frame, where they are
+  moved_last,  // those that moved, where they were
+};
+
+// Storage bindings and texture units of the scene's shaders (glsl/scene).
+inline constexpr unsigned view_binding = 4;  // uniform block: ViewBlock
+
+// A scene on the GPU: one set of vertex buffers, one of indices, one of instances. `scene` must outlive it unchanged.
+class GpuScene {
+ public:
+  GpuScene(gl::Device& device, const Scene& scene);
+  ~GpuScene();
+  GpuScene(const GpuScene&) = delete;
+  GpuScene& operator=(const GpuScene&) = delete;
+
+  // Takes the poses of the last and the present frame: matrices, skins and morphs. Work that is already done is kept.
+  void pose(gl::Device& device, double last_time, double time);
+
+  // Draws surfaces with a program that includes glsl/scene/surface.vert; the view's block is bound at view_binding.
+  void draw_surfaces(gl::Device& device, gl::Pass& pass, Surfaces surfaces, const gl::ProgramDesc& program,
+                     const BoxTest& visible);
+  // Draws BLEND surfaces from back to front as seen from `eye`.
+  void draw_blended(gl::Device& device, gl::Pass& pass, const gl::ProgramDesc& program, const glm::vec3& eye,
+                    const BoxTest& visible);
+  // Draws what casts shadows, depth only: opaque surfaces, and of the others what their alpha leaves.
+  void draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
+                    const BoxTest& reaches);
+
+  bool has_blended() const;
+  bool moved() const;      // anything, between the two poses
+  Bounds casters() const;  // world bounds in the present pose
+  Bounds receivers() const;
+  bool lit_by_file() const;  // it brings a directional light, so its emission is in the same units
+
+  // Every program that draw_casters() and pose() use.
+  static std::vector<gl::ProgramDesc> programs();
+
+  // Deformed positions as the last pose() left them, for tests: all vertices of skinned and morphed instances.
+  std::vector<glm::vec3> read_deformed() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace penumbra::scene
