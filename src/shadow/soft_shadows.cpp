@@ -23,14 +23,14 @@ ParamSet with_overrides(const ParamSet& params, const Light& light) {
 }
 
 std::string generated(const Technique& technique, const char* file) {
-  return "generated/" + technique.name + "/" + file;
+  return fmt::format("generated/{}/{}", technique.name, file);
 }
 
 // Drivers know no technique: a generated file puts a technique's function before each.
 void put_drivers(gl::ShaderFiles& files, const Technique& technique) {
   for (const char* driver : {"mask.frag", "mask.comp", "forward.glsl"}) {
     files.put(generated(technique, driver),
-              "#include \"" + technique.glsl + "\"\n#include \"shadow/drivers/" + driver + "\"\n");
+              fmt::format("#include \"{}\"\n#include \"shadow/drivers/{}\"\n", technique.glsl, driver));
   }
 }
 
@@ -109,7 +109,6 @@ SoftShadows::~SoftShadows() = default;
 
 LightFrame SoftShadows::prepare_light(const Inputs& inputs, const Light& light, const ParamSet& params, int layer) {
   const Technique& technique = registry_.find(params.get_word("technique"));
-  const std::string suffix = " " + std::to_string(light.id);
   LightFrame frame;
   frame.layer = layer;
   frame.tan_half_angle = std::tan(glm::radians(params.get_float("sun.angle")) * 0.5f);
@@ -125,14 +124,14 @@ LightFrame SoftShadows::prepare_light(const Inputs& inputs, const Light& light, 
                                               .split_blend = params.get_float("cascades.split"),
                                               .distance = params.get_float("cascades.distance")});
   if ((technique.needs & (needs_shadow_map | needs_depth_pyramid)) != 0) {
-    frame.depth =
-        light.maps
-            ? light.maps->depth.id
-            : draw_shadow_map(device_, {.name = "shadow map" + suffix, .cascades = frame.cascades, .draw = inputs.draw})
-                  .id();
+    frame.depth = light.maps ? light.maps->depth.id
+                             : draw_shadow_map(device_, {.name = fmt::format("shadow map {}", light.id),
+                                                         .cascades = frame.cascades,
+                                                         .draw = inputs.draw})
+                                   .id();
   }
   if ((technique.needs & needs_depth_pyramid) != 0) {
-    frame.pyramid = &build_depth_pyramid(device_, {.name = "depth pyramid" + suffix,
+    frame.pyramid = &build_depth_pyramid(device_, {.name = fmt::format("depth pyramid {}", light.id),
                                                    .depth = frame.depth,
                                                    .size = frame.cascades.size,
                                                    .layers = static_cast<int>(frame.cascades.items.size())});
@@ -153,11 +152,10 @@ void SoftShadows::bind_light(const LightFrame& light, size_t index) {
 void SoftShadows::upload_light(const Inputs& inputs, const LightFrame& light, size_t index) {
   State::PerLight& own = state_->lights[index];
   const bool square = own.params.get_word("sun.shape") == "square";
-  const std::string suffix = " " + std::to_string(index);
   const std::vector<std::byte> params = uniform_bytes(own.params);
-  const gl::Buffer& params_buffer = device_.scratch("shadow params" + suffix, params.size());
-  const gl::Buffer& shadow_buffer = device_.scratch("shadow block" + suffix, sizeof(glsl::ShadowBlock));
-  const gl::Buffer& sample_buffer = device_.scratch("shadow samples" + suffix, sizeof(glsl::SampleBlock));
+  const gl::Buffer& params_buffer = device_.scratch(fmt::format("shadow params {}", index), params.size());
+  const gl::Buffer& shadow_buffer = device_.scratch(fmt::format("shadow block {}", index), sizeof(glsl::ShadowBlock));
+  const gl::Buffer& sample_buffer = device_.scratch(fmt::format("shadow samples {}", index), sizeof(glsl::SampleBlock));
   params_buffer.write(params);
   gl::write_value(shadow_buffer, shadow_block(inputs, light, square));
   gl::write_value(sample_buffer, own.sampling.points);

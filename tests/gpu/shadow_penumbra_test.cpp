@@ -1,0 +1,209 @@
+// Penumbrae against closed forms and against themselves: their width must not depend on how the maps are made.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <string>
+#include <vector>
+
+#include "gpu/triangle_scene.h"
+
+namespace penumbra::test {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// Visibility of a disc or a square sun at zenith under a half-plane, t = distance to its edge over the penumbra's
+// radius.
+double exact_disc(double t) {
+  t = std::clamp(t, -1.0, 1.0);
+  return 0.5 + (t * std::sqrt(1 - t * t) + std::asin(t)) / pi;
+}
+double exact_square(double t) { return 0.5 + 0.5 * std::clamp(t, -1.0, 1.0); }
+
+// A half-plane x < 0 at a height over the plane y = 0, seen from under it. Receivers reach 2.5 penumbra radii to each
+// side.
+TriangleScene knife_edge(float height, float angle_degrees, int width) {
+  const float radius = height * std::tan(glm::radians(angle_degrees) / 2);
+  const float reach = 2.5f * radius;
+  TriangleScene scene;
+  scene.add_quad({-reach, 0, -reach}, {0, 0, 2 * reach}, {2 * reach, 0, 0});
+  scene.add_quad({-20 * reach, height, -20 * reach}, {0, 0, 40 * reach}, {20 * reach, 0, 0});
+  scene.width = width;
+  scene.height = 4;
+  scene.view = glm::lookAt(glm::vec3(0, height / 2, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+  scene.projection =
+      orthographic(1.25f * radius, 1.25f * radius * 4 / static_cast<float>(width), 0.01f * height, height);
+  return scene;
+}
+
+// Largest distance of a profile from the exact one, and where.
+struct Deviation {
+  double worst = 0;
+  double at = 0;
+};
+
+template <class Profile>
+Deviation deviation(const Shadowed& shadowed, float radius, Profile exact) {
+  Deviation result;
+  for (int y = 0; y < shadowed.height; ++y) {
+    for (int x = 0; x < shadowed.width; ++x) {
+      const double t = shadowed.point(x, y).x / radius;
+      const double error = std::abs(shadowed.visibility(x, y) - exact(t));
+      if (error > result.worst) result = {error, t};
+    }
+  }
+  return result;
+}
+
+struct Case {
+  float height, angle;
+};
+constexpr Case cases[] = {{1, 0.53f}, {5, 0.53f}, {20, 0.53f}, {1, 2}, {5, 2}, {20, 2}, {1, 8}, {5, 8}, {20, 8}};
+
+class KnifeEdge : public testing::Test {
+ protected:
+  static ParamSet parameters(TriangleRenderer& renderer, float angle, const std::string& shape) {
+    ParamSet params = renderer.params();
+    params.set("sun.angle", angle);
+    params.set("sun.shape", shape);
+    params.set("cascades.count", 1);
+    params.set("cascades.size", 512);
+    return params;
+  }
+  static void expect_wide_kernel(const TriangleRenderer& renderer, float radius) {
+    ASSERT_GE(radius / renderer.mask().lights[0].cascades.texel(0), 24) << "the case is framed too wide";
+  }
+  TriangleRenderer renderer_;
+};
+
+TEST_F(KnifeEdge, BruteForceWithEveryTexelMatchesTheExactFunction) {
+  for (const std::string shape : {"disc", "square"}) {
+    for (const Case& c : cases) {
+      ParamSet params = parameters(renderer_, c.angle, shape);
+      params.set("technique", std::string("brute_force"));
+      params.set("brute_force.every_texel", true);
+      const float radius = c.height * std::tan(glm::radians(c.angle) / 2);
+      const Shadowed shadowed = renderer_.render(knife_edge(c.height, c.angle, 128), params);
+      expect_wide_kernel(renderer_, radius);
+      const Deviation d = deviation(shadowed, radius, shape == "disc" ? exact_disc : exact_square);
+      EXPECT_LE(d.worst, 0.02) << shape << " sun of " << c.angle << " degrees, caster at " << c.height
+                               << " m, t = " << d.at;
+    }
+  }
+}
+
+TEST_F(KnifeEdge, PcssAveragedOverRotationsMatchesTheExactFunction) {
+  for (const std::string shape : {"disc", "square"}) {
+    for (const Case& c : cases) {
+      ParamSet params = parameters(renderer_, c.angle, shape);
+      params.set("pcss.blocker_taps", 64);
+      params.set("pcss.filter_taps", 64);
+      const float radius = c.height * std::tan(glm::radians(c.angle) / 2);
+      const TriangleScene scene = knife_edge(c.height, c.angle, 64);
+      Shadowed mean = renderer_.render(scene, params);
+      for (int seed = 1; seed < 64; ++seed) {
+        params.set("sampling.seed", seed);
+        const Shadowed one = renderer_.render(scene, params);
+        for (size_t i = 0; i < mean.mask.size(); ++i) mean.mask[i] += one.mask[i];
+      }
+      for (float& value : mean.mask) value /= 64;
+      expect_wide_kernel(renderer_, radius);
+      const Deviation d = deviation(mean, radius, shape == "disc" ? exact_disc : exact_square);
+      EXPECT_LE(d.worst, 0.03) << shape << " sun of " << c.angle << " degrees, caster at " << c.height
+                               << " m, t = " << d.at;
+    }
+  }
+}
+
+// Distance over which a rising profile goes from 10 to 90 % of its range.
+double width_10_90(const std::vector<double>& profile, double step) {
+  const auto crossing = [&](double level) {
+    for (size_t i = 1; i < profile.size(); ++i) {
+      if (profile[i - 1] < level && profile[i] >= level) {
+        return static_cast<double>(i - 1) + (level - profile[i - 1]) / (profile[i] - profile[i - 1]);
+      }
+    }
+    return std::nan("");
+  };
+  return (crossing(0.9) - crossing(0.1)) * step;
+}
+
+// The knife edge's width under a sun of `angle`, with the receiver plane framed so that `cascades` matter: a plane seen
+// in perspective, the edge running along the view, the profile averaged over the rows at a distance.
+double width_at(TriangleRenderer& renderer, int cascades, int size, bool far_object, float distance,
+                double* kernel_texels) {
+  const float height = 4;
+  const float angle = 4;
+  const float radius = height * std::tan(glm::radians(angle) / 2);
+  TriangleScene scene;
+  scene.add_quad({-60, 0, -120}, {0, 0, 125}, {120, 0, 0});
+  scene.add_quad({-60, height, -120}, {0, 0, 125}, {60, 0, 0});
+  if (far_object) scene.add_box({400, 0, -3000}, {420, 60, -2980});
+  scene.width = 192;
+  scene.height = 224;
+  // Under the caster, looking down at the edge's shadow `distance` metres away, so that the picture covers the
+  // penumbra.
+  const glm::vec3 eye{0, 2, 4};
+  const glm::vec3 target{0, 0, 4 - distance};
+  scene.view = glm::lookAt(eye, target, glm::vec3(0, 1, 0));
+  const float fov = 2 * std::atan(1.3f * radius / glm::length(target - eye));
+  scene.projection = perspective(fov, static_cast<float>(scene.width) / static_cast<float>(scene.height), 0.1f);
+  ParamSet params = renderer.params();
+  params.set("technique", std::string("pcss"));
+  params.set("pcss.blocker_taps", 64);
+  params.set("pcss.filter_taps", 64);
+  params.set("sun.angle", angle);
+  params.set("cascades.count", cascades);
+  params.set("cascades.size", size);
+  const Shadowed shadowed = renderer.render(scene, params);
+  const int bins = 96;
+  std::vector<double> sum(bins, 0.0), count(bins, 0.0);
+  int finest = 0;
+  for (int y = 0; y < shadowed.height; ++y) {
+    for (int x = 0; x < shadowed.width; ++x) {
+      if (shadowed.sky(x, y)) continue;
+      const double t = shadowed.point(x, y).x / radius;
+      const int bin = static_cast<int>(std::floor((t + 1.2) / 2.4 * bins));
+      if (bin < 0 || bin >= bins) continue;
+      sum[static_cast<size_t>(bin)] += shadowed.visibility(x, y);
+      count[static_cast<size_t>(bin)] += 1;
+      finest = std::max(finest, static_cast<int>(shadowed.mask[4 * static_cast<size_t>(y * shadowed.width + x) + 3]));
+    }
+  }
+  *kernel_texels = radius / renderer.mask().lights[0].cascades.texel(finest);
+  std::vector<double> profile;
+  for (size_t i = 0; i < sum.size(); ++i) profile.push_back(count[i] > 0 ? sum[i] / count[i] : std::nan(""));
+  return width_10_90(profile, 2.4 * radius / bins);
+}
+
+TEST(PenumbraWidth, IsTheSameForEveryCascadeCountMapSizeAndBounds) {
+  TriangleRenderer renderer;
+  int qualified = 0;
+  int all = 0;
+  for (const float distance : {4.0f, 12.0f, 30.0f}) {
+    double least = 1e9;
+    double greatest = 0;
+    for (const int cascades : {1, 2, 4, 8}) {
+      for (const int size : {1024, 2048, 4096}) {
+        for (const bool far_object : {false, true}) {
+          double texels = 0;
+          const double width = width_at(renderer, cascades, size, far_object, distance, &texels);
+          ++all;
+          if (texels < 4) continue;
+          ++qualified;
+          ASSERT_TRUE(std::isfinite(width)) << cascades << " cascades of " << size << " at " << distance << " m";
+          least = std::min(least, width);
+          greatest = std::max(greatest, width);
+        }
+      }
+    }
+    EXPECT_LE(greatest / least, 1.03) << "at " << distance << " m: from " << least << " to " << greatest;
+  }
+  EXPECT_GE(2 * qualified, all) << "too few cases have a kernel of 4 texels";
+}
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,174 @@
+#include "triangle_scene.h"
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace penumbra::test {
+
+namespace {
+
+constexpr const char* vertex_text = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+uniform mat4 world_to_clip;
+flat out vec3 world_normal;
+void main() {
+  gl_Position = world_to_clip * vec4(position, 1.0);
+  world_normal = normal;
+}
+)";
+
+constexpr const char* fragment_text = R"(
+#include "lib/octahedral.glsl"
+flat in vec3 world_normal;
+layout(location = 0) out vec2 encoded;
+void main() { encoded = octahedral_encode(gl_FrontFacing ? world_normal : -world_normal); }
+)";
+
+const gl::ProgramDesc receiver_program{
+    .name = "test receivers", .vertex = "test/scene.vert", .fragment = "test/scene.frag"};
+const gl::ProgramDesc caster_program{.name = "test casters", .vertex = "test/scene.vert"};
+
+struct Vertex {
+  glm::vec3 position, normal;
+};
+
+// The triangles' vertices on the GPU, with the vertex array that reads them.
+class Geometry {
+ public:
+  explicit Geometry(const std::vector<Triangle>& triangles) {
+    std::vector<Vertex> vertices;
+    for (const Triangle& t : triangles) {
+      const glm::vec3 normal = glm::normalize(glm::cross(t.b - t.a, t.c - t.a));
+      for (const glm::vec3& corner : {t.a, t.b, t.c}) vertices.push_back({corner, normal});
+    }
+    count_ = static_cast<GLsizei>(vertices.size());
+    buffer_ = gl::Buffer::of("test vertices", std::span<const Vertex>(vertices));
+    gl::glCreateVertexArrays(1, &array_);
+    gl::glVertexArrayVertexBuffer(array_, 0, buffer_.id(), 0, sizeof(Vertex));
+    for (GLuint i = 0; i < 2; ++i) {
+      gl::glEnableVertexArrayAttrib(array_, i);
+      gl::glVertexArrayAttribFormat(array_, i, 3, GL_FLOAT, GL_FALSE, i * sizeof(glm::vec3));
+      gl::glVertexArrayAttribBinding(array_, i, 0);
+    }
+  }
+  ~Geometry() { gl::glDeleteVertexArrays(1, &array_); }
+  Geometry(const Geometry&) = delete;
+  Geometry& operator=(const Geometry&) = delete;
+
+  void draw() const {
+    gl::glBindVertexArray(array_);
+    gl::glDrawArrays(GL_TRIANGLES, 0, count_);
+  }
+
+ private:
+  gl::Buffer buffer_;
+  GLuint array_ = 0;
+  GLsizei count_ = 0;
+};
+
+shadow::Box bounds_of(const TriangleScene& scene) {
+  if (scene.bounds) return *scene.bounds;
+  shadow::Box box{glm::vec3(1e30f), glm::vec3(-1e30f)};
+  for (const Triangle& t : scene.triangles) {
+    for (const glm::vec3& corner : {t.a, t.b, t.c}) box = {glm::min(box.min, corner), glm::max(box.max, corner)};
+  }
+  return box;
+}
+
+}  // namespace
+
+void TriangleScene::add_quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
+  triangles.push_back({corner, corner + u, corner + u + v});
+  triangles.push_back({corner, corner + u + v, corner + v});
+}
+
+void TriangleScene::add_box(const glm::vec3& min, const glm::vec3& max) {
+  const glm::vec3 size = max - min;
+  const glm::vec3 x{size.x, 0, 0};
+  const glm::vec3 y{0, size.y, 0};
+  const glm::vec3 z{0, 0, size.z};
+  add_quad(min, y, x);
+  add_quad(min + z, x, y);
+  add_quad(min, z, y);
+  add_quad(min + x, y, z);
+  add_quad(min, x, z);
+  add_quad(min + y, z, x);
+}
+
+glm::mat4 orthographic(float half_width, float half_height, float near, float far) {
+  glm::mat4 m(1);
+  m[0][0] = 1 / half_width;
+  m[1][1] = 1 / half_height;
+  m[2][2] = 1 / (far - near);
+  m[3][2] = far / (far - near);
+  return m;
+}
+
+glm::mat4 perspective(float fov_y, float aspect, float near) {
+  const float scale = 1 / std::tan(fov_y / 2);
+  glm::mat4 m(0);
+  m[0][0] = scale / aspect;
+  m[1][1] = scale;
+  m[2][3] = -1;
+  m[3][2] = near;
+  return m;
+}
+
+glm::vec3 sun_direction(float azimuth_degrees, float elevation_degrees) {
+  const float azimuth = glm::radians(azimuth_degrees);
+  const float elevation = glm::radians(elevation_degrees);
+  return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth)};
+}
+
+TriangleRenderer::TriangleRenderer() : device_(gl::ShaderFiles(), gl::Timers::Mode::off), shadows_(device_) {
+  device_.shaders.files().put("test/scene.vert", vertex_text);
+  device_.shaders.files().put("test/scene.frag", fragment_text);
+}
+
+Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& params) {
+  const Geometry geometry(scene.triangles);
+  const gl::Texture& depth =
+      device_.target("test depth", {.format = GL_DEPTH_COMPONENT32F, .width = scene.width, .height = scene.height});
+  const gl::Texture& normals =
+      device_.target("test normals", {.format = GL_RG32F, .width = scene.width, .height = scene.height});
+  {
+    gl::Pass pass(device_, {.name = "receivers",
+                            .colors = {{.texture = &normals, .clear = glm::vec4(0)}},
+                            .depth = gl::Attachment{.texture = &depth, .clear = glm::vec4(0)},
+                            .depth_test = gl::DepthTest::greater_equal,
+                            .depth_write = true});
+    pass.use(receiver_program).set("world_to_clip", scene.projection * scene.view);
+    geometry.draw();
+  }
+  const shadow::Light light{.to_light = scene.to_light};
+  const auto draw = [&geometry](const shadow::CasterPass& casters, gl::Pass& pass) {
+    pass.use(caster_program).set("world_to_clip", casters.world_to_clip);
+    geometry.draw();
+  };
+  mask_ = shadows_.render({.view = {.view = scene.view, .projection = scene.projection},
+                           .depth = {depth.id(), scene.width, scene.height},
+                           .normals = {normals.id(), scene.width, scene.height},
+                           .lights = {&light, 1},
+                           .casters = bounds_of(scene),
+                           .receivers = bounds_of(scene),
+                           .draw = draw},
+                          params);
+  Shadowed result{.width = scene.width,
+                  .height = scene.height,
+                  .mask = gl::read_floats(*mask_.texture, 4),
+                  .depth = gl::read_floats(depth, 1),
+                  .points = {}};
+  const glm::dmat4 clip_to_world = glm::inverse(glm::dmat4(scene.projection) * glm::dmat4(scene.view));
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      const double stored = result.depth[static_cast<size_t>(y * scene.width + x)];
+      const glm::dvec4 p =
+          clip_to_world * glm::dvec4((x + 0.5) / scene.width * 2 - 1, (y + 0.5) / scene.height * 2 - 1, stored, 1);
+      result.points.emplace_back(glm::dvec3(p) / p.w);
+    }
+  }
+  return result;
+}
+
+}  // namespace penumbra::test

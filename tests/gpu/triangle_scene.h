@@ -1,0 +1,64 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gl/pass.h"
+#include "shadow/soft_shadows.h"
+
+namespace penumbra::test {
+
+struct Triangle {
+  glm::vec3 a, b, c;
+};
+
+// A few triangles, a camera and a sun: enough to hand the shadow library its inputs as an engine would.
+struct TriangleScene {
+  std::vector<Triangle> triangles;
+  glm::mat4 view{1}, projection{1};
+  int width = 64, height = 64;
+  glm::vec3 to_light{0, 1, 0};
+  std::optional<shadow::Box> bounds;  // of casters and receivers alike; else those of the triangles
+
+  void add_quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v);
+  void add_box(const glm::vec3& min, const glm::vec3& max);
+};
+
+// Reversed-Z, z in 0..1.
+glm::mat4 orthographic(float half_width, float half_height, float near, float far);
+glm::mat4 perspective(float fov_y, float aspect, float near);
+glm::vec3 sun_direction(float azimuth_degrees, float elevation_degrees);
+
+// What the library made of the scene, row by row from the bottom.
+struct Shadowed {
+  int width = 0, height = 0;
+  std::vector<float> mask;        // 4 a pixel: visibility, penumbra radius, blocker distance, cascade
+  std::vector<float> depth;       // as stored
+  std::vector<glm::vec3> points;  // world position under each pixel
+
+  float visibility(int x, int y) const { return mask[4 * static_cast<size_t>(y * width + x)]; }
+  float penumbra_radius(int x, int y) const { return mask[4 * static_cast<size_t>(y * width + x) + 1]; }
+  const glm::vec3& point(int x, int y) const { return points[static_cast<size_t>(y * width + x)]; }
+  bool sky(int x, int y) const { return depth[static_cast<size_t>(y * width + x)] == 0; }
+};
+
+// Draws scenes on one device with one facade.
+class TriangleRenderer {
+ public:
+  TriangleRenderer();
+  // Parameters at their defaults; change and pass them to render().
+  ParamSet params() const { return ParamSet(shadows_.registry().params()); }
+  Shadowed render(const TriangleScene& scene, const ParamSet& params);
+  gl::Device& device() { return device_; }
+  shadow::SoftShadows& shadows() { return shadows_; }
+  const shadow::Mask& mask() const { return mask_; }
+
+ private:
+  gl::Device device_;
+  shadow::SoftShadows shadows_;
+  shadow::Mask mask_;
+};
+
+}  // namespace penumbra::test
