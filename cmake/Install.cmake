@@ -9,8 +9,15 @@ set(header_dir "${CMAKE_INSTALL_INCLUDEDIR}/penumbra")
 install(TARGETS penumbra_core penumbra_gl penumbra_shadow EXPORT penumbra
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
-foreach(layer core gl shadow)
-  install(DIRECTORY "${CMAKE_SOURCE_DIR}/src/${layer}/" DESTINATION "${header_dir}/${layer}" FILES_MATCHING PATTERN "*.h")
+# What an engine may include; the other headers are the library's own.
+set(public_headers
+  core/error.h core/log.h core/names.h core/params.h
+  gl/buffer.h gl/context.h gl/debug.h gl/handle.h gl/pass.h gl/program.h gl/shader_library.h gl/shader_source.h
+  gl/texture.h gl/timer.h
+  shadow/cascades.h shadow/soft_shadows.h shadow/technique.h)
+foreach(header IN LISTS public_headers)
+  get_filename_component(layer "${header}" DIRECTORY)
+  install(FILES "${CMAKE_SOURCE_DIR}/src/${header}" DESTINATION "${header_dir}/${layer}")
 endforeach()
 install(FILES "${PENUMBRA_GL_API_HEADER}" DESTINATION "${header_dir}/gl")
 

@@ -2,11 +2,13 @@
 
 import os
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
+import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("PENUMBRA_PROGRAM") or str(ROOT / "build" / "release" / "penumbra")
@@ -18,6 +20,39 @@ def run(*arguments, timeout=300, **options):
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, **options)
 
 
+def read_png(path):
+    """Rows of pixels, a tuple of 8-bit channels each, of a PNG without interlacing or a palette."""
+    data = pathlib.Path(path).read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n", f"{path} is not a PNG"
+    width, height, depth, color = struct.unpack(">IIBB", data[16:26])
+    assert depth == 8, f"{path} has {depth} bits a channel"
+    channels = {0: 1, 2: 3, 4: 2, 6: 4}[color]
+    packed, at = b"", 8
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at : at + 8])
+        packed += data[at + 8 : at + 8 + length] if kind == b"IDAT" else b""
+        at += length + 12
+    lines, stride = zlib.decompress(packed), width * channels
+    rows, above = [], bytes(stride)
+    for y in range(height):
+        line = lines[y * (stride + 1) : (y + 1) * (stride + 1)]
+        above = _unfilter(line[0], line[1:], above, channels)
+        rows.append([tuple(above[x : x + channels]) for x in range(0, stride, channels)])
+    return rows
+
+
+def _unfilter(kind, line, above, channels):
+    """One row of a PNG without its prediction (PNG specification, section 9)."""
+    row = bytearray(line)
+    for i in range(len(row)):
+        left = row[i - channels] if i >= channels else 0
+        up = above[i]
+        corner = above[i - channels] if i >= channels else 0
+        nearest = min((left, up, corner), key=lambda value: abs(left + up - corner - value))
+        row[i] = (row[i] + (0, left, up, (left + up) // 2, nearest)[kind]) & 255
+    return bytes(row)
+
+
 def assets(folder):
     """A folder of third-party assets; skips the test where there are none."""
     base = os.environ.get("PENUMBRA_ASSETS")
@@ -26,11 +61,15 @@ def assets(folder):
     return pathlib.Path(base) / folder
 
 
+def temporary_folder():
+    return tempfile.TemporaryDirectory(prefix="penumbra-test-")
+
+
 class TestCase(unittest.TestCase):
     """A test with a folder of its own, removed afterwards."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
+        folder = temporary_folder()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 

@@ -1,0 +1,42 @@
+#pragma once
+
+// A little engine with habits of its own: its own context, its own GL loader, OpenGL's default depth (near 0, far 1,
+// clip space -1..1) and normals stored as they are. Nothing here knows Penumbra.
+#include <GL/glcorearb.h>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace engine {
+
+constexpr int width = 320;
+constexpr int height = 240;
+
+// A square that hovers over a large floor.
+constexpr glm::vec3 caster_center{0.0f, 1.0f, 0.0f};
+constexpr float caster_half = 0.5f;
+constexpr float floor_half = 6.0f;
+
+void make_context();  // throws std::runtime_error
+void* proc_address(const char* name);
+
+struct Targets {
+  GLuint depth = 0, normals = 0;
+};
+
+struct Scene {
+  Scene();
+  void draw(const glm::mat4& world_to_clip, bool casters_only) const;
+  GLuint program = 0, vertices = 0;
+};
+
+glm::mat4 view();
+glm::mat4 projection();
+
+// The depth and normals of a frame, drawn with the engine's conventions.
+Targets draw_frame(const Scene& scene);
+
+// A depth array of one layer a matrix: near 0, far 1, clip-space depth 0..1.
+GLuint draw_depth_array(const Scene& scene, const glm::mat4* world_to_clip, int count, int size);
+
+}  // namespace engine

@@ -1,0 +1,101 @@
+// The engine hands its depth, its normals and a callback that draws its casters to Penumbra, gets a shadow mask, and
+// looks at it: under the square is umbra, beside it light, in between penumbra. Then the same with maps of its own.
+#include <penumbra/gl/context.h>
+#include <penumbra/shadow/soft_shadows.h>
+
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+
+#include "engine.h"
+
+namespace {
+
+using namespace penumbra;
+
+struct Setting {
+  const engine::Scene& scene;
+  engine::Targets targets;
+  glm::vec3 to_light;
+};
+
+shadow::Inputs inputs_of(const Setting& setting, std::span<const shadow::Light> lights) {
+  const glm::vec3 ground(engine::floor_half, 0, engine::floor_half);
+  const glm::vec3 reach(engine::caster_half, 0, engine::caster_half);
+  shadow::Inputs inputs;
+  inputs.view.view = inputs.view.last_view = engine::view();
+  inputs.view.projection = inputs.view.last_projection = engine::projection();
+  inputs.conventions = {.reversed_z = false, .depth_zero_to_one = false, .octahedral_normals = false};
+  inputs.depth = {setting.targets.depth, engine::width, engine::height};
+  inputs.normals = {setting.targets.normals, engine::width, engine::height};
+  inputs.lights = lights;
+  inputs.casters = {glm::min(engine::caster_center - reach, -ground), glm::max(engine::caster_center + reach, ground)};
+  inputs.receivers = inputs.casters;
+  inputs.draw = [&scene = setting.scene](const shadow::CasterPass& pass, gl::Pass&) {
+    scene.draw(pass.world_to_clip, /*casters_only=*/false);
+  };
+  return inputs;
+}
+
+float visibility_at(const std::vector<float>& mask, const glm::vec3& point) {
+  const glm::vec4 clip = engine::projection() * engine::view() * glm::vec4(point, 1);
+  const glm::vec2 pixel = (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * glm::vec2(engine::width, engine::height);
+  return mask[static_cast<size_t>(4 * (static_cast<int>(pixel.y) * engine::width + static_cast<int>(pixel.x)))];
+}
+
+void expect(bool holds, const char* what) {
+  if (!holds) throw std::runtime_error(what);
+}
+
+void check_mask(const std::vector<float>& mask, const Setting& setting) {
+  const glm::vec3 umbra = engine::caster_center - setting.to_light * (engine::caster_center.y / setting.to_light.y);
+  expect(visibility_at(mask, umbra) < 0.01f, "the middle of the square's shadow is not dark");
+  expect(visibility_at(mask, umbra + glm::vec3(0, 0, 2)) > 0.99f, "the floor beside the shadow is not lit");
+  int penumbra_pixels = 0;
+  for (size_t i = 0; i < mask.size(); i += 4) penumbra_pixels += mask[i] > 0.1f && mask[i] < 0.9f;
+  expect(penumbra_pixels > 100, "the shadow has no penumbra");
+}
+
+// One matrix a cascade, for maps that the engine draws itself.
+shadow::FinishedMaps draw_own_maps(const Setting& setting, const shadow::Cascades& cascades) {
+  std::vector<glm::mat4> matrices;
+  for (const shadow::Cascade& cascade : cascades.items) matrices.emplace_back(cascade.world_to_clip);
+  const int count = static_cast<int>(matrices.size());
+  const GLuint depth = engine::draw_depth_array(setting.scene, matrices.data(), count, cascades.size);
+  return {{depth, cascades.size, cascades.size}, cascades};
+}
+
+void run() {
+  engine::make_context();
+  gl::load_api(engine::proc_address);
+  const engine::Scene scene;
+  const Setting setting{scene, engine::draw_frame(scene), glm::normalize(glm::vec3(-1, 2, 0.5f))};
+
+  gl::Device device(gl::ShaderFiles(), gl::Timers::Mode::off);
+  shadow::SoftShadows shadows(device);
+  ParamSet params(shadows.registry().params());
+  params.assign("sun.angle=8");
+
+  std::vector<shadow::Light> lights(1);
+  lights[0].to_light = setting.to_light;
+  const shadow::Mask drawn = shadows.render(inputs_of(setting, lights), params);
+  const std::vector<float> mask = gl::read_floats(*drawn.texture, 4);
+  check_mask(mask, setting);
+
+  lights[0].maps = draw_own_maps(setting, drawn.lights[0].cascades);
+  const shadow::Mask given = shadows.render(inputs_of(setting, lights), params);
+  expect(gl::read_floats(*given.texture, 4) == mask, "maps of the engine's own give another mask than the callback");
+  std::puts("mask as expected");
+}
+
+}  // namespace
+
+int main() {
+  try {
+    run();
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+}
