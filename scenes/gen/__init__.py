@@ -1,10 +1,13 @@
 """The generator of Penumbra's own scenes: a glTF writer, shapes, textures, and the scenes by name."""
 
-from . import measure
+from . import measure, story
 
 SCENES = {
     "knife_edge": measure.knife_edge,
     "posts": measure.posts,
     "steps": measure.steps,
+    "thesis": story.thesis,
+    "moving": story.moving,
     "fence": measure.fence,
+    "foliage": story.foliage,
 }
