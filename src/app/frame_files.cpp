@@ -1,0 +1,92 @@
+#include "app/frame_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/picture.h"
+#include "io/image_write.h"
+
+namespace penumbra::app {
+
+namespace {
+
+constexpr std::string_view color_name = "color";
+
+const render::Aov& find_aov(std::string_view name) {
+  const std::vector<render::Aov>& all = render::aovs();
+  return *std::find_if(all.begin(), all.end(), [&](const render::Aov& aov) { return aov.name == name; });
+}
+
+// An AOV at the picture's size. A cascade's number is a label and has no mean.
+std::vector<float> read_layer(const render::Renderer& renderer, const RenderOptions& options, const render::Aov& aov) {
+  const int channels = static_cast<int>(aov.channels.size());
+  const auto reduce = aov.name == "cascade" ? pick_middle : box_filter;
+  return reduce(renderer.read_aov(aov.name), options.size.width, options.size.height, channels, options.supersample);
+}
+
+std::string text_of(const glm::vec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
+
+io::Metadata metadata_of(const RenderOptions& options, const Stage& stage, const ParamSet& params, int frame) {
+  const render::Camera& camera = stage.camera;
+  const glm::vec3 forward = -glm::vec3(camera.view[0][2], camera.view[1][2], camera.view[2][2]);
+  io::Metadata metadata{{"Software", version()},
+                        {"penumbra:scene", options.scene},
+                        {"penumbra:technique", params.get_word("technique")},
+                        {"penumbra:frame", std::to_string(frame)},
+                        {"penumbra:time", fmt::format("{}", time_of(options, frame))},
+                        {"penumbra:supersample", std::to_string(options.supersample)},
+                        {"penumbra:camera.eye", text_of(render::position_of(camera))},
+                        {"penumbra:camera.forward", text_of(forward)},
+                        {"penumbra:sun.to_light", text_of(stage.sun.to_light)},
+                        {"penumbra:sun.illuminance", text_of(stage.sun.illuminance)}};
+  if (camera.orthographic) {
+    metadata.emplace_back("penumbra:camera.half_height", fmt::format("{}", camera.half_height));
+  } else {
+    metadata.emplace_back("penumbra:camera.fov", fmt::format("{}", glm::degrees(camera.fov_y)));
+  }
+  for (const Param& param : params.rows())
+    metadata.emplace_back("penumbra:param." + param.name, to_text(params.value(param.name)));
+  return metadata;
+}
+
+void write_pngs(const render::Renderer& renderer, const RenderOptions& options, const OutputNames& names, int frame) {
+  const auto [width, height] = options.size;
+  const io::Metadata metadata{{"Software", version()}};
+  const Bytes display = display_bytes(renderer.read_display(), width, height, options.supersample);
+  io::write_png(names.picture(frame), width, height, display.channels, display.pixels, metadata);
+  for (const std::string& name : options.aovs) {
+    if (name == color_name) continue;
+    const render::Aov& aov = find_aov(name);
+    const Bytes bytes = aov_bytes(name, static_cast<int>(aov.channels.size()), read_layer(renderer, options, aov));
+    io::write_png(names.aov(frame, name), width, height, bytes.channels, bytes.pixels, metadata);
+  }
+}
+
+void write_layers(const render::Renderer& renderer, const RenderOptions& options, const io::Metadata& metadata,
+                  const OutputNames& names, int frame) {
+  std::vector<std::string> wanted{std::string(color_name)};
+  std::remove_copy(options.aovs.begin(), options.aovs.end(), std::back_inserter(wanted), color_name);
+  std::vector<io::Layer> layers;
+  for (const std::string& name : wanted) {
+    const render::Aov& aov = find_aov(name);
+    layers.push_back({name == color_name ? "" : name, aov.channels, read_layer(renderer, options, aov)});
+  }
+  io::write_exr(names.picture(frame), options.size.width, options.size.height, layers, metadata);
+}
+
+}  // namespace
+
+void write_frame(const render::Renderer& renderer, const RenderOptions& options, const Stage& stage,
+                 const ParamSet& params, const OutputNames& names, int frame) {
+  if (names.is_exr()) {
+    write_layers(renderer, options, metadata_of(options, stage, params, frame), names, frame);
+  } else {
+    write_pngs(renderer, options, names, frame);
+  }
+}
+
+}  // namespace penumbra::app

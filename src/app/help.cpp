@@ -1,0 +1,102 @@
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/usage.h"
+#include "core/names.h"
+#include "render/renderer.h"
+
+namespace penumbra::app {
+
+namespace {
+
+std::string range_of(const Param& param) {
+  if (!param.choices.empty() || std::holds_alternative<bool>(param.default_value)) return type_name(param);
+  return fmt::format("{}, {:g} to {:g}", type_name(param), param.min, param.max);
+}
+
+void print_param(const Param& param) {
+  fmt::print("{}: {}\n\n", param.name, param.help);
+  fmt::print("  type     {}\n", range_of(param));
+  fmt::print("  default  {}\n", to_text(param.default_value));
+  if (!param.unit.empty()) fmt::print("  unit     {}\n", param.unit);
+  fmt::print("\n  penumbra render SCENE -o FILE --set {}={}\n", param.name, to_text(param.default_value));
+}
+
+void print_technique(const shadow::Technique& technique) {
+  fmt::print("{}: {}\n", technique.name, technique.summary);
+  if (!technique.source.empty()) fmt::print("\n  source  {}\n", technique.source);
+  fmt::print("\n  penumbra render SCENE -o FILE --technique {}\n", technique.name);
+  if (technique.params.empty()) return;
+  fmt::print("\nIts parameters:\n");
+  for (const Param& param : technique.params)
+    fmt::print("  {} = {}  {}\n", param.name, to_text(param.default_value), param.help);
+}
+
+bool explain_command(const std::string& name) {
+  for (const Command& command : commands()) {
+    if (name != command.name || command.run == run_help) continue;
+    command.run({"--help"});
+    return true;
+  }
+  return false;
+}
+
+bool explain_technique(const std::string& name) {
+  const shadow::Registry& registry = shadow::built_in_registry();
+  for (const shadow::Alias& alias : registry.aliases()) {
+    if (alias.name != name) continue;
+    fmt::print("{}: {}\n\n  {} with {}\n", alias.name, alias.summary, alias.technique,
+               fmt::join(alias.assignments, ", "));
+    return true;
+  }
+  for (const shadow::Technique& technique : registry.techniques()) {
+    if (technique.name != name) continue;
+    print_technique(technique);
+    return true;
+  }
+  return false;
+}
+
+bool explain_param(const std::string& name) {
+  for (const Param& param : render::Renderer::params(shadow::built_in_registry())) {
+    if (param.name != name) continue;
+    print_param(param);
+    return true;
+  }
+  return false;
+}
+
+bool explain_aov(const std::string& name) {
+  for (const render::Aov& aov : render::aovs()) {
+    if (aov.name != name) continue;
+    fmt::print("{}: {}\n\n  channels  {}\n\n  penumbra render SCENE -o FILE --aov {}\n", aov.name, aov.help,
+               fmt::join(aov.channels, ", "), aov.name);
+    return true;
+  }
+  return false;
+}
+
+std::vector<std::string> explained_names() {
+  std::vector<std::string> names = shadow::built_in_registry().names();
+  for (const Command& command : commands()) names.emplace_back(command.name);
+  for (const render::Aov& aov : render::aovs()) names.push_back(aov.name);
+  for (const Param& param : render::Renderer::params(shadow::built_in_registry())) names.push_back(param.name);
+  return names;
+}
+
+}  // namespace
+
+int run_help(const Arguments& arguments) {
+  CLI::App app("Explain a parameter, technique, AOV or sub-command", "penumbra help");
+  std::string name;
+  app.add_option("NAME", name, "What to explain")->required()->type_name("");
+  if (!parse(app, arguments)) return 0;
+  if (explain_command(name) || explain_technique(name) || explain_param(name) || explain_aov(name)) return 0;
+  const std::vector<std::string> near = near_names(name, explained_names());
+  if (near.empty()) fail_usage("nothing is called '{}'; see penumbra list techniques, params or aovs", name);
+  fail_usage("nothing is called '{}'; did you mean '{}'?", name, fmt::join(near, "' or '"));
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,123 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "app/commands.h"
+#include "app/usage.h"
+#include "core/names.h"
+#include "io/report.h"
+#include "render/renderer.h"
+
+namespace penumbra::app {
+
+namespace {
+
+using io::Json;
+
+// What can be listed: one row a thing, each with at least a "name" and a "help".
+struct Listing {
+  const char* name;
+  Json (*rows)();
+};
+
+Json technique_rows() {
+  Json rows = Json::array();
+  const shadow::Registry& registry = shadow::built_in_registry();
+  for (const shadow::Technique& technique : registry.techniques()) {
+    Json params = Json::array();
+    for (const Param& param : technique.params) params.push_back(param.name);
+    rows.push_back(
+        {{"name", technique.name}, {"help", technique.summary}, {"source", technique.source}, {"params", params}});
+  }
+  for (const shadow::Alias& alias : registry.aliases()) {
+    rows.push_back(
+        {{"name", alias.name}, {"help", alias.summary}, {"alias_of", alias.technique}, {"sets", alias.assignments}});
+  }
+  return rows;
+}
+
+Json param_rows() {
+  Json rows = Json::array();
+  for (const Param& param : render::Renderer::params(shadow::built_in_registry())) rows.push_back(io::to_json(param));
+  return rows;
+}
+
+Json aov_rows() {
+  Json rows = Json::array();
+  for (const render::Aov& aov : render::aovs())
+    rows.push_back({{"name", aov.name}, {"help", aov.help}, {"channels", aov.channels}});
+  return rows;
+}
+
+Json backend_rows() {
+  return {{{"name", "auto"}, {"help", "The first that works of egl and osmesa."}},
+          {{"name", "egl"},
+           {"help", "Without a display: Mesa's surfaceless platform, or a GPU of a server (--egl-device)."}},
+          {{"name", "osmesa"}, {"help", "Mesa's software rasteriser as a library, where nothing else is."}},
+          {{"name", "window"}, {"help", "An invisible window on a display."}}};
+}
+
+constexpr std::array listings{Listing{"techniques", technique_rows}, Listing{"params", param_rows},
+                              Listing{"aovs", aov_rows}, Listing{"backends", backend_rows}};
+
+const Listing& find_listing(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Listing& listing : listings) {
+    if (name == listing.name) return listing;
+    names.emplace_back(listing.name);
+  }
+  try {
+    fail_unknown("list", name, names);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
+// "0.53 deg, 0 to 20", what a parameter's row shows between its name and its sentence.
+std::string values_of(const Json& row) {
+  if (!row.contains("default")) return "";
+  const Json& value = row["default"];
+  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  if (row.contains("choices")) {
+    text += " of";
+    for (const Json& choice : row["choices"]) text += " " + choice.get<std::string>();
+  } else if (row.contains("min")) {
+    text += fmt::format(" ({:g} to {:g})", row["min"].get<double>(), row["max"].get<double>());
+  }
+  const std::string unit = row["unit"].get<std::string>();
+  return unit.empty() ? text : text + " " + unit;
+}
+
+void print_rows(const Json& rows) {
+  std::size_t name_width = 0, value_width = 0;
+  for (const Json& row : rows) {
+    name_width = std::max(name_width, row["name"].get<std::string>().size());
+    value_width = std::max(value_width, values_of(row).size());
+  }
+  for (const Json& row : rows) {
+    fmt::print("{:<{}}  ", row["name"].get<std::string>(), name_width);
+    if (value_width > 0) fmt::print("{:<{}}  ", values_of(row), value_width);
+    fmt::print("{}\n", row["help"].get<std::string>());
+  }
+}
+
+}  // namespace
+
+int run_list(const Arguments& arguments) {
+  CLI::App app("List what penumbra knows by name", "penumbra list");
+  std::string what;
+  bool json = false;
+  app.add_option("WHAT", what, "techniques, params, aovs or backends")->required()->type_name("");
+  app.add_flag("--json", json, "For machines");
+  if (!parse(app, arguments)) return 0;
+  const Json rows = find_listing(what).rows();
+  if (json) {
+    fmt::print("{}", io::text_of(rows));
+  } else {
+    print_rows(rows);
+  }
+  return 0;
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,84 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include "app/commands.h"
+#include "app/usage.h"
+#include "core/log.h"
+#include "core/names.h"
+
+namespace penumbra::app {
+
+namespace {
+
+// "quiet" lies past every level: nothing passes.
+const std::map<std::string, int>& log_levels() {
+  static const std::map<std::string, int> levels{{"debug", static_cast<int>(LogLevel::debug)},
+                                                 {"info", static_cast<int>(LogLevel::info)},
+                                                 {"warning", static_cast<int>(LogLevel::warning)},
+                                                 {"error", static_cast<int>(LogLevel::error)},
+                                                 {"quiet", static_cast<int>(LogLevel::error) + 1}};
+  return levels;
+}
+
+void log_from(const std::string& name) {
+  const auto found = log_levels().find(name);
+  if (found == log_levels().end()) {
+    std::vector<std::string> names;
+    for (const auto& [level, value] : log_levels()) names.push_back(level);
+    fail_unknown("log level", name, names);
+  }
+  set_log_sink([least = found->second](LogLevel level, std::string_view message) {
+    if (static_cast<int>(level) < least) return;
+    static constexpr const char* labels[] = {"debug", "info", "warning", "error"};
+    fmt::print(stderr, "{}: {}\n", labels[static_cast<int>(level)], message);
+  });
+}
+
+[[noreturn]] void fail_extra(const CLI::App& options, const std::string& extra) {
+  if (!extra.starts_with('-')) fail_usage("unexpected argument '{}'", extra);
+  std::vector<std::string> names;
+  for (const CLI::Option* option : options.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  const std::string name = extra.substr(0, extra.find('='));
+  const std::vector<std::string> near = near_names(name, names);
+  if (near.empty()) fail_usage("unknown option '{}'; see penumbra {} --help", name, options.get_name());
+  fail_unknown("option", name, names);
+}
+
+// CLI11's messages, in which a missing value is "--size: 1 required SIZE missing".
+std::string one_line(const CLI::ParseError& error) {
+  std::string text = error.what();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+}  // namespace
+
+bool parse(CLI::App& options, const Arguments& arguments) {
+  std::string level = "warning";
+  options.add_option("--log-level", level, "Least messages to show: debug, info, warning, error or quiet")
+      ->type_name("LEVEL");
+  options.allow_extras();
+  try {
+    options.parse(Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
+  } catch (const CLI::CallForHelp&) {
+    fmt::print("{}", options.help());
+    return false;
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(one_line(error));
+  }
+  try {
+    if (const std::vector<std::string> extras = options.remaining(); !extras.empty())
+      fail_extra(options, extras.front());
+    log_from(level);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+  return true;
+}
+
+}  // namespace penumbra::app

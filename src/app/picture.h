@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace penumbra::app {
+
+// Rows top to bottom, channels interleaved.
+struct Bytes {
+  int channels = 3;
+  std::vector<std::uint8_t> pixels;
+};
+
+// Supersampling: the mean of every factor × factor pixels of an image that is `factor` times as large as width ×
+// height.
+std::vector<float> box_filter(const std::vector<float>& pixels, int width, int height, int channels, int factor);
+// The pixel at the middle of each block, for labels, which have no mean.
+std::vector<float> pick_middle(const std::vector<float>& pixels, int width, int height, int channels, int factor);
+
+// A display-referred RGB picture, 8 bits a channel, `factor` times as large as width × height, at its own size. The
+// mean of a block is taken of linearised display values: what an eye far away would see, and no firefly outshines a
+// block.
+Bytes display_bytes(std::vector<std::uint8_t> rgb, int width, int height, int factor);
+
+// An AOV as a picture to look at: visibility as grey; albedo encoded as sRGB; normals and motion about middle grey;
+// cascades in colours; distances relative to the picture's own (depth near to far as white to black, else the largest
+// is white).
+Bytes aov_bytes(std::string_view name, int channels, const std::vector<float>& pixels);
+
+}  // namespace penumbra::app

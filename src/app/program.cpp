@@ -1,0 +1,90 @@
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "app/commands.h"
+#include "app/usage.h"
+#include "core/names.h"
+
+namespace penumbra::app {
+
+namespace {
+
+constexpr std::array table{
+    Command{"render", "Draw a glTF scene into a PNG or EXR file", run_render},
+    Command{"info", "Tell what is in a scene", run_info},
+    Command{"list", "List techniques, params, aovs or backends", run_list},
+    Command{"help", "Explain a parameter, technique, AOV or sub-command", run_help},
+    Command{"doctor", "Tell which OpenGL backends work here", run_doctor},
+};
+
+std::string overview() {
+  std::string text = "Penumbra renders soft shadows.\n\nusage: penumbra COMMAND [OPTIONS]\n\n";
+  for (const Command& command : table) text += fmt::format("  {:<8} {}\n", command.name, command.summary);
+  return text + "\npenumbra COMMAND --help lists its options. penumbra --version prints the version.\n";
+}
+
+const Command& find_command(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Command& command : table) {
+    if (name == command.name) return command;
+    names.emplace_back(command.name);
+  }
+  if (name.starts_with('-')) fail_usage("'{}' comes before a command; see penumbra --help", name);
+  fail_unknown("command", name, names);
+}
+
+int dispatch(const Arguments& arguments) {
+  if (arguments.empty()) fail_usage("no command given; see penumbra --help");
+  const std::string& first = arguments.front();
+  if (first == "--version") {
+    fmt::print("{}\n", version());
+    return 0;
+  }
+  if (first == "--help" || first == "-h" || (first == "help" && arguments.size() == 1)) {
+    fmt::print("{}", overview());
+    return 0;
+  }
+  const Command* command = nullptr;
+  try {
+    command = &find_command(first);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+  return command->run(Arguments(arguments.begin() + 1, arguments.end()));
+}
+
+int report(std::string message, int code) {
+  // One line whatever a file's names hold, so that scripts can read it.
+  for (char& c : message) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  fmt::print(stderr, "error: {}\n", message);
+  return code;
+}
+
+}  // namespace
+
+std::span<const Command> commands() { return table; }
+
+std::string version() { return "Penumbra " PENUMBRA_VERSION; }
+
+int run_program(const Arguments& arguments) {
+  try {
+    const int code = dispatch(arguments);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail("cannot write to standard output");
+    return code;
+  } catch (const UsageError& error) {
+    return report(error.what(), 2);
+  } catch (const Error& error) {
+    return report(error.what(), 1);
+  } catch (const std::bad_alloc&) {
+    return report("out of memory", 1);
+  } catch (const std::exception& error) {
+    return report(std::string("internal error: ") + error.what(), 1);
+  }
+}
+
+}  // namespace penumbra::app

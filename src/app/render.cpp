@@ -1,0 +1,98 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <string>
+
+#include "app/commands.h"
+#include "app/frame_files.h"
+#include "app/output_names.h"
+#include "app/progress.h"
+#include "app/render_options.h"
+#include "app/signals.h"
+#include "app/stage.h"
+#include "app/stats.h"
+#include "app/studio.h"
+#include "io/output_file.h"
+#include "io/presets.h"
+
+namespace penumbra::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Before minutes of drawing: can the result be written?
+void check_outputs(const RenderOptions& options, const OutputNames& names, int first) {
+  io::check_writable(names.picture(first));
+  if (!options.stats.empty()) io::check_writable(options.stats);
+  if (!options.save_preset.empty()) io::check_writable(options.save_preset);
+}
+
+// Draws a picture again to measure it, or, of a sequence, counts what it drew. The first draw compiles shaders and is
+// never counted.
+std::size_t measure(const RenderOptions& options, Studio& studio, const ParamSet& params, int drawn, int last) {
+  if (drawn > 1) return static_cast<std::size_t>(drawn - 1);
+  for (int i = 0; i < options.stats_frames; ++i) studio.draw(last, params);
+  return static_cast<std::size_t>(options.stats_frames);
+}
+
+void draw_all(const RenderOptions& options, const Stage& stage, Studio& studio, const ParamSet& params,
+              const OutputNames& names, const FrameRange& range) {
+  Progress progress(options.warmup + range.count(), !options.quiet);
+  for (int frame = range.first - options.warmup; frame <= range.last; ++frame) {
+    studio.draw(frame, params);
+    if (frame >= range.first) write_frame(studio.renderer(), options, stage, params, names, frame);
+    progress.step();
+  }
+}
+
+std::string summary(const RenderOptions& options, const ParamSet& params, const OutputNames& names,
+                    const FrameRange& range, double seconds) {
+  std::string files = names.picture(range.first).string();
+  if (range.count() > 1) files += " to " + names.picture(range.last).string();
+  // The colour picture is the file itself.
+  const auto others = options.aovs.size() - static_cast<std::size_t>(std::ranges::count(options.aovs, "color"));
+  if (others > 0) files += fmt::format(" with {} AOV{}", others, others == 1 ? "" : "s");
+  return fmt::format("wrote {} ({}×{}, {}, {:.2f} s)", files, options.size.width, options.size.height,
+                     params.get_word("technique"), seconds);
+}
+
+void render_files(const RenderOptions& options) {
+  const Clock::time_point start = Clock::now();
+  const OutputNames names(options.output, options.frames.has_value());
+  const ParamSet params = resolve_params(options, shadow::built_in_registry());
+  const FrameRange range = options.frames.value_or(FrameRange{});
+  clean_up_on_signals();
+  check_outputs(options, names, range.first);
+
+  // Drivers take as long to start as scenes to load, and there are two cores nearly everywhere.
+  std::future<Stage> loading = std::async(std::launch::async, [&options] { return load_stage(options); });
+  std::unique_ptr<gl::Context> context = open_context(options);
+  const Stage stage = loading.get();
+  Studio studio(options, std::move(context), stage);
+
+  draw_all(options, stage, studio, params, names, range);
+  if (!options.stats.empty()) {
+    const int drawn = options.warmup + range.count();
+    const std::size_t measured = measure(options, studio, params, drawn, range.last);
+    io::write_text(options.stats, io::text_of(stats_of(options, stage, params, studio, measured)));
+  }
+  if (!options.save_preset.empty()) io::write_preset(options.save_preset, params);
+  const std::chrono::duration<double> elapsed = Clock::now() - start;
+  if (!options.quiet) fmt::print("{}\n", summary(options, params, names, range, elapsed.count()));
+}
+
+}  // namespace
+
+int run_render(const Arguments& arguments) {
+  CLI::App app("Draw a glTF scene into a PNG or EXR file", "penumbra render");
+  RenderOptions options;
+  add_render_options(app, options);
+  if (!parse(app, arguments)) return 0;
+  check_together(options);
+  render_files(options);
+  return 0;
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,63 @@
+#include "app/studio.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "gl/api.h"
+
+namespace penumbra::app {
+
+namespace {
+
+gl::Timers::Mode timing(const RenderOptions& options, const gl::DeviceInfo& device) {
+  if (options.stats.empty()) return gl::Timers::Mode::off;
+  return device.software ? gl::Timers::Mode::finish : gl::Timers::Mode::query;
+}
+
+bool debug_wanted(const RenderOptions& options) {
+  const char* value = std::getenv("PENUMBRA_DEBUG");
+  return options.debug || (value != nullptr && std::string_view(value) == "1");
+}
+
+}  // namespace
+
+std::unique_ptr<gl::Context> open_context(const RenderOptions& options) {
+  // Mesa reads it when the rasteriser starts.
+  if (options.threads) setenv("LP_NUM_THREADS", std::to_string(*options.threads).c_str(), /* overwrite= */ 1);
+  gl::ContextOptions wanted;
+  wanted.debug = debug_wanted(options);
+  wanted.egl_device = options.egl_device;
+  wanted.width = options.size.width;
+  wanted.height = options.size.height;
+  wanted.visible = false;
+  std::unique_ptr<gl::Context> context = gl::make_context(options.backend, wanted);
+  GLint most = 0;
+  gl::glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  const int side = std::max(options.size.width, options.size.height) * options.supersample;
+  if (side > most) fail("a picture {} pixels long is over this driver's limit of {}", side, most);
+  return context;
+}
+
+Studio::Studio(const RenderOptions& options, std::unique_ptr<gl::Context> context, const Stage& stage)
+    : options_(options),
+      stage_(stage),
+      context_(std::move(context)),
+      device_info_(gl::device_info()),
+      device_(gl::ShaderFiles(options.glsl), timing(options, device_info_)),
+      scene_(device_, stage.scene),
+      renderer_(device_) {}
+
+void Studio::draw(int frame, const ParamSet& params) {
+  render::FrameInputs inputs;
+  inputs.width = options_.size.width * options_.supersample;
+  inputs.height = options_.size.height * options_.supersample;
+  inputs.camera = inputs.last_camera = stage_.camera;
+  inputs.sun = stage_.sun;
+  inputs.time = time_of(options_, frame);
+  inputs.last_time = time_of(options_, frame - 1);
+  renderer_.draw(scene_, inputs, params);
+}
+
+}  // namespace penumbra::app
