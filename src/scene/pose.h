@@ -7,17 +7,22 @@
 
 namespace penumbra::scene {
 
-// The scene at a moment: what animation, hierarchy and skins make of it.
+// The scene at a moment: what animation, hierarchy and skins make of it. All entries are finite.
 struct Pose {
   std::vector<glm::mat4> world;             // per node
   std::vector<std::vector<float>> weights;  // per node: morph weights (empty without targets)
-  std::vector<std::vector<glm::mat4>>
-      skin;                 // per node with a skin: world-space joint matrices (world of joint × inverse bind)
+  // Per node with a skin: world-space joint matrices (world of joint × inverse bind). They stand in for the node's own
+  // world matrix, which glTF ignores for skinned meshes.
+  std::vector<std::vector<glm::mat4>> skin;
   std::vector<bool> drawn;  // per node: reachable from the scene's roots
 };
 
-// The pose at `seconds`, all of the file's animations played together and looped, as glTF viewers do; with none, the
-// rest pose.
+// The pose without animation.
+Pose rest_pose(const Scene& scene);
+
+// The pose at `seconds`, the file's animations played together, each looped over its own duration; with none, the rest
+// pose. At an animation's end its last key holds, and the loop starts after it. An animation that drives something an
+// earlier one drives already is left out: a file with many clips for one skeleton plays its first.
 Pose pose_at(const Scene& scene, double seconds);
 
 struct Bounds {
@@ -31,7 +36,11 @@ struct Bounds {
 };
 
 // World bounds of all drawn triangles (deformed and instanced), points and lines included only when there are no
-// triangles.
+// triangles. Exact, except that a mesh of very many instances is bounded by its box's corners.
 Bounds bounds_of(const Scene& scene, const Pose& pose);
+
+// A transform as a matrix, and the transform nearest to a matrix (shear is lost).
+glm::mat4 to_matrix(const Transform& transform);
+Transform to_transform(const glm::mat4& matrix);
 
 }  // namespace penumbra::scene

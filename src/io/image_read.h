@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "scene/gltf.h"
+#include "scene/scene.h"
+
+namespace penumbra::io {
+
+// A PNG, JPEG or WebP file in memory as 8-bit RGBA; alpha stays unassociated, 16-bit channels are reduced. Throws Error
+// with the cause. More than `max_pixels` are refused before they are decoded.
+scene::Image read_image(std::span<const std::byte> encoded, const std::string& name, std::size_t max_pixels);
+
+// The decoder that read_gltf takes.
+scene::ImageDecoder image_decoder(const scene::ReadLimits& limits = {});
+
+}  // namespace penumbra::io

@@ -1,0 +1,98 @@
+#include "scene/animation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace penumbra::scene {
+namespace {
+
+glm::quat quaternion(const float* xyzw) { return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]}; }
+
+void store_unit(std::vector<float>& value) {
+  const glm::dvec4 v(value[0], value[1], value[2], value[3]);
+  const double length = glm::length(v);
+  const glm::dvec4 unit = length > 0 && std::isfinite(length) ? v / length : glm::dvec4(0, 0, 0, 1);
+  for (int c = 0; c < 4; ++c) value[static_cast<std::size_t>(c)] = static_cast<float>(unit[c]);
+}
+
+// Between keys `key` and the next; s from 0 to 1.
+std::vector<float> linear(const AnimationChannel& channel, std::size_t key, float s) {
+  const auto width = static_cast<std::size_t>(channel.components);
+  const float* const a = &channel.values[key * width];
+  const float* const b = a + width;
+  std::vector<float> value(width);
+  if (channel.path == Path::rotation) {
+    std::vector<float> from(a, a + 4), to(b, b + 4);
+    store_unit(from);
+    store_unit(to);
+    const glm::quat q = glm::slerp(quaternion(from.data()), quaternion(to.data()), s);
+    return {q.x, q.y, q.z, q.w};
+  }
+  for (std::size_t c = 0; c < width; ++c) value[c] = a[c] * (1 - s) + b[c] * s;
+  return value;
+}
+
+std::vector<float> cubic(const AnimationChannel& channel, std::size_t key, float s) {
+  const auto width = static_cast<std::size_t>(channel.components);
+  const float duration = channel.times[key + 1] - channel.times[key];
+  const float* const a = &channel.values[key * 3 * width];  // in-tangent, value, out-tangent
+  const float* const b = a + 3 * width;
+  const float s2 = s * s, s3 = s2 * s;
+  std::vector<float> value(width);
+  for (std::size_t c = 0; c < width; ++c)
+    value[c] = (2 * s3 - 3 * s2 + 1) * a[width + c] + (s3 - 2 * s2 + s) * duration * a[2 * width + c] +
+               (3 * s2 - 2 * s3) * b[width + c] + (s3 - s2) * duration * b[c];
+  return value;
+}
+
+std::vector<float> key_value(const AnimationChannel& channel, std::size_t key) {
+  const auto width = static_cast<std::size_t>(channel.components);
+  const bool tangents = channel.interpolation == Interpolation::cubic_spline;
+  const float* const at = &channel.values[tangents ? (key * 3 + 1) * width : key * width];
+  return {at, at + width};
+}
+
+}  // namespace
+
+double looped_time(double seconds, double duration) {
+  if (!(duration > 0) || !std::isfinite(seconds)) return 0;
+  const double time = std::fmod(seconds, duration);
+  if (time < 0) return time + duration;
+  return time == 0 && seconds > 0 ? duration : time;
+}
+
+std::vector<float> sample(const AnimationChannel& channel, double time) {
+  const auto& times = channel.times;
+  const auto next = std::upper_bound(times.begin(), times.end(), time);
+  std::vector<float> value;
+  if (next == times.begin()) {
+    value = key_value(channel, 0);
+  } else if (next == times.end() || channel.interpolation == Interpolation::step) {
+    value = key_value(channel, static_cast<std::size_t>(next - times.begin()) - 1);
+  } else {
+    const auto key = static_cast<std::size_t>(next - times.begin()) - 1;
+    const auto s = static_cast<float>((time - times[key]) / (static_cast<double>(times[key + 1]) - times[key]));
+    value = channel.interpolation == Interpolation::linear ? linear(channel, key, s) : cubic(channel, key, s);
+  }
+  if (channel.path == Path::rotation) store_unit(value);
+  return value;
+}
+
+std::vector<std::size_t> played_animations(const Scene& scene) {
+  std::set<std::pair<int, Path>> driven;
+  std::vector<std::size_t> played;
+  for (std::size_t i = 0; i < scene.animations.size(); ++i) {
+    const auto& channels = scene.animations[i].channels;
+    const bool free = std::none_of(channels.begin(), channels.end(), [&](const AnimationChannel& channel) {
+      return driven.contains({channel.node, channel.path});
+    });
+    if (!free) continue;
+    for (const AnimationChannel& channel : channels) driven.insert({channel.node, channel.path});
+    played.push_back(i);
+  }
+  return played;
+}
+
+}  // namespace penumbra::scene

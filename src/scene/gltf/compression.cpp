@@ -1,0 +1,155 @@
+#include "scene/gltf/compression.h"
+
+#include <draco/compression/decode.h>
+#include <draco/core/varint_decoding.h>
+#include <draco/metadata/metadata_decoder.h>
+#include <meshoptimizer.h>
+
+#include <cstring>
+
+#include "core/error.h"
+
+namespace penumbra::scene::gltf {
+namespace {
+
+// meshoptimizer asserts on sizes it does not handle, so they are refused before it sees them.
+void check_meshopt_sizes(const MeshoptStream& s) {
+  const bool attributes = s.mode == "ATTRIBUTES";
+  if (s.bytes.empty()) fail("EXT_meshopt_compression without data");
+  if (attributes ? s.stride % 4 != 0 || s.stride > 256 : s.stride != 2 && s.stride != 4)
+    fail("EXT_meshopt_compression with byteStride {} for {}", s.stride, s.mode);
+  if (s.mode == "TRIANGLES" && s.count % 3 != 0) fail("EXT_meshopt_compression: {} is not whole triangles", s.count);
+  if (!attributes && s.filter != "NONE") fail("EXT_meshopt_compression: {} can't be filtered", s.mode);
+  const bool fits =
+      s.filter == "OCTAHEDRAL" ? s.stride == 4 || s.stride == 8 : s.filter != "QUATERNION" || s.stride == 8;
+  if (!fits) fail("EXT_meshopt_compression with byteStride {} for {}", s.stride, s.filter);
+}
+
+constexpr uint8_t sequential = 0;     // Draco's encoder methods
+constexpr std::size_t densest = 256;  // faces a byte: well beyond what real meshes reach
+
+// Draco allocates what its header declares before it finds the data missing, so the header is read here first.
+void check_draco_header(const char* data, std::size_t size) {
+  draco::DecoderBuffer buffer;
+  buffer.Init(data, size);
+  draco::DracoHeader header{};
+  if (!buffer.Decode(&header.draco_string, 5) || std::memcmp(&header.draco_string, "DRACO", 5) != 0 ||
+      !buffer.Decode(&header.version_major) || !buffer.Decode(&header.version_minor) ||
+      !buffer.Decode(&header.encoder_type) || !buffer.Decode(&header.encoder_method) || !buffer.Decode(&header.flags))
+    fail("Draco data without a header");
+  if (header.version_major != 2 || header.version_minor != 2)
+    fail("Draco bitstream {}.{}, not 2.2", header.version_major, header.version_minor);
+  buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(2, 2));
+  draco::GeometryMetadata metadata;
+  if ((header.flags & METADATA_FLAG_MASK) != 0 && !draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))
+    fail("Draco metadata is damaged");
+  uint32_t faces = 0, points = 0;
+  uint8_t traversal = 0;
+  const bool ok =
+      header.encoder_method == sequential
+          ? draco::DecodeVarint(&faces, &buffer) && draco::DecodeVarint(&points, &buffer)
+          : buffer.Decode(&traversal) && draco::DecodeVarint(&points, &buffer) && draco::DecodeVarint(&faces, &buffer);
+  if (!ok) fail("Draco header is damaged");
+  if (faces > size * densest || points > size * densest)
+    fail("Draco data of {} bytes declares {} faces and {} vertices", size, faces, points);
+}
+
+template <class T>
+std::vector<std::byte> draco_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute, int components) {
+  std::vector<std::byte> bytes(mesh.num_points() * static_cast<std::size_t>(components) * sizeof(T));
+  std::vector<T> element(static_cast<std::size_t>(components));
+  std::byte* out = bytes.data();
+  for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
+    const draco::AttributeValueIndex value = attribute.mapped_index(point);
+    if (value.value() >= attribute.size() ||
+        !attribute.ConvertValue<T>(value, static_cast<int8_t>(components), element.data()))
+      fail("Draco attribute can't be converted");
+    std::memcpy(out, element.data(), element.size() * sizeof(T));
+    out += element.size() * sizeof(T);
+  }
+  return bytes;
+}
+
+std::vector<std::byte> draco_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute, int component_type,
+                                    int components) {
+  switch (component_type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return draco_values<int8_t>(mesh, attribute, components);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return draco_values<uint8_t>(mesh, attribute, components);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return draco_values<int16_t>(mesh, attribute, components);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return draco_values<uint16_t>(mesh, attribute, components);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      return draco_values<uint32_t>(mesh, attribute, components);
+    default:
+      return draco_values<float>(mesh, attribute, components);
+  }
+}
+
+AccessorView draco_view(Document& document, DracoMesh& out, const draco::Mesh& mesh, int accessor, int unique_id) {
+  AccessorView view = view_accessor(document, accessor);
+  const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(static_cast<uint32_t>(unique_id));
+  if (attribute == nullptr) fail("Draco data has no attribute {}", unique_id);
+  if (attribute->num_components() != view.components)
+    fail("Draco attribute {} has {} components, {} has {}", unique_id, attribute->num_components(), view.name,
+         view.components);
+  if (!attribute->is_mapping_identity() && attribute->indices_map_size() < mesh.num_points())
+    fail("Draco attribute {} does not cover all vertices", unique_id);
+  document.budget.spend(mesh.num_points(), view.element_size());
+  out.storage.push_back(draco_values(mesh, *attribute, view.component_type, view.components));
+  view.count = mesh.num_points();
+  view.stride = view.element_size();
+  view.bytes = out.storage.back();
+  view.sparse.clear();
+  return view;
+}
+
+}  // namespace
+
+std::vector<std::byte> decode_meshopt(const MeshoptStream& s) {
+  check_meshopt_sizes(s);
+  std::vector<std::byte> decoded(s.count * s.stride);
+  const auto* data = reinterpret_cast<const unsigned char*>(s.bytes.data());
+  int error = 0;
+  if (s.mode == "ATTRIBUTES")
+    error = meshopt_decodeVertexBuffer(decoded.data(), s.count, s.stride, data, s.bytes.size());
+  else if (s.mode == "TRIANGLES")
+    error = meshopt_decodeIndexBuffer(decoded.data(), s.count, s.stride, data, s.bytes.size());
+  else
+    error = meshopt_decodeIndexSequence(decoded.data(), s.count, s.stride, data, s.bytes.size());
+  if (error != 0) fail("EXT_meshopt_compression: the data is damaged");
+  if (s.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(decoded.data(), s.count, s.stride);
+  if (s.filter == "QUATERNION") meshopt_decodeFilterQuat(decoded.data(), s.count, s.stride);
+  if (s.filter == "EXPONENTIAL") meshopt_decodeFilterExp(decoded.data(), s.count, s.stride);
+  return decoded;
+}
+
+DracoMesh decode_draco(Document& document, const tinygltf::Primitive& primitive, const tinygltf::Value& extension) {
+  const Bytes bytes = document.views[static_cast<std::size_t>(index_or(extension, "bufferView", 0))];
+  if (bytes.empty()) fail("KHR_draco_mesh_compression without data");
+  const char* data = reinterpret_cast<const char*>(bytes.data());
+  check_draco_header(data, bytes.size());
+  draco::DecoderBuffer buffer;
+  buffer.Init(data, bytes.size());
+  draco::Decoder decoder;
+  const auto result = decoder.DecodeMeshFromBuffer(&buffer);
+  if (!result.ok()) fail("Draco data is damaged: {}", result.status().error_msg_string());
+  const draco::Mesh& mesh = *result.value();
+
+  DracoMesh out;
+  document.budget.spend(mesh.num_faces(), 3 * sizeof(uint32_t));
+  for (draco::FaceIndex face(0); face < mesh.num_faces(); ++face)
+    for (const draco::PointIndex& corner : mesh.face(face)) out.indices.push_back(corner.value());
+  const tinygltf::Value& attributes = extension.Get("attributes");
+  for (const std::string& semantic : attributes.Keys()) {
+    const auto accessor = primitive.attributes.find(semantic);
+    if (accessor == primitive.attributes.end()) fail("Draco attribute {} has no accessor", semantic);
+    out.attributes[semantic] =
+        draco_view(document, out, mesh, accessor->second, index_or(attributes, semantic.c_str(), 0));
+  }
+  return out;
+}
+
+}  // namespace penumbra::scene::gltf

@@ -1,0 +1,130 @@
+#include "scene/gltf/container.h"
+
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+
+#include "core/error.h"
+
+namespace penumbra::scene::gltf {
+namespace {
+
+constexpr uint32_t glb_magic = 0x46546C67, json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
+
+uint32_t little_endian_32(Bytes bytes, std::size_t offset) {
+  uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value |= std::to_integer<uint32_t>(bytes[offset + i]) << (8 * i);
+  return value;
+}
+
+struct GlbChunks {
+  Bytes json, binary;
+  bool has_binary = false;
+};
+
+GlbChunks split_glb(Bytes file) {
+  if (file.size() < 20) fail("GLB of {} bytes is shorter than its header", file.size());
+  if (const uint32_t version = little_endian_32(file, 4); version != 2) fail("GLB version {}, not 2", version);
+  const std::size_t length = little_endian_32(file, 8);
+  if (length > file.size()) fail("GLB header says {} bytes, the file has {}", length, file.size());
+  GlbChunks chunks;
+  bool first = true;
+  for (std::size_t at = 12; at < length;) {
+    if (length - at < 8) fail("GLB ends inside a chunk header");
+    const std::size_t size = little_endian_32(file, at);
+    const uint32_t type = little_endian_32(file, at + 4);
+    at += 8;
+    if (size % 4 != 0) fail("GLB chunk of {} bytes is not a multiple of 4", size);
+    if (size > length - at) fail("GLB chunk of {} bytes, only {} are left", size, length - at);
+    if (first != (type == json_chunk)) fail("GLB must have one JSON chunk, and it must come first");
+    if (first) chunks.json = file.subspan(at, size);
+    if (type == bin_chunk) {
+      if (chunks.has_binary) fail("GLB has more than one BIN chunk");
+      chunks.has_binary = true;
+      chunks.binary = file.subspan(at, size);
+    }
+    first = false;
+    at += size;
+  }
+  if (chunks.json.empty()) fail("GLB has an empty JSON chunk");
+  return chunks;
+}
+
+// Recursive parsers and documents of many small values are what a hostile JSON text exploits, so both are counted
+// beforehand, without recursion or memory.
+void check_json_size(std::string_view text, const ReadLimits& limits) {
+  std::size_t depth = 0, values = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+      continue;
+    }
+    if (c == '"') in_string = true;
+    if (c == ',' || c == ':') ++values;
+    if (c == '{' || c == '[') {
+      ++values;
+      if (++depth > limits.json_depth) fail("JSON is nested deeper than the limit of {}", limits.json_depth);
+    }
+    if ((c == '}' || c == ']') && depth > 0) --depth;
+    if (values > limits.json_values) fail("JSON has more than the limit of {} values", limits.json_values);
+  }
+}
+
+nlohmann::json parse_json(Bytes bytes, const ReadLimits& limits) {
+  // The byte type of files is the text's character type by definition of UTF-8 text in memory.
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  check_json_size(text, limits);
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::exception& e) {
+    std::string_view cause = e.what();
+    // "[json.exception.parse_error.101] " is the library's, not the user's.
+    if (const auto bracket = cause.find("] "); bracket != std::string_view::npos) cause.remove_prefix(bracket + 2);
+    fail("not valid JSON: {}", cause);
+  }
+}
+
+}  // namespace
+
+std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t limit) {
+  std::error_code code;
+  const auto status = std::filesystem::status(path, code);
+  if (!std::filesystem::exists(status)) fail("file not found");
+  // Pipes and devices could block for ever.
+  if (!std::filesystem::is_regular_file(status)) fail("not a regular file");
+  const auto size = std::filesystem::file_size(path, code);
+  if (code) fail("can't be read: {}", code.message());
+  if (size > limit) fail("{} bytes, over the limit of {}", size, limit);
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) fail("can't be opened: {}", std::strerror(errno));
+  std::vector<std::byte> bytes(size);
+  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (stream.gcount() != static_cast<std::streamsize>(bytes.size())) fail("can't be read to its end");
+  return bytes;
+}
+
+Container read_container(const std::filesystem::path& path, const ReadLimits& limits) {
+  Container container;
+  container.file = read_file(path, limits.file_bytes);
+  const Bytes file = container.file;
+  if (file.empty()) fail("the file is empty");
+  if (file.size() >= 4 && little_endian_32(file, 0) == glb_magic) {
+    const GlbChunks chunks = split_glb(file);
+    container.json = parse_json(chunks.json, limits);
+    container.binary = chunks.binary;
+    container.has_binary = chunks.has_binary;
+  } else {
+    container.json = parse_json(file, limits);
+    // A .gltf's data lies elsewhere; only a GLB's chunk refers to the file's bytes later on.
+    container.file = {};
+  }
+  return container;
+}
+
+}  // namespace penumbra::scene::gltf

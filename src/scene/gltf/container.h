@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <vector>
+
+#include "scene/gltf.h"
+
+namespace penumbra::scene::gltf {
+
+using Bytes = std::span<const std::byte>;
+
+// A .gltf or .glb file taken apart, nothing in it believed yet beyond being well-formed.
+struct Container {
+  std::vector<std::byte> file;
+  nlohmann::json json;
+  Bytes binary;  // the GLB's BIN chunk, inside `file`
+  bool has_binary = false;
+};
+
+// The whole of a regular file of at most `limit` bytes.
+std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t limit);
+
+// Tells GLB from JSON by content. Lengths, nesting and number of values are checked before anything is allocated.
+Container read_container(const std::filesystem::path& path, const ReadLimits& limits);
+
+}  // namespace penumbra::scene::gltf

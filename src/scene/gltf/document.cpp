@@ -1,0 +1,197 @@
+#include "scene/gltf/document.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <string_view>
+#include <utility>
+
+#include "core/error.h"
+#include "core/log.h"
+#include "scene/gltf/compression.h"
+#include "scene/gltf/container.h"
+#include "scene/gltf/resources.h"
+#include "scene/gltf/schema.h"
+
+namespace penumbra::scene::gltf {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::array supported_extensions = {
+    "KHR_lights_punctual",        "KHR_materials_unlit",     "KHR_materials_emissive_strength",
+    "KHR_texture_transform",      "KHR_mesh_quantization",   "EXT_mesh_gpu_instancing",
+    "KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_texture_webp",
+};
+
+// "2.1" as {2, 1}.
+std::pair<int, int> parse_version(const std::string& text) {
+  int major = 0, minor = 0;
+  const char* const end = text.data() + text.size();
+  const auto [after_major, major_error] = std::from_chars(text.data(), end, major);
+  if (major_error != std::errc() || after_major == end || *after_major != '.')
+    fail("asset version '{}' is not a version", text);
+  const auto [after_minor, minor_error] = std::from_chars(after_major + 1, end, minor);
+  if (minor_error != std::errc() || after_minor != end) fail("asset version '{}' is not a version", text);
+  return {major, minor};
+}
+
+void check_asset(const Json& json) {
+  const Json& asset = json["asset"];
+  const auto version = parse_version(asset["version"].get<std::string>());
+  if (version.first != 2) fail("glTF version {}, not 2", asset["version"].get<std::string>());
+  if (!asset.contains("minVersion")) return;
+  const auto least = parse_version(asset["minVersion"].get<std::string>());
+  if (least > std::pair(2, 0)) fail("needs glTF {}, this program reads 2.0", asset["minVersion"].get<std::string>());
+}
+
+void check_extensions(const Json& json) {
+  if (!json.contains("extensionsRequired")) return;
+  for (const Json& element : json["extensionsRequired"]) {
+    const auto& name = element.get_ref<const std::string&>();
+    if (std::find(supported_extensions.begin(), supported_extensions.end(), name) == supported_extensions.end())
+      fail("requires the extension {}, which is not supported", name);
+  }
+}
+
+std::vector<Bytes> load_buffers(Document& document, const Container& container) {
+  std::vector<Bytes> buffers;
+  if (!container.json.contains("buffers")) return buffers;
+  for (const Json& buffer : container.json["buffers"]) {
+    const auto length = buffer["byteLength"].get<std::size_t>();
+    const std::size_t number = buffers.size();
+    Bytes bytes;
+    try {
+      if (buffer.contains("uri")) {
+        document.storage.push_back(
+            load_uri(document.folder, buffer["uri"].get_ref<const std::string&>(), document.limits.file_bytes));
+        document.budget.add_file(document.storage.back().size());
+        bytes = document.storage.back();
+      } else if (number == 0 && container.has_binary) {
+        bytes = container.binary;
+      } else {
+        buffers.emplace_back();  // a place holder, as EXT_meshopt_compression's fallback buffers are
+        continue;
+      }
+      if (bytes.size() < length) fail("has {} bytes, not {}", bytes.size(), length);
+    } catch (const Error& e) {
+      fail("buffers[{}]: {}", number, e.what());
+    }
+    buffers.push_back(bytes.first(length));
+  }
+  return buffers;
+}
+
+// The bytes that a bufferView or its compressed stand-in cuts out of a buffer.
+Bytes cut(const std::vector<Bytes>& buffers, const Json& view) {
+  const Bytes buffer = buffers[view["buffer"].get<std::size_t>()];
+  const auto offset = view.value("byteOffset", std::size_t{0}), length = view["byteLength"].get<std::size_t>();
+  if (buffer.empty()) return {};
+  if (offset > buffer.size() || length > buffer.size() - offset)
+    fail("bytes {} to {} of a buffer of {}", offset, offset + length, buffer.size());
+  return buffer.subspan(offset, length);
+}
+
+void cut_views(Document& document, const Json& json, const std::vector<Bytes>& buffers) {
+  if (!json.contains("bufferViews")) return;
+  for (const Json& view : json["bufferViews"]) {
+    try {
+      const Json extensions = view.value("extensions", Json::object());
+      const auto meshopt = extensions.find("EXT_meshopt_compression");
+      if (meshopt == extensions.end()) {
+        document.views.push_back(cut(buffers, view));
+        continue;
+      }
+      const MeshoptStream stream{.bytes = cut(buffers, *meshopt),
+                                 .count = (*meshopt)["count"].get<std::size_t>(),
+                                 .stride = (*meshopt)["byteStride"].get<std::size_t>(),
+                                 .mode = (*meshopt)["mode"].get<std::string>(),
+                                 .filter = meshopt->value("filter", std::string("NONE"))};
+      if (stream.count * stream.stride != view["byteLength"].get<std::size_t>())
+        fail("EXT_meshopt_compression's count and byteStride don't give its byteLength");
+      document.budget.spend(stream.count, stream.stride);
+      document.storage.push_back(decode_meshopt(stream));
+      document.views.emplace_back(document.storage.back());
+    } catch (const Error& e) {
+      fail("bufferViews[{}]: {}", document.views.size(), e.what());
+    }
+  }
+}
+
+void list_images(Document& document, const Json& json) {
+  if (!json.contains("images")) return;
+  for (const Json& image : json["images"]) {
+    ImageSource source{.name = fmt::format("images[{}]", document.images.size())};
+    if (image.contains("uri") == image.contains("bufferView"))
+      fail("{} must have either a uri or a bufferView", source.name);
+    source.uri = image.value("uri", std::string());
+    source.view = image.value("bufferView", -1);
+    if (!source.uri.empty() && !is_data_uri(source.uri)) source.name += fmt::format(" '{}'", source.uri.substr(0, 80));
+    document.images.push_back(std::move(source));
+  }
+}
+
+// tinygltf reads files itself, refuses index accessors without a bufferView (Draco's and sparse ones have none) and
+// buffers without data, so it is given the document without buffers and images and with a bufferView everywhere.
+tinygltf::Model parse_model(Json json) {
+  json.erase("buffers");
+  json.erase("images");
+  const std::size_t none = json.contains("bufferViews") ? json["bufferViews"].size() : 0;
+  json["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 1}});
+  if (json.contains("accessors"))
+    for (Json& accessor : json["accessors"])
+      if (!accessor.contains("bufferView")) accessor["bufferView"] = none;
+
+  const std::string text = json.dump();
+  json = nullptr;
+  tinygltf::Model model;
+  tinygltf::TinyGLTF reader;
+  std::string error, warning;
+  if (!reader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned int>(text.size()), ""))
+    fail("{}", error.empty() ? "tinygltf can't read it" : error);
+
+  model.bufferViews.resize(none);
+  for (tinygltf::Accessor& accessor : model.accessors)
+    if (static_cast<std::size_t>(accessor.bufferView) == none) accessor.bufferView = -1;
+  return model;
+}
+
+}  // namespace
+
+Document read_document(const std::filesystem::path& path, const ReadLimits& limits) {
+  Container container = read_container(path, limits);
+  if (!container.json.is_object()) fail("the JSON is not an object");
+  check_schema(container.json);
+  check_asset(container.json);
+  check_extensions(container.json);
+
+  Document document{.folder = path.parent_path(), .limits = limits, .budget = Budget(limits)};
+  document.budget.add_file(std::filesystem::file_size(path));
+  const std::vector<Bytes> buffers = load_buffers(document, container);
+  cut_views(document, container.json, buffers);
+  list_images(document, container.json);
+  document.model = parse_model(std::move(container.json));
+  document.storage.push_back(std::move(container.file));  // moving a vector leaves its bytes where they are
+  return document;
+}
+
+double number_or(const tinygltf::Value& object, const char* key, double otherwise) {
+  return object.Has(key) ? object.Get(key).GetNumberAsDouble() : otherwise;
+}
+
+int index_or(const tinygltf::Value& object, const char* key, int otherwise) {
+  return object.Has(key) ? object.Get(key).GetNumberAsInt() : otherwise;
+}
+
+std::string text_or(const tinygltf::Value& object, const char* key, const char* otherwise) {
+  return object.Has(key) ? object.Get(key).Get<std::string>() : otherwise;
+}
+
+std::vector<double> numbers_or(const tinygltf::Value& object, const char* key, std::vector<double> otherwise) {
+  if (!object.Has(key)) return otherwise;
+  const tinygltf::Value& array = object.Get(key);
+  for (std::size_t i = 0; i < otherwise.size(); ++i) otherwise[i] = array.Get(static_cast<int>(i)).GetNumberAsDouble();
+  return otherwise;
+}
+
+}  // namespace penumbra::scene::gltf

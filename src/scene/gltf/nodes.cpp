@@ -1,0 +1,200 @@
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "core/log.h"
+#include "scene/gltf/accessor.h"
+#include "scene/gltf/read.h"
+#include "scene/pose.h"
+
+namespace penumbra::scene::gltf {
+namespace {
+
+using tinygltf::Value;
+
+glm::vec3 to_vec3(const std::vector<double>& v) {
+  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+
+glm::quat unit_quaternion(double x, double y, double z, double w) {
+  const double length = std::sqrt(x * x + y * y + z * z + w * w);
+  if (!(length > 0) || !std::isfinite(length)) return {1, 0, 0, 0};
+  return {static_cast<float>(w / length), static_cast<float>(x / length), static_cast<float>(y / length),
+          static_cast<float>(z / length)};
+}
+
+void read_instances(Document& document, const Value& extension, Node& node) {
+  const Value& attributes = extension.Get("attributes");
+  std::size_t count = 0;
+  const auto view_of = [&](const char* key) {
+    AccessorView view = view_accessor(document, index_or(attributes, key, 0));
+    if (count == 0) {
+      count = view.count;
+      document.budget.spend(count, sizeof(Transform));
+      node.instances.resize(count);
+    }
+    if (view.count != count) fail("EXT_mesh_gpu_instancing: {} has {} elements, not {}", view.name, view.count, count);
+    return view;
+  };
+  if (attributes.Has("TRANSLATION")) {
+    const auto values = read_vectors<3>(view_of("TRANSLATION"));
+    for (std::size_t i = 0; i < count; ++i) node.instances[i].translation = values[i];
+  }
+  if (attributes.Has("ROTATION")) {
+    const auto values = read_vectors<4>(view_of("ROTATION"));
+    for (std::size_t i = 0; i < count; ++i)
+      node.instances[i].rotation = unit_quaternion(values[i].x, values[i].y, values[i].z, values[i].w);
+  }
+  if (attributes.Has("SCALE")) {
+    const auto values = read_vectors<3>(view_of("SCALE"));
+    for (std::size_t i = 0; i < count; ++i) node.instances[i].scale = values[i];
+  }
+}
+
+// Column-major; projective matrices are no transforms.
+glm::mat4 affine_matrix(const float* numbers) {
+  glm::mat4 matrix;
+  for (glm::length_t c = 0; c < 4; ++c) {
+    for (glm::length_t r = 0; r < 4; ++r) matrix[c][r] = numbers[c * 4 + r];
+    const float expected = c == 3 ? 1 : 0;
+    if (std::abs(matrix[c][3] - expected) > 1e-3f) fail("its matrix has a last row other than 0 0 0 1");
+    matrix[c][3] = expected;
+  }
+  return matrix;
+}
+
+Node read_node(Document& document, const tinygltf::Node& in) {
+  Node node{.name = in.name, .mesh = in.mesh, .skin = in.skin, .camera = in.camera};
+  node.children = in.children;
+  if (!in.translation.empty()) node.transform.translation = to_vec3(in.translation);
+  if (!in.scale.empty()) node.transform.scale = to_vec3(in.scale);
+  if (in.rotation.size() == 4)
+    node.transform.rotation = unit_quaternion(in.rotation[0], in.rotation[1], in.rotation[2], in.rotation[3]);
+  if (in.matrix.size() == 16) {
+    const std::vector<float> numbers(in.matrix.begin(), in.matrix.end());
+    node.matrix = affine_matrix(numbers.data());
+  }
+  node.weights.assign(in.weights.begin(), in.weights.end());
+  if (const Value* instancing = find_extension(in, "EXT_mesh_gpu_instancing"); instancing && instancing->IsObject())
+    read_instances(document, *instancing, node);
+  return node;
+}
+
+void check_joints(const Scene& scene, const Node& node) {
+  const std::size_t count = scene.skins[static_cast<std::size_t>(node.skin)].joints.size();
+  for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+    for (const glm::u16vec4& joints : primitive.joints)
+      for (glm::length_t c = 0; c < 4; ++c)
+        if (joints[c] >= count) fail("its mesh uses joint {}, but its skin has {}", joints[c], count);
+}
+
+// A node's mesh, skin and weights must fit each other.
+void check_attachments(const Scene& scene, Node& node) {
+  if (node.mesh < 0) {
+    node.skin = -1;
+    node.weights.clear();
+    return;
+  }
+  const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
+  if (!node.weights.empty() && node.weights.size() != mesh.default_weights.size())
+    fail("{} weights for {} morph targets", node.weights.size(), mesh.default_weights.size());
+  if (node.skin < 0) return;
+  check_joints(scene, node);
+  const bool skinned = std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
+                                   [](const Primitive& primitive) { return !primitive.joints.empty(); });
+  if (!skinned) node.skin = -1;
+}
+
+void link_parents(Scene& scene) {
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+    for (const int child : scene.nodes[i].children) {
+      Node& node = scene.nodes[static_cast<std::size_t>(child)];
+      if (static_cast<std::size_t>(child) == i) fail("nodes[{}] is its own child", i);
+      if (node.parent >= 0) fail("nodes[{}] has two parents, {} and {}", child, node.parent, i);
+      node.parent = static_cast<int>(i);
+    }
+}
+
+// With one parent each, nodes that no root reaches go round in a cycle.
+void check_forest(const Scene& scene, std::size_t max_depth) {
+  std::vector<std::pair<int, std::size_t>> open;  // node and depth
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+    if (scene.nodes[i].parent < 0) open.emplace_back(static_cast<int>(i), 1);
+  std::vector<bool> reached(scene.nodes.size(), false);
+  while (!open.empty()) {
+    const auto [node, depth] = open.back();
+    open.pop_back();
+    if (depth > max_depth) fail("nodes[{}] lies deeper than the limit of {} levels", node, max_depth);
+    reached[static_cast<std::size_t>(node)] = true;
+    for (const int child : scene.nodes[static_cast<std::size_t>(node)].children) open.emplace_back(child, depth + 1);
+  }
+  const auto lost = std::find(reached.begin(), reached.end(), false);
+  if (lost != reached.end()) fail("nodes[{}] is its own ancestor", lost - reached.begin());
+}
+
+// The default scene, or the first; a file without scenes is a library of parts, and all of it is drawn.
+void read_roots(const Document& document, Scene& scene) {
+  if (document.model.scenes.empty()) {
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+      if (scene.nodes[i].parent < 0) scene.roots.push_back(static_cast<int>(i));
+    return;
+  }
+  const auto number = static_cast<std::size_t>(std::max(document.model.defaultScene, 0));
+  const tinygltf::Scene& in = document.model.scenes[number];
+  scene.name = in.name;
+  scene.roots = in.nodes;
+  std::vector<int> sorted = in.nodes;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) fail("scenes[{}] lists a node twice", number);
+  for (const int root : in.nodes)
+    if (scene.nodes[static_cast<std::size_t>(root)].parent >= 0)
+      fail("scenes[{}] lists nodes[{}], which has a parent", number, root);
+}
+
+}  // namespace
+
+void read_skins(Document& document, Scene& scene) {
+  for (const tinygltf::Skin& in : document.model.skins) {
+    Skin skin{.name = in.name, .joints = in.joints};
+    try {
+      if (skin.joints.empty()) fail("has no joints");
+      document.budget.spend(skin.joints.size(), sizeof(glm::mat4));
+      skin.inverse_bind.assign(skin.joints.size(), glm::mat4(1));
+      if (in.inverseBindMatrices >= 0) {
+        AccessorView view = view_accessor(document, in.inverseBindMatrices);
+        expect_components(view, 16);
+        if (view.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT) fail("{} must hold floats", view.name);
+        if (view.count < skin.joints.size())
+          fail("{} has {} matrices for {} joints", view.name, view.count, skin.joints.size());
+        view.count = skin.joints.size();
+        const std::vector<float> numbers = read_numbers(view);
+        for (std::size_t j = 0; j < view.count; ++j) skin.inverse_bind[j] = affine_matrix(&numbers[j * 16]);
+      }
+    } catch (const Error& e) {
+      fail("skins[{}]: {}", scene.skins.size(), e.what());
+    }
+    scene.skins.push_back(std::move(skin));
+  }
+}
+
+void read_nodes(Document& document, Scene& scene) {
+  const auto& nodes = document.model.nodes;
+  if (nodes.size() > document.limits.nodes) fail("{} nodes, over the limit of {}", nodes.size(), document.limits.nodes);
+  const std::vector<int> light_of = read_lights(document, scene);
+  for (const tinygltf::Node& in : nodes) {
+    try {
+      Node node = read_node(document, in);
+      if (const Value* light = find_extension(in, "KHR_lights_punctual"); light && light->IsObject())
+        node.light = light_of[static_cast<std::size_t>(index_or(*light, "light", 0))];
+      check_attachments(scene, node);
+      scene.nodes.push_back(std::move(node));
+    } catch (const Error& e) {
+      fail("nodes[{}]: {}", scene.nodes.size(), e.what());
+    }
+  }
+  link_parents(scene);
+  check_forest(scene, document.limits.node_depth);
+  read_roots(document, scene);
+}
+
+}  // namespace penumbra::scene::gltf

@@ -1,0 +1,122 @@
+#include "scene/gltf/resources.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <system_error>
+
+#include "core/error.h"
+#include "scene/gltf/container.h"
+
+namespace penumbra::scene::gltf {
+namespace {
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+constexpr std::string_view base64_alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+constexpr std::array<int8_t, 256> base64_values = [] {
+  std::array<int8_t, 256> values{};
+  values.fill(-1);
+  for (std::size_t i = 0; i < base64_alphabet.size(); ++i)
+    values[static_cast<unsigned char>(base64_alphabet[i])] = static_cast<int8_t>(i);
+  return values;
+}();
+
+std::string_view shortened(std::string_view uri) { return uri.substr(0, 80); }
+
+bool has_scheme(std::string_view uri) {
+  const auto colon = uri.find(':');
+  if (colon == std::string_view::npos || colon == 0) return false;
+  return std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '+' || c == '-' ||
+           c == '.';
+  });
+}
+
+bool lies_inside(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  const auto [in_folder, in_file] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+  return in_folder == folder.end() && in_file != file.end();
+}
+
+// The file that a relative URI names: decoded as the standard says, or as written, as many exporters write it.
+std::filesystem::path resolve(const std::filesystem::path& folder, std::string_view uri) {
+  std::error_code code;
+  const auto base = std::filesystem::canonical(folder.empty() ? "." : folder, code);
+  if (code) fail("the scene's folder can't be resolved: {}", code.message());
+  for (const std::string& name : {percent_decoded(uri), std::string(uri)}) {
+    if (name.find('\0') != std::string::npos) fail("'{}' holds a zero byte", shortened(uri));
+    if (std::filesystem::path(name).is_absolute()) fail("'{}' is an absolute path", shortened(uri));
+    const auto file = std::filesystem::canonical(base / name, code);
+    const auto inside = std::filesystem::weakly_canonical(base / name, code);
+    if (!code && !lies_inside(inside, base)) fail("'{}' leads out of the scene's folder", shortened(uri));
+    if (!file.empty()) return file;
+  }
+  fail("'{}' not found", shortened(uri));
+}
+
+}  // namespace
+
+std::string percent_decoded(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const int high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+    const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
+    if (low < 0) {
+      decoded += text[i];
+    } else {
+      decoded += static_cast<char>(high * 16 + low);
+      i += 2;
+    }
+  }
+  return decoded;
+}
+
+std::vector<std::byte> base64_decoded(std::string_view text) {
+  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+  if (text.size() % 4 == 1) fail("base64 data has an impossible length");
+  std::vector<std::byte> bytes;
+  bytes.reserve(text.size() * 3 / 4);
+  uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    const int value = base64_values[static_cast<unsigned char>(c)];
+    if (value < 0) fail("base64 data holds a character that is not base64");
+    bits = (bits << 6 | static_cast<uint32_t>(value)) & 0xFFFFFF;
+    count += 6;
+    if (count >= 8) {
+      count -= 8;
+      bytes.push_back(static_cast<std::byte>(bits >> count & 0xFF));
+    }
+  }
+  return bytes;
+}
+
+bool is_data_uri(std::string_view uri) { return uri.substr(0, 5) == "data:"; }
+
+std::vector<std::byte> load_uri(const std::filesystem::path& folder, std::string_view uri, std::size_t limit) {
+  if (uri.empty()) fail("an empty URI");
+  if (is_data_uri(uri)) {
+    const auto comma = uri.find(',');
+    constexpr std::string_view marker = ";base64";
+    if (comma == std::string_view::npos || comma < marker.size() ||
+        uri.substr(comma - marker.size(), marker.size()) != marker)
+      fail("'{}' is a data URI without base64", shortened(uri.substr(0, 30)));
+    if ((uri.size() - comma) / 4 * 3 > limit) fail("a data URI over the limit of {} bytes", limit);
+    return base64_decoded(uri.substr(comma + 1));
+  }
+  if (has_scheme(uri)) fail("'{}' is not a file beside the scene", shortened(uri));
+  const auto file = resolve(folder, uri);
+  try {
+    return read_file(file, limit);
+  } catch (const Error& e) {
+    fail("'{}': {}", shortened(uri), e.what());
+  }
+}
+
+}  // namespace penumbra::scene::gltf

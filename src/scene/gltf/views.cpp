@@ -1,0 +1,79 @@
+#include <cmath>
+#include <string_view>
+
+#include "core/error.h"
+#include "core/log.h"
+#include "scene/gltf/read.h"
+
+// What looks at and lights the scene: cameras and punctual lights.
+
+namespace penumbra::scene::gltf {
+namespace {
+
+Camera read_camera(const tinygltf::Camera& in) {
+  Camera camera{.name = in.name, .orthographic = in.type == "orthographic"};
+  double near = 0, far = 0;
+  if (camera.orthographic) {
+    near = in.orthographic.znear;
+    far = in.orthographic.zfar;
+    camera.half_width = static_cast<float>(std::abs(in.orthographic.xmag));
+    camera.half_height = static_cast<float>(std::abs(in.orthographic.ymag));
+    if (!(camera.half_width > 0 && camera.half_height > 0)) fail("xmag and ymag must not be zero");
+  } else {
+    near = in.perspective.znear;
+    far = in.perspective.zfar;  // 0: infinite
+    camera.fov_y = static_cast<float>(in.perspective.yfov);
+  }
+  if (far != 0 && far <= near) fail("zfar {} is not beyond znear {}", far, near);
+  camera.near = static_cast<float>(near);
+  if (far != 0) camera.far = static_cast<float>(far);
+  return camera;
+}
+
+Light read_light(const tinygltf::Light& in) {
+  Light light{.name = in.name};
+  if (in.type == "point") light.kind = LightKind::point;
+  if (in.type == "spot") light.kind = LightKind::spot;
+  if (in.color.size() == 3) light.color = glm::vec3(in.color[0], in.color[1], in.color[2]);
+  light.intensity = static_cast<float>(in.intensity);
+  light.range = static_cast<float>(in.range);
+  if (light.kind != LightKind::spot) return light;
+  light.inner_cone = static_cast<float>(in.spot.innerConeAngle);
+  light.outer_cone = static_cast<float>(in.spot.outerConeAngle);
+  if (light.inner_cone >= light.outer_cone)
+    fail("innerConeAngle {} is not inside outerConeAngle {}", light.inner_cone, light.outer_cone);
+  return light;
+}
+
+}  // namespace
+
+void read_cameras(const Document& document, Scene& scene) {
+  for (const tinygltf::Camera& camera : document.model.cameras) {
+    try {
+      scene.cameras.push_back(read_camera(camera));
+    } catch (const Error& e) {
+      fail("cameras[{}]: {}", scene.cameras.size(), e.what());
+    }
+  }
+}
+
+std::vector<int> read_lights(const Document& document, Scene& scene) {
+  std::vector<int> light_of;
+  for (const tinygltf::Light& light : document.model.lights) {
+    const std::size_t number = light_of.size();
+    if (light.type != "directional" && light.type != "point" && light.type != "spot") {
+      warn("light {} is of the unknown type '{}'; left out", number, light.type);
+      light_of.push_back(-1);
+      continue;
+    }
+    try {
+      scene.lights.push_back(read_light(light));
+    } catch (const Error& e) {
+      fail("lights[{}]: {}", number, e.what());
+    }
+    light_of.push_back(static_cast<int>(scene.lights.size()) - 1);
+  }
+  return light_of;
+}
+
+}  // namespace penumbra::scene::gltf
