@@ -17,6 +17,7 @@ BELOW = {
     "app": {"render", "shadow", "truth", "io", "scene", "gl", "core"},
 }
 INSTALLED = {"core", "gl", "shadow"}
+GENERATED = "gl/api.h"
 
 # Which layers may include a library's headers; a library that is not here is not used yet.
 LIBRARIES = {
@@ -25,7 +26,6 @@ LIBRARIES = {
     "GL/": {"gl"},
     "EGL/": {"gl"},
     "GLFW/": {"gl"},
-    "dlfcn.h": {"gl"},
     "tiny_gltf.h": {"scene"},
     "draco/": {"scene"},
     "meshoptimizer.h": {"scene"},
@@ -33,10 +33,11 @@ LIBRARIES = {
     "toml++/": {"io"},
     "nlohmann/": {"scene", "io", "app"},
     "CLI/": {"app"},
-    "sys/": {"scene", "io", "app"},
-    "fcntl.h": {"io", "app"},
-    "unistd.h": {"io", "app"},
 }
+
+# The operating system's headers, which the portable layers core and shadow leave alone.
+SYSTEM = re.compile(r"(sys/\w+|dlfcn|fcntl|poll|signal|termios|unistd)\.h")
+USES_SYSTEM = {"gl", "scene", "io", "app"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]', re.MULTILINE)
 
@@ -47,16 +48,16 @@ def faults_of(path, text):
     for mark, name in INCLUDE.findall(text):
         if mark == "<":
             owners = [layers for prefix, layers in LIBRARIES.items() if name.startswith(prefix)]
-            standard = re.fullmatch(r"[a-z_0-9]+", name)  # <vector>, <cmath>
-            if not standard and not any(layer in layers for layers in owners):
+            allowed = re.fullmatch(r"[a-z_0-9]+", name)  # <vector>, <cmath>
+            allowed = allowed or (SYSTEM.fullmatch(name) and layer in USES_SYSTEM)
+            if not allowed and not any(layer in layers for layers in owners):
                 yield f"src/{path}: <{name}> does not belong in the layer '{layer}'"
             continue
         beside = os.path.normpath(os.path.join(os.path.dirname(path), name))
-        generated = layer == "gl" and name == "api.h"
-        relative = generated or (support.ROOT / "src" / beside).exists()
+        relative = beside == GENERATED or (support.ROOT / "src" / beside).exists()
         if relative:
             target = beside
-        elif (support.ROOT / "src" / name).exists():
+        elif name == GENERATED or (support.ROOT / "src" / name).exists():
             target = name
         elif (support.ROOT / "glsl" / name).exists() and name.startswith(("shared/", "lib/")):
             continue
