@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "gpu/gpu_test.h"
 #include "gpu/triangle_scene.h"
 
 namespace penumbra::test {
@@ -31,6 +33,7 @@ TriangleScene knife_edge(float height, float angle_degrees, int width) {
   TriangleScene scene;
   scene.add_quad({-reach, 0, -reach}, {0, 0, 2 * reach}, {2 * reach, 0, 0});
   scene.add_quad({-20 * reach, height, -20 * reach}, {0, 0, 40 * reach}, {20 * reach, 0, 0});
+  scene.receivers = shadow::Box{{-reach, 0, -reach}, {reach, 0, reach}};
   scene.width = width;
   scene.height = 4;
   scene.view = glm::lookAt(glm::vec3(0, height / 2, 0), glm::vec3(0), glm::vec3(0, 0, -1));
@@ -63,7 +66,7 @@ struct Case {
 };
 constexpr Case cases[] = {{1, 0.53f}, {5, 0.53f}, {20, 0.53f}, {1, 2}, {5, 2}, {20, 2}, {1, 8}, {5, 8}, {20, 8}};
 
-class KnifeEdge : public testing::Test {
+class KnifeEdge : public GpuTest {
  protected:
   static ParamSet parameters(TriangleRenderer& renderer, float angle, const std::string& shape) {
     ParamSet params = renderer.params();
@@ -76,18 +79,26 @@ class KnifeEdge : public testing::Test {
   static void expect_wide_kernel(const TriangleRenderer& renderer, float radius) {
     ASSERT_GE(radius / renderer.mask().lights[0].cascades.texel(0), 24) << "the case is framed too wide";
   }
-  TriangleRenderer renderer_;
+  void SetUp() override {
+    GpuTest::SetUp();
+    renderer_ = std::make_unique<TriangleRenderer>();
+  }
+  void TearDown() override {
+    renderer_.reset();
+    GpuTest::TearDown();
+  }
+  std::unique_ptr<TriangleRenderer> renderer_;
 };
 
 TEST_F(KnifeEdge, BruteForceWithEveryTexelMatchesTheExactFunction) {
   for (const std::string shape : {"disc", "square"}) {
     for (const Case& c : cases) {
-      ParamSet params = parameters(renderer_, c.angle, shape);
+      ParamSet params = parameters(*renderer_, c.angle, shape);
       params.set("technique", std::string("brute_force"));
       params.set("brute_force.every_texel", true);
       const float radius = c.height * std::tan(glm::radians(c.angle) / 2);
-      const Shadowed shadowed = renderer_.render(knife_edge(c.height, c.angle, 128), params);
-      expect_wide_kernel(renderer_, radius);
+      const Shadowed shadowed = renderer_->render(knife_edge(c.height, c.angle, 128), params);
+      expect_wide_kernel(*renderer_, radius);
       const Deviation d = deviation(shadowed, radius, shape == "disc" ? exact_disc : exact_square);
       EXPECT_LE(d.worst, 0.02) << shape << " sun of " << c.angle << " degrees, caster at " << c.height
                                << " m, t = " << d.at;
@@ -98,19 +109,19 @@ TEST_F(KnifeEdge, BruteForceWithEveryTexelMatchesTheExactFunction) {
 TEST_F(KnifeEdge, PcssAveragedOverRotationsMatchesTheExactFunction) {
   for (const std::string shape : {"disc", "square"}) {
     for (const Case& c : cases) {
-      ParamSet params = parameters(renderer_, c.angle, shape);
+      ParamSet params = parameters(*renderer_, c.angle, shape);
       params.set("pcss.blocker_taps", 64);
       params.set("pcss.filter_taps", 64);
       const float radius = c.height * std::tan(glm::radians(c.angle) / 2);
       const TriangleScene scene = knife_edge(c.height, c.angle, 64);
-      Shadowed mean = renderer_.render(scene, params);
+      Shadowed mean = renderer_->render(scene, params);
       for (int seed = 1; seed < 64; ++seed) {
         params.set("sampling.seed", seed);
-        const Shadowed one = renderer_.render(scene, params);
+        const Shadowed one = renderer_->render(scene, params);
         for (size_t i = 0; i < mean.mask.size(); ++i) mean.mask[i] += one.mask[i];
       }
       for (float& value : mean.mask) value /= 64;
-      expect_wide_kernel(renderer_, radius);
+      expect_wide_kernel(*renderer_, radius);
       const Deviation d = deviation(mean, radius, shape == "disc" ? exact_disc : exact_square);
       EXPECT_LE(d.worst, 0.03) << shape << " sun of " << c.angle << " degrees, caster at " << c.height
                                << " m, t = " << d.at;
@@ -179,7 +190,9 @@ double width_at(TriangleRenderer& renderer, int cascades, int size, bool far_obj
   return width_10_90(profile, 2.4 * radius / bins);
 }
 
-TEST(PenumbraWidth, IsTheSameForEveryCascadeCountMapSizeAndBounds) {
+class PenumbraWidth : public GpuTest {};
+
+TEST_F(PenumbraWidth, IsTheSameForEveryCascadeCountMapSizeAndBounds) {
   TriangleRenderer renderer;
   int qualified = 0;
   int all = 0;

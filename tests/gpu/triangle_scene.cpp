@@ -68,7 +68,6 @@ class Geometry {
 };
 
 shadow::Box bounds_of(const TriangleScene& scene) {
-  if (scene.bounds) return *scene.bounds;
   shadow::Box box{glm::vec3(1e30f), glm::vec3(-1e30f)};
   for (const Triangle& t : scene.triangles) {
     for (const glm::vec3& corner : {t.a, t.b, t.c}) box = {glm::min(box.min, corner), glm::max(box.max, corner)};
@@ -150,8 +149,8 @@ Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& pa
                            .depth = {depth.id(), scene.width, scene.height},
                            .normals = {normals.id(), scene.width, scene.height},
                            .lights = {&light, 1},
-                           .casters = bounds_of(scene),
-                           .receivers = bounds_of(scene),
+                           .casters = scene.casters.value_or(bounds_of(scene)),
+                           .receivers = scene.receivers.value_or(bounds_of(scene)),
                            .draw = draw},
                           params);
   Shadowed result{.width = scene.width,

@@ -20,7 +20,7 @@ struct TriangleScene {
   glm::mat4 view{1}, projection{1};
   int width = 64, height = 64;
   glm::vec3 to_light{0, 1, 0};
-  std::optional<shadow::Box> bounds;  // of casters and receivers alike; else those of the triangles
+  std::optional<shadow::Box> casters, receivers;  // bounds; else those of all triangles
 
   void add_quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v);
   void add_box(const glm::vec3& min, const glm::vec3& max);
