@@ -17,5 +17,7 @@ function(penumbra_gl_loader target)
   execute_process(COMMAND "${Python3_EXECUTABLE}" "${generator}" "${header}" "${PENUMBRA_GL_API_DIR}"
     COMMAND_ERROR_IS_FATAL ANY)
   target_sources(${target} PRIVATE "${PENUMBRA_GL_API_DIR}/api.cpp")
-  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PENUMBRA_GL_API_DIR}>)
+  # As "gl/api.h" from the include root, and as "api.h" beside it from the headers of src/gl.
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_BINARY_DIR}/generated> $<BUILD_INTERFACE:${PENUMBRA_GL_API_DIR}>)
 endfunction()

@@ -25,7 +25,8 @@ Handle<delete_buffer> make_storage(std::string_view name, std::size_t bytes, con
 
 }  // namespace
 
-Buffer::Buffer(std::string_view label, std::size_t bytes) : handle_(make_storage(label, bytes, nullptr)), size_(bytes) {}
+Buffer::Buffer(std::string_view label, std::size_t bytes)
+    : handle_(make_storage(label, bytes, nullptr)), size_(bytes) {}
 
 Buffer::Buffer(std::string_view label, std::span<const std::byte> contents)
     : handle_(make_storage(label, contents.size(), contents.data())), size_(contents.size()) {}

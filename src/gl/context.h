@@ -10,8 +10,8 @@ namespace penumbra::gl {
 
 using GetProcAddress = void* (*)(const char* name);
 
-// Points Penumbra's GL entry points at the driver of the context that is current. The contexts below do it themselves; an
-// engine with a context of its own calls it once before anything else here. Throws Error naming what is missing of
+// Points Penumbra's GL entry points at the driver of the context that is current. The contexts below do it themselves;
+// an engine with a context of its own calls it once before anything else here. Throws Error naming what is missing of
 // OpenGL 4.5 core.
 void load_api(GetProcAddress get_proc_address);
 

@@ -175,9 +175,7 @@ class EglContext final : public ContextBase {
       fail("{}: the context cannot be made current ({})", subject_, error_name());
     }
   }
-  void unbind() noexcept override {
-    egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  }
+  void unbind() noexcept override { egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
 
   std::string subject_;
   EGLDisplay display_ = EGL_NO_DISPLAY;

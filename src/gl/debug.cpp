@@ -35,8 +35,8 @@ void APIENTRY on_message(GLenum source, GLenum type, GLuint /*id*/, GLenum sever
                          const GLchar* message, const void* /*user*/) {
   // Program reports compilers' messages itself, in the user's file names.
   if (source == GL_DEBUG_SOURCE_SHADER_COMPILER || source == GL_DEBUG_SOURCE_APPLICATION) return;
-  std::string_view text = length < 0 ? std::string_view(message)
-                                     : std::string_view(message, static_cast<std::size_t>(length));
+  std::string_view text =
+      length < 0 ? std::string_view(message) : std::string_view(message, static_cast<std::size_t>(length));
   while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
   if (type == GL_DEBUG_TYPE_ERROR) {
     const std::lock_guard lock(pending().mutex);

@@ -71,8 +71,7 @@ struct Device::Impl {
   }
   void drop_unused_framebuffers() {
     constexpr std::uint64_t long_ago = 4096;
-    std::erase_if(framebuffers,
-                  [&](const auto& entry) { return entry.second.last_use + long_ago < framebuffer_uses; });
+    std::erase_if(framebuffers, [&](const auto& entry) { return entry.second.last_use + long_ago < framebuffer_uses; });
   }
 };
 

@@ -14,6 +14,8 @@ void load_api(GetProcAddress get_proc_address) {
   std::vector<std::string> missing;
   for (const ApiEntry& entry : api_table()) {
     void* address = get_proc_address(entry.name);
+    // OSMesa has the functions of robustness under their extension's names alone.
+    if (address == nullptr) address = get_proc_address(fmt::format("{}ARB", entry.name).c_str());
     entry.store(address);
     if (address == nullptr) missing.emplace_back(entry.name);
   }

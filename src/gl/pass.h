@@ -35,8 +35,8 @@ class Device {
   ShaderLibrary shaders;
   Timers timers;
 
-  // The texture of that name, made again when the description changes. The reference stays valid; contents persist until
-  // then.
+  // The texture of that name, made again when the description changes. The reference stays valid; contents persist
+  // until then.
   const Texture& target(std::string_view name, const TextureDesc& desc);
   // A buffer of at least `bytes`, likewise (grows, never shrinks).
   const Buffer& scratch(std::string_view name, std::size_t bytes);
@@ -69,8 +69,9 @@ struct PassDesc {
 };
 
 // A pass in a scope. With attachments it binds a framebuffer, the viewport of the first attachment's level, and the
-// state above; without any (compute) it is a debug group and a timer. In a debug context every step throws Error for the
-// GL errors so far; those of the caller's own draws at the end of a scope come with the next step, under this pass's name.
+// state above; without any (compute) it is a debug group and a timer. In a debug context every step throws Error for
+// the GL errors so far; those of the caller's own draws at the end of a scope come with the next step, under this
+// pass's name.
 class Pass {
  public:
   Pass(Device& device, const PassDesc& desc);

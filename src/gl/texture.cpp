@@ -166,8 +166,7 @@ std::vector<float> read_floats(const Texture& texture, int channels, int level, 
 
 std::vector<unsigned> read_uints(const Texture& texture, int channels, int level, int layer) {
   static constexpr std::array<GLenum, 4> formats{GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};
-  assert(format_info(texture.desc().format).kind == ChannelKind::unsigned_integer ||
-         format_info(texture.desc().format).kind == ChannelKind::signed_integer);
+  assert(format_info(texture.desc().format).kind == ChannelKind::unsigned_integer);
   return read_pixels<unsigned>(texture, formats.at(static_cast<std::size_t>(channels - 1)), GL_UNSIGNED_INT, channels,
                                level, layer);
 }

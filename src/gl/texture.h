@@ -25,8 +25,8 @@ struct TextureDesc {
   bool operator==(const TextureDesc&) const = default;
 };
 
-// A labelled texture with immutable storage. Throws Error when it is larger than the device allows or memory ends. Sampled with nearest filtering and clamp-to-edge unless a Sampler says
-// otherwise.
+// A labelled texture with immutable storage. Throws Error when it is larger than the device allows or memory ends.
+// Sampled with nearest filtering and clamp-to-edge unless a Sampler says otherwise.
 class Texture {
  public:
   Texture() = default;
@@ -78,7 +78,7 @@ class Sampler {
 };
 
 // Pixels of a level and layer, rows bottom to top, tightly packed as floats with `channels` (1 to 4) per pixel;
-// integer formats are not converted (use read_uints). Waits for the GPU.
+// not for integer formats; read_uints is for unsigned ones. Waits for the GPU.
 std::vector<float> read_floats(const Texture& texture, int channels, int level = 0, int layer = 0);
 std::vector<unsigned> read_uints(const Texture& texture, int channels, int level = 0, int layer = 0);
 

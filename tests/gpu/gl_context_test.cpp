@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+#include "gl/api.h"
+#include "gpu_test.h"
+
+namespace penumbra {
+namespace {
+
+using test::message_of;
+
+std::string gl_version() { return reinterpret_cast<const char*>(gl::glGetString(GL_VERSION)); }
+
+// Colours a 1x1 target through the context that is current, and reads it back.
+float drawn_red() {
+  gl::Device device({}, gl::Timers::Mode::off);
+  const gl::Texture& target = device.target("target", {.format = GL_R32F});
+  gl::Pass(device, {.name = "clear", .colors = {{.texture = &target, .clear = glm::vec4(0.25f)}}});
+  return gl::read_floats(target, 1).front();
+}
+
+void expect_core_4_5_that_draws(const gl::Context& context) {
+  GLint profile = 0;
+  gl::glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
+  EXPECT_EQ(profile, GL_CONTEXT_CORE_PROFILE_BIT);
+  EXPECT_GE(gl_version(), "4.5");
+  EXPECT_NE(context.get_proc_address(), nullptr);
+  EXPECT_FLOAT_EQ(drawn_red(), 0.25f);
+  EXPECT_NO_THROW(gl::check_errors("context"));
+}
+
+TEST(GlContext, EglGivesCoreWithoutDisplay) {
+  unsetenv("DISPLAY");
+  const auto context = gl::make_egl_context({.debug = true});
+  EXPECT_EQ(context->backend(), gl::Backend::egl);
+  expect_core_4_5_that_draws(*context);
+}
+
+TEST(GlContext, OsMesaGivesCore) {
+  const auto context = gl::make_osmesa_context({.debug = true});
+  EXPECT_EQ(context->backend(), gl::Backend::osmesa);
+  expect_core_4_5_that_draws(*context);
+}
+
+TEST(GlContext, EveryListedEglDeviceEitherDrawsOrSaysWhyNot) {
+  const std::vector<std::string> names = gl::egl_devices();
+  ASSERT_FALSE(names.empty());
+  int drawing = 0;
+  for (int index = 0; index < static_cast<int>(names.size()); ++index) {
+    EXPECT_FALSE(names[static_cast<std::size_t>(index)].empty());
+    try {
+      expect_core_4_5_that_draws(*gl::make_egl_context({.debug = true, .egl_device = index}));
+      ++drawing;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("EGL device " + std::to_string(index)), std::string::npos);
+    }
+  }
+  EXPECT_GE(drawing, 1);
+}
+
+TEST(GlContext, AnEglDeviceThatIsNotThereIsNamed) {
+  const std::string message = message_of([] { gl::make_egl_context({.egl_device = 99}); });
+  EXPECT_NE(message.find("no device 99"), std::string::npos) << message;
+  EXPECT_THROW(gl::make_egl_context({.egl_device = -1}), Error);
+}
+
+TEST(GlContext, AWindowWithoutADisplayIsAnErrorThatSaysSo) {
+  unsetenv("DISPLAY");
+  unsetenv("WAYLAND_DISPLAY");
+  const std::string message = message_of([] { gl::make_window_context({.visible = false}); });
+  EXPECT_EQ(message.find("window: "), 0u) << message;
+  EXPECT_NE(message.find("DISPLAY"), std::string::npos) << message;
+}
+
+TEST(GlContext, AutoIsOffscreenAndAnUnknownBackendHasNearNames) {
+  EXPECT_EQ(gl::make_context("auto")->backend(), gl::Backend::egl);
+  EXPECT_EQ(message_of([] { gl::make_context("osmeza"); }), "unknown backend 'osmeza'; did you mean 'osmesa'?");
+}
+
+TEST(GlContext, ContextsFollowEachOtherAndTakeTurns) {
+  for (int i = 0; i < 3; ++i) {
+    expect_core_4_5_that_draws(*gl::make_egl_context({.debug = true}));
+    expect_core_4_5_that_draws(*gl::make_osmesa_context({.debug = true}));
+  }
+  const auto egl = gl::make_egl_context({.debug = true});
+  const auto osmesa = gl::make_osmesa_context({.debug = true});
+  for (gl::Context* context : {egl.get(), osmesa.get(), egl.get(), osmesa.get()}) {
+    context->make_current();
+    expect_core_4_5_that_draws(*context);
+  }
+}
+
+TEST(GlContext, DebugOutputBelongsToTheContextThatAskedForIt) {
+  const auto plain = gl::make_egl_context();
+  EXPECT_FALSE(gl::debug_enabled());
+  const auto debug = gl::make_egl_context({.debug = true});
+  EXPECT_TRUE(gl::debug_enabled());
+  plain->make_current();
+  EXPECT_FALSE(gl::debug_enabled());
+}
+
+TEST(GlContext, MissingEntryPointsAreNamed) {
+  const auto context = gl::make_egl_context();
+  static const gl::GetProcAddress driver = context->get_proc_address();
+  const gl::GetProcAddress without_dsa = [](const char* name) -> void* {
+    return std::strncmp(name, "glCreate", 8) == 0 ? nullptr : driver(name);
+  };
+  const std::string message = message_of([&] { gl::load_api(without_dsa); });
+  EXPECT_NE(message.find("glCreateProgram"), std::string::npos) << message;
+  EXPECT_NE(message.find("more"), std::string::npos) << message;
+  EXPECT_NO_THROW(gl::load_api(driver));
+  EXPECT_FLOAT_EQ(drawn_red(), 0.25f);
+}
+
+TEST(GlContext, DeviceInfoTellsTheDriverAndItsLimits) {
+  const auto context = gl::make_egl_context();
+  const gl::DeviceInfo info = gl::device_info();
+  EXPECT_FALSE(info.vendor.empty());
+  EXPECT_FALSE(info.renderer.empty());
+  EXPECT_EQ(info.version, gl_version());
+  EXPECT_GE(info.glsl_version, "4.50");
+  EXPECT_EQ(info.software, info.renderer.find("llvmpipe") != std::string::npos);
+  const auto limit = std::ranges::find(info.limits, "texture size", &gl::DeviceInfo::Limit::name);
+  ASSERT_NE(limit, info.limits.end());
+  EXPECT_GE(limit->value, 16384);
+  EXPECT_TRUE(std::ranges::all_of(info.limits, [](const auto& row) { return row.value > 0; }));
+  EXPECT_NO_THROW(gl::check_errors("limits"));
+}
+
+}  // namespace
+}  // namespace penumbra

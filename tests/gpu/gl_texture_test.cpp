@@ -1,0 +1,117 @@
+#include "gl/texture.h"
+
+#include <array>
+#include <cstdint>
+#include <numeric>
+
+#include "gl/api.h"
+#include "gpu_test.h"
+
+namespace penumbra {
+namespace {
+
+using test::message_of;
+
+class GlTexture : public test::GpuTest {};
+
+// The numbers 0, 1, 2, … scaled.
+std::vector<float> ramp(std::size_t count, float scale) {
+  std::vector<float> values(count);
+  std::iota(values.begin(), values.end(), 0.0f);
+  for (float& value : values) value *= scale;
+  return values;
+}
+
+TEST_F(GlTexture, EveryLevelAndLayerReadsBackWhatWasUploaded) {
+  const gl::Texture texture(
+      "t", {.target = GL_TEXTURE_2D_ARRAY, .format = GL_RG32F, .width = 5, .height = 3, .layers = 3, .levels = 2});
+  for (int layer = 0; layer < 3; ++layer) {
+    texture.upload(GL_RG, GL_FLOAT, std::as_bytes(std::span<const float>(ramp(30, 1.0f + static_cast<float>(layer)))),
+                   0, layer);
+    texture.upload(GL_RG, GL_FLOAT, std::as_bytes(std::span<const float>(ramp(4, -1.0f - static_cast<float>(layer)))),
+                   1, layer);
+  }
+  for (int layer = 0; layer < 3; ++layer) {
+    EXPECT_EQ(gl::read_floats(texture, 2, 0, layer), ramp(30, 1.0f + static_cast<float>(layer)));
+    EXPECT_EQ(gl::read_floats(texture, 2, 1, layer), ramp(4, -1.0f - static_cast<float>(layer)));
+  }
+}
+
+TEST_F(GlTexture, OddRowsArePackedTightlyWhateverTheStateWas) {
+  gl::glPixelStorei(GL_UNPACK_ALIGNMENT, 8);
+  gl::glPixelStorei(GL_UNPACK_ROW_LENGTH, 17);
+  gl::glPixelStorei(GL_PACK_ALIGNMENT, 8);
+  const gl::Texture texture("t", {.format = GL_R8, .width = 3, .height = 3});
+  const std::array<std::uint8_t, 9> pixels{0, 255, 51, 102, 0, 255, 204, 153, 51};
+  texture.upload(GL_RED, GL_UNSIGNED_BYTE, std::as_bytes(std::span(pixels)));
+  const std::vector<float> read = gl::read_floats(texture, 1);
+  for (std::size_t i = 0; i < pixels.size(); ++i) EXPECT_FLOAT_EQ(read[i], static_cast<float>(pixels[i]) / 255.0f);
+}
+
+TEST_F(GlTexture, IntegersAndDepthReadBack) {
+  const gl::Texture integers("t", {.format = GL_RG32UI, .width = 2});
+  const std::array<unsigned, 4> values{0u, 0xffffffffu, 0x80000001u, 7u};
+  integers.upload(GL_RG_INTEGER, GL_UNSIGNED_INT, std::as_bytes(std::span(values)));
+  EXPECT_EQ(gl::read_uints(integers, 2), std::vector<unsigned>(values.begin(), values.end()));
+
+  const gl::Texture depth("d", {.format = GL_DEPTH_COMPONENT32F, .width = 2});
+  const std::array<float, 2> depths{0.25f, 0.75f};
+  depth.upload(GL_DEPTH_COMPONENT, GL_FLOAT, std::as_bytes(std::span(depths)));
+  EXPECT_EQ(gl::read_floats(depth, 1), std::vector<float>(depths.begin(), depths.end()));
+}
+
+TEST_F(GlTexture, BytesCountLevelsAndLayers) {
+  EXPECT_EQ(gl::Texture("t", {.format = GL_RGBA16F, .width = 4, .height = 2, .levels = 3}).bytes(),
+            (8u + 2u + 1u) * 8u);
+  EXPECT_EQ(
+      gl::Texture(
+          "t",
+          {.target = GL_TEXTURE_2D_ARRAY, .format = GL_DEPTH_COMPONENT32F, .width = 2048, .height = 2048, .layers = 4})
+          .bytes(),
+      4u * 2048u * 2048u * 4u);
+  EXPECT_EQ(gl::Texture().bytes(), 0u);
+}
+
+TEST_F(GlTexture, MipmapsAverage) {
+  const gl::Texture texture("t", {.format = GL_R32F, .width = 2, .height = 2, .levels = 2});
+  texture.upload(GL_RED, GL_FLOAT, std::as_bytes(std::span<const float>(ramp(4, 2.0f))));
+  texture.generate_mipmaps();
+  EXPECT_FLOAT_EQ(gl::read_floats(texture, 1, 1).front(), 3.0f);
+}
+
+TEST_F(GlTexture, OneTooLargeForTheDeviceIsNamedWithTheLimit) {
+  const std::string message = message_of([] { gl::Texture("shadow map", {.width = 1 << 20}); });
+  EXPECT_NE(message.find("texture 'shadow map': 1048576 x 1 is over"), std::string::npos) << message;
+}
+
+TEST_F(GlTexture, MovingKeepsOneOwner) {
+  gl::Texture first("t", {.format = GL_R8});
+  const GLuint id = first.id();
+  gl::Texture second = std::move(first);
+  EXPECT_EQ(second.id(), id);
+  second = gl::Texture();
+  EXPECT_EQ(gl::glIsTexture(id), GL_FALSE);
+}
+
+class GlBuffer : public test::GpuTest {};
+
+TEST_F(GlBuffer, HoldsWhatWasWritten) {
+  const std::array<float, 4> values{1, 2, 3, 4};
+  const gl::Buffer buffer = gl::Buffer::of("b", std::span<const float>(values));
+  gl::write_value(buffer, 9.0f);
+  buffer.write(std::as_bytes(std::span(values).first(1)), 3 * sizeof(float));
+  std::array<float, 4> read{};
+  gl::glGetNamedBufferSubData(buffer.id(), 0, sizeof(read), read.data());
+  EXPECT_EQ(read, (std::array<float, 4>{9, 2, 3, 1}));
+  EXPECT_EQ(buffer.size(), sizeof(values));
+}
+
+TEST_F(GlBuffer, MayBeEmpty) {
+  const gl::Buffer buffer("b", std::span<const std::byte>());
+  EXPECT_EQ(buffer.size(), 0u);
+  EXPECT_TRUE(buffer);
+  buffer.bind_storage(0);
+}
+
+}  // namespace
+}  // namespace penumbra

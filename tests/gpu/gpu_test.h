@@ -1,0 +1,41 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "gl/context.h"
+#include "gl/pass.h"
+
+namespace penumbra::test {
+
+// The backend that GPU tests run on: PENUMBRA_TEST_BACKEND, or "egl".
+std::string backend_name();
+
+// A test with a debug context, made once a process; current before the members of a test class are made. It fails on
+// any GL error or debug message of type error.
+class GpuTest : public testing::Test {
+ protected:
+  GpuTest();
+  void TearDown() override;
+};
+
+// Shader files of a test: the built-in ones and these, by name and text.
+gl::ShaderFiles shader_files(std::initializer_list<std::pair<const char*, const char*>> files);
+
+// The message of the penumbra::Error that `call` throws; fails the test when it throws none.
+template <class Call>
+std::string message_of(Call&& call) {
+  try {
+    std::forward<Call>(call)();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "no penumbra::Error was thrown";
+  return "";
+}
+
+}  // namespace penumbra::test

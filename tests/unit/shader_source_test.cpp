@@ -1,0 +1,145 @@
+#include "gl/shader_source.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.h"
+
+namespace penumbra::gl {
+namespace {
+
+ShaderFiles files(std::initializer_list<std::pair<const char*, const char*>> list) {
+  ShaderFiles result;
+  for (const auto& [name, text] : list) result.put(name, text);
+  return result;
+}
+
+std::string message(const ShaderFiles& files, std::string_view root) {
+  try {
+    load_shader_source(files, root, {});
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::size_t count(std::string_view text, std::string_view part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() : path_(testing::TempDir() + "penumbra_overlay_" + std::to_string(getpid())) {
+    std::filesystem::create_directories(path_ / "lib");
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
+  std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+TEST(ShaderSource, StartsWithVersionAndDefines) {
+  const auto source =
+      load_shader_source(files({{"a.frag", "void main() {}\n"}}), "a.frag", {{"TAPS", "16"}, {"ON", ""}});
+  EXPECT_EQ(source.text, "#version 450 core\n#define TAPS 16\n#define ON \n#line 1 0\nvoid main() {}\n");
+  EXPECT_EQ(source.files, std::vector<std::string>{"a.frag"});
+}
+
+TEST(ShaderSource, AnIncludeStandsInItsPlaceAndLinesGoOn) {
+  const auto source = load_shader_source(
+      files({{"a.frag", "first\n  #  include \"lib/b.glsl\" // why\nlast"}, {"lib/b.glsl", "inner"}}), "a.frag", {});
+  EXPECT_EQ(source.text, "#version 450 core\n#line 1 0\nfirst\n#line 1 1\ninner\n#line 3 0\nlast\n");
+  EXPECT_EQ(source.files, (std::vector<std::string>{"a.frag", "lib/b.glsl"}));
+}
+
+TEST(ShaderSource, EveryFileComesOnceWhoeverIncludesIt) {
+  const auto source = load_shader_source(files({{"a.frag", "#include \"b\"\n#include \"c\"\n#include \"b\"\n"},
+                                                {"b", "#include \"c\"\nBODY_B\n"},
+                                                {"c", "#include \"a.frag\"\n#include \"b\"\nBODY_C\n"}}),
+                                         "a.frag", {});
+  EXPECT_EQ(count(source.text, "BODY_B"), 1u);
+  EXPECT_EQ(count(source.text, "BODY_C"), 1u);
+  EXPECT_EQ(source.files.size(), 3u);
+}
+
+TEST(ShaderSource, HeadersSharedWithCppNeedNoCare) {
+  const auto source = load_shader_source(
+      files({{"shared/x.h", "#pragma once\n#ifdef __cplusplus\n#include <glm/glm.hpp>\n#endif\nstruct X {};\r\n"}}),
+      "shared/x.h", {});
+  EXPECT_EQ(source.text, "#version 450 core\n#line 1 0\n\n#ifdef __cplusplus\n\n#endif\nstruct X {};\r\n");
+}
+
+TEST(ShaderSource, AMissingIncludeNamesWhoAsked) {
+  EXPECT_EQ(message(files({{"a.frag", "\n#include \"lib/none.glsl\"\n"}}), "a.frag"),
+            "glsl/a.frag:2: shader file 'glsl/lib/none.glsl' not found");
+  EXPECT_EQ(message(files({}), "none.frag"), "shader file 'glsl/none.frag' not found");
+}
+
+TEST(ShaderSource, AMalformedIncludeNamesItsLine) {
+  for (const char* line : {"#include", "#include lib/b.glsl", "#include \"b", "#include \"\""}) {
+    EXPECT_EQ(message(files({{"a.frag", (std::string("\n\n") + line).c_str()}}), "a.frag"),
+              "glsl/a.frag:3: #include takes a name in quotes")
+        << line;
+  }
+}
+
+TEST(ShaderSource, NamesThatLeaveTheFolderAreRefused) {
+  const TemporaryFolder folder;
+  folder.write("secret", "SECRET");
+  const ShaderFiles overlay(folder.path() + "/lib");
+  EXPECT_EQ(overlay.read("../secret"), std::nullopt);
+  EXPECT_EQ(overlay.read("x/../../secret"), std::nullopt);
+  EXPECT_EQ(overlay.read(folder.path() + "/secret"), std::nullopt);
+  EXPECT_NE(message(files({{"a", "#include \"../x\""}}), "a").find("outside of glsl/"), std::string::npos);
+}
+
+TEST(ShaderSource, AnOverlaysFileWinsOverTheBuiltInOne) {
+  const std::vector<std::string> names = ShaderFiles::built_in_names();
+  ASSERT_FALSE(names.empty());
+  const std::string built_in = names.front();
+  const TemporaryFolder folder;
+  std::filesystem::create_directories((std::filesystem::path(folder.path()) / built_in).parent_path());
+  const ShaderFiles overlay(folder.path());
+  EXPECT_EQ(overlay.read(built_in), ShaderFiles().read(built_in));
+  folder.write(built_in, "OVERLAID\n");
+  EXPECT_EQ(overlay.read(built_in), "OVERLAID\n");
+  EXPECT_EQ(overlay.read("lib"), std::nullopt) << "a folder is not a file";
+}
+
+TEST(ShaderSource, BuiltInFilesAreTheFilesOfTheTree) {
+  for (const std::string& name : ShaderFiles::built_in_names()) {
+    std::ifstream stream(std::string(PENUMBRA_ROOT) + "/glsl/" + name, std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    EXPECT_EQ(ShaderFiles().read(name), text) << name;
+  }
+}
+
+const ShaderSource two_files{"", {"shadow/a.frag", "lib/b.glsl"}};
+
+TEST(TranslateLog, EveryDriversFormBecomesFileAndLine) {
+  EXPECT_EQ(translate_log("0:12(5): error: `x' undeclared\n1:3(1): warning: unused\n", two_files),
+            "glsl/shadow/a.frag:12: error: `x' undeclared\nglsl/lib/b.glsl:3: warning: unused");
+  EXPECT_EQ(translate_log("1(12) : error C1008: undefined variable \"x\"\n", two_files),
+            "glsl/lib/b.glsl:12: error C1008: undefined variable \"x\"");
+  EXPECT_EQ(translate_log("ERROR: 0:7: 'x' : undeclared identifier\nWARNING: 1:9: odd", two_files),
+            "glsl/shadow/a.frag:7: error: 'x' : undeclared identifier\nglsl/lib/b.glsl:9: warning: odd");
+}
+
+TEST(TranslateLog, OtherLinesStayAndEmptyOnesGo) {
+  EXPECT_EQ(translate_log("\n\nlinking failed\n  \n7:1(1): error: from nowhere\n", two_files),
+            "linking failed\n7:1(1): error: from nowhere");
+}
+
+}  // namespace
+}  // namespace penumbra::gl
