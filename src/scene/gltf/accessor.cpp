@@ -35,7 +35,7 @@ int component_count(int type) {
 Bytes checked_range(const Document& document, int view, std::size_t offset, std::size_t count, std::size_t stride,
                     std::size_t size) {
   const Bytes bytes = document.views[static_cast<std::size_t>(view)];
-  if (bytes.empty()) fail("its bufferView {} has no data", view);
+  if (bytes.empty()) return {};  // its buffer has no data: zeros
   // count is below 2^31 and stride below 2^8: no overflow.
   if (offset > bytes.size() || stride * (count - 1) + size > bytes.size() - offset)
     fail("{} elements of {} bytes from byte {} don't fit the {} bytes of bufferView {}", count, size, offset,
@@ -54,6 +54,7 @@ void add_sparse(const Document& document, const tinygltf::Accessor& accessor, Ac
   view.sparse_bytes =
       checked_range(document, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count,
                     view.element_size(), view.element_size());
+  if (indices.empty() || view.sparse_bytes.empty()) fail("its sparse elements have no data");
   const AccessorView index_view{.component_type = sparse.indices.componentType};
   for (std::size_t i = 0; i < count; ++i) {
     const uint32_t index = index_view.integer(indices.data() + i * index_size, 0);

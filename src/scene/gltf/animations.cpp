@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include "core/log.h"
@@ -28,6 +29,20 @@ int component_count(const Scene& scene, const Node& node, Path path) {
   return static_cast<int>(scene.meshes[static_cast<std::size_t>(node.mesh)].default_weights.size());
 }
 
+// Keys at the same time, which some exporters write for a jump: the last one holds.
+void keep_last_of_equal_keys(AnimationChannel& channel) {
+  const std::size_t keys = channel.times.size(), width = channel.values.size() / keys;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < keys; ++k) {
+    if (k > 0 && channel.times[k] > channel.times[k - 1]) ++kept;
+    channel.times[kept] = channel.times[k];
+    std::copy_n(channel.values.begin() + static_cast<std::ptrdiff_t>(k * width), width,
+                channel.values.begin() + static_cast<std::ptrdiff_t>(kept * width));
+  }
+  channel.times.resize(kept + 1);
+  channel.values.resize((kept + 1) * width);
+}
+
 void read_keys(Document& document, const tinygltf::AnimationSampler& sampler, AnimationChannel& channel) {
   const AccessorView input = view_accessor(document, sampler.input), output = view_accessor(document, sampler.output);
   expect_components(input, 1);
@@ -38,11 +53,12 @@ void read_keys(Document& document, const tinygltf::AnimationSampler& sampler, An
   channel.times = read_numbers(input);
   channel.values = read_numbers(output);
   for (std::size_t k = 0; k < channel.times.size(); ++k)
-    if (channel.times[k] < 0 || (k > 0 && channel.times[k] <= channel.times[k - 1]))
+    if (channel.times[k] < 0 || (k > 0 && channel.times[k] < channel.times[k - 1]))
       fail("key times must grow from zero; key {} is at {}", k, channel.times[k]);
   const std::size_t values_a_key = channel.interpolation == Interpolation::cubic_spline ? 3 : 1;
   const std::size_t expected = channel.times.size() * values_a_key * static_cast<std::size_t>(channel.components);
   if (channel.values.size() != expected) fail("{} values for its keys, not {}", channel.values.size(), expected);
+  keep_last_of_equal_keys(channel);
 }
 
 // Nothing when the channel has no target that this program knows.

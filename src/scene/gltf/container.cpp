@@ -76,6 +76,16 @@ void check_json_size(std::string_view text, const ReadLimits& limits) {
   }
 }
 
+// An object, after white space or a byte order mark.
+bool looks_like_json(Bytes bytes) {
+  for (const std::byte byte : bytes) {
+    const auto c = std::to_integer<unsigned char>(byte);
+    if (c == '{') return true;
+    if (c != ' ' && c != '\t' && c != '\r' && c != '\n' && c != 0xEF && c != 0xBB && c != 0xBF) return false;
+  }
+  return false;
+}
+
 nlohmann::json parse_json(Bytes bytes, const ReadLimits& limits) {
   // The byte type of files is the text's character type by definition of UTF-8 text in memory.
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -120,6 +130,7 @@ Container read_container(const std::filesystem::path& path, const ReadLimits& li
     container.binary = chunks.binary;
     container.has_binary = chunks.has_binary;
   } else {
+    if (!looks_like_json(file)) fail("neither a GLB nor a glTF file");
     container.json = parse_json(file, limits);
     // A .gltf's data lies elsewhere; only a GLB's chunk refers to the file's bytes later on.
     container.file = {};

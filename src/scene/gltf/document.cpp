@@ -54,6 +54,10 @@ void check_extensions(const Json& json) {
   }
 }
 
+bool is_meshopt_fallback(const Json& buffer) {
+  return buffer.contains("extensions") && buffer["extensions"].contains("EXT_meshopt_compression");
+}
+
 std::vector<Bytes> load_buffers(Document& document, const Container& container) {
   std::vector<Bytes> buffers;
   if (!container.json.contains("buffers")) return buffers;
@@ -70,7 +74,8 @@ std::vector<Bytes> load_buffers(Document& document, const Container& container) 
       } else if (number == 0 && container.has_binary) {
         bytes = container.binary;
       } else {
-        buffers.emplace_back();  // a place holder, as EXT_meshopt_compression's fallback buffers are
+        if (!is_meshopt_fallback(buffer)) warn("buffers[{}] has no data; what uses it reads zeros", number);
+        buffers.emplace_back();
         continue;
       }
       if (bytes.size() < length) fail("has {} bytes, not {}", bytes.size(), length);
@@ -131,6 +136,36 @@ void list_images(Document& document, const Json& json) {
   }
 }
 
+template <class T>
+void spend_array(Budget& budget, const Json& owner, const char* key) {
+  if (owner.contains(key)) budget.spend(owner[key].size(), sizeof(T));
+}
+
+// tinygltf's structures are large, even for an empty object of two characters.
+void spend_model(Document& document, const Json& json) {
+  Budget& budget = document.budget;
+  if (json.contains("nodes") && json["nodes"].size() > document.limits.nodes)
+    fail("{} nodes, over the limit of {}", json["nodes"].size(), document.limits.nodes);
+  spend_array<tinygltf::Node>(budget, json, "nodes");
+  spend_array<tinygltf::Accessor>(budget, json, "accessors");
+  spend_array<tinygltf::BufferView>(budget, json, "bufferViews");
+  spend_array<tinygltf::Material>(budget, json, "materials");
+  spend_array<tinygltf::Texture>(budget, json, "textures");
+  spend_array<tinygltf::Sampler>(budget, json, "samplers");
+  spend_array<tinygltf::Skin>(budget, json, "skins");
+  spend_array<tinygltf::Camera>(budget, json, "cameras");
+  spend_array<tinygltf::Scene>(budget, json, "scenes");
+  spend_array<tinygltf::Mesh>(budget, json, "meshes");
+  spend_array<tinygltf::Animation>(budget, json, "animations");
+  if (json.contains("meshes"))
+    for (const Json& mesh : json["meshes"]) spend_array<tinygltf::Primitive>(budget, mesh, "primitives");
+  if (!json.contains("animations")) return;
+  for (const Json& animation : json["animations"]) {
+    spend_array<tinygltf::AnimationChannel>(budget, animation, "channels");
+    spend_array<tinygltf::AnimationSampler>(budget, animation, "samplers");
+  }
+}
+
 // tinygltf reads files itself, refuses index accessors without a bufferView (Draco's and sparse ones have none) and
 // buffers without data, so it is given the document without buffers and images and with a bufferView everywhere.
 tinygltf::Model parse_model(Json json) {
@@ -170,6 +205,7 @@ Document read_document(const std::filesystem::path& path, const ReadLimits& limi
   const std::vector<Bytes> buffers = load_buffers(document, container);
   cut_views(document, container.json, buffers);
   list_images(document, container.json);
+  spend_model(document, container.json);
   document.model = parse_model(std::move(container.json));
   document.storage.push_back(std::move(container.file));  // moving a vector leaves its bytes where they are
   return document;

@@ -239,7 +239,7 @@ void read_meshes(Document& document, const std::vector<MaterialUse>& materials, 
     try {
       scene.meshes.push_back(read_mesh(document, materials, mesh));
     } catch (const Error& e) {
-      fail("meshes[{}].{}", scene.meshes.size(), e.what());
+      fail("meshes[{}]: {}", scene.meshes.size(), e.what());
     }
   }
 }

@@ -129,7 +129,7 @@ void check_forest(const Scene& scene, std::size_t max_depth) {
     for (const int child : scene.nodes[static_cast<std::size_t>(node)].children) open.emplace_back(child, depth + 1);
   }
   const auto lost = std::find(reached.begin(), reached.end(), false);
-  if (lost != reached.end()) fail("nodes[{}] is its own ancestor", lost - reached.begin());
+  if (lost != reached.end()) fail("nodes[{}] belongs to a cycle", lost - reached.begin());
 }
 
 // The default scene, or the first; a file without scenes is a library of parts, and all of it is drawn.
@@ -178,10 +178,8 @@ void read_skins(Document& document, Scene& scene) {
 }
 
 void read_nodes(Document& document, Scene& scene) {
-  const auto& nodes = document.model.nodes;
-  if (nodes.size() > document.limits.nodes) fail("{} nodes, over the limit of {}", nodes.size(), document.limits.nodes);
   const std::vector<int> light_of = read_lights(document, scene);
-  for (const tinygltf::Node& in : nodes) {
+  for (const tinygltf::Node& in : document.model.nodes) {
     try {
       Node node = read_node(document, in);
       if (const Value* light = find_extension(in, "KHR_lights_punctual"); light && light->IsObject())

@@ -1,0 +1,99 @@
+#include "scene/scene_info.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/animation.h"
+
+namespace penumbra::scene {
+namespace {
+
+MaterialInfo describe_material(const Scene& scene, const Material& material) {
+  MaterialInfo info{.name = material.name,
+                    .alpha_mode = material.alpha_mode,
+                    .double_sided = material.double_sided,
+                    .unlit = material.unlit};
+  const auto add = [&](const char* use, const TextureRef& ref) {
+    if (ref.texture < 0) return;
+    const Texture& texture = scene.textures[static_cast<std::size_t>(ref.texture)];
+    const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
+    info.textures.push_back(fmt::format("{} {} x {}", use, image.width, image.height));
+  };
+  add("base colour", material.base_color_texture);
+  add("metallic-roughness", material.metallic_roughness_texture);
+  add("normal", material.normal_texture);
+  add("occlusion", material.occlusion_texture);
+  add("emissive", material.emissive_texture);
+  return info;
+}
+
+LightInfo describe_light(const Light& light) {
+  LightInfo info{.name = light.name, .kind = "directional", .intensity = light.intensity, .unit = "cd"};
+  if (light.kind == LightKind::directional) info.unit = "lx";
+  if (light.kind == LightKind::point) info.kind = "point";
+  if (light.kind == LightKind::spot) info.kind = "spot";
+  return info;
+}
+
+void count_meshes(const Scene& scene, SceneInfo& info) {
+  info.meshes = scene.meshes.size();
+  for (const Mesh& mesh : scene.meshes)
+    for (const Primitive& primitive : mesh.primitives) {
+      ++info.primitives;
+      info.vertices += primitive.positions.size();
+      info.morph_targets += primitive.targets.size();
+    }
+}
+
+void count_drawn(const Scene& scene, const Node& node, SceneInfo& info) {
+  const std::size_t copies = std::max<std::size_t>(node.instances.size(), 1);
+  for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+    const std::size_t indices = primitive.indices.size() * copies;
+    switch (primitive.topology) {
+      case Topology::points:
+        info.points += indices;
+        break;
+      case Topology::lines:
+        info.lines += indices / 2;
+        break;
+      case Topology::triangles:
+        info.triangles += indices / 3;
+        break;
+    }
+  }
+}
+
+}  // namespace
+
+SceneInfo describe(const Scene& scene) {
+  SceneInfo info{.name = scene.name, .nodes = scene.nodes.size(), .skins = scene.skins.size()};
+  const Pose pose = pose_at(scene, 0);
+  info.bounds = bounds_of(scene, pose);
+  count_meshes(scene, info);
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    const Node& node = scene.nodes[i];
+    if (!pose.drawn[i]) continue;
+    ++info.drawn_nodes;
+    info.instances += node.instances.size();
+    if (node.mesh >= 0) count_drawn(scene, node, info);
+    if (node.light >= 0) info.lights.push_back(describe_light(scene.lights[static_cast<std::size_t>(node.light)]));
+  }
+  for (const Skin& skin : scene.skins) info.joints += skin.joints.size();
+  info.textures = scene.textures.size();
+  info.images = scene.images.size();
+  for (const Image& image : scene.images) info.image_bytes += image.rgba.size();
+  for (const Material& material : scene.materials) info.materials.push_back(describe_material(scene, material));
+  for (const Camera& camera : scene.cameras)
+    info.cameras.push_back({camera.name, camera.orthographic ? "orthographic" : "perspective"});
+  const std::vector<std::size_t> played = played_animations(scene);
+  for (std::size_t i = 0; i < scene.animations.size(); ++i) {
+    const Animation& animation = scene.animations[i];
+    info.animations.push_back({animation.name, animation.duration, animation.channels.size(),
+                               std::find(played.begin(), played.end(), i) != played.end()});
+  }
+  info.extensions = scene.extensions_used;
+  return info;
+}
+
+}  // namespace penumbra::scene

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "scene/pose.h"
+#include "scene/scene.h"
+
+namespace penumbra::scene {
+
+// What `penumbra info` tells about a scene.
+
+struct MaterialInfo {
+  std::string name;
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  bool double_sided = false, unlit = false;
+  std::vector<std::string> textures;  // "base colour 1024 x 512", …
+};
+
+struct LightInfo {
+  std::string name, kind;
+  float intensity = 0;  // lux or candela
+  std::string unit;
+};
+
+struct CameraInfo {
+  std::string name, kind;
+};
+
+struct AnimationInfo {
+  std::string name;
+  float duration = 0;  // seconds
+  std::size_t channels = 0;
+  bool played = true;  // false: an earlier one drives the same targets
+};
+
+struct SceneInfo {
+  std::string name;
+  std::size_t nodes = 0, drawn_nodes = 0;  // drawn: part of the default scene
+  std::size_t meshes = 0, primitives = 0, vertices = 0, morph_targets = 0;
+  std::size_t triangles = 0, lines = 0, points = 0;  // as drawn: instances counted each
+  std::size_t instances = 0;                         // of EXT_mesh_gpu_instancing
+  std::size_t skins = 0, joints = 0;
+  std::size_t textures = 0, images = 0, image_bytes = 0;  // decoded
+  Bounds bounds;                                          // metres, at time 0
+  std::vector<MaterialInfo> materials;
+  std::vector<LightInfo> lights;  // that the default scene places
+  std::vector<CameraInfo> cameras;
+  std::vector<AnimationInfo> animations;
+  std::vector<std::string> extensions;
+};
+
+SceneInfo describe(const Scene& scene);
+
+}  // namespace penumbra::scene
