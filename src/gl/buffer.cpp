@@ -19,7 +19,10 @@ Handle<delete_buffer> make_storage(std::string_view name, std::size_t bytes, con
   // A buffer of no bytes is not valid storage, while an empty list is a valid thing to upload.
   const std::size_t storage = bytes == 0 ? 1 : bytes;
   glNamedBufferStorage(id, static_cast<GLsizeiptr>(storage), bytes == 0 ? nullptr : contents, GL_DYNAMIC_STORAGE_BIT);
-  if (glGetError() == GL_OUT_OF_MEMORY) fail("buffer '{}': out of memory for {} bytes", name, bytes);
+  if (glGetError() == GL_OUT_OF_MEMORY) {
+    forget_errors();
+    fail("buffer '{}': out of memory for {} bytes", name, bytes);
+  }
   return handle;
 }
 

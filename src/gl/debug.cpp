@@ -84,9 +84,7 @@ void enable_debug_output() {
   glEnable(GL_DEBUG_OUTPUT);
   glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
   glDebugMessageCallback(on_message, nullptr);
-  take_error_flags();
-  const std::lock_guard lock(pending().mutex);
-  pending().message.clear();
+  forget_errors();
 }
 
 bool debug_enabled() {
@@ -104,6 +102,12 @@ void check_errors(std::string_view where) {
   const GLenum flag = take_error_flags();
   if (message.empty() && flag != GL_NO_ERROR) message = located(here(where), error_name(flag));
   if (!message.empty()) throw Error(message);
+}
+
+void forget_errors() {
+  take_error_flags();
+  const std::lock_guard lock(pending().mutex);
+  pending().message.clear();
 }
 
 DebugGroup::DebugGroup(std::string_view name) {

@@ -18,6 +18,8 @@ bool debug_enabled();
 // Throws Error with the first GL error or debug message of type error since the last call. In a debug context, a Pass
 // calls it after each step; elsewhere the frame's owner may. `where` names the place when no debug group was open.
 void check_errors(std::string_view where);
+// Forgets what check_errors() would throw: the error has been reported in other words.
+void forget_errors();
 
 // A debug group in a scope.
 class DebugGroup {

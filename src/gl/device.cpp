@@ -32,10 +32,12 @@ void attach(GLuint framebuffer, GLenum point, const Attachment& attachment) {
   }
 }
 
-Handle<delete_framebuffer> make_framebuffer(std::span<const Attachment> colors, const Attachment* depth) {
+Handle<delete_framebuffer> make_framebuffer(std::string_view name, std::span<const Attachment> colors,
+                                            const Attachment* depth) {
   GLuint id = 0;
   glCreateFramebuffers(1, &id);
   Handle<delete_framebuffer> handle(id);
+  label(GL_FRAMEBUFFER, id, name);
   std::vector<GLenum> draw_buffers;
   for (const Attachment& color : colors) {
     const GLenum point = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(draw_buffers.size());
@@ -45,7 +47,8 @@ Handle<delete_framebuffer> make_framebuffer(std::span<const Attachment> colors, 
   if (depth != nullptr) attach(id, GL_DEPTH_ATTACHMENT, *depth);
   glNamedFramebufferDrawBuffers(id, static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
   const GLenum status = glCheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER);
-  if (status != GL_FRAMEBUFFER_COMPLETE) fail("the driver refuses a framebuffer (status {:#x})", status);
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    fail("pass '{}': the driver refuses the framebuffer (status {:#x})", name, status);
   return handle;
 }
 
@@ -118,7 +121,7 @@ std::size_t Device::target_bytes(std::string_view prefix) const {
   return bytes;
 }
 
-GLuint Device::framebuffer(std::span<const Attachment> colors, const Attachment* depth) {
+GLuint Device::framebuffer(std::string_view name, std::span<const Attachment> colors, const Attachment* depth) {
   const auto key_of = [](const Attachment& a) { return std::tuple(a.texture->serial(), a.level, a.layer); };
   FramebufferKey key{depth == nullptr ? std::tuple(std::uint64_t{0}, 0, 0) : key_of(*depth)};
   for (const Attachment& color : colors) key.push_back(key_of(color));
@@ -126,7 +129,7 @@ GLuint Device::framebuffer(std::span<const Attachment> colors, const Attachment*
   auto found = impl_->framebuffers.find(key);
   if (found == impl_->framebuffers.end()) {
     impl_->drop_unused_framebuffers();
-    found = impl_->framebuffers.emplace(std::move(key), CachedFramebuffer{make_framebuffer(colors, depth)}).first;
+    found = impl_->framebuffers.emplace(std::move(key), CachedFramebuffer{make_framebuffer(name, colors, depth)}).first;
   }
   found->second.last_use = use;
   return found->second.handle.id();
@@ -137,6 +140,7 @@ GLuint Device::empty_vertex_array() {
     GLuint id = 0;
     glCreateVertexArrays(1, &id);
     impl_->empty_vertex_array = Handle<delete_vertex_array>(id);
+    label(GL_VERTEX_ARRAY, id, "no vertices");
   }
   return impl_->empty_vertex_array.id();
 }

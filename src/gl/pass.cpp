@@ -119,7 +119,7 @@ void clear(GLuint framebuffer, const PassDesc& desc) {
 Pass::Pass(Device& device, const PassDesc& desc)
     : device_(device), group_(desc.name), timer_(device.timers, desc.name), debug_(debug_enabled()) {
   if (!desc.colors.empty() || desc.depth) {
-    const GLuint framebuffer = device.framebuffer(desc.colors, desc.depth ? &*desc.depth : nullptr);
+    const GLuint framebuffer = device.framebuffer(desc.name, desc.colors, desc.depth ? &*desc.depth : nullptr);
     const Attachment& first = desc.colors.empty() ? *desc.depth : desc.colors.front();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     set_viewport(0, 0, std::max(1, first.texture->width() >> first.level),

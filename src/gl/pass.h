@@ -46,7 +46,7 @@ class Device {
 
  private:
   friend class Pass;
-  GLuint framebuffer(std::span<const Attachment> colors, const Attachment* depth);
+  GLuint framebuffer(std::string_view name, std::span<const Attachment> colors, const Attachment* depth);
   GLuint empty_vertex_array();
 
   struct Impl;

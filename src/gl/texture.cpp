@@ -101,6 +101,7 @@ Texture::Texture(std::string_view label, const TextureDesc& desc) : desc_(desc),
     glTextureStorage2D(id, desc.levels, desc.format, desc.width, desc.height);
   }
   if (glGetError() == GL_OUT_OF_MEMORY) {
+    forget_errors();
     fail("texture '{}': out of memory for {} x {} x {}, {} bytes a texel", label, desc.width, desc.height, desc.layers,
          format.bytes);
   }

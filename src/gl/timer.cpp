@@ -1,5 +1,6 @@
 #include "timer.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -9,7 +10,7 @@ void delete_query(GLuint id) { glDeleteQueries(1, &id); }
 
 void Timers::begin_frame() {
   if (mode_ == Mode::off) return;
-  assert(!in_frame_ && stack_.empty());
+  if (in_frame_) drop_open_frame();
   if (rows_.empty()) rows_.push_back({"frame", {}});
   in_frame_ = true;
   open_frame_ = start(frame_row);
@@ -91,6 +92,12 @@ void Timers::record(std::size_t row, std::size_t frame, double milliseconds) {
   std::vector<double>& times = rows_[row].milliseconds;
   if (times.size() <= frame) times.resize(frame + 1, 0.0);
   times[frame] += milliseconds;
+}
+
+void Timers::drop_open_frame() {
+  stack_.clear();
+  std::erase_if(pending_, [&](const Pending& pending) { return pending.frame == frame_; });
+  for (Row& row : rows_) row.milliseconds.resize(std::min(row.milliseconds.size(), frame_));
 }
 
 void Timers::collect(bool wait) {

@@ -22,7 +22,7 @@ class Timers {
   explicit Timers(Mode mode = Mode::off) : mode_(mode) {}
 
   Mode mode() const { return mode_; }
-  void begin_frame();
+  void begin_frame();                 // drops a frame that an exception left open
   void begin(std::string_view name);  // passes may nest; a nested one is named "outer/inner"
   void end();
   void end_frame();
@@ -64,6 +64,7 @@ class Timers {
   Handle<delete_query> timestamp();
   void record(std::size_t row, std::size_t frame, double milliseconds);
   void collect(bool wait);
+  void drop_open_frame();
 
   static constexpr std::size_t frame_row = 0;
 

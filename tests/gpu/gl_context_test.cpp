@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
+#include <string>
 
 #include "gl/api.h"
 #include "gpu_test.h"
@@ -30,8 +32,26 @@ void expect_core_4_5_that_draws(const gl::Context& context) {
   EXPECT_NO_THROW(gl::check_errors("context"));
 }
 
+// An environment variable unset for a scope.
+class Unset {
+ public:
+  explicit Unset(const char* name) : name_(name) {
+    if (const char* value = std::getenv(name)) value_ = value;
+    unsetenv(name);
+  }
+  ~Unset() {
+    if (value_) setenv(name_, value_->c_str(), 1);
+  }
+  Unset(const Unset&) = delete;
+  Unset& operator=(const Unset&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> value_;
+};
+
 TEST(GlContext, EglGivesCoreWithoutDisplay) {
-  unsetenv("DISPLAY");
+  const Unset x11("DISPLAY");
   const auto context = gl::make_egl_context({.debug = true});
   EXPECT_EQ(context->backend(), gl::Backend::egl);
   expect_core_4_5_that_draws(*context);
@@ -66,11 +86,18 @@ TEST(GlContext, AnEglDeviceThatIsNotThereIsNamed) {
 }
 
 TEST(GlContext, AWindowWithoutADisplayIsAnErrorThatSaysSo) {
-  unsetenv("DISPLAY");
-  unsetenv("WAYLAND_DISPLAY");
+  const Unset x11("DISPLAY");
+  const Unset wayland("WAYLAND_DISPLAY");
   const std::string message = message_of([] { gl::make_window_context({.visible = false}); });
   EXPECT_EQ(message.find("window: "), 0u) << message;
   EXPECT_NE(message.find("DISPLAY"), std::string::npos) << message;
+}
+
+TEST(GlContext, AWindowGivesCoreWhereThereIsADisplay) {
+  if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display: run under xvfb-run to see this";
+  const auto context = gl::make_window_context({.debug = true, .width = 64, .height = 64, .visible = false});
+  EXPECT_EQ(context->backend(), gl::Backend::window);
+  expect_core_4_5_that_draws(*context);
 }
 
 TEST(GlContext, AutoIsOffscreenAndAnUnknownBackendHasNearNames) {

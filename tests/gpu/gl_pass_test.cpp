@@ -291,6 +291,19 @@ TEST_F(GlTimers, WhatIsDrawnOutsideOfAFrameIsNotRecorded) {
   for (const auto& row : timed.timers.rows()) EXPECT_NE(row.name, "warm-up");
 }
 
+TEST_F(GlTimers, AFrameThatAnExceptionLeftOpenIsDropped) {
+  for (const gl::Timers::Mode mode : {gl::Timers::Mode::finish, gl::Timers::Mode::query}) {
+    gl::Device timed(files(), mode);
+    frames(timed, 1);
+    timed.timers.begin_frame();
+    gl::Pass(timed, {.name = "first"});
+    frames(timed, 2);
+    for (const auto& row : timed.timers.rows()) EXPECT_EQ(row.milliseconds.size(), 3u) << row.name;
+    const auto rows = timed.timers.rows();
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(rows[0].milliseconds[i], rows.back().milliseconds[i]);
+  }
+}
+
 TEST_F(GlTimers, OffRecordsNothing) {
   frames(device, 2);
   EXPECT_TRUE(device.timers.rows().empty());

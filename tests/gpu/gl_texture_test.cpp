@@ -84,6 +84,14 @@ TEST_F(GlTexture, OneTooLargeForTheDeviceIsNamedWithTheLimit) {
   EXPECT_NE(message.find("texture 'shadow map': 1048576 x 1 is over"), std::string::npos) << message;
 }
 
+TEST_F(GlTexture, OneThatDoesNotFitIntoMemoryIsNamedOnce) {
+  const gl::TextureDesc huge{
+      .target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA32F, .width = 16384, .height = 16384, .layers = 2048};
+  const std::string message = message_of([&] { gl::Texture("mask", huge); });
+  EXPECT_NE(message.find("texture 'mask': out of memory"), std::string::npos) << message;
+  EXPECT_NO_THROW(gl::check_errors("afterwards"));
+}
+
 TEST_F(GlTexture, MovingKeepsOneOwner) {
   gl::Texture first("t", {.format = GL_R8});
   const GLuint id = first.id();
