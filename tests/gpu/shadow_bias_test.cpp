@@ -1,0 +1,173 @@
+// What must not be there: acne on lit planes, gaps at contacts; and what must be the same: drivers, a point-like sun.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <memory>
+#include <string>
+
+#include "gpu/gpu_test.h"
+#include "gpu/triangle_scene.h"
+
+namespace penumbra::test {
+namespace {
+
+class ShadowBias : public GpuTest {
+ protected:
+  void SetUp() override {
+    GpuTest::SetUp();
+    renderer_ = std::make_unique<TriangleRenderer>();
+  }
+  void TearDown() override {
+    renderer_.reset();
+    GpuTest::TearDown();
+  }
+  std::unique_ptr<TriangleRenderer> renderer_;
+};
+
+// A plane of 40 m, seen from near its rim towards its middle; tilted about an oblique axis when asked.
+TriangleScene lone_plane(bool tilted) {
+  TriangleScene scene;
+  const glm::mat4 turn =
+      tilted ? glm::rotate(glm::mat4(1), glm::radians(17.0f), glm::normalize(glm::vec3(1, 0.2f, 0.6f))) : glm::mat4(1);
+  const glm::vec3 u(turn * glm::vec4(40, 0, 0, 0));
+  const glm::vec3 v(turn * glm::vec4(0, 0, -40, 0));
+  scene.add_quad(-0.5f * (u + v), u, v);
+  scene.width = 160;
+  scene.height = 90;
+  scene.view = glm::lookAt(glm::vec3(2, 4, 15), glm::vec3(0, 0, -4), glm::vec3(0, 1, 0));
+  scene.projection = perspective(glm::radians(50.0f), 16.0f / 9.0f, 0.1f);
+  return scene;
+}
+
+glm::vec3 plane_normal(const TriangleScene& scene) {
+  const Triangle& t = scene.triangles.front();
+  return glm::normalize(glm::cross(t.b - t.a, t.c - t.a));
+}
+
+TEST_F(ShadowBias, LitPlanesDoNotShadowThemselves) {
+  for (const bool tilted : {false, true}) {
+    for (const float elevation : {10.0f, 30.0f, 60.0f, 90.0f}) {
+      for (const float angle : {0.0f, 0.53f, 2.0f, 8.0f}) {
+        for (const std::string technique : {"hard", "pcf", "pcss", "brute_force"}) {
+          TriangleScene scene = lone_plane(tilted);
+          scene.to_light = sun_direction(35, elevation);
+          if (glm::dot(plane_normal(scene), scene.to_light) <= std::sin(glm::radians(angle) / 2)) continue;
+          ParamSet params = renderer_->params();
+          params.set("technique", technique);
+          params.set("sun.angle", angle);
+          const Shadowed shadowed = renderer_->render(scene, params);
+          int lit = 0;
+          int dark = 0;
+          for (int y = 0; y < scene.height; ++y) {
+            for (int x = 0; x < scene.width; ++x) {
+              if (shadowed.sky(x, y)) continue;
+              ++lit;
+              if (shadowed.visibility(x, y) < 0.99f) ++dark;
+            }
+          }
+          ASSERT_GT(lit, 5000);
+          EXPECT_LE(dark, lit / 1000) << technique << ", sun of " << angle << " degrees at " << elevation
+                                      << " degrees, " << (tilted ? "tilted" : "level") << " plane";
+        }
+      }
+    }
+  }
+}
+
+// A box on the ground; how far from its foot the ground is lit on the side away from the sun, in texels of the map as
+// the light projects them onto the ground.
+double gap_in_texels(TriangleRenderer& renderer, const std::string& technique, float elevation) {
+  TriangleScene scene;
+  scene.add_quad({-10, 0, 10}, {20, 0, 0}, {0, 0, -20});
+  scene.add_box({-1, 0, -1}, {1, 1.5f, 1});
+  scene.to_light = sun_direction(270, elevation);  // from -X: the shadow falls on +X
+  scene.width = 512;
+  scene.height = 8;
+  scene.view = glm::lookAt(glm::vec3(1.1f, 8, 0), glm::vec3(1.1f, 0, 0), glm::vec3(0, 0, -1));
+  scene.projection = orthographic(0.15f, 0.01f, 0.1f, 20);
+  ParamSet params = renderer.params();
+  params.set("technique", technique);
+  const Shadowed shadowed = renderer.render(scene, params);
+  const float texel = renderer.mask().lights[0].cascades.texel(0);
+  const double on_ground = texel / std::sin(glm::radians(static_cast<double>(elevation)));
+  double gap = 0;
+  for (int x = 0; x < scene.width; ++x) {
+    const glm::vec3& p = shadowed.point(x, scene.height / 2);
+    if (p.x <= 1 || p.y > 0.01f) continue;
+    if (shadowed.visibility(x, scene.height / 2) > 0.5f) gap = std::max(gap, static_cast<double>(p.x) - 1);
+    if (p.x > 1 + 8 * on_ground) break;
+  }
+  return gap / on_ground;
+}
+
+TEST_F(ShadowBias, ContactShadowsStartAtTheContact) {
+  for (const std::string technique : {"hard", "pcss", "brute_force"}) {
+    for (const float elevation : {10.0f, 30.0f, 60.0f}) {
+      EXPECT_LE(gap_in_texels(*renderer_, technique, elevation), 2)
+          << technique << ", sun at " << elevation << " degrees: a lit gap at the foot of the box, in texels";
+    }
+  }
+}
+
+// Boxes of several heights on a ground, under a low sun.
+TriangleScene boxes() {
+  TriangleScene scene;
+  scene.add_quad({-20, 0, 20}, {40, 0, 0}, {0, 0, -40});
+  for (int i = 0; i < 7; ++i) {
+    const float x = -6 + 2 * static_cast<float>(i);
+    scene.add_box({x, 0, -2 - x * 0.3f}, {x + 0.6f, 0.4f + 0.5f * static_cast<float>(i), -1 - x * 0.3f});
+  }
+  scene.to_light = sun_direction(60, 35);
+  scene.width = 160;
+  scene.height = 90;
+  scene.view = glm::lookAt(glm::vec3(1, 3, 8), glm::vec3(0, 0.5f, 0), glm::vec3(0, 1, 0));
+  scene.projection = perspective(glm::radians(55.0f), 16.0f / 9.0f, 0.1f);
+  return scene;
+}
+
+TEST_F(ShadowBias, FragmentAndComputeGiveTheSameMask) {
+  for (const std::string technique : {"none", "hard", "pcf", "pcss", "brute_force"}) {
+    for (const std::string shape : {"disc", "square"}) {
+      ParamSet params = renderer_->params();
+      params.set("technique", technique);
+      params.set("sun.shape", shape);
+      params.set("sun.angle", 2.0f);
+      const Shadowed fragment = renderer_->render(boxes(), params);
+      params.set("driver", std::string("compute"));
+      const Shadowed compute = renderer_->render(boxes(), params);
+      EXPECT_EQ(fragment.mask, compute.mask) << technique << ", " << shape;
+    }
+  }
+}
+
+double mean_difference(const Shadowed& a, const Shadowed& b) {
+  double sum = 0;
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x) sum += std::abs(a.visibility(x, y) - b.visibility(x, y));
+  }
+  return sum / (a.width * a.height);
+}
+
+TEST_F(ShadowBias, PcssTendsToHardShadowsAsTheSunShrinks) {
+  ParamSet params = renderer_->params();
+  params.set("technique", std::string("hard"));
+  const auto soft = [&](float angle) {
+    ParamSet with_angle = renderer_->params();
+    with_angle.set("sun.angle", angle);
+    return renderer_->render(boxes(), with_angle);
+  };
+  params.set("sun.angle", 0.0f);
+  const Shadowed hard = renderer_->render(boxes(), params);
+  EXPECT_EQ(mean_difference(soft(0), hard), 0);
+  const double at_1 = mean_difference(soft(1), hard);
+  const double at_01 = mean_difference(soft(0.1f), hard);
+  const double at_001 = mean_difference(soft(0.01f), hard);
+  EXPECT_GT(at_1, at_01);
+  EXPECT_GT(at_01, at_001);
+  EXPECT_GT(at_001, 0);
+}
+
+}  // namespace
+}  // namespace penumbra::test
