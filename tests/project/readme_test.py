@@ -1,0 +1,54 @@
+"""Every command that the README shows works as it stands there.
+
+The blocks marked `sh` run in a copy of the tree, in order, one shell each. ./run.sh is the real script, except that it
+finds the program built already.
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+
+import support
+
+BLOCK = re.compile(r"^```sh\n(.*?)^```", re.MULTILINE | re.DOTALL)
+NOT_COPIED = shutil.ignore_patterns("build", "out", ".git", "__pycache__")
+
+# What a test of the suite can't do: start the suite, or fetch the project.
+LEFT_OUT = ("./test.sh", "git clone", "cd penumbra")
+
+SETUP = """
+note() { printf '%s\\n' "$*" >&2; }
+ensure_packages() { :; }
+build_lock() { :; }
+build_unlock() { :; }
+configured() { :; }
+build() { :; }
+"""
+
+
+def commands(block):
+    return "".join(line for line in block.splitlines(keepends=True) if not line.startswith(LEFT_OUT))
+
+
+class Readme(support.TestCase):
+    def test_commands(self):
+        blocks = BLOCK.findall((support.ROOT / "README.md").read_text())
+        self.assertGreater(len(blocks), 0, "README.md shows no command")
+        tree = self.folder / "penumbra"
+        shutil.copytree(support.ROOT, tree, ignore=NOT_COPIED)
+        (tree / "scripts" / "setup.sh").write_text(SETUP)
+        (tree / "build" / "release").mkdir(parents=True)
+        program = pathlib.Path(support.PROGRAM)
+        (tree / "build" / "release" / "penumbra").symlink_to(program)
+        environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}"}
+        for block in blocks:
+            with self.subTest(block=block):
+                result = subprocess.run(["bash", "-euo", "pipefail", "-c", commands(block)], cwd=tree, env=environment,
+                                        capture_output=True, text=True, timeout=600)
+                self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+
+if __name__ == "__main__":
+    support.main()

@@ -1,0 +1,88 @@
+"""run.sh: builds when something changed, then is as good as the program itself. Tried on a project of one file."""
+
+import os
+import shutil
+import subprocess
+
+import support
+
+CMAKE = """cmake_minimum_required(VERSION 3.25)
+project(penumbra LANGUAGES CXX)
+add_executable(penumbra main.cpp)
+"""
+
+PROGRAM = """#include <cstdio>
+#include <filesystem>
+int main(int argc, char** argv) {
+  std::printf("%s\\n", std::filesystem::current_path().c_str());
+  for (int i = 1; i < argc; ++i) std::printf("[%s]", argv[i]);
+  return 7;
+}
+"""
+
+PACKAGES = "# stage kind file package\nrun command cmake cmake\nrun header stdio.h libc6-dev\ntest command no-such no-such\n"
+
+
+class RunScript(support.TestCase):
+    def setUp(self):
+        super().setUp()
+        self.project = self.folder / "a project"
+        (self.project / "scripts").mkdir(parents=True)
+        for name in ("run.sh", "scripts/setup.sh", "CMakePresets.json"):
+            shutil.copy(support.ROOT / name, self.project / name)
+        (self.project / "scripts" / "packages.txt").write_text(PACKAGES)
+        (self.project / "CMakeLists.txt").write_text(CMAKE)
+        (self.project / "main.cpp").write_text(PROGRAM)
+
+    def run_script(self, *arguments, **options):
+        return subprocess.run([self.project / "run.sh", *arguments], capture_output=True, text=True, timeout=300, **options)
+
+    def test_arguments_folder_exit_code_and_output_are_the_programs(self):
+        elsewhere = self.folder / "elsewhere"
+        elsewhere.mkdir()
+        result = self.run_script("a b", "", "--c=*", cwd=elsewhere)
+        self.assertEqual(result.returncode, 7, result.stderr)
+        self.assertEqual(result.stdout, f"{elsewhere}\n[a b][][--c=*]")
+        self.assertIn("Configuring", result.stderr)
+
+        again = self.run_script("a", cwd=elsewhere)
+        self.assertEqual((again.returncode, again.stderr), (7, ""), "nothing changed, so nothing is to do or to say")
+
+        (self.project / "main.cpp").write_text(PROGRAM.replace("return 7", "return 9"))
+        self.assertEqual(self.run_script("a").returncode, 9, "a changed source was not built")
+
+    def test_moved_checkout_is_configured_anew(self):
+        self.run_script("a")
+        moved = self.folder / "moved"
+        self.project.rename(moved)
+        self.project = moved
+        self.assertEqual(self.run_script("a").returncode, 7)
+
+    def test_build_error_is_shown(self):
+        (self.project / "main.cpp").write_text("int main() { return nonsense; }")
+        result = self.run_script("a")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("nonsense", result.stderr)
+        self.assertIn("error: the build of 'release' failed", result.stderr)
+
+        (self.project / "CMakeLists.txt").write_text("message(FATAL_ERROR \"no such compiler\")")
+        result = self.run_script("a")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no such compiler", result.stderr)
+
+    def test_without_apt_names_what_is_missing(self):
+        tools = self.folder / "tools"
+        tools.mkdir()
+        for name in ("bash", "dirname", "mkdir"):
+            (tools / name).symlink_to(shutil.which(name))
+        with (self.project / "scripts" / "packages.txt").open("a") as file:
+            file.write("run command no-such-compiler fine-compiler\nrun library libnone.so libnone1\n")
+        result = self.run_script("a", env={**os.environ, "PATH": str(tools)})
+        self.assertEqual(result.returncode, 1)
+        for line in ("fine-compiler (no-such-compiler)", "libnone1 (libnone.so)", "cmake (cmake)"):
+            self.assertIn(line, result.stderr)
+        self.assertNotIn("libc6-dev", result.stderr)
+
+
+if __name__ == "__main__":
+    support.main()
