@@ -1,0 +1,128 @@
+// The functions of glsl/lib, compiled as C++, against closed forms.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/disc.glsl"
+#include "lib/hash.glsl"
+#include "lib/kernel.glsl"
+#include "lib/octahedral.glsl"
+
+namespace penumbra::glsl {
+namespace {
+
+vec3 direction(int i, int count) {
+  const float z = 1 - 2 * (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
+  const float angle = 2.39996323f * static_cast<float>(i);
+  const float r = std::sqrt(1 - z * z);
+  return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
+TEST(Octahedral, RoundTripsEveryDirection) {
+  for (int i = 0; i < 10000; ++i) {
+    const vec3 v = direction(i, 10000);
+    const vec2 e = octahedral_encode(v);
+    EXPECT_LE(std::max(std::abs(e.x), std::abs(e.y)), 1.0f);
+    EXPECT_LT(length(octahedral_decode(e) - v), 2e-6f);
+  }
+}
+
+TEST(Octahedral, RoundTripsTheAxes) {
+  for (const vec3& v : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, -1, 0), vec3(0, 0, 1), vec3(0, 0, -1)}) {
+    EXPECT_LT(length(octahedral_decode(octahedral_encode(v)) - v), 1e-6f);
+  }
+}
+
+TEST(ConcentricDisc, KeepsAreas) {
+  // The share of a fine grid's points that lands within radius r of the centre is r squared.
+  const int n = 512;
+  for (const float r : {0.25f, 0.5f, 0.75f, 1.0f}) {
+    int inside = 0;
+    for (int y = 0; y < n; ++y) {
+      for (int x = 0; x < n; ++x) {
+        const vec2 p = concentric_disc({(static_cast<float>(x) + 0.5f) / n, (static_cast<float>(y) + 0.5f) / n});
+        if (length(p) <= r) ++inside;
+      }
+    }
+    EXPECT_NEAR(static_cast<double>(inside) / (n * n), r * r, 0.002) << "radius " << r;
+  }
+}
+
+TEST(ConcentricDisc, MapsCentreEdgesAndQuadrants) {
+  EXPECT_EQ(concentric_disc(vec2(0.5f)), vec2(0));
+  EXPECT_NEAR(length(concentric_disc({0.999999f, 0.3f})), 1, 1e-5);
+  EXPECT_NEAR(length(concentric_disc({0.2f, 0})), 1, 1e-5);
+  for (const vec2& u : {vec2(0.9f, 0.6f), vec2(0.1f, 0.6f), vec2(0.1f, 0.2f), vec2(0.6f, 0.1f)}) {
+    const vec2 p = concentric_disc(u);
+    EXPECT_GT(p.x * (u.x - 0.5f), 0);
+    EXPECT_GT(p.y * (u.y - 0.5f), 0);
+  }
+}
+
+TEST(ToroidalShift, WrapsIntoTheUnitSquare) {
+  const vec2 p = toroidal_shift({0.75f, 0.25f}, {0.5f, 0.5f});
+  EXPECT_FLOAT_EQ(p.x, 0.25f);
+  EXPECT_FLOAT_EQ(p.y, 0.75f);
+}
+
+TEST(WhiteNoise, IsUniformAndDiffersByPixelAndSeed) {
+  double sum = 0;
+  double squares = 0;
+  double product = 0;
+  const int n = 256;
+  for (uint y = 0; y < n; ++y) {
+    for (uint x = 0; x < n; ++x) {
+      const vec2 v = white_noise({x, y}, 3);
+      ASSERT_GE(std::min(v.x, v.y), 0.0f);
+      ASSERT_LT(std::max(v.x, v.y), 1.0f);
+      sum += v.x;
+      squares += v.x * v.x;
+      product += (v.x - 0.5) * (white_noise({x + 1, y}, 3).x - 0.5);
+    }
+  }
+  const double count = n * n;
+  EXPECT_NEAR(sum / count, 0.5, 0.005);
+  EXPECT_NEAR(squares / count, 1.0 / 3, 0.005);
+  EXPECT_NEAR(product / count, 0, 0.002) << "neighbours are correlated";
+  EXPECT_NE(white_noise({5, 9}, 0), white_noise({5, 9}, 1));
+}
+
+TEST(Kernel, PenumbraRadiusFollowsSimilarTriangles) {
+  EXPECT_FLOAT_EQ(penumbra_radius(0.01f, 10, 4), 0.06f);
+  EXPECT_EQ(penumbra_radius(0.01f, 4, 10), 0) << "a surface behind the receiver is no blocker";
+}
+
+TEST(Kernel, PlaneGradientGivesTheDepthOfThePlane) {
+  const vec3 normal = normalize(vec3(0.3f, -0.5f, -0.7f));
+  const vec2 gradient = plane_gradient(normal, 100);
+  for (const vec2& offset : {vec2(1, 0), vec2(0, 1), vec2(-2, 3)}) {
+    const vec3 on_plane(offset.x, offset.y, dot(gradient, offset));
+    EXPECT_NEAR(dot(on_plane, normal), 0, 1e-6);
+  }
+}
+
+TEST(Kernel, PlaneGradientIsLimitedWhereTheLightGrazes) {
+  const vec2 gradient = plane_gradient(normalize(vec3(1, 0.5f, -1e-9f)), 50);
+  EXPECT_NEAR(length(gradient), 50, 1e-3);
+}
+
+TEST(Kernel, BlockingDepthIsTheNearerOfReceiverAndPlane) {
+  const vec2 gradient(2, 0);
+  EXPECT_FLOAT_EQ(blocking_depth(10, gradient, {-1, 0}, 0.1f), 7.9f) << "the plane rises towards the light";
+  EXPECT_FLOAT_EQ(blocking_depth(10, gradient, {1, 0}, 0.1f), 9.9f) << "the plane falls away";
+}
+
+TEST(Kernel, CoveringLevelHoldsTheDiscInTwoTexels) {
+  for (float radius = 0.01f; radius < 40; radius *= 1.3f) {
+    const float texel = 0.1f * std::exp2(static_cast<float>(covering_level(radius, 0.1f, 12)));
+    EXPECT_GE(texel, 2 * radius * 0.9999f);
+    EXPECT_LE(texel, std::max(4 * radius * 1.0001f, 0.1f)) << "a coarser level than needed";
+  }
+  EXPECT_EQ(covering_level(1e9f, 0.1f, 12), 11);
+  EXPECT_EQ(covering_level(0, 0.1f, 12), 0);
+}
+
+}  // namespace
+}  // namespace penumbra::glsl

@@ -1,0 +1,126 @@
+#include "shadow/cascades.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace penumbra::shadow {
+namespace {
+
+CascadeInputs courtyard() {
+  CascadeInputs in;
+  in.view = glm::lookAt(glm::vec3(3, 1.7f, 8), glm::vec3(0, 1, 0), glm::vec3(0, 1, 0));
+  in.projection = glm::perspective(0.9f, 16.0f / 9.0f, 0.1f, 200.0f);
+  in.to_light = glm::normalize(glm::vec3(0.4f, 0.7f, 0.2f));
+  in.tan_half_angle = 0.0046f;
+  in.casters = in.receivers = {{-20, 0, -40}, {20, 9, 12}};
+  return in;
+}
+
+glm::dvec3 clip(const Cascade& cascade, const glm::dvec3& p) {
+  const glm::dvec4 c = cascade.world_to_clip * glm::dvec4(p, 1);
+  return glm::dvec3(c) / c.w;
+}
+
+TEST(Cascades, TheLastHoldsAllThatTheViewSeesOfTheScene) {
+  const CascadeInputs in = courtyard();
+  const Cascades cascades = fit_cascades(in);
+  const glm::dmat4 view_projection = glm::dmat4(in.projection) * glm::dmat4(in.view);
+  int seen = 0;
+  for (float x = -20; x <= 20; x += 2) {
+    for (float z = -40; z <= 12; z += 2) {
+      const glm::dvec4 c = view_projection * glm::dvec4(x, 0, z, 1);
+      if (c.w <= 0 || std::abs(c.x) > c.w || std::abs(c.y) > c.w) continue;
+      ++seen;
+      const glm::dvec3 p = clip(cascades.items.back(), {x, 0, z});
+      EXPECT_LE(std::max(std::abs(p.x), std::abs(p.y)), 1.0) << x << ", " << z;
+      EXPECT_GE(p.z, 0);
+      EXPECT_LE(p.z, 1);
+    }
+  }
+  EXPECT_GT(seen, 50);
+}
+
+TEST(Cascades, GrowAndNest) {
+  CascadeInputs in = courtyard();
+  for (const int count : {2, 4, 8}) {
+    in.count = count;
+    const Cascades cascades = fit_cascades(in);
+    ASSERT_EQ(cascades.items.size(), static_cast<size_t>(count));
+    for (size_t i = 1; i < cascades.items.size(); ++i) {
+      EXPECT_LE(cascades.items[i - 1].half_extent, cascades.items[i].half_extent);
+    }
+  }
+}
+
+TEST(Cascades, NoCasterIsNearerThanTheMapBegins) {
+  const CascadeInputs in = courtyard();
+  for (const Cascade& cascade : fit_cascades(in).items) {
+    for (float x = -20; x <= 20; x += 5) {
+      for (float z = -40; z <= 12; z += 4) {
+        const glm::dvec3 p = clip(cascade, {x, 9, z});
+        if (std::max(std::abs(p.x), std::abs(p.y)) > 1) continue;
+        EXPECT_GE(p.z, 0);
+        EXPECT_LE(p.z, 1);
+      }
+    }
+  }
+}
+
+TEST(Cascades, TexelsStayPutInTheWorldWhileTheCameraMoves) {
+  CascadeInputs in = courtyard();
+  const glm::dvec3 point(1.25, 0.5, -3.75);
+  glm::dvec2 first{0};
+  for (int step = 0; step < 20; ++step) {
+    const float s = static_cast<float>(step) * 0.0137f;
+    in.view = glm::lookAt(glm::vec3(3 + s, 1.7f, 8 - s), glm::vec3(s, 1, -s), glm::vec3(0, 1, 0));
+    const Cascades cascades = fit_cascades(in);
+    const glm::dvec2 texel = (glm::dvec2(clip(cascades.items[0], point)) * 0.5 + 0.5) * static_cast<double>(in.size);
+    const glm::dvec2 part = texel - glm::floor(texel);
+    if (step == 0) first = part;
+    const glm::dvec2 moved = glm::abs(part - first);
+    EXPECT_LT(std::min(moved.x, 1 - moved.x), 0.01) << "step " << step;
+    EXPECT_LT(std::min(moved.y, 1 - moved.y), 0.01) << "step " << step;
+  }
+}
+
+TEST(Cascades, AFarAwayObjectOnTheGroundLeavesNearCascadesTheirDepthRange) {
+  CascadeInputs in = courtyard();
+  const Cascades near = fit_cascades(in);
+  in.casters.max.x = 5000;
+  const Cascades far = fit_cascades(in);
+  const auto range = [](const Cascade& c) { return c.far_z - c.near_z; };
+  EXPECT_LT(range(far.items[0]), 2 * range(near.items[0]));
+}
+
+TEST(Cascades, TheSunAtTheZenithHasAnAxis) {
+  CascadeInputs in = courtyard();
+  in.to_light = {0, 1, 0};
+  const Cascades cascades = fit_cascades(in);
+  const glm::dvec3 down = cascades.world_to_light * glm::dvec3(0, -1, 0);
+  EXPECT_NEAR(down.z, 1, 1e-9);
+  EXPECT_NEAR(std::abs(glm::determinant(cascades.world_to_light)), 1, 1e-9);
+}
+
+TEST(CullVolume, KeepsWhatCanCastAndDropsTheRest) {
+  const CascadeInputs in = courtyard();
+  const Cascades cascades = fit_cascades(in);
+  const CullVolume volume = cull_volume(cascades, 0);
+  const Cascade& cascade = cascades.items[0];
+  const glm::dmat3 to_world = glm::transpose(cascades.world_to_light);
+  const auto box_at = [&](const glm::dvec3& light_space) {
+    const glm::vec3 center(to_world * light_space + cascades.anchor);
+    return Box{center - 0.1f, center + 0.1f};
+  };
+  const double x = cascade.center.x;
+  const double y = cascade.center.y;
+  const double half = cascade.half_extent;
+  EXPECT_TRUE(volume.holds(box_at({x, y, cascade.near_z - 50})));
+  EXPECT_TRUE(volume.holds(box_at({x + half * 0.99, y, cascade.near_z})));
+  EXPECT_FALSE(volume.holds(box_at({x + half + 1, y, cascade.near_z})));
+  EXPECT_FALSE(volume.holds(box_at({x, y, cascade.far_z + 1})));
+}
+
+}  // namespace
+}  // namespace penumbra::shadow
