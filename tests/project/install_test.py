@@ -38,8 +38,8 @@ class Installed(support.TestCase):
         headers = sorted(path.relative_to(include).as_posix() for path in include.rglob("*.h"))
         self.assertIn("penumbra/shadow/soft_shadows.h", headers)
         for header in headers:
-            command("c++", "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", f"-I{include}", "-include", header,
-                    "-x", "c++", "/dev/null")
+            command("c++", "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", f"-I{include}",
+                    "-include", header, "-x", "c++", "/dev/null")
 
     def test_no_path_of_the_building_machine(self):
         places = [str(support.ROOT).encode(), str(support.BUILD).encode()]

@@ -20,7 +20,11 @@ int main(int argc, char** argv) {
 }
 """
 
-PACKAGES = "# stage kind file package\nrun command cmake cmake\nrun header stdio.h libc6-dev\ntest command no-such no-such\n"
+PACKAGES = """# stage kind file package
+run command cmake cmake
+run header stdio.h libc6-dev
+test command no-such no-such
+"""
 
 
 class RunScript(support.TestCase):
@@ -35,7 +39,8 @@ class RunScript(support.TestCase):
         (self.project / "main.cpp").write_text(PROGRAM)
 
     def run_script(self, *arguments, **options):
-        return subprocess.run([self.project / "run.sh", *arguments], capture_output=True, text=True, timeout=300, **options)
+        command = [self.project / "run.sh", *arguments]
+        return subprocess.run(command, capture_output=True, text=True, timeout=300, **options)
 
     def test_arguments_folder_exit_code_and_output_are_the_programs(self):
         elsewhere = self.folder / "elsewhere"
