@@ -96,7 +96,11 @@ Json probe_backend(const std::string& name) {
     const auto context = gl::make_context(name, options);
     return io::to_json(gl::device_info());
   });
-  if (answer.contains("fault")) return {{"name", name}, {"works", false}, {"fault", answer["fault"]}};
+  if (answer.contains("fault")) {
+    std::string fault = answer["fault"];
+    if (fault.starts_with(name + ": ")) fault.erase(0, name.size() + 2);
+    return {{"name", name}, {"works", false}, {"fault", fault}};
+  }
   return {{"name", name}, {"works", true}, {"device", answer["result"]}};
 }
 

@@ -71,7 +71,7 @@ void print_report(const Json& report) {
 int run_doctor(const Arguments& arguments) {
   CLI::App app("Tell which OpenGL backends work here", "penumbra doctor");
   bool json = false;
-  app.add_flag("--json", json, "For machines");
+  app.add_flag("--json", json, "For machines")->disable_flag_override();
   if (!parse(app, arguments)) return 0;
   const Json report = examine();
   if (json) {

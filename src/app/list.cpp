@@ -109,7 +109,7 @@ int run_list(const Arguments& arguments) {
   std::string what;
   bool json = false;
   app.add_option("WHAT", what, "techniques, params, aovs or backends")->required()->type_name("");
-  app.add_flag("--json", json, "For machines");
+  app.add_flag("--json", json, "For machines")->disable_flag_override();
   if (!parse(app, arguments)) return 0;
   const Json rows = find_listing(what).rows();
   if (json) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/text.h"
 #include "app/usage.h"
 #include "core/log.h"
 #include "core/names.h"
@@ -33,7 +34,7 @@ void log_from(const std::string& name) {
   set_log_sink([least = found->second](LogLevel level, std::string_view message) {
     if (static_cast<int>(level) < least) return;
     static constexpr const char* labels[] = {"debug", "info", "warning", "error"};
-    fmt::print(stderr, "{}: {}\n", labels[static_cast<int>(level)], message);
+    fmt::print(stderr, "{}: {}\n", labels[static_cast<int>(level)], printable(std::string(message)));
   });
 }
 
@@ -49,10 +50,15 @@ void log_from(const std::string& name) {
   fail_unknown("option", name, names);
 }
 
-// CLI11's messages, in which a missing value is "--size: 1 required SIZE missing".
+// CLI11 says "--size: 1 required WIDTHxHEIGHT missing" and "--size: At Most 1 required but received 2".
 std::string one_line(const CLI::ParseError& error) {
   std::string text = error.what();
   std::replace(text.begin(), text.end(), '\n', ' ');
+  const std::string option = text.substr(0, text.find(':'));
+  if (text.find(" missing") != std::string::npos) return option + " lacks its value";
+  if (const std::size_t end = text.find(" was given a disallowed flag"); end != std::string::npos)
+    return "--" + text.substr(0, end) + " takes no value";
+  if (text.find("At Most 1") != std::string::npos) return option + " is given twice";
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/text.h"
 #include "app/usage.h"
 #include "core/names.h"
 
@@ -56,12 +57,9 @@ int dispatch(const Arguments& arguments) {
   return command->run(Arguments(arguments.begin() + 1, arguments.end()));
 }
 
-int report(std::string message, int code) {
-  // One line whatever a file's names hold, so that scripts can read it.
-  for (char& c : message) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  fmt::print(stderr, "error: {}\n", message);
+// One line whatever a file's names hold, so that scripts can read it.
+int report(const std::string& message, int code) {
+  fmt::print(stderr, "error: {}\n", printable(message));
   return code;
 }
 

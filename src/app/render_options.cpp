@@ -109,7 +109,7 @@ void add_output_options(CLI::App& app, RenderOptions& o) {
         [&o](const auto& text) { o.stats = file_name("--stats", text); });
   value(app, "--stats-frames", "N", "Frames measured a picture, after one that is not (1)",
         [&o](const auto& text) { o.stats_frames = parse_count("--stats-frames", text, 1, 10000); });
-  app.add_flag("--quiet,-q", o.quiet, "No progress and no summary");
+  app.add_flag("--quiet,-q", o.quiet, "No progress and no summary")->disable_flag_override();
 }
 
 void add_device_options(CLI::App& app, RenderOptions& o) {
@@ -122,7 +122,8 @@ void add_device_options(CLI::App& app, RenderOptions& o) {
         [&o](const auto& text) { o.threads = parse_count("--threads", text, 1, 1024); });
   value(app, "--glsl", "DIR", "Shaders in this folder replace the built-in ones of the same name",
         [&o](const auto& text) { o.glsl = file_name("--glsl", text); });
-  app.add_flag("--debug", o.debug, "KHR_debug: an OpenGL error ends the program (also PENUMBRA_DEBUG=1)");
+  app.add_flag("--debug", o.debug, "KHR_debug: an OpenGL error ends the program (also PENUMBRA_DEBUG=1)")
+      ->disable_flag_override();
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ void aim(render::Camera& camera, const RenderOptions& options, const scene::Boun
 
 Stage load_stage(const RenderOptions& options) {
   Stage stage;
-  stage.scene = scene::read_gltf(options.scene, io::decode_image);
+  stage.scene = scene::read_gltf(options.scene, io::image_decoder());
   const int first = options.frames ? options.frames->first : 0;
   const scene::Pose pose = scene::pose_at(stage.scene, time_of(options, first));
   const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);

@@ -8,6 +8,7 @@
 #include "core/params.h"
 #include "gl/context.h"
 #include "gl/timer.h"
+#include "scene/scene_info.h"
 
 namespace penumbra::io {
 
@@ -26,6 +27,7 @@ std::vector<PassCost> pass_costs(std::span<const gl::Timers::Row> rows, std::siz
 
 Json to_json(const PassCost& cost);
 Json to_json(const gl::DeviceInfo& device);
+Json to_json(const scene::SceneInfo& scene);
 Json to_json(const ParamValue& value);
 // Every parameter's value by name.
 Json to_json(const ParamSet& params);

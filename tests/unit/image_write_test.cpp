@@ -1,0 +1,122 @@
+#include "io/image_write.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "io/output_file.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using penumbra::Error;
+
+class ImageWrite : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("image_write_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_)) names.push_back(entry.path().filename());
+    return names;
+  }
+  fs::path folder_;
+};
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST_F(ImageWrite, PngHoldsTheBytesAsTheyAre) {
+  std::vector<std::uint8_t> pixels(3 * 2 * 3);
+  std::iota(pixels.begin(), pixels.end(), std::uint8_t{100});
+  penumbra::io::write_png(folder_ / "x.png", 3, 2, 3, pixels);
+  const auto input = OIIO::ImageInput::open((folder_ / "x.png").string());
+  ASSERT_TRUE(input);
+  std::vector<std::uint8_t> read(pixels.size());
+  ASSERT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, read.data()));
+  EXPECT_EQ(input->spec().width, 3);
+  EXPECT_EQ(read, pixels);
+}
+
+TEST_F(ImageWrite, ExrHoldsFloatsAsTheyAreInNamedLayers) {
+  const std::vector<float> color{0.1f, 2.0f, 1e6f, -1.0f, 0.0f, 65536.0f};
+  const std::vector<float> shadow{0.25f, 1.0f / 3.0f};
+  const std::vector<penumbra::io::Layer> layers{{"", {"R", "G", "B"}, color}, {"shadow", {"V"}, shadow}};
+  penumbra::io::write_exr(folder_ / "x.exr", 2, 1, layers, {{"penumbra:technique", "pcss"}});
+  const auto input = OIIO::ImageInput::open((folder_ / "x.exr").string());
+  ASSERT_TRUE(input);
+  const OIIO::ImageSpec& spec = input->spec();
+  EXPECT_EQ(spec.format, OIIO::TypeDesc::FLOAT);
+  EXPECT_EQ(spec.get_string_attribute("penumbra:technique"), "pcss");
+  ASSERT_EQ(spec.channelnames, (std::vector<std::string>{"R", "G", "B", "shadow.V"}));
+  std::vector<float> read(8);
+  ASSERT_TRUE(input->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, read.data()));
+  EXPECT_EQ(read, (std::vector<float>{0.1f, 2.0f, 1e6f, 0.25f, -1.0f, 0.0f, 65536.0f, 1.0f / 3.0f}));
+}
+
+TEST_F(ImageWrite, FilesHoldNoTime) {
+  const std::vector<penumbra::io::Layer> layers{{"", {"R", "G", "B"}, {1, 2, 3}}};
+  penumbra::io::write_exr(folder_ / "a.exr", 1, 1, layers);
+  penumbra::io::write_png(folder_ / "a.png", 1, 1, 1, std::vector<std::uint8_t>{7});
+  sleep(1);  // a time stamp counts whole seconds
+  penumbra::io::write_exr(folder_ / "b.exr", 1, 1, layers);
+  penumbra::io::write_png(folder_ / "b.png", 1, 1, 1, std::vector<std::uint8_t>{7});
+  EXPECT_EQ(bytes_of(folder_ / "a.exr"), bytes_of(folder_ / "b.exr"));
+  EXPECT_EQ(bytes_of(folder_ / "a.png"), bytes_of(folder_ / "b.png"));
+}
+
+TEST_F(ImageWrite, MakesMissingFolders) {
+  penumbra::io::write_png(folder_ / "a/b/x.png", 1, 1, 1, std::vector<std::uint8_t>{7});
+  EXPECT_TRUE(fs::exists(folder_ / "a/b/x.png"));
+}
+
+TEST_F(ImageWrite, AnUncommittedFileLeavesNothingAndTheOldOneStands) {
+  penumbra::io::write_text(folder_ / "x.txt", "old");
+  {
+    const penumbra::io::OutputFile file(folder_ / "x.txt");
+    std::ofstream(file.temporary()) << "new";
+  }
+  EXPECT_EQ(files(), std::vector<std::string>{"x.txt"});
+  EXPECT_EQ(bytes_of(folder_ / "x.txt"), "old");
+}
+
+TEST_F(ImageWrite, TemporariesCanBeRemovedFromASignalHandler) {
+  const penumbra::io::OutputFile file(folder_ / "x.txt");
+  EXPECT_EQ(files().size(), 1u);
+  penumbra::io::remove_temporaries();
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(ImageWrite, RefusesPlacesThatCannotBeWritten) {
+  penumbra::io::write_text(folder_ / "file", "text");
+  EXPECT_THROW(penumbra::io::check_writable(folder_), Error);
+  EXPECT_THROW(penumbra::io::check_writable(folder_ / "file/x.png"), Error);
+  EXPECT_THROW(penumbra::io::check_writable("/proc/no/x.png"), Error);
+  EXPECT_THROW(penumbra::io::write_text("/proc/no/x.png", "text"), Error);
+  EXPECT_NO_THROW(penumbra::io::check_writable(folder_ / "new/x.png"));
+  EXPECT_EQ(files(), std::vector<std::string>{"file"});
+}
+
+TEST_F(ImageWrite, NewFilesHaveTheUsersPermissions) {
+  const mode_t mask = umask(022);
+  penumbra::io::write_text(folder_ / "x.txt", "text");
+  umask(mask);
+  EXPECT_EQ(fs::status(folder_ / "x.txt").permissions(), fs::perms(0644));
+}
+
+}  // namespace
