@@ -2,7 +2,7 @@
 #ifndef PENUMBRA_VIEW_BLOCK_H
 #define PENUMBRA_VIEW_BLOCK_H
 
-#include "language.h"
+#include "shared/language.h"
 
 GLSL_BEGIN
 

@@ -39,7 +39,7 @@ class Frustum {
   bool holds(const scene::Bounds& box) const;  // false only if nothing in the box is seen
 
  private:
-  std::array<glm::vec4, 5> planes_;  // normal and offset, pointing inwards; the far plane is at infinity
+  std::array<glm::vec4, 6> planes_;  // normal and offset, pointing inwards
 };
 
 }  // namespace penumbra::render

@@ -1,0 +1,29 @@
+// Surfaces that let through what lies behind them, drawn over the lit picture. Included after a technique's forward
+// driver, which gives shadow_visibility().
+#include "scene/surface.glsl"
+#include "render/shade.glsl"
+
+layout(location = 0) out vec4 blended;
+
+uniform mat4 world_to_view;
+
+void main() {
+  vec4 color = base_color(surface.uv, surface.color);
+  float alpha = clamp(color.a, 0.0, 1.0);
+  vec3 geometric = normalize(geometric_normal());
+  vec3 properties = surface_properties(surface.uv);
+  Shading s;
+  s.albedo = clamp(color.rgb, 0.0, 1.0);
+  s.normal = shading_normal(geometric);
+  s.to_eye = -normalize(view_ray());
+  s.emission = emission(surface.uv);
+  s.metallic = properties.x;
+  s.roughness = properties.y;
+  s.occlusion = properties.z;
+  vec3 radiance = s.albedo;
+  if (!is_unlit()) {
+    vec3 view_position = (world_to_view * vec4(surface.world, 1.0)).xyz;
+    radiance = shade(s, shadow_visibility(view_position, geometric, gl_FragCoord.xy - 0.5));
+  }
+  blended = vec4(radiance * alpha, alpha);
+}

@@ -1,0 +1,37 @@
+// Lights the G-buffer; sky where it is empty.
+#include "shared/view_block.h"
+#include "lib/octahedral.glsl"
+#include "render/shade.glsl"
+
+layout(std140, binding = 4) uniform ViewData { ViewBlock view; };
+
+layout(binding = 8) uniform sampler2D gbuffer_albedo;
+layout(binding = 9) uniform sampler2D gbuffer_normal;
+layout(binding = 10) uniform sampler2D gbuffer_material;
+layout(binding = 11) uniform sampler2D gbuffer_emission;
+layout(binding = 12) uniform sampler2D gbuffer_depth;
+layout(binding = 13) uniform sampler2DArray shadow_mask;
+
+layout(location = 0) out vec4 lit;
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec2 ndc = gl_FragCoord.xy * view.viewport.zw * 2.0 - 1.0;
+  vec3 ray = normalize(view.forward.xyz + ndc.x * view.ray_x.xyz + ndc.y * view.ray_y.xyz);
+  if (texelFetch(gbuffer_depth, pixel, 0).x == 0.0) {
+    lit = vec4(surroundings(ray, 0.02), 1.0);
+    return;
+  }
+  vec4 albedo = texelFetch(gbuffer_albedo, pixel, 0);
+  vec4 material = texelFetch(gbuffer_material, pixel, 0);
+  Shading s;
+  s.albedo = albedo.rgb * albedo.rgb;
+  s.normal = octahedral_decode(texelFetch(gbuffer_normal, pixel, 0).xy * 2.0 - 1.0);
+  s.to_eye = -ray;
+  s.emission = texelFetch(gbuffer_emission, pixel, 0).rgb;
+  s.metallic = material.r;
+  s.roughness = material.g;
+  s.occlusion = material.b;
+  vec3 color = material.a > 0.5 ? s.albedo : shade(s, texelFetch(shadow_mask, ivec3(pixel, 0), 0).r);
+  lit = vec4(color, 1.0);
+}

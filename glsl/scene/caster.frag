@@ -1,0 +1,10 @@
+#include "scene/material.glsl"
+
+in Caster {
+  vec4 uv;
+  vec4 color;
+} caster;
+
+void main() {
+  if (base_color(caster.uv, caster.color).a < materials[material_index].alpha_cutoff) discard;
+}

@@ -1,0 +1,33 @@
+// What casts shadows: depth, and texture coordinates where alpha decides.
+#include "scene/instance.glsl"
+
+#if LAST_POSE
+layout(location = 1) in vec3 position;
+#else
+layout(location = 0) in vec3 position;
+#endif
+layout(location = 4) in vec4 uv;
+layout(location = 5) in vec4 color;
+layout(location = 6) in uint instance;
+
+uniform mat4 world_to_clip;
+
+#if MASKED
+out Caster {
+  vec4 uv;
+  vec4 color;
+} caster;
+#endif
+
+void main() {
+#if LAST_POSE
+  mat4 world = instances[instance].last_world;
+#else
+  mat4 world = instances[instance].world;
+#endif
+  gl_Position = world_to_clip * (world * vec4(position, 1.0));
+#if MASKED
+  caster.uv = uv;
+  caster.color = color;
+#endif
+}

@@ -1,0 +1,3 @@
+#include "shared/scene_blocks.h"
+
+layout(std430, binding = 0) readonly restrict buffer Instances { InstanceBlock instances[]; };

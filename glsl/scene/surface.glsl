@@ -1,0 +1,68 @@
+// What a fragment shader knows of the surface: colour, normals, motion.
+#include "shared/view_block.h"
+#include "scene/instance.glsl"
+#include "scene/material.glsl"
+
+layout(std140, binding = 4) uniform ViewData { ViewBlock view; };
+layout(std430, binding = 2) readonly restrict buffer Indices { uint indices[]; };
+layout(std430, binding = 3) readonly restrict buffer Positions { float positions[]; };
+
+in Surface {
+  vec3 world;
+  vec3 normal;
+  vec4 tangent;
+  vec4 uv;
+  vec4 color;
+  vec3 clip;
+  vec3 last_clip;
+  flat uint instance;
+} surface;
+
+vec3 corner(uint index) {
+  uint at = 3u * (instances[surface.instance].base_vertex + indices[index]);
+  return vec3(positions[at], positions[at + 1u], positions[at + 2u]);
+}
+
+// From the eye to the surface.
+vec3 view_ray() { return view.camera.w != 0.0 ? view.forward.xyz : surface.world - view.camera.xyz; }
+
+vec3 towards_eye(vec3 n) { return dot(n, view_ray()) > 0.0 ? -n : n; }
+
+// Of the triangle itself, in world space, facing the eye, not of unit length. From its corners: derivatives of the position
+// are too coarse for wide kernels, which multiply their error. Lines and points take their shading normal.
+vec3 geometric_normal() {
+  InstanceBlock instance = instances[surface.instance];
+  if ((instance.flags & INSTANCE_TRIANGLES) == 0u) return towards_eye(surface.normal);
+  uint first = instance.first_index + 3u * uint(gl_PrimitiveID);
+  vec3 a = corner(first);
+  vec3 edge = corner(first + 1u) - a;
+  vec3 other = corner(first + 2u) - a;
+  float scale = max(max(abs(edge.x), abs(edge.y)), max(abs(edge.z), max(max(abs(other.x), abs(other.y)), abs(other.z))));
+  vec3 n = mat3(instance.area) * cross(edge / scale, other / scale);
+  float size = max(abs(n.x), max(abs(n.y), abs(n.z)));
+  if (!(size > 0.0)) return towards_eye(surface.normal);
+  return n * ((gl_FrontFacing ? instance.winding : -instance.winding) / size);
+}
+
+// With the normal map, of unit length. Back faces, seen only of double-sided materials, turn it round.
+vec3 shading_normal(vec3 geometric) {
+  float square = dot(surface.normal, surface.normal);
+  if (!(square > 0.0)) return normalize(geometric);
+  vec3 n = surface.normal * inversesqrt(square);
+  if (has_texture(TEXTURE_NORMAL)) {
+    vec3 mapped = texture(normal_texture, texture_uv(TEXTURE_NORMAL, surface.uv)).xyz * 2.0 - 1.0;
+    mapped.xy *= materials[material_index].normal_scale;
+    vec3 t = surface.tangent.xyz;
+    t *= inversesqrt(max(dot(t, t), 1e-30));  // without tangents: stays zero
+    vec3 bent = mapped.x * t + mapped.y * surface.tangent.w * cross(n, t) + mapped.z * n;
+    float bent_square = dot(bent, bent);
+    if (bent_square > 1e-12) n = bent * inversesqrt(bent_square);
+  }
+  return gl_FrontFacing ? n : -n;
+}
+
+// Where the surface is minus where it was, in NDC.
+vec2 motion() {
+  if (!(surface.last_clip.z > 0.0)) return vec2(0.0);
+  return surface.clip.xy / surface.clip.z - surface.last_clip.xy / surface.last_clip.z;
+}

@@ -1,0 +1,66 @@
+// What shaders read of a scene. Read by C++ and GLSL; std430.
+#ifndef PENUMBRA_SCENE_BLOCKS_H
+#define PENUMBRA_SCENE_BLOCKS_H
+
+#include "shared/language.h"
+
+GLSL_BEGIN
+
+// InstanceBlock::flags
+#define INSTANCE_TRIANGLES 1u
+#define INSTANCE_MIRRORED 2u  // its matrix turns counter-clockwise triangles clockwise
+
+// A primitive at a place.
+struct InstanceBlock {
+  mat4 world;
+  mat4 last_world;   // in the last frame
+  mat4 area;         // cofactors of world: takes cross products along
+  uint first_index;  // of the primitive, in the index buffer
+  uint base_vertex;  // added to each index
+  uint flags;
+  float winding;  // -1 for mirrored instances, else 1
+};
+
+// Textures of a material, in the order of their units.
+#define TEXTURE_BASE_COLOR 0
+#define TEXTURE_METALLIC_ROUGHNESS 1
+#define TEXTURE_NORMAL 2
+#define TEXTURE_OCCLUSION 3
+#define TEXTURE_EMISSIVE 4
+#define TEXTURE_COUNT 5
+
+// MaterialBlock::flags: bit i says that texture i is there, bit 8 + i that it uses the second UV set.
+#define MATERIAL_SECOND_UV 8
+#define MATERIAL_UNLIT 0x10000u
+
+struct MaterialBlock {
+  vec4 base_color;
+  vec3 emissive;
+  float alpha_cutoff;  // alpha below it is not there; for blended materials, what casts a shadow
+  float metallic;
+  float roughness;
+  float normal_scale;
+  float occlusion_strength;
+  uint flags;
+  uint pad_a;
+  uint pad_b;
+  uint pad_c;
+  vec4 uv_rows[TEXTURE_COUNT * 2];  // two rows a texture: u' and v' as factors of u, v, 1
+};
+
+// One primitive to be skinned or morphed. Counts are in vertices, offsets in elements of their buffers.
+struct DeformBlock {
+  uint source;      // first vertex at rest
+  uint target;      // first vertex of the result
+  uint count;
+  uint influences;  // first joint record; only with joints
+  uint joints;      // first joint matrix
+  uint joint_count; // 0: not skinned
+  uint deltas;      // first morph delta: targets one after the other, `count` each
+  uint weights;     // first morph weight
+  uint target_count;
+};
+
+GLSL_END
+
+#endif

@@ -1,0 +1,57 @@
+// The frame, top to bottom.
+#include "render/frame.h"
+
+namespace penumbra::render {
+
+namespace {
+
+// Read by every pass that draws geometry or casts rays.
+void bind_view(gl::Device& device, const glsl::ViewBlock& view) {
+  const gl::Buffer& block = device.scratch("view", sizeof(glsl::ViewBlock));
+  gl::write_value(block, view);
+  block.bind_uniform(view_binding);
+}
+
+}  // namespace
+
+FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, scene::GpuScene& scene,
+                      const FrameInputs& inputs, const ParamSet& params) {
+  const Camera& camera = inputs.camera;
+  const Camera& last_camera = inputs.last_camera;
+  const Sun& sun = inputs.sun;
+  const glsl::ViewBlock view = view_block(camera, last_camera, inputs.width, inputs.height);
+  bind_view(device, view);
+
+  scene.pose(device, inputs.last_time, inputs.time);
+
+  const GBuffer gbuffer = draw_gbuffer(device, {.scene = scene, .view = view});
+
+  const shadow::Mask mask = draw_shadow_mask(device, {.soft_shadows = soft_shadows,
+                                                      .scene = scene,
+                                                      .camera = camera,
+                                                      .last_camera = last_camera,
+                                                      .sun = sun,
+                                                      .gbuffer = gbuffer,
+                                                      .params = params});
+
+  const gl::Texture& lit = light_surfaces(
+      device,
+      {.gbuffer = gbuffer, .mask = mask, .sun = sun, .emission_in_nits = scene.lit_by_file(), .params = params});
+
+  draw_blended(device, {.soft_shadows = soft_shadows,
+                        .scene = scene,
+                        .camera = camera,
+                        .view = view,
+                        .gbuffer = gbuffer,
+                        .mask = mask,
+                        .params = params,
+                        .lit = lit});
+
+  const gl::Buffer& exposure = measure_exposure(device, {.gbuffer = gbuffer, .lit = lit, .params = params});
+
+  const gl::Texture& display = tone_map(device, {.lit = lit, .exposure = exposure});
+
+  return {view, camera, gbuffer, mask, &lit, &exposure, &display};
+}
+
+}  // namespace penumbra::render

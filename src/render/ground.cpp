@@ -1,0 +1,117 @@
+#include "render/ground.h"
+
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cmath>
+
+#include "render/setup.h"
+
+namespace penumbra::render {
+
+namespace {
+
+constexpr int cells = 32;              // of the footprint, along a side
+constexpr float enough = 0.6f;         // of the footprint covered
+constexpr float low = 0.1f;            // part of the height that counts as the bottom
+constexpr float level = 0.7f;          // least share of a triangle's area seen from above
+constexpr float radii = 6.0f;          // half the ground's side in radii of the scene
+constexpr std::size_t copies = 10000;  // instances looked at
+
+// The scene's outline on the ground, as cells.
+class Footprint {
+ public:
+  explicit Footprint(const scene::Bounds& bounds)
+      : origin_(bounds.min.x, bounds.min.z),
+        scale_(static_cast<float>(cells) / glm::max(glm::vec2(bounds.extent().x, bounds.extent().z), 1e-9f)) {}
+
+  void cover(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    const std::array<glm::vec2, 3> corners{cell(a), cell(b), cell(c)};
+    const glm::ivec2 first =
+        glm::max(glm::ivec2(glm::floor(glm::min(corners[0], glm::min(corners[1], corners[2])))), 0);
+    const glm::ivec2 last =
+        glm::min(glm::ivec2(glm::floor(glm::max(corners[0], glm::max(corners[1], corners[2])))), cells - 1);
+    for (int y = first.y; y <= last.y; ++y) {
+      for (int x = first.x; x <= last.x; ++x) {
+        if (holds(corners, glm::vec2(x, y) + 0.5f)) covered_.set(static_cast<std::size_t>(y * cells + x));
+      }
+    }
+  }
+
+  float covered() const { return static_cast<float>(covered_.count()) / (cells * cells); }
+
+ private:
+  glm::vec2 cell(const glm::vec3& p) const { return (glm::vec2(p.x, p.z) - origin_) * scale_; }
+
+  static bool holds(const std::array<glm::vec2, 3>& corners, const glm::vec2& p) {
+    int positive = 0, negative = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::vec2 edge = corners[(i + 1) % 3] - corners[i], to = p - corners[i];
+      const float side = edge.x * to.y - edge.y * to.x;
+      positive += side > 0 ? 1 : 0;
+      negative += side < 0 ? 1 : 0;
+    }
+    return positive == 0 || negative == 0;
+  }
+
+  glm::vec2 origin_, scale_;
+  std::bitset<cells * cells> covered_;
+};
+
+bool faces_up(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  const glm::vec3 area = glm::cross(b - a, c - a);
+  return std::abs(area.y) > level * glm::length(area);
+}
+
+void cover(Footprint& footprint, const scene::Primitive& primitive, const glm::mat4& world, float top) {
+  std::vector<glm::vec3> positions;
+  positions.reserve(primitive.positions.size());
+  for (const glm::vec3& position : primitive.positions) positions.emplace_back(world * glm::vec4(position, 1.0f));
+  for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+    const glm::vec3& a = positions[primitive.indices[i]];
+    const glm::vec3& b = positions[primitive.indices[i + 1]];
+    const glm::vec3& c = positions[primitive.indices[i + 2]];
+    if (std::max({a.y, b.y, c.y}) <= top && faces_up(a, b, c)) footprint.cover(a, b, c);
+  }
+}
+
+}  // namespace
+
+bool has_ground(const scene::Scene& scene, const scene::Pose& pose, const scene::Bounds& bounds) {
+  Footprint footprint(bounds);
+  const float top = bounds.min.y + std::max(low * bounds.extent().y, 1e-3f * bounds.radius());
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    const scene::Node& node = scene.nodes[i];
+    if (!pose.drawn[i] || node.mesh < 0 || node.skin >= 0) continue;
+    for (const scene::Primitive& primitive : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+      if (primitive.topology != scene::Topology::triangles) continue;
+      if (node.instances.empty()) cover(footprint, primitive, pose.world[i], top);
+      for (std::size_t copy = 0; copy < std::min(node.instances.size(), copies); ++copy) {
+        cover(footprint, primitive, pose.world[i] * scene::to_matrix(node.instances[copy]), top);
+      }
+    }
+  }
+  return footprint.covered() >= enough;
+}
+
+void add_ground(scene::Scene& scene, const scene::Bounds& bounds) {
+  const float radius = bounds.empty ? 1.0f : std::max(bounds.radius(), 1e-6f);
+  const float half = radii * radius;
+  const glm::vec3 center = bounds.empty ? glm::vec3(0.0f) : bounds.center();
+  const float height = (bounds.empty ? 0.0f : bounds.min.y) - 1e-4f * radius;  // under floors of the scene's own
+  scene::Primitive plane;
+  for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(-1, 1), glm::vec2(1, 1), glm::vec2(1, -1)}) {
+    plane.positions.emplace_back(center.x + half * corner.x, height, center.z + half * corner.y);
+    plane.normals.emplace_back(0, 1, 0);
+  }
+  plane.indices = {0, 1, 2, 0, 2, 3};
+  plane.material = static_cast<int>(scene.materials.size());
+  scene.materials.push_back({.name = "ground", .base_color = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f), .metallic = 0.0f});
+  scene::Node node{.name = "ground"};
+  node.mesh = static_cast<int>(scene.meshes.size());
+  scene.meshes.push_back({.name = "ground", .primitives = {std::move(plane)}});
+  scene.roots.push_back(static_cast<int>(scene.nodes.size()));
+  scene.nodes.push_back(std::move(node));
+}
+
+}  // namespace penumbra::render

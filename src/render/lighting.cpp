@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "render/passes.h"
+#include "shared/lighting_block.h"
+
+namespace penumbra::render {
+
+namespace {
+
+float luminance(const glm::vec3& color) { return glm::dot(color, {0.2126f, 0.7152f, 0.0722f}); }
+
+// What brings luminance to the scale of the picture: exposed by hand, EV at ISO 100 with the middle of a meter's range
+// at 1.2 · 2^EV (ISO 2720 with K = 12.5); else white in the sun becomes 1, and measure_exposure() sees to the rest.
+float exposure_factor(const LightingInputs& inputs, float white) {
+  if (!inputs.params.get_bool("exposure.auto"))
+    return 1.0f / (1.2f * std::exp2(inputs.params.get_float("exposure.ev")));
+  return white > 0.0f ? 1.0f / white : 1.0f;
+}
+
+glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
+  const Sun& sun = inputs.sun;
+  const float sky_share = inputs.params.get_float("render.sky_light");
+  const float white = luminance(sun.illuminance) * (1.0f + sky_share) / glm::pi<float>();
+  const float exposure = exposure_factor(inputs, white);
+  // The sky is lit by the sun too, but has its own colour.
+  const float sky = exposure * sky_share * luminance(sun.illuminance) / glm::pi<float>();
+  const float level_sun = std::max(sun.to_light.y, 0.0f) / glm::pi<float>();
+  const glm::vec3 bounce = inputs.params.get_float("render.ground_light") * glm::vec3(1.04f, 1.0f, 0.9f);
+  return {.to_sun = glm::vec4(sun.to_light, inputs.emission_in_nits ? exposure : exposure * white),
+          .sun = glm::vec4(sun.illuminance * exposure, 0.0f),
+          .sky = glm::vec4(glm::vec3(sky), 0.0f),
+          .ground = glm::vec4(bounce * (sun.illuminance * exposure * level_sun + sky), 0.0f)};
+}
+
+gl::ProgramDesc program() {
+  return {.name = "lighting", .vertex = "render/full_screen.vert", .fragment = "render/lighting.frag"};
+}
+
+}  // namespace
+
+const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inputs) {
+  const GBuffer& gbuffer = inputs.gbuffer;
+  const gl::Texture& lit =
+      device.target("lit", {.format = GL_RGBA16F, .width = gbuffer.depth->width(), .height = gbuffer.depth->height()});
+  const gl::Buffer& block = device.scratch("lighting", sizeof(glsl::LightingBlock));
+  gl::write_value(block, lighting_block(inputs));
+  gl::Pass pass(device, {.name = "lighting", .colors = {{.texture = &lit}}});
+  pass.use(program());
+  block.bind_uniform(lighting_binding);
+  GLuint unit = first_unit;
+  for (const gl::Texture* texture :
+       {gbuffer.albedo, gbuffer.normal, gbuffer.material, gbuffer.emission, gbuffer.depth, inputs.mask.texture}) {
+    device.sampler({}).bind(unit);
+    texture->bind(unit++);
+  }
+  pass.draw_full_screen();
+  return lit;
+}
+
+std::vector<gl::ProgramDesc> lighting_programs() { return {program()}; }
+
+}  // namespace penumbra::render

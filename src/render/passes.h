@@ -1,0 +1,93 @@
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+
+#include "core/params.h"
+#include "gl/pass.h"
+#include "render/view.h"
+#include "scene/gpu_scene.h"
+#include "shadow/soft_shadows.h"
+
+namespace penumbra::render {
+
+// The passes of a frame: each a function from named inputs to a named output, in a file of its name.
+
+// What the camera sees, before light.
+struct GBuffer {
+  const gl::Texture* albedo = nullptr;            // RGB10_A2: square root of linear
+  const gl::Texture* normal = nullptr;            // RG16: shading normal, world, octahedral, 0..1
+  const gl::Texture* geometric_normal = nullptr;  // RG32F: octahedral, -1..1
+  const gl::Texture* material = nullptr;          // RGBA8: metallic, roughness, occlusion, 1 for unlit
+  const gl::Texture* emission = nullptr;          // R11F_G11F_B10F: as the file gives it
+  const gl::Texture* motion = nullptr;            // RG32F: where it is minus where it was, NDC
+  const gl::Texture* depth = nullptr;             // 32F, reversed: 0 is the sky
+};
+
+struct GBufferInputs {
+  scene::GpuScene& scene;
+  const glsl::ViewBlock& view;
+};
+GBuffer draw_gbuffer(gl::Device& device, const GBufferInputs& inputs);
+std::vector<gl::ProgramDesc> gbuffer_programs();
+
+struct ShadowMaskInputs {
+  shadow::SoftShadows& soft_shadows;
+  scene::GpuScene& scene;
+  const Camera& camera;
+  const Camera& last_camera;
+  const Sun& sun;
+  const GBuffer& gbuffer;
+  const ParamSet& params;
+};
+shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs);
+
+struct LightingInputs {
+  const GBuffer& gbuffer;
+  const shadow::Mask& mask;
+  const Sun& sun;
+  bool emission_in_nits = true;  // else 1 is white in the sun
+  const ParamSet& params;
+};
+const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inputs);  // RGBA16F, linear, exposed
+std::vector<gl::ProgramDesc> lighting_programs();
+
+struct BlendedInputs {
+  shadow::SoftShadows& soft_shadows;
+  scene::GpuScene& scene;
+  const Camera& camera;
+  const glsl::ViewBlock& view;
+  const GBuffer& gbuffer;
+  const shadow::Mask& mask;
+  const ParamSet& params;
+  const gl::Texture& lit;
+};
+void draw_blended(gl::Device& device, const BlendedInputs& inputs);  // over `lit`
+std::vector<gl::ProgramDesc> blended_programs(gl::Device& device, const shadow::SoftShadows& soft_shadows,
+                                              const ParamSet& defaults);
+
+struct ExposureInputs {
+  const GBuffer& gbuffer;
+  const gl::Texture& lit;
+  const ParamSet& params;
+};
+const gl::Buffer& measure_exposure(gl::Device& device, const ExposureInputs& inputs);  // one float: a factor
+std::vector<gl::ProgramDesc> exposure_programs();
+
+struct ToneMapInputs {
+  const gl::Texture& lit;
+  const gl::Buffer& exposure;
+};
+const gl::Texture& tone_map(gl::Device& device, const ToneMapInputs& inputs);  // RGBA8, sRGB-encoded
+std::vector<gl::ProgramDesc> tone_map_programs();
+
+// Rows of the parameter table that these passes read.
+std::vector<Param> render_params();
+
+// Uniform blocks that several passes read: bound once a frame.
+inline constexpr GLuint view_binding = 4;
+inline constexpr GLuint lighting_binding = 5;
+// The first texture unit of the passes; the shadow library has those below it.
+inline constexpr GLuint first_unit = 8;
+
+}  // namespace penumbra::render

@@ -1,0 +1,69 @@
+#include "render/renderer.h"
+
+#include <cassert>
+#include <utility>
+
+#include "render/frame.h"
+
+namespace penumbra::render {
+
+struct Renderer::State {
+  gl::Device& device;
+  shadow::SoftShadows soft_shadows;
+  FrameParts parts;
+  Frame frame;
+};
+
+Renderer::Renderer(gl::Device& device, shadow::Registry registry)
+    : state_(new State{device, shadow::SoftShadows(device, std::move(registry)), {}, {}}) {}
+
+Renderer::~Renderer() = default;
+
+std::vector<Param> Renderer::params(const shadow::Registry& registry) {
+  std::vector<Param> rows = registry.params();
+  for (Param& row : render_params()) rows.push_back(std::move(row));
+  return rows;
+}
+
+const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, const ParamSet& params) {
+  gl::Device& device = state_->device;
+  device.timers.begin_frame();
+  state_->parts = draw_frame(device, state_->soft_shadows, scene, inputs, params);
+  device.timers.end_frame();
+  const FrameParts& parts = state_->parts;
+  state_->frame = {.display = parts.display, .color = parts.lit, .depth = parts.gbuffer.depth, .mask = parts.mask};
+  return state_->frame;
+}
+
+std::vector<float> Renderer::read_aov(std::string_view name) const {
+  assert(state_->parts.display != nullptr);
+  return render::read_aov(state_->parts, name);
+}
+
+std::vector<std::uint8_t> Renderer::read_display() const {
+  const gl::Texture& display = *state_->parts.display;
+  const std::vector<float> pixels = gl::read_floats(display, 3);
+  const auto row = static_cast<std::size_t>(display.width()) * 3;
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(pixels.size());
+  for (std::size_t y = pixels.size() / row; y-- > 0;) {
+    for (std::size_t x = 0; x < row; ++x)
+      bytes.push_back(static_cast<std::uint8_t>(pixels[y * row + x] * 255.0f + 0.5f));
+  }
+  return bytes;
+}
+
+std::vector<gl::ProgramDesc> Renderer::all_programs(const ParamSet& defaults) {
+  std::vector<gl::ProgramDesc> all;
+  for (std::vector<gl::ProgramDesc>& programs :
+       std::vector{scene::GpuScene::programs(), gbuffer_programs(), state_->soft_shadows.all_programs(defaults),
+                   lighting_programs(), blended_programs(state_->device, state_->soft_shadows, defaults),
+                   exposure_programs(), tone_map_programs()}) {
+    std::move(programs.begin(), programs.end(), std::back_inserter(all));
+  }
+  return all;
+}
+
+const shadow::Registry& Renderer::registry() const { return state_->soft_shadows.registry(); }
+
+}  // namespace penumbra::render

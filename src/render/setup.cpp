@@ -1,0 +1,162 @@
+#include "render/setup.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "core/error.h"
+#include "core/names.h"
+#include "render/ground.h"
+
+namespace penumbra::render {
+
+namespace {
+
+constexpr float automatic_fov = glm::radians(40.0f);
+constexpr float automatic_azimuth = glm::radians(30.0f);
+constexpr float margin = 1.08f;
+
+// A camera of the file at a place in its scene.
+struct PlacedCamera {
+  std::string name;
+  const scene::Camera* camera;
+  glm::mat4 world;
+};
+
+std::vector<PlacedCamera> placed_cameras(const scene::Scene& scene, const scene::Pose& pose) {
+  std::vector<PlacedCamera> placed;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    const scene::Node& node = scene.nodes[i];
+    if (node.camera < 0 || !pose.drawn[i]) continue;
+    const scene::Camera& camera = scene.cameras[static_cast<std::size_t>(node.camera)];
+    std::string name = !camera.name.empty() ? camera.name : node.name;
+    if (name.empty()) name = std::to_string(placed.size());
+    placed.push_back({std::move(name), &camera, pose.world[i]});
+  }
+  return placed;
+}
+
+// The rigid part of a node's matrix: a camera's own scale does not matter.
+glm::mat4 view_of(const glm::mat4& world) {
+  const glm::vec3 eye(world[3]);
+  glm::vec3 back(world[2]), up(world[1]);
+  if (!(glm::length(back) > 0)) back = {0, 0, 1};
+  if (!(glm::length(glm::cross(up, back)) > 0))
+    up = std::abs(back.y) < 0.9f * glm::length(back) ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1);
+  return glm::lookAt(eye, eye - glm::normalize(back), glm::normalize(up));
+}
+
+Camera camera_of(const PlacedCamera& placed) {
+  const scene::Camera& file = *placed.camera;
+  Camera camera{.view = view_of(placed.world),
+                .orthographic = file.orthographic,
+                .fov_y = file.fov_y,
+                .half_height = file.half_height,
+                .near = file.near};
+  if (file.far) camera.far = *file.far;
+  return camera;
+}
+
+const PlacedCamera& find_camera(const std::vector<PlacedCamera>& placed, const std::string& wanted) {
+  for (const PlacedCamera& camera : placed) {
+    if (camera.name == wanted) return camera;
+  }
+  std::size_t index = 0;
+  const char* end = wanted.data() + wanted.size();
+  const auto parsed = std::from_chars(wanted.data(), end, index);
+  if (parsed.ec == std::errc() && parsed.ptr == end && index < placed.size()) return placed[index];
+  if (placed.empty()) fail("no camera '{}': the scene has no cameras", wanted);
+  std::vector<std::string> names;
+  for (const PlacedCamera& camera : placed) names.push_back(camera.name);
+  fail_unknown("camera", wanted, names);
+}
+
+// A three-quarter view from a little above, near enough that the scene fills the picture.
+Camera framing_camera(const scene::Bounds& bounds, float aspect) {
+  const glm::vec3 half = glm::max(bounds.extent() * 0.5f, glm::vec3(1e-6f));
+  // Flat scenes are seen from higher up.
+  const float flatness = half.y / std::max({half.x, half.y, half.z});
+  const float elevation = glm::radians(glm::mix(34.0f, 16.0f, glm::clamp(flatness * 1.5f, 0.0f, 1.0f)));
+  const glm::vec3 back = direction_to(automatic_azimuth, elevation);
+  const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), back));
+  const glm::vec3 up = glm::cross(back, right);
+  const float tan_y = std::tan(automatic_fov * 0.5f), tan_x = tan_y * aspect;
+  float distance = 0;
+  for (int i = 0; i < 8; ++i) {
+    const glm::vec3 corner = half * glm::vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+    const float towards = glm::dot(corner, back);
+    distance = std::max({distance, towards + margin * std::abs(glm::dot(corner, right)) / tan_x,
+                         towards + margin * std::abs(glm::dot(corner, up)) / tan_y});
+  }
+  const glm::vec3 eye = bounds.center() + back * distance;
+  return look_at(eye, bounds.center(), automatic_fov, near_plane_for(bounds, eye));
+}
+
+// Halfway up the sky, to the side of the camera's shoulder, so that shadows fall across the picture.
+Sun default_sun(const Camera& camera) {
+  const glm::vec3 back(camera.view[0][2], camera.view[1][2], camera.view[2][2]);
+  const float azimuth = std::atan2(back.x, back.z) - glm::radians(55.0f);
+  return {.to_light = direction_to(azimuth, glm::radians(45.0f))};
+}
+
+Sun sun_of(const scene::Scene& scene, const scene::Pose& pose, const Camera& camera) {
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    const int light = scene.nodes[i].light;
+    if (light < 0 || !pose.drawn[i]) continue;
+    const scene::Light& file = scene.lights[static_cast<std::size_t>(light)];
+    const glm::vec3 back(pose.world[i][2]);  // it shines along its -Z
+    if (file.kind != scene::LightKind::directional || !(glm::length(back) > 0)) continue;
+    return {.to_light = glm::normalize(back), .illuminance = file.color * file.intensity};
+  }
+  return default_sun(camera);
+}
+
+float distance_to(const scene::Bounds& box, const glm::vec3& point) {
+  return glm::length(glm::max(glm::max(box.min - point, point - box.max), glm::vec3(0.0f)));
+}
+
+scene::Bounds usable(scene::Bounds bounds) {
+  if (bounds.empty) {
+    bounds.add(glm::vec3(-1));
+    bounds.add(glm::vec3(1));
+  }
+  return bounds;
+}
+
+}  // namespace
+
+glm::vec3 direction_to(float azimuth, float elevation) {
+  return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation), std::cos(azimuth) * std::cos(elevation)};
+}
+
+float near_plane_for(const scene::Bounds& bounds, const glm::vec3& eye) {
+  const scene::Bounds box = usable(bounds);
+  const float radius = std::max(box.radius(), 1e-6f);
+  // Half the distance leaves room for wide angles; below the eye there may be a ground plane.
+  const float nearest = std::min(distance_to(box, eye), std::abs(eye.y - box.min.y));
+  return std::max(0.5f * nearest, 1e-3f * radius);
+}
+
+std::vector<std::string> camera_names(const scene::Scene& scene, const scene::Pose& pose) {
+  std::vector<std::string> names;
+  for (PlacedCamera& camera : placed_cameras(scene, pose)) names.push_back(std::move(camera.name));
+  return names;
+}
+
+Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const SetupRequest& request) {
+  const scene::Bounds bounds = usable(scene::bounds_of(scene, pose));
+  const std::vector<PlacedCamera> cameras = placed_cameras(scene, pose);
+  Setup setup;
+  if (!request.camera.empty()) {
+    setup.camera = camera_of(find_camera(cameras, request.camera));
+  } else {
+    setup.camera = cameras.empty() ? framing_camera(bounds, request.aspect) : camera_of(cameras.front());
+  }
+  setup.sun = sun_of(scene, pose, setup.camera);
+  setup.ground = request.ground == GroundChoice::on ||
+                 (request.ground == GroundChoice::automatic && !has_ground(scene, pose, bounds));
+  return setup;
+}
+
+}  // namespace penumbra::render

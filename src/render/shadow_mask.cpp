@@ -1,0 +1,48 @@
+#include "render/passes.h"
+
+namespace penumbra::render {
+
+namespace {
+
+shadow::TextureView view_of(const gl::Texture& texture) { return {texture.id(), texture.width(), texture.height()}; }
+
+shadow::Box box_of(const scene::Bounds& bounds) { return {bounds.min, bounds.max}; }
+
+scene::Casters casters_of(shadow::CasterKind kind) {
+  switch (kind) {
+    case shadow::CasterKind::moved_now:
+      return scene::Casters::moved_now;
+    case shadow::CasterKind::moved_last:
+      return scene::Casters::moved_last;
+    case shadow::CasterKind::depth:
+    case shadow::CasterKind::geometry:
+      break;
+  }
+  return scene::Casters::all;
+}
+
+}  // namespace
+
+shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs) {
+  const gl::Texture& depth = *inputs.gbuffer.depth;
+  const float aspect = static_cast<float>(depth.width()) / static_cast<float>(depth.height());
+  const shadow::Light sun{.to_light = inputs.sun.to_light};
+  const auto draw = [&](const shadow::CasterPass& casters, gl::Pass& pass) {
+    const auto reaches = [&](const scene::Bounds& box) { return casters.cull.holds(box_of(box)); };
+    inputs.scene.draw_casters(device, pass, casters_of(casters.kind), casters.world_to_clip, reaches);
+  };
+  return inputs.soft_shadows.render({.view = {.view = inputs.camera.view,
+                                              .projection = projection_of(inputs.camera, aspect),
+                                              .last_view = inputs.last_camera.view,
+                                              .last_projection = projection_of(inputs.last_camera, aspect)},
+                                     .depth = view_of(depth),
+                                     .normals = view_of(*inputs.gbuffer.geometric_normal),
+                                     .motion = view_of(*inputs.gbuffer.motion),
+                                     .lights = std::span(&sun, 1),
+                                     .casters = box_of(inputs.scene.casters()),
+                                     .receivers = box_of(inputs.scene.receivers()),
+                                     .draw = draw},
+                                    inputs.params);
+}
+
+}  // namespace penumbra::render

@@ -1,0 +1,246 @@
+#include "scene/gpu_scene.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "scene/gpu_scene_boxes.h"
+#include "scene/gpu_scene_state.h"
+
+namespace penumbra::scene {
+
+namespace {
+
+// Where a primitive's indices, and its vertices at rest, lie in the shared buffers.
+struct Placed {
+  std::uint32_t first_index = 0;
+  std::optional<std::uint32_t> base_vertex;  // without one: only deformed instances use it
+  Bounds bounds;
+};
+
+Casts casts_of(const Primitive& primitive, const Material& material) {
+  if (primitive.topology != Topology::triangles) return Casts::never;
+  if (material.alpha_mode == AlphaMode::opaque) return Casts::always;
+  if (material.base_color_texture.texture >= 0 || !primitive.colors.empty()) return Casts::by_alpha;
+  const float alpha = material.base_color.a;
+  const bool there = material.alpha_mode == AlphaMode::mask ? alpha >= material.alpha_cutoff : alpha > 0.5f;
+  return there ? Casts::always : Casts::never;
+}
+
+Bounds bounds_of(const Primitive& primitive) {
+  Bounds bounds;
+  for (const glm::vec3& position : primitive.positions) bounds.add(position);
+  return bounds;
+}
+
+// Collects a scene's primitives into shared streams, and its instances.
+class Builder {
+ public:
+  Builder(const Scene& scene, const Materials& materials, Deformer& deformer)
+      : scene_(scene), materials_(materials), deformer_(deformer) {
+    const Pose rest = rest_pose(scene);
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+      if (rest.drawn[i] && scene.nodes[i].mesh >= 0) add_node(static_cast<int>(i));
+    }
+    std::stable_sort(instances.begin(), instances.end(), [](const Instance& a, const Instance& b) {
+      const auto key = [](const Instance& x) {
+        return std::tuple(x.job >= 0, x.topology, x.alpha_mode, x.material, x.first_index, x.base_vertex);
+      };
+      return key(a) < key(b);
+    });
+  }
+
+  VertexStreams rigid, deformed;
+  std::vector<std::uint32_t> indices;
+  std::vector<Instance> instances;
+
+ private:
+  void add_node(int node) {
+    const int mesh = scene_.nodes[static_cast<std::size_t>(node)].mesh;
+    for (const Primitive& primitive : scene_.meshes[static_cast<std::size_t>(mesh)].primitives) {
+      if (!primitive.indices.empty()) add_primitive(node, primitive);
+    }
+  }
+
+  void add_primitive(int node_index, const Primitive& primitive) {
+    const Node& node = scene_.nodes[static_cast<std::size_t>(node_index)];
+    const Material& material = Materials::of(scene_, primitive.material);
+    Placed& placed = place(primitive);
+    Instance instance{.node = node_index,
+                      .topology = primitive.topology,
+                      .alpha_mode = material.alpha_mode,
+                      .casts = casts_of(primitive, material),
+                      .material = materials_.index_of(primitive.material),
+                      .double_sided = material.double_sided,
+                      .first_index = placed.first_index,
+                      .index_count = static_cast<std::uint32_t>(primitive.indices.size()),
+                      .local = placed.bounds};
+    if (Deformer::deforms(node, primitive)) {
+      instance.base_vertex = deformed.append(primitive);
+      instance.job = deformer_.add(scene_, node_index, primitive, instance.base_vertex);
+    } else {
+      if (!placed.base_vertex) placed.base_vertex = rigid.append(primitive);
+      instance.base_vertex = *placed.base_vertex;
+    }
+    // Skinned vertices are in world space already: what would place copies does not apply to them.
+    const bool copied = !node.instances.empty() && !(instance.job >= 0 && deformer_.skinned(instance.job));
+    for (std::size_t copy = 0; copy < (copied ? node.instances.size() : 1); ++copy) {
+      instance.copy = copied ? static_cast<int>(copy) : -1;
+      instances.push_back(instance);
+    }
+  }
+
+  Placed& place(const Primitive& primitive) {
+    auto [entry, added] = placed_.try_emplace(&primitive);
+    if (added) {
+      entry->second.first_index = static_cast<std::uint32_t>(indices.size());
+      entry->second.bounds = bounds_of(primitive);
+      indices.insert(indices.end(), primitive.indices.begin(), primitive.indices.end());
+    }
+    return entry->second;
+  }
+
+  const Scene& scene_;
+  const Materials& materials_;
+  Deformer& deformer_;
+  std::map<const Primitive*, Placed> placed_;
+};
+
+template <class T>
+gl::Buffer upload(std::string_view label, const std::vector<T>& contents) {
+  return gl::Buffer::of(label, std::span<const T>(contents));
+}
+
+bool has_directional_light(const Scene& scene) {
+  const Pose rest = rest_pose(scene);
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    const int light = scene.nodes[i].light;
+    if (!rest.drawn[i] || light < 0) continue;
+    if (scene.lights[static_cast<std::size_t>(light)].kind == LightKind::directional) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+GpuScene::State::State(gl::Device& device, const Scene& described) : scene(described), materials(device, described) {
+  Builder builder(scene, materials, deformer);
+  deformer.upload();
+  instances = std::move(builder.instances);
+  positions = upload("positions", builder.rigid.positions);
+  frames = upload("normals and tangents", builder.rigid.frames);
+  surfaces = upload("texture coordinates and colours", builder.rigid.surfaces);
+  deformed_surfaces = upload("deformed texture coordinates and colours", builder.deformed.surfaces);
+  indices = upload("indices", builder.indices);
+  for (PosedVertices& vertices : posed) {
+    vertices.positions = upload("deformed positions", builder.deformed.positions);
+    vertices.frames = upload("deformed normals and tangents", builder.deformed.frames);
+  }
+  std::vector<std::uint32_t> numbers(instances.size());
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  instance_numbers = upload("instance numbers", numbers);
+  instance_blocks = gl::Buffer("instances", std::max<std::size_t>(instances.size(), 1) * sizeof(glsl::InstanceBlock));
+  for (const Instance& instance : instances) blended = blended || instance.alpha_mode == AlphaMode::blend;
+  lit_by_file = has_directional_light(scene);
+}
+
+PosedVertices& GpuScene::State::posed_at(gl::Device& device, double time, const PosedVertices* keep) {
+  for (PosedVertices& vertices : posed) {
+    if (vertices.time == time) return vertices;
+  }
+  PosedVertices& vertices = &posed[0] == keep ? posed[1] : posed[0];
+  vertices.pose = pose_at(scene, time);
+  deformer.run(device, vertices.pose, vertices.positions, vertices.frames);
+  vertices.time = time;
+  return vertices;
+}
+
+void GpuScene::pose(gl::Device& device, double last_time, double time) {
+  State& s = *state_;
+  const auto keeps = [&](const PosedVertices& vertices) { return vertices.time == time; };
+  const auto kept = std::find_if(s.posed.begin(), s.posed.end(), keeps);
+  const PosedVertices* last = &s.posed_at(device, last_time, kept == s.posed.end() ? nullptr : &*kept);
+  const PosedVertices* now = &s.posed_at(device, time, last);
+  const bool same = s.now == now && s.last == last && s.times == std::pair(last_time, time);
+  if (same) return;
+  s.now = now;
+  s.last = last;
+  s.times = {last_time, time};
+  s.set_vertex_arrays();
+  s.update_instances();
+}
+
+void GpuScene::State::set_vertex_arrays() const {
+  rigid.set({.positions = &positions,
+             .last_positions = &positions,
+             .frames = &frames,
+             .surfaces = &surfaces,
+             .instances = &instance_numbers,
+             .indices = &indices});
+  deformed.set({.positions = &now->positions,
+                .last_positions = &last->positions,
+                .frames = &now->frames,
+                .surfaces = &deformed_surfaces,
+                .instances = &instance_numbers,
+                .indices = &indices});
+}
+
+void GpuScene::State::update_instances() {
+  const auto placement = [this](const Instance& instance, const Pose& pose) {
+    if (instance.job >= 0 && deformer.skinned(instance.job)) return glm::mat4(1.0f);
+    const auto node = static_cast<std::size_t>(instance.node);
+    if (instance.copy < 0) return pose.world[node];
+    return pose.world[node] * to_matrix(scene.nodes[node].instances[static_cast<std::size_t>(instance.copy)]);
+  };
+  const auto box = [this](const Instance& instance, const Pose& pose, const glm::mat4& world) {
+    return transformed(instance.job >= 0 ? deformer.bounds(instance.job, pose) : instance.local, world);
+  };
+  std::vector<glsl::InstanceBlock> blocks;
+  blocks.reserve(instances.size());
+  moved = false;
+  casters = receivers = {};
+  for (Instance& instance : instances) {
+    const glm::mat4 world = placement(instance, now->pose);
+    const glm::mat4 last_world = placement(instance, last->pose);
+    const bool skinned = instance.job >= 0 && deformer.skinned(instance.job);
+    instance.mirrored = skinned ? deformer.mirrored(instance.job, now->pose) : is_mirror(world);
+    instance.moved = world != last_world ||
+                     (instance.job >= 0 && now != last && deformer.differs(instance.job, now->pose, last->pose));
+    instance.box = box(instance, now->pose, world);
+    instance.last_box = instance.moved ? box(instance, last->pose, last_world) : instance.box;
+    moved = moved || instance.moved;
+    if (instance.casts != Casts::never) casters.add(instance.box);
+    receivers.add(instance.box);
+    const unsigned triangles = instance.topology == Topology::triangles ? INSTANCE_TRIANGLES : 0u;
+    blocks.push_back({.world = world,
+                      .last_world = last_world,
+                      .area = glm::mat4(area_matrix(glm::mat3(world))),
+                      .first_index = instance.first_index,
+                      .base_vertex = instance.base_vertex,
+                      .flags = triangles | (instance.mirrored ? INSTANCE_MIRRORED : 0u),
+                      .winding = instance.mirrored ? -1.0f : 1.0f});
+  }
+  instance_blocks.write(std::as_bytes(std::span(blocks)));
+}
+
+GpuScene::GpuScene(gl::Device& device, const Scene& scene) : state_(std::make_unique<State>(device, scene)) {}
+GpuScene::~GpuScene() = default;
+
+bool GpuScene::has_blended() const { return state_->blended; }
+bool GpuScene::moved() const { return state_->moved; }
+Bounds GpuScene::casters() const { return state_->casters; }
+Bounds GpuScene::receivers() const { return state_->receivers; }
+bool GpuScene::lit_by_file() const { return state_->lit_by_file; }
+
+std::vector<glm::vec3> GpuScene::read_deformed() const {
+  const gl::Buffer& buffer = state_->now->positions;
+  std::vector<glm::vec3> positions(buffer.size() / sizeof(glm::vec3));
+  if (!positions.empty()) {
+    gl::glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    gl::glGetNamedBufferSubData(buffer.id(), 0, static_cast<GLsizeiptr>(buffer.size()), positions.data());
+  }
+  return positions;
+}
+
+}  // namespace penumbra::scene

@@ -1,0 +1,190 @@
+#include "scene/gpu_scene_deform.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+#include "scene/gpu_scene_boxes.h"
+
+namespace penumbra::scene {
+
+namespace {
+
+// As glsl/scene/deform.comp declares.
+enum Binding : GLuint {
+  binding_rest,
+  binding_influences,
+  binding_deltas,
+  binding_joints,
+  binding_weights,
+  binding_jobs,
+  binding_positions,
+  binding_frames
+};
+
+void append(std::vector<float>& to, const glm::vec3& v) { to.insert(to.end(), {v.x, v.y, v.z}); }
+
+void append_rest(std::vector<float>& rest, const Primitive& primitive) {
+  for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
+    append(rest, primitive.positions[i]);
+    append(rest, primitive.normals[i]);
+    const glm::vec4 tangent = primitive.tangents.empty() ? glm::vec4(0.0f) : primitive.tangents[i];
+    append(rest, glm::vec3(tangent));
+    rest.push_back(tangent.w < 0.0f ? -1.0f : 1.0f);
+  }
+}
+
+void append_influences(std::vector<std::uint32_t>& influences, const Primitive& primitive) {
+  for (std::size_t i = 0; i < primitive.joints.size(); ++i) {
+    const glm::u16vec4& joint = primitive.joints[i];
+    influences.push_back(joint.x | static_cast<std::uint32_t>(joint.y) << 16);
+    influences.push_back(joint.z | static_cast<std::uint32_t>(joint.w) << 16);
+    for (glm::length_t k = 0; k < 4; ++k) influences.push_back(std::bit_cast<std::uint32_t>(primitive.weights[i][k]));
+  }
+}
+
+void append_deltas(std::vector<float>& deltas, const Primitive& primitive) {
+  const auto delta = [](const std::vector<glm::vec3>& list, std::size_t i) {
+    return list.empty() ? glm::vec3(0.0f) : list[i];
+  };
+  for (const MorphTarget& target : primitive.targets) {
+    for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
+      append(deltas, delta(target.positions, i));
+      append(deltas, delta(target.normals, i));
+      append(deltas, delta(target.tangents, i));
+    }
+  }
+}
+
+std::vector<Bounds> bounds_by_joint(const Primitive& primitive, std::size_t joints) {
+  std::vector<Bounds> parts(std::max<std::size_t>(joints, 1));
+  for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
+    if (joints == 0) {
+      parts[0].add(primitive.positions[i]);
+      continue;
+    }
+    for (glm::length_t k = 0; k < 4; ++k) {
+      const std::size_t joint = std::min<std::size_t>(primitive.joints[i][k], joints - 1);
+      if (primitive.weights[i][k] != 0.0f) parts[joint].add(primitive.positions[i]);
+    }
+  }
+  return parts;
+}
+
+glm::vec3 reach_of(const MorphTarget& target) {
+  glm::vec3 reach(0.0f);
+  for (const glm::vec3& delta : target.positions) reach = glm::max(reach, glm::abs(delta));
+  return reach;
+}
+
+float weight_of(const Pose& pose, int node, std::size_t target) {
+  const auto& weights = pose.weights[static_cast<std::size_t>(node)];
+  return target < weights.size() ? weights[target] : 0.0f;
+}
+
+}  // namespace
+
+bool Deformer::deforms(const Node& node, const Primitive& primitive) {
+  return !primitive.targets.empty() || (node.skin >= 0 && !primitive.joints.empty());
+}
+
+int Deformer::add(const Scene& scene, int node, const Primitive& primitive, std::uint32_t target) {
+  const int skin = scene.nodes[static_cast<std::size_t>(node)].skin;
+  const std::size_t joints =
+      skin >= 0 && !primitive.joints.empty() ? scene.skins[static_cast<std::size_t>(skin)].joints.size() : 0;
+  const auto count = static_cast<std::uint32_t>(primitive.positions.size());
+  const auto targets = static_cast<std::uint32_t>(primitive.targets.size());
+  jobs_.push_back({.node = node,
+                   .block = {.source = static_cast<std::uint32_t>(rest_.size() / 10),
+                             .target = target,
+                             .count = count,
+                             .influences = static_cast<std::uint32_t>(influences_.size() / 6),
+                             .joints = joints_,
+                             .joint_count = static_cast<std::uint32_t>(joints),
+                             .deltas = static_cast<std::uint32_t>(deltas_.size() / 9),
+                             .weights = weights_,
+                             .target_count = targets},
+                   .parts = bounds_by_joint(primitive, joints)});
+  for (const MorphTarget& morph : primitive.targets) jobs_.back().reaches.push_back(reach_of(morph));
+  append_rest(rest_, primitive);
+  if (joints != 0) append_influences(influences_, primitive);
+  append_deltas(deltas_, primitive);
+  joints_ += static_cast<std::uint32_t>(joints);
+  weights_ += targets;
+  vertices_ = std::max<std::size_t>(vertices_, target + count);
+  return static_cast<int>(jobs_.size()) - 1;
+}
+
+void Deformer::upload() {
+  std::vector<glsl::DeformBlock> blocks;
+  for (const Job& job : jobs_) blocks.push_back(job.block);
+  rest_buffer_ = gl::Buffer::of("rest vertices", std::span<const float>(rest_));
+  influence_buffer_ = gl::Buffer::of("joint influences", std::span<const std::uint32_t>(influences_));
+  delta_buffer_ = gl::Buffer::of("morph deltas", std::span<const float>(deltas_));
+  job_buffer_ = gl::Buffer::of("deform jobs", std::span<const glsl::DeformBlock>(blocks));
+  rest_ = {};
+  influences_ = {};
+  deltas_ = {};
+}
+
+bool Deformer::mirrored(int job, const Pose& pose) const {
+  const Job& own = jobs_[static_cast<std::size_t>(job)];
+  const auto node = static_cast<std::size_t>(own.node);
+  return is_mirror(own.block.joint_count != 0 ? pose.skin[node][0] : pose.world[node]);
+}
+
+bool Deformer::differs(int job, const Pose& a, const Pose& b) const {
+  const auto node = static_cast<std::size_t>(jobs_[static_cast<std::size_t>(job)].node);
+  return a.weights[node] != b.weights[node] || (skinned(job) && a.skin[node] != b.skin[node]);
+}
+
+Bounds Deformer::bounds(int job, const Pose& pose) const {
+  const Job& own = jobs_[static_cast<std::size_t>(job)];
+  glm::vec3 reach(0.0f);
+  for (std::size_t i = 0; i < own.reaches.size(); ++i) reach += std::abs(weight_of(pose, own.node, i)) * own.reaches[i];
+  Bounds bounds;
+  for (std::size_t joint = 0; joint < own.parts.size(); ++joint) {
+    if (own.parts[joint].empty) continue;
+    Bounds part = own.parts[joint];
+    part.add(part.min - reach);
+    part.add(part.max + reach);
+    // A skinned vertex is a mean of where its joints would put it.
+    bounds.add(skinned(job) ? transformed(part, pose.skin[static_cast<std::size_t>(own.node)][joint]) : part);
+  }
+  return bounds;
+}
+
+void Deformer::run(gl::Device& device, const Pose& pose, const gl::Buffer& positions, const gl::Buffer& frames) const {
+  if (jobs_.empty()) return;
+  std::vector<glm::mat4> joints;
+  std::vector<float> weights;
+  for (const Job& job : jobs_) {
+    const auto node = static_cast<std::size_t>(job.node);
+    if (job.block.joint_count != 0) joints.insert(joints.end(), pose.skin[node].begin(), pose.skin[node].end());
+    for (std::size_t i = 0; i < job.block.target_count; ++i) weights.push_back(weight_of(pose, job.node, i));
+  }
+  assert(joints.size() == joints_ && weights.size() == weights_);
+  const gl::Buffer& joint_buffer = device.scratch("joint matrices", joints.size() * sizeof(glm::mat4) + 1);
+  const gl::Buffer& weight_buffer = device.scratch("morph weights", weights.size() * sizeof(float) + 1);
+  joint_buffer.write(std::as_bytes(std::span(joints)));
+  weight_buffer.write(std::as_bytes(std::span(weights)));
+
+  gl::Pass pass(device, {.name = "deform"});
+  const gl::Program& deform = pass.use(program());
+  rest_buffer_.bind_storage(binding_rest);
+  influence_buffer_.bind_storage(binding_influences);
+  delta_buffer_.bind_storage(binding_deltas);
+  joint_buffer.bind_storage(binding_joints);
+  weight_buffer.bind_storage(binding_weights);
+  job_buffer_.bind_storage(binding_jobs);
+  positions.bind_storage(binding_positions);
+  frames.bind_storage(binding_frames);
+  for (std::size_t i = 0; i < jobs_.size(); ++i) {
+    deform.set("job", static_cast<int>(i));
+    if (jobs_[i].block.count != 0) pass.dispatch(static_cast<int>(jobs_[i].block.count), 1);
+  }
+}
+
+gl::ProgramDesc Deformer::program() { return {.name = "deform", .compute = "scene/deform.comp"}; }
+
+}  // namespace penumbra::scene

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/pass.h"
+#include "scene/gpu_scene_vertices.h"
+#include "scene/pose.h"
+#include "scene/scene.h"
+#include "shared/scene_blocks.h"
+
+namespace penumbra::scene {
+
+// Skins and morphs of a scene: one job for each primitive of each node that deforms. Morphed vertices stay in their
+// node's space; skinned ones come out in world space.
+class Deformer {
+ public:
+  static bool deforms(const Node& node, const Primitive& primitive);
+
+  // Declares a job whose vertices begin at `target` of the results; returns its number. Then upload() once.
+  int add(const Scene& scene, int node, const Primitive& primitive, std::uint32_t target);
+  void upload();
+
+  bool skinned(int job) const { return jobs_[static_cast<std::size_t>(job)].block.joint_count != 0; }
+  // Whether its matrices turn triangles round.
+  bool mirrored(int job, const Pose& pose) const;
+  bool differs(int job, const Pose& a, const Pose& b) const;
+  // A box about the deformed vertices, in the space that they come out in.
+  Bounds bounds(int job, const Pose& pose) const;
+
+  std::size_t vertices() const { return vertices_; }
+  // Runs all jobs for a pose.
+  void run(gl::Device& device, const Pose& pose, const gl::Buffer& positions, const gl::Buffer& frames) const;
+
+  static gl::ProgramDesc program();
+
+ private:
+  struct Job {
+    int node = -1;
+    glsl::DeformBlock block{};
+    std::vector<Bounds> parts;       // by joint (one in all without a skin): vertices at rest that it moves
+    std::vector<glm::vec3> reaches;  // by target: how far it moves any vertex
+  };
+
+  std::vector<Job> jobs_;
+  std::size_t vertices_ = 0;
+  std::uint32_t joints_ = 0, weights_ = 0;
+  std::vector<float> rest_, deltas_;
+  std::vector<std::uint32_t> influences_;
+  gl::Buffer rest_buffer_, influence_buffer_, delta_buffer_, job_buffer_;
+};
+
+}  // namespace penumbra::scene

@@ -1,0 +1,149 @@
+// Which instances a pass draws, in which order, with which state.
+#include <algorithm>
+#include <numeric>
+
+#include "scene/gpu_scene.h"
+#include "scene/gpu_scene_state.h"
+
+namespace penumbra::scene {
+
+namespace {
+
+// As glsl/scene declares.
+constexpr GLuint instances_binding = 0;
+constexpr GLuint indices_binding = 2;
+constexpr GLuint positions_binding = 3;
+
+GLenum mode_of(Topology topology) {
+  switch (topology) {
+    case Topology::points:
+      return GL_POINTS;
+    case Topology::lines:
+      return GL_LINES;
+    case Topology::triangles:
+      break;
+  }
+  return GL_TRIANGLES;
+}
+
+gl::ProgramDesc caster_program(bool masked, bool last_pose) {
+  gl::ProgramDesc program{.name = masked ? "alpha caster" : "caster",
+                          .vertex = "scene/caster.vert",
+                          .defines = {{"LAST_POSE", last_pose ? "1" : "0"}, {"MASKED", masked ? "1" : "0"}}};
+  if (masked) program.fragment = "scene/caster.frag";
+  return program;
+}
+
+// All that shading reads of an instance.
+Batch shaded_batch(const Instance& instance) {
+  return {.deformed = instance.job >= 0,
+          .mirrored = instance.mirrored,
+          .double_sided = instance.double_sided || instance.topology != Topology::triangles,
+          .topology = instance.topology,
+          .material = instance.material};
+}
+
+}  // namespace
+
+bool Batch::same_state(const Batch& other) const {
+  return deformed == other.deformed && mirrored == other.mirrored && double_sided == other.double_sided &&
+         topology == other.topology && material == other.material;
+}
+
+void DrawList::add(const Instance& instance, std::uint32_t index, Batch batch) {
+  const bool new_batch = batches.empty() || !batches.back().same_state(batch);
+  if (new_batch) {
+    batch.first = commands.size();
+    batches.push_back(batch);
+  }
+  if (!new_batch) {
+    DrawCommand& previous = commands.back();
+    if (previous.first_index == instance.first_index && previous.base_vertex == instance.base_vertex &&
+        previous.base_instance + previous.instance_count == index) {
+      ++previous.instance_count;
+      return;
+    }
+  }
+  commands.push_back({instance.index_count, 1, instance.first_index, instance.base_vertex, index});
+  ++batches.back().count;
+}
+
+void GpuScene::State::draw(gl::Device& device, gl::Pass& pass, const gl::Program& program, const DrawList& list) const {
+  if (list.commands.empty()) return;
+  const gl::Buffer& commands = device.scratch("draw commands", list.commands.size() * sizeof(DrawCommand));
+  commands.write(std::as_bytes(std::span(list.commands)));
+  gl::glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
+  materials.bind();
+  instance_blocks.bind_storage(instances_binding);
+  indices.bind_storage(indices_binding);
+  for (const Batch& batch : list.batches) {
+    (batch.deformed ? deformed : rigid).bind();
+    (batch.deformed ? now->positions : positions).bind_storage(positions_binding);
+    pass.set_cull_back(!batch.double_sided);
+    pass.set_front_clockwise(batch.mirrored);
+    if (batch.material >= 0) {
+      program.set("material_index", batch.material);
+      materials.bind_textures(batch.material);
+    }
+    const auto* offset = reinterpret_cast<const void*>(batch.first * sizeof(DrawCommand));  // NOLINT: GL's way
+    gl::glMultiDrawElementsIndirect(mode_of(batch.topology), GL_UNSIGNED_INT, offset, static_cast<GLsizei>(batch.count),
+                                    0);
+  }
+}
+
+void GpuScene::draw_surfaces(gl::Device& device, gl::Pass& pass, Surfaces surfaces, const gl::ProgramDesc& program,
+                             const BoxTest& visible) {
+  const AlphaMode mode = surfaces == Surfaces::masked ? AlphaMode::mask : AlphaMode::opaque;
+  DrawList list;
+  for (std::uint32_t i = 0; i < state_->instances.size(); ++i) {
+    const Instance& instance = state_->instances[i];
+    if (instance.alpha_mode == mode && visible(instance.box)) list.add(instance, i, shaded_batch(instance));
+  }
+  if (!list.commands.empty()) state_->draw(device, pass, pass.use(program), list);
+}
+
+void GpuScene::draw_blended(gl::Device& device, gl::Pass& pass, const gl::ProgramDesc& program, const glm::vec3& eye,
+                            const BoxTest& visible) {
+  const std::vector<Instance>& instances = state_->instances;
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < instances.size(); ++i) {
+    if (instances[i].alpha_mode == AlphaMode::blend && visible(instances[i].box)) order.push_back(i);
+  }
+  const auto distance = [&](std::uint32_t i) { return glm::distance(instances[i].box.center(), eye); };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return distance(a) > distance(b); });
+  DrawList list;
+  for (const std::uint32_t i : order) list.add(instances[i], i, shaded_batch(instances[i]));
+  if (!list.commands.empty()) state_->draw(device, pass, pass.use(program), list);
+}
+
+void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
+                            const BoxTest& reaches) {
+  const bool last = casters == Casters::moved_last;
+  for (const bool masked : {false, true}) {
+    DrawList list;
+    for (std::uint32_t i = 0; i < state_->instances.size(); ++i) {
+      const Instance& instance = state_->instances[i];
+      if (instance.casts != (masked ? Casts::by_alpha : Casts::always)) continue;
+      if (casters != Casters::all && !instance.moved) continue;
+      if (!reaches(last ? instance.last_box : instance.box)) continue;
+      // Without a material or sides to tell apart, all are one draw.
+      list.add(instance, i,
+               {.deformed = instance.job >= 0, .double_sided = true, .material = masked ? instance.material : -1});
+    }
+    if (list.commands.empty()) continue;
+    const gl::Program& program = pass.use(caster_program(masked, last));
+    program.set("world_to_clip", world_to_clip);
+    state_->draw(device, pass, program, list);
+  }
+}
+
+std::vector<gl::ProgramDesc> GpuScene::programs() {
+  std::vector<gl::ProgramDesc> programs{Deformer::program()};
+  for (const bool masked : {false, true}) {
+    for (const bool last_pose : {false, true}) programs.push_back(caster_program(masked, last_pose));
+  }
+  return programs;
+}
+
+}  // namespace penumbra::scene

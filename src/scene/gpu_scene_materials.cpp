@@ -1,0 +1,131 @@
+#include "scene/gpu_scene_materials.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace penumbra::scene {
+
+namespace {
+
+constexpr GLuint materials_binding = 1;  // as glsl/scene/material.glsl declares
+constexpr GLuint first_unit = 8;
+
+std::array<const TextureRef*, TEXTURE_COUNT> references(const Material& material) {
+  return {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
+          &material.occlusion_texture, &material.emissive_texture};
+}
+
+bool holds_color(std::size_t which) { return which == TEXTURE_BASE_COLOR || which == TEXTURE_EMISSIVE; }
+
+float cutoff_of(const Material& material) {
+  // A blended surface casts where it is more opaque than not.
+  if (material.alpha_mode == AlphaMode::blend) return std::nextafter(0.5f, 1.0f);
+  return material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : -1.0f;
+}
+
+glsl::MaterialBlock block_of(const Material& material) {
+  glsl::MaterialBlock block{.base_color = material.base_color,
+                            .emissive = material.emissive,
+                            .alpha_cutoff = cutoff_of(material),
+                            .metallic = material.metallic,
+                            .roughness = material.roughness,
+                            .normal_scale = material.normal_scale,
+                            .occlusion_strength = material.occlusion_strength};
+  if (material.unlit) block.flags |= MATERIAL_UNLIT;
+  const auto refs = references(material);
+  for (std::size_t i = 0; i < refs.size(); ++i) {
+    const TextureRef& ref = *refs[i];
+    if (ref.uv_set == 1) block.flags |= 1u << (MATERIAL_SECOND_UV + i);
+    const glm::mat3x2& m = ref.uv_transform;
+    for (glm::length_t row = 0; row < 2; ++row) {
+      block.uv_rows[2 * i + static_cast<std::size_t>(row)] = glm::vec4(m[0][row], m[1][row], m[2][row], 0.0f);
+    }
+  }
+  return block;
+}
+
+gl::Texture upload(const Image& image, bool srgb) {
+  const GLenum format = srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+  const int levels = std::bit_width(static_cast<unsigned>(std::max(image.width, image.height)));
+  gl::Texture texture(image.name.empty() ? "image" : image.name,
+                      {.format = format, .width = image.width, .height = image.height, .levels = levels});
+  texture.upload(GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(image.rgba)));
+  texture.generate_mipmaps();
+  return texture;
+}
+
+GLenum wrap_of(Wrap wrap) {
+  switch (wrap) {
+    case Wrap::repeat:
+      return GL_REPEAT;
+    case Wrap::mirrored_repeat:
+      return GL_MIRRORED_REPEAT;
+    case Wrap::clamp_to_edge:
+      break;
+  }
+  return GL_CLAMP_TO_EDGE;
+}
+
+gl::SamplerDesc sampler_of(const Texture& texture) {
+  const bool linear = texture.min == Filter::linear;
+  GLenum min = linear ? GL_LINEAR : GL_NEAREST;
+  if (texture.mipmapped && texture.mip == Filter::linear) {
+    min = linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
+  } else if (texture.mipmapped) {
+    min = linear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
+  }
+  const GLenum mag = texture.mag == Filter::linear ? GL_LINEAR : GL_NEAREST;
+  return {.min_filter = min, .mag_filter = mag, .wrap_s = wrap_of(texture.wrap_s), .wrap_t = wrap_of(texture.wrap_t)};
+}
+
+}  // namespace
+
+Materials::Materials(gl::Device& device, const Scene& scene) {
+  std::vector<glsl::MaterialBlock> blocks;
+  for (const Material& material : scene.materials) {
+    blocks.push_back(block_of(material));
+    textures_.push_back(slots(device, scene, material));
+    for (std::size_t i = 0; i < TEXTURE_COUNT; ++i) {
+      if (textures_.back()[i].texture != nullptr) blocks.back().flags |= 1u << i;
+    }
+  }
+  blocks.push_back(block_of(of(scene, -1)));
+  textures_.emplace_back();
+  blocks_ = gl::Buffer::of("materials", std::span<const glsl::MaterialBlock>(blocks));
+}
+
+const Material& Materials::of(const Scene& scene, int material) {
+  static const Material unspecified;
+  return material < 0 ? unspecified : scene.materials[static_cast<std::size_t>(material)];
+}
+
+Materials::Slots Materials::slots(gl::Device& device, const Scene& scene, const Material& material) {
+  Slots slots;
+  const auto refs = references(material);
+  for (std::size_t i = 0; i < refs.size(); ++i) slots[i] = slot(device, scene, *refs[i], holds_color(i));
+  return slots;
+}
+
+Materials::Slot Materials::slot(gl::Device& device, const Scene& scene, const TextureRef& ref, bool srgb) {
+  if (ref.texture < 0) return {};
+  const Texture& texture = scene.textures[static_cast<std::size_t>(ref.texture)];
+  if (texture.image < 0) return {};
+  auto [entry, added] = images_.try_emplace({texture.image, srgb});
+  if (added) entry->second = upload(scene.images[static_cast<std::size_t>(texture.image)], srgb);
+  return {&entry->second, &device.sampler(sampler_of(texture))};
+}
+
+void Materials::bind() const { blocks_.bind_storage(materials_binding); }
+
+void Materials::bind_textures(int material) const {
+  const Slots& slots = textures_[static_cast<std::size_t>(material)];
+  for (GLuint i = 0; i < slots.size(); ++i) {
+    if (slots[i].texture == nullptr) continue;  // flags keep shaders from reading it
+    slots[i].texture->bind(first_unit + i);
+    slots[i].sampler->bind(first_unit + i);
+  }
+}
+
+}  // namespace penumbra::scene

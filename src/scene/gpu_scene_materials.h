@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/pass.h"
+#include "gl/texture.h"
+#include "scene/scene.h"
+#include "shared/scene_blocks.h"
+
+namespace penumbra::scene {
+
+// A scene's materials and textures on the GPU. Indices are the scene's; the last is glTF's default material.
+class Materials {
+ public:
+  Materials(gl::Device& device, const Scene& scene);
+
+  void bind() const;  // the storage block of all
+  void bind_textures(int material) const;
+
+  // The scene's material, or the default for -1.
+  static const Material& of(const Scene& scene, int material);
+  int index_of(int material) const { return material < 0 ? static_cast<int>(textures_.size()) - 1 : material; }
+
+ private:
+  struct Slot {
+    const gl::Texture* texture = nullptr;
+    const gl::Sampler* sampler = nullptr;
+  };
+  using Slots = std::array<Slot, TEXTURE_COUNT>;
+
+  Slot slot(gl::Device& device, const Scene& scene, const TextureRef& ref, bool srgb);
+  Slots slots(gl::Device& device, const Scene& scene, const Material& material);
+
+  std::map<std::pair<int, bool>, gl::Texture> images_;  // by image and whether it is sRGB
+  std::vector<Slots> textures_;                         // by material
+  gl::Buffer blocks_;
+};
+
+}  // namespace penumbra::scene

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "scene/gpu_scene.h"
+#include "scene/gpu_scene_deform.h"
+#include "scene/gpu_scene_materials.h"
+#include "scene/gpu_scene_vertices.h"
+
+namespace penumbra::scene {
+
+// How a surface casts shadows.
+enum class Casts { never, always, by_alpha };
+
+// A primitive at a place. Instances of one primitive follow one another, so that a run of them is one draw.
+struct Instance {
+  int node = -1;
+  int copy = -1;  // of EXT_mesh_gpu_instancing
+  int job = -1;   // of the deformer; -1: none
+  Topology topology = Topology::triangles;
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  Casts casts = Casts::always;
+  int material = 0;
+  bool double_sided = false;
+  std::uint32_t first_index = 0, index_count = 0, base_vertex = 0;
+  Bounds local;  // of what does not deform
+
+  // In the present pose.
+  bool mirrored = false, moved = false;
+  Bounds box, last_box;
+};
+
+// Layout fixed by GL: what glMultiDrawElementsIndirect reads.
+struct DrawCommand {
+  std::uint32_t count = 0, instance_count = 0, first_index = 0, base_vertex = 0, base_instance = 0;
+};
+
+// Draws that share all state.
+struct Batch {
+  bool deformed = false, mirrored = false, double_sided = false;
+  Topology topology = Topology::triangles;
+  int material = -1;  // -1: none is read
+  std::size_t first = 0, count = 0;
+
+  bool same_state(const Batch& other) const;
+};
+
+struct DrawList {
+  std::vector<DrawCommand> commands;
+  std::vector<Batch> batches;
+
+  void add(const Instance& instance, std::uint32_t index, Batch batch);
+};
+
+// A pose on the GPU: the deformed vertices of a moment.
+struct PosedVertices {
+  std::optional<double> time;
+  Pose pose;
+  gl::Buffer positions, frames;
+};
+
+struct GpuScene::State {
+  State(gl::Device& device, const Scene& scene);
+
+  const Scene& scene;
+  Materials materials;
+  Deformer deformer;
+  std::vector<Instance> instances;
+  gl::Buffer positions, frames, surfaces, indices;  // of all primitives, at rest
+  gl::Buffer deformed_surfaces;
+  gl::Buffer instance_numbers, instance_blocks;
+  VertexArray rigid{"rigid vertices"}, deformed{"deformed vertices"};
+
+  std::array<PosedVertices, 2> posed;
+  const PosedVertices* now = nullptr;
+  const PosedVertices* last = nullptr;
+  std::pair<double, double> times;  // of the last and the present pose
+
+  bool moved = false, blended = false, lit_by_file = false;
+  Bounds casters, receivers;
+
+  PosedVertices& posed_at(gl::Device& device, double time, const PosedVertices* keep);
+  void set_vertex_arrays() const;
+  void update_instances();
+  void draw(gl::Device& device, gl::Pass& pass, const gl::Program& program, const DrawList& list) const;
+};
+
+}  // namespace penumbra::scene

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "scene/scene.h"
+
+namespace penumbra::scene {
+
+// Normal and tangent, signed 16-bit: 3e-5 radians.
+struct VertexFrame {
+  std::uint32_t normal_xy = 0, normal_z = 0, tangent_xy = 0, tangent_zw = 0;
+};
+
+// What does not move with the pose.
+struct VertexSurface {
+  glm::vec2 uv[2]{};
+  glm::u16vec4 color{0xffff};
+};
+
+// Vertices of many primitives, one after the other.
+struct VertexStreams {
+  std::vector<glm::vec3> positions;
+  std::vector<VertexFrame> frames;
+  std::vector<VertexSurface> surfaces;
+
+  // Appends a primitive's vertices; returns the index of its first.
+  std::uint32_t append(const Primitive& primitive);
+};
+
+// The buffers that a draw reads its vertices from. `last_positions` is `positions` where nothing deforms.
+struct VertexSource {
+  const gl::Buffer* positions = nullptr;
+  const gl::Buffer* last_positions = nullptr;
+  const gl::Buffer* frames = nullptr;
+  const gl::Buffer* surfaces = nullptr;
+  const gl::Buffer* instances = nullptr;  // 0, 1, 2, …: a draw's base instance picks its first
+  const gl::Buffer* indices = nullptr;
+};
+
+void delete_vertex_array(GLuint id);
+
+// The vertex format of glsl/scene/surface.vert and caster.vert.
+class VertexArray {
+ public:
+  explicit VertexArray(std::string_view label);
+  void set(const VertexSource& source) const;
+  void bind() const;
+
+ private:
+  gl::Handle<delete_vertex_array> handle_;
+};
+
+}  // namespace penumbra::scene
