@@ -41,7 +41,8 @@ std::string text(GLenum name) {
 
 bool is_software(const std::string& renderer) {
   constexpr std::array<std::string_view, 5> rasterisers{"llvmpipe", "softpipe", "swr", "SWR", "SwiftShader"};
-  return std::ranges::any_of(rasterisers, [&](std::string_view name) { return renderer.find(name) != renderer.npos; });
+  return std::ranges::any_of(rasterisers,
+                             [&](std::string_view name) { return renderer.find(name) != std::string::npos; });
 }
 
 }  // namespace

@@ -74,8 +74,7 @@ Program::Program(const ProgramDesc& desc, const ShaderFiles& files) : handle_(gl
   link(desc, id());
   for (const auto& shader : shaders) glDetachShader(id(), shader.id());
   std::ranges::sort(files_);
-  const auto repeats = std::ranges::unique(files_);
-  files_.erase(repeats.begin(), repeats.end());
+  files_.erase(std::unique(files_.begin(), files_.end()), files_.end());
   if (!desc.compute.empty()) glGetProgramiv(id(), GL_COMPUTE_WORK_GROUP_SIZE, glm::value_ptr(group_size_));
 }
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <regex>
+#include <system_error>
 
 #include "../core/error.h"
 #include "built_in_files.h"
@@ -19,7 +19,7 @@ constexpr std::string_view blanks = " \t\r";
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(blanks);
-  if (first == text.npos) return {};
+  if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
@@ -53,13 +53,13 @@ Line classify(std::string_view line) {
   rest = trimmed(rest.substr(7));
   if (rest.starts_with('<')) return {Line::Kind::drop};
   const std::size_t end = rest.find('"', 1);
-  if (!rest.starts_with('"') || end == rest.npos || end == 1) return {Line::Kind::malformed};
+  if (!rest.starts_with('"') || end == std::string_view::npos || end == 1) return {Line::Kind::malformed};
   return {Line::Kind::include, rest.substr(1, end - 1)};
 }
 
 class Loader {
  public:
-  explicit Loader(const ShaderFiles& files) : files_(files) {}
+  Loader(const ShaderFiles& files, ShaderSource& source) : files_(files), source_(source) {}
 
   // `asked_by` is "glsl/file:line: " of the include, empty for the root.
   void append(std::string_view name, const std::string& asked_by) {
@@ -77,8 +77,6 @@ class Loader {
       rest.remove_prefix(std::min(end + 1, rest.size()));
     }
   }
-
-  ShaderSource source_;
 
  private:
   void append_line(std::string_view line, std::string_view file, int number, std::size_t index) {
@@ -103,32 +101,45 @@ class Loader {
   }
 
   const ShaderFiles& files_;
+  ShaderSource& source_;
+};
+
+// Takes a number from the front of `text`.
+std::optional<std::size_t> take_number(std::string_view& text) {
+  std::size_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return value;
+}
+
+bool take(std::string_view& text, std::string_view prefix) {
+  if (!text.starts_with(prefix)) return false;
+  text.remove_prefix(prefix.size());
+  return true;
+}
+
+struct Message {
+  std::size_t file, line;
+  std::string text;
 };
 
 // "0(12) : error C1008: …" (NVIDIA), "0:12(5): error: …" (Mesa), "ERROR: 0:12: …" (glslang, AMD, Intel).
-struct Message {
-  std::size_t file = 0;
-  std::string line, text;
-};
-
-std::optional<Message> parse_message(const std::string& line) {
-  static const std::regex nvidia(R"(^(\d+)\((\d+)\) ?: (.*)$)");
-  static const std::regex mesa(R"(^(\d+):(\d+)(?:\(\d+\))?: (.*)$)");
-  static const std::regex glslang(R"(^(ERROR|WARNING): (\d+):(\d+): (.*)$)");
-  std::smatch match;
-  const auto number = [&](int group) {
-    std::size_t value = 0;
-    const std::string digits = match[static_cast<std::size_t>(group)];
-    std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    return value;
-  };
-  if (std::regex_match(line, match, nvidia) || std::regex_match(line, match, mesa)) {
-    return Message{number(1), match[2], match[3]};
+std::optional<Message> parse_message(std::string_view rest) {
+  const char* severity = take(rest, "ERROR: ") ? "error: " : take(rest, "WARNING: ") ? "warning: " : "";
+  const auto file = take_number(rest);
+  if (!file) return std::nullopt;
+  const bool line_in_brackets = take(rest, "(");
+  if (!line_in_brackets && !take(rest, ":")) return std::nullopt;
+  const auto line = take_number(rest);
+  if (!line) return std::nullopt;
+  if (line_in_brackets || take(rest, "(")) {
+    if (!line_in_brackets) take_number(rest);  // Mesa's column
+    if (!take(rest, ")")) return std::nullopt;
   }
-  if (std::regex_match(line, match, glslang)) {
-    return Message{number(2), match[3], (match[1] == "ERROR" ? "error: " : "warning: ") + match[4].str()};
-  }
-  return std::nullopt;
+  rest = trimmed(rest);
+  if (!take(rest, ":")) return std::nullopt;
+  return Message{*file, *line, fmt::format("{}{}", severity, trimmed(rest))};
 }
 
 }  // namespace
@@ -158,20 +169,18 @@ std::vector<std::string> ShaderFiles::built_in_names() {
 }
 
 ShaderSource load_shader_source(const ShaderFiles& files, std::string_view root, const std::vector<Define>& defines) {
-  Loader loader(files);
-  loader.source_.text = "#version 450 core\n";
-  for (const Define& define : defines) {
-    loader.source_.text += fmt::format("#define {} {}\n", define.name, define.value);
-  }
-  loader.append(root, "");
-  return std::move(loader.source_);
+  ShaderSource source;
+  source.text = "#version 450 core\n";
+  for (const Define& define : defines) source.text += fmt::format("#define {} {}\n", define.name, define.value);
+  Loader(files, source).append(root, "");
+  return source;
 }
 
 std::string translate_log(std::string_view driver_log, const ShaderSource& source) {
   std::string result;
   while (!driver_log.empty()) {
     const std::size_t end = std::min(driver_log.find('\n'), driver_log.size());
-    const std::string line(trimmed(driver_log.substr(0, end)));
+    const std::string_view line = trimmed(driver_log.substr(0, end));
     driver_log.remove_prefix(std::min(end + 1, driver_log.size()));
     if (line.empty() || line.front() == '\0') continue;
     const std::optional<Message> message = parse_message(line);

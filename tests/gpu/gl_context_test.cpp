@@ -18,7 +18,7 @@ std::string gl_version() { return reinterpret_cast<const char*>(gl::glGetString(
 float drawn_red() {
   gl::Device device({}, gl::Timers::Mode::off);
   const gl::Texture& target = device.target("target", {.format = GL_R32F});
-  gl::Pass(device, {.name = "clear", .colors = {{.texture = &target, .clear = glm::vec4(0.25f)}}});
+  test::clear(device, {.name = "clear", .colors = {{.texture = &target, .clear = glm::vec4(0.25f)}}});
   return gl::read_floats(target, 1).front();
 }
 

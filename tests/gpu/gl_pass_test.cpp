@@ -1,6 +1,6 @@
 #include "gl/pass.h"
 
-#include <array>
+#include <algorithm>
 #include <numeric>
 
 #include "gl/api.h"
@@ -9,7 +9,6 @@
 namespace penumbra {
 namespace {
 
-using test::message_of;
 using test::shader_files;
 
 // The full-screen triangle at depth 0.5, and a fragment shader that writes one colour.
@@ -80,10 +79,10 @@ TEST_F(GlPass, ClearsReachFloatsAndBothKindsOfIntegers) {
   const gl::Texture& ints = device.target("ints", {.format = GL_R32I});
   const gl::Texture& floats = device.target("floats", {.format = GL_R32F});
   disturb_state();
-  gl::Pass(device, {.name = "clear",
-                    .colors = {{.texture = &uints, .clear = glm::vec4(70000, 3, 0, 0)},
-                               {.texture = &ints, .clear = glm::vec4(-5)},
-                               {.texture = &floats, .clear = glm::vec4(-0.5f)}}});
+  test::clear(device, {.name = "clear",
+                       .colors = {{.texture = &uints, .clear = glm::vec4(70000, 3, 0, 0)},
+                                  {.texture = &ints, .clear = glm::vec4(-5)},
+                                  {.texture = &floats, .clear = glm::vec4(-0.5f)}}});
   EXPECT_EQ(gl::read_uints(uints, 2), (std::vector<unsigned>{70000u, 3u}));
   GLint stored = 0;
   gl::glGetTextureImage(ints.id(), 0, GL_RED_INTEGER, GL_INT, sizeof(stored), &stored);
@@ -92,8 +91,8 @@ TEST_F(GlPass, ClearsReachFloatsAndBothKindsOfIntegers) {
 }
 
 TEST_F(GlPass, WithoutAClearContentsStay) {
-  gl::Pass(device, {.name = "clear", .colors = {{.texture = &color, .clear = glm::vec4(7)}}});
-  gl::Pass(device, {.name = "load", .colors = {{.texture = &color}}});
+  test::clear(device, {.name = "clear", .colors = {{.texture = &color, .clear = glm::vec4(7)}}});
+  test::clear(device, {.name = "load", .colors = {{.texture = &color}}});
   EXPECT_EQ(gl::read_floats(color, 4).front(), 7.0f);
 }
 
@@ -146,8 +145,8 @@ TEST_F(GlPass, LayersAndLevelsAreDrawnAlone) {
   const gl::Texture& array = device.target(
       "array", {.target = GL_TEXTURE_2D_ARRAY, .format = GL_R32F, .width = 4, .height = 4, .layers = 2, .levels = 2});
   const auto clear = [&](int level, int layer, float value) {
-    gl::Pass(device, {.name = "clear",
-                      .colors = {{.texture = &array, .level = level, .layer = layer, .clear = glm::vec4(value)}}});
+    test::clear(device, {.name = "clear",
+                         .colors = {{.texture = &array, .level = level, .layer = layer, .clear = glm::vec4(value)}}});
   };
   clear(0, 0, 1);
   clear(0, 1, 2);
@@ -272,8 +271,8 @@ TEST_F(GlTimers, RowsNestInOrderAndPassesFillTheFrameWithoutExceedingIt) {
     gl::Device timed(files(), mode);
     frames(timed, 4);
     const auto rows = timed.timers.rows();
-    std::vector<std::string> names;
-    for (const auto& row : rows) names.push_back(row.name);
+    std::vector<std::string> names(rows.size());
+    std::ranges::transform(rows, names.begin(), &gl::Timers::Row::name);
     ASSERT_EQ(names, (std::vector<std::string>{"first", "first/inner", "second", "second/inner", "frame"}));
     for (const auto& row : rows) EXPECT_EQ(row.milliseconds.size(), 4u) << row.name;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -286,7 +285,7 @@ TEST_F(GlTimers, RowsNestInOrderAndPassesFillTheFrameWithoutExceedingIt) {
 
 TEST_F(GlTimers, WhatIsDrawnOutsideOfAFrameIsNotRecorded) {
   gl::Device timed(files(), gl::Timers::Mode::finish);
-  gl::Pass(timed, {.name = "warm-up"});
+  test::clear(timed, {.name = "warm-up"});
   frames(timed, 1);
   for (const auto& row : timed.timers.rows()) EXPECT_NE(row.name, "warm-up");
 }
@@ -296,7 +295,7 @@ TEST_F(GlTimers, AFrameThatAnExceptionLeftOpenIsDropped) {
     gl::Device timed(files(), mode);
     frames(timed, 1);
     timed.timers.begin_frame();
-    gl::Pass(timed, {.name = "first"});
+    test::clear(timed, {.name = "first"});
     frames(timed, 2);
     for (const auto& row : timed.timers.rows()) EXPECT_EQ(row.milliseconds.size(), 3u) << row.name;
     const auto rows = timed.timers.rows();

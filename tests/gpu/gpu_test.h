@@ -26,6 +26,9 @@ class GpuTest : public testing::Test {
 // Shader files of a test: the built-in ones and these, by name and text.
 gl::ShaderFiles shader_files(std::initializer_list<std::pair<const char*, const char*>> files);
 
+// A pass that does nothing but set its state and clear.
+inline void clear(gl::Device& device, const gl::PassDesc& desc) { const gl::Pass pass(device, desc); }
+
 // The message of the penumbra::Error that `call` throws; fails the test when it throws none.
 template <class Call>
 std::string message_of(Call&& call) {

@@ -29,7 +29,7 @@ std::string message(const ShaderFiles& files, std::string_view root) {
 
 std::size_t count(std::string_view text, std::string_view part) {
   std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++found;
+  for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + 1)) ++found;
   return found;
 }
 
@@ -107,7 +107,7 @@ TEST(ShaderSource, NamesThatLeaveTheFolderAreRefused) {
 TEST(ShaderSource, AnOverlaysFileWinsOverTheBuiltInOne) {
   const std::vector<std::string> names = ShaderFiles::built_in_names();
   ASSERT_FALSE(names.empty());
-  const std::string built_in = names.front();
+  const std::string& built_in = names.front();
   const TemporaryFolder folder;
   std::filesystem::create_directories((std::filesystem::path(folder.path()) / built_in).parent_path());
   const ShaderFiles overlay(folder.path());
