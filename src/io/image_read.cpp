@@ -3,43 +3,32 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
+#include "io/image_precheck.h"
 
 namespace penumbra::io {
 namespace {
 
-struct Signature {
-  std::string_view bytes;
-  std::size_t offset;
-  const char* format;  // OpenImageIO's name
-};
-
-// The formats that glTF knows. Others that OpenImageIO could read would only be more code to attack.
-constexpr std::array signatures = {
-    Signature{"\x89PNG\r\n\x1a\n", 0, "png"},
-    Signature{"\xff\xd8\xff", 0, "jpeg"},
-    Signature{"WEBP", 8, "webp"},
-};
-
-const char* format_of(std::span<const std::byte> encoded) {
-  for (const Signature& s : signatures)
-    if (encoded.size() >= s.offset + s.bytes.size() &&
-        std::memcmp(encoded.data() + s.offset, s.bytes.data(), s.bytes.size()) == 0)
-      return s.format;
-  fail("neither PNG, JPEG nor WebP");
+bool starts_with(std::span<const std::byte> bytes, std::string_view signature) {
+  return bytes.size() >= signature.size() && std::memcmp(bytes.data(), signature.data(), signature.size()) == 0;
 }
 
-std::string cause(const std::string& message) { return message.empty() ? "damaged" : message; }
+// The library's cause, which may be several lines, as one.
+std::string cause(std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  return message.empty() ? "damaged" : message;
+}
 
 // One or two channels are grey; a missing alpha is opaque.
-std::vector<uint8_t> to_rgba(const std::vector<uint8_t>& pixels, std::size_t channels) {
+std::vector<uint8_t> to_rgba(std::vector<uint8_t> pixels, std::size_t channels) {
   if (channels == 4) return pixels;
   const std::size_t count = pixels.size() / channels;
   std::vector<uint8_t> rgba(count * 4, 255);
@@ -54,15 +43,25 @@ std::vector<uint8_t> to_rgba(const std::vector<uint8_t>& pixels, std::size_t cha
 }  // namespace
 
 scene::Image read_image(std::span<const std::byte> encoded, const std::string& name, std::size_t max_pixels) {
-  const auto input = OIIO::ImageInput::create(format_of(encoded));
-  if (!input) fail("no decoder: {}", OIIO::geterror());
+  // Only the formats that glTF knows: others that the library could read would only be more code to attack.
+  const bool png = starts_with(encoded, "\x89PNG\r\n\x1a\n");
+  if (!png && !starts_with(encoded, "\xff\xd8\xff")) fail("neither PNG nor JPEG");
+  std::vector<std::byte> cleaned;
+  if (png)
+    cleaned = pixel_chunks_of_png(encoded);
+  else
+    check_jpeg_scans(encoded);
+  if (png) encoded = cleaned;
+
+  const auto input = OIIO::ImageInput::create(png ? "png" : "jpeg");
+  if (!input) fail("no decoder: {}", cause(OIIO::geterror()));
   OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(encoded.data()), encoded.size());
   OIIO::ImageSpec request, spec;
   // Textures hold straight alpha; the library would multiply it into the colour.
   request.attribute("oiio:UnassociatedAlpha", 1);
   if (!input->set_ioproxy(&memory) || !input->open(name, spec, request)) fail("{}", cause(input->geterror()));
   if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels < 1) fail("an image without pixels");
-  const std::size_t width = static_cast<std::size_t>(spec.width), height = static_cast<std::size_t>(spec.height);
+  const auto width = static_cast<std::size_t>(spec.width), height = static_cast<std::size_t>(spec.height);
   if (height > max_pixels / width) fail("{} x {} pixels, over the limit of {}", width, height, max_pixels);
   const int channels = std::min(spec.nchannels, 4);
   std::vector<uint8_t> pixels(width * height * static_cast<std::size_t>(channels));
@@ -70,7 +69,7 @@ scene::Image read_image(std::span<const std::byte> encoded, const std::string& n
   return {.name = name,
           .width = spec.width,
           .height = spec.height,
-          .rgba = to_rgba(pixels, static_cast<std::size_t>(channels))};
+          .rgba = to_rgba(std::move(pixels), static_cast<std::size_t>(channels))};
 }
 
 scene::ImageDecoder image_decoder(const scene::ReadLimits& limits) {

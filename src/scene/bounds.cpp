@@ -7,7 +7,7 @@ namespace penumbra::scene {
 namespace {
 
 // Vertices times instances of one node beyond which the instances' boxes are bounded instead of their vertices.
-constexpr std::size_t most_exact = 8'000'000;
+constexpr std::size_t most_exact = 1'000'000;
 
 glm::vec3 morphed(const Primitive& primitive, const std::vector<float>& weights, std::size_t vertex) {
   glm::vec3 position = primitive.positions[vertex];

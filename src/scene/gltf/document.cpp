@@ -19,9 +19,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::array supported_extensions = {
-    "KHR_lights_punctual",        "KHR_materials_unlit",     "KHR_materials_emissive_strength",
-    "KHR_texture_transform",      "KHR_mesh_quantization",   "EXT_mesh_gpu_instancing",
-    "KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_texture_webp",
+    "KHR_lights_punctual",   "KHR_materials_unlit",     "KHR_materials_emissive_strength", "KHR_texture_transform",
+    "KHR_mesh_quantization", "EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression",      "EXT_meshopt_compression",
 };
 
 // "2.1" as {2, 1}.

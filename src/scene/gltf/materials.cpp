@@ -170,11 +170,6 @@ class ImageReader {
   std::vector<int> image_of_;
 };
 
-int source_image(const tinygltf::Texture& texture) {
-  const Value* webp = find_extension(texture, "EXT_texture_webp");
-  return webp != nullptr && webp->IsObject() ? index_or(*webp, "source", texture.source) : texture.source;
-}
-
 }  // namespace
 
 std::vector<MaterialUse> read_materials(const Document& document) {
@@ -190,7 +185,7 @@ void read_textures(Document& document, const ImageDecoder& decode, std::vector<M
   for (MaterialUse& use : materials) {
     for (TextureRef* ref : references(use.material)) {
       if (ref->texture < 0) continue;
-      const int image = source_image(document.model.textures[static_cast<std::size_t>(ref->texture)]);
+      const int image = document.model.textures[static_cast<std::size_t>(ref->texture)].source;
       if (image < 0) {
         warn("material '{}': textures[{}] has no image that can be read; left out", use.material.name, ref->texture);
         ref->texture = -1;

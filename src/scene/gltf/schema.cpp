@@ -82,7 +82,6 @@ void add_material_rules(std::vector<Rule>& rules) {
       {old + ".glossinessFactor", number(0, 1)},
       {"textures[].source", index("images")},
       {"textures[].sampler", index("samplers")},
-      {"textures[].extensions.EXT_texture_webp.source", index("images")},
       {"images[].uri", text()},
       {"images[].bufferView", index("bufferViews")},
       {"samplers[].magFilter", one_of({9728, 9729})},

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace penumbra::io {
+
+// A PNG without the chunks that don't carry pixels: text and profiles are of no use to a texture, can be bombs, and
+// make libpng write warnings to stderr. Throws Error when a chunk's length or checksum is wrong, which libpng would
+// report on stderr too.
+std::vector<std::byte> pixel_chunks_of_png(std::span<const std::byte> encoded);
+
+// A progressive JPEG decodes the whole picture once a scan, so many scans are a way to stall a reader. Throws Error
+// past a generous number.
+void check_jpeg_scans(std::span<const std::byte> encoded);
+
+}  // namespace penumbra::io
