@@ -1,8 +1,9 @@
 """The generator of Penumbra's own scenes: a glTF writer, shapes, textures, and the scenes by name."""
 
-from . import measure, story
+from . import courtyard, measure, story
 
 SCENES = {
+    "courtyard": courtyard.courtyard,
     "knife_edge": measure.knife_edge,
     "posts": measure.posts,
     "steps": measure.steps,

@@ -4,10 +4,13 @@ import math
 import random
 
 from . import textures, vec
-from .shapes import Shape, stitch, tube
+from .shapes import Shape, lathe, stitch, tube
 
 
-def leaf_texture(seed=7, size=256, leaves=19, colors=((0.045, 0.11, 0.018), (0.13, 0.22, 0.045))):
+LEAF_GREENS = ((0.045, 0.11, 0.018), (0.13, 0.22, 0.045))
+
+
+def leaf_texture(seed=7, size=256, leaves=19, colors=LEAF_GREENS, slender=1.0):
     """A twig with leaves; alpha is 0 or 255 with a soft edge; the colour runs on under the transparent part, so that
     filtering brings in no fringe."""
     draw = random.Random(seed)
@@ -16,10 +19,10 @@ def leaf_texture(seed=7, size=256, leaves=19, colors=((0.045, 0.11, 0.018), (0.1
         along_twig = (k + 0.5) / leaves
         side = 1 if k % 2 else -1
         root = (0.5 + 0.04 * math.sin(6 * along_twig), 0.97 - 0.72 * along_twig)
-        spread = math.radians(side * (62 - 40 * along_twig + draw.uniform(-12, 12)))
+        spread = math.radians(side * slender * (62 - 40 * along_twig + draw.uniform(-12, 12)))
         length = (0.36 - 0.1 * abs(along_twig - 0.45)) * draw.uniform(0.85, 1.1)
         axis = (math.sin(spread), -math.cos(spread))
-        blades.append((root, axis, length, length * draw.uniform(0.2, 0.26), draw.random()))
+        blades.append((root, axis, length, length * slender * draw.uniform(0.2, 0.26), draw.random()))
     mean = vec.lerp(colors[0], colors[1], 0.45)
     field = [(0.0, mean)] * (size * size)
     for root, axis, length, half, tint in blades:
@@ -75,7 +78,7 @@ def card(at, up, outward, size, center):
     return s
 
 
-def _random_direction(draw):
+def random_direction(draw):
     z = draw.uniform(-1, 1)
     a = draw.uniform(0, 2 * math.pi)
     r = math.sqrt(1 - z * z)
@@ -118,10 +121,10 @@ def _dress(leaves, draw, path, center, crown, cards, size):
         t = 4 * math.sqrt(draw.uniform(0.06, 1.0))
         i = min(int(t), 3)
         at = vec.lerp(path[i], path[i + 1], t - i)
-        at = vec.add(at, vec.scale(_random_direction(draw), 0.22 * crown * draw.random()))
+        at = vec.add(at, vec.scale(random_direction(draw), 0.22 * crown * draw.random()))
         outward = vec.normalize(vec.sub(at, center))
-        up = vec.add(vec.scale(outward, 0.8), vec.scale(_random_direction(draw), 0.9))
-        facing = vec.normalize(vec.add(vec.add(outward, (0.0, 0.4, 0.0)), vec.scale(_random_direction(draw), 0.6)))
+        up = vec.add(vec.scale(outward, 0.8), vec.scale(random_direction(draw), 0.9))
+        facing = vec.normalize(vec.add(vec.add(outward, (0.0, 0.4, 0.0)), vec.scale(random_direction(draw), 0.6)))
         leaves.add(card(at, up, facing, size * draw.uniform(0.7, 1.15), center))
 
 
@@ -136,30 +139,48 @@ def ivy(seed, corner, u, v, normal, cards, size, fill):
         cards -= 1
         at = vec.add(corner, vec.add(vec.scale(u, a), vec.scale(v, b)))
         at = vec.add(at, vec.scale(normal, draw.uniform(0.02, 0.12)))
-        down = vec.add((0.0, draw.uniform(-1.0, 0.3), 0.0), vec.scale(_random_direction(draw), 0.6))
+        down = vec.add((0.0, draw.uniform(-1.0, 0.3), 0.0), vec.scale(random_direction(draw), 0.6))
         down = vec.add(down, vec.scale(normal, draw.uniform(0.1, 0.6) - vec.dot(down, normal)))
-        facing = vec.normalize(vec.add(vec.scale(normal, 1.2), vec.scale(_random_direction(draw), 0.6)))
+        facing = vec.normalize(vec.add(vec.scale(normal, 1.2), vec.scale(random_direction(draw), 0.6)))
         center = vec.sub(at, vec.add(vec.scale(normal, 0.8), (0.0, 0.5, 0.0)))
         leaves.add(card(at, down, facing, size * draw.uniform(0.6, 1.1), center))
     return leaves
 
 
-def mound(radius, height, seed, segments=20):
-    """A soft heap (earth in a pot, a hedge's core), open below."""
+def cypress(seed, height, radius, cards):
+    """A dark core (closed) and the cards around it."""
+    draw = random.Random(seed)
+
+    def reach(t):
+        return radius * (0.25 + 0.75 * min(1.0, t * 5)) * math.sqrt(max(0.0, 1 - t)) * (1 - 0.25 * t)
+
+    core = lathe([(0.8 * reach(k / 10), 0.25 + (height - 0.6) * k / 10) for k in range(11)], 10)
+    leaves = Shape()
+    for _ in range(cards):
+        t = 0.97 * draw.random() ** 1.25
+        a = draw.uniform(0, 2 * math.pi)
+        out = (math.cos(a), 0.15, math.sin(a))
+        at = (0.75 * reach(t) * out[0], 0.15 + (height - 0.8) * t, 0.75 * reach(t) * out[2])
+        up = vec.add((0.35 * out[0], 1.0, 0.35 * out[2]), vec.scale(random_direction(draw), 0.35))
+        facing = vec.normalize(vec.add(out, vec.scale(random_direction(draw), 0.5)))
+        leaves.add(card(at, up, facing, draw.uniform(0.5, 0.8), (0.0, at[1] - 0.4, 0.0)))
+    return core, leaves
+
+
+def blossoms(places, seed):
+    """Small five-sided cups at (position, outward direction)."""
     draw = random.Random(seed)
     s = Shape()
-    rings = 5
-    for j in range(rings + 1):
-        t = j / rings
-        for i in range(segments + 1):
-            a = -2 * math.pi * (i % segments) / segments
-            r = radius * math.cos(t * math.pi / 2)
-            p = (r * math.cos(a), height * math.sin(t * math.pi / 2), r * math.sin(a))
-            n = (p[0] / radius**2, p[1] / max(height, 1e-3) ** 2 + 1e-6, p[2] / radius**2)
-            s.vertex(p, vec.normalize(n), (i / segments + 0.01 * draw.random(), t))
-    stitch(s, segments + 1, rings + 1)
-    del s.indices[-3 * segments :]
-    for i in range(segments):
-        a = (rings - 1) * (segments + 1) + i
-        s.triangle(a, a + 1, a + segments + 1)
+    for at, out in places:
+        frame = vec.along(at, vec.add(at, out))
+        size = draw.uniform(0.03, 0.05)
+        middle = s.vertex(at, out)
+        rim = []
+        for k in range(5):
+            a = -2 * math.pi * k / 5
+            q = frame.point((size * math.cos(a), 0.35 * size, size * math.sin(a)))
+            rim.append(s.vertex(q, vec.normalize(vec.sub(vec.scale(out, 2.0), vec.scale(vec.sub(q, at), 12.0)))))
+        for k in range(5):
+            s.triangle(middle, rim[k], rim[(k + 1) % 5])
     return s
+
