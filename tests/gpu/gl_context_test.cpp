@@ -105,17 +105,32 @@ TEST(GlContext, AutoIsOffscreenAndAnUnknownBackendHasNearNames) {
   EXPECT_EQ(message_of([] { gl::make_context("osmeza"); }), "unknown backend 'osmeza'; did you mean 'osmesa'?");
 }
 
-TEST(GlContext, ContextsFollowEachOtherAndTakeTurns) {
+TEST(GlContext, ContextsFollowEachOther) {
   for (int i = 0; i < 3; ++i) {
     expect_core_4_5_that_draws(*gl::make_egl_context({.debug = true}));
     expect_core_4_5_that_draws(*gl::make_osmesa_context({.debug = true}));
   }
-  const auto egl = gl::make_egl_context({.debug = true});
+}
+
+TEST(GlContext, ContextsTakeTurnsAndEachKeepsItsState) {
+  const auto point_size = [] {
+    GLfloat size = 0;
+    gl::glGetFloatv(GL_POINT_SIZE, &size);
+    return size;
+  };
+  auto egl = gl::make_egl_context({.debug = true});
+  gl::glPointSize(2.0f);
   const auto osmesa = gl::make_osmesa_context({.debug = true});
-  for (gl::Context* context : {egl.get(), osmesa.get(), egl.get(), osmesa.get()}) {
-    context->make_current();
-    expect_core_4_5_that_draws(*context);
+  gl::glPointSize(3.0f);
+  for (int turn = 0; turn < 2; ++turn) {
+    egl->make_current();
+    EXPECT_EQ(point_size(), 2.0f);
+    osmesa->make_current();
+    EXPECT_EQ(point_size(), 3.0f);
   }
+  egl.reset();
+  EXPECT_EQ(point_size(), 3.0f) << "the end of a context that is not current changes nothing";
+  expect_core_4_5_that_draws(*osmesa);
 }
 
 TEST(GlContext, DebugOutputBelongsToTheContextThatAskedForIt) {
