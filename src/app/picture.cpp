@@ -136,10 +136,10 @@ Bytes display_bytes(std::vector<std::uint8_t> rgb, int width, int height, int fa
 Bytes aov_bytes(std::string_view name, int channels, const std::vector<float>& pixels) {
   if (name == "cascade") return cascade_bytes(channels, pixels);
   if (name == "depth") return depth_bytes(pixels);
-  if (name == "shadow") return each(channels, pixels, [](float v) { return v; });
-  if (name == "normal") return each(channels, pixels, [](float v) { return 0.5f + 0.5f * v; });
+  if (name == "albedo") return each(channels, pixels, linear_to_srgb);
   if (name == "motion") return with_third(relative_bytes(channels, pixels, /* is_signed= */ true));
-  if (channels == 3) return each(channels, pixels, linear_to_srgb);
+  if (name.ends_with("normal")) return each(channels, pixels, [](float v) { return 0.5f + 0.5f * v; });
+  if (name == "shadow" || name == "material") return each(channels, pixels, [](float v) { return v; });
   return relative_bytes(channels, pixels, /* is_signed= */ false);
 }
 

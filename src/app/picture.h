@@ -23,9 +23,9 @@ std::vector<float> pick_middle(const std::vector<float>& pixels, int width, int 
 // block.
 Bytes display_bytes(std::vector<std::uint8_t> rgb, int width, int height, int factor);
 
-// An AOV as a picture to look at: visibility as grey; albedo encoded as sRGB; normals and motion about middle grey;
-// cascades in colours; distances relative to the picture's own (depth near to far as white to black, else the largest
-// is white).
+// An AOV as a picture to look at: visibility and material as they are; albedo encoded as sRGB; normals and motion about
+// middle grey; cascades in colours; depth from near to far as white to black, middle grey the picture's median; all
+// else relative to the picture's largest value.
 Bytes aov_bytes(std::string_view name, int channels, const std::vector<float>& pixels);
 
 }  // namespace penumbra::app

@@ -85,7 +85,8 @@ void add_shadow_options(CLI::App& app, RenderOptions& o) {
         [&o](const auto& text) { o.technique = text; });
   value(app, "--sun-angle", "DEG", "Full angle of the sun's disc; short for --set sun.angle=DEG",
         [&o](const auto& text) { o.sun_angle = text; });
-  value(app, "--exposure", "EV|auto", "Exposure; short for --set exposure=EV",
+  value(app, "--exposure", "EV|auto",
+        "Exposure value at ISO 100; short for --set exposure.auto=off --set exposure.ev=EV",
         [&o](const auto& text) { o.exposure = text; });
   words(app, "--set", "NAME=VALUE", "A parameter's value; repeatable; see penumbra list params", o.assignments);
   words(app, "--preset", "FILE", "Values from a TOML file; repeatable", o.presets);
@@ -126,6 +127,11 @@ void add_device_options(CLI::App& app, RenderOptions& o) {
       ->disable_flag_override();
 }
 
+void set_exposure(ParamSet& params, const std::string& text) {
+  params.set("exposure.auto", text == "auto");
+  if (text != "auto") params.set_text("exposure.ev", text);
+}
+
 }  // namespace
 
 void add_render_options(CLI::App& app, RenderOptions& options) {
@@ -157,7 +163,7 @@ ParamSet resolve_params(const RenderOptions& options, const shadow::Registry& re
   try {
     if (!options.technique.empty()) registry.select(params, options.technique);
     if (!options.sun_angle.empty()) params.set_text("sun.angle", options.sun_angle);
-    if (!options.exposure.empty()) params.set_text("exposure", options.exposure);
+    if (!options.exposure.empty()) set_exposure(params, options.exposure);
     for (const std::string& assignment : options.assignments) params.assign(assignment);
   } catch (const Error& error) {
     throw UsageError(error.what());
