@@ -26,7 +26,9 @@ TEST(Sampling, PointsLieInTheirShapeAndAreBalanced) {
         EXPECT_LE(glm::length(p), 1.00001f);
         mean += p / static_cast<float>(count);
       }
-      if (count >= 16) EXPECT_LT(glm::length(mean), 0.1f) << pattern << ' ' << count;
+      if (count >= 16) {
+        EXPECT_LT(glm::length(mean), 0.1f) << pattern << ' ' << count;
+      }
       for (const glm::vec2& u : square_points(pattern, count)) {
         EXPECT_TRUE(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1);
       }
