@@ -123,6 +123,7 @@ def door(width, height):
     for k in range(count):
         x0 = -w + width * k / count
         planks.add(beveled_box(x0 + 0.003, 0.0, 0.0, x0 + width / count - 0.003, height, 0.035, 0.008))
+    planks.add(box(-w, 0.0, 0.0, w, height, 0.02, "-x+x-y+y-z"))  # nothing shines through between the planks
     p.put("dark wood", planks, uv=1.0)
     iron = Shape()
     for y in (0.4, height - 0.4):
@@ -193,8 +194,9 @@ def tiled_roof(length, run, rise, courses=4, column_width=0.26, seed=1):
             for along, up in ((0.0, base - 0.035 if c == 0 else base), (0.0, base + out), (1.02, base)):
                 at = vec.add(vec.scale(slope, (c + along) * size), vec.scale(normal, up))
                 closed = c == 0 and not rows  # the lowest edge is flat, so that no light comes in under the tiles
-                rows.append([vec.add(at, vec.add(((k + x) * width, 0.0, 0.0), vec.scale(normal, -0.035 if closed else h)))
-                             for x, h in profile])
+                heights = [-0.035 if closed else h for _, h in profile]
+                rows.append([vec.add(vec.add(at, vec.scale(normal, h)), ((k + x) * width, 0.0, 0.0))
+                             for (x, _), h in zip(profile, heights)])
             _strip(s, rows[0], rows[1], (u, v), 0.05)
             _strip(s, rows[1], rows[2], (u, v), 0.3)
     return occlusion.open_sky(s)

@@ -216,7 +216,7 @@ def _things(seed):
     pots.add(furniture.jar(0.85), vec.translate(2.2, 0.0, -3.5))
     light.add(furniture.lantern(0.5), vec.translate(WEST - THICK / 2, SPRING + STEP + ARCH, 1.5 - BAY))
     light.add(furniture.lantern(0.5), vec.translate(1.1, SPRING + STEP + ARCH, NORTH - THICK / 2))
-    light.add(furniture.festoon((3.05, 2.75, 0.2), (WEST + 0.03, 3.65, -0.7), 0.55, 9), vec.translate(0.0, 0.0, 0.0))
+    light.add(furniture.festoon((3.05, 2.75, 0.2), (WEST + 0.03, 3.65, -0.7), 0.55, 9), vec.Transform())
     return [fountain, pergola, tree, pots, light, _climber(seed), _cypresses(seed)]
 
 
@@ -228,7 +228,8 @@ def _climber(seed):
         foot, spread = 0.16 - a, (b - 0.62) / 0.2
         return 1.0 if foot > 0 else max(0.0, min(1.0, spread) * (1.0 - a) ** 1.5)
 
-    for k, (u, normal, tall) in enumerate((((3.4, 0.0, 0.0), (0.0, 0.0, 1.0), 4.6), ((0.0, 0.0, 3.0), (1.0, 0.0, 0.0), 3.7))):
+    sides = (((3.4, 0.0, 0.0), (0.0, 0.0, 1.0), 4.6), ((0.0, 0.0, 3.0), (1.0, 0.0, 0.0), 3.7))
+    for k, (u, normal, tall) in enumerate(sides):
         corner = vec.add((WEST, 0.1, NORTH), vec.scale(normal, 0.02))
         leaves = plants.ivy(seed + k, corner, u, (0.0, tall, 0.0), normal, 230, 0.32, fill)
         p.put("vine", leaves)

@@ -5,7 +5,7 @@ import random
 
 from . import plants, vec
 from .building import Part
-from .shapes import Shape, beveled_box, box, cylinder, lathe, rod, sphere
+from .shapes import Shape, beveled_box, cylinder, lathe, rod, sphere
 
 
 def fountain(radius=1.05):
@@ -202,7 +202,7 @@ def lantern(drop):
     p = Part("lantern")
     iron = rod((0.0, 0.0, 0.0), (0.0, -drop, 0.0), 0.008, 5, caps=False)
     y = -drop
-    iron.add(lathe([(0.17, y - 0.1), (0.15, y - 0.08), (0.05, y - 0.01), (0.02, y), (0.0, y + 0.01)], 6, smooth=False))
+    iron.add(lathe([(0.17, y - 0.1), (0.15, y - 0.08), (0.05, y - 0.01), (0.02, y), (0.0, y + 0.01)], 6))
     iron.add(lathe([(0.0, y - 0.46), (0.1, y - 0.45), (0.11, y - 0.43), None, (0.0, y - 0.43)], 6))
     for k in range(6):
         a = math.pi * k / 3
@@ -241,16 +241,6 @@ def jar(height=0.7):
     p.put("clay", lathe(profile, 24, repeat_u=2.0, repeat_v=1.2))
     p.put("earth", cylinder(0.3 * height * 0.5, 0.0, 0.72 * height, 12))
     p.blocker(-0.22 * height, 0.0, -0.22 * height, 0.22 * height, 0.85 * height, 0.22 * height)
-    return p
-
-
-def steps(width, rise, tread, count):
-    """Stone steps up towards -z; the foot of the first riser is at the origin."""
-    p = Part("steps")
-    stone = Shape()
-    for k in range(count):
-        stone.add(beveled_box(-width / 2, 0.0, -tread * (k + 1), width / 2, rise * (k + 1), -tread * k, 0.015))
-    p.put("stone", stone, uv=1.2)
     return p
 
 

@@ -4,7 +4,7 @@ import math
 import random
 
 from . import textures, vec
-from .shapes import Shape, lathe, stitch, tube
+from .shapes import Shape, lathe, tube
 
 
 LEAF_GREENS = ((0.045, 0.11, 0.018), (0.13, 0.22, 0.045))

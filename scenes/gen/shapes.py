@@ -151,7 +151,7 @@ def beveled_box(x0, y0, z0, x1, y1, z1, bevel):
     return s
 
 
-def lathe(profile, segments, repeat_u=1.0, repeat_v=1.0, smooth=True):
+def lathe(profile, segments, repeat_u=1.0, repeat_v=1.0):
     """Turns a profile of (radius, height) about +Y, from bottom to top for outside walls. A None in the profile is a
     crease: the normal breaks there. Radii of zero close the ends."""
     s = Shape()
@@ -165,11 +165,11 @@ def lathe(profile, segments, repeat_u=1.0, repeat_v=1.0, smooth=True):
             run.append(point)
     runs.append(run)
     for run in runs:
-        _lathe_run(s, run, segments, repeat_u, repeat_v, smooth)
+        _lathe_run(s, run, segments, repeat_u, repeat_v)
     return s
 
 
-def _lathe_run(s, run, segments, repeat_u, repeat_v, smooth):
+def _lathe_run(s, run, segments, repeat_u, repeat_v):
     normals = []
     for k in range(len(run)):
         a, b = run[max(k - 1, 0)], run[min(k + 1, len(run) - 1)]

@@ -4,7 +4,7 @@ import math
 
 from . import plants, vec
 from .glb import Glb
-from .shapes import Shape, box, patch, plane, sphere
+from .shapes import Shape, box, plane, sphere
 
 PAVING = (0.42, 0.4, 0.37)
 

@@ -57,7 +57,7 @@ def paving():
     tints = [(draw.random(), draw.uniform(-1, 1), draw.uniform(-1, 1)) for _ in range(count)]
     coarse, fine = textures.fractal(size, 6, 4, 21), textures.fractal(size, 64, 2, 31)
     colors, heights, rough = bytearray(), [], bytearray()
-    grout, dark, light = (0.19, 0.155, 0.115), (0.25, 0.2, 0.145), (0.48, 0.41, 0.315)
+    grout, dark, light = (0.15, 0.115, 0.08), (0.2, 0.15, 0.1), (0.44, 0.36, 0.26)
     ramp = [textures.srgb(vec.lerp(dark, light, k / 47)) for k in range(48)]
     joint = textures.srgb(grout)
     for i, (slab, edge) in enumerate(field):
@@ -96,7 +96,7 @@ def plaster():
 def limestone():
     size = 256
     clouds, grain = textures.fractal(size, 4, 5, 61), textures.noise(size, 96, 62)
-    return _paint(size, [0.8 * c + 0.2 * g for c, g in zip(clouds, grain)], (0.4, 0.345, 0.265), (0.64, 0.575, 0.47))
+    return _paint(size, [0.8 * c + 0.2 * g for c, g in zip(clouds, grain)], (0.34, 0.28, 0.2), (0.56, 0.485, 0.37))
 
 
 def wood():
@@ -119,7 +119,7 @@ def materials(glb):
     floor, floor_normal, floor_rough = (glb.texture(n, t) for n, t in zip(
         ("paving", "paving_normal", "paving_roughness"), paving()))
     wall, wall_normal = (glb.texture(n, t) for n, t in zip(("plaster", "plaster_normal"), plaster()))
-    stone, grain, tile = (glb.texture(n, t) for n, t in (("limestone", limestone()), ("wood", wood()), ("clay", clay())))
+    stone, grain, tile = (glb.texture(n, t) for n, t in zip(("limestone", "wood", "clay"), (limestone(), wood(), clay())))
     leaf = glb.texture("leaves", plants.leaf_texture(), clamp=True)
     vine = glb.texture("vine", plants.leaf_texture(23, 256, 13, ((0.06, 0.14, 0.02), (0.2, 0.28, 0.05))), clamp=True)
     dark = ((0.025, 0.06, 0.018), (0.06, 0.105, 0.03))
@@ -135,9 +135,9 @@ def materials(glb):
     return {
         "paving": make("paving", white, 1.0, color_texture=floor, normal_texture=floor_normal,
                        rough_texture=floor_rough),
-        "ochre": rendered("ochre plaster", (0.7, 0.45, 0.25)),
-        "clay plaster": rendered("clay plaster", (0.66, 0.36, 0.22)),
-        "white plaster": rendered("white plaster", (0.76, 0.64, 0.48)),
+        "ochre": rendered("ochre plaster", (0.72, 0.44, 0.2)),
+        "clay plaster": rendered("clay plaster", (0.66, 0.33, 0.18)),
+        "white plaster": rendered("white plaster", (0.8, 0.63, 0.42)),
         "stone": make("limestone", white, 0.8, color_texture=stone, normal_texture=wall_normal, normal_scale=0.5),
         "wood": make("wood", (0.36, 0.22, 0.12), 0.7, color_texture=grain),
         "dark wood": make("dark wood", (0.2, 0.115, 0.06), 0.65, color_texture=grain),
@@ -155,6 +155,5 @@ def materials(glb):
         "vine": make("vine", white, 0.6, color_texture=vine, mask=0.5, double_sided=True),
         "agave": make("agave", (0.2, 0.3, 0.19), 0.5, double_sided=True),
         "flowers": make("flowers", (0.62, 0.07, 0.25), 0.7, double_sided=True),
-        "bark": make("bark", (0.23, 0.17, 0.125), 0.9),
-        "cloth": glb.material("cloth", (0.72, 0.6, 0.42), 0.9, double_sided=True),
+        "bark": make("bark", (0.2, 0.14, 0.095), 0.9),
     }
