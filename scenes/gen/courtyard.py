@@ -147,7 +147,8 @@ def _house():
     outside.quad((x0, 0.0, far), (x0, 0.0, NORTH), (x0, top, NORTH), (x0, ridge, far))
     outside.quad((x1, 0.0, NORTH), (x1, 0.0, far), (x1, ridge, far), (x1, top, NORTH))
     p.put("ochre", outside, uv=surfaces.PLASTER_SIZE)
-    p.add(building.eaves(length + reach + 0.75, reach + 0.25, HOUSE_RISE, 0.5, 5), vec.translate(x0 - 0.25, HOUSE_TOP, NORTH))
+    roof = building.eaves(length + reach + 0.75, reach + 0.25, HOUSE_RISE, 0.5, 5)
+    p.add(roof, vec.translate(x0 - 0.25, HOUSE_TOP, NORTH))
     band = beveled_box(-reach, 4.02, -0.02, length, 4.14, 0.05, 0.012)
     p.put("stone", band, at, uv=surfaces.STONE_SIZE)
     for k in range(BAYS):

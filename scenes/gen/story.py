@@ -97,7 +97,7 @@ def moving(azimuth=35.0, elevation=45.0):
     azimuth, elevation: of the sun, degrees
     """
     glb = Glb()
-    glb.camera("main", (0.0, 3.6, 9.5), (0.0, 0.9, -0.4), 42.0)
+    glb.camera("main", (0.0, 3.4, 8.6), (-0.3, 0.75, -0.3), 42.0)
     glb.camera("side", (7.5, 2.2, 5.0), (0.0, 0.7, 0.0), 45.0)
     glb.sun(azimuth, elevation)
     ground, wall = glb.material("ground", PAVING, 0.95), glb.material("wall", (0.6, 0.57, 0.52), 0.9)

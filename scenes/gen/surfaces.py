@@ -119,7 +119,7 @@ def materials(glb):
     floor, floor_normal, floor_rough = (glb.texture(n, t) for n, t in zip(
         ("paving", "paving_normal", "paving_roughness"), paving()))
     wall, wall_normal = (glb.texture(n, t) for n, t in zip(("plaster", "plaster_normal"), plaster()))
-    stone, grain, tile = (glb.texture(n, t) for n, t in zip(("limestone", "wood", "clay"), (limestone(), wood(), clay())))
+    stone, grain, tile = (glb.texture(draw.__name__, draw()) for draw in (limestone, wood, clay))
     leaf = glb.texture("leaves", plants.leaf_texture(), clamp=True)
     vine = glb.texture("vine", plants.leaf_texture(23, 256, 13, ((0.06, 0.14, 0.02), (0.2, 0.28, 0.05))), clamp=True)
     dark = ((0.025, 0.06, 0.018), (0.06, 0.105, 0.03))
