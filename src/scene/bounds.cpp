@@ -1,13 +1,16 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "scene/pose.h"
 
 namespace penumbra::scene {
 namespace {
 
-// Vertices times instances of one node beyond which the instances' boxes are bounded instead of their vertices.
-constexpr std::size_t most_exact = 1'000'000;
+// Vertices transformed one by one in a call of bounds_of; beyond, boxes stand in for what they hold.
+constexpr std::size_t most_exact = 2'000'000;
+
+glm::vec3 transformed(const glm::mat4& matrix, const glm::vec3& point) { return {matrix * glm::vec4(point, 1)}; }
 
 glm::vec3 morphed(const Primitive& primitive, const std::vector<float>& weights, std::size_t vertex) {
   glm::vec3 position = primitive.positions[vertex];
@@ -16,8 +19,6 @@ glm::vec3 morphed(const Primitive& primitive, const std::vector<float>& weights,
       position += weights[t] * primitive.targets[t].positions[vertex];
   return position;
 }
-
-glm::vec3 transformed(const glm::mat4& matrix, const glm::vec3& point) { return {matrix * glm::vec4(point, 1)}; }
 
 glm::vec3 skinned(const Primitive& primitive, const std::vector<glm::mat4>& joints, std::size_t vertex,
                   const glm::vec3& position) {
@@ -28,11 +29,10 @@ glm::vec3 skinned(const Primitive& primitive, const std::vector<glm::mat4>& join
   return sum;
 }
 
-std::vector<glm::mat4> placements(const Node& node, const glm::mat4& world) {
-  if (node.instances.empty()) return {world};
-  std::vector<glm::mat4> matrices;
-  for (const Transform& instance : node.instances) matrices.push_back(world * to_matrix(instance));
-  return matrices;
+Bounds box_of(const std::vector<glm::vec3>& points) {
+  Bounds box;
+  for (const glm::vec3& point : points) box.add(point);
+  return box;
 }
 
 std::vector<glm::vec3> corners(const Bounds& box) {
@@ -43,26 +43,80 @@ std::vector<glm::vec3> corners(const Bounds& box) {
   return points;
 }
 
-Bounds primitive_bounds(const Primitive& primitive, const Node& node, const Pose& pose, std::size_t index) {
-  Bounds bounds;
-  std::vector<glm::vec3> points;
-  points.reserve(primitive.positions.size());
-  for (std::size_t v = 0; v < primitive.positions.size(); ++v)
-    points.push_back(morphed(primitive, pose.weights[index], v));
-  if (node.skin >= 0 && !primitive.joints.empty()) {
-    for (std::size_t v = 0; v < points.size(); ++v) bounds.add(skinned(primitive, pose.skin[index], v, points[v]));
+// The boxes of a primitive's positions and of each target's offsets.
+struct Boxes {
+  Bounds positions;
+  std::vector<Bounds> offsets;
+};
+
+class Bounder {
+ public:
+  Bounder(const Scene& scene, const Pose& pose) : scene_(scene), pose_(pose) {}
+
+  Bounds bounds() {
+    Bounds triangles, others;
+    for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+      const Node& node = scene_.nodes[i];
+      if (!pose_.drawn[i] || node.mesh < 0) continue;
+      for (const Primitive& primitive : scene_.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+        (primitive.topology == Topology::triangles ? triangles : others).add(primitive_bounds(primitive, node, i));
+    }
+    return triangles.empty ? others : triangles;
+  }
+
+ private:
+  Bounds primitive_bounds(const Primitive& primitive, const Node& node, std::size_t index) {
+    const bool is_skinned = node.skin >= 0 && !primitive.joints.empty();
+    const std::vector<glm::mat4> matrices = is_skinned ? pose_.skin[index] : placements(node, pose_.world[index]);
+    const std::size_t transforms = primitive.positions.size() * (is_skinned ? 1 : matrices.size());
+    const bool exact = transforms <= most_exact - spent_;
+    if (exact) spent_ += transforms;
+    std::vector<glm::vec3> points;
+    if (exact)
+      for (std::size_t v = 0; v < primitive.positions.size(); ++v)
+        points.push_back(morphed(primitive, pose_.weights[index], v));
+    else
+      points = corners(morphed_box(primitive, pose_.weights[index]));
+
+    Bounds bounds;
+    if (exact && is_skinned) {
+      for (std::size_t v = 0; v < points.size(); ++v) bounds.add(skinned(primitive, matrices, v, points[v]));
+    } else {  // a skinned vertex lies between where its joints would put it
+      for (const glm::mat4& matrix : matrices)
+        for (const glm::vec3& point : points) bounds.add(transformed(matrix, point));
+    }
     return bounds;
   }
-  const std::vector<glm::mat4> matrices = placements(node, pose.world[index]);
-  if (points.size() > most_exact / matrices.size()) {
-    Bounds box;
-    for (const glm::vec3& point : points) box.add(point);
-    points = corners(box);
+
+  static std::vector<glm::mat4> placements(const Node& node, const glm::mat4& world) {
+    if (node.instances.empty()) return {world};
+    std::vector<glm::mat4> matrices;
+    for (const Transform& instance : node.instances) matrices.push_back(world * to_matrix(instance));
+    return matrices;
   }
-  for (const glm::mat4& matrix : matrices)
-    for (const glm::vec3& point : points) bounds.add(transformed(matrix, point));
-  return bounds;
-}
+
+  // Holds the morphed primitive, whatever its vertices do together.
+  Bounds morphed_box(const Primitive& primitive, const std::vector<float>& weights) {
+    const auto [found, is_new] = boxes_.try_emplace(&primitive);
+    Boxes& boxes = found->second;
+    if (is_new) {
+      boxes.positions = box_of(primitive.positions);
+      for (const MorphTarget& target : primitive.targets) boxes.offsets.push_back(box_of(target.positions));
+    }
+    Bounds box = boxes.positions;
+    for (std::size_t t = 0; t < boxes.offsets.size(); ++t) {
+      const glm::vec3 a = weights[t] * boxes.offsets[t].min, b = weights[t] * boxes.offsets[t].max;
+      box.min += glm::min(a, b);
+      box.max += glm::max(a, b);
+    }
+    return box;
+  }
+
+  const Scene& scene_;
+  const Pose& pose_;
+  std::size_t spent_ = 0;
+  std::map<const Primitive*, Boxes> boxes_;
+};
 
 }  // namespace
 
@@ -80,15 +134,6 @@ void Bounds::add(const Bounds& other) {
 
 float Bounds::radius() const { return glm::length(extent()) * 0.5f; }
 
-Bounds bounds_of(const Scene& scene, const Pose& pose) {
-  Bounds triangles, others;
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-    const Node& node = scene.nodes[i];
-    if (!pose.drawn[i] || node.mesh < 0) continue;
-    for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives)
-      (primitive.topology == Topology::triangles ? triangles : others).add(primitive_bounds(primitive, node, pose, i));
-  }
-  return triangles.empty ? others : triangles;
-}
+Bounds bounds_of(const Scene& scene, const Pose& pose) { return Bounder(scene, pose).bounds(); }
 
 }  // namespace penumbra::scene

@@ -16,7 +16,7 @@ using ImageDecoder = std::function<Image(std::span<const std::byte> encoded, con
 // Stated limits, so that hostile files can't exhaust memory. Past one, reading throws Error naming it.
 struct ReadLimits {
   std::size_t file_bytes = std::size_t{1} << 30;  // the glTF, each buffer and each image file
-  std::size_t json_values = 8'000'000;            // objects, arrays and their members
+  std::size_t json_values = 5'000'000;            // objects, arrays and their members
   std::size_t json_depth = 256;
   std::size_t vertices = 50'000'000;  // after expansion, whole scene
   std::size_t nodes = 1'000'000;

@@ -36,7 +36,7 @@ struct Bounds {
 };
 
 // World bounds of all drawn triangles (deformed and instanced), points and lines included only when there are no
-// triangles. Exact, except that a mesh of very many instances is bounded by its box's corners.
+// triangles. Exact up to two million vertices; what goes beyond is bounded by boxes.
 Bounds bounds_of(const Scene& scene, const Pose& pose);
 
 // A transform as a matrix, and the transform nearest to a matrix (shear is lost).

@@ -43,7 +43,7 @@ Bytes checked_range(const Document& document, int view, std::size_t offset, std:
   return bytes.subspan(offset);
 }
 
-void add_sparse(const Document& document, const tinygltf::Accessor& accessor, AccessorView& view) {
+void add_sparse(Document& document, const tinygltf::Accessor& accessor, AccessorView& view) {
   const auto& sparse = accessor.sparse;
   const auto count = static_cast<std::size_t>(sparse.count);
   if (count > view.count) fail("{} sparse elements of {}", count, view.count);
@@ -54,6 +54,7 @@ void add_sparse(const Document& document, const tinygltf::Accessor& accessor, Ac
   view.sparse_bytes =
       checked_range(document, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count,
                     view.element_size(), view.element_size());
+  document.budget.spend(count, sizeof(uint32_t));
   if (indices.empty() || view.sparse_bytes.empty()) fail("its sparse elements have no data");
   const AccessorView index_view{.component_type = sparse.indices.componentType};
   for (std::size_t i = 0; i < count; ++i) {
@@ -128,7 +129,7 @@ uint32_t AccessorView::integer(const std::byte* element, int component) const {
   }
 }
 
-AccessorView view_accessor(const Document& document, int index) {
+AccessorView view_accessor(Document& document, int index) {
   const tinygltf::Accessor& accessor = document.model.accessors[static_cast<std::size_t>(index)];
   AccessorView view{.name = fmt::format("accessors[{}]", index),
                     .component_type = accessor.componentType,

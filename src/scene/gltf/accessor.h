@@ -33,7 +33,7 @@ struct AccessorView {
   uint32_t integer(const std::byte* element, int component) const;
 };
 
-AccessorView view_accessor(const Document& document, int accessor);
+AccessorView view_accessor(Document& document, int accessor);
 
 // Which elements of accessors a primitive uses: all, or a list.
 struct Selection {

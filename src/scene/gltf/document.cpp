@@ -140,7 +140,8 @@ void spend_array(Budget& budget, const Json& owner, const char* key) {
   if (owner.contains(key)) budget.spend(owner[key].size(), sizeof(T));
 }
 
-// tinygltf's structures are large, even for an empty object of two characters.
+// tinygltf's structures are large, even for an empty object of two characters. Nothing is known of the JSON's types
+// yet, but the sizes of what is no array are harmless.
 void spend_model(Document& document, const Json& json) {
   Budget& budget = document.budget;
   if (json.contains("nodes") && json["nodes"].size() > document.limits.nodes)
@@ -195,16 +196,16 @@ tinygltf::Model parse_model(Json json) {
 Document read_document(const std::filesystem::path& path, const ReadLimits& limits) {
   Container container = read_container(path, limits);
   if (!container.json.is_object()) fail("the JSON is not an object");
+  Document document{.folder = path.parent_path(), .limits = limits, .budget = Budget(limits)};
+  document.budget.add_file(std::filesystem::file_size(path));
+  spend_model(document, container.json);
   check_schema(container.json);
   check_asset(container.json);
   check_extensions(container.json);
 
-  Document document{.folder = path.parent_path(), .limits = limits, .budget = Budget(limits)};
-  document.budget.add_file(std::filesystem::file_size(path));
   const std::vector<Bytes> buffers = load_buffers(document, container);
   cut_views(document, container.json, buffers);
   list_images(document, container.json);
-  spend_model(document, container.json);
   document.model = parse_model(std::move(container.json));
   document.storage.push_back(std::move(container.file));  // moving a vector leaves its bytes where they are
   return document;

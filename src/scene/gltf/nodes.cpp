@@ -80,29 +80,39 @@ Node read_node(Document& document, const tinygltf::Node& in) {
   return node;
 }
 
-void check_joints(const Scene& scene, const Node& node) {
-  const std::size_t count = scene.skins[static_cast<std::size_t>(node.skin)].joints.size();
-  for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives)
-    for (const glm::u16vec4& joints : primitive.joints)
-      for (glm::length_t c = 0; c < 4; ++c)
-        if (joints[c] >= count) fail("its mesh uses joint {}, but its skin has {}", joints[c], count);
+struct MeshFacts {
+  bool skinned = false;
+  int last_joint = -1;
+};
+
+MeshFacts facts_of(const Mesh& mesh) {
+  MeshFacts facts;
+  for (const Primitive& primitive : mesh.primitives)
+    for (const glm::u16vec4& joints : primitive.joints) {
+      facts.skinned = true;
+      for (glm::length_t c = 0; c < 4; ++c) facts.last_joint = std::max<int>(facts.last_joint, joints[c]);
+    }
+  return facts;
 }
 
-// A node's mesh, skin and weights must fit each other.
-void check_attachments(const Scene& scene, Node& node) {
+// A node's mesh, skin and weights must fit each other, and a pose holds joints and weights for each node.
+void check_attachments(Document& document, const Scene& scene, const std::vector<MeshFacts>& facts, Node& node) {
   if (node.mesh < 0) {
     node.skin = -1;
     node.weights.clear();
     return;
   }
-  const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
-  if (!node.weights.empty() && node.weights.size() != mesh.default_weights.size())
-    fail("{} weights for {} morph targets", node.weights.size(), mesh.default_weights.size());
+  const std::size_t targets = scene.meshes[static_cast<std::size_t>(node.mesh)].default_weights.size();
+  if (!node.weights.empty() && node.weights.size() != targets)
+    fail("{} weights for {} morph targets", node.weights.size(), targets);
+  document.budget.spend(targets, 2 * sizeof(float));
+  const MeshFacts& mesh = facts[static_cast<std::size_t>(node.mesh)];
+  if (!mesh.skinned) node.skin = -1;
   if (node.skin < 0) return;
-  check_joints(scene, node);
-  const bool skinned = std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
-                                   [](const Primitive& primitive) { return !primitive.joints.empty(); });
-  if (!skinned) node.skin = -1;
+  const std::size_t joints = scene.skins[static_cast<std::size_t>(node.skin)].joints.size();
+  if (mesh.last_joint >= static_cast<int>(joints))
+    fail("its mesh uses joint {}, but its skin has {}", mesh.last_joint, joints);
+  document.budget.spend(joints, 2 * sizeof(glm::mat4));
 }
 
 void link_parents(Scene& scene) {
@@ -179,12 +189,14 @@ void read_skins(Document& document, Scene& scene) {
 
 void read_nodes(Document& document, Scene& scene) {
   const std::vector<int> light_of = read_lights(document, scene);
+  std::vector<MeshFacts> facts;
+  for (const Mesh& mesh : scene.meshes) facts.push_back(facts_of(mesh));
   for (const tinygltf::Node& in : document.model.nodes) {
     try {
       Node node = read_node(document, in);
       if (const Value* light = find_extension(in, "KHR_lights_punctual"); light && light->IsObject())
         node.light = light_of[static_cast<std::size_t>(index_or(*light, "light", 0))];
-      check_attachments(scene, node);
+      check_attachments(document, scene, facts, node);
       scene.nodes.push_back(std::move(node));
     } catch (const Error& e) {
       fail("nodes[{}]: {}", scene.nodes.size(), e.what());
