@@ -1,25 +1,30 @@
-// The sky and the ground that light what the sun does not.
+// The sky, and the ground around the scene: the light of what is no sun.
 #include "shared/lighting_block.h"
 
 layout(std140, binding = 5) uniform LightingData { LightingBlock lighting; };
 
-// Radiance over its mean: deep blue overhead, pale at the horizon. The cosine-weighted mean of the mixture is a fifteenth of
-// the way from zenith to horizon, and its luminance is 1.
+// The colour of light from the whole upper hemisphere on a level plane, of luminance 1.
+const vec3 sky_mean = vec3(0.87, 0.99, 1.28);
+
+// Radiance over its mean: blue overhead, pale at the horizon. Its cosine-weighted mean, a fifteenth of the way from zenith
+// to horizon, has luminance 1.
 vec3 sky_color(float height) {
-  const vec3 zenith = vec3(0.44, 0.84, 1.85);
-  const vec3 horizon = vec3(2.7, 3.0, 3.2);
+  const vec3 zenith = vec3(0.42, 0.84, 1.75);
+  const vec3 horizon = vec3(2.75, 3.0, 3.2);
   float low = 1.0 - clamp(height, 0.0, 1.0);
   return mix(zenith, horizon, low * low * low * low);
 }
 
+// Endless ground, as the sun and the sky light it.
+vec3 ground_radiance() { return lighting.ground.rgb + lighting.sky.w * lighting.sky.rgb * sky_mean; }
+
 // What comes from a direction; `blur` softens the horizon.
 vec3 surroundings(vec3 direction, float blur) {
   float above = smoothstep(-0.01 - blur, 0.01 + blur, direction.y);
-  return mix(lighting.ground.rgb, lighting.sky.rgb * sky_color(direction.y), above);
+  return mix(ground_radiance(), lighting.sky.rgb * sky_color(direction.y), above);
 }
 
-// Irradiance over pi on a plane from sky and ground.
+// Irradiance over pi on a plane from sky and ground. The scene itself hides a part of the ground's light.
 vec3 ambient(vec3 normal) {
-  const vec3 mean = vec3(0.59, 0.98, 1.94);
-  return mix(lighting.ground.rgb, lighting.sky.rgb * mix(vec3(1.0), mean, 0.5), 0.5 + 0.5 * normal.y);
+  return mix(lighting.ground.w * ground_radiance(), lighting.sky.rgb * sky_mean, 0.5 + 0.5 * normal.y);
 }

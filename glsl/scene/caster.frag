@@ -6,5 +6,5 @@ in Caster {
 } caster;
 
 void main() {
-  if (base_color(caster.uv, caster.color).a < materials[material_index].alpha_cutoff) discard;
+  if (base_color(caster.uv, caster.color).a < material.alpha_cutoff) discard;
 }

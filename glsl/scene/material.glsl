@@ -1,7 +1,8 @@
 // The material of what is drawn, and its textures.
 #include "shared/scene_blocks.h"
 
-layout(std430, binding = 1) readonly restrict buffer Materials { MaterialBlock materials[]; };
+// A uniform block: storage reads may skip the helper pixels that texture coordinates' derivatives need.
+layout(std140, binding = 6) uniform MaterialData { MaterialBlock material; };
 
 layout(binding = 8) uniform sampler2D base_color_texture;
 layout(binding = 9) uniform sampler2D metallic_roughness_texture;
@@ -9,41 +10,39 @@ layout(binding = 10) uniform sampler2D normal_texture;
 layout(binding = 11) uniform sampler2D occlusion_texture;
 layout(binding = 12) uniform sampler2D emissive_texture;
 
-uniform int material_index;  // the same for a whole draw: branches on it diverge nowhere
-
-bool has_texture(int which) { return (materials[material_index].flags & (1u << which)) != 0u; }
+bool has_texture(int which) { return (material.flags & (1u << which)) != 0u; }
 
 // Where to read a texture, given both UV sets.
 vec2 texture_uv(int which, vec4 uv) {
-  bool second = (materials[material_index].flags & (1u << (MATERIAL_SECOND_UV + which))) != 0u;
+  bool second = (material.flags & (1u << (MATERIAL_SECOND_UV + which))) != 0u;
   vec3 at = vec3(second ? uv.zw : uv.xy, 1.0);
-  return vec2(dot(materials[material_index].uv_rows[2 * which].xyz, at),
-              dot(materials[material_index].uv_rows[2 * which + 1].xyz, at));
+  return vec2(dot(material.uv_rows[2 * which].xyz, at),
+              dot(material.uv_rows[2 * which + 1].xyz, at));
 }
 
 vec4 base_color(vec4 uv, vec4 vertex_color) {
-  vec4 color = materials[material_index].base_color * vertex_color;
+  vec4 color = material.base_color * vertex_color;
   if (has_texture(TEXTURE_BASE_COLOR)) color *= texture(base_color_texture, texture_uv(TEXTURE_BASE_COLOR, uv));
   return color;
 }
 
 vec3 emission(vec4 uv) {
-  vec3 emissive = materials[material_index].emissive;
+  vec3 emissive = material.emissive;
   if (has_texture(TEXTURE_EMISSIVE)) emissive *= texture(emissive_texture, texture_uv(TEXTURE_EMISSIVE, uv)).rgb;
   return emissive;
 }
 
 // Metallic, roughness, occlusion.
 vec3 surface_properties(vec4 uv) {
-  vec3 properties = vec3(materials[material_index].metallic, materials[material_index].roughness, 1.0);
+  vec3 properties = vec3(material.metallic, material.roughness, 1.0);
   if (has_texture(TEXTURE_METALLIC_ROUGHNESS)) {
     properties.xy *= texture(metallic_roughness_texture, texture_uv(TEXTURE_METALLIC_ROUGHNESS, uv)).bg;
   }
   if (has_texture(TEXTURE_OCCLUSION)) {
     float occlusion = texture(occlusion_texture, texture_uv(TEXTURE_OCCLUSION, uv)).r;
-    properties.z = 1.0 + materials[material_index].occlusion_strength * (occlusion - 1.0);
+    properties.z = 1.0 + material.occlusion_strength * (occlusion - 1.0);
   }
   return properties;
 }
 
-bool is_unlit() { return (materials[material_index].flags & MATERIAL_UNLIT) != 0u; }
+bool is_unlit() { return (material.flags & MATERIAL_UNLIT) != 0u; }

@@ -51,7 +51,7 @@ vec3 shading_normal(vec3 geometric) {
   vec3 n = surface.normal * inversesqrt(square);
   if (has_texture(TEXTURE_NORMAL)) {
     vec3 mapped = texture(normal_texture, texture_uv(TEXTURE_NORMAL, surface.uv)).xyz * 2.0 - 1.0;
-    mapped.xy *= materials[material_index].normal_scale;
+    mapped.xy *= material.normal_scale;
     vec3 t = surface.tangent.xyz;
     t *= inversesqrt(max(dot(t, t), 1e-30));  // without tangents: stays zero
     vec3 bent = mapped.x * t + mapped.y * surface.tangent.w * cross(n, t) + mapped.z * n;

@@ -8,10 +8,10 @@
 GLSL_BEGIN
 
 struct LightingBlock {
-  vec4 to_sun;    // xyz: unit, world; w: luminance of emission 1
-  vec4 sun;       // rgb: illuminance on a plane that faces it
-  vec4 sky;       // rgb: radiance, the mean over the upper hemisphere
-  vec4 ground;    // rgb: radiance of what lies below
+  vec4 to_sun;  // xyz: unit, world; w: luminance of emission 1
+  vec4 sun;     // rgb: illuminance on a plane that faces it
+  vec4 sky;     // rgb: radiance, the mean over the upper hemisphere; w: albedo of the ground around the scene
+  vec4 ground;  // rgb: radiance of that ground by the sun alone; w: part of its light that reaches surfaces
 };
 
 GLSL_END

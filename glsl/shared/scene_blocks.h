@@ -1,4 +1,4 @@
-// What shaders read of a scene. Read by C++ and GLSL; std430.
+// What shaders read of a scene. Read by C++ and GLSL; std430, the material std140.
 #ifndef PENUMBRA_SCENE_BLOCKS_H
 #define PENUMBRA_SCENE_BLOCKS_H
 
@@ -46,6 +46,7 @@ struct MaterialBlock {
   uint pad_b;
   uint pad_c;
   vec4 uv_rows[TEXTURE_COUNT * 2];  // two rows a texture: u' and v' as factors of u, v, 1
+  vec4 pad_d[2];                    // to 256 bytes, where every driver lets a uniform block begin
 };
 
 // One primitive to be skinned or morphed. Counts are in vertices, offsets in elements of their buffers.

@@ -8,9 +8,10 @@ namespace {
 
 constexpr GLuint exposure_binding = 0;
 
-// Middle grey, and how far from white in the sun the automatic may go: three stops up for what lies in shade, one down.
-constexpr float target_luminance = 0.18f;
-constexpr float least = 0.5f, most = 8.0f;
+// A white surface in the mean light of the picture, and how far the automatic goes from white in the sun: half a stop
+// down, and two and a half up for what lies in shade.
+constexpr float white = 0.75f;
+constexpr float least = 0.7f, most = 6.0f;
 
 gl::ProgramDesc program() { return {.name = "exposure", .compute = "render/exposure.comp"}; }
 
@@ -26,12 +27,12 @@ const gl::Buffer& measure_exposure(gl::Device& device, const ExposureInputs& inp
   gl::Pass pass(device, {.name = "exposure"});
   const gl::Program& measure = pass.use(program());
   measure.set("limits", glm::vec2(least, most));
-  measure.set("target_luminance", target_luminance);
+  measure.set("white", white);
   measure.set("factor", bias);
   inputs.lit.bind(first_unit);
+  inputs.gbuffer.albedo->bind(first_unit + 1);
   inputs.gbuffer.depth->bind(first_unit + 4);
-  device.sampler({}).bind(first_unit);
-  device.sampler({}).bind(first_unit + 4);
+  for (const GLuint offset : {0u, 1u, 4u}) device.sampler({}).bind(first_unit + offset);
   exposure.bind_storage(exposure_binding);
   pass.dispatch(1, 1);
   return exposure;

@@ -11,21 +11,25 @@ namespace penumbra::render {
 
 namespace {
 
-constexpr int cells = 32;              // of the footprint, along a side
-constexpr float enough = 0.6f;         // of the footprint covered
+constexpr int inner = 32;  // cells of the scene's outline, along a side
+constexpr int rim = 4;     // cells around it, and around what stands: as far as a shadow is sure to fall
+constexpr int cells = inner + 2 * rim;
+constexpr float enough = 0.6f;         // least part with a floor
 constexpr float low = 0.1f;            // part of the height that counts as the bottom
 constexpr float level = 0.7f;          // least share of a triangle's area seen from above
 constexpr float radii = 6.0f;          // half the ground's side in radii of the scene
 constexpr std::size_t copies = 10000;  // instances looked at
+
+using Cells = std::bitset<static_cast<std::size_t>(cells) * cells>;
 
 // The scene's outline on the ground, as cells.
 class Footprint {
  public:
   explicit Footprint(const scene::Bounds& bounds)
       : origin_(bounds.min.x, bounds.min.z),
-        scale_(static_cast<float>(cells) / glm::max(glm::vec2(bounds.extent().x, bounds.extent().z), 1e-9f)) {}
+        scale_(static_cast<float>(inner) / glm::max(glm::vec2(bounds.extent().x, bounds.extent().z), 1e-9f)) {}
 
-  void cover(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  void cover(Cells& covered_cells, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) const {
     const std::array<glm::vec2, 3> corners{cell(a), cell(b), cell(c)};
     const glm::ivec2 first =
         glm::max(glm::ivec2(glm::floor(glm::min(corners[0], glm::min(corners[1], corners[2])))), 0);
@@ -33,15 +37,13 @@ class Footprint {
         glm::min(glm::ivec2(glm::floor(glm::max(corners[0], glm::max(corners[1], corners[2])))), cells - 1);
     for (int y = first.y; y <= last.y; ++y) {
       for (int x = first.x; x <= last.x; ++x) {
-        if (holds(corners, glm::vec2(x, y) + 0.5f)) covered_.set(static_cast<std::size_t>(y * cells + x));
+        if (holds(corners, glm::vec2(x, y) + 0.5f)) covered_cells.set(static_cast<std::size_t>(y * cells + x));
       }
     }
   }
 
-  float covered() const { return static_cast<float>(covered_.count()) / (cells * cells); }
-
  private:
-  glm::vec2 cell(const glm::vec3& p) const { return (glm::vec2(p.x, p.z) - origin_) * scale_; }
+  glm::vec2 cell(const glm::vec3& p) const { return (glm::vec2(p.x, p.z) - origin_) * scale_ + float{rim}; }
 
   static bool holds(const std::array<glm::vec2, 3>& corners, const glm::vec2& p) {
     int positive = 0, negative = 0;
@@ -55,7 +57,41 @@ class Footprint {
   }
 
   glm::vec2 origin_, scale_;
-  std::bitset<cells * cells> covered_;
+};
+
+bool mostly(const Cells& marked, const Cells& of) {
+  return static_cast<float>((marked & of).count()) >= enough * static_cast<float>(of.count());
+}
+
+// The cells around marked ones.
+Cells rim_of(const Cells& marked) {
+  Cells grown;
+  for (int y = 0; y < cells; ++y) {
+    for (int x = 0; x < cells; ++x) {
+      if (!marked[static_cast<std::size_t>(y * cells + x)]) continue;
+      for (int v = std::max(y - rim, 0); v <= std::min(y + rim, cells - 1); ++v) {
+        for (int u = std::max(x - rim, 0); u <= std::min(x + rim, cells - 1); ++u) {
+          grown.set(static_cast<std::size_t>(v * cells + u));
+        }
+      }
+    }
+  }
+  return grown & ~marked;
+}
+
+Cells outline() {
+  Cells all;
+  for (int y = rim; y < cells - rim; ++y) {
+    for (int x = rim; x < cells - rim; ++x) all.set(static_cast<std::size_t>(y * cells + x));
+  }
+  return all;
+}
+
+// What lies low and level, and what stands above it.
+struct Layers {
+  Footprint footprint;
+  float top;  // of what is low
+  Cells floor, above;
 };
 
 bool faces_up(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
@@ -63,7 +99,7 @@ bool faces_up(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   return std::abs(area.y) > level * glm::length(area);
 }
 
-void cover(Footprint& footprint, const scene::Primitive& primitive, const glm::mat4& world, float top) {
+void add(Layers& layers, const scene::Primitive& primitive, const glm::mat4& world) {
   std::vector<glm::vec3> positions;
   positions.reserve(primitive.positions.size());
   for (const glm::vec3& position : primitive.positions) positions.emplace_back(world * glm::vec4(position, 1.0f));
@@ -71,27 +107,31 @@ void cover(Footprint& footprint, const scene::Primitive& primitive, const glm::m
     const glm::vec3& a = positions[primitive.indices[i]];
     const glm::vec3& b = positions[primitive.indices[i + 1]];
     const glm::vec3& c = positions[primitive.indices[i + 2]];
-    if (std::max({a.y, b.y, c.y}) <= top && faces_up(a, b, c)) footprint.cover(a, b, c);
+    if (std::max({a.y, b.y, c.y}) > layers.top) {
+      layers.footprint.cover(layers.above, a, b, c);
+    } else if (faces_up(a, b, c)) {
+      layers.footprint.cover(layers.floor, a, b, c);
+    }
   }
 }
 
 }  // namespace
 
 bool has_ground(const scene::Scene& scene, const scene::Pose& pose, const scene::Bounds& bounds) {
-  Footprint footprint(bounds);
-  const float top = bounds.min.y + std::max(low * bounds.extent().y, 1e-3f * bounds.radius());
+  Layers layers{.footprint = Footprint(bounds),
+                .top = bounds.min.y + std::max(low * bounds.extent().y, 1e-3f * bounds.radius())};
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const scene::Node& node = scene.nodes[i];
     if (!pose.drawn[i] || node.mesh < 0 || node.skin >= 0) continue;
     for (const scene::Primitive& primitive : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
       if (primitive.topology != scene::Topology::triangles) continue;
-      if (node.instances.empty()) cover(footprint, primitive, pose.world[i], top);
+      if (node.instances.empty()) add(layers, primitive, pose.world[i]);
       for (std::size_t copy = 0; copy < std::min(node.instances.size(), copies); ++copy) {
-        cover(footprint, primitive, pose.world[i] * scene::to_matrix(node.instances[copy]), top);
+        add(layers, primitive, pose.world[i] * scene::to_matrix(node.instances[copy]));
       }
     }
   }
-  return footprint.covered() >= enough;
+  return mostly(layers.floor, outline()) && mostly(layers.floor, rim_of(layers.above));
 }
 
 void add_ground(scene::Scene& scene, const scene::Bounds& bounds) {
@@ -106,7 +146,8 @@ void add_ground(scene::Scene& scene, const scene::Bounds& bounds) {
   }
   plane.indices = {0, 1, 2, 0, 2, 3};
   plane.material = static_cast<int>(scene.materials.size());
-  scene.materials.push_back({.name = "ground", .base_color = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f), .metallic = 0.0f});
+  scene.materials.push_back(
+      {.name = "ground", .base_color = glm::vec4(glm::vec3(ground_albedo), 1.0f), .metallic = 0.0f});
   scene::Node node{.name = "ground"};
   node.mesh = static_cast<int>(scene.meshes.size());
   scene.meshes.push_back({.name = "ground", .primitives = {std::move(plane)}});

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
+#include "render/ground.h"
 #include "render/passes.h"
 #include "shared/lighting_block.h"
 
@@ -24,14 +25,13 @@ glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
   const float sky_share = inputs.params.get_float("render.sky_light");
   const float white = luminance(sun.illuminance) * (1.0f + sky_share) / glm::pi<float>();
   const float exposure = exposure_factor(inputs, white);
-  // The sky is lit by the sun too, but has its own colour.
   const float sky = exposure * sky_share * luminance(sun.illuminance) / glm::pi<float>();
   const float level_sun = std::max(sun.to_light.y, 0.0f) / glm::pi<float>();
-  const glm::vec3 bounce = inputs.params.get_float("render.ground_light") * glm::vec3(1.04f, 1.0f, 0.9f);
+  const float ground_light = inputs.params.get_float("render.ground_light");
   return {.to_sun = glm::vec4(sun.to_light, inputs.emission_in_nits ? exposure : exposure * white),
           .sun = glm::vec4(sun.illuminance * exposure, 0.0f),
-          .sky = glm::vec4(glm::vec3(sky), 0.0f),
-          .ground = glm::vec4(bounce * (sun.illuminance * exposure * level_sun + sky), 0.0f)};
+          .sky = glm::vec4(glm::vec3(sky), ground_albedo),
+          .ground = glm::vec4(ground_albedo * sun.illuminance * (exposure * level_sun), ground_light)};
 }
 
 gl::ProgramDesc program() {

@@ -68,12 +68,11 @@ void DrawList::add(const Instance& instance, std::uint32_t index, Batch batch) {
   ++batches.back().count;
 }
 
-void GpuScene::State::draw(gl::Device& device, gl::Pass& pass, const gl::Program& program, const DrawList& list) const {
+void GpuScene::State::draw(gl::Device& device, gl::Pass& pass, const DrawList& list) const {
   if (list.commands.empty()) return;
   const gl::Buffer& commands = device.scratch("draw commands", list.commands.size() * sizeof(DrawCommand));
   commands.write(std::as_bytes(std::span(list.commands)));
   gl::glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
-  materials.bind();
   instance_blocks.bind_storage(instances_binding);
   indices.bind_storage(indices_binding);
   for (const Batch& batch : list.batches) {
@@ -81,10 +80,7 @@ void GpuScene::State::draw(gl::Device& device, gl::Pass& pass, const gl::Program
     (batch.deformed ? now->positions : positions).bind_storage(positions_binding);
     pass.set_cull_back(!batch.double_sided);
     pass.set_front_clockwise(batch.mirrored);
-    if (batch.material >= 0) {
-      program.set("material_index", batch.material);
-      materials.bind_textures(batch.material);
-    }
+    if (batch.material >= 0) materials.bind(batch.material);
     const auto* offset = reinterpret_cast<const void*>(batch.first * sizeof(DrawCommand));  // NOLINT: GL's way
     gl::glMultiDrawElementsIndirect(mode_of(batch.topology), GL_UNSIGNED_INT, offset, static_cast<GLsizei>(batch.count),
                                     0);
@@ -99,7 +95,9 @@ void GpuScene::draw_surfaces(gl::Device& device, gl::Pass& pass, Surfaces surfac
     const Instance& instance = state_->instances[i];
     if (instance.alpha_mode == mode && visible(instance.box)) list.add(instance, i, shaded_batch(instance));
   }
-  if (!list.commands.empty()) state_->draw(device, pass, pass.use(program), list);
+  if (list.commands.empty()) return;
+  pass.use(program);
+  state_->draw(device, pass, list);
 }
 
 void GpuScene::draw_blended(gl::Device& device, gl::Pass& pass, const gl::ProgramDesc& program, const glm::vec3& eye,
@@ -114,7 +112,9 @@ void GpuScene::draw_blended(gl::Device& device, gl::Pass& pass, const gl::Progra
                    [&](std::uint32_t a, std::uint32_t b) { return distance(a) > distance(b); });
   DrawList list;
   for (const std::uint32_t i : order) list.add(instances[i], i, shaded_batch(instances[i]));
-  if (!list.commands.empty()) state_->draw(device, pass, pass.use(program), list);
+  if (list.commands.empty()) return;
+  pass.use(program);
+  state_->draw(device, pass, list);
 }
 
 void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
@@ -132,9 +132,8 @@ void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, Casters casters,
                {.deformed = instance.job >= 0, .double_sided = true, .material = masked ? instance.material : -1});
     }
     if (list.commands.empty()) continue;
-    const gl::Program& program = pass.use(caster_program(masked, last));
-    program.set("world_to_clip", world_to_clip);
-    state_->draw(device, pass, program, list);
+    pass.use(caster_program(masked, last)).set("world_to_clip", world_to_clip);
+    state_->draw(device, pass, list);
   }
 }
 

@@ -7,9 +7,11 @@
 
 namespace penumbra::scene {
 
+static_assert(sizeof(glsl::MaterialBlock) == 256);
+
 namespace {
 
-constexpr GLuint materials_binding = 1;  // as glsl/scene/material.glsl declares
+constexpr GLuint material_binding = 6;  // as glsl/scene/material.glsl declares
 constexpr GLuint first_unit = 8;
 
 std::array<const TextureRef*, TEXTURE_COUNT> references(const Material& material) {
@@ -117,9 +119,10 @@ Materials::Slot Materials::slot(gl::Device& device, const Scene& scene, const Te
   return {&entry->second, &device.sampler(sampler_of(texture))};
 }
 
-void Materials::bind() const { blocks_.bind_storage(materials_binding); }
-
-void Materials::bind_textures(int material) const {
+void Materials::bind(int material) const {
+  constexpr std::size_t size = sizeof(glsl::MaterialBlock);
+  gl::glBindBufferRange(GL_UNIFORM_BUFFER, material_binding, blocks_.id(),
+                        static_cast<GLintptr>(size * static_cast<std::size_t>(material)), size);
   const Slots& slots = textures_[static_cast<std::size_t>(material)];
   for (GLuint i = 0; i < slots.size(); ++i) {
     if (slots[i].texture == nullptr) continue;  // flags keep shaders from reading it

@@ -18,8 +18,7 @@ class Materials {
  public:
   Materials(gl::Device& device, const Scene& scene);
 
-  void bind() const;  // the storage block of all
-  void bind_textures(int material) const;
+  void bind(int material) const;  // its block and textures
 
   // The scene's material, or the default for -1.
   static const Material& of(const Scene& scene, int material);

@@ -86,7 +86,7 @@ struct GpuScene::State {
   PosedVertices& posed_at(gl::Device& device, double time, const PosedVertices* keep);
   void set_vertex_arrays() const;
   void update_instances();
-  void draw(gl::Device& device, gl::Pass& pass, const gl::Program& program, const DrawList& list) const;
+  void draw(gl::Device& device, gl::Pass& pass, const DrawList& list) const;
 };
 
 }  // namespace penumbra::scene
