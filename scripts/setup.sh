@@ -122,21 +122,29 @@ configure() {
   fi
 }
 
-# build PRESET TARGETS...: silent when nothing is to do, a line every few seconds when it takes long, and on failure
+# report_progress PRESET LOG: how far a build is, until killed; on a terminal in one line, elsewhere now and then.
+report_progress() {
+  local step seconds=20 begin='' end='\n'
+  [[ -t 2 ]] && seconds=1 begin='\r' end=''
+  while sleep "$seconds" >/dev/null 2>&1 </dev/null; do
+    step=$(grep -so '^\[[0-9]*/[0-9]*\]' "$2" | tail -n 1)
+    [[ -z $step ]] || printf "${begin}Building %s %s${end}" "$1" "$step" >&2
+  done
+}
+
+# build PRESET TARGETS...: silent when nothing is to do, says how far it is when it takes long, and on failure shows
 # what failed.
 build() {
   local preset=$1 log=$root/build/$1.build.log target targets=() reporter status=0
   shift
   for target; do targets+=(--target "$target"); done
-  (
-    while sleep 5 >/dev/null 2>&1 </dev/null; do
-      [[ -s $log ]] && note "Building $preset $(grep -o '^\[[0-9]*/[0-9]*\]' "$log" | tail -n 1)"
-    done
-  ) 9>&- &
+  : >"$log"
+  report_progress "$preset" "$log" 9>&- &
   reporter=$!
   cmake --build "$root/build/$preset" --parallel "$(build_jobs)" "${targets[@]}" >"$log" 2>&1 9>&- || status=$?
   kill "$reporter" 2>/dev/null || true
   wait "$reporter" 2>/dev/null || true
+  [[ -t 2 ]] && printf '\r\033[K' >&2
   ((status == 0)) && return
   if grep -q "rebuilding 'build.ninja'" "$log"; then
     tail -n 40 "$log" >&2
