@@ -73,7 +73,7 @@ struct Inputs {
   Conventions conventions;
   TextureView depth;    // any depth or R32F texture
   TextureView normals;  // geometric normals, world space
-  TextureView motion;   // optional (id 0): RG, where the surface was minus where it is, in NDC
+  TextureView motion;   // optional (id 0): RG, where the surface is minus where it was, in NDC
   std::span<const Light> lights;
   Box casters, receivers;  // world bounds
   DrawCasters draw;        // may be empty when every light brings its maps
