@@ -53,7 +53,9 @@ std::vector<std::byte> pixel_chunks_of_png(std::span<const std::byte> encoded) {
     std::array<char, 4> type{};
     std::memcpy(type.data(), chunk.data() + 4, type.size());
     const std::string_view name(type.data(), type.size());
-    if (carries_pixels(name)) {
+    if ((at == png_signature) != (name == "IHDR")) fail("PNG does not begin with its header");
+    const bool optional = name[0] >= 'a' && name[0] <= 'z';  // PNG's rule: others must be understood
+    if (carries_pixels(name) || !optional) {
       if (crc32(chunk.subspan(4, length + 4)) != big_endian_32(chunk, length + 8))
         fail("PNG chunk {} is damaged", name);
       kept.insert(kept.end(), chunk.begin(), chunk.end());

@@ -1,0 +1,192 @@
+// Files, URIs and containers: what is opened, what is refused, and what the message says.
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "support/gltf_files.h"
+
+namespace penumbra::test {
+namespace {
+
+constexpr const char* empty_scene = R"({"asset":{"version":"2.0"}})";
+
+std::string refusal(const std::filesystem::path& file, const scene::ReadLimits& limits = {}) {
+  const std::string message = error_of([&] { scene::read_gltf(file, no_image, limits); });
+  EXPECT_EQ(message.find(file.string()), 0u) << "the message begins with the file: " << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  return message;
+}
+
+void expect_refused(const std::filesystem::path& file, const std::string& why) {
+  const std::string message = refusal(file);
+  EXPECT_NE(message.find(why), std::string::npos) << message;
+}
+
+std::string triangle_with_buffer(const std::string& uri) {
+  return fmt::format(R"({{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":36,"uri":"{}"}}],)"
+                     R"("bufferViews":[{{"buffer":0,"byteLength":36}}],"accessors":[{{"bufferView":0,)"
+                     R"("componentType":5126,"count":3,"type":"VEC3"}}],{}}})",
+                     uri, one_mesh(R"({"attributes":{"POSITION":0}})"));
+}
+
+const std::string triangle_bytes = bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0});
+
+std::string little_endian(uint32_t value) {
+  std::string bytes;
+  for (int i = 0; i < 4; ++i) bytes += static_cast<char>(value >> (8 * i));
+  return bytes;
+}
+
+std::string chunk(const char* type, const std::string& data) {
+  return little_endian(static_cast<uint32_t>(data.size())) + type + data;
+}
+
+std::string glb(const std::string& chunks, uint32_t extra = 0) {
+  return "glTF" + little_endian(2) + little_endian(static_cast<uint32_t>(chunks.size()) + 12 + extra) + chunks;
+}
+
+const std::string json_type = "JSON", bin_type("BIN\0", 4);
+
+std::string padded(std::string text) {
+  while (text.size() % 4 != 0) text += ' ';
+  return text;
+}
+
+TEST(GltfFile, RefusesWhatIsNoFile) {
+  const ScratchFolder folder;
+  expect_refused(folder.scene() / "nothing.gltf", "file not found");
+  expect_refused(folder.scene(), "not a regular file");
+  const auto pipe = folder.scene() / "pipe.gltf";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  expect_refused(pipe, "not a regular file");
+}
+
+TEST(GltfFile, RefusesAnUnreadableFile) {
+  const ScratchFolder folder;
+  const auto file = folder.write("locked.gltf", empty_scene);
+  ASSERT_EQ(chmod(file.c_str(), 0), 0);
+  if (access(file.c_str(), R_OK) == 0) GTEST_SKIP() << "skipped: root reads any file";
+  expect_refused(file, "can't be opened");
+}
+
+TEST(GltfFile, RefusesWhatIsNoGltf) {
+  const ScratchFolder folder;
+  expect_refused(folder.write("empty.glb", ""), "the file is empty");
+  expect_refused(folder.write("text.gltf", "hello"), "neither a GLB nor a glTF file");
+  expect_refused(folder.write("cut.gltf", R"({"asset":)"), "not valid JSON");
+  expect_refused(folder.write("nan.gltf", R"({"asset":{"version":"2.0"},"nodes":[{"scale":[NaN,1,1]}]})"),
+                 "not valid JSON");
+  expect_refused(folder.write("huge.gltf", R"({"asset":{"version":"2.0"},"nodes":[{"scale":[1e999,1,1]}]})"),
+                 "number overflow");
+  expect_refused(folder.write("float.gltf", R"({"asset":{"version":"2.0"},"nodes":[{"scale":[1e300,1,1]}]})"),
+                 "nodes[0].scale is 1e+300");
+}
+
+TEST(GltfFile, ReadsAByteOrderMark) {
+  const ScratchFolder folder;
+  EXPECT_NO_THROW(scene::read_gltf(folder.write("bom.gltf", std::string("\xEF\xBB\xBF") + empty_scene), no_image));
+}
+
+TEST(GltfFile, QuotesNothingUnprintable) {
+  const ScratchFolder folder;
+  const auto file = folder.write("evil.gltf", R"({"asset":{"version":"2.0"},"extensionsRequired":["a\n\u001b[31mb"]})");
+  for (const char c : refusal(file)) EXPECT_TRUE(c >= ' ' && c <= '~');
+}
+
+TEST(GltfFile, RefusesUnknownRequiredExtensionsByName) {
+  EXPECT_NE(error_of([] {
+              load_text(R"({"asset":{"version":"2.0"},"extensionsRequired":["ACME_magic"]})");
+            }).find("requires the extension ACME_magic"),
+            std::string::npos);
+  EXPECT_NO_THROW(load_text(R"({"asset":{"version":"2.0"},"extensionsUsed":["ACME_magic"]})"));
+}
+
+TEST(GltfFile, RefusesOtherVersions) {
+  EXPECT_NE(error_of([] { load_text(R"({"asset":{"version":"1.0"}})"); }).find("glTF version 1.0"), std::string::npos);
+  EXPECT_NO_THROW(load_text(R"({"asset":{"version":"2.9"}})"));
+  EXPECT_NE(error_of([] { load_text(R"({"asset":{"version":"2.9","minVersion":"2.1"}})"); }).find("needs glTF 2.1"),
+            std::string::npos);
+}
+
+TEST(GltfFile, LimitsNestingAndValuesBeforeParsing) {
+  const std::string deep =
+      R"({"asset":{"version":"2.0"},"extras":)" + std::string(300, '[') + std::string(300, ']') + "}";
+  EXPECT_NE(error_of([&] { load_text(deep); }).find("nested deeper than the limit of 256"), std::string::npos);
+  EXPECT_NE(error_of([&] { load_text(deep, {.json_values = 100, .json_depth = 1000}); }).find("limit of 100 values"),
+            std::string::npos);
+  EXPECT_NO_THROW(load_text(R"({"asset":{"version":"2.0"},"extras":"[[[[\"[[["})", {.json_depth = 2}));
+}
+
+TEST(GltfFile, ReadsGlbChunks) {
+  const ScratchFolder folder;
+  const std::string json = chunk(json_type.c_str(), padded(empty_scene));
+  const auto load = [&](const std::string& bytes) { scene::read_gltf(folder.write("a.glb", bytes), no_image); };
+  EXPECT_NO_THROW(load(glb(json)));
+  EXPECT_NO_THROW(load(glb(json) + "trailing bytes"));
+  EXPECT_NO_THROW(load(glb(json + chunk("what", "ever"))));
+  EXPECT_NE(error_of([&] { load(glb(json, 1)); }).find("the file has"), std::string::npos);
+  EXPECT_NE(error_of([&] { load(glb(json + little_endian(100) + bin_type)); }).find("only 0 are left"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] { load(glb(json + json)); }).find("one JSON chunk"), std::string::npos);
+}
+
+TEST(GltfFile, DecodesPercentEscapesAndTakesNamesAsTheyAre) {
+  const ScratchFolder folder;
+  folder.write("my data/\xE2\x9D\xA4.bin", triangle_bytes);
+  folder.write("50%25.bin", triangle_bytes);
+  for (const char* uri :
+       {"my%20data/%E2%9D%A4.bin", "my data/\xE2\x9D\xA4.bin", "./my%20data/../my%20data/%e2%9d%a4.bin", "50%25.bin"})
+    EXPECT_NO_THROW(scene::read_gltf(folder.write("scene.gltf", triangle_with_buffer(uri)), no_image)) << uri;
+}
+
+TEST(GltfFile, ReadsNothingOutsideTheScenesFolder) {
+  const ScratchFolder folder;
+  folder.write("../secret.bin", triangle_bytes);
+  std::filesystem::create_symlink(folder.scene() / ".." / "secret.bin", folder.scene() / "link.bin");
+  std::filesystem::create_directory_symlink(folder.scene() / "..", folder.scene() / "up");
+  const std::string absolute = (folder.scene().parent_path() / "secret.bin").string();
+  for (const std::string& uri :
+       {std::string("../secret.bin"), std::string("%2e%2e/secret.bin"), std::string("x/../../secret.bin"),
+        std::string("link.bin"), std::string("up/secret.bin"), absolute, "file://" + absolute,
+        std::string("http://localhost/a.bin"), std::string("a%00.bin")})
+    EXPECT_THROW(scene::read_gltf(folder.write("scene.gltf", triangle_with_buffer(uri)), no_image), Error) << uri;
+  expect_refused(folder.write("scene.gltf", triangle_with_buffer("up/secret.bin")), "leads out of the scene's folder");
+}
+
+TEST(GltfFile, ReadsLinksThatStayInside) {
+  const ScratchFolder folder;
+  folder.write("data.bin", triangle_bytes);
+  std::filesystem::create_symlink("data.bin", folder.scene() / "alias.bin");
+  EXPECT_NO_THROW(scene::read_gltf(folder.write("scene.gltf", triangle_with_buffer("alias.bin")), no_image));
+}
+
+TEST(GltfFile, RefusesBuffersThatAreShortOrOverTheLimit) {
+  const ScratchFolder folder;
+  folder.write("short.bin", triangle_bytes.substr(0, 35));
+  folder.write("long.bin", triangle_bytes + "padding");
+  expect_refused(folder.write("scene.gltf", triangle_with_buffer("short.bin")), "buffers[0]: has 35 bytes, not 36");
+  const auto scene = folder.write("scene.gltf", triangle_with_buffer("long.bin"));
+  EXPECT_NO_THROW(scene::read_gltf(scene, no_image));
+  EXPECT_NE(refusal(scene, {.file_bytes = 40}).find("over the limit of 40"), std::string::npos);
+}
+
+TEST(GltfFile, RefusesBrokenBase64) {
+  for (const char* uri : {"data:;base64,AA!A", "data:;base64,A", "data:text/plain,AAAA", "data:"})
+    EXPECT_THROW(load_text(triangle_with_buffer(uri)), Error) << uri;
+}
+
+TEST(GltfFile, RefusesGeometryBeyondTheExtent) {
+  const auto at = [](const char* scale) {
+    GltfBuilder gltf;
+    gltf.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
+    return gltf.text(fmt::format(R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],)"
+                                 R"("nodes":[{{"mesh":0,"scale":[{0},{0},{0}]}}])",
+                                 scale));
+  };
+  EXPECT_NO_THROW(load_text(at("1e8")));
+  EXPECT_NE(error_of([&] { load_text(at("1e30")); }).find("over the limit of 1e+09 m"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace penumbra::test

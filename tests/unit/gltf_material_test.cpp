@@ -1,0 +1,155 @@
+// Materials, textures and the images behind them.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/gltf_files.h"
+#include "support/scene_faults.h"
+
+namespace penumbra::test {
+namespace {
+
+using scene::Filter;
+using scene::Scene;
+using scene::TextureRef;
+using scene::Wrap;
+
+// A document with a material, three textures and an image each.
+std::string with_material(const std::string& material, const std::string& more = "") {
+  return R"({"asset":{"version":"2.0"},"materials":[{)" + material +
+         R"(}],"textures":[{"source":0},{"source":1},{"source":2}],"images":[)"
+         R"({"uri":"data:;base64,AAAA"},{"uri":"data:;base64,BBBB"},{"uri":"data:;base64,CCCC"}])" +
+         more + "}";
+}
+
+Scene load_material(const std::string& material) {
+  Scene scene = load_text(with_material(material));
+  check_scene(scene);
+  return scene;
+}
+
+TEST(GltfMaterial, HasTheStandardsDefaults) {
+  const scene::Material material = load_material("").materials[0];
+  EXPECT_EQ(material.base_color, glm::vec4(1));
+  EXPECT_EQ(material.metallic, 1);
+  EXPECT_EQ(material.roughness, 1);
+  EXPECT_EQ(material.emissive, glm::vec3(0));
+  EXPECT_EQ(material.alpha_cutoff, 0.5f);
+  EXPECT_EQ(material.alpha_mode, scene::AlphaMode::opaque);
+}
+
+TEST(GltfMaterial, ReadsFactorsAndExtensions) {
+  const scene::Material material =
+      load_material(R"("pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0.25,0.5],"metallicFactor":0,)"
+                    R"("roughnessFactor":0.5},"emissiveFactor":[1,0.5,0],"alphaMode":"MASK","alphaCutoff":0.25,)"
+                    R"("doubleSided":true,"extensions":{"KHR_materials_unlit":{},)"
+                    R"("KHR_materials_emissive_strength":{"emissiveStrength":4}})")
+          .materials[0];
+  EXPECT_EQ(material.base_color, glm::vec4(1, 0.5f, 0.25f, 0.5f));
+  EXPECT_EQ(material.roughness, 0.5f);
+  EXPECT_EQ(material.emissive, glm::vec3(4, 2, 0));
+  EXPECT_EQ(material.alpha_cutoff, 0.25f);
+  EXPECT_EQ(material.alpha_mode, scene::AlphaMode::mask);
+  EXPECT_TRUE(material.double_sided && material.unlit);
+}
+
+TEST(GltfMaterial, ApproximatesSpecularGlossiness) {
+  const Scene scene =
+      load_material(R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0.5,0.25,1,1],)"
+                    R"("glossinessFactor":0.75,"diffuseTexture":{"index":1}}})");
+  EXPECT_EQ(scene.materials[0].base_color, glm::vec4(0.5f, 0.25f, 1, 1));
+  EXPECT_EQ(scene.materials[0].roughness, 0.25f);
+  EXPECT_EQ(scene.materials[0].metallic, 0);
+  EXPECT_EQ(scene.materials[0].base_color_texture.texture, 1);
+}
+
+glm::vec2 mapped(const std::string& transform, const glm::vec2& uv) {
+  const TextureRef ref =
+      load_material(R"("emissiveTexture":{"index":0,"extensions":{"KHR_texture_transform":{)" + transform + "}}}")
+          .materials[0]
+          .emissive_texture;
+  return ref.uv_transform * glm::vec3(uv, 1);
+}
+
+TEST(GltfMaterial, TransformsUvsByScaleThenRotationThenOffset) {
+  EXPECT_EQ(mapped("", {0.25f, 0.5f}), glm::vec2(0.25f, 0.5f));
+  EXPECT_EQ(mapped(R"("offset":[1,2],"scale":[2,4])", {0.25f, 0.5f}), glm::vec2(1.5f, 4));
+  // A quarter turn counter-clockwise, seen with v growing downwards, takes +u to -v.
+  const glm::vec2 turned = mapped(R"("offset":[0,1],"rotation":1.5707963267948966,"scale":[0.5,1])", {1, 0});
+  EXPECT_NEAR(turned.x, 0, 1e-6);
+  EXPECT_NEAR(turned.y, 0.5, 1e-6);
+}
+
+TEST(GltfMaterial, GivesHighUvSetsASlot) {
+  GltfBuilder gltf;
+  gltf.add(std::vector<float>{0, 0, 0}, "VEC3", 3);
+  gltf.add(std::vector<float>{0.125f, 0.25f}, "VEC2", 2);
+  const Scene scene = load_text(
+      gltf.text(one_mesh(R"({"attributes":{"POSITION":0,"TEXCOORD_3":1},"mode":0,"material":0})",
+                         R"("materials":[{"emissiveTexture":{"index":0,"texCoord":3}}],"textures":[{"source":0}],)"
+                         R"("images":[{"uri":"data:;base64,AAAA"}])")));
+  const auto slot = static_cast<std::size_t>(scene.materials[0].emissive_texture.uv_set);
+  ASSERT_EQ(scene.meshes[0].primitives[0].uvs[slot].size(), 1u);
+  EXPECT_EQ(scene.meshes[0].primitives[0].uvs[slot][0], glm::vec2(0.125f, 0.25f));
+}
+
+TEST(GltfMaterial, ReadsSamplers) {
+  const Scene scene =
+      load_text(R"({"asset":{"version":"2.0"},"textures":[{},{"sampler":0},{"sampler":1}],"samplers":[)"
+                R"({"magFilter":9728,"minFilter":9985,"wrapS":33071,"wrapT":33648},{"minFilter":9728}]})");
+  EXPECT_TRUE(scene.textures[0].mipmapped);
+  EXPECT_EQ(scene.textures[0].wrap_s, Wrap::repeat);
+  EXPECT_EQ(scene.textures[1].mag, Filter::nearest);
+  EXPECT_EQ(scene.textures[1].min, Filter::linear);
+  EXPECT_EQ(scene.textures[1].mip, Filter::nearest);
+  EXPECT_EQ(scene.textures[1].wrap_s, Wrap::clamp_to_edge);
+  EXPECT_EQ(scene.textures[1].wrap_t, Wrap::mirrored_repeat);
+  EXPECT_FALSE(scene.textures[2].mipmapped);
+}
+
+TEST(GltfMaterial, DecodesOnlyImagesThatAreUsedAndEachOnce) {
+  const ScratchFolder folder;
+  const auto file =
+      folder.write("scene.gltf", with_material(R"("emissiveTexture":{"index":1},"normalTexture":{"index":1},)"
+                                               R"("occlusionTexture":{"index":1})"));
+  std::vector<std::string> decoded;
+  const Scene scene = scene::read_gltf(file, [&](std::span<const std::byte> bytes, const std::string& name) {
+    decoded.push_back(name);
+    return any_image(bytes, name);
+  });
+  EXPECT_EQ(decoded, std::vector<std::string>{"images[1]"});
+  EXPECT_EQ(scene.images.size(), 1u);
+  EXPECT_EQ(scene.textures[1].image, 0);
+  EXPECT_EQ(scene.textures[0].image, -1);
+}
+
+TEST(GltfMaterial, NamesTheImageThatCantBeDecoded) {
+  const ScratchFolder folder;
+  const auto file = folder.write("scene.gltf", with_material(R"("emissiveTexture":{"index":2})"));
+  EXPECT_EQ(error_of([&] { scene::read_gltf(file, no_image); }),
+            file.string() + ": images[2]: no decoder for images[2]");
+}
+
+TEST(GltfMaterial, RefusesTexturesThatAreNotThere) {
+  EXPECT_NE(error_of([] {
+              load_text(with_material(R"("normalTexture":{"index":3})"));
+            }).find("materials[0].normalTexture.index is 3, but there are 3 textures"),
+            std::string::npos);
+}
+
+TEST(GltfMaterial, LimitsWhatAllImagesDecodeTo) {
+  const ScratchFolder folder;
+  const auto file =
+      folder.write("scene.gltf", with_material(R"("emissiveTexture":{"index":2},"normalTexture":{"index":0})"));
+  const auto megapixel = [](std::span<const std::byte>, const std::string& name) {
+    return scene::Image{.name = name, .width = 1024, .height = 1024, .rgba = std::vector<uint8_t>(4 << 20)};
+  };
+  EXPECT_NO_THROW(scene::read_gltf(file, megapixel, {.decoded_bytes = 9 << 20}));
+  EXPECT_NE(
+      error_of([&] { scene::read_gltf(file, megapixel, {.decoded_bytes = 7 << 20}); }).find("expands to more than"),
+      std::string::npos);
+}
+
+}  // namespace
+}  // namespace penumbra::test
