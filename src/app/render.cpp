@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <future>
 #include <string>
 
@@ -22,18 +23,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Before minutes of drawing: can the result be written?
-void check_outputs(const RenderOptions& options, const OutputNames& names, int first) {
+// Before minutes of drawing: is what was named there, and can the result be written?
+void check_files(const RenderOptions& options, const OutputNames& names, int first) {
+  if (!options.glsl.empty() && !std::filesystem::is_directory(options.glsl))
+    fail("--glsl: {} is not a folder", io::quoted(options.glsl));
   io::check_writable(names.picture(first));
   if (!options.stats.empty()) io::check_writable(options.stats);
   if (!options.save_preset.empty()) io::check_writable(options.save_preset);
 }
 
-// Draws a picture again to measure it, or, of a sequence, counts what it drew. The first draw compiles shaders and is
-// never counted.
-std::size_t measure(const RenderOptions& options, Studio& studio, const ParamSet& params, int drawn, int last) {
-  if (drawn > 1) return static_cast<std::size_t>(drawn - 1);
-  for (int i = 0; i < options.stats_frames; ++i) studio.draw(last, params);
+// Draws a single picture again to measure it; of a sequence it counts what was drawn. The very first draw compiles
+// shaders and never counts.
+std::size_t measure(const RenderOptions& options, Studio& studio, const ParamSet& params, const FrameRange& range) {
+  if (range.count() > 1) return static_cast<std::size_t>(range.count() - (options.warmup == 0 ? 1 : 0));
+  for (int i = 0; i < options.stats_frames; ++i) studio.draw(range.last, params);
   return static_cast<std::size_t>(options.stats_frames);
 }
 
@@ -64,7 +67,7 @@ void render_files(const RenderOptions& options) {
   const ParamSet params = resolve_params(options, shadow::built_in_registry());
   const FrameRange range = options.frames.value_or(FrameRange{});
   clean_up_on_signals();
-  check_outputs(options, names, range.first);
+  check_files(options, names, range.first);
 
   // Drivers take as long to start as scenes to load, and there are two cores nearly everywhere.
   std::future<Stage> loading = std::async(std::launch::async, [&options] { return load_stage(options); });
@@ -74,8 +77,7 @@ void render_files(const RenderOptions& options) {
 
   draw_all(options, stage, studio, params, names, range);
   if (!options.stats.empty()) {
-    const int drawn = options.warmup + range.count();
-    const std::size_t measured = measure(options, studio, params, drawn, range.last);
+    const std::size_t measured = measure(options, studio, params, range);
     io::write_text(options.stats, io::text_of(stats_of(options, stage, params, studio, measured)));
   }
   if (!options.save_preset.empty()) io::write_preset(options.save_preset, params);

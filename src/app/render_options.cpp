@@ -95,7 +95,10 @@ void add_shadow_options(CLI::App& app, RenderOptions& o) {
 }
 
 void add_output_options(CLI::App& app, RenderOptions& o) {
-  app.add_option("SCENE", o.scene, "glTF file, .gltf or .glb")->required()->type_name("");
+  app.add_option_function<std::string>(
+         "SCENE", [&o](const std::string& text) { o.scene = file_name("SCENE", text); }, "glTF file, .gltf or .glb")
+      ->required()
+      ->type_name("");
   app.add_option("-o,--output", o.output, "Picture to write: .png (8-bit sRGB) or .exr (linear float)")
       ->required()
       ->type_name("FILE");

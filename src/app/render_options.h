@@ -5,14 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "app/cli_fwd.h"
 #include "app/usage.h"
 #include "core/params.h"
 #include "render/setup.h"
 #include "shadow/technique.h"
-
-namespace CLI {
-class App;
-}
 
 namespace penumbra::app {
 

@@ -32,7 +32,7 @@ std::unique_ptr<gl::Context> open_context(const RenderOptions& options) {
   wanted.width = options.size.width;
   wanted.height = options.size.height;
   wanted.visible = false;
-  std::unique_ptr<gl::Context> context = gl::make_context(options.backend, wanted);
+  std::unique_ptr<gl::Context> context = gl::make_context(options.egl_device ? "egl" : options.backend, wanted);
   GLint most = 0;
   gl::glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
   const int side = std::max(options.size.width, options.size.height) * options.supersample;

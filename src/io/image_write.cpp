@@ -12,7 +12,7 @@ namespace penumbra::io {
 
 namespace {
 
-OIIO::ImageSpec image_spec(int width, int height, int channels, OIIO::TypeDesc type, const Metadata& metadata) {
+OIIO::ImageSpec image_spec(int width, int height, int channels, const OIIO::TypeDesc& type, const Metadata& metadata) {
   OIIO::ImageSpec spec(width, height, channels, type);
   for (const auto& [name, value] : metadata) spec.attribute(name, value);
   return spec;

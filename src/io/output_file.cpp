@@ -58,7 +58,8 @@ fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.
 
 // A new, empty file beside `path`.
 fs::path make_temporary(const fs::path& path, const fs::path& folder) {
-  const std::string pattern = (folder / ("." + path.filename().string() + ".XXXXXX")).string();
+  constexpr size_t longest = 200;  // bytes of the name, so that it and its ending fit a file system's 255
+  const std::string pattern = (folder / ("." + path.filename().string().substr(0, longest) + ".XXXXXX")).string();
   std::vector<char> name(pattern.begin(), pattern.end());
   name.push_back('\0');
   const int file = mkostemp(name.data(), O_CLOEXEC);

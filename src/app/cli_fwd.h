@@ -1,0 +1,5 @@
+#pragma once
+
+namespace CLI {  // NOLINT(readability-identifier-naming): CLI11's own name
+class App;
+}

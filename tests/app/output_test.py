@@ -1,0 +1,166 @@
+"""Pictures on disk: the same bytes each time, on both backends; whole or not at all; AOVs, layers, metadata."""
+
+import json
+import os
+import signal
+import subprocess
+import time
+
+from pictures import SMALL, read_exr_header, read_png, scene
+from support import PROGRAM, TestCase, main
+
+POSTS = scene("posts")
+AOVS = ("shadow", "depth", "normal", "albedo", "motion", "cascade", "blocker", "penumbra")
+
+
+class Output(TestCase):
+    def draw(self, name, *arguments, of=POSTS, size=SMALL):
+        self.succeed("render", of, "-o", self.folder / name, *size, "--quiet", *arguments)
+        return (self.folder / name).read_bytes()
+
+    def files(self):
+        return sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*"))
+
+    def test_two_runs_give_the_same_bytes(self):
+        for name in ("x.png", "x.exr"):
+            with self.subTest(name):
+                first = self.draw(name, "--aov", "shadow,depth")
+                time.sleep(1.1)  # a time stamp counts whole seconds
+                self.assertEqual(first, self.draw(name, "--aov", "shadow,depth"))
+
+    def test_backends_and_threads_give_the_same_bytes(self):
+        for name in ("x.png", "x.exr"):
+            with self.subTest(name):
+                picture = self.draw(name, "--backend", "egl")
+                self.assertEqual(picture, self.draw(name, "--backend", "osmesa"))
+                self.assertEqual(picture, self.draw(name, "--threads", "1"))
+
+    def test_summary_is_one_line(self):
+        result = self.succeed("render", POSTS, "-o", self.folder / "x.png", *SMALL)
+        self.assertRegex(result.stdout, r"^wrote \S+x\.png \(96×54, pcss, \d+\.\d\d s\)\n$")
+        self.assertEqual(result.stderr, "")
+
+    def test_missing_folders_are_made(self):
+        self.draw("a/b/x.png")
+        self.assertEqual(self.files(), ["a", "a/b", "a/b/x.png"])
+
+    def test_pngs_of_aovs(self):
+        self.draw("x.png", "--aov", "color," + ",".join(AOVS))
+        self.assertEqual(self.files(), sorted(["x.png", *(f"x.{name}.png" for name in AOVS)]))
+        for name in AOVS:
+            with self.subTest(name):
+                width, height, channels, rows = read_png(self.folder / f"x.{name}.png")
+                self.assertEqual((width, height), (96, 54))
+                self.assertEqual(channels, 3 if name in ("normal", "albedo", "motion", "cascade") else 1)
+                if name != "motion":  # nothing moves
+                    self.assertGreater(len(set(b"".join(rows))), 1)
+
+    def test_layers_of_an_exr(self):
+        self.draw("x.exr", "--aov", ",".join(AOVS))
+        self.assertEqual(self.files(), ["x.exr"])
+        rows = json.loads(self.succeed("list", "aovs", "--json").stdout)
+        channels = {row["name"]: row["channels"] for row in rows}
+        wanted = [f"{name}.{channel}" for name in AOVS for channel in channels[name]] + ["R", "G", "B"]
+        self.assertEqual(sorted(read_exr_header(self.folder / "x.exr")["channels"]), sorted(wanted))
+
+    def test_every_aov_can_be_written(self):
+        names = [row["name"] for row in json.loads(self.succeed("list", "aovs", "--json").stdout)]
+        self.assertLessEqual(set(AOVS) | {"color"}, set(names))
+        self.draw("x.exr", "--aov", ",".join(names))
+        self.draw("x.png", "--aov", ",".join(names))
+        self.assertEqual(len(self.files()), 1 + len(names))
+
+    def test_exr_tells_how_it_was_made(self):
+        self.draw("x.exr", "--technique", "pcf", "--sun", "90,45", "--sun-angle", "1.5")
+        header = read_exr_header(self.folder / "x.exr")
+        self.assertEqual(header["penumbra:technique"], "pcf")
+        self.assertEqual(header["penumbra:scene"], str(POSTS))
+        self.assertEqual(header["penumbra:param.sun.angle"], "1.5")
+        self.assertIn("Penumbra ", header["Software"])
+        direction = [float(part) for part in header["penumbra:sun.to_light"].split()]
+        for value, wanted in zip(direction, (0.70710678, 0.70710678, 0)):
+            self.assertAlmostEqual(value, wanted, places=6)
+        for row in json.loads(self.succeed("list", "params", "--json").stdout):
+            self.assertIn(f"penumbra:param.{row['name']}", header)
+        self.assertEqual(header.get("capDate", ""), "")
+
+    def test_supersampling_averages_in_linear_light(self):
+        large = ("--size", "96x54", "--exposure", "15")
+        self.draw("large.png", size=large)
+        self.draw("small.png", "--supersample", "2", size=("--size", "48x27", "--exposure", "15"))
+        _, _, channels, small = read_png(self.folder / "small.png")
+        _, _, _, drawn = read_png(self.folder / "large.png")
+        for y, row in enumerate(small):
+            for i, byte in enumerate(row):
+                x, c = divmod(i, channels)
+                block = [drawn[2 * y + j][(2 * x + k) * channels + c] for j in (0, 1) for k in (0, 1)]
+                self.assertAlmostEqual(byte, encode(sum(map(decode, block)) / 4), delta=0.51)
+
+    def test_the_eye_sees_what_it_is_aimed_at(self):
+        # From straight above, the ground fills the picture and faces the camera.
+        self.draw("x.png", "--eye", "0,30,0", "--target", "0,0,0", "--fov", "40", "--aov", "normal")
+        rows = read_png(self.folder / "x.normal.png")[3]
+        up = sum(rows[y][3 * x + 1] >= 254 for y in range(54) for x in range(96))
+        self.assertGreater(up, 54 * 96 * 0.9)
+
+    def test_failure_leaves_nothing(self):
+        junk = self.folder / "junk.glb"
+        junk.write_bytes(bytes(range(256)) * 16)
+        for of in (self.folder / "no.glb", self.folder, junk, "/dev/null", "/bin/sh"):
+            with self.subTest(of):
+                self.refuse("render", of, "-o", self.folder / "new" / "x.png")
+        self.refuse("render", POSTS, "-o", self.folder / "new" / "x.png", "--egl-device", "200")
+        self.refuse("render", POSTS, "-o", self.folder / "new" / "x.jpg", code=2)
+        self.assertEqual(self.files(), ["junk.glb"])
+
+    def test_failure_keeps_the_old_picture(self):
+        (self.folder / "x.png").write_text("old")
+        self.refuse("render", self.folder / "no.glb", "-o", self.folder / "x.png")
+        self.assertEqual((self.folder / "x.png").read_text(), "old")
+
+    def test_places_that_cannot_be_written_are_found_first(self):
+        (self.folder / "file").write_text("a file")
+        for option in ("-o", "--stats", "--save-preset"):
+            for place in ("/proc/none/x.png", self.folder / "file" / "x.png", self.folder):
+                with self.subTest(f"{option} {place}"):
+                    others = [] if option == "-o" else ["-o", self.folder / "x.png"]
+                    # The scene does not exist either: what is said first is what was checked first.
+                    error = self.refuse("render", "none.glb", option, place, *others,
+                                        code=2 if option == "-o" and place == self.folder else 1)
+                    self.assertNotIn("none.glb", error)
+        self.assertEqual(self.files(), ["file"])
+
+    def test_a_read_only_folder(self):
+        if os.geteuid() == 0:
+            self.skipTest("root may write anywhere")
+        self.folder.chmod(0o555)
+        self.addCleanup(self.folder.chmod, 0o755)
+        self.assertIn("x.png", self.refuse("render", POSTS, "-o", self.folder / "x.png"))
+
+    def test_signals_leave_nothing(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number):
+                process = subprocess.Popen([PROGRAM, "render", POSTS, "-o", self.folder / "x_%d.png", "--frames",
+                                            "0:9999", "--size", "64x36"], stdout=subprocess.DEVNULL)
+                deadline = time.monotonic() + 120
+                while not (self.folder / "x_1.png").exists() and time.monotonic() < deadline:
+                    time.sleep(0.02)
+                process.send_signal(number)
+                self.assertEqual(process.wait(timeout=60), 128 + number)
+                self.assertEqual([name for name in self.files() if not name.startswith("x_")], [])
+                for path in self.folder.iterdir():
+                    read_png(path)  # each is whole
+                    path.unlink()
+
+
+def decode(byte):
+    value = byte / 255
+    return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
+
+
+def encode(value):
+    return 255 * (12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,122 @@
+"""Parameters: every one is listed, takes its values from --set and from presets, and refuses what it can't be."""
+
+import json
+
+from pictures import SMALL, scene
+from support import TestCase, main, run
+
+POSTS = scene("posts")
+
+
+def other_value(row):
+    """A legal value that is not the default, near it so that pictures stay cheap."""
+    default = row["default"]
+    if row["type"] == "bool":
+        return not default
+    if row["type"] == "word":
+        return next(choice for choice in row["choices"] if choice != default)
+    if row["type"] == "int":
+        return default - 1 if default > row["min"] else default + 1
+    return min(row["max"], default + 0.25) if default < row["max"] else row["min"]
+
+
+def text_of(value):
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def refused_texts(row):
+    """A value of a wrong type and one past each end; tests of the parser hold the rest."""
+    if row["type"] == "bool":
+        return ["maybe"]
+    if row["type"] == "word":
+        return ["no_such_word"]
+    beyond = [row["max"] * 2 + 1, row["min"] - 1]
+    return ["1.5", *(str(int(value)) for value in beyond)] if row["type"] == "int" else ["nan", *map(str, beyond)]
+
+
+class Params(TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.rows = json.loads(run("list", "params", "--json").stdout)
+
+    def stats_after(self, *arguments):
+        stats = self.folder / "stats.json"
+        self.succeed("render", POSTS, "-o", self.folder / "x.png", *SMALL, "--quiet", "--stats", stats, *arguments)
+        return json.loads(stats.read_text())["params"]
+
+    def preset(self, text):
+        path = self.folder / "p.toml"
+        path.write_text(text)
+        return path
+
+    def test_rows_are_complete(self):
+        self.assertGreater(len(self.rows), 20)
+        text = self.succeed("list", "params").stdout
+        for row in self.rows:
+            self.assertRegex(row["name"], r"^[a-z0-9_.]+$")
+            self.assertTrue(row["help"].endswith("."), row)
+            self.assertIn(row["name"], text)
+
+    def test_each_can_be_set_on_the_command_line_and_by_preset(self):
+        wanted = {row["name"]: other_value(row) for row in self.rows}
+        assignments = [part for name, value in wanted.items() for part in ("--set", f"{name}={text_of(value)}")]
+        saved = self.folder / "saved.toml"
+        first = self.stats_after(*assignments, "--save-preset", saved)
+        picture = (self.folder / "x.png").read_bytes()
+        self.assertEqual(set(first), set(wanted))
+        for row in self.rows:
+            with self.subTest(row["name"]):
+                self.assertEqual(first[row["name"]], wanted[row["name"]])
+                self.assertNotEqual(first[row["name"]], row["default"])
+        self.assertEqual(self.stats_after("--preset", saved), first)
+        self.assertEqual((self.folder / "x.png").read_bytes(), picture)
+
+    def test_each_refuses_wrong_types_and_ranges(self):
+        for row in self.rows:
+            for text in refused_texts(row):
+                with self.subTest(f"{row['name']}={text}"):
+                    error = self.refuse("render", POSTS, "-o", self.folder / "x.png", "--set",
+                                        f"{row['name']}={text}", code=2)
+                    self.assertIn(f"'{row['name']}'", error)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_presets_fail_with_file_and_line(self):
+        for text, words in (
+            ('technique = "pcss"\n[pcss]\nfilter_tabs = 3\n', ["p.toml:3:", "'pcss.filter_taps'"]),
+            ('technique = "pccs"\n', ["p.toml:1:", "'pcss'"]),
+            ("\nsun.angle = 99\n", ["p.toml:2:", "sun.angle"]),
+            ("sun.angle = true\n", ["p.toml:1:", "float", "bool"]),
+            ("sun.angle = \n", ["p.toml:1:"]),
+            ("sun.angle = 1\nsun.angle = 2\n", ["p.toml:2:"]),
+        ):
+            with self.subTest(text):
+                error = self.refuse("render", POSTS, "-o", self.folder / "x.png", "--preset", self.preset(text))
+                for word in words:
+                    self.assertIn(word, error)
+        for path in (self.folder / "none.toml", self.folder):
+            self.assertIn("preset", self.refuse("render", POSTS, "-o", self.folder / "x.png", "--preset", path))
+
+    def test_later_words_win(self):
+        path = self.preset('technique = "hard"\n[sun]\nangle = 1.0\n[pcss]\nfilter_taps = 9\n')
+        values = self.stats_after("--set", "sun.angle=3", "--preset", path, "--sun-angle", "2", "--technique",
+                                  "pcss_compute", "--set", "pcss.filter_taps=5", "--set", "pcss.filter_taps=6")
+        self.assertEqual((values["technique"], values["driver"]), ("pcss", "compute"))
+        self.assertEqual((values["sun.angle"], values["pcss.filter_taps"]), (3, 6))
+        values = self.stats_after("--preset", path)
+        self.assertEqual((values["technique"], values["sun.angle"], values["pcss.filter_taps"]), ("hard", 1, 9))
+
+    def test_exposure_takes_a_value_or_auto(self):
+        values = self.stats_after("--exposure", "12.5")
+        self.assertEqual((values["exposure.auto"], values["exposure.ev"]), (False, 12.5))
+        self.assertTrue(self.stats_after("--exposure", "auto")["exposure.auto"])
+
+    def test_a_saved_preset_draws_the_same_bytes(self):
+        arguments = ["--technique", "pcf", "--sun-angle", "1.1", "--set", "bias.slope=0.3"]
+        saved, first, second = (self.folder / name for name in ("p.toml", "a.png", "b.png"))
+        self.succeed("render", POSTS, "-o", first, *SMALL, *arguments, "--save-preset", saved)
+        self.succeed("render", POSTS, "-o", second, *SMALL, "--preset", saved)
+        self.assertEqual(first.read_bytes(), second.read_bytes())
+
+
+if __name__ == "__main__":
+    main()

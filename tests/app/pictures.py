@@ -1,0 +1,87 @@
+"""What the tests of the command line share: scenes, sizes, and pictures read without the program's own code."""
+
+import os
+import struct
+import zlib
+
+from support import ROOT
+
+# Every OpenGL error of these tests ends the program.
+os.environ["PENUMBRA_DEBUG"] = "1"
+
+SMALL = ("--size", "96x54")
+
+
+def scene(name):
+    return ROOT / "scenes" / f"{name}.glb"
+
+
+def own_scenes():
+    return sorted((ROOT / "scenes").glob("*.glb"))
+
+
+def read_exr_header(path):
+    """Attributes by name; channels as a list of names, strings as text, other values as bytes."""
+    data = path.read_bytes()
+    assert data[:4] == b"\x76\x2f\x31\x01", f"{path} is no EXR file"
+    at, attributes = 8, {}
+    while data[at] != 0:
+        name, kind, rest = data[at:at + 1024].split(b"\0", 2)
+        at += len(name) + len(kind) + 2
+        size = struct.unpack_from("<i", data, at)[0]
+        value = data[at + 4:at + 4 + size]
+        at += 4 + size
+        if kind == b"string":
+            value = value.decode()
+        elif kind == b"chlist":
+            value = _channels(value)
+        attributes[name.decode()] = value
+    return attributes
+
+
+def _channels(value):
+    names, at = [], 0
+    while value[at] != 0:
+        name = value[at:].split(b"\0", 1)[0]
+        names.append(name.decode())
+        at += len(name) + 1 + 16
+    return names
+
+
+def read_png(path):
+    """Width, height, channels and rows of bytes."""
+    data = path.read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n", f"{path} is no PNG file"
+    at, packed = 8, b""
+    while at < len(data):
+        size, kind = struct.unpack_from(">I4s", data, at)
+        body = data[at + 8:at + 8 + size]
+        if kind == b"IHDR":
+            width, height, depth, color = struct.unpack_from(">IIBB", body)
+            assert depth == 8
+            channels = {0: 1, 2: 3, 6: 4}[color]
+        elif kind == b"IDAT":
+            packed += body
+        at += size + 12
+    return width, height, channels, _unfilter(zlib.decompress(packed), width * channels, height, channels)
+
+
+def _unfilter(raw, stride, height, channels):
+    rows, above = [], bytes(stride)
+    for y in range(height):
+        kind = raw[y * (stride + 1)]
+        row = bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        for i in range(stride):
+            left = row[i - channels] if i >= channels else 0
+            corner = above[i - channels] if i >= channels else 0
+            row[i] = (row[i] + _prediction(kind, left, above[i], corner)) & 255
+        rows.append(bytes(row))
+        above = rows[-1]
+    return rows
+
+
+def _prediction(kind, left, up, corner):
+    if kind == 4:
+        guess = left + up - corner
+        return min((left, up, corner), key=lambda v: abs(guess - v))
+    return (0, left, up, (left + up) // 2)[kind]

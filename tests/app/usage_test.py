@@ -1,0 +1,124 @@
+"""Wrong usage: one line on stderr, exit code 2, near names, nothing drawn."""
+
+import json
+import subprocess
+
+from pictures import SMALL, scene
+from support import PROGRAM, TestCase, main, run
+
+POSTS = scene("posts")
+
+
+class Usage(TestCase):
+    def wrong(self, *arguments):
+        return self.refuse(*arguments, code=2, cwd=self.folder)
+
+    def wrong_render(self, *arguments):
+        error = self.wrong("render", POSTS, "-o", "x.png", *arguments)
+        self.assertEqual(list(self.folder.iterdir()), [])
+        return error
+
+    def test_version_and_help_succeed(self):
+        self.assertRegex(self.succeed("--version").stdout, r"^Penumbra \d+\.\d+\.\d+\n$")
+        for arguments in (["--help"], ["help"], ["render", "--help"], ["help", "render"], ["list", "-h"]):
+            self.assertIn("penumbra", self.succeed(*arguments).stdout)
+        for command in ("render", "info", "list", "help", "doctor"):
+            self.assertIn(command, self.succeed("help").stdout)
+
+    def test_commands(self):
+        self.assertIn("no command", self.wrong())
+        self.assertIn("'render'", self.wrong("rendr"))
+        self.assertIn("'--quiet'", self.wrong("--quiet", "render"))
+
+    def test_what_is_missing_or_too_much(self):
+        self.assertIn("SCENE", self.wrong("render", "-o", "x.png"))
+        self.assertIn("--output", self.wrong("render", POSTS))
+        self.assertIn("--size", self.wrong_render("--size"))
+        self.assertIn("given twice", self.wrong_render("--size", "1x1", "--size", "2x2"))
+        self.assertIn("'more'", self.wrong_render("more"))
+        self.assertIn("takes no value", self.wrong_render("--quiet=yes"))
+
+    def test_unknown_names_list_near_ones(self):
+        for arguments, near in (
+            (["--siez", "1x1"], "'--size'"),
+            (["--technique", "pccs"], "'pcss'"),
+            (["--set", "sun.angel=1"], "'sun.angle'"),
+            (["--aov", "shadow,dept"], "'depth'"),
+            (["--backend", "elg"], "'egl'"),
+            (["--log-level", "warn"], "'warning'"),
+            (["--ground", "onn"], "'on'"),
+        ):
+            with self.subTest(arguments):
+                self.assertIn(near, self.wrong_render(*arguments))
+        self.assertIn("'sun.angle'", self.wrong("help", "sun.angel"))
+        self.assertIn("'params'", self.wrong("list", "parms"))
+
+    def test_a_scenes_cameras_are_its_own(self):
+        error = self.refuse("render", POSTS, "-o", self.folder / "x.png", "--camera", "mian")
+        self.assertIn("'main'", error)
+        self.refuse("render", POSTS, "-o", self.folder / "x.png", "--camera", "999")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_numbers_are_strict(self):
+        # Each option's range; unit tests hold the parsers' other refusals.
+        for option, texts in {
+            "--size": ["0x10", "16385x1"],
+            "--fov": ["180", ""],
+            "--sun": ["10,91"],
+            "--sun-angle": ["-1"],
+            "--exposure": ["nan", "Auto"],
+            "--time": ["inf"],
+            "--frames": ["2:1"],
+            "--fps": ["0"],
+            "--warmup": ["1.5"],
+            "--supersample": ["17"],
+            "--threads": ["0"],
+            "--stats-frames": ["0"],
+            "--egl-device": ["-1"],
+        }.items():
+            for text in texts:
+                with self.subTest(f"{option}={text}"):
+                    self.wrong_render(f"{option}={text}")
+
+    def test_options_that_exclude_each_other(self):
+        for arguments in (
+            ["--eye", "1,2,3"],
+            ["--target", "1,2,3"],
+            ["--eye=1,2,3", "--target=1,2,3"],
+            ["--eye=1,2,3", "--target=0,0,0", "--camera", "0"],
+            ["--egl-device", "0", "--backend", "osmesa"],
+            ["--stats-frames", "3"],
+            ["--size", "16384x16384"],
+            ["--size", "9000x100", "--supersample", "2"],
+        ):
+            with self.subTest(arguments):
+                self.wrong_render(*arguments)
+
+    def test_a_folder_of_shaders_must_exist(self):
+        self.assertIn("--glsl", self.refuse("render", POSTS, "-o", self.folder / "x.png", "--glsl", "/no/folder"))
+
+    def test_help_explains_every_name(self):
+        for what in ("techniques", "params", "aovs"):
+            for row in json.loads(self.succeed("list", what, "--json").stdout):
+                with self.subTest(row["name"]):
+                    self.assertIn(row["help"], self.succeed("help", row["name"]).stdout)
+
+    def test_output_that_cannot_be_written_is_an_error(self):
+        with open("/dev/full", "w") as full:
+            result = subprocess.run([PROGRAM, "list", "params"], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(result.returncode, 1)
+        self.assertTrue(result.stderr.startswith("error: "), result.stderr)
+
+    def test_a_bare_file_name_and_a_negative_coordinate_are_fine(self):
+        self.succeed("render", POSTS, "-o", "x.png", *SMALL, "--eye", "-1,2,3", "--target", "0,-0.5,0", "--quiet",
+                     cwd=self.folder)
+        self.assertTrue((self.folder / "x.png").exists())
+
+    def test_log_level_quiet_silences_all_but_the_error(self):
+        result = run("render", self.folder / "no.glb", "-o", self.folder / "x.png", "--log-level", "quiet")
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        self.assertEqual(len(result.stderr.splitlines()), 1)
+
+
+if __name__ == "__main__":
+    main()
