@@ -8,7 +8,7 @@ GLSL_BEGIN
 // The Academy's reference rendering and sRGB output transforms as Stephen Hill fitted them: linear Rec. 709 to linear
 // display. Bright colours lose saturation as film does. Scaled so that middle grey stays in place.
 GLSL_FUNCTION vec3 tone_map(vec3 color) {
-  vec3 c = color * 1.7f;
+  vec3 c = color * 1.45f;
   // Rec. 709 to the transform's working primaries
   vec3 v = vec3(0.59719f * c.x + 0.35458f * c.y + 0.04823f * c.z, 0.07600f * c.x + 0.90834f * c.y + 0.01566f * c.z,
                 0.02840f * c.x + 0.13383f * c.y + 0.83777f * c.z);

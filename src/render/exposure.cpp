@@ -10,7 +10,7 @@ constexpr GLuint exposure_binding = 0;
 
 // A white surface in the mean light of the picture, and how far the automatic goes from white in the sun: half a stop
 // down, and two and a half up for what lies in shade.
-constexpr float white = 0.75f;
+constexpr float white = 0.8f;
 constexpr float least = 0.7f, most = 6.0f;
 
 gl::ProgramDesc program() { return {.name = "exposure", .compute = "render/exposure.comp"}; }

@@ -8,7 +8,7 @@ std::vector<Param> render_params() {
       {"exposure.auto", true, 0, 1, "", "Exposes for what the picture shows; off: exposure.ev holds.", host},
       {"exposure.ev", 15.0f, -16, 24, "EV", "Exposure value at ISO 100 when exposure.auto is off.", host},
       {"exposure.compensation", 0.0f, -8, 8, "stops", "Added to the automatic exposure; positive is brighter.", host},
-      {"render.sky_light", 0.25f, 0, 4, "",
+      {"render.sky_light", 0.2f, 0, 4, "",
        "Illuminance of a level plane by the sky, as a part of what the sun gives a plane that faces it.", host},
       {"render.ground_light", 0.5f, 0, 1, "",
        "Part of the light of the ground around a scene that reaches its surfaces.", host},

@@ -1,0 +1,135 @@
+// Skins and morphs on the GPU against the same sums on the CPU.
+#include <cstdint>
+#include <random>
+
+#include "render_scenes.h"
+
+namespace penumbra::test {
+namespace {
+
+constexpr int vertices = 200;
+
+// A strip of random triangles with two targets and three joints, animated.
+scene::Scene deforming_scene(bool skinned, bool morphed) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  const auto vector = [&] { return glm::vec3(unit(random), unit(random), unit(random)); };
+  scene::Primitive primitive;
+  for (int i = 0; i < vertices; ++i) {
+    primitive.positions.push_back(vector());
+    primitive.normals.push_back(glm::normalize(vector()));
+    primitive.indices.push_back(static_cast<std::uint32_t>(i));
+    if (!skinned) continue;
+    primitive.joints.emplace_back(i % 3, (i + 1) % 3, (i + 2) % 3, 0);
+    const float share = 0.5f + 0.5f * unit(random);
+    primitive.weights.emplace_back(share, (1 - share) * 0.75f, (1 - share) * 0.25f, 0);
+  }
+  primitive.indices.resize(vertices / 3 * 3);
+  if (morphed) {
+    primitive.targets.resize(2);
+    for (int i = 0; i < vertices; ++i) {
+      primitive.targets[0].positions.push_back(vector());
+      primitive.targets[1].positions.push_back(vector());
+    }
+  }
+  scene::Scene scene;
+  scene::Node& node = add_node(scene, primitive, glm::translate(glm::mat4(1), glm::vec3(0.3f, 0.2f, 0.1f)));
+  if (morphed) {
+    scene.meshes[0].default_weights = {0, 0};
+    scene.animations.push_back({.name = "morph",
+                                .channels = {{.node = 0,
+                                              .path = scene::Path::weights,
+                                              .times = {0, 1},
+                                              .values = {0.25f, 0, -0.5f, 1},
+                                              .components = 2}},
+                                .duration = 1});
+  }
+  if (skinned) {
+    node.skin = 0;
+    scene.skins.push_back({.name = "skin"});
+    for (int j = 0; j < 3; ++j) {
+      const int joint = static_cast<int>(scene.nodes.size());
+      scene.skins[0].joints.push_back(joint);
+      scene.skins[0].inverse_bind.push_back(glm::translate(glm::mat4(1), vector()));
+      scene.roots.push_back(joint);
+      scene.nodes.push_back({.name = "joint", .transform = {.translation = vector(), .scale = glm::vec3(1, 2, 0.5f)}});
+      scene.animations.push_back(
+          {.name = "bend",
+           .channels = {{.node = joint, .times = {0, 1}, .values = {0, 0, 0, 1, static_cast<float>(j), -1}}},
+           .duration = 1});
+    }
+  }
+  return scene;
+}
+
+std::vector<glm::vec3> deformed_on_cpu(const scene::Scene& scene, const scene::Pose& pose) {
+  const scene::Primitive& primitive = scene.meshes[0].primitives[0];
+  std::vector<glm::vec3> result = primitive.positions;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
+      result[i] += pose.weights[0][t] * primitive.targets[t].positions[i];
+    }
+    if (primitive.joints.empty()) continue;
+    glm::vec3 sum(0);
+    for (int k = 0; k < 4; ++k) {
+      sum += primitive.weights[i][k] * glm::vec3(pose.skin[0][primitive.joints[i][k]] * glm::vec4(result[i], 1));
+    }
+    result[i] = sum;
+  }
+  return result;
+}
+
+class DeformTest : public RenderTest {};
+
+TEST_F(DeformTest, PositionsEqualTheSumsOnTheCpu) {
+  for (const auto& [skinned, morphed] : {std::pair(true, false), std::pair(false, true), std::pair(true, true)}) {
+    const scene::Scene scene = deforming_scene(skinned, morphed);
+    scene::GpuScene on_gpu(device, scene);
+    for (const double time : {0.0, 0.4, 0.9, 0.4}) {
+      on_gpu.pose(device, time, time);
+      const std::vector<glm::vec3> gpu = on_gpu.read_deformed();
+      const std::vector<glm::vec3> cpu = deformed_on_cpu(scene, scene::pose_at(scene, time));
+      ASSERT_EQ(gpu.size(), cpu.size());
+      for (std::size_t i = 0; i < cpu.size(); ++i)
+        ASSERT_LT(glm::distance(gpu[i], cpu[i]), 1e-5f) << i << " at " << time;
+    }
+  }
+}
+
+TEST_F(DeformTest, BoxesHoldEveryVertex) {
+  const scene::Scene scene = deforming_scene(true, true);
+  scene::GpuScene on_gpu(device, scene);
+  for (const double time : {0.0, 0.3, 0.8}) {
+    on_gpu.pose(device, time, time);
+    const scene::Bounds box = on_gpu.casters(), exact = scene::bounds_of(scene, scene::pose_at(scene, time));
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_LE(box.min[i], exact.min[i] + 1e-4f);
+      EXPECT_GE(box.max[i], exact.max[i] - 1e-4f);
+    }
+  }
+}
+
+TEST_F(DeformTest, MotionFollowsTheMorph) {
+  scene::Primitive quad = square();
+  quad.targets.resize(1);
+  quad.targets[0].positions.assign(4, {1, 0, 0});
+  scene::Scene scene;
+  add_node(scene, quad, glm::mat4(1));
+  scene.meshes[0].default_weights = {0};
+  scene.animations.push_back(
+      {.name = "slide",
+       .channels = {{.node = 0, .path = scene::Path::weights, .times = {0, 1}, .values = {0, 1}, .components = 1}},
+       .duration = 1});
+  // In either order of poses, and after a jump in time.
+  for (const auto& [last, now] : {std::pair(0.25, 0.5), std::pair(0.5, 0.25), std::pair(0.75, 0.5)}) {
+    inputs.last_time = last;
+    inputs.time = now;
+    if (!gpu_scene) gpu_scene.emplace(device, scene);
+    renderer.draw(*gpu_scene, inputs, params);
+    const auto expected = static_cast<float>((now - last) / (4.0 * std::tan(0.5)) * height / 2);
+    EXPECT_NEAR(pixel("motion", width / 2 + 3, height / 2)[0], expected, 1e-3f) << last << " to " << now;
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,163 @@
+// What the camera sees: depth, normals, motion, culling, cut-outs, copies.
+#include <cmath>
+
+#include "render_scenes.h"
+
+namespace penumbra::test {
+namespace {
+
+class GBufferTest : public RenderTest {};
+
+// Turned about an oblique axis and moved.
+glm::mat4 tilted() {
+  return glm::rotate(glm::translate(glm::mat4(1), glm::vec3(0.2f, -0.1f, -0.5f)), 0.7f,
+                     glm::normalize(glm::vec3(1, 2, 0.5f)));
+}
+
+TEST_F(GBufferTest, DepthIsTheDistanceFromTheCameraPlane) {
+  scene::Scene scene;
+  add_node(scene, square(), tilted());
+  draw(scene);
+  const glm::vec3 normal = glm::vec3(tilted()[2]), point(tilted()[3]), eye(0, 0, 4);
+  const std::vector<float> depths = renderer.read_aov("depth");
+  int checked = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const float depth = depths[static_cast<std::size_t>(y * width + x)];
+      if (depth == 0) continue;
+      const float distance = glm::dot(point - eye, normal) / glm::dot(ray(x, y), normal);
+      EXPECT_NEAR(depth, -(distance * ray(x, y)).z, 2e-5f) << x << ", " << y;
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 200);
+}
+
+TEST_F(GBufferTest, GeometricNormalIsExactAndFacesTheCamera) {
+  for (const bool turned : {false, true}) {
+    scene::Primitive quad = square();
+    quad.normals.assign(4, glm::normalize(glm::vec3(0.3f, 0.2f, 1)));  // shading normals must not matter
+    scene::Scene scene;
+    scene.materials.push_back({.double_sided = true});
+    quad.material = 0;
+    const glm::mat4 world =
+        glm::scale(turned ? glm::rotate(tilted(), 3.14159265f, glm::vec3(0, 1, 0)) : tilted(), glm::vec3(0.5f, 1, 3));
+    add_node(scene, quad, world);
+    draw(scene);
+    glm::vec3 expected = glm::normalize(glm::cross(glm::vec3(world[0]), glm::vec3(world[1])));
+    if (turned) expected = -expected;
+    EXPECT_GT(glm::dot(expected, glm::vec3(0, 0, 1)), 0);
+    const glm::vec3 seen = pixel3("geometric_normal", width / 2, height / 2);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(seen[i], expected[i], 1e-6f) << "turned " << turned;
+  }
+}
+
+TEST_F(GBufferTest, ShadingNormalsOfBackFacesTurnRound) {
+  scene::Scene scene;
+  scene.materials.push_back({.double_sided = true});
+  scene::Primitive quad = square();
+  quad.material = 0;
+  add_node(scene, quad, glm::rotate(glm::mat4(1), 3.14159265f, glm::vec3(0, 1, 0)));
+  draw(scene);
+  const glm::vec3 normal = pixel3("normal", width / 2, height / 2);
+  EXPECT_NEAR(normal.z, 1, 1e-4f);
+}
+
+TEST_F(GBufferTest, MotionOfAMovedCameraIsTheReprojection) {
+  scene::Scene scene;
+  add_node(scene, square(), tilted());
+  inputs.last_camera = render::look_at({0.1f, -0.05f, 4.2f}, {0.02f, 0, 0}, 1.0f, 0.01f);
+  draw(scene);
+  const glm::mat4 last = render::projection_of(inputs.last_camera, float{width} / height) * inputs.last_camera.view;
+  for (const glm::ivec2 at : {glm::ivec2(32, 24), glm::ivec2(28, 20), glm::ivec2(38, 27)}) {
+    const float depth = pixel("depth", at.x, at.y)[0];
+    ASSERT_GT(depth, 0);
+    const glm::vec3 direction = ray(at.x, at.y);
+    const glm::vec4 clip = last * glm::vec4(glm::vec3(0, 0, 4) + direction * (depth / -direction.z), 1);
+    const glm::vec2 was((clip.x / clip.w * 0.5f + 0.5f) * width, (0.5f - clip.y / clip.w * 0.5f) * height);
+    const std::vector<float> motion = pixel("motion", at.x, at.y);
+    EXPECT_NEAR(motion[0], static_cast<float>(at.x) + 0.5f - was.x, 1e-3f);
+    EXPECT_NEAR(motion[1], static_cast<float>(at.y) + 0.5f - was.y, 1e-3f);
+  }
+}
+
+TEST_F(GBufferTest, MotionOfAMovedObjectIsItsPath) {
+  scene::Scene scene;
+  scene::Node& node = add_node(scene, square(), glm::mat4(1));
+  node.matrix.reset();
+  scene.animations.push_back(
+      {.name = "slide", .channels = {{.node = 0, .times = {0, 1}, .values = {0, 0, 0, 1, 0, 0}}}, .duration = 1});
+  inputs.last_time = 0.25;
+  inputs.time = 0.5;
+  draw(scene);
+  const float expected = 0.25f / (4.0f * std::tan(0.5f)) * height / 2;
+  const std::vector<float> motion = pixel("motion", width / 2 + 4, height / 2);
+  EXPECT_NEAR(motion[0], expected, 1e-3f);
+  EXPECT_NEAR(motion[1], 0, 1e-4f);
+  EXPECT_TRUE(gpu_scene->moved());
+  inputs.last_time = inputs.time;
+  renderer.draw(*gpu_scene, inputs, params);
+  EXPECT_NEAR(pixel("motion", width / 2 + 4, height / 2)[0], 0, 1e-6f);
+  EXPECT_FALSE(gpu_scene->moved());
+}
+
+TEST_F(GBufferTest, MirroredNodesShowTheirFrontFaces) {
+  for (const glm::vec3 scale : {glm::vec3(1), glm::vec3(-1, 1, 1), glm::vec3(1, -1, 1)}) {
+    scene::Scene scene;
+    add_node(scene, square(), glm::scale(glm::mat4(1), scale));
+    draw(scene);
+    EXPECT_GT(covered_pixels(), 400) << scale.x << ", " << scale.y;
+    EXPECT_NEAR(pixel3("normal", width / 2, height / 2).z, 1, 1e-4f);
+    EXPECT_NEAR(pixel3("geometric_normal", width / 2, height / 2).z, 1, 1e-6f);
+  }
+  scene::Scene behind;
+  add_node(behind, square(), glm::scale(glm::mat4(1), glm::vec3(1, 1, -1)));
+  draw(behind);
+  EXPECT_EQ(covered_pixels(), 0) << "mirrored along its normal, the square shows its back";
+}
+
+TEST_F(GBufferTest, MaskCutsOutWhatItsTextureLeavesOpen) {
+  scene::Scene scene;
+  scene.images.push_back({.name = "halves", .width = 2, .height = 1, .rgba = {255, 255, 255, 255, 255, 255, 255, 0}});
+  scene.textures.push_back(
+      {.image = 0, .mag = scene::Filter::nearest, .min = scene::Filter::nearest, .mipmapped = false});
+  scene.materials.push_back({.base_color_texture = {.texture = 0}, .alpha_mode = scene::AlphaMode::mask});
+  scene::Primitive quad = square();
+  quad.uvs[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+  quad.material = 0;
+  add_node(scene, quad, glm::mat4(1));
+  draw(scene);
+  EXPECT_GT(pixel("depth", width / 2 - 5, height / 2)[0], 0);
+  EXPECT_EQ(pixel("depth", width / 2 + 5, height / 2)[0], 0);
+}
+
+TEST_F(GBufferTest, CopiesStandWhereTheirTransformsPutThem) {
+  scene::Scene scene;
+  scene::Node& node = add_node(scene, square(), glm::translate(glm::mat4(1), glm::vec3(0, 0.5f, 0)));
+  for (const float x : {-1.0f, 0.0f, 1.0f}) {
+    node.instances.push_back({.translation = glm::vec3(x, 0, x), .scale = glm::vec3(0.2f)});
+  }
+  draw(scene);
+  for (const float x : {-1.0f, 0.0f, 1.0f}) {
+    const glm::vec4 clip =
+        render::projection_of(inputs.camera, float{width} / height) * inputs.camera.view * glm::vec4(x, 0.5f, x, 1);
+    const auto column = static_cast<int>((clip.x / clip.w * 0.5f + 0.5f) * width);
+    const auto row = static_cast<int>((0.5f - clip.y / clip.w * 0.5f) * height);
+    EXPECT_NEAR(pixel("depth", column, row)[0], 4 - x, 1e-4f);
+  }
+}
+
+TEST_F(GBufferTest, LinesAndPointsAreDrawn) {
+  scene::Primitive line;
+  line.topology = scene::Topology::lines;
+  line.positions = {{-1, 0, 0}, {1, 0.01f, 0}};
+  line.normals.assign(2, {0, 1, 0});
+  line.indices = {0, 1};
+  scene::Scene scene;
+  add_node(scene, line, glm::mat4(1));
+  draw(scene);
+  EXPECT_GT(covered_pixels(), 15);
+}
+
+}  // namespace
+}  // namespace penumbra::test

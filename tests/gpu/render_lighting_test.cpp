@@ -1,0 +1,151 @@
+// Light on surfaces, and what becomes of it in the picture.
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "render_scenes.h"
+
+namespace penumbra::test {
+namespace {
+
+class LightingTest : public RenderTest {
+ protected:
+  LightingTest() {
+    params.set("render.sky_light", 0.0f);
+    params.set("render.ground_light", 0.0f);
+    params.set("exposure.auto", false);
+    inputs.sun = {.to_light = {0, 0, 1}, .illuminance = glm::vec3(1000)};
+  }
+
+  // EV at which a luminance of 1 stays 1.
+  static float unit_ev() { return -std::log2(1.2f); }
+};
+
+scene::Scene white_square(const scene::Material& material) {
+  scene::Scene scene;
+  scene.materials.push_back(material);
+  scene::Primitive quad = square();
+  quad.material = 0;
+  add_node(scene, quad, glm::mat4(1));
+  return scene;
+}
+
+TEST_F(LightingTest, RoughPlaneFacingTheSunReturnsItsLightOverPi) {
+  const scene::Scene scene = white_square({.base_color = {0.8f, 0.4f, 0.2f, 1}, .metallic = 0, .roughness = 1});
+  inputs.camera = inputs.last_camera = render::look_at({0, 0, 40}, {0, 0, 0}, 0.08f, 0.01f);
+  inputs.sun.illuminance = glm::vec3(2);
+  params.set("exposure.ev", unit_ev());
+  draw(scene);
+  const glm::vec3 seen = pixel3("color", width / 2, height / 2);
+  // glTF's material of roughness 1 at normal incidence: 0.96 diffuse, and 0.04 · 1/4 from the surface.
+  for (int i = 0; i < 3; ++i) {
+    const float expected = 2.0f / glm::pi<float>() * (0.96f * scene.materials[0].base_color[i] + 0.01f);
+    EXPECT_NEAR(seen[i], expected, 0.01f * expected);
+  }
+}
+
+TEST_F(LightingTest, ObliqueSunFallsOffWithItsCosine) {
+  const scene::Scene scene = white_square({.metallic = 0, .roughness = 1});
+  inputs.camera = inputs.last_camera = render::look_at({0, 0, 40}, {0, 0, 0}, 0.08f, 0.01f);
+  params.set("exposure.ev", unit_ev());
+  inputs.sun = {.to_light = {0, 0, 1}, .illuminance = glm::vec3(2)};
+  draw(scene);
+  const float straight = pixel("color", width / 2, height / 2)[0];
+  inputs.sun.to_light = {std::sqrt(0.75f), 0, 0.5f};
+  draw(scene);
+  EXPECT_NEAR(pixel("color", width / 2, height / 2)[0] / straight, 0.5f, 0.02f);
+}
+
+TEST_F(LightingTest, ShadowTakesTheSunAndLeavesTheSky) {
+  params.set_text("technique", "hard");
+  params.set("render.sky_light", 0.5f);
+  scene::Scene scene = white_square({.metallic = 0, .roughness = 1});
+  add_node(scene, square(), glm::translate(glm::scale(glm::mat4(1), glm::vec3(0.5f)), glm::vec3(0, 0, 20)));
+  scene.nodes[1].matrix = glm::translate(glm::mat4(1), glm::vec3(1, 0, 6));  // off screen, towards the sun
+  inputs.sun = {.to_light = glm::normalize(glm::vec3(1, 0, 6)), .illuminance = glm::vec3(2)};
+  params.set("exposure.ev", unit_ev());
+  draw(scene);
+  EXPECT_EQ(pixel("shadow", width / 2, height / 2)[0], 0);
+  const glm::vec3 shaded = pixel3("color", width / 2, height / 2);
+  EXPECT_GT(shaded.g, 0.05f);
+  EXPECT_LT(shaded.g, 0.3f);
+}
+
+TEST_F(LightingTest, UnlitSurfacesKeepTheirColour) {
+  const scene::Scene scene = white_square({.base_color = {0.25f, 0.5f, 0.75f, 1}, .unlit = true});
+  draw(scene);
+  const glm::vec3 seen = pixel3("color", width / 2, height / 2);
+  EXPECT_NEAR(seen.r, 0.25f, 2e-3f);
+  EXPECT_NEAR(seen.g, 0.5f, 2e-3f);
+  EXPECT_NEAR(seen.b, 0.75f, 2e-3f);
+}
+
+TEST_F(LightingTest, AutomaticExposureSuitsBrightSunsAndDimOnes) {
+  const scene::Scene scene = white_square({.base_color = {0.5f, 0.5f, 0.5f, 1}, .metallic = 0, .roughness = 1});
+  params.reset("exposure.auto");
+  params.reset("render.sky_light");
+  std::vector<std::uint8_t> first;
+  for (const float lux : {1.0f, 3.0f, 100000.0f}) {
+    inputs.sun.illuminance = glm::vec3(lux);
+    draw(scene);
+    const std::vector<std::uint8_t> shown = renderer.read_display();
+    const int grey = shown[(height / 2 * width + width / 2) * 3 + 1];
+    EXPECT_GT(grey, 130) << lux;
+    EXPECT_LT(grey, 220) << lux;
+    if (!first.empty()) {
+      EXPECT_NEAR(grey, first[(height / 2 * width + width / 2) * 3 + 1], 2) << lux;
+    }
+    first = shown;
+  }
+}
+
+TEST_F(LightingTest, DarkMaterialsStayDark) {
+  params.reset("exposure.auto");
+  params.reset("render.sky_light");
+  draw(white_square({.base_color = {0.03f, 0.03f, 0.03f, 1}, .metallic = 0, .roughness = 1}));
+  EXPECT_LT(renderer.read_display()[(height / 2 * width + width / 2) * 3 + 1], 90);
+}
+
+TEST_F(LightingTest, BlendedSurfacesLieOverWhatIsBehind) {
+  scene::Scene scene = white_square({.base_color = {1, 1, 1, 1}, .unlit = true});
+  for (const float z : {1.0f, 0.5f}) {  // the nearer first in the file
+    scene.materials.push_back({.base_color = z == 1.0f ? glm::vec4(1, 0, 0, 0.5f) : glm::vec4(0, 1, 0, 0.5f),
+                               .alpha_mode = scene::AlphaMode::blend,
+                               .unlit = true});
+    scene::Primitive quad = square();
+    quad.material = static_cast<int>(scene.materials.size()) - 1;
+    add_node(scene, quad, glm::translate(glm::mat4(1), glm::vec3(0, 0, z)));
+  }
+  draw(scene);
+  // Back to front: white, half green, half red.
+  const glm::vec3 seen = pixel3("color", width / 2, height / 2);
+  EXPECT_NEAR(seen.r, 0.75f, 5e-3f);
+  EXPECT_NEAR(seen.g, 0.5f, 5e-3f);
+  EXPECT_NEAR(seen.b, 0.25f, 5e-3f);
+}
+
+TEST_F(LightingTest, NoAovHoldsAnythingNotFinite) {
+  scene::Primitive bad = square();
+  bad.normals.assign(4, {0, 0, 0});
+  bad.tangents.assign(4, {0, 0, 0, 1});
+  bad.indices = {0, 1, 2, 0, 2, 3, 0, 0, 1};
+  scene::Scene scene;
+  scene.materials.push_back({.metallic = 1, .roughness = 0, .emissive = glm::vec3(1e30f)});
+  bad.material = 0;
+  add_node(scene, bad, glm::mat4(1));
+  add_node(scene, square(), glm::scale(glm::translate(glm::mat4(1), glm::vec3(0, 0, 1)), glm::vec3(1, 0, 1)));
+  params.set_text("technique", "pcss");
+  draw(scene);
+  for (const render::Aov& aov : render::aovs()) {
+    const std::vector<float> values = renderer.read_aov(aov.name);
+    EXPECT_EQ(values.size(), aov.channels.size() * width * height) << aov.name;
+    for (const float value : values) ASSERT_TRUE(std::isfinite(value)) << aov.name;
+  }
+}
+
+TEST_F(LightingTest, UnknownAovNamesNearOnes) {
+  draw(white_square({}));
+  EXPECT_NE(message_of([&] { renderer.read_aov("depht"); }).find("depth"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,137 @@
+// Camera, sun and ground where the user leaves them open.
+#include "render/setup.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "core/error.h"
+
+namespace penumbra::test {
+namespace {
+
+scene::Primitive box(const glm::vec3& low, const glm::vec3& high) {
+  scene::Primitive box;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool far : {false, true}) {
+      const auto first = static_cast<std::uint32_t>(box.positions.size());
+      for (const glm::vec2 at : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
+        glm::vec3 corner;
+        corner[axis] = far ? 1.0f : 0.0f;
+        corner[(axis + 1) % 3] = at.x;
+        corner[(axis + 2) % 3] = at.y;
+        box.positions.push_back(glm::mix(low, high, corner));
+        glm::vec3 normal(0);
+        normal[axis] = far ? 1.0f : -1.0f;
+        box.normals.push_back(normal);
+      }
+      for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) box.indices.push_back(first + i);
+    }
+  }
+  return box;
+}
+
+scene::Scene scene_of(std::vector<scene::Primitive> primitives) {
+  scene::Scene scene;
+  scene.meshes.push_back({.name = "mesh", .primitives = std::move(primitives)});
+  scene.nodes.push_back({.name = "node", .mesh = 0});
+  scene.roots = {0};
+  return scene;
+}
+
+render::Setup setup_of(const scene::Scene& scene, const render::SetupRequest& request = {}) {
+  return render::choose_setup(scene, scene::rest_pose(scene), request);
+}
+
+TEST(Setup, FramesScenesOfEverySizeAndShape) {
+  for (const float size : {0.07f, 1.0f, 2000.0f}) {
+    for (const glm::vec3 shape : {glm::vec3(1, 1, 1), glm::vec3(1, 0.01f, 1), glm::vec3(0.1f, 3, 0.1f)}) {
+      for (const float aspect : {16.0f / 9.0f, 0.5f}) {
+        const glm::vec3 offset(3 * size, -size, 0);
+        const scene::Scene scene = scene_of({box(offset - shape * size, offset + shape * size)});
+        const render::Camera camera = setup_of(scene, {.aspect = aspect}).camera;
+        const glm::mat4 to_clip = render::projection_of(camera, aspect) * camera.view;
+        float widest = 0;
+        for (const glm::vec3& corner : scene.meshes[0].primitives[0].positions) {
+          const glm::vec4 clip = to_clip * glm::vec4(corner, 1);
+          EXPECT_GT(clip.w, camera.near);
+          widest = std::max({widest, std::abs(clip.x / clip.w), std::abs(clip.y / clip.w)});
+        }
+        EXPECT_LT(widest, 1.0f);
+        EXPECT_GT(widest, 0.7f) << "the scene is small in the picture";
+      }
+    }
+  }
+}
+
+TEST(Setup, GroundComesUnderWhatStandsFree) {
+  const scene::Primitive house = box({-1, 0, -1}, {1, 2, 1});
+  EXPECT_TRUE(setup_of(scene_of({house})).ground);
+  EXPECT_FALSE(setup_of(scene_of({house, box({-9, -0.1f, -9}, {9, 0, 9})})).ground);
+  EXPECT_TRUE(setup_of(scene_of({house, box({-1.05f, -0.1f, -1.05f}, {1.05f, 0, 1.05f})})).ground);
+  EXPECT_FALSE(setup_of(scene_of({house}), {.ground = render::GroundChoice::off}).ground);
+  EXPECT_TRUE(setup_of(scene_of({box({-9, -0.1f, -9}, {9, 0, 9})}), {.ground = render::GroundChoice::on}).ground);
+}
+
+TEST(Setup, AddedGroundLiesUnderTheScene) {
+  scene::Scene scene = scene_of({box({-1, 0.5f, -1}, {1, 2, 1})});
+  const scene::Bounds before = scene::bounds_of(scene, scene::rest_pose(scene));
+  render::add_ground(scene, before);
+  const scene::Bounds after = scene::bounds_of(scene, scene::rest_pose(scene));
+  EXPECT_LT(after.min.y, before.min.y);
+  EXPECT_NEAR(after.min.y, before.min.y, 1e-3f);
+  EXPECT_GT(after.extent().x, 3 * before.extent().x);
+}
+
+TEST(Setup, TakesTheFilesSun) {
+  scene::Scene scene = scene_of({box({-1, 0, -1}, {1, 2, 1})});
+  scene.lights = {{.kind = scene::LightKind::point},
+                  {.kind = scene::LightKind::directional, .color = {1, 0.5f, 0.25f}, .intensity = 8}};
+  for (const int light : {0, 1}) {
+    scene.nodes.push_back({.name = "light", .light = light});
+    scene.nodes.back().matrix = glm::rotate(glm::mat4(1), -1.5707963f, glm::vec3(1, 0, 0));
+    scene.roots.push_back(light + 1);
+  }
+  const render::Sun sun = setup_of(scene).sun;
+  EXPECT_NEAR(sun.to_light.y, 1, 1e-6f);
+  EXPECT_FLOAT_EQ(sun.illuminance.r, 8);
+  EXPECT_FLOAT_EQ(sun.illuminance.b, 2);
+}
+
+TEST(Setup, FindsCamerasByNameAndIndex) {
+  scene::Scene scene = scene_of({box({-1, 0, -1}, {1, 2, 1})});
+  scene.cameras = {{.name = "front", .fov_y = 0.5f}, {.name = "above", .fov_y = 0.9f}};
+  for (const int camera : {0, 1}) {
+    scene.nodes.push_back({.name = "camera", .camera = camera});
+    scene.nodes.back().matrix = glm::scale(glm::translate(glm::mat4(1), glm::vec3(0, 0, 5)), glm::vec3(2));
+    scene.roots.push_back(camera + 1);
+  }
+  EXPECT_FLOAT_EQ(setup_of(scene).camera.fov_y, 0.5f);
+  EXPECT_FLOAT_EQ(setup_of(scene, {.camera = "above"}).camera.fov_y, 0.9f);
+  EXPECT_FLOAT_EQ(setup_of(scene, {.camera = "1"}).camera.fov_y, 0.9f);
+  // A node's scale does not reach the view.
+  EXPECT_NEAR(glm::determinant(glm::mat3(setup_of(scene).camera.view)), 1, 1e-5f);
+  EXPECT_NEAR(render::position_of(setup_of(scene).camera).z, 5, 1e-5f);
+  try {
+    setup_of(scene, {.camera = "abvoe"});
+    FAIL() << "no Error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("above"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Setup, EmptyScenesHaveACameraToo) {
+  const render::Setup setup = setup_of(scene::Scene{});
+  EXPECT_TRUE(std::isfinite(render::position_of(setup.camera).x));
+  EXPECT_NEAR(glm::length(setup.sun.to_light), 1, 1e-5f);
+}
+
+TEST(Setup, DirectionsAreCompassBearings) {
+  const glm::vec3 east = render::direction_to(1.5707963f, 0);
+  EXPECT_NEAR(east.x, 1, 1e-6f);
+  EXPECT_NEAR(render::direction_to(0, 0).z, 1, 1e-6f);
+  EXPECT_NEAR(render::direction_to(0, 1.5707963f).y, 1, 1e-6f);
+}
+
+}  // namespace
+}  // namespace penumbra::test

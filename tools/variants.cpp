@@ -1,0 +1,171 @@
+// penumbra-variants FOLDER: writes the stages of every program variant that any parameters can build, includes
+// resolved, as FOLDER/<program>.vert, .frag or .comp, and has the driver compile and run each. A driver that crashes
+// takes down a child process, not the check: the program is named and the rest goes on.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "gl/context.h"
+#include "gl/pass.h"
+#include "gl/shader_source.h"
+#include "render/renderer.h"
+
+namespace penumbra {
+namespace {
+
+// A program with a name of its own among the variants.
+struct Variant {
+  std::string name;
+  gl::ProgramDesc program;
+};
+
+struct Stage {
+  const char* extension;
+  const std::string& file;
+};
+
+std::array<Stage, 3> stages_of(const gl::ProgramDesc& program) {
+  return {Stage{"vert", program.vertex}, Stage{"frag", program.fragment}, Stage{"comp", program.compute}};
+}
+
+std::vector<Variant> all_variants(gl::Device& device) {
+  render::Renderer renderer(device);
+  const ParamSet defaults(render::Renderer::params(renderer.registry()));
+  std::vector<gl::ProgramDesc> programs = renderer.all_programs(defaults);
+  std::sort(programs.begin(), programs.end());
+  programs.erase(std::unique(programs.begin(), programs.end()), programs.end());
+  std::vector<Variant> variants;
+  std::map<std::string, int> numbers;
+  for (gl::ProgramDesc& program : programs) {
+    std::string name = program.name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    name += fmt::format("-{}", ++numbers[name]);
+    variants.push_back({std::move(name), std::move(program)});
+  }
+  return variants;
+}
+
+void write_stages(const gl::ShaderFiles& files, const Variant& variant, const std::filesystem::path& folder) {
+  for (const Stage& stage : stages_of(variant.program)) {
+    if (stage.file.empty()) continue;
+    const std::filesystem::path path = folder / (variant.name + "." + stage.extension);
+    std::FILE* file = std::fopen(path.c_str(), "wb");
+    if (file == nullptr) fail("can't write '{}'", path.string());
+    const std::string text = gl::load_shader_source(files, stage.file, variant.program.defines).text;
+    const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+    if (std::fclose(file) != 0 || !written) fail("can't write '{}'", path.string());
+  }
+}
+
+// Drivers compile to machine code when a program first draws: so it has to, with nothing bound.
+void run(gl::Device& device, const gl::ProgramDesc& program) {
+  if (!program.compute.empty()) {
+    gl::Pass pass(device, {.name = "variant"});
+    pass.use(program);
+    pass.dispatch(1, 1);
+    return;
+  }
+  std::vector<gl::Attachment> colors;
+  for (const char* name : {"0", "1", "2", "3", "4", "5"}) {
+    if (!program.fragment.empty()) colors.push_back({.texture = &device.target(name, {.format = GL_RGBA16F})});
+  }
+  const gl::Texture& depth = device.target("depth", {.format = GL_DEPTH_COMPONENT32F});
+  gl::Pass pass(device, {.name = "variant",
+                         .colors = colors,
+                         .depth = gl::Attachment{.texture = &depth},
+                         .depth_test = gl::DepthTest::less_equal,
+                         .depth_write = true});
+  pass.use(program);
+  pass.draw_full_screen();
+}
+
+// In a child: compiles variants from `first` on, telling each one's number before it starts. Returns the refused ones.
+int compile_from(gl::Device& device, const std::vector<Variant>& variants, std::size_t first, int progress) {
+  const std::unique_ptr<gl::Context> context = gl::make_context("auto", {});
+  int refused = 0;
+  for (std::size_t i = first; i < variants.size(); ++i) {
+    if (write(progress, &i, sizeof(i)) != sizeof(i)) return 1;
+    try {
+      run(device, variants[i].program);
+      gl::glFinish();
+    } catch (const Error& error) {
+      fmt::print(stderr, "{}: {}\n", variants[i].name, error.what());
+      ++refused;
+    }
+  }
+  return refused;
+}
+
+struct Outcome {
+  std::size_t next;  // the variant to go on with
+  bool good;
+};
+
+// One child's work: all from `first` on, or up to the one at which the driver crashes.
+Outcome compile_in_child(gl::Device& device, const std::vector<Variant>& variants, std::size_t first) {
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) fail("no pipe for the compiling process");
+  std::fflush(nullptr);
+  const pid_t child = fork();
+  if (child < 0) fail("can't start the compiling process");
+  if (child == 0) {
+    close(ends[0]);
+    int refused = 1;
+    try {
+      refused = compile_from(device, variants, first, ends[1]);
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "error: {}\n", error.what());
+    }
+    std::fflush(nullptr);
+    std::_Exit(refused == 0 ? 0 : 1);
+  }
+  close(ends[1]);
+  std::size_t last = first;
+  for (std::size_t index = 0; read(ends[0], &index, sizeof(index)) == sizeof(index);) last = index;
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (WIFEXITED(status)) return {variants.size(), WEXITSTATUS(status) == 0};
+  fmt::print(stderr, "{}: the driver crashed (signal {})\n", variants[last].name, WTERMSIG(status));
+  return {last + 1, false};
+}
+
+int check_variants(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  gl::Device device(gl::ShaderFiles(), gl::Timers::Mode::off);
+  const std::vector<Variant> variants = all_variants(device);
+  for (const Variant& variant : variants) write_stages(device.shaders.files(), variant, folder);
+  bool good = true;
+  for (std::size_t next = 0; next < variants.size();) {
+    const Outcome outcome = compile_in_child(device, variants, next);
+    good = good && outcome.good;
+    next = outcome.next;
+  }
+  fmt::print("{} program variants\n", variants.size());
+  return good ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace penumbra
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    fmt::print(stderr, "usage: penumbra-variants FOLDER\n");
+    return 2;
+  }
+  try {
+    return penumbra::check_variants(argv[1]);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return 1;
+  }
+}
