@@ -37,6 +37,7 @@ Bounds box_of(const std::vector<glm::vec3>& points) {
 
 std::vector<glm::vec3> corners(const Bounds& box) {
   std::vector<glm::vec3> points;
+  points.reserve(8);
   for (int i = 0; i < 8; ++i)
     points.emplace_back((i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
                         (i & 4) != 0 ? box.max.z : box.min.z);

@@ -37,7 +37,7 @@ class ScratchFolder {
 
   // `name` is relative to the scene's folder.
   std::filesystem::path write(const std::string& name, const std::string& content) const {
-    const auto file = path_ / "scene" / name;
+    auto file = path_ / "scene" / name;
     std::filesystem::create_directories(file.parent_path());
     std::ofstream(file, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
     return file;

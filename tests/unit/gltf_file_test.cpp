@@ -12,7 +12,7 @@ namespace {
 constexpr const char* empty_scene = R"({"asset":{"version":"2.0"}})";
 
 std::string refusal(const std::filesystem::path& file, const scene::ReadLimits& limits = {}) {
-  const std::string message = error_of([&] { scene::read_gltf(file, no_image, limits); });
+  std::string message = error_of([&] { scene::read_gltf(file, no_image, limits); });
   EXPECT_EQ(message.find(file.string()), 0u) << "the message begins with the file: " << message;
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   return message;

@@ -20,11 +20,11 @@ int hex_digit(char c) {
 
 constexpr std::string_view base64_alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-constexpr std::array<int8_t, 256> base64_values = [] {
-  std::array<int8_t, 256> values{};
+constexpr std::array<int, 256> base64_values = [] {
+  std::array<int, 256> values{};
   values.fill(-1);
   for (std::size_t i = 0; i < base64_alphabet.size(); ++i)
-    values[static_cast<unsigned char>(base64_alphabet[i])] = static_cast<int8_t>(i);
+    values[static_cast<unsigned char>(base64_alphabet[i])] = static_cast<int>(i);
   return values;
 }();
 
@@ -52,10 +52,11 @@ std::filesystem::path resolve(const std::filesystem::path& folder, std::string_v
   for (const std::string& name : {percent_decoded(uri), std::string(uri)}) {
     if (name.find('\0') != std::string::npos) fail("'{}' holds a zero byte", shortened(uri));
     if (std::filesystem::path(name).is_absolute()) fail("'{}' is an absolute path", shortened(uri));
-    const auto file = std::filesystem::canonical(base / name, code);
-    const auto inside = std::filesystem::weakly_canonical(base / name, code);
-    if (!code && !lies_inside(inside, base)) fail("'{}' leads out of the scene's folder", shortened(uri));
-    if (!file.empty()) return file;
+    // Of a file that does not exist too, so that a scene can't find out what does.
+    auto file = std::filesystem::weakly_canonical(base / name, code);
+    if (code) continue;
+    if (!lies_inside(file, base)) fail("'{}' leads out of the scene's folder", shortened(uri));
+    if (std::filesystem::exists(file, code)) return file;
   }
   fail("'{}' not found", shortened(uri));
 }
