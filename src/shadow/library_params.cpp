@@ -25,7 +25,7 @@ std::vector<Param> library_params() {
        host,
        {"disc", "square"}},
       {"cascades.count", 4, 1, max_cascades, "", "Cascades of the sun's shadow map.", host},
-      {"cascades.size", 2048, 16, 16384, "texels", "Side of each cascade's map.", host},
+      {"cascades.size", 2048, 16, 8192, "texels", "Side of each cascade's map.", host},
       {"cascades.split", 0.75f, 0, 1, "", "Spacing of the cascades: 0 uniform, 1 logarithmic.", host},
       {"cascades.distance", 0.0f, 0, 1e7, "m", "Range of the last cascade; 0 takes what the view sees of the scene.",
        host},
