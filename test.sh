@@ -62,7 +62,7 @@ suite release ${regex:+-R "$regex"}
 suite_seconds=$((SECONDS - suite_begin))
 
 if [[ -z $regex ]]; then
-  check "shader variants" python3 "$root/scripts/variants.py" "$root/build/release/penumbra-variants"
+  check "shader variants" python3 "$root/scripts/variants.py" "$root/build/release/tools/penumbra-variants"
   check "clang-format" "$root/scripts/format.sh"
   ((quick)) || check "clang-tidy" python3 "$root/scripts/tidy.py" "$root/build/release"
 fi

@@ -19,7 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 def own_commands(build):
     commands = json.loads((build / "compile_commands.json").read_text())
-    own = [ROOT / "src", ROOT / "tests"]
+    own = [ROOT / "src", ROOT / "tests", ROOT / "tools", ROOT / "bench"]
     return [c for c in commands if any(folder in pathlib.Path(c["file"]).parents for folder in own)]
 
 
