@@ -13,8 +13,8 @@ namespace {
 
 // An option whose text `set` parses, so that every fault is worded in one place.
 void value(CLI::App& app, const char* name, const char* type, const char* help,
-           std::function<void(const std::string&)> set) {
-  app.add_option_function<std::string>(name, std::move(set), help)->type_name(type);
+           const std::function<void(const std::string&)>& set) {
+  app.add_option_function<std::string>(name, set, help)->type_name(type);
 }
 
 void words(CLI::App& app, const char* name, const char* type, const char* help, std::vector<std::string>& list) {
