@@ -94,7 +94,7 @@ struct Mask {
 // a size it allocates nothing. Throws Error for bad input and shaders that do not compile.
 class SoftShadows {
  public:
-  SoftShadows(gl::Device& device, Registry registry = built_in_registry());
+  explicit SoftShadows(gl::Device& device, Registry registry = built_in_registry());
   ~SoftShadows();
 
   const Registry& registry() const { return registry_; }
