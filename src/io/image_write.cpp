@@ -35,6 +35,7 @@ void write_png(const std::filesystem::path& path, int width, int height, int cha
   assert(pixels.size() == static_cast<size_t>(width) * static_cast<size_t>(height) * static_cast<size_t>(channels));
   OIIO::ImageSpec spec = image_spec(width, height, channels, OIIO::TypeDesc::UINT8, metadata);
   spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("png:compressionLevel", 4);    // a third of the default's time for 5 % more bytes
   spec.attribute("oiio:UnassociatedAlpha", 1);  // the bytes go out as they are
   write(path, "png", spec, pixels.data());
 }
