@@ -21,7 +21,7 @@ Picture read(const gl::Texture& texture, int channels, int layer = 0) {
   const std::vector<float> bottom_up = gl::read_floats(texture, channels, 0, layer);
   Picture picture{channels, {}};
   picture.values.reserve(bottom_up.size());
-  const std::size_t row = static_cast<std::size_t>(texture.width()) * static_cast<std::size_t>(channels);
+  const auto row = static_cast<std::size_t>(texture.width()) * static_cast<std::size_t>(channels);
   for (std::size_t y = static_cast<std::size_t>(texture.height()); y-- > 0;) {
     const auto begin = bottom_up.begin() + static_cast<std::ptrdiff_t>(y * row);
     picture.values.insert(picture.values.end(), begin, begin + static_cast<std::ptrdiff_t>(row));

@@ -20,6 +20,10 @@ constexpr float level = 0.7f;          // least share of a triangle's area seen 
 constexpr float radii = 6.0f;          // half the ground's side in radii of the scene
 constexpr std::size_t copies = 10000;  // instances looked at
 
+constexpr std::size_t cell_index(int x, int y) {
+  return static_cast<std::size_t>(y) * cells + static_cast<std::size_t>(x);
+}
+
 using Cells = std::bitset<static_cast<std::size_t>(cells) * cells>;
 
 // The scene's outline on the ground, as cells.
@@ -37,7 +41,7 @@ class Footprint {
         glm::min(glm::ivec2(glm::floor(glm::max(corners[0], glm::max(corners[1], corners[2])))), cells - 1);
     for (int y = first.y; y <= last.y; ++y) {
       for (int x = first.x; x <= last.x; ++x) {
-        if (holds(corners, glm::vec2(x, y) + 0.5f)) covered_cells.set(static_cast<std::size_t>(y * cells + x));
+        if (holds(corners, glm::vec2(x, y) + 0.5f)) covered_cells.set(cell_index(x, y));
       }
     }
   }
@@ -68,10 +72,10 @@ Cells rim_of(const Cells& marked) {
   Cells grown;
   for (int y = 0; y < cells; ++y) {
     for (int x = 0; x < cells; ++x) {
-      if (!marked[static_cast<std::size_t>(y * cells + x)]) continue;
+      if (!marked[cell_index(x, y)]) continue;
       for (int v = std::max(y - rim, 0); v <= std::min(y + rim, cells - 1); ++v) {
         for (int u = std::max(x - rim, 0); u <= std::min(x + rim, cells - 1); ++u) {
-          grown.set(static_cast<std::size_t>(v * cells + u));
+          grown.set(cell_index(u, v));
         }
       }
     }
@@ -82,7 +86,7 @@ Cells rim_of(const Cells& marked) {
 Cells outline() {
   Cells all;
   for (int y = rim; y < cells - rim; ++y) {
-    for (int x = rim; x < cells - rim; ++x) all.set(static_cast<std::size_t>(y * cells + x));
+    for (int x = rim; x < cells - rim; ++x) all.set(cell_index(x, y));
   }
   return all;
 }

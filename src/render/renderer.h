@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
@@ -42,7 +43,7 @@ struct Frame {
 
 class Renderer {
  public:
-  Renderer(gl::Device& device, shadow::Registry registry = shadow::built_in_registry());
+  explicit Renderer(gl::Device& device, shadow::Registry registry = shadow::built_in_registry());
   ~Renderer();
 
   // Rows of the shadow library and of the renderer (exposure, sky, …).

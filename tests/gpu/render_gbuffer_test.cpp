@@ -23,7 +23,7 @@ TEST_F(GBufferTest, DepthIsTheDistanceFromTheCameraPlane) {
   int checked = 0;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const float depth = depths[static_cast<std::size_t>(y * width + x)];
+      const float depth = depths[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
       if (depth == 0) continue;
       const float distance = glm::dot(point - eye, normal) / glm::dot(ray(x, y), normal);
       EXPECT_NEAR(depth, -(distance * ray(x, y)).z, 2e-5f) << x << ", " << y;

@@ -38,48 +38,47 @@ gl::ProgramDesc program_named(render::Renderer& renderer, const ParamSet& params
   return {};
 }
 
-#define EXPECT_OFFSET(found, glsl, type, member)                                   \
-  do {                                                                             \
-    ASSERT_TRUE((found).count(glsl)) << glsl;                                      \
-    EXPECT_EQ((found).at(glsl), static_cast<int>(offsetof(type, member))) << glsl; \
-  } while (false)
+void expect_offset(const std::map<std::string, int>& found, const std::string& glsl, std::size_t cpp) {
+  ASSERT_TRUE(found.contains(glsl)) << glsl;
+  EXPECT_EQ(found.at(glsl), static_cast<int>(cpp)) << glsl;
+}
 
 TEST_F(LayoutTest, SurfacePrograms) {
   const auto found = offsets(device.shaders.get(program_named(renderer, params, "masked surfaces")).id());
   using glsl::InstanceBlock;
   using glsl::MaterialBlock;
   using glsl::ViewBlock;
-  EXPECT_OFFSET(found, "view.world_to_clip", ViewBlock, world_to_clip);
-  EXPECT_OFFSET(found, "view.last_world_to_clip", ViewBlock, last_world_to_clip);
-  EXPECT_OFFSET(found, "view.camera", ViewBlock, camera);
-  EXPECT_OFFSET(found, "view.forward", ViewBlock, forward);
-  EXPECT_OFFSET(found, "view.viewport", ViewBlock, viewport);
-  EXPECT_OFFSET(found, "instances[0].last_world", InstanceBlock, last_world);
-  EXPECT_OFFSET(found, "instances[0].area", InstanceBlock, area);
-  EXPECT_OFFSET(found, "instances[0].first_index", InstanceBlock, first_index);
-  EXPECT_OFFSET(found, "instances[0].winding", InstanceBlock, winding);
-  EXPECT_OFFSET(found, "material.emissive", MaterialBlock, emissive);
-  EXPECT_OFFSET(found, "material.alpha_cutoff", MaterialBlock, alpha_cutoff);
-  EXPECT_OFFSET(found, "material.occlusion_strength", MaterialBlock, occlusion_strength);
-  EXPECT_OFFSET(found, "material.flags", MaterialBlock, flags);
-  EXPECT_OFFSET(found, "material.uv_rows[0]", MaterialBlock, uv_rows);
+  expect_offset(found, "view.world_to_clip", offsetof(ViewBlock, world_to_clip));
+  expect_offset(found, "view.last_world_to_clip", offsetof(ViewBlock, last_world_to_clip));
+  expect_offset(found, "view.camera", offsetof(ViewBlock, camera));
+  expect_offset(found, "view.forward", offsetof(ViewBlock, forward));
+  expect_offset(found, "view.viewport", offsetof(ViewBlock, viewport));
+  expect_offset(found, "instances[0].last_world", offsetof(InstanceBlock, last_world));
+  expect_offset(found, "instances[0].area", offsetof(InstanceBlock, area));
+  expect_offset(found, "instances[0].first_index", offsetof(InstanceBlock, first_index));
+  expect_offset(found, "instances[0].winding", offsetof(InstanceBlock, winding));
+  expect_offset(found, "material.emissive", offsetof(MaterialBlock, emissive));
+  expect_offset(found, "material.alpha_cutoff", offsetof(MaterialBlock, alpha_cutoff));
+  expect_offset(found, "material.occlusion_strength", offsetof(MaterialBlock, occlusion_strength));
+  expect_offset(found, "material.flags", offsetof(MaterialBlock, flags));
+  expect_offset(found, "material.uv_rows[0]", offsetof(MaterialBlock, uv_rows));
 }
 
 TEST_F(LayoutTest, DeformProgram) {
   const auto found = offsets(device.shaders.get(program_named(renderer, params, "deform")).id());
   using glsl::DeformBlock;
-  EXPECT_OFFSET(found, "jobs[0].source", DeformBlock, source);
-  EXPECT_OFFSET(found, "jobs[0].joint_count", DeformBlock, joint_count);
-  EXPECT_OFFSET(found, "jobs[0].target_count", DeformBlock, target_count);
+  expect_offset(found, "jobs[0].source", offsetof(DeformBlock, source));
+  expect_offset(found, "jobs[0].joint_count", offsetof(DeformBlock, joint_count));
+  expect_offset(found, "jobs[0].target_count", offsetof(DeformBlock, target_count));
 }
 
 TEST_F(LayoutTest, LightingProgram) {
   const auto found = offsets(device.shaders.get(program_named(renderer, params, "lighting")).id());
   using glsl::LightingBlock;
-  EXPECT_OFFSET(found, "lighting.to_sun", LightingBlock, to_sun);
-  EXPECT_OFFSET(found, "lighting.sun", LightingBlock, sun);
-  EXPECT_OFFSET(found, "lighting.sky", LightingBlock, sky);
-  EXPECT_OFFSET(found, "lighting.ground", LightingBlock, ground);
+  expect_offset(found, "lighting.to_sun", offsetof(LightingBlock, to_sun));
+  expect_offset(found, "lighting.sun", offsetof(LightingBlock, sun));
+  expect_offset(found, "lighting.sky", offsetof(LightingBlock, sky));
+  expect_offset(found, "lighting.ground", offsetof(LightingBlock, ground));
 }
 
 }  // namespace
