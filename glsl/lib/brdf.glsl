@@ -15,7 +15,8 @@ GLSL_FUNCTION float ggx_distribution(float n_dot_h, float alpha) {
   return a2 / (brdf_pi * f * f);
 }
 
-// Masking and shadowing over 4 (n·l)(n·v), height-correlated (Heitz 2014, "Understanding the masking-shadowing function").
+// Masking and shadowing over 4 (n·l)(n·v), height-correlated (Heitz 2014, "Understanding the masking-shadowing
+// function").
 GLSL_FUNCTION float smith_visibility(float n_dot_l, float n_dot_v, float alpha) {
   float a2 = alpha * alpha;
   float to_light = n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0f - a2) + a2);
@@ -30,10 +31,11 @@ GLSL_FUNCTION float schlick_weight(float v_dot_h) {
   return m2 * m2 * m;
 }
 
-// Scale and bias of the reflectance at normal incidence for light from all around (Karis 2014, "Physically based shading
-// on mobile", after Lazarov).
+// Scale and bias of the reflectance at normal incidence for light from all around (Karis 2014, "Physically based
+// shading on mobile", after Lazarov).
 GLSL_FUNCTION vec2 environment_brdf(float roughness, float n_dot_v) {
-  vec4 r = vec4(1.0f - roughness, 0.0425f - 0.0275f * roughness, 1.04f - 0.572f * roughness, -0.04f + 0.022f * roughness);
+  vec4 r = vec4(1.0f - roughness, 0.0425f - 0.0275f * roughness, 1.04f - 0.572f * roughness,
+                -0.04f + 0.022f * roughness);
   float a = min(r.x * r.x, exp2(-9.28f * n_dot_v)) * r.x + r.y;
   return vec2(-1.04f * a + r.z, 1.04f * a + r.w);
 }

@@ -1,5 +1,5 @@
-// Automatic exposure, as a meter held to the surfaces measures it: the geometric mean of their light over their colour, so
-// that dark materials stay dark. One group sums in a fixed order: one picture gives one exposure.
+// Automatic exposure, as a meter held to the surfaces measures it: the geometric mean of their light over their colour,
+// so that dark materials stay dark. One group sums in a fixed order: one picture gives one exposure.
 layout(local_size_x = 256) in;
 
 layout(binding = 8) uniform sampler2D lit;

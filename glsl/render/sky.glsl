@@ -6,8 +6,8 @@ layout(std140, binding = 5) uniform LightingData { LightingBlock lighting; };
 // The colour of light from the whole upper hemisphere on a level plane, of luminance 1.
 const vec3 sky_mean = vec3(0.87, 0.99, 1.28);
 
-// Radiance over its mean: blue overhead, pale at the horizon. Its cosine-weighted mean, a fifteenth of the way from zenith
-// to horizon, has luminance 1.
+// Radiance over its mean: blue overhead, pale at the horizon. Its cosine-weighted mean, a fifteenth of the way from
+// zenith to horizon, has luminance 1.
 vec3 sky_color(float height) {
   const vec3 zenith = vec3(0.42, 0.84, 1.75);
   const vec3 horizon = vec3(2.75, 3.0, 3.2);

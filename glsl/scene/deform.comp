@@ -3,14 +3,16 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 0) readonly restrict buffer Rest { float rest[]; };                 // position, normal, tangent
-layout(std430, binding = 1) readonly restrict buffer Influences { uint influences[]; };      // 4 joints, 4 weights
-layout(std430, binding = 2) readonly restrict buffer Deltas { float deltas[]; };             // position, normal, tangent
+// A vertex at rest: position, normal, tangent; of a morph delta the same without handedness; of influences: four joints
+// and their weights. A posed frame is VertexFrame in C++: normal and tangent, signed 16-bit.
+layout(std430, binding = 0) readonly restrict buffer Rest { float rest[]; };
+layout(std430, binding = 1) readonly restrict buffer Influences { uint influences[]; };
+layout(std430, binding = 2) readonly restrict buffer Deltas { float deltas[]; };
 layout(std430, binding = 3) readonly restrict buffer Joints { mat4 joints[]; };
 layout(std430, binding = 4) readonly restrict buffer Weights { float weights[]; };
 layout(std430, binding = 5) readonly restrict buffer Jobs { DeformBlock jobs[]; };
 layout(std430, binding = 6) writeonly restrict buffer Positions { float posed_positions[]; };
-layout(std430, binding = 7) writeonly restrict buffer Frames { uint posed_frames[]; };       // as VertexFrame
+layout(std430, binding = 7) writeonly restrict buffer Frames { uint posed_frames[]; };
 
 uniform int job;
 

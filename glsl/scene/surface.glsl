@@ -28,8 +28,8 @@ vec3 view_ray() { return view.camera.w != 0.0 ? view.forward.xyz : surface.world
 
 vec3 towards_eye(vec3 n) { return dot(n, view_ray()) > 0.0 ? -n : n; }
 
-// Of the triangle itself, in world space, facing the eye, not of unit length. From its corners: derivatives of the position
-// are too coarse for wide kernels, which multiply their error. Lines and points take their shading normal.
+// Of the triangle itself, in world space, facing the eye, not of unit length. From its corners: derivatives of the
+// position are too coarse for wide kernels, which multiply their error. Lines and points take their shading normal.
 vec3 geometric_normal() {
   InstanceBlock instance = instances[surface.instance];
   if ((instance.flags & INSTANCE_TRIANGLES) == 0u) return towards_eye(surface.normal);
@@ -37,7 +37,8 @@ vec3 geometric_normal() {
   vec3 a = corner(first);
   vec3 edge = corner(first + 1u) - a;
   vec3 other = corner(first + 2u) - a;
-  float scale = max(max(abs(edge.x), abs(edge.y)), max(abs(edge.z), max(max(abs(other.x), abs(other.y)), abs(other.z))));
+  vec3 reach = max(abs(edge), abs(other));
+  float scale = max(max(reach.x, reach.y), reach.z);
   vec3 n = mat3(instance.area) * cross(edge / scale, other / scale);
   float size = max(abs(n.x), max(abs(n.y), abs(n.z)));
   if (!(size > 0.0)) return towards_eye(surface.normal);

@@ -1,5 +1,5 @@
-// The light on a scene. Radiance and illuminance are exposed: times what makes white in the sun about 1. Read by C++ and
-// GLSL; std140.
+// The light on a scene. Radiance and illuminance are exposed: times what makes white in the sun about 1. Read by C++
+// and GLSL; std140.
 #ifndef PENUMBRA_LIGHTING_BLOCK_H
 #define PENUMBRA_LIGHTING_BLOCK_H
 

@@ -11,7 +11,7 @@ struct ViewBlock {
   mat4 last_world_to_clip;
   vec4 camera;    // xyz: position, world, metres; w: 1 for orthographic
   vec4 forward;   // xyz: where it looks, world, unit; w: near plane, metres
-  vec4 ray_x;     // xyz: by how much a ray turns with x in NDC, a ray being forward + x ray_x + y ray_y; 0 if orthographic
+  vec4 ray_x;     // xyz: how a ray turns with x in NDC: it is forward + x ray_x + y ray_y; 0 if orthographic
   vec4 ray_y;     // the same with y
   vec4 viewport;  // xy: size, pixels; zw: its reciprocal
 };

@@ -24,9 +24,6 @@ enum class Casters {
   moved_last,  // those that moved, where they were
 };
 
-// Storage bindings and texture units of the scene's shaders (glsl/scene).
-inline constexpr unsigned view_binding = 4;  // uniform block: ViewBlock
-
 // A scene on the GPU: one set of vertex buffers, one of indices, one of instances. `scene` must outlive it unchanged.
 class GpuScene {
  public:
@@ -38,7 +35,7 @@ class GpuScene {
   // Takes the poses of the last and the present frame: matrices, skins and morphs. Work that is already done is kept.
   void pose(gl::Device& device, double last_time, double time);
 
-  // Draws surfaces with a program that includes glsl/scene/surface.vert; the view's block is bound at view_binding.
+  // Draws surfaces with a program that includes glsl/scene/surface.vert; the view's uniform block is bound.
   void draw_surfaces(gl::Device& device, gl::Pass& pass, Surfaces surfaces, const gl::ProgramDesc& program,
                      const BoxTest& visible);
   // Draws BLEND surfaces from back to front as seen from `eye`.
