@@ -107,7 +107,7 @@ TEST_F(Presets, RefuseWrongTypesAndRanges) {
 
 TEST_F(Presets, RefuseWhatIsNoToml) {
   EXPECT_TRUE(fault("exposure = 1\nexposure = \n").starts_with("p.toml:2: "));
-  EXPECT_NE(fault(std::string("\x00\xff\xfe junk", 9)), "none");
+  EXPECT_NE(fault(std::string("\x00\xff\xfe junk", 8)), "none");
   EXPECT_NE(fault("exposure = 1\nexposure = 2\n"), "none");
 }
 
