@@ -25,5 +25,4 @@ function(penumbra_layer name)
   target_include_directories(penumbra_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src>
                                                      PRIVATE ${CMAKE_SOURCE_DIR}/glsl)
   target_link_libraries(penumbra_${name} PUBLIC ${arg_LINK} PRIVATE $<BUILD_INTERFACE:penumbra_options> ${arg_PRIVATE})
-  target_compile_definitions(penumbra_${name} PUBLIC GLM_FORCE_DEPTH_ZERO_TO_ONE)
 endfunction()

@@ -34,7 +34,7 @@ struct Visibility {
   bool under_texel;        // the kernel is smaller than a texel of the map
 };
 
-const float max_plane_slope = 50.0;
+const float max_plane_slope = 1000.0;
 
 Visibility fully_lit() { return Visibility(1.0, 0.0, 0.0, false); }
 
@@ -51,7 +51,7 @@ Receiver offset_receiver(Receiver receiver, Light light) {
 
 // Bias along the light, metres: what rounding needs, and a part of the texel's depth range on the receiver's plane.
 float depth_bias(Receiver receiver, Light light) {
-  return shadow.cascades[light.cascade].depth.w +
+  return shadow.cascades[light.cascade].depth.z +
          texel_size(light) * (bias_constant + bias_slope * length(receiver.gradient));
 }
 

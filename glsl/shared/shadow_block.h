@@ -11,7 +11,7 @@ GLSL_BEGIN
 
 struct CascadeBlock {
   vec4 map;    // xy: centre, light space, metres; z: map widths per metre; w: a texel, metres
-  vec4 depth;  // x: near z, metres; y: z range, metres; z: 1 / range; w: constant bias, metres
+  vec4 depth;  // x: near z, metres; y: z range, metres; z: constant bias, metres
 };
 
 struct ShadowBlock {

@@ -145,6 +145,8 @@ Sampler::Sampler(std::string_view label, const SamplerDesc& desc) {
   glSamplerParameteri(id, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(desc.mag_filter));
   glSamplerParameteri(id, GL_TEXTURE_WRAP_S, static_cast<GLint>(desc.wrap_s));
   glSamplerParameteri(id, GL_TEXTURE_WRAP_T, static_cast<GLint>(desc.wrap_t));
+  constexpr GLfloat border[] = {1, 1, 1, 1};  // of GL_CLAMP_TO_BORDER: the far end of a depth map
+  glSamplerParameterfv(id, GL_TEXTURE_BORDER_COLOR, border);
   if (desc.compare) {
     glSamplerParameteri(id, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     glSamplerParameteri(id, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);

@@ -39,9 +39,9 @@ struct Box {
   glm::vec3 min{0}, max{0};
 };
 
-// The space from which casters can reach a cascade's receivers: the frustum's part swept towards the light and widened
-// by the light's cone. The cascade's map is fitted to just that and a receiver whose disc leaves the map reads a
-// coarser cascade, so a caster outside the map's square can't matter.
+// The column over a cascade's map, open towards the light. The map is fitted to the frustum's part widened by the
+// light's cone, and a receiver whose disc leaves the map reads a coarser cascade, so a caster outside the column can't
+// matter.
 struct CullVolume {
   glm::dmat3 world_to_light{1};
   glm::dvec3 anchor{0};

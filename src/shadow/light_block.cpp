@@ -13,12 +13,14 @@ static_assert(offsetof(glsl::ShadowBlock, viewport) == 192);
 static_assert(offsetof(glsl::ShadowBlock, cascades) == 240);
 static_assert(sizeof(glsl::SampleBlock) == 4096);
 
-glsl::CascadeBlock cascade_block(const Cascade& cascade, int size) {
+// `shift`: where the origin of the cascade's light space lies in the view's.
+glsl::CascadeBlock cascade_block(const Cascade& cascade, int size, const glm::dvec3& shift) {
   const float range = cascade.far_z - cascade.near_z;
   const float texel = 2.0f * cascade.half_extent / static_cast<float>(size);
   // A few units in the last place of what a map stores and a rasteriser interpolates.
   const float rounding = 4e-7f * (range + 2.0f * cascade.half_extent);
-  return {{cascade.center, 0.5f / cascade.half_extent, texel}, {cascade.near_z, range, 1.0f / range, rounding}};
+  return {{cascade.center + glm::vec2(shift), 0.5f / cascade.half_extent, texel},
+          {cascade.near_z + static_cast<float>(shift.z), range, rounding, 0.0f}};
 }
 
 void fill_table(glm::vec4* table, const std::vector<glm::vec2>& points) {
@@ -40,6 +42,7 @@ glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, bo
   const Conventions& conventions = inputs.conventions;
   const glm::dmat4 view_to_world = glm::inverse(glm::dmat4(inputs.view.view));
   const bool zero_to_one = conventions.depth_zero_to_one;
+  const glm::dvec3 shift = light.cascades.world_to_light * (light.cascades.anchor - glm::dvec3(view_to_world[3]));
   glsl::ShadowBlock block{};
   block.clip_to_view = glm::mat4(glm::inverse(glm::dmat4(inputs.view.projection)));
   block.view_to_light = glm::mat4(glm::dmat4(light.cascades.world_to_light * glm::dmat3(view_to_world)));
@@ -50,7 +53,7 @@ glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, bo
   block.light = {light.tan_half_angle, square ? 1.0f : 0.0f, static_cast<float>(light.cascades.items.size()),
                  static_cast<float>(light.cascades.size)};
   for (size_t i = 0; i < light.cascades.items.size(); ++i) {
-    block.cascades[i] = cascade_block(light.cascades.items[i], light.cascades.size);
+    block.cascades[i] = cascade_block(light.cascades.items[i], light.cascades.size, shift);
   }
   return block;
 }

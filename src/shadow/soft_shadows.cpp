@@ -16,8 +16,10 @@ namespace {
 enum Unit : GLuint { unit_depth, unit_pyramid, unit_receiver_depth, unit_receiver_normal };
 enum Block : GLuint { block_params, block_shadow, block_samples };
 
-ParamSet with_overrides(const ParamSet& params, const Light& light) {
-  ParamSet own = params;
+// The library's rows alone, in the order that GLSL was told of, with the caller's values and the light's own.
+ParamSet params_of(const Registry& registry, const ParamSet& params, const Light& light) {
+  ParamSet own(registry.params());
+  for (const std::string& name : own.names()) own.set(name, params.value(name));
   for (const std::string& assignment : light.overrides) own.assign(assignment);
   return own;
 }
@@ -36,10 +38,8 @@ void put_drivers(gl::ShaderFiles& files, const Technique& technique) {
 
 std::vector<gl::Define> technique_defines(const Technique& technique, const ParamSet& params, bool rotated) {
   std::vector<gl::Define> defines{{"SAMPLE_ROTATE", rotated ? "1" : "0"}};
-  for (const std::string& prefix : {std::string("cascades."), technique.name + "."}) {
-    for (GlslConstant& constant : compiled_constants(params, prefix)) {
-      defines.push_back({std::move(constant.name), std::move(constant.value)});
-    }
+  for (GlslConstant& constant : compiled_constants(params, technique.name + ".")) {
+    defines.push_back({std::move(constant.name), std::move(constant.value)});
   }
   return defines;
 }
@@ -59,8 +59,7 @@ gl::ProgramDesc mask_program(const Technique& technique, const ParamSet& params,
 std::vector<ParamSet> compiled_variants(const Technique& technique, const ParamSet& defaults) {
   std::vector<ParamSet> variants{defaults};
   for (const Param& param : defaults.rows()) {
-    const bool own = param.name.starts_with(technique.name + ".") || param.name.starts_with("cascades.");
-    if (param.binding != ParamBinding::compiled || !own) continue;
+    if (param.binding != ParamBinding::compiled || !param.name.starts_with(technique.name + ".")) continue;
     std::vector<ParamSet> grown;
     for (const ParamSet& variant : variants) {
       for (const ParamValue& value : representative_values(param)) {
@@ -71,6 +70,17 @@ std::vector<ParamSet> compiled_variants(const Technique& technique, const ParamS
     variants = std::move(grown);
   }
   return variants;
+}
+
+void check(const FinishedMaps& maps, int light) {
+  const size_t count = maps.cascades.items.size();
+  if (maps.depth.id == 0) fail("soft shadows: light {} brings no depth texture", light);
+  if (count < 1 || count > max_cascades)
+    fail("soft shadows: light {} brings {} cascades, 1 to {} fit", light, count, max_cascades);
+  if (maps.depth.width != maps.cascades.size || maps.depth.height != maps.cascades.size) {
+    fail("soft shadows: light {} brings maps of {}×{} and cascades of {}", light, maps.depth.width, maps.depth.height,
+         maps.cascades.size);
+  }
 }
 
 void check(const Inputs& inputs) {
@@ -84,6 +94,7 @@ void check(const Inputs& inputs) {
     if (!light.maps && !inputs.draw)
       fail("soft shadows: light {} has no maps and there is no caster callback", light.id);
     if (!(glm::length(light.to_light) > 0.5f)) fail("soft shadows: light {} has no direction", light.id);
+    if (light.maps) check(*light.maps, light.id);
   }
 }
 
@@ -143,8 +154,9 @@ LightFrame SoftShadows::prepare_light(const Inputs& inputs, const Light& light, 
 void SoftShadows::bind_light(const LightFrame& light, size_t index) {
   const State::PerLight& own = state_->lights[index];
   for (const GLuint block : {block_params, block_shadow, block_samples}) own.blocks[block]->bind_uniform(block);
-  const gl::Sampler& nearest = device_.sampler({});
-  for (const GLuint unit : {unit_depth, unit_pyramid}) nearest.bind(unit);
+  // Beyond a map there is nothing, which is at depth 1.
+  device_.sampler({.wrap_s = GL_CLAMP_TO_BORDER, .wrap_t = GL_CLAMP_TO_BORDER}).bind(unit_depth);
+  device_.sampler({}).bind(unit_pyramid);
   gl::glBindTextureUnit(unit_depth, light.depth);
   gl::glBindTextureUnit(unit_pyramid, light.pyramid != nullptr ? light.pyramid->id() : 0);
 }
@@ -200,7 +212,7 @@ Mask SoftShadows::render(const Inputs& inputs, const ParamSet& params) {
   state_->lights.resize(inputs.lights.size());
   for (size_t i = 0; i < inputs.lights.size(); ++i) {
     State::PerLight& own = state_->lights[i];
-    own.params = with_overrides(params, inputs.lights[i]);
+    own.params = params_of(registry_, params, inputs.lights[i]);
     own.sampling = sampling_of(registry_.find(own.params.get_word("technique")), own.params);
     const LightFrame light = prepare_light(inputs, inputs.lights[i], own.params, static_cast<int>(i));
     upload_light(inputs, light, i);

@@ -36,14 +36,16 @@ Texel read_texel(Receiver receiver, ivec2 at, float radius, Light light) {
 
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
-  float search = narrow_search(receiver, light, light.cascade, light.reach).radius;
+  // The map's own footprint belongs to both discs, as in add_blockers().
+  float footprint = 1.5 * texel_size(light);
+  float search = narrow_search(receiver, light, light.cascade, light.reach).radius + footprint;
   Region region = texels_within(receiver, search, light);
   float sum = 0.0, count = 0.0;
   for (int y = region.low.y; y <= region.high.y; ++y) {
     for (int x = region.low.x; x <= region.high.x; ++x) {
       Texel texel = read_texel(receiver, ivec2(x, y), search, light);
       float distance_to = receiver.position.z - texel.depth;
-      float cone = light.tan_half_angle * distance_to;
+      float cone = light.tan_half_angle * distance_to + footprint;
       bool in_cone = light.square ? max(abs(texel.offset.x), abs(texel.offset.y)) <= cone : length(texel.offset) <= cone;
       bool blocks = texel.depth < blocking_depth(receiver.position.z, receiver.gradient, texel.offset, bias);
       if (texel.within && in_cone && blocks) {
@@ -55,6 +57,7 @@ Visibility visibility(Receiver receiver, Light light) {
   if (count == 0.0) return fully_lit();
   float mean = sum / count;
   float radius = light.tan_half_angle * mean;
+  if (radius < texel_size(light)) return Visibility(lit_share(receiver, vec2(0.0), bias, light), radius, mean, true);
   region = texels_within(receiver, radius, light);
   float lit = 0.0, all = 0.0;
   for (int y = region.low.y; y <= region.high.y; ++y) {
@@ -65,8 +68,7 @@ Visibility visibility(Receiver receiver, Light light) {
       lit += texel.depth < blocking_depth(receiver.position.z, receiver.gradient, texel.offset, bias) ? 0.0 : 1.0;
     }
   }
-  float share = all > 0.0 ? lit / all : lit_share(receiver, vec2(0.0), bias, light);
-  return Visibility(share, radius, mean, radius < texel_size(light));
+  return Visibility(lit / all, radius, mean, false);
 }
 
 #else
