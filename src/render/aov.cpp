@@ -22,7 +22,7 @@ Picture read(const gl::Texture& texture, int channels, int layer = 0) {
   Picture picture{channels, {}};
   picture.values.reserve(bottom_up.size());
   const auto row = static_cast<std::size_t>(texture.width()) * static_cast<std::size_t>(channels);
-  for (std::size_t y = static_cast<std::size_t>(texture.height()); y-- > 0;) {
+  for (auto y = static_cast<std::size_t>(texture.height()); y-- > 0;) {
     const auto begin = bottom_up.begin() + static_cast<std::ptrdiff_t>(y * row);
     picture.values.insert(picture.values.end(), begin, begin + static_cast<std::ptrdiff_t>(row));
   }

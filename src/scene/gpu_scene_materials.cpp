@@ -95,6 +95,7 @@ Materials::Materials(gl::Device& device, const Scene& scene) {
   }
   blocks.push_back(block_of(of(scene, -1)));
   textures_.emplace_back();
+  fill_empty_slots();
   blocks_ = gl::Buffer::of("materials", std::span<const glsl::MaterialBlock>(blocks));
 }
 
@@ -119,13 +120,25 @@ Materials::Slot Materials::slot(gl::Device& device, const Scene& scene, const Te
   return {&entry->second, &device.sampler(sampler_of(texture))};
 }
 
+// Flags keep shaders from reading what a material lacks. One of its neighbours' textures is bound there all the same:
+// a software driver compiles a shader anew for each combination of texture states that it is drawn with.
+void Materials::fill_empty_slots() {
+  for (std::size_t i = 0; i < TEXTURE_COUNT; ++i) {
+    const auto filled = std::ranges::find_if(textures_, [&](const Slots& slots) { return slots[i].texture != nullptr; });
+    if (filled == textures_.end()) continue;
+    for (Slots& slots : textures_) {
+      if (slots[i].texture == nullptr) slots[i] = (*filled)[i];
+    }
+  }
+}
+
 void Materials::bind(int material) const {
   constexpr std::size_t size = sizeof(glsl::MaterialBlock);
   gl::glBindBufferRange(GL_UNIFORM_BUFFER, material_binding, blocks_.id(),
                         static_cast<GLintptr>(size * static_cast<std::size_t>(material)), size);
   const Slots& slots = textures_[static_cast<std::size_t>(material)];
   for (GLuint i = 0; i < slots.size(); ++i) {
-    if (slots[i].texture == nullptr) continue;  // flags keep shaders from reading it
+    if (slots[i].texture == nullptr) continue;
     slots[i].texture->bind(first_unit + i);
     slots[i].sampler->bind(first_unit + i);
   }

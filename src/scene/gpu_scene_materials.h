@@ -33,6 +33,7 @@ class Materials {
 
   Slot slot(gl::Device& device, const Scene& scene, const TextureRef& ref, bool srgb);
   Slots slots(gl::Device& device, const Scene& scene, const Material& material);
+  void fill_empty_slots();
 
   std::map<std::pair<int, bool>, gl::Texture> images_;  // by image and whether it is sRGB
   std::vector<Slots> textures_;                         // by material
