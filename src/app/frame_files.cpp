@@ -36,7 +36,8 @@ std::vector<float> read_layer(const render::Renderer& renderer, const RenderOpti
 std::string text_of(const glm::vec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
 
 io::Metadata metadata_of(const RenderOptions& options, const Stage& stage, const ParamSet& params, int frame) {
-  const render::Camera& camera = stage.camera;
+  const render::Setup setup = setup_at(stage, time_of(options, frame));
+  const render::Camera& camera = setup.camera;
   const glm::vec3 forward = -glm::vec3(camera.view[0][2], camera.view[1][2], camera.view[2][2]);
   io::Metadata metadata{{"Software", version()},
                         {"penumbra:scene", options.scene},
@@ -46,8 +47,8 @@ io::Metadata metadata_of(const RenderOptions& options, const Stage& stage, const
                         {"penumbra:supersample", std::to_string(options.supersample)},
                         {"penumbra:camera.eye", text_of(render::position_of(camera))},
                         {"penumbra:camera.forward", text_of(forward)},
-                        {"penumbra:sun.to_light", text_of(stage.sun.to_light)},
-                        {"penumbra:sun.illuminance", text_of(stage.sun.illuminance)}};
+                        {"penumbra:sun.to_light", text_of(setup.sun.to_light)},
+                        {"penumbra:sun.illuminance", text_of(setup.sun.illuminance)}};
   if (camera.orthographic) {
     metadata.emplace_back("penumbra:camera.half_height", fmt::format("{}", camera.half_height));
   } else {

@@ -11,10 +11,12 @@ namespace penumbra::app {
 
 namespace {
 
-void aim(render::Camera& camera, const RenderOptions& options, const scene::Bounds& bounds) {
+void aim(render::Setup& setup, const RenderOptions& options, const scene::Bounds& bounds) {
+  render::Camera& camera = setup.camera;
   const float fov = options.fov ? glm::radians(static_cast<float>(*options.fov)) : camera.fov_y;
   if (options.eye) {
     camera = render::look_at(*options.eye, *options.target, fov, render::near_plane_for(bounds, *options.eye));
+    setup.camera_node.reset();
   } else if (options.fov) {
     if (camera.orthographic) fail("--fov: the camera is orthographic");
     camera.fov_y = fov;
@@ -26,18 +28,24 @@ void aim(render::Camera& camera, const RenderOptions& options, const scene::Boun
 Stage load_stage(const RenderOptions& options) {
   Stage stage;
   stage.scene = scene::read_gltf(options.scene, io::image_decoder());
-  const int first = options.frames ? options.frames->first : 0;
-  const scene::Pose pose = scene::pose_at(stage.scene, time_of(options, first));
-  const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
-  const render::Setup setup =
-      render::choose_setup(stage.scene, pose, {options.camera.value_or(""), options.ground, aspect});
+  const scene::Pose pose = scene::pose_at(stage.scene, options.time);
   const scene::Bounds bounds = scene::bounds_of(stage.scene, pose);
-  stage.camera = setup.camera;
-  stage.sun = setup.sun;
-  aim(stage.camera, options, bounds);
-  if (options.sun) stage.sun.to_light = render::direction_to(options.sun->azimuth, options.sun->elevation);
-  if (setup.ground) render::add_ground(stage.scene, bounds);
+  const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
+  stage.setup = render::choose_setup(stage.scene, pose, {options.camera.value_or(""), options.ground, aspect});
+  aim(stage.setup, options, bounds);
+  if (options.sun) {
+    stage.setup.sun.to_light = render::direction_to(options.sun->azimuth, options.sun->elevation);
+    stage.setup.sun_node.reset();
+  }
+  if (stage.setup.ground) render::add_ground(stage.scene, bounds);
   return stage;
+}
+
+render::Setup setup_at(const Stage& stage, double seconds) {
+  render::Setup setup = stage.setup;
+  const bool attached = setup.camera_node || setup.sun_node;
+  if (attached && !stage.scene.animations.empty()) render::follow(setup, scene::pose_at(stage.scene, seconds));
+  return setup;
 }
 
 double time_of(const RenderOptions& options, int frame) {

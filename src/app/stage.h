@@ -9,12 +9,15 @@ namespace penumbra::app {
 // What stands before the camera: the scene with its ground, and all that the options and the scene settle.
 struct Stage {
   scene::Scene scene;
-  render::Camera camera;
-  render::Sun sun;
+  render::Setup setup;  // at --time
 };
 
-// Reads the scene and sets it up for its first picture. Throws Error.
+// Reads the scene and sets it up. What is chosen from its bounds is chosen at --time, so that it is the same in all
+// frames of a sequence, wherever one starts. Throws Error.
 Stage load_stage(const RenderOptions& options);
+
+// The setup at a moment: a camera and a sun of the file follow its animation.
+render::Setup setup_at(const Stage& stage, double seconds);
 
 // When a frame is, seconds: frames count from 0 at --time; a single picture is frame 0.
 double time_of(const RenderOptions& options, int frame);

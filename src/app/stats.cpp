@@ -26,6 +26,7 @@ long peak_resident() {
 
 Json stats_of(const RenderOptions& options, const Stage& stage, const ParamSet& params, Studio& studio,
               std::size_t measured) {
+  const render::Setup setup = setup_at(stage, time_of(options, options.frames ? options.frames->last : 0));
   const std::vector<gl::Timers::Row> rows = studio.device().timers.rows();
   Json passes = Json::array(), frame;
   for (const io::PassCost& cost : io::pass_costs(rows, measured)) {
@@ -44,8 +45,8 @@ Json stats_of(const RenderOptions& options, const Stage& stage, const ParamSet& 
           {"technique", params.get_word("technique")},
           {"backend", gl::to_string(studio.context().backend())},
           {"device", io::to_json(studio.device_info())},
-          {"camera_eye", json_of(render::position_of(stage.camera))},
-          {"sun_to_light", json_of(stage.sun.to_light)},
+          {"camera_eye", json_of(render::position_of(setup.camera))},
+          {"sun_to_light", json_of(setup.sun.to_light)},
           {"params", io::to_json(params)},
           {"measured_frames", measured},
           {"timing", studio.device().timers.mode() == gl::Timers::Mode::query ? "gpu timestamps" : "finish"},

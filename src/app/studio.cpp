@@ -53,10 +53,12 @@ void Studio::draw(int frame, const ParamSet& params) {
   render::FrameInputs inputs;
   inputs.width = options_.size.width * options_.supersample;
   inputs.height = options_.size.height * options_.supersample;
-  inputs.camera = inputs.last_camera = stage_.camera;
-  inputs.sun = stage_.sun;
   inputs.time = time_of(options_, frame);
   inputs.last_time = time_of(options_, frame - 1);
+  const render::Setup setup = setup_at(stage_, inputs.time);
+  inputs.camera = setup.camera;
+  inputs.last_camera = setup_at(stage_, inputs.last_time).camera;
+  inputs.sun = setup.sun;
   renderer_.draw(scene_, inputs, params);
 }
 

@@ -21,7 +21,7 @@ constexpr float margin = 1.15f;
 struct PlacedCamera {
   std::string name;
   const scene::Camera* camera;
-  glm::mat4 world;
+  std::size_t node;
 };
 
 std::vector<PlacedCamera> placed_cameras(const scene::Scene& scene, const scene::Pose& pose) {
@@ -32,7 +32,7 @@ std::vector<PlacedCamera> placed_cameras(const scene::Scene& scene, const scene:
     const scene::Camera& camera = scene.cameras[static_cast<std::size_t>(node.camera)];
     std::string name = !camera.name.empty() ? camera.name : node.name;
     if (name.empty()) name = std::to_string(placed.size());
-    placed.push_back({std::move(name), &camera, pose.world[i]});
+    placed.push_back({std::move(name), &camera, i});
   }
   return placed;
 }
@@ -47,13 +47,11 @@ glm::mat4 view_of(const glm::mat4& world) {
   return glm::lookAt(eye, eye - glm::normalize(back), glm::normalize(up));
 }
 
+// Its lens: follow() puts it in its place.
 Camera camera_of(const PlacedCamera& placed) {
   const scene::Camera& file = *placed.camera;
-  Camera camera{.view = view_of(placed.world),
-                .orthographic = file.orthographic,
-                .fov_y = file.fov_y,
-                .half_height = file.half_height,
-                .near = file.near};
+  Camera camera{
+      .orthographic = file.orthographic, .fov_y = file.fov_y, .half_height = file.half_height, .near = file.near};
   if (file.far) camera.far = *file.far;
   return camera;
 }
@@ -101,16 +99,33 @@ Sun default_sun(const Camera& camera) {
   return {.to_light = direction_to(azimuth, glm::radians(45.0f)), .illuminance = {104000.0f, 99500.0f, 93000.0f}};
 }
 
-Sun sun_of(const scene::Scene& scene, const scene::Pose& pose, const Camera& camera) {
+// A unit vector towards a light on a node: it shines along its -Z. None where the node is flattened.
+std::optional<glm::vec3> to_light_of(const glm::mat4& world) {
+  const glm::vec3 back(world[2]);
+  const float length = glm::length(back);
+  return length > 0 && std::isfinite(length) ? std::optional(back / length) : std::nullopt;
+}
+
+// The first directional light that shines.
+std::optional<std::size_t> find_sun(const scene::Scene& scene, const scene::Pose& pose) {
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const int light = scene.nodes[i].light;
     if (light < 0 || !pose.drawn[i]) continue;
-    const scene::Light& file = scene.lights[static_cast<std::size_t>(light)];
-    const glm::vec3 back(pose.world[i][2]);  // it shines along its -Z
-    if (file.kind != scene::LightKind::directional || !(glm::length(back) > 0)) continue;
-    return {.to_light = glm::normalize(back), .illuminance = file.color * file.intensity};
+    const bool directional = scene.lights[static_cast<std::size_t>(light)].kind == scene::LightKind::directional;
+    if (directional && to_light_of(pose.world[i])) return i;
   }
-  return default_sun(camera);
+  return std::nullopt;
+}
+
+// The file's sun, else one that suits the camera.
+void choose_sun(Setup& setup, const scene::Scene& scene, const scene::Pose& pose) {
+  setup.sun_node = find_sun(scene, pose);
+  if (!setup.sun_node) {
+    setup.sun = default_sun(setup.camera);
+    return;
+  }
+  const scene::Light& file = scene.lights[static_cast<std::size_t>(scene.nodes[*setup.sun_node].light)];
+  setup.sun = {.to_light = *to_light_of(pose.world[*setup.sun_node]), .illuminance = file.color * file.intensity};
 }
 
 float distance_to(const scene::Bounds& box, const glm::vec3& point) {
@@ -145,16 +160,24 @@ std::vector<std::string> camera_names(const scene::Scene& scene, const scene::Po
   return names;
 }
 
+void follow(Setup& setup, const scene::Pose& pose) {
+  if (setup.camera_node) setup.camera.view = view_of(pose.world[*setup.camera_node]);
+  if (setup.sun_node) setup.sun.to_light = to_light_of(pose.world[*setup.sun_node]).value_or(setup.sun.to_light);
+}
+
 Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const SetupRequest& request) {
   const scene::Bounds bounds = usable(scene::bounds_of(scene, pose));
   const std::vector<PlacedCamera> cameras = placed_cameras(scene, pose);
   Setup setup;
-  if (!request.camera.empty()) {
-    setup.camera = camera_of(find_camera(cameras, request.camera));
+  if (request.camera.empty() && cameras.empty()) {
+    setup.camera = framing_camera(bounds, request.aspect);
   } else {
-    setup.camera = cameras.empty() ? framing_camera(bounds, request.aspect) : camera_of(cameras.front());
+    const PlacedCamera& chosen = request.camera.empty() ? cameras.front() : find_camera(cameras, request.camera);
+    setup.camera = camera_of(chosen);
+    setup.camera_node = chosen.node;
   }
-  setup.sun = sun_of(scene, pose, setup.camera);
+  follow(setup, pose);
+  choose_sun(setup, scene, pose);
   setup.ground = request.ground == GroundChoice::on ||
                  (request.ground == GroundChoice::automatic && !has_ground(scene, pose, bounds));
   return setup;

@@ -24,10 +24,15 @@ struct Setup {
   Camera camera;
   Sun sun;
   bool ground = false;  // add_ground() puts it there
+  // The nodes that camera and sun sit on and whose animation they follow; none: they stand still.
+  std::optional<std::size_t> camera_node, sun_node;
 };
 
 // Throws Error, listing near names, for a camera that the file lacks.
 Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const SetupRequest& request = {});
+
+// Camera and sun where `pose`, of the scene that they were chosen for, has their nodes.
+void follow(Setup& setup, const scene::Pose& pose);
 
 // The file's cameras that its default scene places, as `SetupRequest::camera` takes them.
 std::vector<std::string> camera_names(const scene::Scene& scene, const scene::Pose& pose);

@@ -22,8 +22,12 @@ def own_scenes():
 
 def read_exr_header(path):
     """Attributes by name; channels as a list of names, strings as text, other values as bytes."""
-    data = path.read_bytes()
-    assert data[:4] == b"\x76\x2f\x31\x01", f"{path} is no EXR file"
+    return _exr_header(path.read_bytes())[0]
+
+
+def _exr_header(data):
+    """The attributes and where they end."""
+    assert data[:4] == b"\x76\x2f\x31\x01", "no EXR file"
     at, attributes = 8, {}
     while data[at] != 0:
         name, kind, rest = data[at:at + 1024].split(b"\0", 2)
@@ -36,7 +40,7 @@ def read_exr_header(path):
         elif kind == b"chlist":
             value = _channels(value)
         attributes[name.decode()] = value
-    return attributes
+    return attributes, at + 1
 
 
 def _channels(value):
@@ -46,6 +50,35 @@ def _channels(value):
         names.append(name.decode())
         at += len(name) + 1 + 16
     return names
+
+
+def read_exr(path):
+    """Channels by name, each a list of rows: 32-bit float, ZIP compression, as the program writes."""
+    data = path.read_bytes()
+    header, offsets = _exr_header(data)
+    assert header["compression"] == b"\x03", "not ZIP"
+    left, low, right, high = struct.unpack("<4i", header["dataWindow"])
+    width, height, names = right - left + 1, high - low + 1, header["channels"]
+    rows = {name: [] for name in names}
+    for offset in struct.unpack_from(f"<{(height + 15) // 16}Q", data, offsets):
+        line, size = struct.unpack_from("<2i", data, offset)
+        count = min(16, height - line)
+        lines = _exr_lines(data[offset + 8:offset + 8 + size], count * width * 4 * len(names))
+        for at in range(count * len(names)):
+            rows[names[at % len(names)]].append(struct.unpack_from(f"<{width}f", lines, at * width * 4))
+    return rows
+
+
+def _exr_lines(packed, size):
+    """A block without its compression: differences of bytes, the even ones before the odd ones."""
+    if len(packed) == size:
+        return packed
+    raw = bytearray(zlib.decompress(packed))
+    for i in range(1, size):
+        raw[i] = (raw[i - 1] + raw[i] - 128) & 255
+    lines = bytearray(size)
+    lines[0::2], lines[1::2] = raw[:(size + 1) // 2], raw[(size + 1) // 2:]
+    return bytes(lines)
 
 
 def read_png(path):
