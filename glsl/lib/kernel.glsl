@@ -21,9 +21,12 @@ GLSL_FUNCTION vec2 plane_gradient(vec3 normal, float max_slope) {
   return slope > max_slope ? gradient * (max_slope / slope) : gradient;
 }
 
-// Depth before which a texel blocks: the nearer of the receiver and its plane at the texel's centre, less the bias.
-GLSL_FUNCTION float blocking_depth(float receiver_depth, vec2 gradient, vec2 offset, float bias) {
-  return receiver_depth + min(dot(gradient, offset), 0.0f) - bias;
+// Depth before which a texel blocks: the nearest of the receiver, its plane and the faces beside it (slopes towards +x,
+// +y, -x, -y, not negative) at the texel's centre, less the bias.
+GLSL_FUNCTION float blocking_depth(float receiver_depth, vec2 gradient, vec4 corner, vec2 offset, float bias) {
+  float plane = dot(gradient, offset);
+  float beside = max(corner.x * offset.x, -corner.z * offset.x) + max(corner.y * offset.y, -corner.w * offset.y);
+  return receiver_depth + min(plane, -beside) - bias;
 }
 
 // Level of a pyramid (level 0: `base` metres a texel) at which a disc of that radius touches at most 2 × 2 texels.

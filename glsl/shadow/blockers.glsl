@@ -11,7 +11,7 @@ struct Blockers {
 void add_blockers(inout Blockers blockers, Receiver receiver, vec2 offset, float bias, Light light) {
   float texel = texel_size(light);
   Footprint footprint = fetch_footprint(receiver.position, offset, light);
-  vec4 blocks = vec4(lessThan(footprint.depths, blocking_depths(receiver, footprint, bias, texel)));
+  vec4 blocks = blocking_texels(receiver, footprint, bias, light);
   vec4 distance_to = receiver.position.z - footprint.depths;
   vec2 high = footprint.corner + texel;
   vec4 dx = vec4(footprint.corner.x, high.x, high.x, footprint.corner.x);
@@ -47,6 +47,7 @@ Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, int fil
   float bias = depth_bias(receiver, light);
   Search search = narrow_search(receiver, light, light.cascade, light.reach);
   if (early_exits && search.bounds.x >= receiver.position.z - bias) return fully_lit();
+  receiver = receiver_in_corner(receiver, bias, light);
   Blockers blockers = find_blockers(receiver, search.radius, blocker_taps, bias, light);
   if (blockers.weight == 0.0) return fully_lit();
   float mean = mean_distance(blockers);

@@ -16,6 +16,7 @@ struct Receiver {
   vec3 position;
   vec3 normal;    // geometric
   vec2 gradient;  // of its plane: change of depth per metre across the light
+  vec4 corner;    // slopes of the faces beside it, nearer the light with each metre towards +x, +y, -x, -y
   vec2 pixel;     // seeds the noise
 };
 
@@ -90,12 +91,50 @@ Footprint fetch_footprint(vec3 position, vec2 offset, Light light) {
   return footprint;
 }
 
-// The depth before which each of the four texels blocks.
-vec4 blocking_depths(Receiver receiver, Footprint footprint, float bias, float texel) {
-  vec2 low = receiver.gradient * footprint.corner;
-  vec2 high = receiver.gradient * (footprint.corner + texel);
-  vec4 plane = vec4(low.x, high.x, high.x, low.x) + vec4(high.y, high.y, low.y, low.y);
-  return receiver.position.z + min(plane, 0.0) - bias;
+float depth_at(ivec2 texel, Light light) {
+  CascadeBlock cascade = shadow.cascades[light.cascade];
+  ivec2 within = clamp(texel, ivec2(0), ivec2(shadow.light.w) - 1);
+  return cascade.depth.x + cascade.depth.y * texelFetch(shadow_depth, ivec3(within, light.cascade), 0).x;
+}
+
+// How much nearer to the light the surface beside the receiver gets with each metre towards one side. 0 unless the next
+// three texels rise evenly and their surface, continued to the receiver, passes behind it.
+float side_slope(Receiver receiver, ivec2 at, ivec2 side, float texels, float bias, Light light) {
+  float first = depth_at(at + side, light);
+  float second = depth_at(at + 2 * side, light);
+  float rise = min(first - second, second - depth_at(at + 3 * side, light));
+  bool behind = first + rise * texels >= receiver.position.z - bias;
+  return rise > 0.0 && behind ? rise / texel_size(light) : 0.0;
+}
+
+// Where lit faces meet in a corner each lies before the other's plane, and yet neither hides the other: a receiver next
+// to another face must not be shadowed by what lies on that face's plane either. What is within the light's cone hides a
+// part of it all the same.
+Receiver receiver_in_corner(Receiver receiver, float bias, Light light) {
+  CascadeBlock cascade = shadow.cascades[light.cascade];
+  vec2 place = ((receiver.position.xy - cascade.map.xy) * cascade.map.z + 0.5) * shadow.light.w;
+  ivec2 at = ivec2(floor(place));
+  vec2 high = vec2(at) + 1.5 - place;
+  vec2 low = place - vec2(at) + 0.5;
+  vec4 own = max(vec4(-receiver.gradient, receiver.gradient), 0.0);
+  vec4 slopes = vec4(side_slope(receiver, at, ivec2(1, 0), high.x, bias, light),
+                     side_slope(receiver, at, ivec2(0, 1), high.y, bias, light),
+                     side_slope(receiver, at, ivec2(-1, 0), low.x, bias, light),
+                     side_slope(receiver, at, ivec2(0, -1), low.y, bias, light));
+  bool meets = any(greaterThan(slopes, own * 1.01 + bias / texel_size(light)));
+  receiver.corner = meets ? min(max(slopes, own), 1.0 / max(light.tan_half_angle, 1.0 / max_plane_slope)) : vec4(0.0);
+  return receiver;
+}
+
+// 1 for each texel of a footprint that blocks, else 0.
+vec4 blocking_texels(Receiver receiver, Footprint footprint, float bias, Light light) {
+  vec2 low = footprint.corner;
+  vec2 high = footprint.corner + texel_size(light);
+  vec4 x = vec4(low.x, high.x, high.x, low.x);
+  vec4 y = vec4(high.y, high.y, low.y, low.y);
+  vec4 plane = receiver.gradient.x * x + receiver.gradient.y * y;
+  vec4 corner = max(receiver.corner.x * x, -receiver.corner.z * x) + max(receiver.corner.y * y, -receiver.corner.w * y);
+  return vec4(lessThan(footprint.depths, receiver.position.z + min(plane, -corner) - bias));
 }
 
 float bilinear(vec4 texels, vec2 weight) {
@@ -107,8 +146,7 @@ float bilinear(vec4 texels, vec2 weight) {
 // 1987, "Rendering antialiased shadows with depth maps").
 float lit_share(Receiver receiver, vec2 offset, float bias, Light light) {
   Footprint footprint = fetch_footprint(receiver.position, offset, light);
-  vec4 limit = blocking_depths(receiver, footprint, bias, texel_size(light));
-  return bilinear(vec4(greaterThanEqual(footprint.depths, limit)), footprint.weight);
+  return 1.0 - bilinear(blocking_texels(receiver, footprint, bias, light), footprint.weight);
 }
 
 // Points of the light's shape, -1..1, from the tables. A disc's points are rotated, or like a square's shifted on the

@@ -110,8 +110,12 @@ TEST(Kernel, PlaneGradientIsLimitedWhereTheLightGrazes) {
 
 TEST(Kernel, BlockingDepthIsTheNearerOfReceiverAndPlane) {
   const vec2 gradient(2, 0);
-  EXPECT_FLOAT_EQ(blocking_depth(10, gradient, {-1, 0}, 0.1f), 7.9f) << "the plane rises towards the light";
-  EXPECT_FLOAT_EQ(blocking_depth(10, gradient, {1, 0}, 0.1f), 9.9f) << "the plane falls away";
+  EXPECT_FLOAT_EQ(blocking_depth(10, gradient, {0, 0, 0, 0}, {-1, 0}, 0.1f), 7.9f) << "the plane rises to the light";
+  EXPECT_FLOAT_EQ(blocking_depth(10, gradient, {0, 0, 0, 0}, {1, 0}, 0.1f), 9.9f) << "the plane falls away";
+  const vec4 corner{3, 0, 0, 5};
+  EXPECT_FLOAT_EQ(blocking_depth(10, gradient, corner, {1, 0}, 0.1f), 6.9f) << "a face rises on that side";
+  EXPECT_FLOAT_EQ(blocking_depth(10, gradient, corner, {0, -1}, 0.1f), 4.9f) << "and on that";
+  EXPECT_FLOAT_EQ(blocking_depth(10, gradient, corner, {-1, 1}, 0.1f), 7.9f) << "elsewhere the plane decides";
 }
 
 TEST(Kernel, CoveringLevelHoldsTheDiscInTwoTexels) {

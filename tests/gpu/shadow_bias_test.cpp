@@ -76,12 +76,12 @@ TEST_F(ShadowBias, LitPlanesDoNotShadowThemselves) {
   }
 }
 
-// A box on the ground; how far from its foot the ground is lit on the side away from the sun, in texels of the map as
+// A wall on the ground; how far from its foot the ground is lit on the side away from the sun, in texels of the map as
 // the light projects them onto the ground.
-double gap_in_texels(TriangleRenderer& renderer, const std::string& technique, float elevation) {
+double gap_in_texels(TriangleRenderer& renderer, const std::string& technique, float elevation, float height) {
   TriangleScene scene;
   scene.add_quad({-10, 0, 10}, {20, 0, 0}, {0, 0, -20});
-  scene.add_quad({1, 0, 1}, {0, 0, -2}, {0, 1.5f, 0});
+  scene.add_quad({1, 0, 1}, {0, 0, -2}, {0, height, 0});
   scene.to_light = sun_direction(270, elevation);  // from -X: the shadow falls on +X
   scene.width = 512;
   scene.height = 8;
@@ -91,13 +91,15 @@ double gap_in_texels(TriangleRenderer& renderer, const std::string& technique, f
   params.set("technique", technique);
   const Shadowed shadowed = renderer.render(scene, params);
   const float texel = renderer.mask().lights[0].cascades.texel(0);
-  const double on_ground = texel / std::sin(glm::radians(static_cast<double>(elevation)));
+  const double sun = glm::radians(static_cast<double>(elevation));
+  const double on_ground = texel / std::sin(sun);
+  const double shadow_length = height / std::tan(sun);
   double gap = 0;
   for (int x = 0; x < scene.width; ++x) {
     const glm::vec3& p = shadowed.point(x, scene.height / 2);
     if (p.x <= 1 || p.y > 0.01f) continue;
     if (shadowed.visibility(x, scene.height / 2) > 0.5f) gap = std::max(gap, static_cast<double>(p.x) - 1);
-    if (p.x > 1 + 8 * on_ground) break;
+    if (p.x > 1 + std::min(8 * on_ground, 0.75 * shadow_length)) break;
   }
   return gap / on_ground;
 }
@@ -105,8 +107,44 @@ double gap_in_texels(TriangleRenderer& renderer, const std::string& technique, f
 TEST_F(ShadowBias, ContactShadowsStartAtTheContact) {
   for (const std::string technique : {"hard", "pcss", "brute_force"}) {
     for (const float elevation : {10.0f, 30.0f, 60.0f}) {
-      EXPECT_LE(gap_in_texels(*renderer_, technique, elevation), 2)
-          << technique << ", sun at " << elevation << " degrees: a lit gap at the foot of the wall, in texels";
+      for (const float height : {0.1f, 0.3f, 1.5f}) {
+        EXPECT_LE(gap_in_texels(*renderer_, technique, elevation, height), 2)
+            << technique << ", sun at " << elevation << " degrees, a wall of " << height
+            << " m: a lit gap at its foot, in texels";
+      }
+    }
+  }
+}
+
+// A wall on the ground, both lit, seen so close that a texel of the map covers several pixels.
+TriangleScene lit_crease(float azimuth, float elevation) {
+  TriangleScene scene;
+  scene.add_quad({-10, 0, 10}, {20, 0, 0}, {0, 0, -20});
+  scene.add_quad({0, 0, 3}, {0, 0, -6}, {0, 3, 0});  // faces -X
+  scene.to_light = sun_direction(azimuth, elevation);
+  scene.width = 192;
+  scene.height = 128;
+  scene.view = glm::lookAt(glm::vec3(-3, 2, 1), glm::vec3(0, 0, 0), glm::vec3(0, 1, 0));
+  scene.projection = orthographic(0.24f, 0.16f, 0.1f, 20);
+  return scene;
+}
+
+TEST_F(ShadowBias, LitFacesDoNotShadowEachOtherWhereTheyMeet) {
+  for (const std::string technique : {"hard", "pcss", "brute_force", "every texel"}) {
+    for (const float azimuth : {270.0f, 310.0f, 200.0f}) {
+      for (const float elevation : {10.0f, 35.0f, 60.0f, 80.0f}) {
+        const TriangleScene scene = lit_crease(azimuth, elevation);
+        ParamSet params = renderer_->params();
+        params.set("technique", technique == "every texel" ? std::string("brute_force") : technique);
+        params.set("brute_force.every_texel", technique == "every texel");
+        const Shadowed shadowed = renderer_->render(scene, params);
+        int dark = 0;
+        for (int y = 0; y < scene.height; ++y) {
+          for (int x = 0; x < scene.width; ++x) dark += shadowed.visibility(x, y) < 0.99f ? 1 : 0;
+        }
+        EXPECT_LE(dark, scene.width * scene.height / 1000)
+            << technique << ", sun at " << azimuth << ", " << elevation << " degrees";
+      }
     }
   }
 }

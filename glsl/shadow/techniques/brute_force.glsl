@@ -28,14 +28,19 @@ Texel read_texel(Receiver receiver, ivec2 at, float radius, Light light) {
   CascadeBlock cascade = shadow.cascades[light.cascade];
   vec2 center = (vec2(at) + 0.5) * cascade.map.w - 0.5 / cascade.map.z + cascade.map.xy;
   Texel texel;
-  texel.depth = cascade.depth.x + cascade.depth.y * texelFetch(shadow_depth, ivec3(at, light.cascade), 0).x;
+  texel.depth = depth_at(at, light);
   texel.offset = center - receiver.position.xy;
   texel.within = light.square ? max(abs(texel.offset.x), abs(texel.offset.y)) <= radius : length(texel.offset) <= radius;
   return texel;
 }
 
+bool blocks(Receiver receiver, Texel texel, float bias) {
+  return texel.depth < blocking_depth(receiver.position.z, receiver.gradient, receiver.corner, texel.offset, bias);
+}
+
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
+  receiver = receiver_in_corner(receiver, bias, light);
   // The map's own footprint belongs to both discs, as in add_blockers().
   float footprint = 1.5 * texel_size(light);
   float search = narrow_search(receiver, light, light.cascade, light.reach).radius + footprint;
@@ -47,8 +52,7 @@ Visibility visibility(Receiver receiver, Light light) {
       float distance_to = receiver.position.z - texel.depth;
       float cone = light.tan_half_angle * distance_to + footprint;
       bool in_cone = light.square ? max(abs(texel.offset.x), abs(texel.offset.y)) <= cone : length(texel.offset) <= cone;
-      bool blocks = texel.depth < blocking_depth(receiver.position.z, receiver.gradient, texel.offset, bias);
-      if (texel.within && in_cone && blocks) {
+      if (texel.within && in_cone && blocks(receiver, texel, bias)) {
         sum += distance_to;
         count += 1.0;
       }
@@ -65,7 +69,7 @@ Visibility visibility(Receiver receiver, Light light) {
       Texel texel = read_texel(receiver, ivec2(x, y), radius, light);
       if (!texel.within) continue;
       all += 1.0;
-      lit += texel.depth < blocking_depth(receiver.position.z, receiver.gradient, texel.offset, bias) ? 0.0 : 1.0;
+      lit += blocks(receiver, texel, bias) ? 0.0 : 1.0;
     }
   }
   return Visibility(lit / all, radius, mean, false);

@@ -4,5 +4,7 @@
 float reach(Receiver receiver, Light light) { return 0.0; }
 
 Visibility visibility(Receiver receiver, Light light) {
-  return Visibility(lit_share(receiver, vec2(0.0), depth_bias(receiver, light), light), 0.0, 0.0, true);
+  float bias = depth_bias(receiver, light);
+  receiver = receiver_in_corner(receiver, bias, light);
+  return Visibility(lit_share(receiver, vec2(0.0), bias, light), 0.0, 0.0, true);
 }
