@@ -9,6 +9,7 @@
 
 #include "gpu/gpu_test.h"
 #include "gpu/triangle_scene.h"
+#include "support/alike.h"
 
 namespace penumbra::test {
 namespace {
@@ -175,7 +176,12 @@ TEST_F(ShadowBias, FragmentAndComputeGiveTheSameMask) {
       const Shadowed fragment = renderer_->render(boxes(), params);
       params.set("driver", std::string("compute"));
       const Shadowed compute = renderer_->render(boxes(), params);
-      EXPECT_EQ(fragment.mask, compute.mask) << technique << ", " << shape;
+      SCOPED_TRACE(technique);
+      SCOPED_TRACE(shape);
+      expect_same_visibility(fragment.visibilities(), compute.visibilities(), 16);
+      if (gl::device_info().software) {
+        EXPECT_EQ(fragment.mask, compute.mask);
+      }
     }
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -39,6 +40,11 @@ struct Shadowed {
   std::vector<glm::vec3> points;  // world position under each pixel
 
   float visibility(int x, int y) const { return mask[4 * static_cast<size_t>(y * width + x)]; }
+  std::vector<float> visibilities() const {
+    std::vector<float> all;
+    for (size_t i = 0; i < mask.size(); i += 4) all.push_back(mask[i]);
+    return all;
+  }
   float penumbra_radius(int x, int y) const { return mask[4 * static_cast<size_t>(y * width + x) + 1]; }
   const glm::vec3& point(int x, int y) const { return points[static_cast<size_t>(y * width + x)]; }
   bool sky(int x, int y) const { return depth[static_cast<size_t>(y * width + x)] == 0; }
@@ -47,10 +53,12 @@ struct Shadowed {
 // Draws scenes on one device with one facade.
 class TriangleRenderer {
  public:
-  TriangleRenderer();
+  explicit TriangleRenderer(shadow::Registry registry = shadow::built_in_registry());
   // Parameters at their defaults; change and pass them to render().
   ParamSet params() const { return ParamSet(shadows_.registry().params()); }
-  Shadowed render(const TriangleScene& scene, const ParamSet& params);
+  // `adjust` has the last word on what the library is given.
+  using Adjust = std::function<void(shadow::Inputs&)>;
+  Shadowed render(const TriangleScene& scene, const ParamSet& params, const Adjust& adjust = {});
   gl::Device& device() { return device_; }
   shadow::SoftShadows& shadows() { return shadows_; }
   const shadow::Mask& mask() const { return mask_; }
