@@ -3,7 +3,7 @@
 #   ./run.sh                     renders the default scene to out/penumbra.png
 #   ./run.sh ARGS...             runs `penumbra ARGS...`
 set -euo pipefail
-root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)
+root=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")
 source "$root/scripts/setup.sh"
 
 ensure_packages run

@@ -18,6 +18,7 @@ using io::Json;
 // What can be listed: one row a thing, each with at least a "name" and a "help".
 struct Listing {
   const char* name;
+  const char* help;
   Json (*rows)();
 };
 
@@ -58,8 +59,16 @@ Json backend_rows() {
           {{"name", "window"}, {"help", "An invisible window on a display."}}};
 }
 
-constexpr std::array listings{Listing{"techniques", technique_rows}, Listing{"params", param_rows},
-                              Listing{"aovs", aov_rows}, Listing{"backends", backend_rows}};
+constexpr std::array listings{Listing{"techniques", "Ways to draw shadows, for --technique.", technique_rows},
+                              Listing{"params", "Parameters, for --set and presets.", param_rows},
+                              Listing{"aovs", "Pictures of a frame, for --aov.", aov_rows},
+                              Listing{"backends", "Ways to an OpenGL context, for --backend.", backend_rows}};
+
+Json listing_rows() {
+  Json rows = Json::array();
+  for (const Listing& listing : listings) rows.push_back({{"name", listing.name}, {"help", listing.help}});
+  return rows;
+}
 
 const Listing& find_listing(const std::string& name) {
   std::vector<std::string> names;
@@ -108,10 +117,10 @@ int run_list(const Arguments& arguments) {
   CLI::App app("List what penumbra knows by name", "penumbra list");
   std::string what;
   bool json = false;
-  app.add_option("WHAT", what, "techniques, params, aovs or backends")->required()->type_name("");
+  app.add_option("WHAT", what, "techniques, params, aovs or backends; without it, these choices")->type_name("");
   app.add_flag("--json", json, "For machines")->disable_flag_override();
   if (!parse(app, arguments)) return 0;
-  const Json rows = find_listing(what).rows();
+  const Json rows = app.count("WHAT") == 0 ? listing_rows() : find_listing(what).rows();
   if (json) {
     fmt::print("{}", io::text_of(rows));
   } else {

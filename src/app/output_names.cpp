@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <regex>
+#include <vector>
 
 #include "app/usage.h"
 
@@ -10,35 +12,22 @@ namespace penumbra::app {
 namespace {
 
 // Where in a file's stem the number goes.
-struct Pattern {
-  std::size_t begin = std::string::npos, end = std::string::npos;
-  int digits = 4;
-  bool found() const { return begin != std::string::npos; }
+struct Place {
+  std::size_t begin, end;
+  int digits;
 };
 
-Pattern find_hashes(const std::string& stem) {
-  Pattern pattern;
-  pattern.begin = stem.find('#');
-  if (!pattern.found()) return pattern;
-  pattern.end = std::min(stem.find_first_not_of('#', pattern.begin), stem.size());
-  pattern.digits = static_cast<int>(pattern.end - pattern.begin);
-  return pattern;
-}
-
-Pattern find_percent(const std::string& stem) {
-  Pattern pattern;
-  pattern.begin = stem.find('%');
-  if (!pattern.found()) return pattern;
-  pattern.digits = 1;
-  std::size_t at = pattern.begin + 1;
-  if (at + 1 < stem.size() && stem[at] == '0' && std::isdigit(static_cast<unsigned char>(stem[at + 1])) != 0) {
-    pattern.digits = stem[at + 1] - '0';
-    at += 2;
+std::vector<Place> places_in(const std::string& stem) {
+  static const std::regex pattern("#+|%(?:0([1-9]))?d");
+  std::vector<Place> places;
+  for (std::sregex_iterator match(stem.begin(), stem.end(), pattern), none; match != none; ++match) {
+    const auto begin = static_cast<std::size_t>(match->position());
+    const auto length = static_cast<std::size_t>(match->length());
+    const bool hashes = stem[begin] == '#';
+    const int digits = hashes ? static_cast<int>(length) : (*match)[1].matched ? stem[begin + 2] - '0' : 1;
+    places.push_back({begin, begin + length, digits});
   }
-  if (at >= stem.size() || stem[at] != 'd' || stem.find('%', at) != std::string::npos)
-    fail_usage("'{}' is no file pattern: it takes one %d or %04d", stem);
-  pattern.end = at + 1;
-  return pattern;
+  return places;
 }
 
 std::string lower(std::string text) {
@@ -57,17 +46,22 @@ OutputNames::OutputNames(const std::string& output, bool sequence) {
   const std::string folder = (path.parent_path() / "").string();
   after_ = path.extension().string();
   before_ = folder + stem;
-  if (!sequence) return;
 
-  Pattern pattern = find_percent(stem);
-  if (!pattern.found()) pattern = find_hashes(stem);
-  digits_ = pattern.digits;
-  if (!pattern.found()) {
+  const std::vector<Place> places = places_in(stem);
+  if (!sequence) {
+    if (!places.empty()) fail_usage("-o '{}' has a place for a frame's number: it goes with --frames", output);
+    return;
+  }
+  if (places.empty() && stem.find('%') == std::string::npos) {
+    digits_ = 4;
     before_ += "_";
     return;
   }
-  before_ = folder + stem.substr(0, pattern.begin);
-  after_ = stem.substr(pattern.end) + after_;
+  if (places.size() != 1 || std::ranges::count(stem, '%') > (stem[places[0].begin] == '%' ? 1 : 0))
+    fail_usage("-o '{}' is no file pattern: the frame's number goes to one place, #### or %04d", output);
+  digits_ = places[0].digits;
+  before_ = folder + stem.substr(0, places[0].begin);
+  after_ = stem.substr(places[0].end) + after_;
 }
 
 std::filesystem::path OutputNames::picture(int frame) const {

@@ -7,7 +7,7 @@
 namespace penumbra::app {
 
 // The files of one command, from -o. A sequence numbers them: at "####" or "%04d" in the file's name, else "_0001"
-// before the extension.
+// before the extension. A single picture has no number, so a name with a place for one is refused.
 class OutputNames {
  public:
   // Throws UsageError for an extension other than .png and .exr and for a bad pattern.

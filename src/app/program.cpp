@@ -24,7 +24,13 @@ constexpr std::array table{
 std::string overview() {
   std::string text = "Penumbra renders soft shadows.\n\nusage: penumbra COMMAND [OPTIONS]\n\n";
   for (const Command& command : table) text += fmt::format("  {:<8} {}\n", command.name, command.summary);
-  return text + "\npenumbra COMMAND --help lists its options. penumbra --version prints the version.\n";
+  return text +
+         "\npenumbra COMMAND --help lists its options, penumbra list what has a name, and penumbra help NAME explains "
+         "it.\n"
+         "penumbra --version prints the version.\n\n"
+         "Exit codes: 0 done; 2 the command line is wrong, whatever the files hold; 1 all else, as a file that can't "
+         "be\n"
+         "read, a camera that the scene lacks, or a machine without OpenGL.\n";
 }
 
 const Command& find_command(const std::string& name) {

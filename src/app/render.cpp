@@ -1,11 +1,10 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <future>
 #include <string>
 
 #include "app/commands.h"
+#include "app/file_check.h"
 #include "app/frame_files.h"
 #include "app/output_names.h"
 #include "app/progress.h"
@@ -22,15 +21,6 @@ namespace penumbra::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-// Before minutes of drawing: is what was named there, and can the result be written?
-void check_files(const RenderOptions& options, const OutputNames& names, int first) {
-  if (!options.glsl.empty() && !std::filesystem::is_directory(options.glsl))
-    fail("--glsl: {} is not a folder", io::quoted(options.glsl));
-  io::check_writable(names.picture(first));
-  if (!options.stats.empty()) io::check_writable(options.stats);
-  if (!options.save_preset.empty()) io::check_writable(options.save_preset);
-}
 
 // Draws a single picture again to measure it; of a sequence it counts what was drawn. The very first draw compiles
 // shaders and never counts.
@@ -54,9 +44,8 @@ std::string summary(const RenderOptions& options, const ParamSet& params, const 
                     const FrameRange& range, double seconds) {
   std::string files = names.picture(range.first).string();
   if (range.count() > 1) files += " to " + names.picture(range.last).string();
-  // The colour picture is the file itself.
-  const auto others = options.aovs.size() - static_cast<std::size_t>(std::ranges::count(options.aovs, "color"));
-  if (others > 0) files += fmt::format(" with {} AOV{}", others, others == 1 ? "" : "s");
+  if (const std::size_t count = options.aovs.size(); count > 0)
+    files += fmt::format(" with {} AOV{}", count, count == 1 ? "" : "s");
   return fmt::format("wrote {} ({}×{}, {}, {:.2f} s)", files, options.size.width, options.size.height,
                      params.get_word("technique"), seconds);
 }
@@ -67,7 +56,7 @@ void render_files(const RenderOptions& options) {
   const ParamSet params = resolve_params(options, shadow::built_in_registry());
   const FrameRange range = options.frames.value_or(FrameRange{});
   clean_up_on_signals();
-  check_files(options, names, range.first);
+  check_files(options, names);
 
   // Drivers take as long to start as scenes to load, and there are two cores nearly everywhere.
   std::future<Stage> loading = std::async(std::launch::async, [&options] { return load_stage(options); });

@@ -11,10 +11,14 @@ namespace penumbra::app {
 
 namespace {
 
-// An option whose text `set` parses, so that every fault is worded in one place.
+// An option whose text `set` parses, so that every fault is worded in one place. None takes an empty text.
 void value(CLI::App& app, const char* name, const char* type, const char* help,
            const std::function<void(const std::string&)>& set) {
-  app.add_option_function<std::string>(name, set, help)->type_name(type);
+  const auto set_checked = [name, type, set](const std::string& text) {
+    if (text.empty()) fail_usage("{} takes {}, not an empty text", name, type);
+    set(text);
+  };
+  app.add_option_function<std::string>(name, set_checked, help)->type_name(type);
 }
 
 void words(CLI::App& app, const char* name, const char* type, const char* help, std::vector<std::string>& list) {
@@ -32,12 +36,17 @@ std::string one_of(std::string_view option, const std::string& text, const std::
   }
 }
 
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(' '), end = text.find_last_not_of(' ');
+  return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
+}
+
 void add_aovs(std::vector<std::string>& list, const std::string& text) {
   std::vector<std::string> names;
   for (const render::Aov& aov : render::aovs()) names.push_back(aov.name);
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string name = one_of("AOV", text.substr(begin, end - begin), names);
+    const std::string name = one_of("AOV", trimmed(text.substr(begin, end - begin)), names);
     if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
     begin = end + 1;
   }
@@ -49,13 +58,9 @@ render::GroundChoice ground_choice(const std::string& text) {
   return word == "on" ? render::GroundChoice::on : render::GroundChoice::off;
 }
 
-std::string file_name(const char* option, const std::string& text) {
-  if (text.empty()) fail_usage("{} takes a file name, not an empty text", option);
-  return text;
-}
-
 void add_view_options(CLI::App& app, RenderOptions& o) {
-  value(app, "--camera", "NAME|INDEX", "A camera of the scene", [&o](const auto& text) { o.camera = text; });
+  value(app, "--camera", "NAME|INDEX", "A camera of the scene; see penumbra info",
+        [&o](const auto& text) { o.camera = text; });
   value(app, "--eye", "X,Y,Z", "Where the camera is, metres",
         [&o](const auto& text) { o.eye = parse_point("--eye", text); });
   value(app, "--target", "X,Y,Z", "What it looks at, metres",
@@ -72,7 +77,8 @@ void add_view_options(CLI::App& app, RenderOptions& o) {
 void add_time_options(CLI::App& app, RenderOptions& o) {
   value(app, "--time", "S", "Time of the picture, or of frame 0, seconds",
         [&o](const auto& text) { o.time = parse_number("--time", text, 0, 1e6); });
-  value(app, "--frames", "FIRST:LAST", "A sequence; files are numbered at #### or %04d in -o, or before its extension",
+  value(app, "--frames", "FIRST:LAST",
+        "A sequence; files are numbered at one #### or %04d in -o, or before its extension",
         [&o](const auto& text) { o.frames = parse_frames("--frames", text); });
   value(app, "--fps", "N", "Frames a second (24)",
         [&o](const auto& text) { o.fps = parse_number("--fps", text, 0.001, 10000); });
@@ -91,15 +97,13 @@ void add_shadow_options(CLI::App& app, RenderOptions& o) {
   words(app, "--set", "NAME=VALUE", "A parameter's value; repeatable; see penumbra list params", o.assignments);
   words(app, "--preset", "FILE", "Values from a TOML file; repeatable", o.presets);
   value(app, "--save-preset", "FILE", "Writes the values of this picture as a preset",
-        [&o](const auto& text) { o.save_preset = file_name("--save-preset", text); });
+        [&o](const auto& text) { o.save_preset = text; });
 }
 
 void add_output_options(CLI::App& app, RenderOptions& o) {
-  app.add_option_function<std::string>(
-         "SCENE", [&o](const std::string& text) { o.scene = file_name("SCENE", text); }, "glTF file, .gltf or .glb")
-      ->required()
-      ->type_name("");
-  app.add_option("-o,--output", o.output, "Picture to write: .png (8-bit sRGB) or .exr (linear float)")
+  app.add_option("SCENE", o.scene, "glTF file, .gltf or .glb")->required()->type_name("");
+  app.add_option("-o,--output", o.output,
+                 "Picture to write: .png (8-bit sRGB) or .exr (linear float); missing folders are made")
       ->required()
       ->type_name("FILE");
   value(app, "--size", "WIDTHxHEIGHT", "Pixels (1280x720)",
@@ -110,7 +114,7 @@ void add_output_options(CLI::App& app, RenderOptions& o) {
         "Other pictures of the frame: layers of an EXR, or a PNG each; see penumbra list aovs",
         [&o](const auto& text) { add_aovs(o.aovs, text); });
   value(app, "--stats", "FILE", "Writes what each pass cost, and all about the frame, as JSON",
-        [&o](const auto& text) { o.stats = file_name("--stats", text); });
+        [&o](const auto& text) { o.stats = text; });
   value(app, "--stats-frames", "N", "Frames measured a picture, after one that is not (1)",
         [&o](const auto& text) { o.stats_frames = parse_count("--stats-frames", text, 1, 10000); });
   app.add_flag("--quiet,-q", o.quiet, "No progress and no summary")->disable_flag_override();
@@ -125,7 +129,7 @@ void add_device_options(CLI::App& app, RenderOptions& o) {
   value(app, "--threads", "N", "Threads of a software rasteriser (all cores)",
         [&o](const auto& text) { o.threads = parse_count("--threads", text, 1, 1024); });
   value(app, "--glsl", "DIR", "Shaders in this folder replace the built-in ones of the same name",
-        [&o](const auto& text) { o.glsl = file_name("--glsl", text); });
+        [&o](const auto& text) { o.glsl = text; });
   app.add_flag("--debug", o.debug, "KHR_debug: an OpenGL error ends the program (also PENUMBRA_DEBUG=1)")
       ->disable_flag_override();
 }
@@ -159,6 +163,24 @@ void check_together(const RenderOptions& o) {
                width, height, largest_side, largest_area);
 }
 
+namespace {
+
+// All names would make a long line.
+void check_known(const ParamSet& params, const std::string& name) {
+  if (!params.contains(name) && near_names(name, params.names()).empty())
+    fail("unknown parameter '{}'; see penumbra list params", name);
+}
+
+// What the maps of a light and their pyramids take is 4.7 bytes a texel.
+void check_map_memory(const ParamSet& params) {
+  const long long size = params.get_int("cascades.size"), count = params.get_int("cascades.count");
+  if (size * size * count > largest_maps)
+    fail("cascades.count={} maps of cascades.size={} are {} texels: the limit is {} (1.2 GiB), as 4 maps of 8192",
+         count, size, size * size * count, largest_maps);
+}
+
+}  // namespace
+
 ParamSet resolve_params(const RenderOptions& options, const shadow::Registry& registry) {
   ParamSet params(render::Renderer::params(registry));
   const auto select = [&registry](ParamSet& set, std::string_view name) { registry.select(set, name); };
@@ -167,7 +189,12 @@ ParamSet resolve_params(const RenderOptions& options, const shadow::Registry& re
     if (!options.technique.empty()) registry.select(params, options.technique);
     if (!options.sun_angle.empty()) params.set_text("sun.angle", options.sun_angle);
     if (!options.exposure.empty()) set_exposure(params, options.exposure);
-    for (const std::string& assignment : options.assignments) params.assign(assignment);
+    for (const std::string& assignment : options.assignments) {
+      if (const std::size_t equals = assignment.find('='); equals != std::string::npos)
+        check_known(params, assignment.substr(0, equals));
+      params.assign(assignment);
+    }
+    check_map_memory(params);
   } catch (const Error& error) {
     throw UsageError(error.what());
   }

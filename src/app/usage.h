@@ -26,6 +26,9 @@ struct Size {
 constexpr int largest_side = 16384;
 constexpr long long largest_area = 1LL << 26;
 
+// Texels of all of a light's shadow maps.
+constexpr long long largest_maps = 1LL << 28;
+
 struct FrameRange {
   int first = 0, last = 0;  // both drawn
   int count() const { return last - first + 1; }

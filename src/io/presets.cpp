@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/names.h"
 #include "io/output_file.h"
 
 namespace penumbra::io {
@@ -93,6 +94,9 @@ ParamValue value_of(const Param& param, const toml::node& node) {
 
 void apply(const Entry& entry, ParamSet& params, const SelectTechnique& select) {
   if (entry.name != technique_key) {
+    // All names would make a long line.
+    if (!params.contains(entry.name) && near_names(entry.name, params.names()).empty())
+      fail("unknown parameter '{}'; see penumbra list params", entry.name);
     params.set(entry.name, value_of(params.row(entry.name), *entry.node));
     return;
   }

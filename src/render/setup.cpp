@@ -67,6 +67,9 @@ const PlacedCamera& find_camera(const std::vector<PlacedCamera>& placed, const s
   if (placed.empty()) fail("no camera '{}': the scene has no cameras", wanted);
   std::vector<std::string> names;
   for (const PlacedCamera& camera : placed) names.push_back(camera.name);
+  constexpr std::size_t most_listed = 20;
+  if (names.size() > most_listed && near_names(wanted, names).empty())
+    fail("no camera '{}': the scene has {}, none of a name near it", wanted, names.size());
   fail_unknown("camera", wanted, names);
 }
 

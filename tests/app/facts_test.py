@@ -86,6 +86,14 @@ class Lists(TestCase):
                 lines = self.succeed("list", what).stdout.splitlines()
                 self.assertEqual([line.split()[0] for line in lines], [row["name"] for row in rows])
 
+    def test_without_a_name_the_choices_are_listed(self):
+        rows = json.loads(self.succeed("list", "--json").stdout)
+        lines = self.succeed("list").stdout.splitlines()
+        self.assertEqual([line.split()[0] for line in lines], [row["name"] for row in rows])
+        for row in rows:
+            self.succeed("list", row["name"])
+        self.assertIn("penumbra list", self.succeed("help").stdout)
+
     def test_a_techniques_parameters_and_source(self):
         rows = {row["name"]: row for row in json.loads(self.succeed("list", "techniques", "--json").stdout)}
         self.assertIn("pcss.filter_taps", rows["pcss"]["params"])

@@ -40,6 +40,11 @@ class Output(TestCase):
         self.assertRegex(result.stdout, r"^wrote \S+x\.png \(96×54, pcss, \d+\.\d\d s\)\n$")
         self.assertEqual(result.stderr, "")
 
+    def test_summary_counts_the_aovs_that_were_asked_for(self):
+        result = self.succeed("render", POSTS, "-o", self.folder / "x.exr", *SMALL, "--aov", "color, shadow ,depth")
+        self.assertRegex(result.stdout, r"x\.exr with 3 AOVs \(")
+        self.assertEqual(len(read_exr_header(self.folder / "x.exr")["channels"]), 5)
+
     def test_missing_folders_are_made(self):
         self.draw("a/b/x.png")
         self.assertEqual(self.files(), ["a", "a/b", "a/b/x.png"])

@@ -28,9 +28,18 @@ class Sequence(TestCase):
         self.assertEqual(self.files(), ["x_0003.png", "x_0003.shadow.png"])
 
     def test_a_bad_pattern_is_wrong_usage(self):
-        for output in ("x%s.png", "x%d%d.png"):
-            self.refuse("render", MOVING, "-o", self.folder / output, "--frames", "0:1", code=2)
+        for output in ("x%s.png", "x%d%d.png", "x##_##.png", "x##_%d.png", "x%00d.png"):
+            with self.subTest(output):
+                self.refuse("render", MOVING, "-o", self.folder / output, "--frames", "0:1", code=2)
         self.assertEqual(self.files(), [])
+
+    def test_a_single_picture_has_no_number(self):
+        for output in ("x_##.png", "x%04d.png"):
+            with self.subTest(output):
+                error = self.refuse("render", MOVING, "-o", self.folder / output, code=2)
+                self.assertIn("--frames", error)
+        self.draw("100%.png")
+        self.assertEqual(self.files(), ["100%.png"])
 
     def test_a_frame_is_the_picture_of_its_time(self):
         self.draw("x.png", "--frames", "2:4", "--fps", "4", "--time", "0.25")

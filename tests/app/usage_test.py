@@ -94,6 +94,59 @@ class Usage(TestCase):
             with self.subTest(arguments):
                 self.wrong_render(*arguments)
 
+    def test_no_option_takes_an_empty_text(self):
+        for option in ("--technique", "--camera", "--exposure", "--sun-angle", "--stats", "--save-preset", "--glsl",
+                       "--aov", "--preset", "--set", "--backend"):
+            with self.subTest(option):
+                if option == "--preset":
+                    self.refuse("render", POSTS, "-o", self.folder / "x.png", option, "")
+                else:
+                    self.wrong_render(option, "")
+
+    def test_a_result_takes_no_other_files_place(self):
+        copy = self.folder / "scene.glb"
+        copy.write_bytes(POSTS.read_bytes())
+        (self.folder / "link.glb").symlink_to(copy)
+        (self.folder / "here").symlink_to(self.folder)
+        preset = self.folder / "p.toml"
+        preset.write_text("sun.angle = 1\n")
+        before = sorted(self.folder.iterdir())
+        for of, arguments in (
+            ("scene.glb", ["--stats", "scene.glb"]),
+            ("scene.glb", ["--save-preset", self.folder / "scene.glb"]),
+            ("scene.glb", ["--stats", "here/scene.glb"]),
+            ("link.glb", ["--stats", "scene.glb"]),
+            ("link.glb", ["--stats", "link.glb"]),
+            ("scene.glb", ["--stats", "new/../x.png"]),
+            ("scene.glb", ["--save-preset", "x.png"]),
+            ("scene.glb", ["--stats", "x.depth.png", "--aov", "shadow,depth"]),
+            ("scene.glb", ["--stats", "x_0003.png", "--frames", "0:4"]),
+            ("scene.glb", ["--stats", "x_0003.shadow.png", "--frames", "0:4", "--aov", "shadow"]),
+            ("scene.glb", ["--stats", "a", "--save-preset", "./a"]),
+            ("scene.glb", ["--stats", "p.toml", "--preset", "p.toml"]),
+        ):
+            with self.subTest(arguments):
+                self.wrong("render", of, "-o", "x.png", *arguments)
+        self.assertEqual(sorted(self.folder.iterdir()), before)
+        self.assertEqual(copy.read_bytes(), POSTS.read_bytes())
+        self.succeed("render", copy, "-o", self.folder / "x.png", *SMALL, "--preset", preset, "--sun-angle", "2",
+                     "--save-preset", preset)
+        self.assertIn("angle = 2.0", preset.read_text())
+
+    def test_memory_of_shadow_maps_has_a_limit(self):
+        error = self.wrong_render("--set", "cascades.size=8192", "--set", "cascades.count=5")
+        self.assertIn("cascades.size", error)
+        self.assertIn("cascades.count", error)
+
+    def test_no_error_lists_every_parameter(self):
+        errors = [self.wrong_render("--set", "zzzzzzzz=1")]
+        preset = self.folder / "p.toml"
+        preset.write_text("zzzzzzzz = 1\n")
+        errors.append(self.refuse("render", POSTS, "-o", self.folder / "x.png", "--preset", preset))
+        for error in errors:
+            self.assertLess(len(error), 200)
+            self.assertIn("penumbra list params", error)
+
     def test_a_folder_of_shaders_must_exist(self):
         self.assertIn("--glsl", self.refuse("render", POSTS, "-o", self.folder / "x.png", "--glsl", "/no/folder"))
 

@@ -56,6 +56,12 @@ class RunScript(support.TestCase):
         (self.project / "main.cpp").write_text(PROGRAM.replace("return 7", "return 9"))
         self.assertEqual(self.run_script("a").returncode, 9, "a changed source was not built")
 
+    def test_works_through_a_symbolic_link(self):
+        (self.folder / "bin").mkdir()
+        (self.folder / "bin" / "penumbra").symlink_to("../a project/run.sh")
+        result = subprocess.run([self.folder / "bin" / "penumbra", "a"], capture_output=True, text=True, timeout=300)
+        self.assertEqual(result.returncode, 7, result.stderr)
+
     def test_moved_checkout_is_configured_anew(self):
         self.run_script("a")
         moved = self.folder / "moved"
@@ -78,7 +84,7 @@ class RunScript(support.TestCase):
     def test_without_apt_names_what_is_missing(self):
         tools = self.folder / "tools"
         tools.mkdir()
-        for name in ("bash", "dirname", "mkdir"):
+        for name in ("bash", "dirname", "mkdir", "readlink"):
             (tools / name).symlink_to(shutil.which(name))
         with (self.project / "scripts" / "packages.txt").open("a") as file:
             file.write("run command no-such-compiler fine-compiler\nrun library libnone.so libnone1\n")

@@ -1,0 +1,65 @@
+#include "app/file_check.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "io/output_file.h"
+
+namespace penumbra::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Where a result is put: in a real folder, in place of what has its name there, links included.
+fs::path place_of(const fs::path& path) {
+  std::error_code error;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const fs::path real = fs::weakly_canonical(fs::absolute(folder), error);
+  return (error ? folder.lexically_normal() : real) / path.filename();
+}
+
+bool replaces(const fs::path& result, const fs::path& input) {
+  std::error_code error;
+  const fs::path place = place_of(result);
+  return place == place_of(input) || place == fs::weakly_canonical(input, error);
+}
+
+// A picture of any frame.
+bool is_picture(const fs::path& result, const RenderOptions& options, const OutputNames& names) {
+  const FrameRange range = options.frames.value_or(FrameRange{});
+  if (place_of(result).parent_path() != place_of(names.picture(range.first)).parent_path()) return false;
+  const fs::path name = result.filename();
+  for (int frame = range.first; frame <= range.last; ++frame) {
+    if (name == names.picture(frame).filename()) return true;
+    const auto is_aov = [&](const std::string& aov) { return name == names.aov(frame, aov).filename(); };
+    if (!names.is_exr() && std::any_of(options.aovs.begin(), options.aovs.end(), is_aov)) return true;
+  }
+  return false;
+}
+
+void check_alone(const char* option, const fs::path& result, const RenderOptions& options, const OutputNames& names) {
+  if (replaces(result, options.scene)) fail_usage("{} {} would overwrite the scene", option, io::quoted(result));
+  if (is_picture(result, options, names))
+    fail_usage("{} {} is a picture of this command too", option, io::quoted(result));
+  io::check_writable(result);
+}
+
+}  // namespace
+
+void check_files(const RenderOptions& options, const OutputNames& names) {
+  if (!options.glsl.empty() && !fs::is_directory(options.glsl))
+    fail("--glsl: {} is not a folder", io::quoted(options.glsl));
+  io::check_writable(names.picture(options.frames.value_or(FrameRange{}).first));
+  // A preset may be read and saved under one name: that changes it.
+  if (!options.save_preset.empty()) check_alone("--save-preset", options.save_preset, options, names);
+  if (options.stats.empty()) return;
+  check_alone("--stats", options.stats, options, names);
+  if (!options.save_preset.empty() && place_of(options.stats) == place_of(options.save_preset))
+    fail_usage("--stats and --save-preset name the same file {}", io::quoted(options.stats));
+  for (const std::string& preset : options.presets) {
+    if (replaces(options.stats, preset)) fail_usage("--stats {} would overwrite a preset", io::quoted(options.stats));
+  }
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "app/output_names.h"
+#include "app/render_options.h"
+
+namespace penumbra::app {
+
+// Before minutes of drawing: is what was named there, can every result be written, and does none take the place of
+// another or of what is read? Throws Error, UsageError where no file could make it right.
+void check_files(const RenderOptions& options, const OutputNames& names);
+
+}  // namespace penumbra::app
