@@ -14,7 +14,7 @@ set(public_headers
   core/error.h core/log.h core/names.h core/params.h
   gl/buffer.h gl/context.h gl/debug.h gl/handle.h gl/pass.h gl/program.h gl/shader_library.h gl/shader_source.h
   gl/texture.h gl/timer.h
-  shadow/cascades.h shadow/soft_shadows.h shadow/technique.h)
+  shadow/cascades.h shadow/inputs.h shadow/soft_shadows.h shadow/technique.h shadow/technique_frame.h)
 foreach(header IN LISTS public_headers)
   get_filename_component(layer "${header}" DIRECTORY)
   install(FILES "${CMAKE_SOURCE_DIR}/src/${header}" DESTINATION "${header_dir}/${layer}")

@@ -1,6 +1,5 @@
 // The light's maps and what every technique does with them: choose a cascade, compare texels with a receiver.
 #include "shared/shadow_block.h"
-#include "generated/params.glsl"
 #include "lib/hash.glsl"
 #include "lib/disc.glsl"
 #include "lib/kernel.glsl"

@@ -18,7 +18,8 @@ struct ShadowBlock {
   mat4 clip_to_view;
   mat4 view_to_light;   // a rotation: light space has its origin in the camera
   mat4 world_to_light;  // a rotation
-  vec4 viewport;        // xy: size, pixels; zw: jitter, NDC
+  vec4 viewport;        // xy: its lowest pixel; zw: size, pixels
+  vec4 jitter;          // xy: NDC
   vec4 depth_to_ndc;    // x: scale; y: offset; z: depth of the sky; w: 1 for octahedral normals, 0 for xyz
   vec4 light;           // x: tan of the half angle; y: 1 for a square light, 0 for a disc; z: cascades; w: map size, texels
   CascadeBlock cascades[SHADOW_MAX_CASCADES];

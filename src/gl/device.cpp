@@ -106,6 +106,15 @@ const Buffer& Device::scratch(std::string_view name, std::size_t bytes) {
   return buffer;
 }
 
+void Device::drop(std::string_view prefix) {
+  std::erase_if(impl_->targets, [&](const auto& entry) {
+    if (!entry.first.starts_with(prefix)) return false;
+    impl_->drop_framebuffers_of(entry.second.serial());
+    return true;
+  });
+  std::erase_if(impl_->buffers, [&](const auto& entry) { return entry.first.starts_with(prefix); });
+}
+
 const Sampler& Device::sampler(const SamplerDesc& desc) {
   const SamplerKey key(desc.min_filter, desc.mag_filter, desc.wrap_s, desc.wrap_t, desc.compare, desc.max_anisotropy);
   Sampler& sampler = impl_->samplers[key];

@@ -18,25 +18,25 @@ void set_enabled(GLenum capability, bool enabled) {
   }
 }
 
-// What no pass wants, and what an engine around us may have left on.
-void set_fixed_state() {
-  constexpr std::array<GLenum, 13> off{GL_SCISSOR_TEST,
-                                       GL_STENCIL_TEST,
-                                       GL_DITHER,
-                                       GL_FRAMEBUFFER_SRGB,  // shaders encode
-                                       GL_COLOR_LOGIC_OP,
-                                       GL_RASTERIZER_DISCARD,
-                                       GL_SAMPLE_MASK,
-                                       GL_SAMPLE_ALPHA_TO_COVERAGE,
-                                       GL_POLYGON_OFFSET_FILL,
-                                       GL_PRIMITIVE_RESTART,
-                                       GL_PRIMITIVE_RESTART_FIXED_INDEX,
-                                       GL_PROGRAM_POINT_SIZE,
-                                       GL_CLIP_DISTANCE0};
-  for (const GLenum capability : off) glDisable(capability);
-  glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+// What no pass wants, and what an engine around us may have left on. All but dithering are off at first.
+constexpr std::array unwanted{GL_SCISSOR_TEST,        GL_STENCIL_TEST,       GL_DITHER,
+                              GL_FRAMEBUFFER_SRGB,  // shaders encode
+                              GL_COLOR_LOGIC_OP,      GL_RASTERIZER_DISCARD, GL_SAMPLE_MASK,
+                              GL_SAMPLE_COVERAGE,     GL_SAMPLE_SHADING,     GL_SAMPLE_ALPHA_TO_COVERAGE,
+                              GL_SAMPLE_ALPHA_TO_ONE, GL_LINE_SMOOTH,        GL_POLYGON_SMOOTH,
+                              GL_POLYGON_OFFSET_FILL, GL_PRIMITIVE_RESTART,  GL_PRIMITIVE_RESTART_FIXED_INDEX,
+                              GL_PROGRAM_POINT_SIZE};
+
+// What passes turn on and off as they are described.
+constexpr std::array described{GL_DEPTH_TEST, GL_DEPTH_CLAMP, GL_BLEND, GL_CULL_FACE};
+
+// State that passes share, at OpenGL's initial values but for the range of clip-space depth.
+void set_fixed_state(GLenum clip_depth) {
+  for (const auto capability : unwanted) glDisable(static_cast<GLenum>(capability));
+  constexpr GLenum clip_distances = 8;  // that every driver has
+  for (GLenum i = 0; i < clip_distances; ++i) glDisable(GL_CLIP_DISTANCE0 + i);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glClipControl(GL_LOWER_LEFT, clip_depth);
   glDepthRange(0.0, 1.0);
   glFrontFace(GL_CCW);
   glCullFace(GL_BACK);
@@ -124,7 +124,7 @@ Pass::Pass(Device& device, const PassDesc& desc)
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     set_viewport(0, 0, std::max(1, first.texture->width() >> first.level),
                  std::max(1, first.texture->height() >> first.level));
-    set_fixed_state();
+    set_fixed_state(GL_ZERO_TO_ONE);
     clear(framebuffer, desc);
     set_depth(desc);
     set_blend(desc.blend);
@@ -168,6 +168,26 @@ void Pass::dispatch(int width, int height, int layers) {
 
 void Pass::check() const {
   if (debug_) check_errors("");
+}
+
+void unbind_textures(GLuint count) {
+  glBindTextures(0, static_cast<GLsizei>(count), nullptr);
+  glBindSamplers(0, static_cast<GLsizei>(count), nullptr);
+}
+
+void leave_initial_state() {
+  set_fixed_state(GL_NEGATIVE_ONE_TO_ONE);
+  for (const auto capability : described) glDisable(static_cast<GLenum>(capability));
+  glEnable(GL_DITHER);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  constexpr GLuint texture_units = 16;
+  constexpr GLsizei image_units = 8;
+  unbind_textures(texture_units);
+  glBindImageTextures(0, image_units, nullptr);
+  glUseProgram(0);
+  glBindVertexArray(0);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
 }  // namespace penumbra::gl

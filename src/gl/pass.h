@@ -41,6 +41,8 @@ class Device {
   // A buffer of at least `bytes`, likewise (grows, never shrinks).
   const Buffer& scratch(std::string_view name, std::size_t bytes);
   const Sampler& sampler(const SamplerDesc& desc);
+  // Gives back the targets and buffers whose name starts with `prefix`; references to them end.
+  void drop(std::string_view prefix);
   // Bytes of all targets whose name starts with `prefix`.
   std::size_t target_bytes(std::string_view prefix = "") const;
 
@@ -96,5 +98,13 @@ class Pass {
   bool debug_;
   const Program* program_ = nullptr;
 };
+
+// Frees the first texture units of textures and samplers.
+void unbind_textures(GLuint count);
+
+// For an engine's sake: what passes change goes back to OpenGL's initial values, and nothing stays bound to draw with
+// (program, vertex array, framebuffers, textures and samplers of units 0 to 15, images of units 0 to 7). Viewport,
+// blend function and buffer bindings stay as they are.
+void leave_initial_state();
 
 }  // namespace penumbra::gl

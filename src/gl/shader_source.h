@@ -20,7 +20,7 @@ class ShaderFiles {
   // The text of a file: generated, else the overlay's, else built in. nullopt when none has it, or when the name is
   // absolute or leaves the folder.
   std::optional<std::string> read(std::string_view name) const;
-  // Adds or replaces an in-memory file (generated declarations: "generated/params.glsl").
+  // Adds or replaces an in-memory file (generated declarations: "generated/registry0/params.glsl").
   void put(std::string name, std::string text);
   const std::string& overlay_directory() const { return overlay_; }
   static std::vector<std::string> built_in_names();

@@ -27,9 +27,9 @@ void draw_blended(gl::Device& device, const BlendedInputs& inputs) {
                          .depth = gl::Attachment{.texture = inputs.gbuffer.depth},
                          .depth_test = gl::DepthTest::greater_equal,
                          .blend = gl::Blend::premultiplied_over});
-  const std::string fragment =
-      put_fragment_shader(device.shaders.files(), inputs.soft_shadows.forward_include(inputs.params));
-  const gl::ProgramDesc desc = program(fragment, inputs.soft_shadows.bind_forward(inputs.mask, 0));
+  const shadow::ForwardProgram forward = inputs.soft_shadows.forward_program(inputs.params);
+  const gl::ProgramDesc desc = program(put_fragment_shader(device.shaders.files(), forward.include), forward.defines);
+  inputs.soft_shadows.bind_forward(inputs.mask, 0);
   pass.use(desc).set("world_to_view", inputs.camera.view);
   const Frustum frustum(inputs.view.world_to_clip);
   inputs.scene.draw_blended(device, pass, desc, position_of(inputs.camera),
@@ -39,14 +39,8 @@ void draw_blended(gl::Device& device, const BlendedInputs& inputs) {
 std::vector<gl::ProgramDesc> blended_programs(gl::Device& device, const shadow::SoftShadows& soft_shadows,
                                               const ParamSet& defaults) {
   std::vector<gl::ProgramDesc> programs;
-  for (const shadow::Technique& technique : soft_shadows.registry().techniques()) {
-    ParamSet params = defaults;
-    params.set("technique", technique.name);
-    const std::string fragment = put_fragment_shader(device.shaders.files(), soft_shadows.forward_include(params));
-    // The function is compiled as it is for the mask.
-    for (const gl::ProgramDesc& mask : soft_shadows.all_programs(defaults)) {
-      if (mask.name == technique.name && !mask.fragment.empty()) programs.push_back(program(fragment, mask.defines));
-    }
+  for (const shadow::ForwardProgram& forward : soft_shadows.all_forward_programs(defaults)) {
+    programs.push_back(program(put_fragment_shader(device.shaders.files(), forward.include), forward.defines));
   }
   return programs;
 }

@@ -10,7 +10,7 @@ namespace {
 
 static_assert(sizeof(glsl::CascadeBlock) == 32);
 static_assert(offsetof(glsl::ShadowBlock, viewport) == 192);
-static_assert(offsetof(glsl::ShadowBlock, cascades) == 240);
+static_assert(offsetof(glsl::ShadowBlock, cascades) == 256);
 static_assert(sizeof(glsl::SampleBlock) == 4096);
 
 // `shift`: where the origin of the cascade's light space lies in the view's.
@@ -47,7 +47,8 @@ glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, bo
   block.clip_to_view = glm::mat4(glm::inverse(glm::dmat4(inputs.view.projection)));
   block.view_to_light = glm::mat4(glm::dmat4(light.cascades.world_to_light * glm::dmat3(view_to_world)));
   block.world_to_light = glm::mat4(glm::dmat4(light.cascades.world_to_light));
-  block.viewport = {inputs.depth.width, inputs.depth.height, inputs.view.jitter.x, inputs.view.jitter.y};
+  block.viewport = {light.viewport.x, light.viewport.y, light.viewport.width, light.viewport.height};
+  block.jitter = {inputs.view.jitter, 0, 0};
   block.depth_to_ndc = {zero_to_one ? 1.0f : 2.0f, zero_to_one ? 0.0f : -1.0f, conventions.reversed_z ? 0.0f : 1.0f,
                         conventions.octahedral_normals ? 1.0f : 0.0f};
   block.light = {light.tan_half_angle, square ? 1.0f : 0.0f, static_cast<float>(light.cascades.items.size()),
@@ -65,8 +66,8 @@ Sampling sampling_of(const Technique& technique, const ParamSet& params) {
   // A turned square would be another light.
   sampling.rotated = scramble == "rotate" && params.get_word("sun.shape") == "disc";
   const auto points = sampling.rotated ? disc_points : square_points;
-  fill_table(sampling.points.blocker, points(pattern, taps(technique, params, ".blocker_taps")));
-  fill_table(sampling.points.filter_points, points(pattern, taps(technique, params, ".filter_taps")));
+  fill_table(sampling.points.blocker, points(pattern, taps(technique, params, ".blocker_taps"), 0));
+  fill_table(sampling.points.filter_points, points(pattern, taps(technique, params, ".filter_taps"), 0));
   return sampling;
 }
 

@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "shared/shadow_block.h"
-#include "soft_shadows.h"
+#include "technique.h"
 
 namespace penumbra::shadow {
 

@@ -34,17 +34,21 @@ const Registry& built_in_registry() {
       },
       {
           {"pcss_compute", "pcss", "PCSS in a compute shader.", {"driver=compute"}},
-      });
+      },
+      "pcss");
   return registry;
 }
 
-Registry::Registry(std::vector<Technique> techniques, std::vector<Alias> aliases)
-    : techniques_(std::move(techniques)), aliases_(std::move(aliases)) {
+Registry::Registry(std::vector<Technique> techniques, std::vector<Alias> aliases, std::string default_technique)
+    : techniques_(std::move(techniques)),
+      aliases_(std::move(aliases)),
+      default_technique_(default_technique.empty() ? techniques_.at(0).name : std::move(default_technique)) {
   std::vector<std::string> sorted = names();
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
     throw std::logic_error("two techniques share a name");
   }
+  find(default_technique_);
 }
 
 std::vector<std::string> Registry::names() const {
@@ -74,9 +78,8 @@ void Registry::select(ParamSet& params, std::string_view name) const {
 std::vector<Param> Registry::params() const {
   std::vector<std::string> choices;
   for (const Technique& technique : techniques_) choices.push_back(technique.name);
-  const bool has_pcss = std::find(choices.begin(), choices.end(), "pcss") != choices.end();
-  std::vector<Param> rows{{"technique", has_pcss ? std::string("pcss") : choices.at(0), 0, 0, "",
-                           "How shadows are computed.", ParamBinding::host, choices}};
+  std::vector<Param> rows{
+      {"technique", default_technique_, 0, 0, "", "How shadows are computed.", ParamBinding::host, choices}};
   for (Param& row : library_params()) rows.push_back(std::move(row));
   for (const Technique& technique : techniques_)
     rows.insert(rows.end(), technique.params.begin(), technique.params.end());

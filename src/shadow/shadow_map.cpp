@@ -2,8 +2,6 @@
 
 #include <bit>
 
-#include "soft_shadows.h"
-
 namespace penumbra::shadow {
 
 const gl::Texture& draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs) {

@@ -3,12 +3,9 @@
 #include <string>
 
 #include "../gl/pass.h"
-#include "cascades.h"
+#include "inputs.h"
 
 namespace penumbra::shadow {
-
-struct CasterPass;
-using DrawCasters = std::function<void(const CasterPass&, gl::Pass&)>;
 
 struct ShadowMapInputs {
   std::string name;  // of the target: one map a light

@@ -9,6 +9,7 @@
 #include "../core/params.h"
 #include "../gl/pass.h"
 #include "cascades.h"
+#include "inputs.h"
 
 namespace penumbra::shadow {
 
@@ -16,45 +17,70 @@ namespace penumbra::shadow {
 enum Needs : unsigned {
   needs_nothing = 0,
   needs_shadow_map = 1u << 0,     // depth of the casters, one layer a cascade
-  needs_depth_pyramid = 1u << 1,  // minimum and maximum depth over 2^n × 2^n texels
+  needs_depth_pyramid = 1u << 1,  // minimum depth over 2^n × 2^n texels
+};
+
+// Texture units of the programs that evaluate a technique. Those from `first_pass_unit` to the last are free for the
+// inputs of a technique's own passes; forward surfaces leave them to the caller.
+enum TextureUnit : unsigned {
+  unit_shadow_map = 0,
+  unit_depth_pyramid,
+  unit_receiver_depth,
+  unit_receiver_normal,
+  first_product_unit,
+  first_pass_unit = 8,
+  unit_count = 16,
+};
+
+// Uniform buffer bindings that the library uses, forward surfaces included.
+enum UniformBinding : unsigned { block_params, block_shadow, block_samples, uniform_binding_count };
+
+// A texture that a technique's GLSL reads at an explicit binding, from `first_product_unit` to before
+// `first_pass_unit`.
+struct Product {
+  unsigned unit = first_product_unit;
+  const gl::Texture* texture = nullptr;
+  gl::SamplerDesc sampler = {};
 };
 
 // Everything about one light in one frame that passes and techniques read.
 struct LightFrame {
+  int view = 0, light = 0;  // ids
+  int layer = 0;            // of the mask
+  Rect viewport;            // of the receivers' textures and the mask
   Cascades cascades;
   float tan_half_angle = 0;
   unsigned depth = 0;                    // name of the depth array texture, one layer a cascade; 0 when not needed
-  const gl::Texture* pyramid = nullptr;  // RG32F: minimum, maximum; level 0 is a quarter of the map's side
-  int layer = 0;                         // of the mask
+  const gl::Texture* pyramid = nullptr;  // R32F: minimum; level 0 is a quarter of the map's side
+  std::vector<Product> products;         // bound wherever the technique is evaluated, forward surfaces included
 };
 
-// What a resolve pass works on: the receivers and the mask that it fills.
-struct ResolveInputs {
-  gl::Device& device;
-  const LightFrame& light;
-  const ParamSet& params;
-  unsigned depth = 0, normal = 0;  // texture names of the receivers
-  const gl::Texture& mask;
-};
+class TechniqueFrame;
 
 // A technique is a value. Its GLSL file defines
+//   float reach(Receiver receiver, Light light);
 //   Visibility visibility(Receiver receiver, Light light);
 // and nothing in the drivers knows its name.
 struct Technique {
   std::string name;
   std::string summary;  // one sentence
   std::string source;   // "Author Year, section"
-  std::string glsl;     // file under glsl/, "shadow/techniques/pcss.glsl"
+  std::string glsl;  // file under glsl/, "shadow/techniques/pcss.glsl"; empty: `resolve` does all, `stand_in` the rest
   unsigned needs = needs_shadow_map;
   // Rows named "<technique>.blocker_taps" and "<technique>.filter_taps" size the tables of sample points.
   std::vector<Param> params;
   // Fixes sampling.pattern and sampling.scramble; empty leaves them to the parameters.
   std::string pattern = {}, scramble = {};
-  // Makes what only this technique needs from a light's maps, before the mask pass. Optional.
-  std::function<void(gl::Device&, LightFrame&, const ParamSet&)> prepare = {};
-  // Methods that are no function of one receiver fill the mask themselves; `glsl` of `stand_in` serves blended
-  // surfaces.
-  std::function<void(const ResolveInputs&)> resolve = {};
+  // Makes what only this technique needs from a light's maps, before the mask pass, and adds it to the light's
+  // products. Optional.
+  std::function<void(const TechniqueFrame&)> prepare = {};
+  // Fills the mask's layer in passes of its own, of which TechniqueFrame::evaluate() can be one: filters, history, and
+  // methods that are no function of one receiver. Optional.
+  std::function<void(const TechniqueFrame&)> resolve = {};
+  // The programs that `prepare` and `resolve` use under these parameters, by name. Their files may include all that the
+  // technique's GLSL may, and are compiled with its constants.
+  std::function<std::vector<gl::ProgramDesc>(const ParamSet&)> programs = {};
+  // The technique whose `glsl` serves blended surfaces, where this one's does not.
   std::string stand_in = {};
 };
 
@@ -67,10 +93,12 @@ struct Alias {
 // The techniques that a renderer offers, a value that is passed in.
 class Registry {
  public:
-  Registry(std::vector<Technique> techniques, std::vector<Alias> aliases);
+  // `default_technique` is what the parameter "technique" begins with; empty: the first.
+  Registry(std::vector<Technique> techniques, std::vector<Alias> aliases, std::string default_technique = {});
 
   std::span<const Technique> techniques() const { return techniques_; }
   std::span<const Alias> aliases() const { return aliases_; }
+  const std::string& default_technique() const { return default_technique_; }
   std::vector<std::string> names() const;  // techniques and aliases
   // Throws Error with near names when unknown (aliases are resolved by select()).
   const Technique& find(std::string_view name) const;
@@ -82,6 +110,7 @@ class Registry {
  private:
   std::vector<Technique> techniques_;
   std::vector<Alias> aliases_;
+  std::string default_technique_;
 };
 
 // The techniques of this library: none, hard, pcf, pcss, brute_force.

@@ -120,12 +120,13 @@ glm::vec3 sun_direction(float azimuth_degrees, float elevation_degrees) {
   return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth)};
 }
 
-TriangleRenderer::TriangleRenderer() : device_(gl::ShaderFiles(), gl::Timers::Mode::off), shadows_(device_) {
+TriangleRenderer::TriangleRenderer(shadow::Registry registry)
+    : device_(gl::ShaderFiles(), gl::Timers::Mode::off), shadows_(device_, std::move(registry)) {
   device_.shaders.files().put("test/scene.vert", vertex_text);
   device_.shaders.files().put("test/scene.frag", fragment_text);
 }
 
-Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& params) {
+Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& params, const Adjust& adjust) {
   const Geometry geometry(scene.triangles);
   const gl::Texture& depth =
       device_.target("test depth", {.format = GL_DEPTH_COMPONENT32F, .width = scene.width, .height = scene.height});
@@ -145,14 +146,15 @@ Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& pa
     pass.use(caster_program).set("world_to_clip", casters.world_to_clip);
     geometry.draw();
   };
-  mask_ = shadows_.render({.view = {.view = scene.view, .projection = scene.projection},
-                           .depth = {depth.id(), scene.width, scene.height},
-                           .normals = {normals.id(), scene.width, scene.height},
-                           .lights = {&light, 1},
-                           .casters = scene.casters.value_or(bounds_of(scene)),
-                           .receivers = scene.receivers.value_or(bounds_of(scene)),
-                           .draw = draw},
-                          params);
+  shadow::Inputs inputs{.view = {.view = scene.view, .projection = scene.projection},
+                        .depth = {depth.id(), scene.width, scene.height},
+                        .normals = {normals.id(), scene.width, scene.height},
+                        .lights = {&light, 1},
+                        .casters = scene.casters.value_or(bounds_of(scene)),
+                        .receivers = scene.receivers.value_or(bounds_of(scene)),
+                        .draw = draw};
+  if (adjust) adjust(inputs);
+  mask_ = shadows_.render(inputs, params);
   Shadowed result{.width = scene.width,
                   .height = scene.height,
                   .mask = gl::read_floats(*mask_.texture, 4),

@@ -1,5 +1,4 @@
-#include "shadow/receive.glsl"
-#include "shadow/drivers/gbuffer.glsl"
+#include "shadow/drivers/mask.glsl"
 
 layout(location = 0) out vec4 mask;
 

@@ -1,0 +1,8 @@
+// What a pixel of the mask holds. Included after a technique.
+#include "shadow/receive.glsl"
+#include "shadow/drivers/gbuffer.glsl"
+
+vec4 shade_pixel(ivec2 pixel) {
+  if (is_sky(pixel)) return vec4(1.0, 0.0, 0.0, 0.0);
+  return mask_texel(shade(receiver_at(pixel)));
+}

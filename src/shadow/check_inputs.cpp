@@ -1,0 +1,167 @@
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <string_view>
+
+#include "../core/error.h"
+#include "inputs.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+bool all_finite(const float* values, int count) {
+  for (int i = 0; i < count; ++i) {
+    if (!std::isfinite(values[i])) return false;
+  }
+  return true;
+}
+
+bool all_finite(const double* values, int count) {
+  for (int i = 0; i < count; ++i) {
+    if (!std::isfinite(values[i])) return false;
+  }
+  return true;
+}
+
+void check_matrix(std::string_view name, const glm::mat4& matrix) {
+  if (!all_finite(glm::value_ptr(matrix), 16)) fail("soft shadows: {} is not finite", name);
+  if (glm::determinant(glm::dmat4(matrix)) == 0) fail("soft shadows: {} has no inverse", name);
+}
+
+void check_box(std::string_view name, const Box& box) {
+  if (!all_finite(glm::value_ptr(box.min), 3) || !all_finite(glm::value_ptr(box.max), 3)) {
+    fail("soft shadows: the box of the {} is not finite", name);
+  }
+  if (glm::any(glm::greaterThan(box.min, box.max))) fail("soft shadows: the box of the {} is empty", name);
+}
+
+GLint level_parameter(unsigned texture, GLenum name) {
+  GLint value = 0;
+  gl::glGetTextureLevelParameteriv(texture, 0, name, &value);
+  return value;
+}
+
+bool is_color(GLint type) { return type == GL_FLOAT || type == GL_SIGNED_NORMALIZED; }
+
+// Depth, or the first of the colour channels as plain numbers.
+bool holds_depth(unsigned texture) {
+  return level_parameter(texture, GL_TEXTURE_DEPTH_SIZE) > 0 ||
+         level_parameter(texture, GL_TEXTURE_RED_TYPE) == GL_FLOAT;
+}
+
+// So many channels of signed numbers: an unsigned format would need a mapping that nobody has told of.
+bool holds_signed(unsigned texture, int channels) {
+  constexpr GLenum types[] = {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE, GL_TEXTURE_BLUE_TYPE};
+  for (int i = 0; i < channels; ++i) {
+    if (!is_color(level_parameter(texture, types[i]))) return false;
+  }
+  return true;
+}
+
+void check_texture(std::string_view name, const TextureView& view, GLenum target) {
+  if (view.id == 0 || view.width < 1 || view.height < 1) fail("soft shadows: no {} texture", name);
+  if (gl::glIsTexture(view.id) == GL_FALSE) fail("soft shadows: {}: {} is not the name of a texture", name, view.id);
+  GLint is = 0;
+  gl::glGetTextureParameteriv(view.id, GL_TEXTURE_TARGET, &is);
+  if (static_cast<GLenum>(is) != target) {
+    fail("soft shadows: {}: texture {} is not a {}", name, view.id,
+         target == GL_TEXTURE_2D ? "GL_TEXTURE_2D" : "GL_TEXTURE_2D_ARRAY");
+  }
+  const GLint width = level_parameter(view.id, GL_TEXTURE_WIDTH);
+  const GLint height = level_parameter(view.id, GL_TEXTURE_HEIGHT);
+  if (width != view.width || height != view.height) {
+    fail("soft shadows: {}: texture {} is {}×{}, not {}×{}", name, view.id, width, height, view.width, view.height);
+  }
+}
+
+void check_receivers(std::string_view name, const TextureView& view, const TextureView& depth, int channels) {
+  if (view.width != depth.width || view.height != depth.height) {
+    fail("soft shadows: {} are {}×{}, depth is {}×{}", name, view.width, view.height, depth.width, depth.height);
+  }
+  if (!holds_signed(view.id, channels)) {
+    fail("soft shadows: {}: texture {} has not {} channels of a float or SNORM format", name, view.id, channels);
+  }
+}
+
+void check_cascade(const Cascade& cascade, int index, int light) {
+  const bool finite = all_finite(glm::value_ptr(cascade.center), 2) && std::isfinite(cascade.half_extent) &&
+                      std::isfinite(cascade.near_z) && std::isfinite(cascade.far_z) &&
+                      all_finite(glm::value_ptr(cascade.world_to_clip), 16);
+  if (!finite) fail("soft shadows: light {}: cascade {} is not finite", light, index);
+  if (!(cascade.half_extent > 0) || !(cascade.far_z > cascade.near_z)) {
+    fail("soft shadows: light {}: cascade {} has no extent", light, index);
+  }
+}
+
+void check_maps(const FinishedMaps& maps, int light) {
+  const size_t count = maps.cascades.items.size();
+  if (count < 1 || count > max_cascades)
+    fail("soft shadows: light {} brings {} cascades, 1 to {} fit", light, count, max_cascades);
+  check_texture(fmt::format("maps of light {}", light), maps.depth, GL_TEXTURE_2D_ARRAY);
+  if (maps.depth.width != maps.cascades.size || maps.depth.height != maps.cascades.size) {
+    fail("soft shadows: light {} brings maps of {}×{} and cascades of {}", light, maps.depth.width, maps.depth.height,
+         maps.cascades.size);
+  }
+  if (!holds_depth(maps.depth.id)) fail("soft shadows: light {} brings maps without depth", light);
+  const GLint layers = level_parameter(maps.depth.id, GL_TEXTURE_DEPTH);
+  if (layers < static_cast<GLint>(count)) {
+    fail("soft shadows: light {} brings {} maps for {} cascades", light, layers, count);
+  }
+  if (!all_finite(glm::value_ptr(maps.cascades.world_to_light), 9) ||
+      !all_finite(glm::value_ptr(maps.cascades.anchor), 3)) {
+    fail("soft shadows: light {}: the cascades' light space is not finite", light);
+  }
+  for (size_t i = 0; i < count; ++i) check_cascade(maps.cascades.items[i], static_cast<int>(i), light);
+}
+
+void check_lights(const Inputs& inputs) {
+  bool draws = false;
+  for (const Light& light : inputs.lights) {
+    if (!light.maps && !inputs.draw)
+      fail("soft shadows: light {} has no maps and there is no caster callback", light.id);
+    const float length = glm::length(light.to_light);
+    if (!(length > 0.5f) || !std::isfinite(length)) fail("soft shadows: light {} has no direction", light.id);
+    for (const Light& other : inputs.lights) {
+      if (&other != &light && other.id == light.id) fail("soft shadows: two lights have the id {}", light.id);
+    }
+    if (light.maps) check_maps(*light.maps, light.id);
+    draws = draws || !light.maps;
+  }
+  if (!draws) return;
+  check_box("casters", inputs.casters);
+  check_box("receivers", inputs.receivers);
+}
+
+void check_viewport(const Rect& rect, const TextureView& depth) {
+  if (rect == Rect{}) return;
+  const bool inside = rect.x >= 0 && rect.y >= 0 && rect.width > 0 && rect.height > 0 &&
+                      rect.width <= depth.width - rect.x && rect.height <= depth.height - rect.y;
+  if (!inside) {
+    fail("soft shadows: the viewport of {}×{} at {}, {} is not a part of {}×{}", rect.width, rect.height, rect.x,
+         rect.y, depth.width, depth.height);
+  }
+}
+
+}  // namespace
+
+void check(const Inputs& inputs) {
+  check_matrix("the view matrix", inputs.view.view);
+  check_matrix("the projection matrix", inputs.view.projection);
+  if (!all_finite(glm::value_ptr(inputs.view.jitter), 2)) fail("soft shadows: the jitter is not finite");
+  check_texture("depth", inputs.depth, GL_TEXTURE_2D);
+  if (!holds_depth(inputs.depth.id)) fail("soft shadows: depth: texture {} holds no depth", inputs.depth.id);
+  check_texture("normals", inputs.normals, GL_TEXTURE_2D);
+  check_receivers("normals", inputs.normals, inputs.depth, inputs.conventions.octahedral_normals ? 2 : 3);
+  if (inputs.motion.id != 0) {
+    check_texture("motion", inputs.motion, GL_TEXTURE_2D);
+    check_receivers("motion vectors", inputs.motion, inputs.depth, 2);
+  }
+  check_viewport(inputs.viewport, inputs.depth);
+  check_lights(inputs);
+}
+
+Rect viewport_of(const Inputs& inputs) {
+  return inputs.viewport == Rect{} ? Rect{0, 0, inputs.depth.width, inputs.depth.height} : inputs.viewport;
+}
+
+}  // namespace penumbra::shadow

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "../gl/pass.h"
+#include "cascades.h"
+
+namespace penumbra::shadow {
+
+// How the caller's depth buffer and matrices are meant.
+struct Conventions {
+  bool reversed_z = true;          // the far plane is at depth 0 (else 1); pixels exactly there are sky and lit
+  bool depth_zero_to_one = true;   // clip-space z in 0..1 (else -1..1)
+  bool octahedral_normals = true;  // normals texture: RG, octahedral map; else RGB(A), xyz; both in -1..1
+};
+
+// A camera now and in the last frame. Projections without jitter; `jitter` is what was added to clip-space xy (in NDC).
+struct View {
+  glm::mat4 view{1}, projection{1};
+  // Optional: techniques with memory reproject with them. They are those of the last render() of this view, else its
+  // history is dropped (see History in technique_frame.h).
+  glm::mat4 last_view{1}, last_projection{1};
+  glm::vec2 jitter{0};
+  int id = 0;        // tells several views apart: each has maps, a mask and a history of its own
+  bool cut = false;  // nothing of the last frame belongs to this one: another scene, a jump of time
+};
+
+// A texture of the caller's: GL_TEXTURE_2D, one sample a texel (shadow maps: GL_TEXTURE_2D_ARRAY). Its sampling
+// parameters do not matter.
+struct TextureView {
+  unsigned id = 0;
+  int width = 0, height = 0;  // of level 0, texels
+};
+
+// A rectangle of texels; (x, y) is the lowest.
+struct Rect {
+  int x = 0, y = 0, width = 0, height = 0;
+
+  bool operator==(const Rect&) const = default;
+};
+
+enum class CasterKind {
+  depth,       // all casters that the volume holds, depth only
+  moved_now,   // those that moved since the last frame, where they are
+  moved_last,  // those that moved, where they were
+  geometry,    // all, for techniques that need triangles
+};
+
+// One call to the caller's code: draw these casters with these matrices. The framebuffer, viewport, depth test and
+// culling state are set; the callback binds its own programs and vertex arrays, both sides of every triangle cast, and
+// polygon offset stays off.
+struct CasterPass {
+  CasterKind kind = CasterKind::depth;
+  int cascade = 0;
+  glm::mat4 world_to_clip{1};
+  CullVolume cull;
+};
+using DrawCasters = std::function<void(const CasterPass&, gl::Pass&)>;
+
+// Maps that the caller has drawn already: a depth texture array (or R32F) with one layer a cascade, near 0, far 1, and
+// where each lies.
+struct FinishedMaps {
+  TextureView depth;
+  Cascades cascades;
+};
+
+// A directional light. Angle and shape are the parameters sun.angle and sun.shape, which `overrides` can replace.
+struct Light {
+  int id = 0;                          // each light of a frame has its own; maps and history go by it
+  glm::vec3 to_light{0, 1, 0};         // unit, world
+  std::vector<std::string> overrides;  // "name=value"
+  std::optional<FinishedMaps> maps;    // absent: drawn by Inputs::draw
+};
+
+struct Inputs {
+  View view;
+  Conventions conventions;
+  TextureView depth;    // any depth texture, or R32F
+  TextureView normals;  // geometric normals, world space, signed (float or SNORM); the size of `depth`
+  TextureView motion;  // optional (id 0), read by techniques with memory alone: RG, where the surface is minus where it
+                       // was, in NDC; the size of `depth`
+  Rect viewport;       // the part of the textures that the view was drawn to; without a size, all of it
+  std::span<const Light> lights;
+  // World bounds; unused when every light brings its maps. A point is a box, what was never set is none.
+  Box casters{glm::vec3(1), glm::vec3(-1)}, receivers{glm::vec3(1), glm::vec3(-1)};
+  DrawCasters draw;  // optional when every light brings its maps
+};
+
+// Throws Error, in one line that names the input and the fault: textures that are none, of another size or of a format
+// that can't be read as what they are given for; matrices that are not finite or can't be inverted; boxes that hold
+// nothing or are not finite; lights without direction, without maps, or with the id of another.
+void check(const Inputs& inputs);
+
+// Inputs::viewport, or all of the depth texture.
+Rect viewport_of(const Inputs& inputs);
+
+}  // namespace penumbra::shadow

@@ -1,0 +1,82 @@
+#include "technique_frame.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <stdexcept>
+
+#include "light_state.h"
+#include "programs.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+void bind_receivers(gl::Device& device, const Inputs& inputs) {
+  for (const GLuint unit : {unit_receiver_depth, unit_receiver_normal}) device.sampler({}).bind(unit);
+  gl::glBindTextureUnit(unit_receiver_depth, inputs.depth.id);
+  gl::glBindTextureUnit(unit_receiver_normal, inputs.normals.id);
+}
+
+}  // namespace
+
+const ParamSet& TechniqueFrame::params() const { return parts_.state.params; }
+
+int TechniqueFrame::age() const { return static_cast<int>(parts_.state.age); }
+
+const gl::Texture& TechniqueFrame::target(std::string_view name, const gl::TextureDesc& desc) const {
+  return parts_.device.target(fmt::format("{}{}", parts_.prefix, name), desc);
+}
+
+const gl::Buffer& TechniqueFrame::scratch(std::string_view name, std::size_t bytes) const {
+  return parts_.device.scratch(fmt::format("{}{}", parts_.prefix, name), bytes);
+}
+
+History TechniqueFrame::history(std::string_view name, const gl::TextureDesc& desc) const {
+  LightState& state = parts_.state;
+  LightState::Ring& ring = state.rings[std::string(name)];
+  assert(ring.filled != state.frames);
+  const bool valid = state.age > 0 && ring.desc == desc && ring.filled + 1 == state.frames;
+  ring = {.desc = desc, .now = 1 - ring.now, .filled = state.frames};
+  const auto texture = [&](int index) -> const gl::Texture& { return target(fmt::format("{} {}", name, index), desc); };
+  return {texture(1 - ring.now), texture(ring.now), valid};
+}
+
+const gl::Program& TechniqueFrame::use(gl::Pass& pass, std::string_view program) const {
+  for (const gl::ProgramDesc& own : parts_.programs.own(parts_.technique, parts_.state.params, parts_.state.rotated)) {
+    if (own.name != parts_.programs.own_name(parts_.technique, program)) continue;
+    const gl::Program& used = pass.use(own);
+    bind_light(parts_.device, parts_.frame, parts_.state);
+    bind_receivers(parts_.device, parts_.inputs);
+    return used;
+  }
+  throw std::logic_error(fmt::format("technique '{}' has no program '{}'", parts_.technique.name, program));
+}
+
+void TechniqueFrame::evaluate(const gl::Texture& target, int layer) const {
+  const bool compute = parts_.state.params.get_word("driver") == "compute";
+  const Rect& viewport = parts_.frame.viewport;
+  gl::PassDesc desc{.name = "shadow mask"};
+  if (!compute) desc.colors = {{.texture = &target, .layer = layer}};
+  gl::Pass pass(parts_.device, desc);
+  const gl::Program& program =
+      pass.use(parts_.programs.mask(parts_.technique, parts_.state.params, parts_.state.rotated, compute));
+  bind_light(parts_.device, parts_.frame, parts_.state);
+  bind_receivers(parts_.device, parts_.inputs);
+  if (compute) {
+    program.set("mask_layer", layer);
+    target.bind_image(0, GL_WRITE_ONLY);
+    pass.dispatch(viewport.width, viewport.height);
+  } else {
+    pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
+    pass.draw_full_screen();
+  }
+}
+
+void TechniqueFrame::draw_casters(gl::Pass& pass, CasterKind kind, int cascade) const {
+  const Cascades& cascades = parts_.frame.cascades;
+  const glm::mat4 world_to_clip(cascades.items.at(static_cast<size_t>(cascade)).world_to_clip);
+  parts_.inputs.draw({kind, cascade, world_to_clip, cull_volume(cascades, cascade)}, pass);
+}
+
+}  // namespace penumbra::shadow
