@@ -21,13 +21,12 @@ const render::Aov& find_aov(std::string_view name) {
   return *std::find_if(all.begin(), all.end(), [&](const render::Aov& aov) { return aov.name == name; });
 }
 
-// An AOV at the picture's size. A cascade's number is a label and has no mean; motion is measured in drawn pixels.
+// An AOV at the picture's size.
 std::vector<float> read_layer(const render::Renderer& renderer, const RenderOptions& options, const render::Aov& aov) {
   const int channels = static_cast<int>(aov.channels.size());
-  const auto reduce = aov.name == "cascade" ? pick_middle : box_filter;
-  std::vector<float> layer =
-      reduce(renderer.read_aov(aov.name), options.size.width, options.size.height, channels, options.supersample);
-  if (aov.name == "motion") {
+  std::vector<float> layer = reduced(renderer.read_aov(aov.name), options.size.width, options.size.height, channels,
+                                     options.supersample, aov.reduction);
+  if (aov.in_pixels) {
     for (float& v : layer) v /= static_cast<float>(options.supersample);
   }
   return layer;

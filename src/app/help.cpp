@@ -68,11 +68,24 @@ bool explain_param(const std::string& name) {
   return false;
 }
 
+const char* to_text(render::Reduction reduction) {
+  switch (reduction) {
+    case render::Reduction::mean:
+      return "the mean of the pixels drawn for one";
+    case render::Reduction::mean_of_valid:
+      return "the mean of the pixels drawn for one that are not 0";
+    case render::Reduction::nearest_center:
+      return "the middle one of the pixels drawn for one";
+  }
+  return "";
+}
+
 bool explain_aov(const std::string& name) {
   for (const render::Aov& aov : render::aovs()) {
     if (aov.name != name) continue;
-    fmt::print("{}: {}\n\n  channels  {}\n\n  penumbra render SCENE -o FILE --aov {}\n", aov.name, aov.help,
-               fmt::join(aov.channels, ", "), aov.name);
+    fmt::print("{}: {}\n\n  channels       {}\n  --supersample  {}\n", aov.name, aov.help,
+               fmt::join(aov.channels, ", "), to_text(aov.reduction));
+    fmt::print("\n  penumbra render SCENE -o FILE --aov {}\n", aov.name);
     return true;
   }
   return false;

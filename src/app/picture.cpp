@@ -91,38 +91,58 @@ Bytes with_third(const Bytes& two) {
   return three;
 }
 
-}  // namespace
+// The pixels that one is made of.
+struct Block {
+  const std::vector<float>& pixels;
+  int width, channels, factor;  // width: of `pixels`
+  int x, y;                     // the first
 
-std::vector<float> box_filter(const std::vector<float>& pixels, int width, int height, int channels, int factor) {
-  assert(pixels.size() == pixel_values(width * factor, height * factor, channels));
-  if (factor == 1) return pixels;
-  std::vector<float> means(pixel_values(width, height, channels));
-  const double weight = 1.0 / (static_cast<double>(factor) * factor);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      for (int c = 0; c < channels; ++c) {
-        double sum = 0;
-        for (int j = 0; j < factor; ++j)
-          for (int i = 0; i < factor; ++i)
-            sum += pixels[index_of(x * factor + i, y * factor + j, width * factor, channels) +
-                          static_cast<std::size_t>(c)];
-        means[index_of(x, y, width, channels) + static_cast<std::size_t>(c)] = static_cast<float>(sum * weight);
-      }
+  float at(int i, int j, int channel) const {
+    return pixels[index_of(x + i, y + j, width, channels) + static_cast<std::size_t>(channel)];
+  }
+};
+
+float mean(const Block& block, int channel, bool only_valid) {
+  double sum = 0;
+  int count = 0;
+  for (int j = 0; j < block.factor; ++j) {
+    for (int i = 0; i < block.factor; ++i) {
+      const float value = block.at(i, j, channel);
+      if (only_valid && value == 0) continue;
+      sum += value;
+      ++count;
     }
   }
-  return means;
+  return count == 0 ? 0.0f : static_cast<float>(sum / count);
 }
 
-std::vector<float> pick_middle(const std::vector<float>& pixels, int width, int height, int channels, int factor) {
-  std::vector<float> picked(pixel_values(width, height, channels));
+float reduce(const Block& block, int channel, render::Reduction reduction) {
+  switch (reduction) {
+    case render::Reduction::mean:
+      return mean(block, channel, /* only_valid= */ false);
+    case render::Reduction::mean_of_valid:
+      return mean(block, channel, /* only_valid= */ true);
+    case render::Reduction::nearest_center:
+      break;
+  }
+  return block.at(block.factor / 2, block.factor / 2, channel);
+}
+
+}  // namespace
+
+std::vector<float> reduced(const std::vector<float>& pixels, int width, int height, int channels, int factor,
+                           render::Reduction reduction) {
+  assert(pixels.size() == pixel_values(width * factor, height * factor, channels));
+  if (factor == 1) return pixels;
+  std::vector<float> result;
+  result.reserve(pixel_values(width, height, channels));
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const std::size_t from = index_of(x * factor + factor / 2, y * factor + factor / 2, width * factor, channels);
-      std::copy_n(pixels.begin() + static_cast<std::ptrdiff_t>(from), channels,
-                  picked.begin() + static_cast<std::ptrdiff_t>(index_of(x, y, width, channels)));
+      const Block block{pixels, width * factor, channels, factor, x * factor, y * factor};
+      for (int c = 0; c < channels; ++c) result.push_back(reduce(block, c, reduction));
     }
   }
-  return picked;
+  return result;
 }
 
 Bytes display_bytes(std::vector<std::uint8_t> rgb, int width, int height, int factor) {
@@ -130,7 +150,7 @@ Bytes display_bytes(std::vector<std::uint8_t> rgb, int width, int height, int fa
   if (factor == 1) return {3, std::move(rgb)};
   std::vector<float> linear(rgb.size());
   std::transform(rgb.begin(), rgb.end(), linear.begin(), [](std::uint8_t v) { return linear_of_byte()[v]; });
-  return each(3, box_filter(linear, width, height, 3, factor), linear_to_srgb);
+  return each(3, reduced(linear, width, height, 3, factor, render::Reduction::mean), linear_to_srgb);
 }
 
 Bytes aov_bytes(std::string_view name, int channels, const std::vector<float>& pixels) {

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "render/renderer.h"
+
 namespace penumbra::app {
 
 // Rows top to bottom, channels interleaved.
@@ -12,11 +14,10 @@ struct Bytes {
   std::vector<std::uint8_t> pixels;
 };
 
-// Supersampling: the mean of every factor × factor pixels of an image that is `factor` times as large as width ×
-// height.
-std::vector<float> box_filter(const std::vector<float>& pixels, int width, int height, int channels, int factor);
-// The pixel at the middle of each block, for labels, which have no mean.
-std::vector<float> pick_middle(const std::vector<float>& pixels, int width, int height, int channels, int factor);
+// Supersampling: each pixel of `reduced` is made of factor × factor of `pixels`, an image `factor` times as large as
+// width × height.
+std::vector<float> reduced(const std::vector<float>& pixels, int width, int height, int channels, int factor,
+                           render::Reduction reduction);
 
 // A display-referred RGB picture, 8 bits a channel, `factor` times as large as width × height, at its own size. The
 // mean of a block is taken of linearised display values: what an eye far away would see, and no firefly outshines a

@@ -119,23 +119,29 @@ struct Row {
 
 const std::vector<Row>& rows() {
   static const std::vector<std::string> rgb{"R", "G", "B"}, xyz{"X", "Y", "Z"}, v{"V"};
+  using enum Reduction;
   static const std::vector<Row> all{
-      {{"color", "Linear light, exposed, before the tone map.", rgb}, color},
-      {{"shadow", "Visibility of the sun: 1 lit, 0 in shadow.", v}, visibility},
-      {{"depth", "Distance from the camera's plane, m; 0 for the sky.", {"Z"}}, depth},
-      {{"normal", "Shading normal, world space.", xyz}, shading_normal},
-      {{"geometric_normal", "Normal of the triangle itself, world space, facing the camera.", xyz}, geometric_normal},
-      {{"albedo", "Base colour, linear.", rgb}, albedo},
-      {{"material", "Metallic, roughness, occlusion.", rgb}, material},
-      {{"emission", "Emitted light as the file gives it.", rgb}, emission},
-      {{"motion",
-        "Where a surface is minus where it was in the last frame, pixels, x to the right and y down.",
-        {"X", "Y"}},
+      {{"color", "Linear light, exposed, before the tone map.", rgb, mean}, color},
+      {{"shadow", "Visibility of the sun: 1 lit, 0 in shadow.", v, mean}, visibility},
+      {{"depth", "Distance from the camera's plane, m; 0 for the sky.", {"Z"}, nearest_center}, depth},
+      {{"normal", "Shading normal, world space; 0 for the sky.", xyz, nearest_center}, shading_normal},
+      {{"geometric_normal", "Normal of the triangle itself, world space, facing the camera; 0 for the sky.", xyz,
+        nearest_center},
+       geometric_normal},
+      {{"albedo", "Base colour, linear.", rgb, mean}, albedo},
+      {{"material", "Metallic, roughness, occlusion.", rgb, mean}, material},
+      {{"emission", "Emitted light as the file gives it.", rgb, mean}, emission},
+      {{.name = "motion",
+        .help = "Where a surface is minus where it was in the last frame, pixels, x to the right and y down.",
+        .channels = {"X", "Y"},
+        .reduction = nearest_center,
+        .in_pixels = true},
        motion},
-      {{"cascade", "Cascade of the shadow map, 0 the finest; -1 for the sky.", v}, cascade},
-      {{"blocker", "Mean distance from a surface to what hides the sun, m; 0 for none.", v}, blocker},
-      {{"penumbra", "Full width of the penumbra, m; 0 where nothing hides the sun.", v}, penumbra_width},
-      {{"under_texel", "1 where the penumbra is narrower than the shadow map can show.", v}, under_texel},
+      {{"cascade", "Cascade of the shadow map, 0 the finest; -1 for the sky.", v, nearest_center}, cascade},
+      {{"blocker", "Mean distance from a surface to what hides the sun, m; 0 for none.", v, mean_of_valid}, blocker},
+      {{"penumbra", "Full width of the penumbra, m; 0 where nothing hides the sun.", v, mean_of_valid}, penumbra_width},
+      {{"under_texel", "1 where the penumbra is narrower than the shadow map can show.", v, nearest_center},
+       under_texel},
   };
   return all;
 }

@@ -25,11 +25,20 @@ struct FrameInputs {
   double time = 0, last_time = 0;  // seconds
 };
 
+// What one pixel is made of where several were drawn for it.
+enum class Reduction {
+  mean,            // all of them
+  mean_of_valid,   // those that are not 0, which stands for "none"
+  nearest_center,  // the one at the middle: what has no mean, as labels, or none that is its own kind, as unit vectors
+};
+
 // A named picture of the frame for --aov and the inspector.
 struct Aov {
   std::string name;                   // "shadow"
   std::string help;                   // meaning and unit
   std::vector<std::string> channels;  // "R","G","B" or "V", …: EXR channel names after the layer's name
+  Reduction reduction = Reduction::mean;
+  bool in_pixels = false;  // a length in drawn pixels
 };
 const std::vector<Aov>& aovs();
 

@@ -6,7 +6,7 @@ import signal
 import subprocess
 import time
 
-from pictures import SMALL, read_exr_header, read_png, scene
+from pictures import SMALL, read_exr, read_exr_header, read_png, scene
 from support import PROGRAM, TestCase, main
 
 POSTS = scene("posts")
@@ -100,6 +100,33 @@ class Output(TestCase):
                 x, c = divmod(i, channels)
                 block = [drawn[2 * y + j][(2 * x + k) * channels + c] for j in (0, 1) for k in (0, 1)]
                 self.assertAlmostEqual(byte, encode(sum(map(decode, block)) / 4), delta=0.51)
+
+    def test_supersampled_aovs_hold_no_value_that_means_nothing(self):
+        names = [row["name"] for row in json.loads(self.succeed("list", "aovs", "--json").stdout)]
+        aovs = ("--aov", ",".join(names), "--exposure", "15")
+        # Sky, edges and shadows from above the posts' side.
+        view = ("--eye", "0,4,14", "--target", "0,2,0", "--fov", "50")
+        self.draw("large.exr", *aovs, *view, size=("--size", "96x54"))
+        self.draw("small.exr", *aovs, *view, "--supersample", "2", size=("--size", "48x27"))
+        large, small = (read_exr(self.folder / f"{name}.exr") for name in ("large", "small"))
+        self.assertEqual(set(large), set(small))
+        mixed = {name: 0 for name in large}
+        for name, rows in small.items():
+            layer = name.split(".")[0]
+            for y, row in enumerate(rows):
+                for x, value in enumerate(row):
+                    block = [large[name][2 * y + j][2 * x + i] for j in (0, 1) for i in (0, 1)]
+                    mixed[name] += len(set(block)) > 1
+                    if layer in ("depth", "normal", "geometric_normal", "cascade", "under_texel"):
+                        self.assertEqual(value, block[3], name)
+                    elif layer == "motion":
+                        self.assertEqual(value, block[3] / 2)
+                    else:
+                        valid = [v for v in block if v != 0] if layer in ("blocker", "penumbra") else block
+                        wanted = sum(valid) / max(len(valid), 1)
+                        self.assertAlmostEqual(value, wanted, delta=1e-5 * abs(wanted), msg=name)
+        for name in ("depth.Z", "cascade.V", "blocker.V", "penumbra.V", "shadow.V"):
+            self.assertGreater(mixed[name], 0, name)
 
     def test_the_eye_sees_what_it_is_aimed_at(self):
         # From straight above, the ground fills the picture and faces the camera.

@@ -57,7 +57,7 @@ TEST(Usage, DirectionsAreInDegrees) {
 }
 
 TEST(OutputNames, OnePictureKeepsItsName) {
-  EXPECT_EQ(OutputNames("out/x#1%d.png", false).picture(7), "out/x#1%d.png");
+  EXPECT_EQ(OutputNames("a#b/100%.png", false).picture(7), "a#b/100%.png");
   EXPECT_EQ(OutputNames("x.PNG", false).picture(0), "x.PNG");
   EXPECT_EQ(OutputNames("out/x.png", false).aov(0, "shadow"), "out/x.shadow.png");
   EXPECT_TRUE(OutputNames("x.exr", false).is_exr());
@@ -75,15 +75,22 @@ TEST(OutputNames, SequencesAreNumbered) {
 TEST(OutputNames, RefuseOtherKindsAndBadPatterns) {
   for (const char* name : {"x", "x.jpg", "x.png.", ".png", "out/", "x.tar"})
     EXPECT_THROW(OutputNames(name, false), UsageError) << name;
-  for (const char* name : {"x%s.png", "x%.png", "x%d%d.png", "x%12d.png", "x%n.png"})
+  for (const char* name : {"x%s.png", "x%.png", "x%d%d.png", "x%12d.png", "x%n.png", "x#_#.png", "x#%d.png", "x#%.png"})
     EXPECT_THROW(OutputNames(name, true), UsageError) << name;
+  for (const char* name : {"x#.png", "x####.exr", "x%d.png", "x%04d.png"})
+    EXPECT_THROW(OutputNames(name, false), UsageError) << name;
 }
 
-TEST(Picture, ABlockBecomesItsMean) {
+TEST(Picture, ABlockBecomesWhatItsMeaningAsks) {
+  using penumbra::app::reduced;
+  using enum penumbra::render::Reduction;
   // Two pixels of 2 × 2 each, side by side.
   const std::vector<float> drawn{0, 1, 4, 4, 2, 3, 4, 8};
-  EXPECT_EQ(penumbra::app::box_filter(drawn, 2, 1, 1, 2), (std::vector<float>{1.5f, 5.0f}));
-  EXPECT_EQ(penumbra::app::pick_middle(drawn, 2, 1, 1, 2), (std::vector<float>{3.0f, 8.0f}));
+  EXPECT_EQ(reduced(drawn, 2, 1, 1, 2, mean), (std::vector<float>{1.5f, 5.0f}));
+  EXPECT_EQ(reduced(drawn, 2, 1, 1, 2, mean_of_valid), (std::vector<float>{2.0f, 5.0f}));
+  EXPECT_EQ(reduced(drawn, 2, 1, 1, 2, nearest_center), (std::vector<float>{3.0f, 8.0f}));
+  EXPECT_EQ(reduced({0, 0, 0, 0}, 1, 1, 1, 2, mean_of_valid), std::vector<float>{0.0f});
+  EXPECT_EQ(reduced(drawn, 4, 2, 1, 1, mean_of_valid), drawn);
 }
 
 TEST(Picture, DisplayBytesAreAveragedInLinearLight) {
