@@ -7,9 +7,9 @@ from support import TestCase, main
 
 
 class Stats(TestCase):
-    def stats(self, *arguments, of="posts"):
+    def stats(self, *arguments, of="posts", size=SMALL):
         path = self.folder / "s.json"
-        self.succeed("render", scene(of), "-o", self.folder / "x.png", *SMALL, "--stats", path, *arguments)
+        self.succeed("render", scene(of), "-o", self.folder / "x.png", *size, "--stats", path, *arguments)
         return json.loads(path.read_text())
 
     def test_fields(self):
@@ -35,10 +35,29 @@ class Stats(TestCase):
             self.assertLessEqual(0, row["min_ms"])
             self.assertLessEqual(row["min_ms"], row["median_ms"])
             self.assertLessEqual(row["median_ms"], row["max_ms"])
-        outer = [row for row in stats["passes"] if "/" not in row["name"]]
         self.assertEqual(len({row["name"] for row in stats["passes"]}), len(stats["passes"]))
         # Passes lie inside the frame, one after the other.
+        outer = [row for row in stats["passes"] if "/" not in row["name"]]
         self.assertLessEqual(sum(row["min_ms"] for row in outer), stats["frame"]["max_ms"] + 0.01)
+
+    def test_passes_are_the_frame(self):
+        # Nothing that costs time is left out of the table.
+        stats = self.stats("--size", "320x180", "--stats-frames", "15", size=())
+        outer = [row["median_ms"] for row in stats["passes"] if "/" not in row["name"]]
+        self.assertGreaterEqual(sum(outer), 0.9 * stats["frame"]["median_ms"])
+
+    def test_the_table_names_every_pass_and_no_other(self):
+        always = ["gbuffer", "shadow mask", "lighting", "exposure", "tone map"]
+        for of, arguments, more in (
+            ("posts", ["--technique", "none"], []),
+            ("posts", ["--technique", "hard"], ["shadow map"]),
+            ("posts", ["--technique", "pcss"], ["shadow map", "depth pyramid"]),
+            ("posts", ["--technique", "pcss_compute"], ["shadow map", "depth pyramid"]),
+            ("moving", ["--technique", "hard", "--frames", "0:2"], ["deform", "shadow map"]),
+        ):
+            with self.subTest(f"{of} {arguments}"):
+                names = [row["name"] for row in self.stats(*arguments, of=of)["passes"]]
+                self.assertEqual(sorted(names), sorted(always + more))
 
     def test_a_sequence_counts_every_frame_but_the_first(self):
         stats = self.stats("--frames", "0:3", of="moving")
