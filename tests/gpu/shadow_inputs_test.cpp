@@ -1,0 +1,158 @@
+// What the library is handed: bad input is refused in one line that names it, and a view may be a part of its textures.
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+#include "gpu/gpu_test.h"
+#include "gpu/triangle_scene.h"
+
+namespace penumbra::test {
+namespace {
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+TriangleScene box_on_ground() {
+  TriangleScene scene;
+  scene.add_quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
+  scene.add_box({-1, 0, -1}, {1, 1, 1});
+  scene.view = glm::lookAt(glm::vec3(2, 5, 6), glm::vec3(0), glm::vec3(0, 1, 0));
+  scene.projection = perspective(0.8f, 1, 0.1f);
+  scene.width = scene.height = 48;
+  scene.to_light = sun_direction(60, 40);
+  return scene;
+}
+
+class ShadowInputs : public GpuTest {
+ protected:
+  // The message that the inputs end with, once changed.
+  std::string refusal(const TriangleRenderer::Adjust& change) {
+    return message_of([&] { renderer.render(box_on_ground(), params, change); });
+  }
+  void expect_refusal(const std::string& says, const TriangleRenderer::Adjust& change) {
+    const std::string message = refusal(change);
+    EXPECT_EQ(message.find("soft shadows: "), 0u) << message;
+    EXPECT_NE(message.find(says), std::string::npos) << message << "\nshould say: " << says;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+  shadow::TextureView texture(const char* name, const gl::TextureDesc& desc) {
+    return {renderer.device().target(name, desc).id(), desc.width, desc.height};
+  }
+
+  TriangleRenderer renderer;
+  ParamSet params = renderer.params();
+};
+
+TEST_F(ShadowInputs, MatricesAndBoxesAreChecked) {
+  using shadow::Inputs;
+  expect_refusal("the view matrix is not finite", [](Inputs& in) { in.view.view[3][1] = infinite; });
+  expect_refusal("the view matrix has no inverse", [](Inputs& in) { in.view.view = glm::mat4(0); });
+  expect_refusal("the projection matrix is not finite", [](Inputs& in) { in.view.projection[0][0] = NAN; });
+  expect_refusal("the projection matrix has no inverse", [](Inputs& in) { in.view.projection[0][0] = 0; });
+  expect_refusal("the jitter is not finite", [](Inputs& in) { in.view.jitter.x = NAN; });
+  expect_refusal("the box of the casters is empty", [](Inputs& in) { in.casters = Inputs().casters; });
+  expect_refusal("the box of the receivers is empty", [](Inputs& in) { in.receivers.min.y = 100; });
+  expect_refusal("the box of the casters is not finite", [](Inputs& in) { in.casters.max.x = infinite; });
+  expect_refusal("the box of the receivers is not finite", [](Inputs& in) { in.receivers.min.z = NAN; });
+}
+
+TEST_F(ShadowInputs, TexturesAreChecked) {
+  using shadow::Inputs;
+  const int size = 48;
+  const auto color = texture("color", {.format = GL_RGBA8, .width = size, .height = size});
+  const auto packed = texture("packed", {.format = GL_RG16, .width = size, .height = size});
+  const auto one = texture("one", {.format = GL_R32F, .width = size, .height = size});
+  const auto small = texture("small", {.format = GL_RG32F, .width = size - 1, .height = size});
+  const auto array =
+      texture("array", {.target = GL_TEXTURE_2D_ARRAY, .format = GL_R32F, .width = size, .height = size});
+  expect_refusal("no depth texture", [](Inputs& in) { in.depth = {}; });
+  expect_refusal("depth: 4242 is not the name of a texture", [](Inputs& in) { in.depth.id = 4242; });
+  expect_refusal("depth: texture", [](Inputs& in) { in.depth.width += 1; });
+  expect_refusal("holds no depth", [&](Inputs& in) { in.depth = color; });
+  expect_refusal("is not a GL_TEXTURE_2D", [&](Inputs& in) { in.depth = array; });
+  expect_refusal("no normals texture", [](Inputs& in) { in.normals = {}; });
+  expect_refusal("normals are 47×48, depth is 48×48", [&](Inputs& in) { in.normals = small; });
+  expect_refusal("has not 2 channels of a float or SNORM format", [&](Inputs& in) { in.normals = packed; });
+  expect_refusal("has not 2 channels", [&](Inputs& in) { in.normals = one; });
+  expect_refusal("has not 3 channels", [&](Inputs& in) { in.conventions.octahedral_normals = false; });
+  expect_refusal("motion vectors are 47×48", [&](Inputs& in) { in.motion = small; });
+  expect_refusal("motion: texture", [&](Inputs& in) { in.motion = {small.id, size, size}; });
+  expect_refusal("the viewport of 40×40 at 9, 0 is not a part of 48×48", [](Inputs& in) {
+    in.viewport = {9, 0, 40, 40};
+  });
+  expect_refusal("the viewport of 0×40", [](Inputs& in) { in.viewport = {9, 0, 0, 40}; });
+}
+
+TEST_F(ShadowInputs, LightsAreChecked) {
+  using shadow::Inputs;
+  std::vector<shadow::Light> lights(2);
+  const auto with = [&](const auto& change) {
+    return [&lights, change](Inputs& in) {
+      lights.assign(2, {});
+      lights[1].id = 1;
+      change(lights);
+      in.lights = lights;
+    };
+  };
+  expect_refusal("two lights have the id 1", with([](auto& all) { all[0].id = 1; }));
+  expect_refusal("light 0 has no direction", with([](auto& all) { all[0].to_light = {0, 0, 0}; }));
+  expect_refusal("light 1 has no direction", with([](auto& all) { all[1].to_light.x = NAN; }));
+  expect_refusal("light 0 has no maps", [](Inputs& in) { in.draw = nullptr; });
+
+  const int size = 64;
+  const auto maps =
+      texture("maps", {.target = GL_TEXTURE_2D_ARRAY, .format = GL_DEPTH_COMPONENT32F, .width = size, .height = size});
+  const shadow::FinishedMaps given{maps, {.size = size, .items = std::vector<shadow::Cascade>(1)}};
+  const auto with_maps = [&](const auto& change) {
+    return with([&given, change](auto& all) {
+      all[0].maps = given;
+      change(*all[0].maps);
+    });
+  };
+  expect_refusal("brings 0 cascades", with_maps([](auto& m) { m.cascades.items.clear(); }));
+  expect_refusal("brings 1 maps for 2 cascades", with_maps([](auto& m) { m.cascades.items.resize(2); }));
+  expect_refusal("maps of 64×64 and cascades of 32", with_maps([](auto& m) { m.cascades.size = 32; }));
+  expect_refusal("cascade 0 has no extent", with_maps([](auto& m) { m.cascades.items[0].half_extent = 0; }));
+  expect_refusal("cascade 0 has no extent", with_maps([](auto& m) { m.cascades.items[0].far_z = -1; }));
+  expect_refusal("cascade 0 is not finite", with_maps([](auto& m) { m.cascades.items[0].near_z = NAN; }));
+  expect_refusal("light space is not finite", with_maps([](auto& m) { m.cascades.anchor.x = NAN; }));
+}
+
+TEST_F(ShadowInputs, AViewMayBeAPartOfItsTextures) {
+  const TriangleScene scene = box_on_ground();
+  const shadow::Rect part{13, 5, scene.width, scene.height};
+  constexpr int width = 80;
+  constexpr int height = 64;
+  params.set("technique", std::string("hard"));
+  for (const std::string driver : {"fragment", "compute"}) {
+    params.set("driver", driver);
+    const Shadowed whole = renderer.render(scene, params);
+    const auto larger = [&](const shadow::TextureView& from, GLenum format) {
+      const auto to = texture(format == GL_RG32F ? "large normals" : "large depth",
+                              {.format = format, .width = width, .height = height});
+      gl::glCopyImageSubData(from.id, GL_TEXTURE_2D, 0, 0, 0, 0, to.id, GL_TEXTURE_2D, 0, part.x, part.y, 0, part.width,
+                             part.height, 1);
+      return to;
+    };
+    renderer.render(scene, params, [&](shadow::Inputs& in) {
+      in.depth = larger(in.depth, GL_DEPTH_COMPONENT32F);
+      in.normals = larger(in.normals, GL_RG32F);
+      in.viewport = part;
+    });
+    const gl::Texture& mask = *renderer.mask().texture;
+    ASSERT_EQ(glm::ivec2(mask.width(), mask.height()), glm::ivec2(width, height));
+    const std::vector<float> texels = gl::read_floats(mask, 4);
+    std::vector<float> inside;
+    for (int y = 0; y < part.height; ++y) {
+      const auto row = texels.begin() + 4 * ((y + part.y) * width + part.x);
+      inside.insert(inside.end(), row, row + 4 * part.width);
+    }
+    EXPECT_EQ(inside, whole.mask) << driver;
+    int shadowed = 0;
+    for (const float visibility : whole.visibilities()) shadowed += visibility < 0.5f ? 1 : 0;
+    EXPECT_GT(shadowed, 10);
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
