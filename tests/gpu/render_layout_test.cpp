@@ -52,6 +52,8 @@ TEST_F(LayoutTest, SurfacePrograms) {
   expect_offset(found, "view.last_world_to_clip", offsetof(ViewBlock, last_world_to_clip));
   expect_offset(found, "view.camera", offsetof(ViewBlock, camera));
   expect_offset(found, "view.forward", offsetof(ViewBlock, forward));
+  expect_offset(found, "view.ray_x", offsetof(ViewBlock, ray_x));
+  expect_offset(found, "view.ray_y", offsetof(ViewBlock, ray_y));
   expect_offset(found, "view.viewport", offsetof(ViewBlock, viewport));
   expect_offset(found, "instances[0].last_world", offsetof(InstanceBlock, last_world));
   expect_offset(found, "instances[0].area", offsetof(InstanceBlock, area));
