@@ -30,6 +30,7 @@ namespace {
   X(PFNGLDRAWARRAYSPROC, glDrawArrays) \
   X(PFNGLENABLEPROC, glEnable) \
   X(PFNGLGETPROGRAMIVPROC, glGetProgramiv) \
+  X(PFNGLGETSHADERIVPROC, glGetShaderiv) \
   X(PFNGLLINKPROGRAMPROC, glLinkProgram) \
   X(PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, glNamedFramebufferTexture) \
   X(PFNGLNAMEDFRAMEBUFFERTEXTURELAYERPROC, glNamedFramebufferTextureLayer) \
@@ -60,11 +61,11 @@ constexpr const char* fragment_text = R"(#version 450 core
 layout(location = 0) out vec4 normal;
 void main() { normal = vec4(0.0, 1.0, 0.0, 0.0); })";
 
-void attach(GLuint program, GLenum kind, const char* text) {
+GLuint compile(GLenum kind, const char* text) {
   const GLuint shader = glCreateShader(kind);
   glShaderSource(shader, 1, &text, nullptr);
   glCompileShader(shader);
-  glAttachShader(program, shader);
+  return shader;
 }
 
 }  // namespace
@@ -87,10 +88,29 @@ void make_context() {
 #undef X
 }
 
+// Names as engines have them.
+const char* const forward_fragment_text = R"(
+struct Light { vec3 to_light; vec3 color; };
+struct Receiver { vec3 position; };
+in vec3 view_position;
+in vec3 world_normal;
+uniform Light light;
+layout(location = 0) out vec4 color;
+vec3 shade(Receiver receiver) {
+  return light.color * penumbra_shadow_visibility(receiver.position, world_normal, gl_FragCoord.xy);
+}
+void main() { color = vec4(shade(Receiver(view_position)), 1.0); })";
+
+bool compiles(const std::string& fragment_text) {
+  GLint compiled = 0;
+  glGetShaderiv(compile(GL_FRAGMENT_SHADER, fragment_text.c_str()), GL_COMPILE_STATUS, &compiled);
+  return compiled != 0;
+}
+
 Scene::Scene() {
   program = glCreateProgram();
-  attach(program, GL_VERTEX_SHADER, vertex_text);
-  attach(program, GL_FRAGMENT_SHADER, fragment_text);
+  glAttachShader(program, compile(GL_VERTEX_SHADER, vertex_text));
+  glAttachShader(program, compile(GL_FRAGMENT_SHADER, fragment_text));
   glLinkProgram(program);
   GLint linked = 0;
   glGetProgramiv(program, GL_LINK_STATUS, &linked);
@@ -111,13 +131,13 @@ void Scene::draw(const glm::mat4& world_to_clip, bool casters_only) const {
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-glm::mat4 view() { return glm::lookAt(glm::vec3(0, 5, 5), glm::vec3(0), glm::vec3(0, 1, 0)); }
+glm::mat4 view(const glm::vec3& eye) { return glm::lookAt(eye, glm::vec3(0), glm::vec3(0, 1, 0)); }
 
 glm::mat4 projection() {
   return glm::perspectiveRH_NO(0.9f, static_cast<float>(width) / static_cast<float>(height), 0.1f, 100.0f);
 }
 
-Targets draw_frame(const Scene& scene) {
+Targets draw_frame(const Scene& scene, const glm::mat4& view) {
   Targets targets;
   glCreateTextures(GL_TEXTURE_2D, 1, &targets.depth);
   glTextureStorage2D(targets.depth, 1, GL_DEPTH_COMPONENT32F, width, height);
@@ -135,7 +155,7 @@ Targets draw_frame(const Scene& scene) {
   const std::array<float, 4> no_normal{};
   glClearBufferfv(GL_DEPTH, 0, &far_depth);
   glClearBufferfv(GL_COLOR, 0, no_normal.data());
-  scene.draw(projection() * view(), /*casters_only=*/false);
+  scene.draw(projection() * view, /*casters_only=*/false);
   return targets;
 }
 

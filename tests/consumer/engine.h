@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <string>
 
 namespace engine {
 
@@ -20,6 +21,10 @@ constexpr float floor_half = 6.0f;
 void make_context();  // throws std::runtime_error
 void* proc_address(const char* name);
 
+// A fragment shader's end, for a function that gives it shadows; and whether the driver takes the whole.
+extern const char* const forward_fragment_text;
+bool compiles(const std::string& fragment_text);
+
 struct Targets {
   GLuint depth = 0, normals = 0;
 };
@@ -30,11 +35,11 @@ struct Scene {
   GLuint program = 0, vertices = 0;
 };
 
-glm::mat4 view();
+glm::mat4 view(const glm::vec3& eye);  // towards the square's foot
 glm::mat4 projection();
 
 // The depth and normals of a frame, drawn with the engine's conventions.
-Targets draw_frame(const Scene& scene);
+Targets draw_frame(const Scene& scene, const glm::mat4& view);
 
 // A depth array of one layer a matrix: near 0, far 1, clip-space depth 0..1.
 GLuint draw_depth_array(const Scene& scene, const glm::mat4* world_to_clip, int count, int size);

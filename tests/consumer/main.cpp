@@ -1,8 +1,10 @@
 // The engine hands its depth, its normals and a callback that draws its casters to Penumbra, gets a shadow mask, and
-// looks at it: under the square is umbra, beside it light, in between penumbra. Then the same with maps of its own.
+// looks at it: under the square is umbra, beside it light, in between penumbra. Then the same with maps of its own, and
+// with the same maps again, seen by a camera that has moved on. A program of the engine's takes the forward source.
 #include <penumbra/gl/context.h>
 #include <penumbra/shadow/soft_shadows.h>
 
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -16,6 +18,7 @@ using namespace penumbra;
 struct Setting {
   const engine::Scene& scene;
   engine::Targets targets;
+  glm::mat4 view;
   glm::vec3 to_light;
 };
 
@@ -23,7 +26,7 @@ shadow::Inputs inputs_of(const Setting& setting, std::span<const shadow::Light> 
   const glm::vec3 ground(engine::floor_half, 0, engine::floor_half);
   const glm::vec3 reach(engine::caster_half, 0, engine::caster_half);
   shadow::Inputs inputs;
-  inputs.view.view = inputs.view.last_view = engine::view();
+  inputs.view.view = inputs.view.last_view = setting.view;
   inputs.view.projection = inputs.view.last_projection = engine::projection();
   inputs.conventions = {.reversed_z = false, .depth_zero_to_one = false, .octahedral_normals = false};
   inputs.depth = {setting.targets.depth, engine::width, engine::height};
@@ -37,8 +40,8 @@ shadow::Inputs inputs_of(const Setting& setting, std::span<const shadow::Light> 
   return inputs;
 }
 
-float visibility_at(const std::vector<float>& mask, const glm::vec3& point) {
-  const glm::vec4 clip = engine::projection() * engine::view() * glm::vec4(point, 1);
+float visibility_at(const std::vector<float>& mask, const Setting& setting, const glm::vec3& point) {
+  const glm::vec4 clip = engine::projection() * setting.view * glm::vec4(point, 1);
   const glm::vec2 pixel = (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * glm::vec2(engine::width, engine::height);
   return mask[static_cast<size_t>(4 * (static_cast<int>(pixel.y) * engine::width + static_cast<int>(pixel.x)))];
 }
@@ -49,11 +52,17 @@ void expect(bool holds, const char* what) {
 
 void check_mask(const std::vector<float>& mask, const Setting& setting) {
   const glm::vec3 umbra = engine::caster_center - setting.to_light * (engine::caster_center.y / setting.to_light.y);
-  expect(visibility_at(mask, umbra) < 0.01f, "the middle of the square's shadow is not dark");
-  expect(visibility_at(mask, umbra + glm::vec3(0, 0, 2)) > 0.99f, "the floor beside the shadow is not lit");
+  expect(visibility_at(mask, setting, umbra) < 0.01f, "the middle of the square's shadow is not dark");
+  expect(visibility_at(mask, setting, umbra + glm::vec3(0, 0, 2)) > 0.99f, "the floor beside the shadow is not lit");
   int penumbra_pixels = 0;
   for (size_t i = 0; i < mask.size(); i += 4) penumbra_pixels += mask[i] > 0.1f && mask[i] < 0.9f;
   expect(penumbra_pixels > 100, "the shadow has no penumbra");
+}
+
+float mean_difference(const std::vector<float>& a, const std::vector<float>& b) {
+  float sum = 0;
+  for (size_t i = 0; i < a.size(); i += 4) sum += std::abs(a[i] - b[i]);
+  return 4 * sum / static_cast<float>(a.size());
 }
 
 // One matrix a cascade, for maps that the engine draws itself.
@@ -69,7 +78,8 @@ void run() {
   engine::make_context();
   gl::load_api(engine::proc_address);
   const engine::Scene scene;
-  const Setting setting{scene, engine::draw_frame(scene), glm::normalize(glm::vec3(-1, 2, 0.5f))};
+  const glm::mat4 view = engine::view({0, 5, 5});
+  Setting setting{scene, engine::draw_frame(scene, view), view, glm::normalize(glm::vec3(-1, 2, 0.5f))};
 
   gl::Device device(gl::ShaderFiles(), gl::Timers::Mode::off);
   shadow::SoftShadows shadows(device);
@@ -85,6 +95,19 @@ void run() {
   lights[0].maps = draw_own_maps(setting, drawn.lights[0].cascades);
   const shadow::Mask given = shadows.render(inputs_of(setting, lights), params);
   expect(gl::read_floats(*given.texture, 4) == mask, "maps of the engine's own give another mask than the callback");
+
+  // The maps stay those of the first camera, and their cascades are told relative to it.
+  setting.view = engine::view({1.5f, 4, 5.5f});
+  setting.targets = engine::draw_frame(scene, setting.view);
+  const std::vector<float> moved = gl::read_floats(*shadows.render(inputs_of(setting, lights), params).texture, 4);
+  check_mask(moved, setting);
+  lights[0].maps.reset();
+  const std::vector<float> fresh = gl::read_floats(*shadows.render(inputs_of(setting, lights), params).texture, 4);
+  expect(mean_difference(moved, fresh) < 0.005f,
+         "maps of an earlier camera give another shadow than those of this one");
+
+  expect(engine::compiles("#version 450 core\n" + shadows.forward_source(params) + engine::forward_fragment_text),
+         "the forward source does not compile in a shader of the engine's");
   std::puts("mask as expected");
 }
 

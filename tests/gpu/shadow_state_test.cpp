@@ -145,7 +145,8 @@ TEST_F(ShadowState, NothingIsInheritedAndWhatIsLeftIsDocumented) {
   params.set("sun.angle", 4.0f);
   for (const std::string technique : {"none", "pcss"}) {
     for (const std::string driver : {"fragment", "compute"}) {
-      SCOPED_TRACE(technique + ", " + driver);
+      SCOPED_TRACE(technique);
+      SCOPED_TRACE(driver);
       params.set("technique", technique);
       params.set("driver", driver);
       const Shadowed clean = renderer.render(scene, params);
