@@ -1,19 +1,38 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace penumbra::shadow {
 
-// k's binary digits mirrored about the point, in 0..1 (van der Corput 1935).
-float radical_inverse_2(unsigned k);
+// The point sets, by name.
+//   vogel                 the golden-ratio lattice, which maps to Vogel's spiral on a disc (Vogel 1979)
+//   regular               the centres of a grid's cells, as square as the count allows
+//   uniform               independent and uniform
+//   poisson               dart throwing on the torus (Cook 1986): no two points closer than a radius
+//   poisson_hierarchical  the same, with a radius that shrinks after many misses: each prefix is well spread
+//   hammersley            (k/n, Φ2(k)), centred in its strata
+//   halton                (Φ2(k), Φ3(k)): each prefix is well spread
+const std::vector<std::string>& pattern_names();
 
-// `count` points of the unit square, all different, well spread: "hammersley" (k/n, Φ2(k)), centred in its strata, or
-// "vogel": the golden-ratio lattice, which maps to Vogel's spiral on a disc.
-std::vector<glm::vec2> square_points(std::string_view pattern, int count);
+// k's digits in that base mirrored about the point, in 0..1 (van der Corput 1935).
+double radical_inverse(unsigned base, unsigned k);
 
-// The same on the unit disc, equal areas to equal areas: Vogel's spiral (Vogel 1979) or the concentric map.
-std::vector<glm::vec2> disc_points(std::string_view pattern, int count);
+// `count` points of the unit square in [0, 1)², all different. `seed` varies those patterns that draw random numbers.
+std::vector<glm::vec2> square_points(std::string_view pattern, int count, std::uint64_t seed = 0);
+
+// The same on the unit disc, equal areas to equal areas: Vogel's spiral, or by the concentric map.
+std::vector<glm::vec2> disc_points(std::string_view pattern, int count, std::uint64_t seed = 0);
+
+// Largest difference between the share of points in a box at the origin and the box's area (Niederreiter 1992, section
+// 2.1), over all boxes: exact, in time cubic in the count.
+double star_discrepancy(std::span<const glm::vec2> points);
+
+// Least distance between two of the points on the torus.
+double least_toroidal_distance(std::span<const glm::vec2> points);
 
 }  // namespace penumbra::shadow

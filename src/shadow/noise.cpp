@@ -1,0 +1,119 @@
+#include "noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <numeric>
+
+#include "../core/error.h"
+#include "../core/names.h"
+#include "../core/random.h"
+#include "noise_makers.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+std::uint64_t channel_seed(std::uint64_t seed, int channel) {
+  return seed * most_noise_channels + static_cast<std::uint64_t>(channel);
+}
+
+void set_channel(NoiseTile& tile, int channel, const std::vector<std::uint16_t>& ranks) {
+  for (int pixel = 0; pixel < tile.count(); ++pixel) tile.rank(pixel, channel) = ranks[static_cast<std::size_t>(pixel)];
+}
+
+std::vector<std::uint16_t> shuffled(int count, std::uint64_t seed) {
+  std::vector<std::uint16_t> ranks(static_cast<std::size_t>(count));
+  std::iota(ranks.begin(), ranks.end(), std::uint16_t{0});
+  Random random(seed);
+  for (auto i = static_cast<std::uint32_t>(count); i > 1; --i) std::swap(ranks[i - 1], ranks[random.below(i)]);
+  return ranks;
+}
+
+NoiseTile white(int size, int channels, std::uint64_t seed) {
+  NoiseTile tile{size, channels, std::vector<std::uint16_t>(static_cast<std::size_t>(size * size * channels))};
+  for (int channel = 0; channel < channels; ++channel) {
+    set_channel(tile, channel, shuffled(tile.count(), channel_seed(seed, channel)));
+  }
+  return tile;
+}
+
+void check(int size, int channels) {
+  if (size < least_noise_size || size > largest_noise_size || size % least_noise_size != 0) {
+    fail("noise of {0} × {0} pixels: the side is a multiple of {1} from {1} to {2}", size, least_noise_size,
+         largest_noise_size);
+  }
+  if (channels < 1 || channels > most_noise_channels) {
+    fail("noise of {} channels: there can be 1 to {}", channels, most_noise_channels);
+  }
+}
+
+using Row = std::vector<std::complex<double>>;
+
+// Discrete Fourier transform of `size` values, `stride` apart.
+void transform(std::complex<double>* values, int size, int stride) {
+  Row result(static_cast<std::size_t>(size));
+  for (int k = 0; k < size; ++k) {
+    for (int x = 0; x < size; ++x) {
+      result[static_cast<std::size_t>(k)] +=
+          values[x * stride] * std::polar(1.0, -2 * std::numbers::pi * (k * x % size) / size);
+    }
+  }
+  for (int k = 0; k < size; ++k) values[k * stride] = result[static_cast<std::size_t>(k)];
+}
+
+}  // namespace
+
+const std::vector<std::string>& noise_kinds() {
+  static const std::vector<std::string> kinds{"white", "annealed", "void_and_cluster"};
+  return kinds;
+}
+
+NoiseTile make_noise(std::string_view kind, int size, int channels, std::uint64_t seed, int threads,
+                     const NoiseProgress& progress) {
+  check(size, channels);
+  const auto report = [&](double done) {
+    if (progress) progress(done);
+  };
+  NoiseTile tile = white(size, channels, seed);
+  if (kind == "annealed") {
+    anneal(tile, seed, threads, report);
+  } else if (kind == "void_and_cluster") {
+    for (int channel = 0; channel < channels; ++channel) {
+      set_channel(tile, channel, void_and_cluster(size, channel_seed(seed, channel)));
+      report((channel + 1.0) / channels);
+    }
+  } else if (kind != "white") {
+    fail_unknown("noise", kind, noise_kinds());
+  }
+  return tile;
+}
+
+double low_to_high_power(const NoiseTile& tile, int channel) {
+  const int size = tile.size;
+  Row field;
+  for (int pixel = 0; pixel < tile.count(); ++pixel) field.emplace_back(tile.value(pixel, channel) - 0.5);
+  for (int row = 0; row < size; ++row) transform(&field[static_cast<std::size_t>(row * size)], size, 1);
+  for (int column = 0; column < size; ++column) transform(&field[static_cast<std::size_t>(column)], size, size);
+  double low = 0;
+  double high = 0;
+  int lows = 0;
+  int highs = 0;
+  for (int pixel = 1; pixel < tile.count(); ++pixel) {
+    const int u = pixel % size;
+    const int v = pixel / size;
+    const double frequency = std::hypot(std::min(u, size - u), std::min(v, size - v)) / size;
+    const double power = std::norm(field[static_cast<std::size_t>(pixel)]);
+    if (frequency < 0.125) {
+      low += power;
+      ++lows;
+    } else if (frequency > 0.35 && frequency <= 0.5) {
+      high += power;
+      ++highs;
+    }
+  }
+  return (low / lows) / (high / highs);
+}
+
+}  // namespace penumbra::shadow

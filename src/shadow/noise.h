@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace penumbra::shadow {
+
+// A square of noise that tiles the plane, one to three values a pixel. Each channel holds each of the ranks 0 to
+// size² - 1 once, so that its histogram is flat.
+struct NoiseTile {
+  int size = 0;                      // pixels a side
+  int channels = 0;                  // values a pixel
+  std::vector<std::uint16_t> ranks;  // row by row, `channels` to a pixel
+
+  int count() const { return size * size; }
+  std::uint16_t& rank(int pixel, int channel) { return ranks[static_cast<std::size_t>(pixel * channels + channel)]; }
+  std::uint16_t rank(int pixel, int channel) const {
+    return ranks[static_cast<std::size_t>(pixel * channels + channel)];
+  }
+  // In (0, 1).
+  float value(int pixel, int channel) const {
+    return (static_cast<float>(rank(pixel, channel)) + 0.5f) / static_cast<float>(count());
+  }
+};
+
+constexpr int least_noise_size = 16;
+constexpr int largest_noise_size = 256;
+constexpr int most_noise_channels = 3;
+
+// The ways to make noise: white, annealed, void_and_cluster.
+const std::vector<std::string>& noise_kinds();
+
+// Told how much is done, 0 to 1.
+using NoiseProgress = std::function<void(double)>;
+
+// Noise of that kind: the same for the same arguments, whatever the machine and the number of threads (0: one a core).
+// The size is a multiple of 16 from 16 to 256. Throws Error on another size, kind or number of channels.
+//   white             a random order
+//   annealed          neighbours differ in all channels together: Georgiev and Fajardo 2016, "Blue-noise dithered
+//                     sampling", by swaps under simulated annealing
+//   void_and_cluster  each channel by itself: Ulichney 1993, "The void-and-cluster method for dither array generation"
+NoiseTile make_noise(std::string_view kind, int size, int channels, std::uint64_t seed, int threads = 0,
+                     const NoiseProgress& progress = {});
+
+// Mean power of one channel's frequencies below 1/8 cycle a pixel over that of those from 0.35 to 0.5. White noise
+// has 1.
+double low_to_high_power(const NoiseTile& tile, int channel);
+
+}  // namespace penumbra::shadow

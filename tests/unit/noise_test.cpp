@@ -1,0 +1,67 @@
+#include "shadow/noise.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "core/error.h"
+
+namespace penumbra::shadow {
+namespace {
+
+TEST(Noise, EachChannelHoldsEachRankOnce) {
+  for (const std::string& kind : noise_kinds()) {
+    const NoiseTile tile = make_noise(kind, 16, 2, 1);
+    for (int channel = 0; channel < 2; ++channel) {
+      std::set<int> ranks;
+      for (int pixel = 0; pixel < tile.count(); ++pixel) ranks.insert(tile.rank(pixel, channel));
+      EXPECT_EQ(static_cast<int>(ranks.size()), 256) << kind;
+      EXPECT_EQ(*ranks.rbegin(), 255) << kind;
+    }
+  }
+}
+
+TEST(Noise, BlueNoiseHasHardlyAnyLowFrequencies) {
+  const NoiseTile annealed = make_noise("annealed", 32, 2, 1);
+  const NoiseTile voids = make_noise("void_and_cluster", 64, 2, 1);
+  const NoiseTile white = make_noise("white", 64, 2, 1);
+  for (int channel = 0; channel < 2; ++channel) {
+    EXPECT_LT(low_to_high_power(annealed, channel), 0.02);
+    EXPECT_LT(low_to_high_power(voids, channel), 0.001);
+    EXPECT_NEAR(low_to_high_power(white, channel), 1, 0.3);
+  }
+}
+
+// FNV-1a of the ranks.
+std::uint64_t digest(const NoiseTile& tile) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const std::uint16_t rank : tile.ranks) hash = (hash ^ rank) * 0x100000001b3U;
+  return hash;
+}
+
+TEST(Noise, IsTheSameOnEveryMachineAndForEveryNumberOfThreads) {
+  EXPECT_EQ(digest(make_noise("white", 16, 2, 5)), 11397280655061326889U);
+  EXPECT_EQ(digest(make_noise("annealed", 16, 2, 5, 1)), 13088325229565141185U);
+  EXPECT_EQ(digest(make_noise("annealed", 16, 2, 5, 3)), 13088325229565141185U);
+  EXPECT_EQ(digest(make_noise("void_and_cluster", 16, 2, 5)), 15497227018239437017U);
+}
+
+TEST(Noise, ProgressGrowsToTheEnd) {
+  double last = 0;
+  make_noise("void_and_cluster", 16, 3, 1, 0, [&](double done) {
+    EXPECT_GT(done, last);
+    last = done;
+  });
+  EXPECT_EQ(last, 1);
+}
+
+TEST(Noise, RefusesSizesAndKindsThatItCannotMake) {
+  EXPECT_THROW(make_noise("annealed", 24, 2, 1), Error);
+  EXPECT_THROW(make_noise("annealed", 512, 2, 1), Error);
+  EXPECT_THROW(make_noise("annealed", 0, 2, 1), Error);
+  EXPECT_THROW(make_noise("annealed", 32, 4, 1), Error);
+  EXPECT_THROW(make_noise("pink", 32, 2, 1), Error);
+}
+
+}  // namespace
+}  // namespace penumbra::shadow
