@@ -59,7 +59,9 @@ render::GroundChoice ground_choice(const std::string& text) {
 }
 
 void add_view_options(CLI::App& app, RenderOptions& o) {
-  value(app, "--camera", "NAME|INDEX", "A camera of the scene; see penumbra info",
+  value(app, "--camera", "NAME|INDEX",
+        "A camera of the scene; else its first that is within the scene's bounds or sees them over a tenth of the "
+        "picture's width or height; else one that frames the scene",
         [&o](const auto& text) { o.camera = text; });
   value(app, "--eye", "X,Y,Z", "Where the camera is, metres",
         [&o](const auto& text) { o.eye = parse_point("--eye", text); });

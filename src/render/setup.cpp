@@ -7,15 +7,12 @@
 
 #include "core/error.h"
 #include "core/names.h"
+#include "render/framing.h"
 #include "render/ground.h"
 
 namespace penumbra::render {
 
 namespace {
-
-constexpr float automatic_fov = glm::radians(40.0f);
-constexpr float automatic_azimuth = glm::radians(30.0f);
-constexpr float margin = 1.15f;
 
 // A camera of the file at a place in its scene.
 struct PlacedCamera {
@@ -73,25 +70,16 @@ const PlacedCamera& find_camera(const std::vector<PlacedCamera>& placed, const s
   fail_unknown("camera", wanted, names);
 }
 
-// A three-quarter view from a little above, near enough that the scene fills the picture.
-Camera framing_camera(const scene::Bounds& bounds, float aspect) {
-  const glm::vec3 half = glm::max(bounds.extent() * 0.5f, glm::vec3(1e-6f));
-  // Flat scenes are seen from higher up.
-  const float flatness = half.y / std::max({half.x, half.y, half.z});
-  const float elevation = glm::radians(glm::mix(34.0f, 16.0f, glm::clamp(flatness * 1.5f, 0.0f, 1.0f)));
-  const glm::vec3 back = direction_to(automatic_azimuth, elevation);
-  const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), back));
-  const glm::vec3 up = glm::cross(back, right);
-  const float tan_y = std::tan(automatic_fov * 0.5f), tan_x = tan_y * aspect;
-  float distance = 0;
-  for (int i = 0; i < 8; ++i) {
-    const glm::vec3 corner = half * glm::vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
-    const float towards = glm::dot(corner, back);
-    distance = std::max({distance, towards + margin * std::abs(glm::dot(corner, right)) / tan_x,
-                         towards + margin * std::abs(glm::dot(corner, up)) / tan_y});
+// The one that was asked for, else the first that sees the scene, else none.
+const PlacedCamera* choose_camera(const std::vector<PlacedCamera>& placed, const scene::Pose& pose,
+                                  const scene::Bounds& bounds, const SetupRequest& request) {
+  if (!request.camera.empty()) return &find_camera(placed, request.camera);
+  for (const PlacedCamera& candidate : placed) {
+    Camera camera = camera_of(candidate);
+    camera.view = view_of(pose.world[candidate.node]);
+    if (sees(camera, request.aspect, bounds)) return &candidate;
   }
-  const glm::vec3 eye = bounds.center() + back * distance;
-  return look_at(eye, bounds.center(), automatic_fov, near_plane_for(bounds, eye));
+  return nullptr;
 }
 
 // Halfway up the sky, to the side of the camera's shoulder, so that shadows fall across the picture.
@@ -172,12 +160,11 @@ Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const Set
   const scene::Bounds bounds = usable(scene::bounds_of(scene, pose));
   const std::vector<PlacedCamera> cameras = placed_cameras(scene, pose);
   Setup setup;
-  if (request.camera.empty() && cameras.empty()) {
-    setup.camera = framing_camera(bounds, request.aspect);
+  if (const PlacedCamera* chosen = choose_camera(cameras, pose, bounds, request)) {
+    setup.camera = camera_of(*chosen);
+    setup.camera_node = chosen->node;
   } else {
-    const PlacedCamera& chosen = request.camera.empty() ? cameras.front() : find_camera(cameras, request.camera);
-    setup.camera = camera_of(chosen);
-    setup.camera_node = chosen.node;
+    setup.camera = framing_camera(bounds, request.aspect);
   }
   follow(setup, pose);
   choose_sun(setup, scene, pose);

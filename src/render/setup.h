@@ -15,7 +15,9 @@ enum class GroundChoice { automatic, on, off };
 
 // What the user left open is chosen from the scene.
 struct SetupRequest {
-  std::string camera;  // name or index of one of the file's; empty: its first, else one that frames the scene
+  // Name or index of one of the file's. Empty: the first of them that sees the scene (within its bounds, or with the
+  // bounds over a tenth of the picture's width or height), else one that frames the scene.
+  std::string camera;
   GroundChoice ground = GroundChoice::automatic;
   float aspect = 16.0f / 9.0f;  // width / height of the picture
 };

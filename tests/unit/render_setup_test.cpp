@@ -52,13 +52,18 @@ TEST(Setup, FramesScenesOfEverySizeAndShape) {
         const render::Camera camera = setup_of(scene, {.aspect = aspect}).camera;
         const glm::mat4 to_clip = render::projection_of(camera, aspect) * camera.view;
         float widest = 0;
+        glm::vec2 low(1), high(-1);
         for (const glm::vec3& corner : scene.meshes[0].primitives[0].positions) {
           const glm::vec4 clip = to_clip * glm::vec4(corner, 1);
           EXPECT_GT(clip.w, camera.near);
-          widest = std::max({widest, std::abs(clip.x / clip.w), std::abs(clip.y / clip.w)});
+          const glm::vec2 at(clip.x / clip.w, clip.y / clip.w);
+          widest = std::max({widest, std::abs(at.x), std::abs(at.y)});
+          low = glm::min(low, at);
+          high = glm::max(high, at);
         }
-        EXPECT_LT(widest, 1.0f);
-        EXPECT_GT(widest, 0.7f) << "the scene is small in the picture";
+        EXPECT_NEAR(low.x, -high.x, 2e-2f) << "in the middle";
+        EXPECT_NEAR(low.y, -high.y, 2e-2f);
+        EXPECT_NEAR(widest, 0.9f, 2e-3f) << "5 % of the picture on each side";
       }
     }
   }
@@ -118,6 +123,68 @@ TEST(Setup, FindsCamerasByNameAndIndex) {
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("above"), std::string::npos) << error.what();
   }
+}
+
+// A camera of the file at `eye` with its back towards `back`.
+void add_camera(scene::Scene& scene, const glm::vec3& eye, const glm::vec3& back, scene::Camera camera) {
+  scene.nodes.push_back({.name = "camera", .camera = static_cast<int>(scene.cameras.size())});
+  scene.nodes.back().matrix = glm::inverse(glm::lookAt(eye, eye - back, glm::vec3(0, 1, 0)));
+  scene.roots.push_back(static_cast<int>(scene.nodes.size()) - 1);
+  scene.cameras.push_back(std::move(camera));
+}
+
+TEST(Setup, TakesTheFirstOfTheFilesCamerasThatSeesTheScene) {
+  const scene::Scene house = scene_of({box({-1, 0, -1}, {1, 2, 1})});
+  const scene::Camera lens{.name = "x", .fov_y = 0.5f, .near = 0.1f};
+  const scene::Camera flat{
+      .name = "x", .orthographic = true, .half_width = 2, .half_height = 2, .near = 0.1f, .far = 9};
+  struct Case {
+    const char* what;
+    glm::vec3 eye, back;
+    scene::Camera camera;
+    bool taken;
+  };
+  for (const Case& test : {
+           Case{"before it", {0, 1, 6}, {0, 0, 1}, lens, true},
+           Case{"with its back to it", {0, 1, 6}, {0, 0, -1}, lens, false},
+           Case{"past it", {0, 1, 6}, {-1, 0, 0}, lens, false},
+           Case{"a corner of it", {2, 1, 6}, {0.1f, 0, 1}, lens, true},
+           Case{"within it", {0, 1, 0.9f}, {0, 0, -1}, lens, true},
+           Case{"close to its wall", {0, 1, 1.2f}, {0, 0, 1}, lens, true},
+           Case{"a speck", {0, 1, 90}, {0, 0, 1}, lens, false},
+           Case{"orthographic, before it", {0, 1, 6}, {0, 0, 1}, flat, true},
+           Case{"orthographic, beside it", {5, 1, 6}, {0, 0, 1}, flat, false},
+           Case{"orthographic, with its back to it", {0, 1, 6}, {0, 0, -1}, flat, false},
+       }) {
+    scene::Scene scene = house;
+    add_camera(scene, test.eye, test.back, test.camera);
+    const render::Setup setup = setup_of(scene);
+    EXPECT_EQ(setup.camera_node.has_value(), test.taken) << test.what;
+    EXPECT_TRUE(setup_of(scene, {.camera = "x"}).camera_node.has_value()) << test.what << ": asked for";
+  }
+  scene::Scene scene = house;
+  add_camera(scene, {0, 1, 6}, {0, 0, -1}, lens);
+  add_camera(scene, {0, 1, 7}, {0, 0, 1}, lens);
+  EXPECT_NEAR(render::position_of(setup_of(scene).camera).z, 7, 1e-5f);
+}
+
+TEST(Setup, CameraAndSunFollowTheirNodes) {
+  scene::Scene scene = scene_of({box({-1, 0, -1}, {1, 2, 1})});
+  add_camera(scene, {0, 1, 6}, {0, 0, 1}, {.name = "x", .fov_y = 0.5f});
+  scene.lights = {{.kind = scene::LightKind::directional, .intensity = 8}};
+  scene.nodes.push_back({.name = "light", .light = 0});
+  scene.roots.push_back(2);
+  render::Setup setup = setup_of(scene);
+  scene::Pose later = scene::rest_pose(scene);
+  later.world[1] = glm::translate(glm::mat4(1), glm::vec3(3, 1, 6));
+  later.world[2] = glm::rotate(glm::mat4(1), -1.5707963f, glm::vec3(1, 0, 0));
+  render::follow(setup, later);
+  EXPECT_NEAR(render::position_of(setup.camera).x, 3, 1e-6f);
+  EXPECT_FLOAT_EQ(setup.camera.fov_y, 0.5f);
+  EXPECT_NEAR(setup.sun.to_light.y, 1, 1e-6f);
+  later.world[2] = glm::mat4(0);  // a flattened node gives no direction: the last one holds
+  render::follow(setup, later);
+  EXPECT_NEAR(setup.sun.to_light.y, 1, 1e-6f);
 }
 
 TEST(Setup, EmptyScenesHaveACameraToo) {

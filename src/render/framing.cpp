@@ -1,0 +1,119 @@
+#include "render/framing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "render/setup.h"
+
+namespace penumbra::render {
+
+namespace {
+
+constexpr float automatic_fov = glm::radians(40.0f);
+constexpr float automatic_azimuth = glm::radians(30.0f);
+constexpr float margin = 0.05f;
+constexpr float least_seen = 0.1f;
+
+using Corners = std::array<glm::vec3, 8>;
+
+Corners corners_of(const glm::vec3& low, const glm::vec3& high) {
+  Corners corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    corners[i] = {(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z};
+  }
+  return corners;
+}
+
+// How far back from the box's centre an eye that looks along -back has to be, so that planes through it at an angle of
+// this tangent hold the corners.
+float distance_for(const Corners& corners, const glm::vec3& axis, const glm::vec3& back, float tangent) {
+  float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
+  for (const glm::vec3& corner : corners) {
+    high = std::max(high, glm::dot(corner, axis) + tangent * glm::dot(corner, back));
+    low = std::min(low, glm::dot(corner, axis) - tangent * glm::dot(corner, back));
+  }
+  return (high - low) * 0.5f / tangent;
+}
+
+// Where along the axis an eye at that distance has as much of the box on one side as on the other. In perspective that
+// is no mean: the sum of the outermost slopes falls steadily as the eye moves, so halving finds its zero.
+float centered(const Corners& corners, const glm::vec3& axis, const glm::vec3& back, float distance) {
+  float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
+  for (const glm::vec3& corner : corners) {
+    low = std::min(low, glm::dot(corner, axis));
+    high = std::max(high, glm::dot(corner, axis));
+  }
+  for (int i = 0; i < 24; ++i) {
+    const float eye = (low + high) * 0.5f;
+    float least = std::numeric_limits<float>::max(), most = std::numeric_limits<float>::lowest();
+    for (const glm::vec3& corner : corners) {
+      const float slope = (glm::dot(corner, axis) - eye) / (distance - glm::dot(corner, back));
+      least = std::min(least, slope);
+      most = std::max(most, slope);
+    }
+    (least + most > 0 ? low : high) = eye;
+  }
+  return (low + high) * 0.5f;
+}
+
+// Flat scenes are seen from higher up.
+float elevation_for(const glm::vec3& half) {
+  const float flatness = half.y / std::max({half.x, half.y, half.z});
+  return glm::radians(glm::mix(36.0f, 16.0f, glm::clamp(flatness * 1.5f, 0.0f, 1.0f)));
+}
+
+// What of the picture is covered, -1 to 1 each way.
+struct Cover {
+  glm::vec2 low{1.0f}, high{-1.0f};
+
+  void add(const glm::vec4& clip) {
+    const glm::vec2 at = glm::clamp(glm::vec2(clip.x, clip.y) / clip.w, -1.0f, 1.0f);
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+};
+
+}  // namespace
+
+Camera framing_camera(const scene::Bounds& bounds, float aspect) {
+  const float radius = std::max(bounds.radius(), 1e-6f);
+  const glm::vec3 half = glm::max(bounds.extent() * 0.5f, glm::vec3(1e-3f * radius));
+  const Corners corners = corners_of(-half, half);
+  const glm::vec3 back = direction_to(automatic_azimuth, elevation_for(half));
+  const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), back));
+  const glm::vec3 up = glm::cross(back, right);
+  const float tangent = (1.0f - 2.0f * margin) * std::tan(automatic_fov * 0.5f);
+  const float distance =
+      std::max(distance_for(corners, right, back, tangent * aspect), distance_for(corners, up, back, tangent));
+  const glm::vec3 eye = bounds.center() + right * centered(corners, right, back, distance) +
+                        up * centered(corners, up, back, distance) + back * distance;
+  return look_at(eye, eye - back * distance, automatic_fov, near_plane_for(bounds, eye));
+}
+
+bool sees(const Camera& camera, float aspect, const scene::Bounds& bounds) {
+  const glm::vec3 eye = position_of(camera);
+  if (!camera.orthographic && glm::all(glm::lessThanEqual(bounds.min, eye)) &&
+      glm::all(glm::lessThanEqual(eye, bounds.max)))
+    return true;
+  const Corners corners = corners_of(bounds.min, bounds.max);
+  const glm::mat4 projection = projection_of(camera, aspect);
+  Cover cover;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    for (const std::size_t side : {1u, 2u, 4u}) {
+      if ((i & side) != 0) continue;
+      // An edge of the box, without what is behind the near plane.
+      glm::vec4 a = camera.view * glm::vec4(corners[i], 1), b = camera.view * glm::vec4(corners[i | side], 1);
+      if (-a.z < camera.near) std::swap(a, b);
+      if (-a.z < camera.near) continue;
+      if (-b.z < camera.near) b = glm::mix(a, b, (a.z + camera.near) / (a.z - b.z));
+      cover.add(projection * a);
+      cover.add(projection * b);
+    }
+  }
+  const glm::vec2 size = (cover.high - cover.low) * 0.5f;
+  return std::min(size.x, size.y) > 0 && std::max(size.x, size.y) >= least_seen;
+}
+
+}  // namespace penumbra::render
