@@ -27,7 +27,7 @@ std::unique_ptr<gl::Context> open_context(const RenderOptions& options) {
   // Mesa reads it when the rasteriser starts.
   if (options.threads) setenv("LP_NUM_THREADS", std::to_string(*options.threads).c_str(), /* overwrite= */ 1);
   gl::ContextOptions wanted;
-  wanted.debug = debug_wanted(options);
+  wanted.debug = wanted.debug || debug_wanted(options);
   wanted.egl_device = options.egl_device;
   wanted.width = options.size.width;
   wanted.height = options.size.height;

@@ -23,6 +23,14 @@ std::unique_ptr<Context> make_offscreen_context(const ContextOptions& options) {
 
 }  // namespace
 
+bool debug_by_default() {
+#ifdef NDEBUG
+  return false;
+#else
+  return true;
+#endif
+}
+
 std::unique_ptr<Context> make_context(std::string_view backend, const ContextOptions& options) {
   if (backend == "auto") return make_offscreen_context(options);
   if (backend == "egl") return make_egl_context(options);

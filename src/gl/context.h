@@ -12,13 +12,16 @@ using GetProcAddress = void* (*)(const char* name);
 
 // Points Penumbra's GL entry points at the driver of the context that is current. The contexts below do it themselves;
 // an engine with a context of its own calls it once before anything else here. Throws Error naming what is missing of
-// OpenGL 4.5 core.
+// OpenGL 4.5 core: a function, the version, the core profile, or any context at all.
 void load_api(GetProcAddress get_proc_address);
 
 enum class Backend { egl, osmesa, window };
 
+// Whether the library was built with assertions (NDEBUG not defined).
+bool debug_by_default();
+
 struct ContextOptions {
-  bool debug = false;  // KHR_debug on, synchronous: an error throws from the call that made it
+  bool debug = debug_by_default();  // KHR_debug on, synchronous: an error throws from the call that made it
   std::optional<int>
       egl_device;  // EGL device platform, by index; without it the surfaceless Mesa platform, then devices
   int width = 1280, height = 720;  // the window's size in pixels; offscreen contexts have no surface of note

@@ -1,21 +1,30 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "../core/error.h"
+#include "api.h"
 #include "api_table.h"
 #include "context.h"
 
 namespace penumbra::gl {
+namespace {
 
-void load_api(GetProcAddress get_proc_address) {
+// OSMesa may have the functions of robustness under their extension's names alone.
+bool is_of_robustness(std::string_view name) {
+  return name.starts_with("glGetn") || name == "glReadnPixels" || name == "glGetGraphicsResetStatus";
+}
+
+void load_functions(GetProcAddress get_proc_address) {
   constexpr std::size_t named = 3;
   std::vector<std::string> missing;
   for (const ApiEntry& entry : api_table()) {
     void* address = get_proc_address(entry.name);
-    // OSMesa has the functions of robustness under their extension's names alone.
-    if (address == nullptr) address = get_proc_address(fmt::format("{}ARB", entry.name).c_str());
+    if (address == nullptr && is_of_robustness(entry.name)) {
+      address = get_proc_address(fmt::format("{}ARB", entry.name).c_str());
+    }
     entry.store(address);
     if (address == nullptr) missing.emplace_back(entry.name);
   }
@@ -23,6 +32,26 @@ void load_api(GetProcAddress get_proc_address) {
   const std::string rest = missing.size() > named ? fmt::format(" and {} more", missing.size() - named) : "";
   if (missing.size() > named) missing.resize(named);
   fail("OpenGL 4.5: the driver lacks {}{}", fmt::join(missing, ", "), rest);
+}
+
+// Libraries that stand before the drivers have an address for every name: the context itself has to say what it is.
+void check_context() {
+  GLint major = 0, minor = 0, profile = 0;
+  glGetIntegerv(GL_MAJOR_VERSION, &major);
+  glGetIntegerv(GL_MINOR_VERSION, &minor);
+  if (major == 0) fail("OpenGL 4.5: no context is current");
+  if (major < 4 || (major == 4 && minor < 5)) fail("OpenGL 4.5: the context is OpenGL {}.{}", major, minor);
+  glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
+  if ((static_cast<GLenum>(profile) & GL_CONTEXT_CORE_PROFILE_BIT) == 0) {
+    fail("OpenGL 4.5: the context has the compatibility profile, the core profile is needed");
+  }
+}
+
+}  // namespace
+
+void load_api(GetProcAddress get_proc_address) {
+  load_functions(get_proc_address);
+  check_context();
 }
 
 }  // namespace penumbra::gl

@@ -134,7 +134,7 @@ TEST(GlContext, ContextsTakeTurnsAndEachKeepsItsState) {
 }
 
 TEST(GlContext, DebugOutputBelongsToTheContextThatAskedForIt) {
-  const auto plain = gl::make_egl_context();
+  const auto plain = gl::make_egl_context({.debug = false});
   EXPECT_FALSE(gl::debug_enabled());
   const auto debug = gl::make_egl_context({.debug = true});
   EXPECT_TRUE(gl::debug_enabled());
@@ -153,6 +153,51 @@ TEST(GlContext, MissingEntryPointsAreNamed) {
   EXPECT_NE(message.find("more"), std::string::npos) << message;
   EXPECT_NO_THROW(gl::load_api(driver));
   EXPECT_FLOAT_EQ(drawn_red(), 0.25f);
+}
+
+// A driver whose glGetIntegerv answers one question as it is told.
+gl::GetProcAddress real_driver = nullptr;
+GLenum question = 0;
+GLint answer = 0;
+
+void APIENTRY told_get_integer(GLenum name, GLint* value) {
+  if (name == question) {
+    *value = answer;
+  } else {
+    reinterpret_cast<decltype(gl::glGetIntegerv)>(real_driver("glGetIntegerv"))(name, value);
+  }
+}
+
+std::string refusal_when(GLenum name, GLint value) {
+  question = name;
+  answer = value;
+  return message_of([] {
+    gl::load_api([](const char* function) -> void* {
+      return std::strcmp(function, "glGetIntegerv") == 0 ? reinterpret_cast<void*>(told_get_integer)
+                                                         : real_driver(function);
+    });
+  });
+}
+
+TEST(GlContext, AContextOfAnotherVersionOrProfileIsRefused) {
+  const auto context = gl::make_egl_context();
+  real_driver = context->get_proc_address();
+  EXPECT_EQ(refusal_when(GL_MAJOR_VERSION, 3), "OpenGL 4.5: the context is OpenGL 3.5");
+  EXPECT_EQ(refusal_when(GL_MINOR_VERSION, 4), "OpenGL 4.5: the context is OpenGL 4.4");
+  EXPECT_EQ(refusal_when(GL_MAJOR_VERSION, 0), "OpenGL 4.5: no context is current");
+  EXPECT_NE(refusal_when(GL_CONTEXT_PROFILE_MASK, GL_CONTEXT_COMPATIBILITY_PROFILE_BIT).find("core profile is needed"),
+            std::string::npos);
+  EXPECT_NO_THROW(gl::load_api(real_driver));
+}
+
+TEST(GlContext, BuildsWithAssertionsHaveADebugContextUnlessToldOtherwise) {
+#ifdef NDEBUG
+  constexpr bool assertions = false;
+#else
+  constexpr bool assertions = true;
+#endif
+  const auto context = gl::make_egl_context();
+  EXPECT_EQ(gl::debug_enabled(), assertions);
 }
 
 TEST(GlContext, DeviceInfoTellsTheDriverAndItsLimits) {

@@ -60,6 +60,13 @@ void disturb_state() {
   gl::glStencilFunc(GL_NEVER, 0, 0);
   gl::glEnable(GL_POLYGON_OFFSET_FILL);
   gl::glPolygonOffset(1000.0f, 1000.0f);
+  for (GLenum i = 0; i < 8; ++i) gl::glEnable(GL_CLIP_DISTANCE0 + i);
+  for (const GLenum capability : {GL_SAMPLE_COVERAGE, GL_SAMPLE_SHADING, GL_SAMPLE_ALPHA_TO_ONE,
+                                  GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_MASK, GL_LINE_SMOOTH, GL_POLYGON_SMOOTH}) {
+    gl::glEnable(capability);
+  }
+  gl::glSampleCoverage(0.0f, GL_FALSE);
+  gl::glSampleMaski(0, 0);
   gl::glBindVertexArray(0);
 }
 
