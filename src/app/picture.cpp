@@ -8,6 +8,8 @@
 #include <iterator>
 #include <utility>
 
+#include "lib/tone_map.glsl"
+
 namespace penumbra::app {
 
 namespace {
@@ -16,14 +18,13 @@ std::uint8_t to_byte(float value) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
 }
 
-// IEC 61966-2-1.
-float srgb_to_linear(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
-float linear_to_srgb(float v) { return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f; }
+// The inverse of glsl::srgb_encode().
+float srgb_decode(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
 
 const std::array<float, 256>& linear_of_byte() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = srgb_to_linear(static_cast<float>(i) / 255.0f);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = srgb_decode(static_cast<float>(i) / 255.0f);
     return values;
   }();
   return table;
@@ -150,13 +151,13 @@ Bytes display_bytes(std::vector<std::uint8_t> rgb, int width, int height, int fa
   if (factor == 1) return {3, std::move(rgb)};
   std::vector<float> linear(rgb.size());
   std::transform(rgb.begin(), rgb.end(), linear.begin(), [](std::uint8_t v) { return linear_of_byte()[v]; });
-  return each(3, reduced(linear, width, height, 3, factor, render::Reduction::mean), linear_to_srgb);
+  return each(3, reduced(linear, width, height, 3, factor, render::Reduction::mean), glsl::srgb_encode);
 }
 
 Bytes aov_bytes(std::string_view name, int channels, const std::vector<float>& pixels) {
   if (name == "cascade") return cascade_bytes(channels, pixels);
   if (name == "depth") return depth_bytes(pixels);
-  if (name == "albedo") return each(channels, pixels, linear_to_srgb);
+  if (name == "albedo") return each(channels, pixels, glsl::srgb_encode);
   if (name == "motion") return with_third(relative_bytes(channels, pixels, /* is_signed= */ true));
   if (name.ends_with("normal")) return each(channels, pixels, [](float v) { return 0.5f + 0.5f * v; });
   if (name == "shadow" || name == "material") return each(channels, pixels, [](float v) { return v; });

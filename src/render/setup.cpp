@@ -145,12 +145,6 @@ float near_plane_for(const scene::Bounds& bounds, const glm::vec3& eye) {
   return std::max(0.5f * nearest, 1e-3f * radius);
 }
 
-std::vector<std::string> camera_names(const scene::Scene& scene, const scene::Pose& pose) {
-  std::vector<std::string> names;
-  for (PlacedCamera& camera : placed_cameras(scene, pose)) names.push_back(std::move(camera.name));
-  return names;
-}
-
 void follow(Setup& setup, const scene::Pose& pose) {
   if (setup.camera_node) setup.camera.view = view_of(pose.world[*setup.camera_node]);
   if (setup.sun_node) setup.sun.to_light = to_light_of(pose.world[*setup.sun_node]).value_or(setup.sun.to_light);

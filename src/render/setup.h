@@ -36,9 +36,6 @@ Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const Set
 // Camera and sun where `pose`, of the scene that they were chosen for, has their nodes.
 void follow(Setup& setup, const scene::Pose& pose);
 
-// The file's cameras that its default scene places, as `SetupRequest::camera` takes them.
-std::vector<std::string> camera_names(const scene::Scene& scene, const scene::Pose& pose);
-
 // The near plane for an eye in a scene of those bounds: close enough to cut nothing off.
 float near_plane_for(const scene::Bounds& bounds, const glm::vec3& eye);
 
