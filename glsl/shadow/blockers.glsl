@@ -46,7 +46,7 @@ float filtered_share(Receiver receiver, float radius, int taps, float bias, Ligh
 Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, int filter_taps, bool early_exits) {
   float bias = depth_bias(receiver, light);
   Search search = narrow_search(receiver, light, light.cascade, light.reach);
-  if (early_exits && search.bounds.x >= receiver.position.z - bias) return fully_lit();
+  if (early_exits && search.nearest >= receiver.position.z - bias) return fully_lit();
   receiver = receiver_in_corner(receiver, bias, light);
   Blockers blockers = find_blockers(receiver, search.radius, blocker_taps, bias, light);
   if (blockers.weight == 0.0) return fully_lit();

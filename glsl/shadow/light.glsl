@@ -8,7 +8,7 @@ layout(std140, binding = 1) uniform ShadowData { ShadowBlock shadow; };
 layout(std140, binding = 2) uniform SampleData { SampleBlock samples; };
 
 layout(binding = 0) uniform sampler2DArray shadow_depth;    // light-space depth, linear, one layer a cascade
-layout(binding = 1) uniform sampler2DArray shadow_pyramid;  // minimum, maximum over 4 · 2^level texels squared
+layout(binding = 1) uniform sampler2DArray shadow_pyramid;  // minimum over 4 · 2^level texels squared
 
 // A point to be shaded, in light space (metres, origin in the camera).
 struct Receiver {

@@ -1,9 +1,9 @@
-// How far blockers can be: bounds on depth over a disc from the pyramid.
+// How far blockers can be: the least depth over a disc, from the pyramid.
 #include "shadow/light.glsl"
 
-// Least and greatest depth, metres, of what the cascade's map holds within `radius` of a position (and a little beyond:
-// 2 × 2 texels of the finest level that covers the disc).
-vec2 depth_bounds(vec3 position, float radius, int cascade_index) {
+// Least depth, metres, of what the cascade's map holds within `radius` of a position (and a little beyond: 2 × 2 texels of
+// the finest level that covers the disc).
+float nearest_depth(vec3 position, float radius, int cascade_index) {
   CascadeBlock cascade = shadow.cascades[cascade_index];
   int levels = textureQueryLevels(shadow_pyramid);
   int level = covering_level(radius, 4.0 * cascade.map.w, levels);
@@ -12,27 +12,26 @@ vec2 depth_bounds(vec3 position, float radius, int cascade_index) {
   vec2 origin = position.xy - cascade.map.xy + 0.5 / cascade.map.z;
   ivec2 low = clamp(ivec2(floor((origin - radius) / texel)), ivec2(0), last);
   ivec2 high = clamp(ivec2(floor((origin + radius) / texel)), ivec2(0), last);
-  vec2 a = texelFetch(shadow_pyramid, ivec3(low, cascade_index), level).xy;
-  vec2 b = texelFetch(shadow_pyramid, ivec3(high.x, low.y, cascade_index), level).xy;
-  vec2 c = texelFetch(shadow_pyramid, ivec3(low.x, high.y, cascade_index), level).xy;
-  vec2 d = texelFetch(shadow_pyramid, ivec3(high, cascade_index), level).xy;
-  vec2 bounds = vec2(min(min(a.x, b.x), min(c.x, d.x)), max(max(a.y, b.y), max(c.y, d.y)));
-  return cascade.depth.x + cascade.depth.y * bounds;
+  float a = texelFetch(shadow_pyramid, ivec3(low, cascade_index), level).x;
+  float b = texelFetch(shadow_pyramid, ivec3(high.x, low.y, cascade_index), level).x;
+  float c = texelFetch(shadow_pyramid, ivec3(low.x, high.y, cascade_index), level).x;
+  float d = texelFetch(shadow_pyramid, ivec3(high, cascade_index), level).x;
+  return cascade.depth.x + cascade.depth.y * min(min(a, b), min(c, d));
 }
 
 // Where blockers can be.
 struct Search {
-  float radius;  // of the disc that holds every caster which can hide a part of the light, metres
-  vec2 bounds;   // least and greatest depth in it, metres
+  float radius;   // of the disc that holds every caster which can hide a part of the light, metres
+  float nearest;  // least depth in it, metres
 };
 
 // One step: all casters lie within `reach` metres; those that do bound the depth, and the depth bounds the radius.
 Search narrow_search(Receiver receiver, Light light, int cascade, float reach) {
   float corner = light.square ? 1.41421356 : 1.0;
   float footprint = 1.5 * shadow.cascades[cascade].map.w;
-  vec2 bounds = depth_bounds(receiver.position, reach * corner + footprint, cascade);
-  float radius = penumbra_radius(light.tan_half_angle, receiver.position.z, bounds.x);
-  return Search(min(reach, radius), bounds);
+  float nearest = nearest_depth(receiver.position, reach * corner + footprint, cascade);
+  float radius = penumbra_radius(light.tan_half_angle, receiver.position.z, nearest);
+  return Search(min(reach, radius), nearest);
 }
 
 // The first step: the coarsest cascade sees every caster, and none is nearer to the light than its map begins.

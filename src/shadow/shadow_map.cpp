@@ -33,7 +33,7 @@ const gl::Texture& build_depth_pyramid(gl::Device& device, const DepthPyramidInp
   const int side = static_cast<int>(std::bit_ceil(static_cast<unsigned>((inputs.size + 3) / 4)));
   const int levels = std::bit_width(static_cast<unsigned>(side));
   const gl::Texture& pyramid = device.target(inputs.name, {.target = GL_TEXTURE_2D_ARRAY,
-                                                           .format = GL_RG32F,
+                                                           .format = GL_R32F,
                                                            .width = side,
                                                            .height = side,
                                                            .layers = inputs.layers,

@@ -23,7 +23,7 @@ struct DepthPyramidInputs {
   int layers = 0;
 };
 
-// Minimum and maximum depth: RG32F array; texel (x, y) of level l bounds the 4·2^l texels squared from (x, y)·4·2^l on.
+// Minimum depth: R32F array; texel (x, y) of level l is that of the 4·2^l texels squared from (x, y)·4·2^l on.
 const gl::Texture& build_depth_pyramid(gl::Device& device, const DepthPyramidInputs& inputs);
 
 gl::ProgramDesc depth_pyramid_program(bool from_depth);
