@@ -127,6 +127,16 @@ class AnimatedView(TestCase):
         self.draw("both.png", "--frames", "1:2", *view, "--sun", "30,50")
         self.assertEqual(self.bytes_of("both_0001.png"), self.bytes_of("both_0002.png"))
 
+    def test_an_automatic_camera_holds_wherever_a_sequence_starts(self):
+        document = animated_scene()
+        document["nodes"][1] = {"mesh": 0, "translation": CAMERA[0]}  # it moves, and the scene's bounds with it
+        del document["cameras"]
+        self.scene.write_text(json.dumps(document))
+        self.draw("a.png", "--frames", "3:6")
+        self.draw("b.png", "--frames", "6:6")
+        self.assertEqual(self.bytes_of("a_0006.png"), self.bytes_of("b_0006.png"))
+        self.assertNotEqual(self.bytes_of("a_0003.png"), self.bytes_of("a_0006.png"))
+
     def test_motion_of_what_stands_still_is_the_cameras(self):
         frame = 4
         self.draw("x.exr", "--frames", f"{frame}:{frame}", "--aov", "depth,motion")
