@@ -8,7 +8,6 @@ GLSL_BEGIN
 
 // InstanceBlock::flags
 #define INSTANCE_TRIANGLES 1u
-#define INSTANCE_MIRRORED 2u  // its matrix turns counter-clockwise triangles clockwise
 
 // A primitive at a place.
 struct InstanceBlock {
