@@ -19,6 +19,7 @@ struct Command {
 std::span<const Command> commands();
 
 int run_render(const Arguments& arguments);
+int run_bake(const Arguments& arguments);
 int run_list(const Arguments& arguments);
 int run_help(const Arguments& arguments);
 int run_info(const Arguments& arguments);

@@ -17,6 +17,7 @@ constexpr std::array table{
     Command{"render", "Draw a glTF scene into a PNG or EXR file", run_render},
     Command{"info", "Tell what is in a scene", run_info},
     Command{"list", "List techniques, params, aovs or backends", run_list},
+    Command{"bake", "Make noise tiles and sets of sample points", run_bake},
     Command{"help", "Explain a parameter, technique, AOV or sub-command", run_help},
     Command{"doctor", "Tell which OpenGL backends work here", run_doctor},
 };

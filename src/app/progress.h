@@ -1,22 +1,27 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 namespace penumbra::app {
 
-// "frame 12 of 100, 0.84 s each, 1:14 left" on one line of the terminal; nothing when stderr is no terminal.
+// "frame 12 of 100, 1:14 left" on one line of the terminal; nothing when stderr is no terminal.
 class Progress {
  public:
-  Progress(int frames, bool wanted);
+  // `part` is what there are `count` of.
+  Progress(std::string part, int count, bool wanted);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // One more frame is done.
-  void step();
+  // One more part is done.
+  void step() { reach(done_ + 1); }
+  // So many are done.
+  void reach(int done);
 
  private:
-  int frames_, done_ = 0;
+  std::string part_;
+  int count_, done_ = 0;
   bool shown_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

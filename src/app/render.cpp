@@ -32,7 +32,7 @@ std::size_t measure(const RenderOptions& options, Studio& studio, const ParamSet
 
 void draw_all(const RenderOptions& options, const Stage& stage, Studio& studio, const ParamSet& params,
               const OutputNames& names, const FrameRange& range) {
-  Progress progress(options.warmup + range.count(), !options.quiet);
+  Progress progress("frame", options.warmup + range.count(), !options.quiet);
   for (int frame = range.first - options.warmup; frame <= range.last; ++frame) {
     studio.draw(frame, params);
     if (frame >= range.first) write_frame(studio.renderer(), options, stage, params, names, frame);

@@ -10,6 +10,7 @@
 #include "../core/names.h"
 #include "../core/random.h"
 #include "noise_makers.h"
+#include "noise_tiles.h"
 
 namespace penumbra::shadow {
 
@@ -66,7 +67,7 @@ void transform(std::complex<double>* values, int size, int stride) {
 }  // namespace
 
 const std::vector<std::string>& noise_kinds() {
-  static const std::vector<std::string> kinds{"white", "annealed", "void_and_cluster"};
+  static const std::vector<std::string> kinds{"white", "blue", "void_and_cluster"};
   return kinds;
 }
 
@@ -77,7 +78,7 @@ NoiseTile make_noise(std::string_view kind, int size, int channels, std::uint64_
     if (progress) progress(done);
   };
   NoiseTile tile = white(size, channels, seed);
-  if (kind == "annealed") {
+  if (kind == "blue") {
     anneal(tile, seed, threads, report);
   } else if (kind == "void_and_cluster") {
     for (int channel = 0; channel < channels; ++channel) {
@@ -88,6 +89,15 @@ NoiseTile make_noise(std::string_view kind, int size, int channels, std::uint64_
     fail_unknown("noise", kind, noise_kinds());
   }
   return tile;
+}
+
+NoiseTile built_in_noise(std::string_view kind) {
+  const auto tile = [](const auto& ranks) {
+    return NoiseTile{built_in_noise_size, 2, std::vector<std::uint16_t>(ranks.begin(), ranks.end())};
+  };
+  if (kind == "blue") return tile(blue_ranks);
+  if (kind == "void_and_cluster") return tile(void_and_cluster_ranks);
+  return make_noise(kind, built_in_noise_size, 2, 1);
 }
 
 double low_to_high_power(const NoiseTile& tile, int channel) {

@@ -30,7 +30,7 @@ constexpr int least_noise_size = 16;
 constexpr int largest_noise_size = 256;
 constexpr int most_noise_channels = 3;
 
-// The ways to make noise: white, annealed, void_and_cluster.
+// The ways to make noise: white, blue, void_and_cluster.
 const std::vector<std::string>& noise_kinds();
 
 // Told how much is done, 0 to 1.
@@ -39,11 +39,14 @@ using NoiseProgress = std::function<void(double)>;
 // Noise of that kind: the same for the same arguments, whatever the machine and the number of threads (0: one a core).
 // The size is a multiple of 16 from 16 to 256. Throws Error on another size, kind or number of channels.
 //   white             a random order
-//   annealed          neighbours differ in all channels together: Georgiev and Fajardo 2016, "Blue-noise dithered
+//   blue              neighbours differ in all channels together: Georgiev and Fajardo 2016, "Blue-noise dithered
 //                     sampling", by swaps under simulated annealing
 //   void_and_cluster  each channel by itself: Ulichney 1993, "The void-and-cluster method for dither array generation"
 NoiseTile make_noise(std::string_view kind, int size, int channels, std::uint64_t seed, int threads = 0,
                      const NoiseProgress& progress = {});
+
+// The tile of 64 × 64 pixels with two channels that the library carries: make_noise(kind, 64, 2, 1), read from data.
+NoiseTile built_in_noise(std::string_view kind);
 
 // Mean power of one channel's frequencies below 1/8 cycle a pixel over that of those from 0.35 to 0.5. White noise
 // has 1.

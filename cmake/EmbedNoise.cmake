@@ -1,0 +1,14 @@
+# penumbra_embed_noise(TARGET): the noise tiles of src/shadow/noise become C++ data in TARGET, which
+# shadow::built_in_noise() reads. "penumbra bake noise" makes them.
+function(penumbra_embed_noise target)
+  set(folder "${CMAKE_SOURCE_DIR}/src/shadow/noise")
+  set(output "${CMAKE_BINARY_DIR}/generated/noise_tiles.cpp")
+  set(script "${CMAKE_SOURCE_DIR}/cmake/embed_noise_tiles.cmake")
+  set(tiles "${folder}/blue.u16" "${folder}/void_and_cluster.u16")
+  add_custom_command(OUTPUT "${output}"
+    COMMAND "${CMAKE_COMMAND}" "-DFOLDER=${folder}" "-DOUTPUT=${output}" -P "${script}"
+    DEPENDS ${tiles} "${script}"
+    COMMENT "Embedding noise"
+    VERBATIM)
+  target_sources(${target} PRIVATE "${output}")
+endfunction()

@@ -1,0 +1,167 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/commands.h"
+#include "app/progress.h"
+#include "app/usage.h"
+#include "core/names.h"
+#include "io/image_write.h"
+#include "io/output_file.h"
+#include "shadow/noise.h"
+#include "shadow/sampling.h"
+
+namespace penumbra::app {
+
+namespace {
+
+struct Common {
+  std::string output;
+  std::string seed = "1";
+  bool quiet = false;
+};
+
+void add_common(CLI::App& app, Common& common, const char* files) {
+  app.add_option("-o,--output", common.output, files)->required()->type_name("FILE");
+  app.add_option("--seed", common.seed, "Another number gives another result")->type_name("N")->capture_default_str();
+  app.add_flag("--quiet", common.quiet, "Print errors alone")->disable_flag_override();
+}
+
+// The file's extension, which is one of those that can be written.
+std::string format_of(const std::string& output, const std::vector<std::string>& formats) {
+  const std::string extension = std::filesystem::path(output).extension().string();
+  if (std::ranges::find(formats, extension) == formats.end()) {
+    fail_usage("-o {}: the name ends in none of {}", io::quoted(output), fmt::join(formats, ", "));
+  }
+  return extension;
+}
+
+std::uint64_t parse_seed(const std::string& text) {
+  return static_cast<std::uint64_t>(parse_count("--seed", text, 0, 1 << 30));
+}
+
+// 8-bit, unused channels 0.
+void write_noise_png(const std::string& path, const shadow::NoiseTile& tile) {
+  const int channels = tile.channels == 1 ? 1 : 3;
+  std::vector<std::uint8_t> pixels(static_cast<std::size_t>(tile.count() * channels));
+  for (int pixel = 0; pixel < tile.count(); ++pixel) {
+    for (int c = 0; c < tile.channels; ++c) {
+      pixels[static_cast<std::size_t>(pixel * channels + c)] =
+          static_cast<std::uint8_t>(tile.rank(pixel, c) * 256 / tile.count());
+    }
+  }
+  io::write_png(path, tile.size, tile.size, channels, pixels);
+}
+
+void write_noise_exr(const std::string& path, const shadow::NoiseTile& tile) {
+  io::Layer layer{.name = "", .channels = {"R", "G", "B"}, .pixels = {}};
+  if (tile.channels == 1) layer.channels = {"Y"};
+  layer.channels.resize(static_cast<std::size_t>(tile.channels));
+  for (int pixel = 0; pixel < tile.count(); ++pixel) {
+    for (int c = 0; c < tile.channels; ++c) layer.pixels.push_back(tile.value(pixel, c));
+  }
+  io::write_exr(path, tile.size, tile.size, std::span(&layer, 1));
+}
+
+// Little-endian 16-bit ranks, as the library embeds them.
+void write_noise_ranks(const std::string& path, const shadow::NoiseTile& tile) {
+  std::string bytes;
+  for (const std::uint16_t rank : tile.ranks) {
+    bytes += static_cast<char>(rank & 0xffU);
+    bytes += static_cast<char>(rank >> 8U);
+  }
+  io::write_text(path, bytes);
+}
+
+int bake_noise(const Arguments& arguments) {
+  CLI::App app("Make a tile of noise that decorrelates the sample points of neighbouring pixels",
+               "penumbra bake noise");
+  Common common;
+  std::string kind = "blue";
+  std::string size = "64";
+  std::string channels = "2";
+  std::string threads = "0";
+  add_common(app, common, ".exr (float), .png (8 bits) or .u16 (ranks, 16 bits, little endian)");
+  app.add_option("--kind", kind, fmt::format("{}", fmt::join(shadow::noise_kinds(), ", ")))
+      ->type_name("KIND")
+      ->capture_default_str();
+  app.add_option("--size", size, "Side in pixels, a multiple of 16")->type_name("N")->capture_default_str();
+  app.add_option("--channels", channels, "Values a pixel, 1 to 3")->type_name("N")->capture_default_str();
+  app.add_option("--threads", threads, "0: one a core; the result is the same")->type_name("N")->capture_default_str();
+  if (!parse(app, arguments)) return 0;
+  const std::string format = format_of(common.output, {".exr", ".png", ".u16"});
+  io::check_writable(common.output);
+  Progress progress("percent", 100, !common.quiet);
+  const shadow::NoiseTile tile = shadow::make_noise(
+      kind, parse_count("--size", size, shadow::least_noise_size, shadow::largest_noise_size),
+      parse_count("--channels", channels, 1, shadow::most_noise_channels), parse_seed(common.seed),
+      parse_count("--threads", threads, 0, 1024), [&](double done) { progress.reach(static_cast<int>(100 * done)); });
+  const auto write = format == ".png" ? write_noise_png : format == ".exr" ? write_noise_exr : write_noise_ranks;
+  write(common.output, tile);
+  if (common.quiet) return 0;
+  fmt::print("wrote {} ({} noise, {} × {}, power of low over high frequencies", common.output, kind, tile.size,
+             tile.size);
+  for (int c = 0; c < tile.channels; ++c) fmt::print(" {:.2g}", shadow::low_to_high_power(tile, c));
+  fmt::print(")\n");
+  return 0;
+}
+
+std::string points_text(const std::vector<glm::vec2>& points, const std::string& format) {
+  if (format == ".json") {
+    nlohmann::json list = nlohmann::json::array();
+    for (const glm::vec2& p : points) list.push_back({p.x, p.y});
+    return list.dump(1) + "\n";
+  }
+  std::string text = "x,y\n";
+  for (const glm::vec2& p : points) text += fmt::format("{},{}\n", p.x, p.y);
+  return text;
+}
+
+int bake_points(const Arguments& arguments) {
+  CLI::App app("Make a set of sample points", "penumbra bake points");
+  Common common;
+  std::string pattern = "poisson_hierarchical";
+  std::string count = "64";
+  bool disc = false;
+  add_common(app, common, ".csv or .json");
+  app.add_option("--pattern", pattern, fmt::format("{}", fmt::join(shadow::pattern_names(), ", ")))
+      ->type_name("PATTERN")
+      ->capture_default_str();
+  app.add_option("--count", count, "Points, 1 to 1024")->type_name("N")->capture_default_str();
+  app.add_flag("--disc", disc, "On the unit disc; else in the unit square")->disable_flag_override();
+  if (!parse(app, arguments)) return 0;
+  const std::string format = format_of(common.output, {".csv", ".json"});
+  if (std::ranges::find(shadow::pattern_names(), pattern) == shadow::pattern_names().end()) {
+    fail_unknown("pattern", pattern, shadow::pattern_names());
+  }
+  const int wanted = parse_count("--count", count, 1, 1024);
+  const std::uint64_t seed = parse_seed(common.seed);
+  const std::vector<glm::vec2> square = shadow::square_points(pattern, wanted, seed);
+  io::write_text(common.output, points_text(disc ? shadow::disc_points(pattern, wanted, seed) : square, format));
+  if (common.quiet) return 0;
+  fmt::print("wrote {} ({} points, {}; in the square: star discrepancy {:.4f}, least distance on the torus {:.4f})\n",
+             common.output, wanted, pattern, shadow::star_discrepancy(square), shadow::least_toroidal_distance(square));
+  return 0;
+}
+
+}  // namespace
+
+int run_bake(const Arguments& arguments) {
+  const std::vector<std::string> kinds{"noise", "points"};
+  if (arguments.empty()) fail_usage("bake what? {}", fmt::join(kinds, " or "));
+  const Arguments rest(arguments.begin() + 1, arguments.end());
+  if (arguments.front() == "noise") return bake_noise(rest);
+  if (arguments.front() == "points") return bake_points(rest);
+  if (arguments.front() == "--help" || arguments.front() == "-h") {
+    fmt::print("usage: penumbra bake noise|points [OPTIONS] -o FILE; each has a --help of its own\n");
+    return 0;
+  }
+  try {
+    fail_unknown("thing to bake", arguments.front(), kinds);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace penumbra::app

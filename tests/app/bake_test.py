@@ -1,0 +1,67 @@
+"""bake: noise tiles and sample points are the same for the same command, and what it refuses leaves no file."""
+
+import json
+
+from support import ROOT, TestCase, main, read_png
+
+EMBEDDED = ROOT / "src" / "shadow" / "noise"
+
+
+class Noise(TestCase):
+    def bake(self, name, *arguments):
+        path = self.folder / name
+        said = self.succeed("bake", "noise", "-o", path, *arguments).stdout
+        return path.read_bytes(), said
+
+    def test_the_same_command_gives_the_same_bytes(self):
+        for kind in ("white", "blue", "void_and_cluster"):
+            for extension in ("exr", "png", "u16"):
+                command = ("--kind", kind, "--size", "16", "--seed", "7")
+                first, _ = self.bake(f"a.{extension}", *command, "--threads", "1")
+                again, _ = self.bake(f"b.{extension}", *command, "--threads", "3")
+                self.assertEqual(first, again, f"{kind} {extension}")
+                other, _ = self.bake(f"c.{extension}", "--kind", kind, "--size", "16", "--seed", "8")
+                self.assertNotEqual(first, other, f"{kind} {extension}")
+
+    def test_the_tile_that_the_library_embeds_is_what_the_command_makes(self):
+        baked, said = self.bake("tile.u16", "--kind", "void_and_cluster")
+        self.assertEqual(baked, (EMBEDDED / "void_and_cluster.u16").read_bytes())
+        self.assertRegex(said, r"void_and_cluster noise, 64 × 64, power of low over high frequencies 0\.000\d+ 0\.000\d+")
+
+    def test_a_picture_shows_each_level_as_often(self):
+        self.bake("tile.png", "--kind", "white", "--size", "16", "--channels", "1")
+        levels = sorted(pixel[0] for row in read_png(self.folder / "tile.png") for pixel in row)
+        self.assertEqual(levels, list(range(256)))
+
+    def test_refuses_what_it_cannot_make(self):
+        path = self.folder / "tile.exr"
+        for command in (("--size", "24"), ("--kind", "pink")):
+            self.assertIn(command[1], self.refuse("bake", "noise", "-o", path, *command))
+        for command in (("--size", "512"), ("--channels", "4"), ("--seed", "x")):
+            self.assertIn(command[0], self.refuse("bake", "noise", "-o", path, *command, code=2))
+        self.assertIn(".txt", self.refuse("bake", "noise", "-o", self.folder / "tile.txt", code=2))
+        self.assertIn("noise or points", self.refuse("bake", code=2))
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+class Points(TestCase):
+    def test_csv_and_json_hold_the_same_points(self):
+        csv, js = self.folder / "points.csv", self.folder / "points.json"
+        said = self.succeed("bake", "points", "--pattern", "hammersley", "--count", "4", "-o", csv).stdout
+        self.assertIn("star discrepancy", said)
+        self.succeed("bake", "points", "--pattern", "hammersley", "--count", "4", "-o", js, "--quiet")
+        rows = csv.read_text().splitlines()
+        self.assertEqual(rows[0], "x,y")
+        listed = [tuple(map(float, row.split(","))) for row in rows[1:]]
+        self.assertEqual(listed, [(0.125, 0.125), (0.375, 0.625), (0.625, 0.375), (0.875, 0.875)])
+        self.assertEqual(listed, [tuple(point) for point in json.loads(js.read_text())])
+
+    def test_refuses_what_it_cannot_make(self):
+        path = self.folder / "points.csv"
+        self.assertIn("poisson", self.refuse("bake", "points", "-o", path, "--pattern", "poison"))
+        self.assertIn("--count", self.refuse("bake", "points", "-o", path, "--count", "0", code=2))
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+if __name__ == "__main__":
+    main()
