@@ -30,7 +30,7 @@ void add_common(CLI::App& app, Common& common, const char* files) {
 
 // The file's extension, which is one of those that can be written.
 std::string format_of(const std::string& output, const std::vector<std::string>& formats) {
-  const std::string extension = std::filesystem::path(output).extension().string();
+  std::string extension = std::filesystem::path(output).extension().string();
   if (std::ranges::find(formats, extension) == formats.end()) {
     fail_usage("-o {}: the name ends in none of {}", io::quoted(output), fmt::join(formats, ", "));
   }
