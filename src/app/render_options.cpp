@@ -59,10 +59,10 @@ render::GroundChoice ground_choice(const std::string& text) {
 }
 
 void add_view_options(CLI::App& app, RenderOptions& o) {
-  value(app, "--camera", "NAME|INDEX",
-        "A camera of the scene; else its first that is within the scene's bounds or sees them over a tenth of the "
-        "picture's width or height; else one that frames the scene",
-        [&o](const auto& text) { o.camera = text; });
+  value(
+      app, "--camera", "NAME|INDEX",
+      "A camera of the scene; else its first that sees the scene over a tenth of the picture, else one that frames it",
+      [&o](const auto& text) { o.camera = text; });
   value(app, "--eye", "X,Y,Z", "Where the camera is, metres",
         [&o](const auto& text) { o.eye = parse_point("--eye", text); });
   value(app, "--target", "X,Y,Z", "What it looks at, metres",
@@ -173,11 +173,11 @@ void check_known(const ParamSet& params, const std::string& name) {
     fail("unknown parameter '{}'; see penumbra list params", name);
 }
 
-// What the maps of a light and their pyramids take is 4.7 bytes a texel.
+// What the maps of a light and their pyramids take is 4.3 bytes a texel.
 void check_map_memory(const ParamSet& params) {
   const long long size = params.get_int("cascades.size"), count = params.get_int("cascades.count");
   if (size * size * count > largest_maps)
-    fail("cascades.count={} maps of cascades.size={} are {} texels: the limit is {} (1.2 GiB), as 4 maps of 8192",
+    fail("cascades.count={} maps of cascades.size={} are {} texels: the limit is {} (1.1 GiB), as 4 maps of 8192",
          count, size, size * size * count, largest_maps);
 }
 
