@@ -5,7 +5,7 @@
 #     -R REGEX   only the tests whose name matches, and no static checks
 # Tests on third-party scenes need PENUMBRA_ASSETS, the folder that holds them; without it they are skipped.
 set -euo pipefail
-root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)
+root=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")
 source "$root/scripts/setup.sh"
 
 quick=0 regex=
