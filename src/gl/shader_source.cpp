@@ -68,7 +68,6 @@ class Loader {
     if (!text) fail("{}shader file 'glsl/{}' not found", asked_by, name);
     const std::size_t index = source_.files.size();
     source_.files.emplace_back(name);
-    source_.text += fmt::format("#line 1 {}\n", index);
     std::string_view rest = *text;
     if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
     for (int number = 1; !rest.empty(); ++number) {
@@ -92,12 +91,12 @@ class Loader {
       case Line::Kind::include:
         if (std::ranges::find(source_.files, what.name) == source_.files.end()) {
           append(what.name, fmt::format("glsl/{}:{}: ", file, number));
-          source_.text += fmt::format("#line {} {}\n", number + 1, index);
           return;
         }
         break;
     }
     source_.text += '\n';
+    source_.lines.push_back({index, number});
   }
 
   const ShaderFiles& files_;
@@ -120,15 +119,14 @@ bool take(std::string_view& text, std::string_view prefix) {
 }
 
 struct Message {
-  std::size_t file, line;
+  std::size_t line;  // of the whole text, from 1
   std::string text;
 };
 
 // "0(12) : error C1008: …" (NVIDIA), "0:12(5): error: …" (Mesa), "ERROR: 0:12: …" (glslang, AMD, Intel).
 std::optional<Message> parse_message(std::string_view rest) {
   const char* severity = take(rest, "ERROR: ") ? "error: " : take(rest, "WARNING: ") ? "warning: " : "";
-  const auto file = take_number(rest);
-  if (!file) return std::nullopt;
+  if (!take_number(rest)) return std::nullopt;  // the driver's number for the whole text
   const bool line_in_brackets = take(rest, "(");
   if (!line_in_brackets && !take(rest, ":")) return std::nullopt;
   const auto line = take_number(rest);
@@ -139,7 +137,7 @@ std::optional<Message> parse_message(std::string_view rest) {
   }
   rest = trimmed(rest);
   if (!take(rest, ":")) return std::nullopt;
-  return Message{*file, *line, fmt::format("{}{}", severity, trimmed(rest))};
+  return Message{*line, fmt::format("{}{}", severity, trimmed(rest))};
 }
 
 }  // namespace
@@ -171,7 +169,11 @@ std::vector<std::string> ShaderFiles::built_in_names() {
 ShaderSource load_shader_source(const ShaderFiles& files, std::string_view root, const std::vector<Define>& defines) {
   ShaderSource source;
   source.text = "#version 450 core\n";
-  for (const Define& define : defines) source.text += fmt::format("#define {} {}\n", define.name, define.value);
+  source.lines.emplace_back();
+  for (const Define& define : defines) {
+    source.text += fmt::format("#define {} {}\n", define.name, define.value);
+    source.lines.emplace_back();
+  }
   Loader(files, source).append(root, "");
   return source;
 }
@@ -185,8 +187,10 @@ std::string translate_log(std::string_view driver_log, const ShaderSource& sourc
     if (line.empty() || line.front() == '\0') continue;
     const std::optional<Message> message = parse_message(line);
     if (!result.empty()) result += '\n';
-    if (message && message->file < source.files.size()) {
-      result += fmt::format("glsl/{}:{}: {}", source.files[message->file], message->line, message->text);
+    const bool known = message && message->line >= 1 && message->line <= source.lines.size();
+    const ShaderSource::Line place = known ? source.lines[message->line - 1] : ShaderSource::Line();
+    if (place.file != ShaderSource::no_file) {
+      result += fmt::format("glsl/{}:{}: {}", source.files[place.file], place.number, message->text);
     } else {
       result += line;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <optional>
@@ -36,18 +37,27 @@ struct Define {
 };
 
 // One stage's text, ready for the driver: #version 450 core, defines, then the file with every #include "name" resolved
-// once (include-once), and #line directives that number the files. Includes are resolved before the preprocessor runs:
-// conditions around them do not count. #include <…> and #pragma once, which C++ needs in shared headers, are dropped.
+// once (include-once). Includes are resolved before the preprocessor runs: conditions around them do not count.
+// #include <…> and #pragma once, which C++ needs in shared headers, are dropped. There are no #line directives: Mesa
+// loses the file's number in messages about types.
 struct ShaderSource {
+  struct Line {
+    std::size_t file = no_file;  // index into `files`
+    int number = 0;              // from 1
+    bool operator==(const Line&) const = default;
+  };
+  static constexpr std::size_t no_file = static_cast<std::size_t>(-1);  // the version and the defines
+
   std::string text;
-  std::vector<std::string> files;  // index = the number in #line; [0] is the root
+  std::vector<std::string> files;  // [0] is the root
+  std::vector<Line> lines;         // where each line of `text` comes from
 };
 
 // Throws Error naming file and line when a file is missing, or an include is malformed. Cycles can't happen: each file
 // is included once.
 ShaderSource load_shader_source(const ShaderFiles& files, std::string_view root, const std::vector<Define>& defines);
 
-// Rewrites "0(12)", "0:12(5)" and "0:12:" of a driver's log into "glsl/lib/kernel.glsl:12:", one message a line.
+// Rewrites "0(56)", "0:56(5)" and "0:56:" of a driver's log into "glsl/lib/kernel.glsl:12:", one message a line.
 std::string translate_log(std::string_view driver_log, const ShaderSource& source);
 
 }  // namespace penumbra::gl

@@ -102,7 +102,7 @@ class Declarations {
     if (c == '(' || c == '{' || c == '[') ++depth_;
     if (c == ')' || c == '}' || c == ']') --depth_;
     if (c == '=' && depth_ == 0) in_value_ = true;
-    if (depth_ == 0 && (c == ';' || c == '}')) in_value_ = false;
+    if (depth_ == 0 && (c == ',' || c == ';' || c == '}')) in_value_ = false;
     if (depth_ == 0 && c == ';') block_ = false;
   }
 
@@ -126,15 +126,9 @@ std::string with_prefix(std::string_view glsl, std::string_view prefix) {
   return result;
 }
 
-std::string without_version_and_lines(std::string_view glsl) {
-  std::string result;
-  while (!glsl.empty()) {
-    const std::size_t length = std::min(glsl.find('\n'), glsl.size() - 1) + 1;
-    const std::string_view line = glsl.substr(0, length);
-    if (!line.starts_with("#version") && !line.starts_with("#line")) result += line;
-    glsl.remove_prefix(length);
-  }
-  return result;
+std::string without_version(std::string_view glsl) {
+  if (glsl.starts_with("#version")) glsl.remove_prefix(std::min(glsl.find('\n'), glsl.size() - 1) + 1);
+  return std::string(glsl);
 }
 
 }  // namespace penumbra::shadow

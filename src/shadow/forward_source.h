@@ -9,7 +9,7 @@ namespace penumbra::shadow {
 // begin with `prefix`, wherever it stands; names that begin so already stay. For text whose includes are resolved.
 std::string with_prefix(std::string_view glsl, std::string_view prefix);
 
-// The text without #version and #line directives, which the program that it is pasted into has of its own.
-std::string without_version_and_lines(std::string_view glsl);
+// The text without its #version, which the program that it is pasted into has of its own.
+std::string without_version(std::string_view glsl);
 
 }  // namespace penumbra::shadow

@@ -171,7 +171,7 @@ ForwardProgram SoftShadows::forward_program(const ParamSet& params, const Light&
 std::string SoftShadows::forward_source(const ParamSet& params, const Light& light) const {
   const ForwardProgram program = forward_program(params, light);
   const gl::ShaderSource source = gl::load_shader_source(device_.shaders.files(), program.include, program.defines);
-  return with_prefix(without_version_and_lines(source.text), "penumbra_");
+  return with_prefix(without_version(source.text), "penumbra_");
 }
 
 std::vector<gl::ProgramDesc> SoftShadows::all_programs(const ParamSet& defaults) const {

@@ -52,15 +52,16 @@ class TemporaryFolder {
 TEST(ShaderSource, StartsWithVersionAndDefines) {
   const auto source =
       load_shader_source(files({{"a.frag", "void main() {}\n"}}), "a.frag", {{"TAPS", "16"}, {"ON", ""}});
-  EXPECT_EQ(source.text, "#version 450 core\n#define TAPS 16\n#define ON \n#line 1 0\nvoid main() {}\n");
+  EXPECT_EQ(source.text, "#version 450 core\n#define TAPS 16\n#define ON \nvoid main() {}\n");
   EXPECT_EQ(source.files, std::vector<std::string>{"a.frag"});
 }
 
 TEST(ShaderSource, AnIncludeStandsInItsPlaceAndLinesGoOn) {
   const auto source = load_shader_source(
       files({{"a.frag", "first\n  #  include \"lib/b.glsl\" // why\nlast"}, {"lib/b.glsl", "inner"}}), "a.frag", {});
-  EXPECT_EQ(source.text, "#version 450 core\n#line 1 0\nfirst\n#line 1 1\ninner\n#line 3 0\nlast\n");
+  EXPECT_EQ(source.text, "#version 450 core\nfirst\ninner\nlast\n");
   EXPECT_EQ(source.files, (std::vector<std::string>{"a.frag", "lib/b.glsl"}));
+  EXPECT_EQ(source.lines, (std::vector<ShaderSource::Line>{{ShaderSource::no_file, 0}, {0, 1}, {1, 1}, {0, 3}}));
 }
 
 TEST(ShaderSource, EveryFileComesOnceWhoeverIncludesIt) {
@@ -77,7 +78,7 @@ TEST(ShaderSource, HeadersSharedWithCppNeedNoCare) {
   const auto source = load_shader_source(
       files({{"shared/x.h", "#pragma once\n#ifdef __cplusplus\n#include <glm/glm.hpp>\n#endif\nstruct X {};\r\n"}}),
       "shared/x.h", {});
-  EXPECT_EQ(source.text, "#version 450 core\n#line 1 0\n\n#ifdef __cplusplus\n\n#endif\nstruct X {};\r\n");
+  EXPECT_EQ(source.text, "#version 450 core\n\n#ifdef __cplusplus\n\n#endif\nstruct X {};\r\n");
 }
 
 TEST(ShaderSource, AMissingIncludeNamesWhoAsked) {
@@ -125,20 +126,22 @@ TEST(ShaderSource, BuiltInFilesAreTheFilesOfTheTree) {
   }
 }
 
-const ShaderSource two_files{"", {"shadow/a.frag", "lib/b.glsl"}};
+// #version, a line of a.frag, two of b.glsl, and the rest of a.frag.
+const ShaderSource two_files{
+    "", {"shadow/a.frag", "lib/b.glsl"}, {{ShaderSource::no_file, 0}, {0, 11}, {1, 1}, {1, 2}, {0, 13}}};
 
 TEST(TranslateLog, EveryDriversFormBecomesFileAndLine) {
-  EXPECT_EQ(translate_log("0:12(5): error: `x' undeclared\n1:3(1): warning: unused\n", two_files),
-            "glsl/shadow/a.frag:12: error: `x' undeclared\nglsl/lib/b.glsl:3: warning: unused");
-  EXPECT_EQ(translate_log("1(12) : error C1008: undefined variable \"x\"\n", two_files),
-            "glsl/lib/b.glsl:12: error C1008: undefined variable \"x\"");
-  EXPECT_EQ(translate_log("ERROR: 0:7: 'x' : undeclared identifier\nWARNING: 1:9: odd", two_files),
-            "glsl/shadow/a.frag:7: error: 'x' : undeclared identifier\nglsl/lib/b.glsl:9: warning: odd");
+  EXPECT_EQ(translate_log("0:2(5): error: `x' undeclared\n0:4(1): warning: unused\n", two_files),
+            "glsl/shadow/a.frag:11: error: `x' undeclared\nglsl/lib/b.glsl:2: warning: unused");
+  EXPECT_EQ(translate_log("0(3) : error C1008: undefined variable \"x\"\n", two_files),
+            "glsl/lib/b.glsl:1: error C1008: undefined variable \"x\"");
+  EXPECT_EQ(translate_log("ERROR: 0:5: 'x' : undeclared identifier\nWARNING: 0:3: odd", two_files),
+            "glsl/shadow/a.frag:13: error: 'x' : undeclared identifier\nglsl/lib/b.glsl:1: warning: odd");
 }
 
 TEST(TranslateLog, OtherLinesStayAndEmptyOnesGo) {
-  EXPECT_EQ(translate_log("\n\nlinking failed\n  \n7:1(1): error: from nowhere\n", two_files),
-            "linking failed\n7:1(1): error: from nowhere");
+  EXPECT_EQ(translate_log("\n\nlinking failed\n  \n0:1(1): error: version\n0:7(1): error: from nowhere\n", two_files),
+            "linking failed\n0:1(1): error: version\n0:7(1): error: from nowhere");
 }
 
 }  // namespace
