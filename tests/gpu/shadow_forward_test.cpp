@@ -141,12 +141,13 @@ shadow::Technique painted() {
           .source = "made up",
           .glsl = "",
           .needs = shadow::needs_nothing,
-          .params = {},
+          .params = {{"painted.level", 0.5f, 0, 1, "", "Visibility.", ParamBinding::uniform}},
           .resolve =
               [](const shadow::TechniqueFrame& work) {
-                clear(work.device(),
-                      {.name = "paint",
-                       .colors = {{.texture = &work.mask(), .layer = work.frame().layer, .clear = glm::vec4(0.5f)}}});
+                clear(work.device(), {.name = "paint",
+                                      .colors = {{.texture = &work.mask(),
+                                                  .layer = work.frame().layer,
+                                                  .clear = glm::vec4(work.params().get_float("painted.level"))}}});
               },
           .stand_in = "pcss"};
 }
