@@ -3,5 +3,6 @@
 #include "shadow/drivers/receiver.glsl"
 
 float shadow_visibility(vec3 view_position, vec3 geometric_normal, vec2 pixel) {
-  return shade(make_receiver(view_position, mat3(shadow.world_to_light) * geometric_normal, pixel)).visibility.visibility;
+  Receiver receiver = make_receiver(view_position, mat3(shadow.world_to_light) * geometric_normal, pixel);
+  return shade(receiver).visibility.visibility;
 }
