@@ -124,7 +124,8 @@ Materials::Slot Materials::slot(gl::Device& device, const Scene& scene, const Te
 // a software driver compiles a shader anew for each combination of texture states that it is drawn with.
 void Materials::fill_empty_slots() {
   for (std::size_t i = 0; i < TEXTURE_COUNT; ++i) {
-    const auto filled = std::ranges::find_if(textures_, [&](const Slots& slots) { return slots[i].texture != nullptr; });
+    const auto filled =
+        std::ranges::find_if(textures_, [&](const Slots& slots) { return slots[i].texture != nullptr; });
     if (filled == textures_.end()) continue;
     for (Slots& slots : textures_) {
       if (slots[i].texture == nullptr) slots[i] = (*filled)[i];
