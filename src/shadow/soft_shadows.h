@@ -37,8 +37,8 @@ struct ForwardProgram {
 //     size;
 //   - the program, the vertex array, the draw and read framebuffers, textures and samplers of units 0 to 15, images of
 //     units 0 to 7: nothing is bound.
-// It leaves changed: the viewport, the blend function and equation, uniform buffers 0 to 2. All else stays, but for what
-// the caster callback and techniques of the caller's own change. After an Error any of these may be changed.
+// It leaves changed: the viewport, the blend function and equation, uniform buffers 0 to 2. All else stays, but for
+// what the caster callback and techniques of the caller's own change. After an Error any of these may be changed.
 //
 // Memory. After the first frame of a size no OpenGL object is made. Maps, masks and history belong to a view's id until
 // forget_view(); a light's go when a frame of its view leaves it out.
