@@ -21,7 +21,7 @@ namespace {
 constexpr const char* floor_text = R"(
 #include "shadow/search.glsl"
 
-layout(binding = 4) uniform sampler2DArray kernels;  // mask of a PCSS frame: G is the filter's radius
+layout(binding = 5) uniform sampler2DArray kernels;  // mask of a PCSS frame: G is the filter's radius
 
 float reach(Receiver receiver, Light light) { return search_reach(receiver, light); }
 

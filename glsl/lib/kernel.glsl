@@ -5,15 +5,15 @@
 
 GLSL_BEGIN
 
-// Radius of the penumbra at a receiver, metres, of a directional light (Fernando 2005, "Percentage-closer soft shadows",
-// with the light moved to infinity): depths in metres along the light.
+// Radius of the penumbra at a receiver, metres, of a directional light (Fernando 2005, "Percentage-closer soft
+// shadows", with the light moved to infinity): depths in metres along the light.
 GLSL_FUNCTION float penumbra_radius(float tan_half_angle, float receiver_depth, float blocker_depth) {
   return tan_half_angle * max(receiver_depth - blocker_depth, 0.0f);
 }
 
-// How light-space depth changes along x and y over the plane with that normal (light space, z away from the light), as in
-// Isidoro 2006, "Shadow mapping: GPU-based tips and techniques". The slope is limited: planes that the light grazes have
-// no finite one.
+// How light-space depth changes along x and y over the plane with that normal (light space, z away from the light), as
+// in Isidoro 2006, "Shadow mapping: GPU-based tips and techniques". The slope is limited: planes that the light grazes
+// have no finite one.
 GLSL_FUNCTION vec2 plane_gradient(vec3 normal, float max_slope) {
   float facing = max(-normal.z, 1e-6f);
   vec2 gradient = vec2(normal.x, normal.y) / facing;

@@ -6,8 +6,8 @@ struct Blockers {
   float weight;     // share of the texels read that block
 };
 
-// Adds the four texels about a point. A texel blocks when it lies before the receiver and its plane, and within the cone
-// that the light spans above the receiver: what is outside it can't hide the light, however wide the search.
+// Adds the four texels about a point. A texel blocks when it lies before the receiver and its plane, and within the
+// cone that the light spans above the receiver: what is outside it can't hide the light, however wide the search.
 void add_blockers(inout Blockers blockers, Receiver receiver, vec2 offset, float bias, Light light) {
   float texel = texel_size(light);
   Footprint footprint = fetch_footprint(receiver.position, offset, light);
@@ -25,9 +25,11 @@ void add_blockers(inout Blockers blockers, Receiver receiver, vec2 offset, float
 }
 
 Blockers find_blockers(Receiver receiver, float radius, int taps, float bias, Light light) {
-  Scramble scramble = scramble_of(receiver, 0u);
+  Scramble scramble = scramble_of(receiver, blocker_step);
   Blockers blockers = Blockers(0.0, 0.0);
-  for (int i = 0; i < taps; ++i) add_blockers(blockers, receiver, radius * blocker_point(i, scramble, light), bias, light);
+  for (int i = 0; i < taps; ++i) {
+    add_blockers(blockers, receiver, radius * blocker_point(i, scramble, light), bias, light);
+  }
   return blockers;
 }
 
@@ -36,7 +38,7 @@ float mean_distance(Blockers blockers) { return max(blockers.depth_sum / blocker
 // Share of light that passes a disc (or square) of that radius about the receiver.
 float filtered_share(Receiver receiver, float radius, int taps, float bias, Light light) {
   if (radius <= 0.0) return lit_share(receiver, vec2(0.0), bias, light);
-  Scramble scramble = scramble_of(receiver, 1u);
+  Scramble scramble = scramble_of(receiver, filter_step);
   float lit = 0.0;
   for (int i = 0; i < taps; ++i) lit += lit_share(receiver, radius * filter_point(i, scramble, light), bias, light);
   return lit / float(taps);

@@ -10,6 +10,8 @@ layout(std140, binding = 2) uniform SampleData { SampleBlock samples; };
 layout(binding = 0) uniform sampler2DArray shadow_depth;    // light-space depth, linear, one layer a cascade
 layout(binding = 1) uniform sampler2DArray shadow_pyramid;  // minimum over 4 · 2^level texels squared
 
+layout(binding = 4) uniform sampler2D sample_noise;        // two values a pixel; repeats; a power of two wide and high
+
 // A point to be shaded, in light space (metres, origin in the camera).
 struct Receiver {
   vec3 position;
@@ -107,8 +109,8 @@ float side_slope(Receiver receiver, ivec2 at, ivec2 side, float texels, float bi
 }
 
 // Where lit faces meet in a corner each lies before the other's plane, and yet neither hides the other: a receiver next
-// to another face must not be shadowed by what lies on that face's plane either. What is within the light's cone hides a
-// part of it all the same.
+// to another face must not be shadowed by what lies on that face's plane either. What is within the light's cone hides
+// a part of it all the same.
 Receiver receiver_in_corner(Receiver receiver, float bias, Light light) {
   CascadeBlock cascade = shadow.cascades[light.cascade];
   vec2 place = ((receiver.position.xy - cascade.map.xy) * cascade.map.z + 0.5) * shadow.light.w;
@@ -165,8 +167,15 @@ vec2 shape_point(vec4 table, int index, Scramble scramble, Light light) {
 #endif
 }
 
-Scramble scramble_of(Receiver receiver, uint stream) {
-  vec2 noise = white_noise(uvec2(receiver.pixel), uint(sampling_seed) * 2u + stream);
+const int blocker_step = 0;
+const int filter_step = 1;
+
+// By the tile of noise, each step from another part of it.
+Scramble scramble_of(Receiver receiver, int step) {
+  ivec2 mask = textureSize(sample_noise, 0) - 1;
+  ivec2 at = ivec2(receiver.pixel) + (mask + 1) / 2 * step;
+  vec2 noise = toroidal_shift(texelFetch(sample_noise, at & mask, 0).xy,
+                              step == blocker_step ? shadow.noise_shift.xy : shadow.noise_shift.zw);
 #if SAMPLE_ROTATE
   float angle = 6.2831853 * noise.x;
   return Scramble(vec2(cos(angle), sin(angle)));

@@ -1,8 +1,8 @@
 // How far blockers can be: the least depth over a disc, from the pyramid.
 #include "shadow/light.glsl"
 
-// Least depth, metres, of what the cascade's map holds within `radius` of a position (and a little beyond: 2 × 2 texels of
-// the finest level that covers the disc).
+// Least depth, metres, of what the cascade's map holds within `radius` of a position (and a little beyond: 2 × 2 texels
+// of the finest level that covers the disc).
 float nearest_depth(vec3 position, float radius, int cascade_index) {
   CascadeBlock cascade = shadow.cascades[cascade_index];
   int levels = textureQueryLevels(shadow_pyramid);

@@ -21,7 +21,8 @@ struct ShadowBlock {
   vec4 viewport;        // xy: its lowest pixel; zw: size, pixels
   vec4 jitter;          // xy: NDC
   vec4 depth_to_ndc;    // x: scale; y: offset; z: depth of the sky; w: 1 for octahedral normals, 0 for xyz
-  vec4 light;           // x: tan of the half angle; y: 1 for a square light, 0 for a disc; z: cascades; w: map size, texels
+  vec4 light;           // x: tan of the half angle; y: 1: square light, 0: disc; z: cascades; w: map size, texels
+  vec4 noise_shift;     // on the torus; xy: of the blocker step; zw: of the filter step
   CascadeBlock cascades[SHADOW_MAX_CASCADES];
 };
 

@@ -1,8 +1,21 @@
 #include "library_params.h"
 
 #include "cascades.h"
+#include "sampling.h"
 
 namespace penumbra::shadow {
+
+namespace {
+
+Param pattern(const char* name, const char* help) {
+  return {name, std::string("vogel"), 0, 0, "", help, ParamBinding::host, pattern_names()};
+}
+
+Param sequence(const char* name, const char* help) {
+  return {name, std::string("still"), 0, 0, "", help, ParamBinding::host, {"still", "shift", "set"}};
+}
+
+}  // namespace
 
 std::vector<Param> library_params() {
   using enum ParamBinding;
@@ -42,14 +55,8 @@ std::vector<Param> library_params() {
        "Distance along the light that a texel may lie before a receiver without blocking it."},
       {"bias.slope", 0.02f, 0, 10, "texels", "The same for each unit of the receiver's slope against the light."},
       {"bias.normal_offset", 0.0f, 0, 10, "texels", "Shift of receivers along their normal."},
-      {"sampling.pattern",
-       std::string("vogel"),
-       0,
-       0,
-       "",
-       "Points that taps are taken at.",
-       host,
-       {"vogel", "hammersley"}},
+      pattern("sampling.blocker_pattern", "Points at which blockers are looked for."),
+      pattern("sampling.filter_pattern", "Points that the filter compares."),
       {"sampling.scramble",
        std::string("rotate"),
        0,
@@ -58,7 +65,17 @@ std::vector<Param> library_params() {
        "What differs from pixel to pixel: a rotation of the points (disc suns) or a shift on the torus.",
        host,
        {"rotate", "shift"}},
-      {"sampling.seed", 0, 0, 65535, "", "Number of the noise pattern that turns the points from pixel to pixel."},
+      {"sampling.noise",
+       std::string("blue"),
+       0,
+       0,
+       "",
+       "What decides the rotation or shift of a pixel: a tile of 64 × 64 pixels, or nothing.",
+       host,
+       {"none", "white", "blue", "void_and_cluster"}},
+      sequence("sampling.blocker_sequence", "From frame to frame the blocker step's points stay, shift, or change."),
+      sequence("sampling.filter_sequence", "The same for the filter's points."),
+      {"sampling.seed", 0, 0, 65535, "", "Shifts the noise: another number turns all points another way.", host},
   };
 }
 

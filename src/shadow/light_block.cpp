@@ -1,17 +1,12 @@
 #include "light_block.h"
 
-#include <algorithm>
-
-#include "sampling.h"
-
 namespace penumbra::shadow {
 
 namespace {
 
 static_assert(sizeof(glsl::CascadeBlock) == 32);
 static_assert(offsetof(glsl::ShadowBlock, viewport) == 192);
-static_assert(offsetof(glsl::ShadowBlock, cascades) == 256);
-static_assert(sizeof(glsl::SampleBlock) == 4096);
+static_assert(offsetof(glsl::ShadowBlock, cascades) == 272);
 
 // `shift`: where the origin of the cascade's light space lies in the view's.
 glsl::CascadeBlock cascade_block(const Cascade& cascade, int size, const glm::dvec3& shift) {
@@ -23,22 +18,9 @@ glsl::CascadeBlock cascade_block(const Cascade& cascade, int size, const glm::dv
           {cascade.near_z + static_cast<float>(shift.z), range, rounding, 0.0f}};
 }
 
-void fill_table(glm::vec4* table, const std::vector<glm::vec2>& points) {
-  for (size_t i = 0; i < points.size(); ++i) {
-    glm::vec4& pair = table[i / 2];
-    (i % 2 == 0 ? pair.x : pair.z) = points[i].x;
-    (i % 2 == 0 ? pair.y : pair.w) = points[i].y;
-  }
-}
-
-int taps(const Technique& technique, const ParamSet& params, const char* step) {
-  const std::string name = technique.name + step;
-  return params.contains(name) ? params.get_int(name) : 0;
-}
-
 }  // namespace
 
-glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, bool square) {
+glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, const LightTraits& traits) {
   const Conventions& conventions = inputs.conventions;
   const glm::dmat4 view_to_world = glm::inverse(glm::dmat4(inputs.view.view));
   const bool zero_to_one = conventions.depth_zero_to_one;
@@ -51,24 +33,13 @@ glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, bo
   block.jitter = {inputs.view.jitter, 0, 0};
   block.depth_to_ndc = {zero_to_one ? 1.0f : 2.0f, zero_to_one ? 0.0f : -1.0f, conventions.reversed_z ? 0.0f : 1.0f,
                         conventions.octahedral_normals ? 1.0f : 0.0f};
-  block.light = {light.tan_half_angle, square ? 1.0f : 0.0f, static_cast<float>(light.cascades.items.size()),
+  block.light = {light.tan_half_angle, traits.square ? 1.0f : 0.0f, static_cast<float>(light.cascades.items.size()),
                  static_cast<float>(light.cascades.size)};
+  block.noise_shift = traits.noise_shift;
   for (size_t i = 0; i < light.cascades.items.size(); ++i) {
     block.cascades[i] = cascade_block(light.cascades.items[i], light.cascades.size, shift);
   }
   return block;
-}
-
-Sampling sampling_of(const Technique& technique, const ParamSet& params) {
-  const std::string& pattern = technique.pattern.empty() ? params.get_word("sampling.pattern") : technique.pattern;
-  const std::string& scramble = technique.scramble.empty() ? params.get_word("sampling.scramble") : technique.scramble;
-  Sampling sampling;
-  // A turned square would be another light.
-  sampling.rotated = scramble == "rotate" && params.get_word("sun.shape") == "disc";
-  const auto points = sampling.rotated ? disc_points : square_points;
-  fill_table(sampling.points.blocker, points(pattern, taps(technique, params, ".blocker_taps"), 0));
-  fill_table(sampling.points.filter_points, points(pattern, taps(technique, params, ".filter_taps"), 0));
-  return sampling;
 }
 
 }  // namespace penumbra::shadow

@@ -7,14 +7,13 @@
 
 namespace penumbra::shadow {
 
-// What the GLSL of the shadow passes reads of a view and a light.
-glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, bool square);
-
-// The sample points of a technique under these parameters; `rotated`: disc points, else points of the unit square.
-struct Sampling {
-  bool rotated = true;
-  glsl::SampleBlock points{};
+// What a light's parameters say of it in a frame.
+struct LightTraits {
+  bool square = false;       // else a disc
+  glm::vec4 noise_shift{0};  // see samples.h
 };
-Sampling sampling_of(const Technique& technique, const ParamSet& params);
+
+// What the GLSL of the shadow passes reads of a view and a light.
+glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, const LightTraits& traits);
 
 }  // namespace penumbra::shadow

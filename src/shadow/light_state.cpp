@@ -75,6 +75,8 @@ void bind_light(gl::Device& device, const LightFrame& frame, const LightState& s
   gl::glBindTextureUnit(unit_shadow_map, frame.depth);
   device.sampler({}).bind(unit_depth_pyramid);
   gl::glBindTextureUnit(unit_depth_pyramid, frame.pyramid != nullptr ? frame.pyramid->id() : 0);
+  device.sampler({}).bind(unit_noise);
+  state.noise->bind(unit_noise);
   for (const Product& product : frame.products) {
     device.sampler(product.sampler).bind(product.unit);
     product.texture->bind(product.unit);

@@ -12,7 +12,8 @@ namespace penumbra::shadow {
 // What outlives a frame of one light in one view.
 struct LightState {
   ParamSet params;
-  bool rotated = true;  // see Sampling
+  bool rotated = true;  // see turns_samples()
+  const gl::Texture* noise = nullptr;
   const gl::Buffer* params_block = nullptr;
   const gl::Buffer* shadow_block = nullptr;
   const gl::Buffer* sample_block = nullptr;

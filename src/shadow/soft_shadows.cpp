@@ -10,6 +10,7 @@
 #include "light_block.h"
 #include "light_state.h"
 #include "programs.h"
+#include "samples.h"
 #include "shadow_map.h"
 
 namespace penumbra::shadow {
@@ -36,6 +37,7 @@ struct SoftShadows::State {
 
   const int number = next_number();  // tells the facades of a device apart
   Programs programs;
+  Samples samples;
   std::map<int, ViewState> views;
 };
 
@@ -81,19 +83,21 @@ void SoftShadows::upload_blocks(const Inputs& inputs, const LightFrame& frame, c
                                 LightState& state) {
   const Technique& technique = registry_.find(state.params.get_word("technique"));
   const Technique& forward = forward_technique(state.params);
-  const Sampling sampling = sampling_of(technique, state.params);
   const std::vector<std::byte> params = uniform_bytes(state.params);
-  state.rotated = sampling.rotated;
+  const int age = static_cast<int>(state.age);
+  state.rotated = turns_samples(technique, state.params);
+  state.noise = &state_->samples.noise(state.params.get_word("sampling.noise"));
   state.params_block = &device_.scratch(prefix + "params", params.size());
   state.shadow_block = &device_.scratch(prefix + "light", sizeof(glsl::ShadowBlock));
   state.sample_block = state.forward_sample_block = &device_.scratch(prefix + "samples", sizeof(glsl::SampleBlock));
   state.params_block->write(params);
-  const bool square = state.params.get_word("sun.shape") == "square";
-  gl::write_value(*state.shadow_block, shadow_block(inputs, frame, square));
-  gl::write_value(*state.sample_block, sampling.points);
+  const LightTraits traits{.square = state.params.get_word("sun.shape") == "square",
+                           .noise_shift = noise_shift(state.params, age)};
+  gl::write_value(*state.shadow_block, shadow_block(inputs, frame, traits));
+  gl::write_value(*state.sample_block, state_->samples.block(technique, state.params, age));
   if (&forward == &technique) return;
   state.forward_sample_block = &device_.scratch(prefix + "forward samples", sizeof(glsl::SampleBlock));
-  gl::write_value(*state.forward_sample_block, sampling_of(forward, state.params).points);
+  gl::write_value(*state.forward_sample_block, state_->samples.block(forward, state.params, age));
 }
 
 LightFrame SoftShadows::render_light(const Inputs& inputs, const Light& light, ParamSet params, LightState& state,
@@ -164,8 +168,7 @@ const Technique& SoftShadows::forward_technique(const ParamSet& params) const {
 ForwardProgram SoftShadows::forward_program(const ParamSet& params, const Light& light) const {
   const ParamSet own = params_of(registry_, params, light);
   const Technique& technique = forward_technique(own);
-  return {state_->programs.forward_file(technique),
-          Programs::defines(technique, own, sampling_of(technique, own).rotated)};
+  return {state_->programs.forward_file(technique), Programs::defines(technique, own, turns_samples(technique, own))};
 }
 
 std::string SoftShadows::forward_source(const ParamSet& params, const Light& light) const {

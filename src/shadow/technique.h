@@ -27,6 +27,7 @@ enum TextureUnit : unsigned {
   unit_depth_pyramid,
   unit_receiver_depth,
   unit_receiver_normal,
+  unit_noise,
   first_product_unit,
   first_pass_unit = 8,
   unit_count = 16,
@@ -69,7 +70,7 @@ struct Technique {
   unsigned needs = needs_shadow_map;
   // Rows named "<technique>.blocker_taps" and "<technique>.filter_taps" size the tables of sample points.
   std::vector<Param> params;
-  // Fixes sampling.pattern and sampling.scramble; empty leaves them to the parameters.
+  // Fixes both of sampling's patterns, and sampling.scramble; empty leaves them to the parameters.
   std::string pattern = {}, scramble = {};
   // Makes what only this technique needs from a light's maps, before the mask pass, and adds it to the light's
   // products. Optional.

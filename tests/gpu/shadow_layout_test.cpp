@@ -85,6 +85,7 @@ TEST_F(ShadowLayout, BlocksLieAsTheDriverReadsThem) {
   expect_offset(light, "shadow.jitter", offsetof(ShadowBlock, jitter));
   expect_offset(light, "shadow.depth_to_ndc", offsetof(ShadowBlock, depth_to_ndc));
   expect_offset(light, "shadow.light", offsetof(ShadowBlock, light));
+  expect_offset(light, "shadow.noise_shift", offsetof(ShadowBlock, noise_shift));
   for (std::size_t i : {std::size_t{0}, std::size_t{SHADOW_MAX_CASCADES - 1}}) {
     const std::string cascade = fmt::format("shadow.cascades[{}].", i);
     const std::size_t at = offsetof(ShadowBlock, cascades) + i * sizeof(CascadeBlock);

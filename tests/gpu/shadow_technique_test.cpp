@@ -12,7 +12,7 @@ namespace {
 constexpr const char* technique_text = R"(
 #include "shadow/light.glsl"
 
-layout(binding = 4) uniform sampler2DArray levels;
+layout(binding = 5) uniform sampler2DArray levels;
 
 float reach(Receiver receiver, Light light) { return 0.0; }
 

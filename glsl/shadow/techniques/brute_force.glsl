@@ -15,7 +15,12 @@ Region texels_within(Receiver receiver, float radius, Light light) {
   vec2 center = ((receiver.position.xy - map.xy) * map.z + 0.5) * shadow.light.w;
   vec2 reach = vec2(radius / map.w);
   ivec2 last = ivec2(shadow.light.w) - 1;
-  return Region(clamp(ivec2(floor(center - reach)), ivec2(0), last), clamp(ivec2(floor(center + reach)), ivec2(0), last));
+  return Region(clamp(ivec2(floor(center - reach)), ivec2(0), last),
+                clamp(ivec2(floor(center + reach)), ivec2(0), last));
+}
+
+bool in_shape(vec2 offset, float radius, Light light) {
+  return light.square ? max(abs(offset.x), abs(offset.y)) <= radius : length(offset) <= radius;
 }
 
 struct Texel {
@@ -30,7 +35,7 @@ Texel read_texel(Receiver receiver, ivec2 at, float radius, Light light) {
   Texel texel;
   texel.depth = depth_at(at, light);
   texel.offset = center - receiver.position.xy;
-  texel.within = light.square ? max(abs(texel.offset.x), abs(texel.offset.y)) <= radius : length(texel.offset) <= radius;
+  texel.within = in_shape(texel.offset, radius, light);
   return texel;
 }
 
@@ -51,8 +56,7 @@ Visibility visibility(Receiver receiver, Light light) {
       Texel texel = read_texel(receiver, ivec2(x, y), search, light);
       float distance_to = receiver.position.z - texel.depth;
       float cone = light.tan_half_angle * distance_to + footprint;
-      bool in_cone = light.square ? max(abs(texel.offset.x), abs(texel.offset.y)) <= cone : length(texel.offset) <= cone;
-      if (texel.within && in_cone && blocks(receiver, texel, bias)) {
+      if (texel.within && in_shape(texel.offset, cone, light) && blocks(receiver, texel, bias)) {
         sum += distance_to;
         count += 1.0;
       }
@@ -72,7 +76,7 @@ Visibility visibility(Receiver receiver, Light light) {
       lit += blocks(receiver, texel, bias) ? 0.0 : 1.0;
     }
   }
-  return Visibility(lit / all, radius, mean, false);
+  return Visibility(lit / max(all, 1.0), radius, mean, false);
 }
 
 #else

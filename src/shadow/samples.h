@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "../gl/texture.h"
+#include "sampling.h"
+#include "shared/shadow_block.h"
+#include "technique.h"
+
+namespace penumbra::shadow {
+
+// Whether a technique's sample points are turned from pixel to pixel (points of a disc), or shifted on the torus
+// (points of the unit square).
+bool turns_samples(const Technique& technique, const ParamSet& params);
+
+// Where the noise of a frame is shifted to on the torus: xy of the blocker step, zw of the filter step. Each seed and,
+// of steps that shift from frame to frame, each frame adds a point of a lattice (Roberts 2018, "The unreasonable
+// effectiveness of quasirandom sequences") that covers the torus evenly.
+glm::vec4 noise_shift(const ParamSet& params, int frame);
+
+// What sample points come from: sets by pattern, and tiles of noise. Keeps what it made.
+class Samples {
+ public:
+  // The points of both steps in a frame.
+  glsl::SampleBlock block(const Technique& technique, const ParamSet& params, int frame);
+  // RG16, 64 × 64; none: one texel, 0.
+  const gl::Texture& noise(const std::string& kind);
+
+ private:
+  using Key = std::tuple<std::string, int, bool, std::uint64_t>;  // pattern, count, on the disc, seed
+  const std::vector<glm::vec2>& points(const Key& key);
+
+  std::map<Key, std::vector<glm::vec2>> points_;
+  std::map<std::string, gl::Texture> noise_;
+};
+
+}  // namespace penumbra::shadow
