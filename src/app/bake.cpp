@@ -6,7 +6,6 @@
 #include "app/commands.h"
 #include "app/progress.h"
 #include "app/usage.h"
-#include "core/names.h"
 #include "io/image_write.h"
 #include "io/output_file.h"
 #include "shadow/noise.h"
@@ -74,6 +73,14 @@ void write_noise_ranks(const std::string& path, const shadow::NoiseTile& tile) {
   io::write_text(path, bytes);
 }
 
+int parse_noise_size(const std::string& text) {
+  const int size = parse_count("--size", text, shadow::least_noise_size, shadow::largest_noise_size);
+  if (size % shadow::least_noise_size != 0) {
+    fail_usage("--size can't be '{}': it takes a multiple of {}", text, shadow::least_noise_size);
+  }
+  return size;
+}
+
 int bake_noise(const Arguments& arguments) {
   CLI::App app("Make a tile of noise that decorrelates the sample points of neighbouring pixels",
                "penumbra bake noise");
@@ -91,12 +98,15 @@ int bake_noise(const Arguments& arguments) {
   app.add_option("--threads", threads, "0: one a core; the result is the same")->type_name("N")->capture_default_str();
   if (!parse(app, arguments)) return 0;
   const std::string format = format_of(common.output, {".exr", ".png", ".u16"});
+  one_of("noise", kind, shadow::noise_kinds());
+  const int side = parse_noise_size(size);
+  const int values = parse_count("--channels", channels, 1, shadow::most_noise_channels);
+  const std::uint64_t seed = parse_seed(common.seed);
+  const int most_threads = parse_count("--threads", threads, 0, 1024);
   io::check_writable(common.output);
-  Progress progress("percent", 100, !common.quiet);
-  const shadow::NoiseTile tile = shadow::make_noise(
-      kind, parse_count("--size", size, shadow::least_noise_size, shadow::largest_noise_size),
-      parse_count("--channels", channels, 1, shadow::most_noise_channels), parse_seed(common.seed),
-      parse_count("--threads", threads, 0, 1024), [&](double done) { progress.reach(static_cast<int>(100 * done)); });
+  Progress progress(/* part= */ "", 100, !common.quiet);
+  const shadow::NoiseTile tile = shadow::make_noise(kind, side, values, seed, most_threads,
+                                                    [&](double done) { progress.reach(static_cast<int>(100 * done)); });
   const auto write = format == ".png" ? write_noise_png : format == ".exr" ? write_noise_exr : write_noise_ranks;
   write(common.output, tile);
   if (common.quiet) return 0;
@@ -132,9 +142,7 @@ int bake_points(const Arguments& arguments) {
   app.add_flag("--disc", disc, "On the unit disc; else in the unit square")->disable_flag_override();
   if (!parse(app, arguments)) return 0;
   const std::string format = format_of(common.output, {".csv", ".json"});
-  if (std::ranges::find(shadow::pattern_names(), pattern) == shadow::pattern_names().end()) {
-    fail_unknown("pattern", pattern, shadow::pattern_names());
-  }
+  one_of("pattern", pattern, shadow::pattern_names());
   const int wanted = parse_count("--count", count, 1, 1024);
   const std::uint64_t seed = parse_seed(common.seed);
   const std::vector<glm::vec2> square = shadow::square_points(pattern, wanted, seed);
@@ -157,11 +165,7 @@ int run_bake(const Arguments& arguments) {
     fmt::print("usage: penumbra bake noise|points [OPTIONS] -o FILE; each has a --help of its own\n");
     return 0;
   }
-  try {
-    fail_unknown("thing to bake", arguments.front(), kinds);
-  } catch (const Error& error) {
-    throw UsageError(error.what());
-  }
+  fail_unknown_usage("thing to bake", arguments.front(), kinds);
 }
 
 }  // namespace penumbra::app

@@ -76,11 +76,7 @@ const Listing& find_listing(const std::string& name) {
     if (name == listing.name) return listing;
     names.emplace_back(listing.name);
   }
-  try {
-    fail_unknown("list", name, names);
-  } catch (const Error& error) {
-    throw UsageError(error.what());
-  }
+  fail_unknown_usage("list", name, names);
 }
 
 // "0.53 deg, 0 to 20", what a parameter's row shows between its name and its sentence.

@@ -7,7 +7,6 @@
 #include "app/commands.h"
 #include "app/text.h"
 #include "app/usage.h"
-#include "core/names.h"
 
 namespace penumbra::app {
 
@@ -41,7 +40,7 @@ const Command& find_command(const std::string& name) {
     names.emplace_back(command.name);
   }
   if (name.starts_with('-')) fail_usage("'{}' comes before a command; see penumbra --help", name);
-  fail_unknown("command", name, names);
+  fail_unknown_usage("command", name, names);
 }
 
 int dispatch(const Arguments& arguments) {
@@ -55,13 +54,7 @@ int dispatch(const Arguments& arguments) {
     fmt::print("{}", overview());
     return 0;
   }
-  const Command* command = nullptr;
-  try {
-    command = &find_command(first);
-  } catch (const Error& error) {
-    throw UsageError(error.what());
-  }
-  return command->run(Arguments(arguments.begin() + 1, arguments.end()));
+  return find_command(first).run(Arguments(arguments.begin() + 1, arguments.end()));
 }
 
 // One line whatever a file's names hold, so that scripts can read it.

@@ -5,10 +5,11 @@
 
 namespace penumbra::app {
 
-// "frame 12 of 100, 1:14 left" on one line of the terminal; nothing when stderr is no terminal.
+// "frame 12 of 100, 1:14 left" on one line of the terminal; nothing when stderr is no terminal. It never throws once it
+// is made.
 class Progress {
  public:
-  // `part` is what there are `count` of.
+  // `part` is what there are `count` of. Parts without a name are told as a share: "12 %, 0:08 left".
   Progress(std::string part, int count, bool wanted);
   ~Progress();
   Progress(const Progress&) = delete;

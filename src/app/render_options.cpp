@@ -25,17 +25,6 @@ void words(CLI::App& app, const char* name, const char* type, const char* help, 
   app.add_option(name, list, help)->type_name(type)->allow_extra_args(false);
 }
 
-std::string one_of(std::string_view option, const std::string& text, const std::vector<std::string>& choices) {
-  for (const std::string& choice : choices) {
-    if (text == choice) return text;
-  }
-  try {
-    fail_unknown(option, text, choices);
-  } catch (const Error& error) {
-    throw UsageError(error.what());
-  }
-}
-
 std::string trimmed(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(' '), end = text.find_last_not_of(' ');
   return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
@@ -53,7 +42,7 @@ void add_aovs(std::vector<std::string>& list, const std::string& text) {
 }
 
 render::GroundChoice ground_choice(const std::string& text) {
-  const std::string word = one_of("ground", text, {"auto", "on", "off"});
+  const std::string word = one_of("ground", text, std::vector<std::string>{"auto", "on", "off"});
   if (word == "auto") return render::GroundChoice::automatic;
   return word == "on" ? render::GroundChoice::on : render::GroundChoice::off;
 }
@@ -124,7 +113,7 @@ void add_output_options(CLI::App& app, RenderOptions& o) {
 
 void add_device_options(CLI::App& app, RenderOptions& o) {
   value(app, "--backend", "NAME", "auto, egl, osmesa or window (auto)", [&o](const auto& text) {
-    o.backend = one_of("backend", text, {"auto", "egl", "osmesa", "window"});
+    o.backend = one_of("backend", text, std::vector<std::string>{"auto", "egl", "osmesa", "window"});
   });
   value(app, "--egl-device", "N", "EGL device by index; see penumbra doctor",
         [&o](const auto& text) { o.egl_device = parse_count("--egl-device", text, 0, 255); });

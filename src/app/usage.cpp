@@ -1,10 +1,12 @@
 #include "app/usage.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
-#include <string>
+
+#include "core/names.h"
 
 namespace penumbra::app {
 
@@ -53,6 +55,19 @@ int parse_count(std::string_view option, std::string_view text, int min, int max
   int value = 0;
   if (!parse_in(text, min, max, value)) fail_value(option, text, fmt::format("a whole number from {} to {}", min, max));
   return value;
+}
+
+void fail_unknown_usage(std::string_view kind, std::string_view name, std::span<const std::string> candidates) {
+  try {
+    fail_unknown(kind, name, candidates);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
+std::string one_of(std::string_view kind, const std::string& text, std::span<const std::string> choices) {
+  if (std::ranges::find(choices, text) == choices.end()) fail_unknown_usage(kind, text, choices);
+  return text;
 }
 
 Size parse_size(std::string_view option, std::string_view text) {

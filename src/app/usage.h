@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "core/error.h"
@@ -17,6 +19,10 @@ template <class... Args>
 [[noreturn]] void fail_usage(fmt::format_string<Args...> format, Args&&... args) {
   throw UsageError(fmt::format(format, std::forward<Args>(args)...));
 }
+
+// fail_unknown() (core/names.h) as a UsageError.
+[[noreturn]] void fail_unknown_usage(std::string_view kind, std::string_view name,
+                                     std::span<const std::string> candidates);
 
 struct Size {
   int width = 1280, height = 720;
@@ -48,5 +54,8 @@ Size parse_size(std::string_view option, std::string_view text);            // "
 glm::vec3 parse_point(std::string_view option, std::string_view text);      // "x,y,z", metres
 FrameRange parse_frames(std::string_view option, std::string_view text);    // "A:B"
 Direction parse_direction(std::string_view option, std::string_view text);  // "azimuth,elevation", degrees
+
+// The text, which is one of the choices, else fail_unknown_usage().
+std::string one_of(std::string_view kind, const std::string& text, std::span<const std::string> choices);
 
 }  // namespace penumbra::app

@@ -33,7 +33,7 @@ constexpr int most_noise_channels = 3;
 // The ways to make noise: white, blue, void_and_cluster.
 const std::vector<std::string>& noise_kinds();
 
-// Told how much is done, 0 to 1.
+// Told how much is done, 0 to 1. It must not throw: other threads wait for the one that calls it.
 using NoiseProgress = std::function<void(double)>;
 
 // Noise of that kind: the same for the same arguments, whatever the machine and the number of threads (0: one a core).

@@ -1,10 +1,14 @@
 """bake: noise tiles and sample points are the same for the same command, and what it refuses leaves no file."""
 
 import json
+import os
+import pty
+import subprocess
 
-from support import ROOT, TestCase, main, read_png
+from support import PROGRAM, ROOT, TestCase, main, read_png
 
 EMBEDDED = ROOT / "src" / "shadow" / "noise"
+NOWHERE = "/dev/null/tile.exr"  # what is wrong with a command line is told before what is wrong with files
 
 
 class Noise(TestCase):
@@ -33,12 +37,24 @@ class Noise(TestCase):
         levels = sorted(pixel[0] for row in read_png(self.folder / "tile.png") for pixel in row)
         self.assertEqual(levels, list(range(256)))
 
+    def test_progress_is_a_share_and_the_time_left_on_a_terminal_alone(self):
+        command = ("bake", "noise", "-o", self.folder / "tile.png", "--size", "16")
+        self.assertEqual(self.succeed(*command).stderr, "")
+        terminal, end = pty.openpty()
+        subprocess.run([PROGRAM, *map(str, command)], stdout=subprocess.DEVNULL, stderr=end, check=True, timeout=300)
+        os.close(end)
+        shown = os.read(terminal, 1 << 16).decode()
+        os.close(terminal)
+        self.assertRegex(shown, r"^\r1 %, \d+:\d\d left\x1b\[K\r2 %, ")
+        self.assertTrue(shown.endswith("\r100 %, 0:00 left\x1b[K\r\x1b[K"), shown[-60:])
+
     def test_refuses_what_it_cannot_make(self):
         path = self.folder / "tile.exr"
-        for command in (("--size", "24"), ("--kind", "pink")):
-            self.assertIn(command[1], self.refuse("bake", "noise", "-o", path, *command))
-        for command in (("--size", "512"), ("--channels", "4"), ("--seed", "x")):
-            self.assertIn(command[0], self.refuse("bake", "noise", "-o", path, *command, code=2))
+        for option, value in (("--size", "24"), ("--size", "512"), ("--kind", "pink"), ("--channels", "4"),
+                              ("--seed", "x"), ("--threads", "-1")):
+            error = self.refuse("bake", "noise", "-o", path, option, value, code=2)
+            self.assertIn(value, error)
+            self.assertEqual(self.refuse("bake", "noise", "-o", NOWHERE, option, value, code=2), error)
         self.assertIn(".txt", self.refuse("bake", "noise", "-o", self.folder / "tile.txt", code=2))
         self.assertIn("noise or points", self.refuse("bake", code=2))
         self.assertEqual(list(self.folder.iterdir()), [])
@@ -58,7 +74,7 @@ class Points(TestCase):
 
     def test_refuses_what_it_cannot_make(self):
         path = self.folder / "points.csv"
-        self.assertIn("poisson", self.refuse("bake", "points", "-o", path, "--pattern", "poison"))
+        self.assertIn("poisson", self.refuse("bake", "points", "-o", path, "--pattern", "poison", code=2))
         self.assertIn("--count", self.refuse("bake", "points", "-o", path, "--count", "0", code=2))
         self.assertEqual(list(self.folder.iterdir()), [])
 
