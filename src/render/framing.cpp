@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "render/setup.h"
 
@@ -75,6 +76,44 @@ struct Cover {
   }
 };
 
+// The part of a convex polygon, in clip space, on the inner side of a plane.
+std::vector<glm::vec4> clipped(const std::vector<glm::vec4>& polygon, const glm::vec4& plane) {
+  std::vector<glm::vec4> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::vec4 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const float from = glm::dot(plane, a), to = glm::dot(plane, b);
+    if (from >= 0) kept.push_back(a);
+    if ((from < 0) != (to < 0)) kept.push_back(glm::mix(a, b, from / (from - to)));
+  }
+  return kept;
+}
+
+// Adds what of the box's faces is in the picture.
+void add_faces(Cover& cover, const Corners& corners, const glm::mat4& to_clip) {
+  static constexpr std::array<glm::vec4, 6> inner{
+      {{1, 0, 0, 1}, {-1, 0, 0, 1}, {0, 1, 0, 1}, {0, -1, 0, 1}, {0, 0, -1, 1}, {0, 0, 1, 0}}};
+  static constexpr std::array<std::array<std::size_t, 4>, 6> faces{
+      {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
+  for (const auto& face : faces) {
+    std::vector<glm::vec4> polygon;
+    for (const std::size_t corner : face) polygon.push_back(to_clip * glm::vec4(corners[corner], 1));
+    for (const glm::vec4& plane : inner) polygon = clipped(polygon, plane);
+    for (const glm::vec4& point : polygon) cover.add(point);
+  }
+}
+
+bool holds(const scene::Bounds& box, const glm::vec3& point) {
+  return glm::all(glm::lessThanEqual(box.min, point)) && glm::all(glm::lessThanEqual(point, box.max));
+}
+
+// Adds the corners of what an orthographic camera sees that are within the box: its faces may all be out of sight.
+void add_inside(Cover& cover, const glm::mat4& to_clip, const scene::Bounds& bounds) {
+  const glm::mat4 to_world = glm::inverse(to_clip);
+  for (const glm::vec3& corner : corners_of({-1, -1, 0}, {1, 1, 1})) {
+    if (holds(bounds, glm::vec3(to_world * glm::vec4(corner, 1)))) cover.add(glm::vec4(corner, 1));
+  }
+}
+
 }  // namespace
 
 Camera framing_camera(const scene::Bounds& bounds, float aspect) {
@@ -93,25 +132,11 @@ Camera framing_camera(const scene::Bounds& bounds, float aspect) {
 }
 
 bool sees(const Camera& camera, float aspect, const scene::Bounds& bounds) {
-  const glm::vec3 eye = position_of(camera);
-  if (!camera.orthographic && glm::all(glm::lessThanEqual(bounds.min, eye)) &&
-      glm::all(glm::lessThanEqual(eye, bounds.max)))
-    return true;
-  const Corners corners = corners_of(bounds.min, bounds.max);
-  const glm::mat4 projection = projection_of(camera, aspect);
+  if (!camera.orthographic && holds(bounds, position_of(camera))) return true;
+  const glm::mat4 to_clip = projection_of(camera, aspect) * camera.view;
   Cover cover;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    for (const std::size_t side : {1u, 2u, 4u}) {
-      if ((i & side) != 0) continue;
-      // An edge of the box, without what is behind the near plane.
-      glm::vec4 a = camera.view * glm::vec4(corners[i], 1), b = camera.view * glm::vec4(corners[i | side], 1);
-      if (-a.z < camera.near) std::swap(a, b);
-      if (-a.z < camera.near) continue;
-      if (-b.z < camera.near) b = glm::mix(a, b, (a.z + camera.near) / (a.z - b.z));
-      cover.add(projection * a);
-      cover.add(projection * b);
-    }
-  }
+  add_faces(cover, corners_of(bounds.min, bounds.max), to_clip);
+  if (camera.orthographic) add_inside(cover, to_clip, bounds);
   const glm::vec2 size = (cover.high - cover.low) * 0.5f;
   return std::min(size.x, size.y) > 0 && std::max(size.x, size.y) >= least_seen;
 }

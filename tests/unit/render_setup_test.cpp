@@ -138,6 +138,8 @@ TEST(Setup, TakesTheFirstOfTheFilesCamerasThatSeesTheScene) {
   const scene::Camera lens{.name = "x", .fov_y = 0.5f, .near = 0.1f};
   const scene::Camera flat{
       .name = "x", .orthographic = true, .half_width = 2, .half_height = 2, .near = 0.1f, .far = 9};
+  const scene::Camera peephole{
+      .name = "x", .orthographic = true, .half_width = 0.2f, .half_height = 0.2f, .near = 0.1f, .far = 0.9f};
   struct Case {
     const char* what;
     glm::vec3 eye, back;
@@ -155,6 +157,8 @@ TEST(Setup, TakesTheFirstOfTheFilesCamerasThatSeesTheScene) {
            Case{"orthographic, before it", {0, 1, 6}, {0, 0, 1}, flat, true},
            Case{"orthographic, beside it", {5, 1, 6}, {0, 0, 1}, flat, false},
            Case{"orthographic, with its back to it", {0, 1, 6}, {0, 0, -1}, flat, false},
+           Case{"orthographic, beyond its far plane", {0, 1, 11}, {0, 0, 1}, flat, false},
+           Case{"orthographic, all of what it sees within it", {0, 1, 0.4f}, {0, 0, 1}, peephole, true},
        }) {
     scene::Scene scene = house;
     add_camera(scene, test.eye, test.back, test.camera);
@@ -166,6 +170,22 @@ TEST(Setup, TakesTheFirstOfTheFilesCamerasThatSeesTheScene) {
   add_camera(scene, {0, 1, 6}, {0, 0, -1}, lens);
   add_camera(scene, {0, 1, 7}, {0, 0, 1}, lens);
   EXPECT_NEAR(render::position_of(setup_of(scene).camera).z, 7, 1e-5f);
+}
+
+// A long wall that runs diagonally past the picture's corner: its ends are out of sight on sides that together would
+// span the picture.
+TEST(Setup, ACameraDoesNotSeeWhatPassesItsPictureDiagonally) {
+  const scene::Camera flat{
+      .name = "x", .orthographic = true, .half_width = 2, .half_height = 2, .near = 0.1f, .far = 90};
+  const scene::Scene wall = scene_of({box({-20, -0.1f, -0.1f}, {20, 0.1f, 0.1f})});
+  for (const bool seen : {true, false}) {
+    scene::Scene scene = wall;
+    const glm::vec3 back(0, 0, 1);
+    add_camera(scene, {}, back, flat);
+    const glm::mat4 turned = glm::rotate(glm::mat4(1), 0.7853982f, back);
+    scene.nodes.back().matrix = glm::translate(turned, seen ? glm::vec3(0, 0, 40) : glm::vec3(2.5f, 2.5f, 40));
+    EXPECT_EQ(setup_of(scene, {.aspect = 1}).camera_node.has_value(), seen);
+  }
 }
 
 TEST(Setup, CameraAndSunFollowTheirNodes) {
