@@ -21,12 +21,27 @@ GLSL_FUNCTION vec2 plane_gradient(vec3 normal, float max_slope) {
   return slope > max_slope ? gradient * (max_slope / slope) : gradient;
 }
 
-// Depth before which a texel blocks: the nearest of the receiver, its plane and the faces beside it (slopes towards +x,
-// +y, -x, -y, not negative) at the texel's centre, less the bias.
-GLSL_FUNCTION float blocking_depth(float receiver_depth, vec2 gradient, vec4 corner, vec2 offset, float bias) {
-  float plane = dot(gradient, offset);
-  float beside = max(corner.x * offset.x, -corner.z * offset.x) + max(corner.y * offset.y, -corner.w * offset.y);
+// The faces beside a receiver.
+struct Corner {
+  vec4 slopes;     // how much nearer to the light they get with each metre towards +x, +y, -x, -y; not negative
+  float steepest;  // what is nearer than this, with each metre of distance, is never theirs
+};
+
+// Depths before which four texels block: the nearest of the receiver, its plane and the faces beside it at the texels'
+// centres, less the bias.
+GLSL_FUNCTION vec4 blocking_depths(float receiver_depth, vec2 gradient, Corner corner, vec4 x, vec4 y, float bias) {
+  vec4 plane = gradient.x * x + gradient.y * y;
+  vec4 faces = max(corner.slopes.x * x, -corner.slopes.z * x) + max(corner.slopes.y * y, -corner.slopes.w * y);
+  vec4 beside = min(faces, corner.steepest * max(abs(x), abs(y)));
   return receiver_depth + min(plane, -beside) - bias;
+}
+
+// Whether a texel at that offset can hide a part of the light: it lies within the cone that the light spans above the
+// receiver, or within `footprint` of it.
+GLSL_FUNCTION vec4 within_cone(float tan_half_angle, bool square, vec4 x, vec4 y, vec4 height, float footprint) {
+  vec4 reach = tan_half_angle * height + footprint;
+  vec4 beyond = square ? max(abs(x), abs(y)) - reach : x * x + y * y - reach * reach;
+  return step(beyond, vec4(0.0f));
 }
 
 // Level of a pyramid (level 0: `base` metres a texel) at which a disc of that radius touches at most 2 × 2 texels.

@@ -6,20 +6,21 @@ struct Blockers {
   float weight;     // share of the texels read that block
 };
 
+// Texels about a receiver that may cover it though their centres lie outside of the light's cone.
+float footprint_reach(Light light) { return 1.5 * texel_size(light); }
+
+// Above this slope a surface beside the receiver lies within the light's cone.
+float cone_slope(Light light) { return 1.0 / max(light.tan_half_angle, 1.0 / max_plane_slope); }
+
 // Adds the four texels about a point. A texel blocks when it lies before the receiver and its plane, and within the
 // cone that the light spans above the receiver: what is outside it can't hide the light, however wide the search.
 void add_blockers(inout Blockers blockers, Receiver receiver, vec2 offset, float bias, Light light) {
-  float texel = texel_size(light);
   Footprint footprint = fetch_footprint(receiver.position, offset, light);
-  vec4 blocks = blocking_texels(receiver, footprint, bias, light);
+  Offsets offsets = texel_offsets(footprint, texel_size(light));
   vec4 distance_to = receiver.position.z - footprint.depths;
-  vec2 high = footprint.corner + texel;
-  vec4 dx = vec4(footprint.corner.x, high.x, high.x, footprint.corner.x);
-  vec4 dy = vec4(high.y, high.y, footprint.corner.y, footprint.corner.y);
-  vec4 reach = light.tan_half_angle * distance_to + 1.5 * texel;
-  vec4 inside = light.square ? vec4(lessThanEqual(max(abs(dx), abs(dy)), reach))
-                             : vec4(lessThanEqual(dx * dx + dy * dy, reach * reach));
-  blocks *= inside;
+  vec4 inside = within_cone(light.tan_half_angle, light.square, offsets.x, offsets.y, distance_to,
+                            footprint_reach(light));
+  vec4 blocks = inside * blocking_texels(receiver, footprint, bias, light);
   blockers.weight += bilinear(blocks, footprint.weight);
   blockers.depth_sum += bilinear(blocks * distance_to, footprint.weight);
 }
@@ -49,7 +50,7 @@ Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, int fil
   float bias = depth_bias(receiver, light);
   Search search = narrow_search(receiver, light, light.cascade, light.reach);
   if (early_exits && search.nearest >= receiver.position.z - bias) return fully_lit();
-  receiver = receiver_in_corner(receiver, bias, light);
+  receiver = receiver_in_corner(receiver, bias, cone_slope(light), light);
   Blockers blockers = find_blockers(receiver, search.radius, blocker_taps, bias, light);
   if (blockers.weight == 0.0) return fully_lit();
   float mean = mean_distance(blockers);

@@ -17,7 +17,7 @@ struct Receiver {
   vec3 position;
   vec3 normal;    // geometric
   vec2 gradient;  // of its plane: change of depth per metre across the light
-  vec4 corner;    // slopes of the faces beside it, nearer the light with each metre towards +x, +y, -x, -y
+  Corner corner;  // the faces beside it
   vec2 pixel;     // seeds the noise
 };
 
@@ -99,19 +99,23 @@ float depth_at(ivec2 texel, Light light) {
 }
 
 // How much nearer to the light the surface beside the receiver gets with each metre towards one side. 0 unless the next
-// three texels rise evenly and their surface, continued to the receiver, passes behind it.
+// three texels rise, not less and less, as a face or the foot of one does, and their surface, continued to the receiver,
+// passes behind it.
 float side_slope(Receiver receiver, ivec2 at, ivec2 side, float texels, float bias, Light light) {
   float first = depth_at(at + side, light);
   float second = depth_at(at + 2 * side, light);
-  float rise = min(first - second, second - depth_at(at + 3 * side, light));
+  float near = first - second;
+  float far = second - depth_at(at + 3 * side, light);
+  float rise = min(near, far);
+  bool goes_on = rise > 0.0 && near <= 1.25 * far + bias;
   bool behind = first + rise * texels >= receiver.position.z - bias;
-  return rise > 0.0 && behind ? rise / texel_size(light) : 0.0;
+  return goes_on && behind ? rise / texel_size(light) : 0.0;
 }
 
 // Where lit faces meet in a corner each lies before the other's plane, and yet neither hides the other: a receiver next
-// to another face must not be shadowed by what lies on that face's plane either. What is within the light's cone hides
-// a part of it all the same.
-Receiver receiver_in_corner(Receiver receiver, float bias, Light light) {
+// to another face must not be shadowed by what lies on that face's plane either. What rises by more than `steepest`
+// metres with each metre blocks all the same.
+Receiver receiver_in_corner(Receiver receiver, float bias, float steepest, Light light) {
   CascadeBlock cascade = shadow.cascades[light.cascade];
   vec2 place = ((receiver.position.xy - cascade.map.xy) * cascade.map.z + 0.5) * shadow.light.w;
   ivec2 at = ivec2(floor(place));
@@ -123,19 +127,26 @@ Receiver receiver_in_corner(Receiver receiver, float bias, Light light) {
                      side_slope(receiver, at, ivec2(-1, 0), low.x, bias, light),
                      side_slope(receiver, at, ivec2(0, -1), low.y, bias, light));
   bool meets = any(greaterThan(slopes, own * 1.01 + bias / texel_size(light)));
-  receiver.corner = meets ? min(max(slopes, own), 1.0 / max(light.tan_half_angle, 1.0 / max_plane_slope)) : vec4(0.0);
+  receiver.corner = Corner(meets ? max(slopes, own) : vec4(0.0), steepest);
   return receiver;
+}
+
+// Offsets of a footprint's texels from the receiver, metres.
+struct Offsets {
+  vec4 x, y;
+};
+
+Offsets texel_offsets(Footprint footprint, float texel) {
+  vec2 low = footprint.corner;
+  vec2 high = footprint.corner + texel;
+  return Offsets(vec4(low.x, high.x, high.x, low.x), vec4(high.y, high.y, low.y, low.y));
 }
 
 // 1 for each texel of a footprint that blocks, else 0.
 vec4 blocking_texels(Receiver receiver, Footprint footprint, float bias, Light light) {
-  vec2 low = footprint.corner;
-  vec2 high = footprint.corner + texel_size(light);
-  vec4 x = vec4(low.x, high.x, high.x, low.x);
-  vec4 y = vec4(high.y, high.y, low.y, low.y);
-  vec4 plane = receiver.gradient.x * x + receiver.gradient.y * y;
-  vec4 corner = max(receiver.corner.x * x, -receiver.corner.z * x) + max(receiver.corner.y * y, -receiver.corner.w * y);
-  return vec4(lessThan(footprint.depths, receiver.position.z + min(plane, -corner) - bias));
+  Offsets offsets = texel_offsets(footprint, texel_size(light));
+  return vec4(lessThan(footprint.depths, blocking_depths(receiver.position.z, receiver.gradient, receiver.corner,
+                                                         offsets.x, offsets.y, bias)));
 }
 
 float bilinear(vec4 texels, vec2 weight) {

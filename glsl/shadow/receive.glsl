@@ -2,19 +2,19 @@
 // technique, which defines
 //   float reach(Receiver, Light)            radius in metres of the disc that visibility() will read
 //   Visibility visibility(Receiver, Light)  with light.cascade chosen
-struct Shaded {
+struct Shadowed {
   Visibility visibility;
   int cascade;
 };
 
-Shaded shade(Receiver receiver) {
+Shadowed shadow_of(Receiver receiver) {
   Light light = frame_light();
-  if (receiver.normal.z >= 0.0) return Shaded(Visibility(0.0, 0.0, 0.0, false), 0);
+  if (receiver.normal.z >= 0.0) return Shadowed(Visibility(0.0, 0.0, 0.0, false), 0);
   light.reach = reach(receiver, light);
   int cascade = finest_cascade(light, receiver.position, light.reach);
   float edge = cascade_edge(cascade, receiver.position, light.reach);
   if (cascade == light.cascades - 1 && cascade_edge(cascade, receiver.position, 0.0) > 1.0) {
-    return Shaded(fully_lit(), cascade);
+    return Shadowed(fully_lit(), cascade);
   }
   bool fades = cascades_seam != cascades_seam_none && cascade < light.cascades - 1;
   float fade = fades ? clamp((edge - 1.0) / cascades_blend + 1.0, 0.0, 1.0) : 0.0;
@@ -32,10 +32,10 @@ Shaded shade(Receiver receiver) {
     mixed.blocker_distance += weight * one.blocker_distance;
     mixed.under_texel = mixed.under_texel || one.under_texel;
   }
-  return Shaded(mixed, cascade);
+  return Shadowed(mixed, cascade);
 }
 
-vec4 mask_texel(Shaded shaded) {
-  return vec4(shaded.visibility.visibility, shaded.visibility.penumbra_radius, shaded.visibility.blocker_distance,
-              float(shaded.cascade) + (shaded.visibility.under_texel ? 0.5 : 0.0));
+vec4 mask_texel(Shadowed shadowed) {
+  return vec4(shadowed.visibility.visibility, shadowed.visibility.penumbra_radius, shadowed.visibility.blocker_distance,
+              float(shadowed.cascade) + (shadowed.visibility.under_texel ? 0.5 : 0.0));
 }

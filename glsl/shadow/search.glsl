@@ -27,9 +27,8 @@ struct Search {
 
 // One step: all casters lie within `reach` metres; those that do bound the depth, and the depth bounds the radius.
 Search narrow_search(Receiver receiver, Light light, int cascade, float reach) {
-  float corner = light.square ? 1.41421356 : 1.0;
   float footprint = 1.5 * shadow.cascades[cascade].map.w;
-  float nearest = nearest_depth(receiver.position, reach * corner + footprint, cascade);
+  float nearest = nearest_depth(receiver.position, reach + footprint, cascade);
   float radius = penumbra_radius(light.tan_half_angle, receiver.position.z, nearest);
   return Search(min(reach, radius), nearest);
 }

@@ -108,14 +108,28 @@ TEST(Kernel, PlaneGradientIsLimitedWhereTheLightGrazes) {
   EXPECT_NEAR(length(gradient), 50, 1e-3);
 }
 
-TEST(Kernel, BlockingDepthIsTheNearerOfReceiverAndPlane) {
+TEST(Kernel, TexelsBlockBeforeTheReceiverItsPlaneAndTheFacesBesideIt) {
   const vec2 gradient(2, 0);
-  EXPECT_FLOAT_EQ(blocking_depth(10, gradient, {0, 0, 0, 0}, {-1, 0}, 0.1f), 7.9f) << "the plane rises to the light";
-  EXPECT_FLOAT_EQ(blocking_depth(10, gradient, {0, 0, 0, 0}, {1, 0}, 0.1f), 9.9f) << "the plane falls away";
-  const vec4 corner{3, 0, 0, 5};
-  EXPECT_FLOAT_EQ(blocking_depth(10, gradient, corner, {1, 0}, 0.1f), 6.9f) << "a face rises on that side";
-  EXPECT_FLOAT_EQ(blocking_depth(10, gradient, corner, {0, -1}, 0.1f), 4.9f) << "and on that";
-  EXPECT_FLOAT_EQ(blocking_depth(10, gradient, corner, {-1, 1}, 0.1f), 7.9f) << "elsewhere the plane decides";
+  const vec4 x(-1, 1, 0, -1);
+  const vec4 y(0, 0, -1, 1);
+  const vec4 alone = blocking_depths(10, gradient, Corner{vec4(0), 100}, x, y, 0.1f);
+  EXPECT_FLOAT_EQ(alone.x, 7.9f) << "the plane rises to the light";
+  EXPECT_FLOAT_EQ(alone.y, 9.9f) << "the plane falls away";
+  const vec4 beside = blocking_depths(10, gradient, Corner{vec4(3, 0, 0, 5), 100}, x, y, 0.1f);
+  EXPECT_FLOAT_EQ(beside.y, 6.9f) << "a face rises on that side";
+  EXPECT_FLOAT_EQ(beside.z, 4.9f) << "and on that";
+  EXPECT_FLOAT_EQ(beside.w, 7.9f) << "elsewhere the plane decides";
+  const vec4 capped = blocking_depths(10, gradient, Corner{vec4(3, 0, 0, 5), 4}, x, y, 0.1f);
+  EXPECT_FLOAT_EQ(capped.y, 6.9f);
+  EXPECT_FLOAT_EQ(capped.z, 5.9f) << "no face is steeper than that";
+}
+
+TEST(Kernel, TheConeHoldsWhatCanHideTheLight) {
+  const vec4 x(0.9f, 1.2f, 0.9f, 1.6f);
+  const vec4 y(0, 0, 0.9f, 0);
+  EXPECT_EQ(within_cone(0.1f, false, x, y, vec4(10), 0), vec4(1, 0, 0, 0)) << "a disc of radius 1";
+  EXPECT_EQ(within_cone(0.1f, true, x, y, vec4(10), 0), vec4(1, 0, 1, 0)) << "a square";
+  EXPECT_EQ(within_cone(0.1f, false, x, y, vec4(10), 0.5f), vec4(1, 1, 1, 0)) << "and the footprint";
 }
 
 TEST(Kernel, CoveringLevelHoldsTheDiscInTwoTexels) {

@@ -4,5 +4,5 @@
 
 vec4 shade_pixel(ivec2 pixel) {
   if (is_sky(pixel)) return vec4(1.0, 0.0, 0.0, 0.0);
-  return mask_texel(shade(receiver_at(pixel)));
+  return mask_texel(shadow_of(receiver_at(pixel)));
 }

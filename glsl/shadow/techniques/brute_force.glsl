@@ -39,24 +39,28 @@ Texel read_texel(Receiver receiver, ivec2 at, float radius, Light light) {
   return texel;
 }
 
+bool in_cone(vec2 offset, float height, Light light) {
+  return within_cone(light.tan_half_angle, light.square, vec4(offset.x), vec4(offset.y), vec4(height),
+                     footprint_reach(light)).x != 0.0;
+}
+
 bool blocks(Receiver receiver, Texel texel, float bias) {
-  return texel.depth < blocking_depth(receiver.position.z, receiver.gradient, receiver.corner, texel.offset, bias);
+  return texel.depth < blocking_depths(receiver.position.z, receiver.gradient, receiver.corner, vec4(texel.offset.x),
+                                       vec4(texel.offset.y), bias).x;
 }
 
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
-  receiver = receiver_in_corner(receiver, bias, light);
+  receiver = receiver_in_corner(receiver, bias, cone_slope(light), light);
   // The map's own footprint belongs to both discs, as in add_blockers().
-  float footprint = 1.5 * texel_size(light);
-  float search = narrow_search(receiver, light, light.cascade, light.reach).radius + footprint;
+  float search = narrow_search(receiver, light, light.cascade, light.reach).radius + footprint_reach(light);
   Region region = texels_within(receiver, search, light);
   float sum = 0.0, count = 0.0;
   for (int y = region.low.y; y <= region.high.y; ++y) {
     for (int x = region.low.x; x <= region.high.x; ++x) {
       Texel texel = read_texel(receiver, ivec2(x, y), search, light);
       float distance_to = receiver.position.z - texel.depth;
-      float cone = light.tan_half_angle * distance_to + footprint;
-      if (texel.within && in_shape(texel.offset, cone, light) && blocks(receiver, texel, bias)) {
+      if (texel.within && in_cone(texel.offset, distance_to, light) && blocks(receiver, texel, bias)) {
         sum += distance_to;
         count += 1.0;
       }

@@ -5,6 +5,9 @@ float reach(Receiver receiver, Light light) { return 0.0; }
 
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
-  receiver = receiver_in_corner(receiver, bias, light);
-  return Visibility(lit_share(receiver, vec2(0.0), bias, light), 0.0, 0.0, true);
+  float lit = lit_share(receiver, vec2(0.0), bias, light);
+  if (lit < 1.0) {
+    lit = lit_share(receiver_in_corner(receiver, bias, max_plane_slope, light), vec2(0.0), bias, light);
+  }
+  return Visibility(lit, 0.0, 0.0, true);
 }

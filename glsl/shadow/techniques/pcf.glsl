@@ -5,7 +5,7 @@ float reach(Receiver receiver, Light light) { return pcf_radius; }
 
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
-  receiver = receiver_in_corner(receiver, bias, light);
+  receiver = receiver_in_corner(receiver, bias, max_plane_slope, light);
   Scramble scramble = scramble_of(receiver, filter_step);
   float lit = 0.0;
   for (int i = 0; i < pcf_filter_taps; ++i) {
