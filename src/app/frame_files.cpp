@@ -34,8 +34,7 @@ std::vector<float> read_layer(const render::Renderer& renderer, const RenderOpti
 
 std::string text_of(const glm::vec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
 
-io::Metadata metadata_of(const RenderOptions& options, const Stage& stage, const ParamSet& params, int frame) {
-  const render::Setup setup = setup_at(stage, time_of(options, frame));
+io::Metadata metadata_of(const RenderOptions& options, const render::Setup& setup, const ParamSet& params, int frame) {
   const render::Camera& camera = setup.camera;
   const glm::vec3 forward = -glm::vec3(camera.view[0][2], camera.view[1][2], camera.view[2][2]);
   io::Metadata metadata{{"Software", version()},
@@ -85,10 +84,11 @@ void write_layers(const render::Renderer& renderer, const RenderOptions& options
 
 }  // namespace
 
-void write_frame(const render::Renderer& renderer, const RenderOptions& options, const Stage& stage,
-                 const ParamSet& params, const OutputNames& names, int frame) {
+void write_frame(const Studio& studio, const RenderOptions& options, const ParamSet& params, const OutputNames& names,
+                 int frame) {
+  const render::Renderer& renderer = studio.renderer();
   if (names.is_exr()) {
-    write_layers(renderer, options, metadata_of(options, stage, params, frame), names, frame);
+    write_layers(renderer, options, metadata_of(options, studio.setup(), params, frame), names, frame);
   } else {
     write_pngs(renderer, options, names, frame);
   }

@@ -26,16 +26,16 @@ using Clock = std::chrono::steady_clock;
 // shaders and never counts.
 std::size_t measure(const RenderOptions& options, Studio& studio, const ParamSet& params, const FrameRange& range) {
   if (range.count() > 1) return static_cast<std::size_t>(range.count() - (options.warmup == 0 ? 1 : 0));
-  for (int i = 0; i < options.stats_frames; ++i) studio.draw(range.last, params);
+  for (int i = 0; i < options.stats_frames; ++i) studio.redraw(params);
   return static_cast<std::size_t>(options.stats_frames);
 }
 
-void draw_all(const RenderOptions& options, const Stage& stage, Studio& studio, const ParamSet& params,
-              const OutputNames& names, const FrameRange& range) {
+void draw_all(const RenderOptions& options, Studio& studio, const ParamSet& params, const OutputNames& names,
+              const FrameRange& range) {
   Progress progress("frame", options.warmup + range.count(), !options.quiet);
   for (int frame = range.first - options.warmup; frame <= range.last; ++frame) {
     studio.draw(frame, params);
-    if (frame >= range.first) write_frame(studio.renderer(), options, stage, params, names, frame);
+    if (frame >= range.first) write_frame(studio, options, params, names, frame);
     progress.step();
   }
 }
@@ -56,6 +56,7 @@ void render_files(const RenderOptions& options) {
   const ParamSet params = resolve_params(options, shadow::built_in_registry());
   const FrameRange range = options.frames.value_or(FrameRange{});
   clean_up_on_signals();
+  limit_threads(options);
   check_files(options, names);
 
   // Drivers take as long to start as scenes to load, and there are two cores nearly everywhere.
@@ -64,7 +65,7 @@ void render_files(const RenderOptions& options) {
   const Stage stage = loading.get();
   Studio studio(options, std::move(context), stage);
 
-  draw_all(options, stage, studio, params, names, range);
+  draw_all(options, studio, params, names, range);
   if (!options.stats.empty()) {
     const std::size_t measured = measure(options, studio, params, range);
     io::write_text(options.stats, io::text_of(stats_of(options, stage, params, studio, measured)));

@@ -26,7 +26,7 @@ long peak_resident() {
 
 Json stats_of(const RenderOptions& options, const Stage& stage, const ParamSet& params, Studio& studio,
               std::size_t measured) {
-  const render::Setup setup = setup_at(stage, time_of(options, options.frames ? options.frames->last : 0));
+  const render::Setup& setup = studio.setup();
   const std::vector<gl::Timers::Row> rows = studio.device().timers.rows();
   Json passes = Json::array(), frame;
   for (const io::PassCost& cost : io::pass_costs(rows, measured)) {

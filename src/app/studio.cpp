@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "gl/api.h"
+#include "scene/animation.h"
 
 namespace penumbra::app {
 
@@ -23,9 +24,12 @@ bool debug_wanted(const RenderOptions& options) {
 
 }  // namespace
 
-std::unique_ptr<gl::Context> open_context(const RenderOptions& options) {
+void limit_threads(const RenderOptions& options) {
   // Mesa reads it when the rasteriser starts.
   if (options.threads) setenv("LP_NUM_THREADS", std::to_string(*options.threads).c_str(), /* overwrite= */ 1);
+}
+
+std::unique_ptr<gl::Context> open_context(const RenderOptions& options) {
   gl::ContextOptions wanted;
   wanted.debug = wanted.debug || debug_wanted(options);
   wanted.egl_device = options.egl_device;
@@ -50,16 +54,31 @@ Studio::Studio(const RenderOptions& options, std::unique_ptr<gl::Context> contex
       renderer_(device_) {}
 
 void Studio::draw(int frame, const ParamSet& params) {
-  render::FrameInputs inputs;
-  inputs.width = options_.size.width * options_.supersample;
-  inputs.height = options_.size.height * options_.supersample;
-  inputs.time = time_of(options_, frame);
-  inputs.last_time = time_of(options_, frame - 1);
-  const render::Setup setup = setup_at(stage_, inputs.time);
-  inputs.camera = setup.camera;
-  inputs.last_camera = setup_at(stage_, inputs.last_time).camera;
-  inputs.sun = setup.sun;
-  renderer_.draw(scene_, inputs, params);
+  const double time = time_of(options_, frame), last_time = time_of(options_, frame - 1);
+  const bool follows = drawn_time_ == last_time;
+  render::Camera last_camera = setup_.camera;
+  if (drawn_time_ != time) setup_ = setup_at(stage_, time);
+  if (!follows) last_camera = time == last_time ? setup_.camera : setup_at(stage_, last_time).camera;
+  draw_at(time, last_time, last_camera, !follows || scene::jumps_between(stage_.scene, last_time, time), params);
+}
+
+void Studio::redraw(const ParamSet& params) {
+  draw_at(*drawn_time_, *drawn_time_, setup_.camera, /* cut= */ false, params);
+}
+
+void Studio::draw_at(double time, double last_time, const render::Camera& last_camera, bool cut,
+                     const ParamSet& params) {
+  drawn_time_ = time;
+  renderer_.draw(scene_,
+                 {.width = options_.size.width * options_.supersample,
+                  .height = options_.size.height * options_.supersample,
+                  .camera = setup_.camera,
+                  .last_camera = last_camera,
+                  .sun = setup_.sun,
+                  .time = time,
+                  .last_time = last_time,
+                  .cut = cut},
+                 params);
 }
 
 }  // namespace penumbra::app

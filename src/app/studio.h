@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "app/render_options.h"
 #include "app/stage.h"
@@ -16,15 +17,22 @@ class Studio {
  public:
   Studio(const RenderOptions& options, std::unique_ptr<gl::Context> context, const Stage& stage);
 
-  // Draws frame `frame`, with the motion since the frame before it.
+  // Draws frame `frame`, with the motion since the frame before it. What techniques remember goes on if that one was
+  // the last drawn and no animation jumps in between.
   void draw(int frame, const ParamSet& params);
+  // Draws the last frame once more, while time stands still: what a technique with memory costs when it goes on.
+  void redraw(const ParamSet& params);
 
+  // Camera and sun of the last frame.
+  const render::Setup& setup() const { return setup_; }
   const render::Renderer& renderer() const { return renderer_; }
   gl::Device& device() { return device_; }
   const gl::Context& context() const { return *context_; }
   const gl::DeviceInfo& device_info() const { return device_info_; }
 
  private:
+  void draw_at(double time, double last_time, const render::Camera& last_camera, bool cut, const ParamSet& params);
+
   const RenderOptions& options_;
   const Stage& stage_;
   std::unique_ptr<gl::Context> context_;
@@ -32,7 +40,13 @@ class Studio {
   gl::Device device_;
   scene::GpuScene scene_;
   render::Renderer renderer_;
+  render::Setup setup_;
+  std::optional<double> drawn_time_;  // of the last frame
 };
+
+// Holds the software rasteriser of contexts opened later to --threads. It sets the environment, which other threads may
+// be reading: call it before there are any.
+void limit_threads(const RenderOptions& options);
 
 // The context that the options ask for, current. Throws Error, also where it can't draw a picture of their size.
 std::unique_ptr<gl::Context> open_context(const RenderOptions& options);

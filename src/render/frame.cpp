@@ -30,6 +30,7 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                                                       .scene = scene,
                                                       .camera = camera,
                                                       .last_camera = last_camera,
+                                                      .cut = inputs.cut,
                                                       .sun = sun,
                                                       .gbuffer = gbuffer,
                                                       .params = params});

@@ -36,6 +36,7 @@ struct ShadowMaskInputs {
   scene::GpuScene& scene;
   const Camera& camera;
   const Camera& last_camera;
+  bool cut = false;  // as FrameInputs::cut
   const Sun& sun;
   const GBuffer& gbuffer;
   const ParamSet& params;

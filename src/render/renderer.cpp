@@ -14,10 +14,11 @@ struct Renderer::State {
   shadow::SoftShadows soft_shadows;
   FrameParts parts;
   Frame frame;
+  std::uint64_t last_scene = 0;  // its id; 0: there is none
 };
 
 Renderer::Renderer(gl::Device& device, shadow::Registry registry)
-    : state_(new State{device, shadow::SoftShadows(device, std::move(registry)), {}, {}}) {}
+    : state_(new State{device, shadow::SoftShadows(device, std::move(registry)), {}, {}, 0}) {}
 
 Renderer::~Renderer() = default;
 
@@ -29,9 +30,14 @@ std::vector<Param> Renderer::params(const shadow::Registry& registry) {
 
 const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, const ParamSet& params) {
   gl::Device& device = state_->device;
+  // Until the end there is none: a frame that throws is no frame to go on from.
+  const std::uint64_t last_scene = std::exchange(state_->last_scene, 0);
+  FrameInputs placed = inputs;
+  placed.cut = inputs.cut || last_scene != scene.id();
   device.timers.begin_frame();
-  state_->parts = draw_frame(device, state_->soft_shadows, scene, inputs, params);
+  state_->parts = draw_frame(device, state_->soft_shadows, scene, placed, params);
   device.timers.end_frame();
+  state_->last_scene = scene.id();
   const FrameParts& parts = state_->parts;
   state_->frame = {.display = parts.display, .color = parts.lit, .depth = parts.gbuffer.depth, .mask = parts.mask};
   return state_->frame;

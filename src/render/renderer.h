@@ -23,6 +23,10 @@ struct FrameInputs {
   Camera camera, last_camera;
   Sun sun;
   double time = 0, last_time = 0;  // seconds
+  // Nothing of the last frame belongs to this one: the view or the time jumps. What a technique remembers is dropped,
+  // so that the frame is that of a run which starts here. A scene other than the last frame's is a cut without being
+  // told.
+  bool cut = false;
 };
 
 // What one pixel is made of where several were drawn for it.

@@ -80,6 +80,36 @@ std::vector<float> sample(const AnimationChannel& channel, double time) {
   return value;
 }
 
+namespace {
+
+// Whether the channel ends with the values that it starts with, but for rounding: 0.01 % of its largest, 0.2 degrees.
+bool closes(const AnimationChannel& channel, double duration) {
+  const std::vector<float> a = sample(channel, 0), b = sample(channel, duration);
+  if (channel.path == Path::rotation) return std::abs(glm::dot(quaternion(a.data()), quaternion(b.data()))) > 1 - 1e-6f;
+  float largest = 0;
+  for (const float v : channel.values) largest = std::max(largest, std::abs(v));
+  return std::equal(a.begin(), a.end(), b.begin(),
+                    [&](float x, float y) { return std::abs(x - y) <= 1e-4f * largest; });
+}
+
+// Which of its endless loops an animation is in at `seconds`, the first being 0.
+double loop_at(double seconds, double duration) {
+  return std::round((seconds - looped_time(seconds, duration)) / duration);
+}
+
+}  // namespace
+
+bool jumps_between(const Scene& scene, double first, double second) {
+  const std::vector<std::size_t> played = played_animations(scene);
+  return std::any_of(played.begin(), played.end(), [&](std::size_t i) {
+    const Animation& animation = scene.animations[i];
+    if (!(animation.duration > 0)) return false;
+    if (loop_at(first, animation.duration) == loop_at(second, animation.duration)) return false;
+    return std::any_of(animation.channels.begin(), animation.channels.end(),
+                       [&](const AnimationChannel& channel) { return !closes(channel, animation.duration); });
+  });
+}
+
 std::vector<std::size_t> played_animations(const Scene& scene) {
   std::set<std::pair<int, Path>> driven;
   std::vector<std::size_t> played;

@@ -1,6 +1,7 @@
 #include "scene/gpu_scene.h"
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -112,6 +113,11 @@ gl::Buffer upload(std::string_view label, const std::vector<T>& contents) {
   return gl::Buffer::of(label, std::span<const T>(contents));
 }
 
+std::uint64_t next_id() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
 bool has_directional_light(const Scene& scene) {
   const Pose rest = rest_pose(scene);
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -124,7 +130,8 @@ bool has_directional_light(const Scene& scene) {
 
 }  // namespace
 
-GpuScene::State::State(gl::Device& device, const Scene& described) : scene(described), materials(device, described) {
+GpuScene::State::State(gl::Device& device, const Scene& described)
+    : scene(described), id(next_id()), materials(device, described) {
   Builder builder(scene, materials, deformer);
   deformer.upload();
   instances = std::move(builder.instances);
@@ -227,6 +234,7 @@ void GpuScene::State::update_instances() {
 GpuScene::GpuScene(gl::Device& device, const Scene& scene) : state_(std::make_unique<State>(device, scene)) {}
 GpuScene::~GpuScene() = default;
 
+std::uint64_t GpuScene::id() const { return state_->id; }
 bool GpuScene::has_blended() const { return state_->blended; }
 bool GpuScene::moved() const { return state_->moved; }
 Bounds GpuScene::casters() const { return state_->casters; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
 #include <memory>
@@ -45,6 +46,8 @@ class GpuScene {
   void draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
                     const BoxTest& reaches);
 
+  // Unlike that of any other scene of this process, those that are gone included; never 0.
+  std::uint64_t id() const;
   bool has_blended() const;
   bool moved() const;      // anything, between the two poses
   Bounds casters() const;  // world bounds in the present pose

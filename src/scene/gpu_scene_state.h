@@ -67,6 +67,7 @@ struct GpuScene::State {
   State(gl::Device& device, const Scene& scene);
 
   const Scene& scene;
+  const std::uint64_t id;
   Materials materials;
   Deformer deformer;
   std::vector<Instance> instances;

@@ -18,6 +18,7 @@ using scene::AnimationChannel;
 using scene::Bounds;
 using scene::bounds_of;
 using scene::Interpolation;
+using scene::jumps_between;
 using scene::looped_time;
 using scene::Path;
 using scene::played_animations;
@@ -107,6 +108,31 @@ TEST(Pose, PlaysAnimationsTogetherUnlessTheyDriveTheSame) {
   EXPECT_EQ(played_animations(scene), (std::vector<std::size_t>{0, 2}));
   EXPECT_EQ(position_at(scene, 0.5), glm::vec3(0.5f, 0, 0));
   EXPECT_FLOAT_EQ(pose_at(scene, 0.5).world[0][0][0], 2);
+}
+
+TEST(Animation, JumpsWhereALoopBeginsAgainFromOtherValues) {
+  const Animation away{.channels = {channel(Path::translation, Interpolation::linear, {0, 0.3f}, {0, 0, 0, 1, 0, 0})}};
+  const double end = 0.3f;
+  const Scene scene = scene_with({away});
+  EXPECT_FALSE(jumps_between(scene, 0, 0));
+  EXPECT_FALSE(jumps_between(scene, 0, end)) << "the last key holds at the end";
+  EXPECT_TRUE(jumps_between(scene, end, 0.31));
+  EXPECT_TRUE(jumps_between(scene, 0.31, 0.29)) << "backwards";
+  EXPECT_TRUE(jumps_between(scene, 0.1, 0.5)) << "a step that is longer than a loop";
+  int jumps = 0;
+  for (int frame = 1; frame <= 240; ++frame) jumps += jumps_between(scene, (frame - 1) / 24.0, frame / 24.0) ? 1 : 0;
+  EXPECT_EQ(jumps, 33) << "once a loop in 10 s";
+}
+
+TEST(Animation, DoesNotJumpWhereALoopEndsAsItBegan) {
+  const Animation there_and_back{
+      .channels = {channel(Path::translation, Interpolation::linear, {0, 1, 2}, {5, 0, 0, 9, 0, 0, 5.00001f, 0, 0})}};
+  // Once round: the last quaternion is the first's opposite, which is the same rotation.
+  const Animation turn{.channels = {channel(Path::rotation, Interpolation::linear, {0, 1, 2},
+                                            {0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, -1}, 4)}};
+  const Animation still{.channels = {channel(Path::scale, Interpolation::step, {0}, {1, 1, 1})}};
+  EXPECT_FALSE(jumps_between(scene_with({there_and_back, turn, still}), 1.9, 2.1));
+  EXPECT_FALSE(jumps_between(scene_with({}), 0, 5));
 }
 
 TEST(Pose, RestsWithoutAnimation) {
