@@ -16,8 +16,8 @@ struct CascadeBlock {
 
 struct ShadowBlock {
   mat4 clip_to_view;
-  mat4 view_to_light;   // a rotation: light space has its origin in the camera
-  mat4 world_to_light;  // a rotation
+  mat4 view_to_light;   // orthogonal, determinant -1 (light space is left-handed); its origin is the camera
+  mat4 world_to_light;  // its turn alone
   vec4 viewport;        // xy: its lowest pixel; zw: size, pixels
   vec4 jitter;          // xy: NDC
   vec4 depth_to_ndc;    // x: scale; y: offset; z: depth of the sky; w: 1 for octahedral normals, 0 for xyz

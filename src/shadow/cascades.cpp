@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace penumbra::shadow {
 
@@ -34,7 +35,7 @@ Sphere sphere_about(const Box& box) {
   return {glm::dvec3(box.min) + half, glm::length(half)};
 }
 
-// Rows: x horizontal, y up as far as the light allows, z along the rays.
+// Rows: x horizontal, y up as far as the light allows, z along the rays: left-handed.
 glm::dmat3 light_axes(const glm::dvec3& to_light) {
   const glm::dvec3 z = -glm::normalize(to_light);
   const glm::dvec3 horizontal = glm::cross(z, glm::dvec3(0, 1, 0));
@@ -108,18 +109,27 @@ std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, const gl
   return kept;
 }
 
-// Depths, light space, that a world box takes within a column about (center, half).
-Range column_range(const std::array<glm::dvec3, 8>& corners, const glm::dvec2& center, double half) {
+// A square column along the light, or a pyramid that widens towards it: `half` wide at the depth `base`, and `slope`
+// more with each metre before it.
+struct Column {
+  glm::dvec2 center{0};
+  double half = 0;
+  double base = 0, slope = 0;
+};
+
+// Depths, light space, that a world box takes within a column.
+Range range_within(const Column& column, const std::array<glm::dvec3, 8>& corners) {
   static constexpr std::array<std::array<int, 4>, 6> faces = {
       {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
   Range range{1e30, -1e30};
   for (const auto& face : faces) {
     std::vector<glm::dvec3> polygon;
     for (const int corner : face) polygon.push_back(corners[static_cast<size_t>(corner)]);
-    polygon = clipped(polygon, {1, 0, 0}, center.x + half);
-    polygon = clipped(polygon, {-1, 0, 0}, half - center.x);
-    polygon = clipped(polygon, {0, 1, 0}, center.y + half);
-    polygon = clipped(polygon, {0, -1, 0}, half - center.y);
+    const double half = column.half + column.slope * column.base;
+    polygon = clipped(polygon, {1, 0, column.slope}, half + column.center.x);
+    polygon = clipped(polygon, {-1, 0, column.slope}, half - column.center.x);
+    polygon = clipped(polygon, {0, 1, column.slope}, half + column.center.y);
+    polygon = clipped(polygon, {0, -1, column.slope}, half - column.center.y);
     for (const glm::dvec3& point : polygon) range = {std::min(range.min, point.z), std::max(range.max, point.z)};
   }
   return range;
@@ -162,16 +172,17 @@ Cascades fit_cascades(const CascadeInputs& in) {
     const glm::dvec3 anchor = cascades.world_to_light * cascades.anchor;
     const glm::dvec3 center = world_center - anchor;
 
-    // Room for the discs of receivers at the rim, as wide as the light makes them; a finer cascade may leave some to
-    // the next.
-    const double reach = column_range(corners, center, sphere.radius).min;
-    const double margin = in.tan_half_angle * std::max(center.z + sphere.radius - reach, 0.0);
-    const double most = i + 1 < in.count ? 0.25 * sphere.radius : sphere.radius;
-    const double half = step_up(sphere.radius + std::min(margin, most), 16) * (1.0 + 4.0 / in.size);
+    // Room for the discs of receivers at the rim, as wide as the light makes them: casters lie within the light's cone
+    // above the deepest receiver. A finer cascade may leave some discs to the next, the last one holds all.
+    const double deepest = center.z + sphere.radius;
+    const double nearest = range_within({center, sphere.radius, deepest, in.tan_half_angle}, corners).min;
+    const double all_discs = in.tan_half_angle * std::max(deepest - nearest, 0.0);
+    const double margin = i + 1 < in.count ? std::min(all_discs, 0.25 * sphere.radius) : all_discs;
+    const double half = step_up(sphere.radius + margin, 16) * (1.0 + 4.0 / in.size);
     const double texel = 2.0 * half / in.size;
     const glm::dvec2 snapped = glm::floor(glm::dvec2(world_center) / texel) * texel - glm::dvec2(anchor);
 
-    Range range = column_range(corners, snapped, half);
+    Range range = range_within({snapped, half}, corners);
     if (range.max < range.min) range = {center.z - sphere.radius, center.z + sphere.radius};
     const double pad = 1e-3 * (range.max - range.min) + texel;
     Cascade cascade;

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <functional>
 #include <glm/glm.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <vector>
 
 namespace penumbra::shadow {
@@ -10,7 +8,8 @@ namespace penumbra::shadow {
 constexpr int max_cascades = 8;
 
 // Light space: metres, origin at `anchor` (the camera, so that floats stay exact near it), axes the rows of
-// `world_to_light`: x and y across the light, z along its rays, growing away from the light.
+// `world_to_light`: x and y across the light, z along its rays, growing away from the light. It is left-handed: the
+// matrix is orthogonal with determinant -1.
 
 // One square of a shadow map. The map's depth is linear: 0 at near_z, 1 at far_z.
 struct Cascade {
@@ -39,9 +38,9 @@ struct Box {
   glm::vec3 min{0}, max{0};
 };
 
-// The column over a cascade's map, open towards the light. The map is fitted to the frustum's part widened by the
-// light's cone, and a receiver whose disc leaves the map reads a coarser cascade, so a caster outside the column can't
-// matter.
+// The column over a cascade's map, open towards the light. A receiver whose disc leaves the map reads a coarser
+// cascade, and the last map is fitted to the frustum's part widened by the light's cone, as far up as casters are: it
+// holds the discs of all receivers. So a caster outside the column can't matter.
 struct CullVolume {
   glm::dmat3 world_to_light{1};
   glm::dvec3 anchor{0};
@@ -57,9 +56,9 @@ struct CascadeInputs {
   glm::mat4 view{1};            // world to view, right-handed, -Z forward
   glm::mat4 projection{1};      // perspective or orthographic; its depth convention does not matter here
   glm::vec3 to_light{0, 1, 0};  // unit, world
-  float tan_half_angle = 0;
-  Box casters;    // all that may cast
-  Box receivers;  // all that may receive; limits the last cascade's range
+  float tan_half_angle = 0;     // of the light; a wide light under high casters widens the last map
+  Box casters;                  // all that may cast
+  Box receivers;                // all that may receive; limits the last cascade's range
   int count = 4;
   int size = 2048;
   float split_blend = 0.75f;  // 0 uniform, 1 logarithmic (Zhang 2006, parallel-split shadow maps, eq. 3)

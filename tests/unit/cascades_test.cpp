@@ -42,15 +42,67 @@ TEST(Cascades, TheLastHoldsAllThatTheViewSeesOfTheScene) {
   EXPECT_GT(seen, 50);
 }
 
+// Points of the view's frustum up to a distance.
+std::vector<glm::dvec3> frustum_points(const CascadeInputs& in, double distance) {
+  const glm::dmat4 to_world = glm::inverse(glm::dmat4(in.view));
+  std::vector<glm::dvec3> points;
+  for (const double depth : {0.1 * distance, 0.5 * distance, distance}) {
+    for (const double x : {-1.0, 0.0, 1.0}) {
+      for (const double y : {-1.0, 0.0, 1.0}) {
+        const glm::dvec4 p(x * depth / in.projection[0][0], y * depth / in.projection[1][1], -depth, 1);
+        points.emplace_back(to_world * p);
+      }
+    }
+  }
+  return points;
+}
+
 TEST(Cascades, GrowAndNest) {
   CascadeInputs in = courtyard();
+  in.receivers = {{-500, 0, -500}, {500, 9, 500}};
+  in.distance = 100;
+  in.split_blend = 0;
   for (const int count : {2, 4, 8}) {
     in.count = count;
     const Cascades cascades = fit_cascades(in);
     ASSERT_EQ(cascades.items.size(), static_cast<size_t>(count));
-    for (size_t i = 1; i < cascades.items.size(); ++i) {
-      EXPECT_LE(cascades.items[i - 1].half_extent, cascades.items[i].half_extent);
+    for (size_t i = 0; i < cascades.items.size(); ++i) {
+      // A cascade holds all of the view up to its range, and so what every finer one holds of it.
+      const double range = in.distance * static_cast<double>(i + 1) / count;
+      for (const glm::dvec3& point : frustum_points(in, range)) {
+        const glm::dvec3 p = clip(cascades.items[i], point);
+        EXPECT_LE(std::max(std::abs(p.x), std::abs(p.y)), 1.0) << "cascade " << i << " of " << count;
+      }
+      if (i == 0) continue;
+      EXPECT_LT(cascades.items[i - 1].half_extent, cascades.items[i].half_extent);
     }
+  }
+}
+
+TEST(Cascades, TheLastHoldsTheWholeDiscOfEveryReceiver) {
+  for (const float elevation : {30.0f, 60.0f, 90.0f}) {
+    CascadeInputs in = courtyard();
+    in.to_light = {std::cos(glm::radians(elevation)), std::sin(glm::radians(elevation)), 0};
+    in.tan_half_angle = std::tan(glm::radians(5.0f));
+    in.distance = 10;
+    in.casters = {{-1000, 0, -1000}, {1000, 300, 1000}};
+    const Cascades cascades = fit_cascades(in);
+    int seen = 0;
+    const glm::dmat3 to_world = glm::transpose(cascades.world_to_light);
+    const double tangent = in.tan_half_angle;
+    for (const glm::dvec3& point : frustum_points(in, in.distance)) {
+      for (const glm::dvec2& side : {glm::dvec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+        // On a tower's roof, or where the cone's edge leaves the box of casters.
+        const glm::dvec3 along = to_world * glm::dvec3(tangent * side, -1);
+        const glm::dvec3 caster = point + along * ((300 - point.y) / along.y);
+        if (glm::any(glm::greaterThan(glm::abs(caster), glm::dvec3(1000)))) continue;
+        ++seen;
+        const glm::dvec3 p = clip(cascades.items.back(), caster);
+        EXPECT_LE(std::max(std::abs(p.x), std::abs(p.y)), 1.0) << elevation << " degrees";
+        EXPECT_GE(p.z, 0) << elevation << " degrees";
+      }
+    }
+    EXPECT_GT(seen, 50) << elevation << " degrees";
   }
 }
 
@@ -100,7 +152,7 @@ TEST(Cascades, TheSunAtTheZenithHasAnAxis) {
   const Cascades cascades = fit_cascades(in);
   const glm::dvec3 down = cascades.world_to_light * glm::dvec3(0, -1, 0);
   EXPECT_NEAR(down.z, 1, 1e-9);
-  EXPECT_NEAR(std::abs(glm::determinant(cascades.world_to_light)), 1, 1e-9);
+  EXPECT_NEAR(glm::determinant(cascades.world_to_light), -1, 1e-9) << "light space is left-handed";
 }
 
 TEST(CullVolume, KeepsWhatCanCastAndDropsTheRest) {
