@@ -21,7 +21,9 @@ constexpr int block_side = 8;  // over `reach`
 constexpr int turns = 1600;    // of all four parities
 constexpr double coldest = 1e-3;
 
-// Whole numbers throughout: sums don't depend on their order, nor swaps on a machine's exp().
+// Sums are of whole numbers from tables, so that they don't depend on their order, nor swaps on the last digits of a
+// machine's exp(). Only the distance of two values is a float: of squares added in one order, and cut to a whole
+// number.
 class Energy {
  public:
   explicit Energy(const NoiseTile& tile) : tile_(tile) {

@@ -48,6 +48,13 @@ TEST(Noise, IsTheSameOnEveryMachineAndForEveryNumberOfThreads) {
   EXPECT_EQ(digest(make_noise("void_and_cluster", 16, 2, 5)), 15497227018239437017U);
 }
 
+// Whoever changes how noise is made changes the digests above, and bakes these anew.
+TEST(Noise, TheBuiltInTilesAreThoseOfToday) {
+  EXPECT_EQ(digest(built_in_noise("blue")), 1577704634477514093U);
+  EXPECT_EQ(digest(built_in_noise("void_and_cluster")), 6682990548504888333U);
+  EXPECT_EQ(digest(make_noise("void_and_cluster", 64, 2, 1)), 6682990548504888333U);
+}
+
 TEST(Noise, ProgressGrowsToTheEnd) {
   double last = 0;
   make_noise("void_and_cluster", 16, 3, 1, 0, [&](double done) {
