@@ -35,7 +35,7 @@ glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
 }
 
 gl::ProgramDesc program() {
-  return {.name = "lighting", .vertex = "render/full_screen.vert", .fragment = "render/lighting.frag"};
+  return {.name = "lighting", .vertex = "shared/full_screen.vert", .fragment = "render/lighting.frag"};
 }
 
 }  // namespace

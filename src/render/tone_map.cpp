@@ -7,7 +7,7 @@ namespace {
 constexpr GLuint exposure_binding = 0;
 
 gl::ProgramDesc program() {
-  return {.name = "tone map", .vertex = "render/full_screen.vert", .fragment = "render/tone_map.frag"};
+  return {.name = "tone map", .vertex = "shared/full_screen.vert", .fragment = "render/tone_map.frag"};
 }
 
 }  // namespace

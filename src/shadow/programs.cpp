@@ -81,7 +81,7 @@ gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& param
   if (compute) {
     program.compute = driver_file(technique, "mask.comp");
   } else {
-    program.vertex = "render/full_screen.vert";
+    program.vertex = "shared/full_screen.vert";
     program.fragment = driver_file(technique, "mask.frag");
   }
   return program;

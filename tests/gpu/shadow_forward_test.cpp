@@ -62,7 +62,7 @@ std::vector<float> drawn_forward(TriangleRenderer& renderer, const ParamSet& par
   const TriangleScene scene = box_on_ground();
   device.shaders.files().put("engine.frag",
                              engine_before + renderer.shadows().forward_source(params, light) + engine_after);
-  const gl::Program program({.name = "engine", .vertex = "render/full_screen.vert", .fragment = "engine.frag"},
+  const gl::Program program({.name = "engine", .vertex = "shared/full_screen.vert", .fragment = "engine.frag"},
                             device.shaders.files());
   const gl::Texture& result = device.target("forward", {.format = GL_RGBA16F, .width = 64, .height = 64});
   const gl::TextureDesc depth{.format = GL_DEPTH_COMPONENT32F, .width = 64, .height = 64};

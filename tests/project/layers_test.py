@@ -1,4 +1,4 @@
-"""Folders under src are layers: includes go downwards only, and each library of others stays in its layer."""
+"""Folders under src and glsl are layers: includes go downwards only, and each library of others stays in its layer."""
 
 import os
 import re
@@ -39,6 +39,18 @@ LIBRARIES = {
 SYSTEM = re.compile(r"(sys/\w+|dlfcn|fcntl|poll|signal|termios|unistd)\.h")
 USES_SYSTEM = {"gl", "scene", "io", "app"}
 
+# Folders of glsl that the files of one may include.
+GLSL_BELOW = {
+    "shared": {"shared"},
+    "lib": {"shared", "lib"},
+    "shadow": {"shared", "lib", "shadow", "generated"},
+    "scene": {"shared", "lib", "scene"},
+    "render": {"shared", "lib", "scene", "shadow", "render", "generated"},
+}
+# Those whose shaders the C++ of a layer may name.
+GLSL_NAMED = {"gl": GLSL_BELOW["shared"], "shadow": GLSL_BELOW["shadow"], "scene": GLSL_BELOW["scene"]}
+
+SHADER_NAME = re.compile(r'"(\w[\w/]*)\.(?:vert|frag|comp|glsl)"')
 INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]', re.MULTILINE)
 
 
@@ -70,7 +82,40 @@ def faults_of(path, text):
             yield f"src/{path}: \"{name}\" is not relative to the file, which an installed header needs"
 
 
+def shader_faults_of(path, text):
+    """What is wrong with the shaders that src/<path> names, one line each."""
+    layer = path.split("/")[0]
+    for name in SHADER_NAME.findall(text) if layer in GLSL_NAMED else []:
+        if "/" in name and name.split("/")[0] not in GLSL_NAMED[layer]:
+            yield f"src/{path}: the shader \"{name}\" lies above the layer '{layer}'"
+
+
+def glsl_faults_of(path, text):
+    """What is wrong with the includes of glsl/<path>, one line each."""
+    folder = path.split("/")[0]
+    for mark, name in INCLUDE.findall(text):
+        if mark == '"' and name.split("/")[0] not in GLSL_BELOW[folder]:
+            yield f"glsl/{path}: \"{name}\" lies above the layer '{folder}'"
+
+
 class Layers(unittest.TestCase):
+    def test_shaders_go_downwards(self):
+        faults = []
+        files = [path for path in (support.ROOT / "glsl").rglob("*.*") if path.is_file()]
+        self.assertGreater(len(files), 20)
+        for path in files:
+            faults += glsl_faults_of(path.relative_to(support.ROOT / "glsl").as_posix(), path.read_text())
+        for path in (support.ROOT / "src").rglob("*.cpp"):
+            faults += shader_faults_of(path.relative_to(support.ROOT / "src").as_posix(), path.read_text())
+        self.assertFalse(faults, "\n" + "\n".join(faults))
+
+    def test_forbidden_shaders_are_found(self):
+        for path, name in {"shadow/a.glsl": "render/sky.glsl", "lib/a.glsl": "shadow/light.glsl",
+                           "scene/a.vert": "shadow/light.glsl"}.items():
+            self.assertEqual(len(list(glsl_faults_of(path, f'#include "{name}"'))), 1, path)
+        self.assertEqual(len(list(shader_faults_of("shadow/a.cpp", '.vertex = "render/full_screen.vert"'))), 1)
+        self.assertEqual(list(shader_faults_of("shadow/a.cpp", '.vertex = "shared/full_screen.vert"')), [])
+
     def test_includes_go_downwards(self):
         files = [path for ending in ("*.h", "*.cpp") for path in (support.ROOT / "src").rglob(ending)]
         self.assertGreater(len(files), 20)
