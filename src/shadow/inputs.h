@@ -30,8 +30,9 @@ struct View {
   bool cut = false;  // nothing of the last frame belongs to this one: another scene, a jump of time
 };
 
-// A texture of the caller's: GL_TEXTURE_2D, one sample a texel (shadow maps: GL_TEXTURE_2D_ARRAY). Its sampling
-// parameters do not matter.
+// A texture of the caller's: GL_TEXTURE_2D, one sample a texel (shadow maps: GL_TEXTURE_2D_ARRAY). How it filters,
+// wraps and compares does not matter; its swizzle, base and maximum level and GL_DEPTH_STENCIL_TEXTURE_MODE are
+// OpenGL's initial values.
 struct TextureView {
   unsigned id = 0;
   int width = 0, height = 0;  // of level 0, texels

@@ -1,7 +1,11 @@
 #include "light_state.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "library_params.h"
 
 namespace penumbra::shadow {
 
@@ -20,11 +24,14 @@ bool same_matrix(const glm::mat4& a, const glm::mat4& b) {
   return true;
 }
 
-bool same_values(const ParamSet& a, const ParamSet& b) {
-  const std::vector<std::string> names = a.names();
-  return names.size() == b.rows().size() && std::all_of(names.begin(), names.end(), [&](const std::string& name) {
-           return b.contains(name) && a.value(name) == b.value(name);
-         });
+// Whether all that a technique can see is the same: its choice, the library's rows and its own.
+bool same_values(const Technique& technique, const ParamSet& a, const ParamSet& b) {
+  static const std::vector<Param> library = library_params();
+  const auto same = [&](std::string_view name) {
+    return a.contains(name) && b.contains(name) && a.value(name) == b.value(name);
+  };
+  const auto same_row = [&](const Param& row) { return same(row.name); };
+  return same("technique") && std::ranges::all_of(library, same_row) && std::ranges::all_of(technique.params, same_row);
 }
 
 bool same_conventions(const Conventions& a, const Conventions& b) {
@@ -56,14 +63,25 @@ void begin_frame(ViewState& view, const Inputs& inputs) {
   view.drawn = false;  // until the end: a frame that throws leaves nothing to go on from
 }
 
-void begin_frame(LightState& state, const Light& light, const LightFrame& frame, ParamSet params) {
+void begin_frame(LightState& state, const Technique& technique, const Light& light, const LightFrame& frame,
+                 ParamSet params) {
   const bool goes_on = state.goes_on && state.to_light == light.to_light &&
-                       state.cascades == frame.cascades.items.size() && same_values(state.params, params);
+                       state.cascades == frame.cascades.items.size() && same_values(technique, state.params, params);
   state.age = goes_on ? state.age + 1 : 0;
   ++state.frames;
   state.to_light = light.to_light;
   state.cascades = frame.cascades.items.size();
   state.params = std::move(params);
+}
+
+std::string ring_prefix(std::string_view name) { return fmt::format("history {}/", name); }
+
+void drop_unused_rings(LightState& state, gl::Device& device, const std::string& prefix) {
+  std::erase_if(state.rings, [&](const auto& entry) {
+    const bool unused = entry.second.filled != state.frames;
+    if (unused) device.drop(prefix + ring_prefix(entry.first));
+    return unused;
+  });
 }
 
 void bind_light(gl::Device& device, const LightFrame& frame, const LightState& state) {

@@ -2,14 +2,16 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
+#include <string_view>
 
 #include "../gl/pass.h"
 #include "soft_shadows.h"
 
 namespace penumbra::shadow {
 
-// What outlives a frame of one light in one view.
+// What outlives a frame of one light in one view, for one technique.
 struct LightState {
   ParamSet params;
   bool rotated = true;  // see turns_samples()
@@ -17,7 +19,6 @@ struct LightState {
   const gl::Buffer* params_block = nullptr;
   const gl::Buffer* shadow_block = nullptr;
   const gl::Buffer* sample_block = nullptr;
-  const gl::Buffer* forward_sample_block = nullptr;  // of the technique that serves forward surfaces
 
   glm::vec3 to_light{0};
   std::size_t cascades = 0;
@@ -33,6 +34,8 @@ struct LightState {
     std::uint64_t filled = 0;  // the last of `frames` that did
   };
   std::map<std::string, Ring, std::less<>> rings;
+
+  std::unique_ptr<LightState> stand_in;  // of the technique that serves forward surfaces, if it is another
 };
 
 // What outlives a frame of a view.
@@ -47,8 +50,13 @@ struct ViewState {
 
 // Decides whether what is kept of the view's last frame holds in this one.
 void begin_frame(ViewState& view, const Inputs& inputs);
-// The same for a light, under the parameters of this frame, which it takes.
-void begin_frame(LightState& state, const Light& light, const LightFrame& frame, ParamSet params);
+// The same for a light, under the technique and the parameters of this frame, which it takes.
+void begin_frame(LightState& state, const Technique& technique, const Light& light, const LightFrame& frame,
+                 ParamSet params);
+// Gives back the rings that this frame has not filled, with the targets whose names begin with `prefix` and theirs.
+void drop_unused_rings(LightState& state, gl::Device& device, const std::string& prefix);
+// What the names of a ring's textures begin with.
+std::string ring_prefix(std::string_view name);
 
 // Binds what every evaluation of a technique reads: blocks, maps, products.
 void bind_light(gl::Device& device, const LightFrame& frame, const LightState& state);

@@ -1,8 +1,9 @@
 #include <algorithm>
-#include <stdexcept>
 
+#include "../core/error.h"
 #include "../core/names.h"
 #include "library_params.h"
+#include "samples.h"
 #include "technique.h"
 
 namespace penumbra::shadow {
@@ -18,6 +19,25 @@ using MakeTechnique = Technique();
   X(pcf)                       \
   X(pcss)                      \
   X(brute_force)
+
+void check_word(std::string_view technique, std::string_view kind, const std::string& word,
+                const std::vector<std::string>& known) {
+  if (!word.empty() && std::ranges::find(known, word) == known.end()) {
+    fail_unknown(fmt::format("{} of technique '{}'", kind, technique), word, known);
+  }
+}
+
+void check(const Technique& technique, const Registry& registry) {
+  const std::string& name = technique.name;
+  if (technique.glsl.empty() && !technique.resolve) fail("technique '{}' has neither glsl nor resolve", name);
+  if (technique.glsl.empty() && technique.stand_in.empty())
+    fail("technique '{}' has neither glsl nor a stand_in", name);
+  if (!technique.stand_in.empty() && registry.find(technique.stand_in).glsl.empty()) {
+    fail("technique '{}': its stand_in '{}' has no glsl", name, technique.stand_in);
+  }
+  check_word(name, "pattern", technique.pattern, pattern_names());
+  check_word(name, "scramble", technique.scramble, scramble_names());
+}
 
 }  // namespace
 
@@ -42,12 +62,15 @@ const Registry& built_in_registry() {
 Registry::Registry(std::vector<Technique> techniques, std::vector<Alias> aliases, std::string default_technique)
     : techniques_(std::move(techniques)),
       aliases_(std::move(aliases)),
-      default_technique_(default_technique.empty() ? techniques_.at(0).name : std::move(default_technique)) {
+      default_technique_(std::move(default_technique)) {
+  if (techniques_.empty()) fail("a registry needs a technique");
+  if (default_technique_.empty()) default_technique_ = techniques_.front().name;
   std::vector<std::string> sorted = names();
-  std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
-    throw std::logic_error("two techniques share a name");
-  }
+  std::ranges::sort(sorted);
+  const auto twice = std::ranges::adjacent_find(sorted);
+  if (twice != sorted.end()) fail("two techniques have the name '{}'", *twice);
+  for (const Technique& technique : techniques_) check(technique, *this);
+  for (const Alias& alias : aliases_) find(alias.technique);
   find(default_technique_);
 }
 

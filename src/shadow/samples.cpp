@@ -39,6 +39,11 @@ glm::vec2 shift_of(const ParamSet& params, const std::string& step, int frame) {
 
 }  // namespace
 
+const std::vector<std::string>& scramble_names() {
+  static const std::vector<std::string> names{"rotate", "shift"};
+  return names;
+}
+
 bool turns_samples(const Technique& technique, const ParamSet& params) {
   const std::string& scramble = technique.scramble.empty() ? params.get_word("sampling.scramble") : technique.scramble;
   // A turned square would be another light.

@@ -14,6 +14,9 @@
 
 namespace penumbra::shadow {
 
+// The values of sampling.scramble and Technique::scramble.
+const std::vector<std::string>& scramble_names();
+
 // Whether a technique's sample points are turned from pixel to pixel (points of a disc), or shifted on the torus
 // (points of the unit square).
 bool turns_samples(const Technique& technique, const ParamSet& params);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <utility>
 
+#include "../core/names.h"
 #include "../core/random.h"
 #include "lib/disc.glsl"
 
@@ -139,7 +139,7 @@ double radical_inverse(unsigned base, unsigned k) {
 
 std::vector<glm::vec2> square_points(std::string_view pattern, int count, std::uint64_t seed) {
   const auto* const found = std::ranges::find(patterns, pattern, &Pattern::name);
-  assert(found != patterns.end());
+  if (found == patterns.end()) fail_unknown("pattern", pattern, pattern_names());
   return found->points(count, seed);
 }
 

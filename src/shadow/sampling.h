@@ -23,6 +23,7 @@ const std::vector<std::string>& pattern_names();
 double radical_inverse(unsigned base, unsigned k);
 
 // `count` points of the unit square in [0, 1)², all different. `seed` varies those patterns that draw random numbers.
+// Throws Error with near names for an unknown pattern.
 std::vector<glm::vec2> square_points(std::string_view pattern, int count, std::uint64_t seed = 0);
 
 // The same on the unit disc, equal areas to equal areas: Vogel's spiral, or by the concentric map.

@@ -79,37 +79,55 @@ void SoftShadows::make_maps(const Inputs& inputs, const Light& light, const std:
   }
 }
 
-void SoftShadows::upload_blocks(const Inputs& inputs, const LightFrame& frame, const std::string& prefix,
-                                LightState& state) {
-  const Technique& technique = registry_.find(state.params.get_word("technique"));
-  const Technique& forward = forward_technique(state.params);
+void SoftShadows::upload_blocks(const Technique& technique, const Inputs& inputs, const LightFrame& frame,
+                                const std::string& prefix, LightState& state) {
   const std::vector<std::byte> params = uniform_bytes(state.params);
   const int age = static_cast<int>(state.age);
   state.rotated = turns_samples(technique, state.params);
   state.noise = &state_->samples.noise(state.params.get_word("sampling.noise"));
   state.params_block = &device_.scratch(prefix + "params", params.size());
   state.shadow_block = &device_.scratch(prefix + "light", sizeof(glsl::ShadowBlock));
-  state.sample_block = state.forward_sample_block = &device_.scratch(prefix + "samples", sizeof(glsl::SampleBlock));
+  state.sample_block = &device_.scratch(prefix + "samples", sizeof(glsl::SampleBlock));
   state.params_block->write(params);
   const LightTraits traits{.square = state.params.get_word("sun.shape") == "square",
                            .noise_shift = noise_shift(state.params, age)};
   gl::write_value(*state.shadow_block, shadow_block(inputs, frame, traits));
   gl::write_value(*state.sample_block, state_->samples.block(technique, state.params, age));
-  if (&forward == &technique) return;
-  state.forward_sample_block = &device_.scratch(prefix + "forward samples", sizeof(glsl::SampleBlock));
-  gl::write_value(*state.forward_sample_block, state_->samples.block(forward, state.params, age));
+}
+
+// What forward surfaces read instead of the technique's own: made by the stand-in, in a state of its own.
+void SoftShadows::prepare_stand_in(const Inputs& inputs, const Light& light, const std::string& light_prefix,
+                                   LightFrame& frame, LightState& of_light, const gl::Texture& mask) {
+  const std::string prefix = light_prefix + "stand-in/";
+  const Technique& technique = forward_technique(of_light.params);
+  if (technique.name == of_light.params.get_word("technique")) {
+    if (of_light.stand_in) device_.drop(prefix);
+    of_light.stand_in.reset();
+    return;
+  }
+  frame.products.clear();
+  if (!of_light.stand_in) of_light.stand_in = std::make_unique<LightState>();
+  LightState& state = *of_light.stand_in;
+  state.goes_on = of_light.goes_on;
+  begin_frame(state, technique, light, frame, of_light.params);
+  upload_blocks(technique, inputs, frame, prefix, state);
+  if (technique.prepare) {
+    technique.prepare(
+        TechniqueFrame({device_, state_->programs, technique, inputs, light, mask, frame, state, prefix}));
+  }
+  drop_unused_rings(state, device_, prefix);
 }
 
 LightFrame SoftShadows::render_light(const Inputs& inputs, const Light& light, ParamSet params, LightState& state,
                                      const gl::Texture& mask, int layer) {
   const std::string prefix = fmt::format("{}light {}/", view_prefix(inputs.view.id), light.id);
+  const Technique& technique = registry_.find(params.get_word("technique"));
   LightFrame frame{
       .view = inputs.view.id, .light = light.id, .layer = layer, .viewport = viewport_of(inputs), .cascades = {}};
   make_maps(inputs, light, prefix, params, frame);
-  begin_frame(state, light, frame, std::move(params));
-  upload_blocks(inputs, frame, prefix, state);
+  begin_frame(state, technique, light, frame, std::move(params));
+  upload_blocks(technique, inputs, frame, prefix, state);
 
-  const Technique& technique = registry_.find(state.params.get_word("technique"));
   const TechniqueFrame work({device_, state_->programs, technique, inputs, light, mask, frame, state, prefix});
   if (technique.prepare) technique.prepare(work);
   if (technique.resolve) {
@@ -117,6 +135,8 @@ LightFrame SoftShadows::render_light(const Inputs& inputs, const Light& light, P
   } else {
     work.evaluate(mask, layer);
   }
+  drop_unused_rings(state, device_, prefix);
+  prepare_stand_in(inputs, light, prefix, frame, state, mask);
   state.drawn = true;
   return frame;
 }
@@ -154,8 +174,7 @@ void SoftShadows::forget_view(int id) {
 void SoftShadows::bind_forward(const Mask& mask, size_t light) {
   const LightFrame& frame = mask.lights.at(light);
   const LightState& state = state_->views.at(frame.view).lights.at(frame.light);
-  bind_light(device_, frame, state);
-  state.forward_sample_block->bind_uniform(block_samples);
+  bind_light(device_, frame, state.stand_in ? *state.stand_in : state);
 }
 
 void SoftShadows::unbind_forward() { gl::unbind_textures(first_pass_unit); }

@@ -61,8 +61,9 @@ class SoftShadows {
   // For surfaces drawn forward, after render(). A program of the caller's own takes forward_source(): text to put after
   // its #version 450 line, in which every global name begins with "penumbra_", and which defines
   //   float penumbra_shadow_visibility(vec3 view_position, vec3 geometric_normal_world, vec2 pixel)
-  // where `pixel` is that of the mask. A program of gl::ShaderLibrary takes forward_program(): the file to include and
-  // the defines; the function is shadow_visibility(). `light` is a light that the parameters are overridden by.
+  // where `geometric_normal_world` is of unit length and on the viewer's side of the surface, and `pixel` is that of
+  // the mask. A program of gl::ShaderLibrary takes forward_program(): the file to include and the defines; the function
+  // is shadow_visibility(). `light` is a light that the parameters are overridden by.
   std::string forward_source(const ParamSet& params, const Light& light = {}) const;
   ForwardProgram forward_program(const ParamSet& params, const Light& light = {}) const;
   // Binds what that function reads for a light of the mask: textures and samplers of units 0 to 7, uniform buffers 0 to
@@ -79,7 +80,10 @@ class SoftShadows {
   struct State;
   void make_maps(const Inputs& inputs, const Light& light, const std::string& prefix, const ParamSet& params,
                  LightFrame& frame);
-  void upload_blocks(const Inputs& inputs, const LightFrame& frame, const std::string& prefix, LightState& state);
+  void upload_blocks(const Technique& technique, const Inputs& inputs, const LightFrame& frame,
+                     const std::string& prefix, LightState& state);
+  void prepare_stand_in(const Inputs& inputs, const Light& light, const std::string& light_prefix, LightFrame& frame,
+                        LightState& of_light, const gl::Texture& mask);
   LightFrame render_light(const Inputs& inputs, const Light& light, ParamSet params, LightState& state,
                           const gl::Texture& mask, int layer);
   const Technique& forward_technique(const ParamSet& params) const;

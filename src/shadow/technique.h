@@ -53,7 +53,9 @@ struct LightFrame {
   float tan_half_angle = 0;
   unsigned depth = 0;                    // name of the depth array texture, one layer a cascade; 0 when not needed
   const gl::Texture* pyramid = nullptr;  // R32F: minimum; level 0 is a quarter of the map's side
-  std::vector<Product> products;         // bound wherever the technique is evaluated, forward surfaces included
+  // Bound wherever the technique is evaluated. In a Mask: those that forward surfaces read, a stand-in's own if it has
+  // one.
+  std::vector<Product> products;
 };
 
 class TechniqueFrame;
@@ -81,7 +83,8 @@ struct Technique {
   // The programs that `prepare` and `resolve` use under these parameters, by name. Their files may include all that the
   // technique's GLSL may, and are compiled with its constants.
   std::function<std::vector<gl::ProgramDesc>(const ParamSet&)> programs = {};
-  // The technique whose `glsl` serves blended surfaces, where this one's does not.
+  // The technique whose `glsl` serves blended surfaces, where this one's does not: with its own needs, `prepare` and
+  // sample points.
   std::string stand_in = {};
 };
 
@@ -94,7 +97,9 @@ struct Alias {
 // The techniques that a renderer offers, a value that is passed in.
 class Registry {
  public:
-  // `default_technique` is what the parameter "technique" begins with; empty: the first.
+  // `default_technique` is what the parameter "technique" begins with; empty: the first. Throws Error for techniques
+  // that share a name or can't be evaluated: without glsl and resolve, without glsl for blended surfaces (their own or
+  // a stand-in's), or with an unknown stand_in, pattern or scramble.
   Registry(std::vector<Technique> techniques, std::vector<Alias> aliases, std::string default_technique = {});
 
   std::span<const Technique> techniques() const { return techniques_; }

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <stdexcept>
 
+#include "../core/error.h"
 #include "light_state.h"
 #include "programs.h"
 
@@ -38,7 +39,9 @@ History TechniqueFrame::history(std::string_view name, const gl::TextureDesc& de
   assert(ring.filled != state.frames);
   const bool valid = state.age > 0 && ring.desc == desc && ring.filled + 1 == state.frames;
   ring = {.desc = desc, .now = 1 - ring.now, .filled = state.frames};
-  const auto texture = [&](int index) -> const gl::Texture& { return target(fmt::format("{} {}", name, index), desc); };
+  const auto texture = [&](int index) -> const gl::Texture& {
+    return target(fmt::format("{}{}", ring_prefix(name), index), desc);
+  };
   return {texture(1 - ring.now), texture(ring.now), valid};
 }
 
@@ -74,6 +77,7 @@ void TechniqueFrame::evaluate(const gl::Texture& target, int layer) const {
 }
 
 void TechniqueFrame::draw_casters(gl::Pass& pass, CasterKind kind, int cascade) const {
+  if (!parts_.inputs.draw) fail("technique '{}' draws casters, and Inputs::draw is empty", parts_.technique.name);
   const Cascades& cascades = parts_.frame.cascades;
   const glm::mat4 world_to_clip(cascades.items.at(static_cast<size_t>(cascade)).world_to_clip);
   parts_.inputs.draw({kind, cascade, world_to_clip, cull_volume(cascades, cascade)}, pass);

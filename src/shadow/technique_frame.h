@@ -25,8 +25,9 @@ struct History {
 // Whatever was kept of earlier frames is void, so that age() is 0 and no history is valid,
 //   - in the first frame of a light in a view, and in the first after a frame of the view without it,
 //   - with View::cut, and when View::last_view or last_projection are not the matrices of the view's last frame,
-//   - when the viewport, the size of the textures, the conventions, the light's direction, its parameters or the number
-//     of its cascades change, and after a frame that ended in an Error.
+//   - when the viewport, the size of the textures, the conventions, the light's direction or the number of its cascades
+//     change, or a parameter of the library's or the technique's own (other techniques' do not matter), and after a
+//     frame that ended in an Error.
 // So the frame after a cut is that of a run that starts there.
 class TechniqueFrame {
  public:
@@ -55,7 +56,7 @@ class TechniqueFrame {
   // the name's next use in a later frame, but only history() says whether they are still good.
   const gl::Texture& target(std::string_view name, const gl::TextureDesc& desc) const;
   const gl::Buffer& scratch(std::string_view name, std::size_t bytes) const;
-  // Once a frame for each name.
+  // Once a frame for each name. After a frame that does not ask for it, it is void and its memory is given back.
   History history(std::string_view name, const gl::TextureDesc& desc) const;
 
   // Makes a program of Technique::programs() current, with all bound that a technique's GLSL reads: parameters, light,
@@ -64,7 +65,7 @@ class TechniqueFrame {
   // Runs the technique's visibility() under the driver of the parameters, into a layer of an RGBA16F array of the
   // size of the mask, which is laid out like it (see Mask).
   void evaluate(const gl::Texture& target, int layer) const;
-  // The caller's casters, into a pass that is open on a layer of the cascade's size.
+  // The caller's casters, into a pass that is open on a layer of the cascade's size. Throws Error without Inputs::draw.
   void draw_casters(gl::Pass& pass, CasterKind kind, int cascade) const;
 
  private:

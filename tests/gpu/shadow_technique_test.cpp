@@ -83,9 +83,9 @@ void resolve(const shadow::TechniqueFrame& work) {
 std::vector<gl::ProgramDesc> programs(const ParamSet& params) {
   std::vector<gl::ProgramDesc> all{
       {.name = "fill", .compute = "test/fill.comp"},
-      {.name = "count", .vertex = "render/full_screen.vert", .fragment = "test/count.frag"}};
+      {.name = "count", .vertex = "shared/full_screen.vert", .fragment = "test/count.frag"}};
   if (params.get_bool("counted.shown")) {
-    all.push_back({.name = "show", .vertex = "render/full_screen.vert", .fragment = "test/show.frag"});
+    all.push_back({.name = "show", .vertex = "shared/full_screen.vert", .fragment = "test/show.frag"});
   }
   return all;
 }
@@ -104,9 +104,32 @@ shadow::Technique counted() {
           .programs = programs};
 }
 
+// No function of a receiver: blended surfaces get the other technique's.
+shadow::Technique cleared() {
+  return {.name = "cleared",
+          .summary = "One value.",
+          .source = "made up",
+          .glsl = {},
+          .needs = shadow::needs_nothing,
+          .params = {{"cleared.value", 0.5f, 0, 1, "", "Visibility.", ParamBinding::host}},
+          .prepare =
+              [](const shadow::TechniqueFrame& work) {
+                if (work.params().get_float("cleared.value") > 0) return;
+                gl::Pass pass(work.device(), {.name = "casters"});
+                work.draw_casters(pass, shadow::CasterKind::geometry, 0);
+              },
+          .resolve =
+              [](const shadow::TechniqueFrame& work) {
+                const glm::vec4 value(work.params().get_float("cleared.value"), 0, 0, 0);
+                const gl::Attachment layer{.texture = &work.mask(), .layer = work.frame().layer, .clear = value};
+                const gl::Pass pass(work.device(), {.name = "clear", .colors = {layer}});
+              },
+          .stand_in = "counted"};
+}
+
 class ShadowTechnique : public GpuTest {
  protected:
-  ShadowTechnique() : renderer(shadow::Registry({counted()}, {})), params(renderer.params()) {
+  ShadowTechnique() : renderer(shadow::Registry({counted(), cleared()}, {})), params(renderer.params()) {
     gl::ShaderFiles& files = renderer.device().shaders.files();
     files.put("test/counted.glsl", technique_text);
     files.put("test/fill.comp", fill_text);
@@ -156,6 +179,51 @@ TEST_F(ShadowTechnique, ProductReachesVisibilityUnderBothDriversAndThePassesFoll
 
 TEST_F(ShadowTechnique, HistoryGoesOnWhileNothingBreaksIt) {
   for (int i = 1; i < 5; ++i) EXPECT_EQ(count(), static_cast<float>(i));
+}
+
+TEST_F(ShadowTechnique, BlendedSurfacesGetTheProductsOfTheStandIn) {
+  params.set("technique", "cleared");
+  params.set("counted.level", 6);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(frame()[0].x, 0.5f);
+    renderer.shadows().bind_forward(renderer.mask(), 0);
+    GLint bound = 0;
+    gl::glGetIntegeri_v(GL_TEXTURE_BINDING_2D_ARRAY, shadow::first_product_unit, &bound);
+    ASSERT_NE(bound, 0);
+    float level = 0;
+    gl::glGetTextureImage(static_cast<GLuint>(bound), 0, GL_RED, GL_FLOAT, sizeof(level), &level);
+    EXPECT_EQ(level, 0.75f);
+    renderer.shadows().unbind_forward();
+  }
+}
+
+TEST_F(ShadowTechnique, CastersThatNobodyDrawsAreAnErrorThatNamesTheTechnique) {
+  const gl::Texture maps("maps", {.target = GL_TEXTURE_2D_ARRAY, .format = GL_R32F, .width = 16, .height = 16});
+  shadow::FinishedMaps finished{.depth = {maps.id(), 16, 16}, .cascades = {}};
+  finished.cascades.size = 16;
+  finished.cascades.items.resize(1);
+  lights[0].maps = finished;
+  params.set("technique", "cleared");
+  params.set("cleared.value", 0.0f);
+  try {
+    frame([](shadow::Inputs& inputs) { inputs.draw = {}; });
+    FAIL() << "nothing thrown";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "technique 'cleared' draws casters, and Inputs::draw is empty");
+  }
+}
+
+TEST_F(ShadowTechnique, HistoryOutlivesWhatIsNoneOfItsBusiness) {
+  count();
+  params.set("cleared.value", 0.75f);
+  EXPECT_EQ(count(), 2) << "another technique's parameter";
+  const size_t bytes = renderer.device().target_bytes();
+  params.set("technique", "cleared");
+  frame();
+  EXPECT_LT(renderer.device().target_bytes(), bytes) << "what no frame fills is given back";
+  params.set("technique", "counted");
+  EXPECT_EQ(count(), 1);
+  EXPECT_EQ(renderer.device().target_bytes(), bytes) << "the stand-in's too";
 }
 
 TEST_F(ShadowTechnique, HistoryBeginsAgainWhenItIsVoid) {
