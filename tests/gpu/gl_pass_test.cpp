@@ -1,43 +1,15 @@
 #include "gl/pass.h"
 
-#include <algorithm>
-#include <numeric>
-
 #include "gl/api.h"
-#include "gpu_test.h"
+#include "gl_pass.h"
 
 namespace penumbra {
 namespace {
 
-using test::shader_files;
+using test::color_program;
+using test::fill_program;
 
-// The full-screen triangle at depth 0.5, and a fragment shader that writes one colour.
-gl::ShaderFiles files() {
-  return shader_files(
-      {{"triangle.vert",
-        "void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.5, 1.0); }\n"},
-       {"color.frag", "uniform vec4 value;\nlayout(location = 0) out vec4 color;\nvoid main() { color = value; }\n"},
-       {"fill.comp",
-        "layout(local_size_x = 8, local_size_y = 8) in;\nlayout(r32f, binding = 0) uniform writeonly image2DArray to;\n"
-        "void main() {\n  ivec3 p = ivec3(gl_GlobalInvocationID);\n"
-        "  imageStore(to, p, vec4(p.x + 10 * p.y + 1000 * p.z));\n}\n"}});
-}
-
-const gl::ProgramDesc color_program{.name = "color", .vertex = "triangle.vert", .fragment = "color.frag"};
-const gl::ProgramDesc fill_program{.name = "fill", .compute = "fill.comp"};
-
-class GlPass : public test::GpuTest {
- protected:
-  void draw(const gl::PassDesc& desc, const glm::vec4& value) {
-    gl::Pass pass(device, desc);
-    pass.use(color_program).set("value", value);
-    pass.draw_full_screen();
-  }
-
-  gl::Device device{files(), gl::Timers::Mode::off};
-  const gl::Texture& color = device.target("color", {.format = GL_RGBA32F, .width = 2, .height = 2});
-  const gl::Texture& depth = device.target("depth", {.format = GL_DEPTH_COMPONENT32F, .width = 2, .height = 2});
-};
+using GlPass = test::GlPassTest;
 
 // What an engine may leave behind; a pass must not care.
 void disturb_state() {
@@ -180,142 +152,6 @@ TEST_F(GlPass, DispatchCoversEveryInvocationAskedFor) {
   const std::vector<float> layer = gl::read_floats(array, 1, 0, 1);
   EXPECT_EQ(layer.front(), 1000.0f);
   EXPECT_EQ(layer.back(), 1048.0f);
-}
-
-class GlDevice : public GlPass {
- protected:
-  // Names of every kind the driver has given out, up to a bound far above what the tests make.
-  static int live_objects() {
-    int live = 0;
-    for (GLuint id = 1; id < 2000; ++id) {
-      live += gl::glIsTexture(id) + gl::glIsBuffer(id) + gl::glIsFramebuffer(id) + gl::glIsVertexArray(id) +
-              gl::glIsSampler(id) + gl::glIsProgram(id) + gl::glIsShader(id) + gl::glIsQuery(id);
-    }
-    return live;
-  }
-};
-
-TEST_F(GlDevice, AFrameMakesNoObjectsAfterTheFirst) {
-  const auto frame = [&] {
-    const gl::TextureDesc desc{
-        .target = GL_TEXTURE_2D_ARRAY, .format = GL_R32F, .width = 16, .height = 16, .layers = 4};
-    const gl::Texture& maps = device.target("maps", desc);
-    for (int layer = 0; layer < 4; ++layer) {
-      draw({.name = "map", .colors = {{.texture = &maps, .layer = layer, .clear = glm::vec4(1)}}}, glm::vec4(1));
-    }
-    device.scratch("lists", 256);
-    device.sampler({.min_filter = GL_LINEAR}).bind(0);
-    gl::Pass pass(device, {.name = "fill"});
-    pass.use(fill_program);
-    maps.bind_image(0, GL_WRITE_ONLY);
-    pass.dispatch(16, 16, 4);
-  };
-  frame();
-  const int live = live_objects();
-  const GLuint id =
-      device
-          .target(
-              "maps",
-              device
-                  .target("maps",
-                          {.target = GL_TEXTURE_2D_ARRAY, .format = GL_R32F, .width = 16, .height = 16, .layers = 4})
-                  .desc())
-          .id();
-  for (int i = 0; i < 5; ++i) frame();
-  EXPECT_EQ(live_objects(), live);
-  EXPECT_TRUE(gl::glIsTexture(id));
-}
-
-TEST_F(GlDevice, ATargetIsMadeAgainWhenItsDescriptionChanges) {
-  const int live = live_objects();
-  for (const int size : {4, 8, 16, 8}) {
-    const gl::Texture& target = device.target("t", {.format = GL_R32F, .width = size, .height = size});
-    EXPECT_EQ(target.width(), size);
-    draw({.name = "p", .colors = {{.texture = &target}}}, glm::vec4(static_cast<float>(size)));
-    EXPECT_EQ(gl::read_floats(target, 1), std::vector<float>(static_cast<std::size_t>(size * size), size));
-  }
-  constexpr int one_of_each = 5;  // texture, framebuffer, vertex array, program; the program's shaders are gone
-  EXPECT_LE(live_objects(), live + one_of_each);
-}
-
-TEST_F(GlDevice, AFramebufferIsNotReusedForATextureThatTookADeadOnesName) {
-  for (float value = 1; value < 5; ++value) {
-    const gl::Texture own("own", {.format = GL_R32F});
-    draw({.name = "p", .colors = {{.texture = &own}}}, glm::vec4(value));
-    EXPECT_EQ(gl::read_floats(own, 1).front(), value);
-  }
-}
-
-TEST_F(GlDevice, ScratchGrowsAndTargetsAreCounted) {
-  EXPECT_GE(device.scratch("s", 100).size(), 100u);
-  EXPECT_GE(device.scratch("s", 300).size(), 300u);
-  EXPECT_GE(device.scratch("s", 10).size(), 300u);
-  device.target("shadow/a", {.format = GL_R32F, .width = 8});
-  device.target("shadow/b", {.format = GL_R8, .width = 8});
-  EXPECT_EQ(device.target_bytes("shadow/"), 32u + 8u);
-  EXPECT_EQ(device.target_bytes(), 32u + 8u + color.bytes() + depth.bytes());
-}
-
-class GlTimers : public GlPass {
- protected:
-  static double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
-
-  void frames(gl::Device& timed, int count) {
-    for (int i = 0; i < count; ++i) {
-      timed.timers.begin_frame();
-      for (const char* name : {"first", "second", "first"}) {
-        const gl::Pass outer(timed, {.name = name});
-        const gl::Texture& target = timed.target("t", {.format = GL_RGBA32F, .width = 256, .height = 256});
-        gl::Pass pass(timed, {.name = "inner", .colors = {{.texture = &target}}});
-        pass.use(color_program);
-        pass.draw_full_screen();
-      }
-      timed.timers.end_frame();
-    }
-  }
-};
-
-TEST_F(GlTimers, RowsNestInOrderAndPassesFillTheFrameWithoutExceedingIt) {
-  for (const gl::Timers::Mode mode : {gl::Timers::Mode::finish, gl::Timers::Mode::query}) {
-    gl::Device timed(files(), mode);
-    frames(timed, 4);
-    const auto rows = timed.timers.rows();
-    std::vector<std::string> names(rows.size());
-    std::ranges::transform(rows, names.begin(), &gl::Timers::Row::name);
-    ASSERT_EQ(names, (std::vector<std::string>{"first", "first/inner", "second", "second/inner", "frame"}));
-    for (const auto& row : rows) EXPECT_EQ(row.milliseconds.size(), 4u) << row.name;
-    for (std::size_t i = 0; i < 4; ++i) {
-      EXPECT_LE(rows[1].milliseconds[i], rows[0].milliseconds[i]);
-      EXPECT_LE(rows[0].milliseconds[i] + rows[2].milliseconds[i], rows[4].milliseconds[i]);
-    }
-    EXPECT_GT(sum(rows[1].milliseconds), 0.0);
-  }
-}
-
-TEST_F(GlTimers, WhatIsDrawnOutsideOfAFrameIsNotRecorded) {
-  gl::Device timed(files(), gl::Timers::Mode::finish);
-  test::clear(timed, {.name = "warm-up"});
-  frames(timed, 1);
-  for (const auto& row : timed.timers.rows()) EXPECT_NE(row.name, "warm-up");
-}
-
-TEST_F(GlTimers, AFrameThatAnExceptionLeftOpenIsDropped) {
-  for (const gl::Timers::Mode mode : {gl::Timers::Mode::finish, gl::Timers::Mode::query}) {
-    gl::Device timed(files(), mode);
-    frames(timed, 1);
-    timed.timers.begin_frame();
-    test::clear(timed, {.name = "aborted"});
-    frames(timed, 2);
-    for (const auto& row : timed.timers.rows()) {
-      EXPECT_EQ(row.milliseconds.size(), 3u) << row.name;
-      EXPECT_EQ(sum(row.milliseconds) > 0.0, row.name != "aborted") << row.name;
-    }
-  }
-}
-
-TEST_F(GlTimers, OffRecordsNothing) {
-  frames(device, 2);
-  EXPECT_TRUE(device.timers.rows().empty());
 }
 
 }  // namespace
