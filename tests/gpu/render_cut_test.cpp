@@ -45,7 +45,7 @@ shadow::Technique counting() {
           .needs = shadow::needs_nothing,
           .resolve = resolve,
           .programs = [](const ParamSet&) -> std::vector<gl::ProgramDesc> {
-            return {{.name = "count", .vertex = "render/full_screen.vert", .fragment = "test/counting.frag"}};
+            return {{.name = "count", .vertex = "shared/full_screen.vert", .fragment = "test/counting.frag"}};
           }};
 }
 
