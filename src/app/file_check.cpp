@@ -50,6 +50,8 @@ void check_alone(const char* option, const fs::path& result, const RenderOptions
 void check_files(const RenderOptions& options, const OutputNames& names) {
   if (!options.glsl.empty() && !fs::is_directory(options.glsl))
     fail("--glsl: {} is not a folder", io::quoted(options.glsl));
+  if (is_picture(fs::weakly_canonical(options.scene), options, names))
+    fail_usage("-o would overwrite the scene {}", io::quoted(options.scene));
   io::check_writable(names.picture(options.frames.value_or(FrameRange{}).first));
   // A preset may be read and saved under one name: that changes it.
   if (!options.save_preset.empty()) check_alone("--save-preset", options.save_preset, options, names);

@@ -59,7 +59,8 @@ int dispatch(const Arguments& arguments) {
 
 // One line whatever a file's names hold, so that scripts can read it.
 int report(const std::string& message, int code) {
-  fmt::print(stderr, "error: {}\n", printable(message));
+  // Not by fmt::print, which throws where stderr is closed.
+  std::fputs(fmt::format("error: {}\n", printable(message)).c_str(), stderr);
   return code;
 }
 

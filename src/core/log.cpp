@@ -8,7 +8,8 @@ namespace {
 
 void write_to_stderr(LogLevel level, std::string_view message) {
   if (level < LogLevel::warning) return;
-  fmt::print(stderr, "{}: {}\n", level == LogLevel::warning ? "warning" : "error", message);
+  // Not by fmt::print, which throws where stderr is closed.
+  std::fputs(fmt::format("{}: {}\n", level == LogLevel::warning ? "warning" : "error", message).c_str(), stderr);
 }
 
 struct Sink {

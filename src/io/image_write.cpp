@@ -1,5 +1,6 @@
 #include "io/image_write.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <cassert>
@@ -18,14 +19,16 @@ OIIO::ImageSpec image_spec(int width, int height, int channels, const OIIO::Type
   return spec;
 }
 
+// By way of memory: OpenImageIO doesn't notice when a disk is full.
 void write(const std::filesystem::path& path, const char* format, const OIIO::ImageSpec& spec, const void* pixels) {
-  OutputFile file(path);
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
   if (!output) fail("cannot write {}: this OpenImageIO has no {} support", quoted(path), format);
-  const bool written =
-      output->open(file.temporary().string(), spec) && output->write_image(spec.format, pixels) && output->close();
-  if (!written) fail("cannot write {}: {}", quoted(path), output->geterror());
-  file.commit();
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const bool encoded = output->set_ioproxy(&memory) && output->open(path.string(), spec) &&
+                       output->write_image(spec.format, pixels) && output->close();
+  if (!encoded) fail("cannot write {}: {}", quoted(path), output->geterror());
+  write_text(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 import json
 import os
+import resource
+import shutil
 import signal
 import subprocess
 import time
@@ -183,6 +185,30 @@ class Output(TestCase):
                 for path in self.folder.iterdir():
                     read_png(path)  # each is whole
                     path.unlink()
+
+    def test_a_full_disk_is_an_error_and_leaves_nothing(self):
+        def few_bytes():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512))
+
+        for name in ("a.png", "a.exr"):
+            error = self.refuse("render", POSTS, "-o", self.folder / name, *SMALL, preexec_fn=few_bytes)
+            self.assertIn(name, error)
+            self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_a_picture_does_not_overwrite_the_scene(self):
+        for name, output in (("my.png", "my.png"), ("my.png", "sub/../my.png"), ("my_0001.png", "my_####.png")):
+            copy = self.folder / name
+            shutil.copy(POSTS, copy)
+            before = copy.read_bytes()
+            frames = ("--frames", "0:1") if "#" in output else ()
+            error = self.refuse("render", copy, "-o", self.folder / output, *SMALL, *frames, code=2)
+            self.assertIn("overwrite the scene", error)
+            self.assertEqual(copy.read_bytes(), before)
+
+    def test_a_closed_stderr_does_not_change_the_exit_code(self):
+        failed = subprocess.run(f"'{PROGRAM}' info nosuch.glb 2>&-", shell=True, check=False)
+        self.assertEqual(failed.returncode, 1)
 
 
 def decode(byte):
