@@ -6,7 +6,6 @@
 namespace penumbra {
 namespace {
 
-using test::color_program;
 using test::fill_program;
 
 class GlDevice : public test::GlPassTest {
