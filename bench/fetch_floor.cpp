@@ -34,12 +34,12 @@ Visibility visibility(Receiver receiver, Light light) {
   float search = narrow_search(receiver, light, light.cascade, light.reach).radius;
   float radius = texelFetch(kernels, ivec3(receiver.pixel, 0), 0).y;
   vec4 sum = vec4(0.0);
-  Scramble scramble = scramble_of(receiver, 0u);
+  Scramble scramble = scramble_of(receiver, blocker_step);
   for (int i = 0; i < fetch_floor_blocker_taps; ++i) {
     sum += fetch(receiver, search * blocker_point(i, scramble, light), light);
   }
   if (radius > 0.0) {
-    scramble = scramble_of(receiver, 1u);
+    scramble = scramble_of(receiver, filter_step);
     for (int i = 0; i < fetch_floor_filter_taps; ++i) {
       sum += fetch(receiver, radius * filter_point(i, scramble, light), light);
     }
@@ -118,7 +118,7 @@ int run(const std::filesystem::path& path, int pairs) {
   fmt::print("{}, {}x{}, {} cascades of {}x{}, 16/16 taps, early exits off, {}\n", path.filename().string(),
              frame.width, frame.height, params.get_int("cascades.count"), params.get_int("cascades.size"),
              params.get_int("cascades.size"), gl::device_info().renderer);
-  fmt::print("pcss {:.1f} ms, its fetches alone {:.1f} ms, ratio {:.2f} (medians of {})\n", median(pcss), median(floor),
+  fmt::print("pcss {:.3f} ms, its fetches alone {:.3f} ms, ratio {:.2f} (medians of {})\n", median(pcss), median(floor),
              median(pcss) / median(floor), pcss.size());
   return 0;
 }
