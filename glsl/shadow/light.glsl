@@ -99,8 +99,8 @@ float depth_at(ivec2 texel, Light light) {
 }
 
 // How much nearer to the light the surface beside the receiver gets with each metre towards one side. 0 unless the next
-// three texels rise, not less and less, as a face or the foot of one does, and their surface, continued to the receiver,
-// passes behind it.
+// three texels rise, not less and less, as a face or the foot of one does, and their surface, continued to the
+// receiver, passes behind it.
 float side_slope(Receiver receiver, ivec2 at, ivec2 side, float texels, float bias, Light light) {
   float first = depth_at(at + side, light);
   float second = depth_at(at + 2 * side, light);
