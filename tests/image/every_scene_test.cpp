@@ -1,6 +1,7 @@
 // Every scene, ours and third parties': it renders, the fragment and the compute driver agree, EGL and OSMesa agree,
 // and every AOV is finite. Third parties' scenes are those below $PENUMBRA_ASSETS/scenes.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -86,7 +87,7 @@ void expect_finite(const Layers& layers, const std::string& name) {
 void expect_same(const Layers& a, const Layers& b, const std::string& name, const char* what) {
   for (size_t i = 0; i < a.size(); ++i) {
     const std::string& aov = render::aovs()[i].name;
-    SCOPED_TRACE(name + ": " + what + " in " + aov);
+    SCOPED_TRACE(fmt::format("{}: {} in {}", name, what, aov));
     if (aov == "shadow") {
       expect_same_visibility(a[i], b[i], 16);
     } else if (gl::device_info().software) {
