@@ -39,7 +39,6 @@ bool is_picture(const fs::path& result, const RenderOptions& options, const Outp
 }
 
 void check_alone(const char* option, const fs::path& result, const RenderOptions& options, const OutputNames& names) {
-  if (replaces(result, options.scene)) fail_usage("{} {} would overwrite the scene", option, io::quoted(result));
   if (is_picture(result, options, names))
     fail_usage("{} {} is a picture of this command too", option, io::quoted(result));
   io::check_writable(result);
@@ -47,11 +46,23 @@ void check_alone(const char* option, const fs::path& result, const RenderOptions
 
 }  // namespace
 
+void check_scene_files(const std::vector<fs::path>& files, const RenderOptions& options, const OutputNames& names) {
+  for (const fs::path& file : files) {
+    const auto refuse = [&](const char* option) {
+      fail_usage("{} would overwrite the scene's file {}", option, io::quoted(file));
+    };
+    std::error_code error;
+    const fs::path target = fs::weakly_canonical(file, error);
+    if (is_picture(file, options, names) || (!error && is_picture(target, options, names))) refuse("-o");
+    if (!options.stats.empty() && replaces(options.stats, file)) refuse("--stats");
+    if (!options.save_preset.empty() && replaces(options.save_preset, file)) refuse("--save-preset");
+  }
+}
+
 void check_files(const RenderOptions& options, const OutputNames& names) {
   if (!options.glsl.empty() && !fs::is_directory(options.glsl))
     fail("--glsl: {} is not a folder", io::quoted(options.glsl));
-  if (is_picture(fs::weakly_canonical(options.scene), options, names))
-    fail_usage("-o would overwrite the scene {}", io::quoted(options.scene));
+  check_scene_files({options.scene}, options, names);
   io::check_writable(names.picture(options.frames.value_or(FrameRange{}).first));
   // A preset may be read and saved under one name: that changes it.
   if (!options.save_preset.empty()) check_alone("--save-preset", options.save_preset, options, names);

@@ -63,6 +63,7 @@ void render_files(const RenderOptions& options) {
   std::future<Stage> loading = std::async(std::launch::async, [&options] { return load_stage(options); });
   std::unique_ptr<gl::Context> context = open_context(options);
   const Stage stage = loading.get();
+  check_scene_files(stage.scene.files, options, names);
   Studio studio(options, std::move(context), stage);
 
   draw_all(options, studio, params, names, range);

@@ -43,6 +43,8 @@ void check_extent(const Scene& scene, double limit) {
 Scene read_scene(const std::filesystem::path& path, const ImageDecoder& decode, const ReadLimits& limits) {
   gltf::Document document = gltf::read_document(path, limits);
   Scene scene;
+  scene.files = document.files;
+  scene.files.push_back(path);
   scene.extensions_used = document.model.extensionsUsed;
   std::vector<gltf::MaterialUse> materials = gltf::read_materials(document);
   gltf::read_textures(document, decode, materials, scene);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
@@ -148,6 +149,7 @@ struct Animation {
 
 struct Scene {
   std::string name;
+  std::vector<std::filesystem::path> files;  // what it was read from: the file itself, buffers and images beside it
   std::vector<Image> images;
   std::vector<Texture> textures;
   std::vector<Material> materials;

@@ -206,6 +206,22 @@ class Output(TestCase):
             self.assertIn("overwrite the scene", error)
             self.assertEqual(copy.read_bytes(), before)
 
+    def test_no_result_overwrites_a_file_that_the_scene_names(self):
+        names = ("a b.bin", "color.png")
+        gltf = {"asset": {"version": "2.0"}, "buffers": [{"uri": "a%20b.bin", "byteLength": 4}]}
+        gltf["images"] = [{"uri": "color.png"}]
+        (self.folder / "s.gltf").write_text(json.dumps(gltf))
+        for name in names:
+            (self.folder / name).write_bytes(b"data")
+        command = ("render", self.folder / "s.gltf", *SMALL)
+        stats = ("-o", self.folder / "x.png", "--stats", self.folder / names[0])
+        preset = ("-o", self.folder / "x.png", "--save-preset", self.folder / names[0])
+        for results in (("-o", self.folder / names[1]), stats, preset):
+            self.assertIn("overwrite the scene's file", self.refuse(*command, *results, code=2))
+        for name in names:
+            self.assertEqual((self.folder / name).read_bytes(), b"data")
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), sorted((*names, "s.gltf")))
+
     def test_a_closed_stderr_does_not_change_the_exit_code(self):
         failed = subprocess.run(f"'{PROGRAM}' info nosuch.glb 2>&-", shell=True, check=False)
         self.assertEqual(failed.returncode, 1)

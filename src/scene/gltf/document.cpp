@@ -135,6 +135,16 @@ void list_images(Document& document, const Json& json) {
   }
 }
 
+void list_files(Document& document, const Json& json) {
+  for (const char* key : {"buffers", "images"}) {
+    if (!json.contains(key)) continue;
+    for (const Json& owner : json[key]) {
+      const auto uri = owner.value("uri", std::string());
+      if (!uri.empty() && !is_data_uri(uri)) document.files.push_back(document.folder / percent_decoded(uri));
+    }
+  }
+}
+
 template <class T>
 void spend_array(Budget& budget, const Json& owner, const char* key) {
   if (owner.contains(key)) budget.spend(owner[key].size(), sizeof(T));
@@ -206,6 +216,7 @@ Document read_document(const std::filesystem::path& path, const ReadLimits& limi
   const std::vector<Bytes> buffers = load_buffers(document, container);
   cut_views(document, container.json, buffers);
   list_images(document, container.json);
+  list_files(document, container.json);
   document.model = parse_model(std::move(container.json));
   document.storage.push_back(std::move(container.file));  // moving a vector leaves its bytes where they are
   return document;

@@ -25,8 +25,9 @@ struct ImageSource {
 // mean together (accessors, hierarchy, animations) is checked where it is read.
 struct Document {
   std::filesystem::path folder;
-  tinygltf::Model model;     // buffers and images are kept here instead:
-  std::vector<Bytes> views;  // of each bufferView, decompressed; empty where its buffer has no data
+  std::vector<std::filesystem::path> files;  // those that the glTF names, whether anything uses them or not
+  tinygltf::Model model;                     // buffers and images are kept here instead:
+  std::vector<Bytes> views;                  // of each bufferView, decompressed; empty where its buffer has no data
   std::vector<ImageSource> images;
   ReadLimits limits;
   Budget budget;
