@@ -4,28 +4,15 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
-#include <memory>
 #include <string>
 
-#include "gpu/gpu_test.h"
 #include "gpu/triangle_scene.h"
 #include "support/alike.h"
 
 namespace penumbra::test {
 namespace {
 
-class ShadowBias : public GpuTest {
- protected:
-  void SetUp() override {
-    GpuTest::SetUp();
-    renderer_ = std::make_unique<TriangleRenderer>();
-  }
-  void TearDown() override {
-    renderer_.reset();
-    GpuTest::TearDown();
-  }
-  std::unique_ptr<TriangleRenderer> renderer_;
-};
+using ShadowBias = TriangleTest;
 
 // A plane of 40 m, seen from near its rim towards its middle; tilted about an oblique axis when asked.
 TriangleScene lone_plane(bool tilted) {

@@ -5,28 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "gpu/gpu_test.h"
 #include "gpu/triangle_scene.h"
 
 namespace penumbra::test {
 namespace {
 
-class ShadowCorner : public GpuTest {
- protected:
-  void SetUp() override {
-    GpuTest::SetUp();
-    renderer_ = std::make_unique<TriangleRenderer>();
-  }
-  void TearDown() override {
-    renderer_.reset();
-    GpuTest::TearDown();
-  }
-  std::unique_ptr<TriangleRenderer> renderer_;
-};
+using ShadowCorner = TriangleTest;
 
 // A box of that size, its foot's centre moved and turned.
 void add_turned_box(TriangleScene& scene, const glm::vec3& size, const glm::mat4& place) {

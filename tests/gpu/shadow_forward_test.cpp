@@ -1,6 +1,5 @@
 // Shadows on surfaces that an engine draws forward, in a shader of its own with names of its own.
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <string>
 
 #include "gpu/gpu_test.h"
@@ -44,17 +43,6 @@ void main() {
   shaded = vec4(depth == 0.0 ? 1.0 : penumbra_shadow_visibility(view.xyz / view.w, normal, vec2(pixel)));
 }
 )";
-
-TriangleScene box_on_ground() {
-  TriangleScene scene;
-  scene.add_quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
-  scene.add_box({-1, 0, -1}, {1, 2, 1});
-  scene.view = glm::lookAt(glm::vec3(2, 5, 6), glm::vec3(0), glm::vec3(0, 1, 0));
-  scene.projection = perspective(0.8f, 1, 0.1f);
-  scene.width = scene.height = 64;
-  scene.to_light = sun_direction(60, 40);
-  return scene;
-}
 
 // The engine's pass: visibility of every pixel, by the library's function.
 std::vector<float> drawn_forward(TriangleRenderer& renderer, const ParamSet& params, const shadow::Light& light = {}) {

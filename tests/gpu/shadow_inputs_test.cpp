@@ -1,7 +1,6 @@
 // What the library is handed: bad input is refused in one line that names it, and a view may be a part of its textures.
 
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
 #include "gpu/gpu_test.h"
@@ -12,22 +11,11 @@ namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-TriangleScene box_on_ground() {
-  TriangleScene scene;
-  scene.add_quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
-  scene.add_box({-1, 0, -1}, {1, 1, 1});
-  scene.view = glm::lookAt(glm::vec3(2, 5, 6), glm::vec3(0), glm::vec3(0, 1, 0));
-  scene.projection = perspective(0.8f, 1, 0.1f);
-  scene.width = scene.height = 48;
-  scene.to_light = sun_direction(60, 40);
-  return scene;
-}
-
 class ShadowInputs : public GpuTest {
  protected:
   // The message that the inputs end with, once changed.
   std::string refusal(const TriangleRenderer::Adjust& change) {
-    return message_of([&] { renderer.render(box_on_ground(), params, change); });
+    return message_of([&] { renderer.render(box_on_ground(48), params, change); });
   }
   void expect_refusal(const std::string& says, const TriangleRenderer::Adjust& change) {
     const std::string message = refusal(change);
@@ -119,7 +107,7 @@ TEST_F(ShadowInputs, LightsAreChecked) {
 }
 
 TEST_F(ShadowInputs, AViewMayBeAPartOfItsTextures) {
-  const TriangleScene scene = box_on_ground();
+  const TriangleScene scene = box_on_ground(48);
   const shadow::Rect part{13, 5, scene.width, scene.height};
   constexpr int width = 80;
   constexpr int height = 64;

@@ -6,11 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "gpu/gpu_test.h"
 #include "gpu/triangle_scene.h"
 
 namespace penumbra::test {
@@ -67,7 +65,7 @@ struct Case {
 };
 constexpr Case cases[] = {{1, 0.53f}, {5, 0.53f}, {20, 0.53f}, {1, 2}, {5, 2}, {20, 2}, {1, 8}, {5, 8}, {20, 8}};
 
-class KnifeEdge : public GpuTest {
+class KnifeEdge : public TriangleTest {
  protected:
   static ParamSet parameters(TriangleRenderer& renderer, float angle, const std::string& shape) {
     ParamSet params = renderer.params();
@@ -80,15 +78,6 @@ class KnifeEdge : public GpuTest {
   static void expect_wide_kernel(const TriangleRenderer& renderer, float radius) {
     ASSERT_GE(radius / renderer.mask().lights[0].cascades.texel(0), 24) << "the case is framed too wide";
   }
-  void SetUp() override {
-    GpuTest::SetUp();
-    renderer_ = std::make_unique<TriangleRenderer>();
-  }
-  void TearDown() override {
-    renderer_.reset();
-    GpuTest::TearDown();
-  }
-  std::unique_ptr<TriangleRenderer> renderer_;
 };
 
 TEST_F(KnifeEdge, BruteForceWithEveryTexelMatchesTheExactFunction) {
@@ -243,10 +232,9 @@ double width_at(TriangleRenderer& renderer, int cascades, int size, bool far_obj
   return width_10_90(profile, 2.4 * radius / bins);
 }
 
-class PenumbraWidth : public GpuTest {};
+using PenumbraWidth = TriangleTest;
 
 TEST_F(PenumbraWidth, IsTheSameForEveryCascadeCountMapSizeAndBounds) {
-  TriangleRenderer renderer;
   int qualified = 0;
   int all = 0;
   for (const float distance : {4.0f, 12.0f, 24.0f}) {
@@ -256,7 +244,7 @@ TEST_F(PenumbraWidth, IsTheSameForEveryCascadeCountMapSizeAndBounds) {
       for (const int size : {1024, 2048, 4096}) {
         for (const bool far_object : {false, true}) {
           double texels = 0;
-          const double width = width_at(renderer, cascades, size, far_object, distance, &texels);
+          const double width = width_at(*renderer_, cascades, size, far_object, distance, &texels);
           ++all;
           if (texels < 4) continue;
           ++qualified;

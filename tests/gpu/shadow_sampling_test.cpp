@@ -31,11 +31,10 @@ TriangleScene wide_penumbra() {
   return scene;
 }
 
-class ShadowSampling : public GpuTest {
+class ShadowSampling : public TriangleTest {
  protected:
   void SetUp() override {
-    GpuTest::SetUp();
-    renderer_ = std::make_unique<TriangleRenderer>();
+    TriangleTest::SetUp();
     params_ = std::make_unique<ParamSet>(renderer_->params());
     params_->set("sun.angle", 8.0f);
     params_->set("cascades.count", 1);
@@ -43,8 +42,7 @@ class ShadowSampling : public GpuTest {
   }
   void TearDown() override {
     params_.reset();
-    renderer_.reset();
-    GpuTest::TearDown();
+    TriangleTest::TearDown();
   }
 
   Shadowed draw() { return renderer_->render(wide_penumbra(), *params_); }
@@ -56,7 +54,6 @@ class ShadowSampling : public GpuTest {
     });
   }
 
-  std::unique_ptr<TriangleRenderer> renderer_;
   std::unique_ptr<ParamSet> params_;
 };
 

@@ -95,6 +95,17 @@ void TriangleScene::add_box(const glm::vec3& min, const glm::vec3& max) {
   add_quad(min + y, z, x);
 }
 
+TriangleScene box_on_ground(int side) {
+  TriangleScene scene;
+  scene.add_quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
+  scene.add_box({-1, 0, -1}, {1, 2, 1});
+  scene.view = glm::lookAt(glm::vec3(2, 5, 6), glm::vec3(0), glm::vec3(0, 1, 0));
+  scene.projection = perspective(0.8f, 1, 0.1f);
+  scene.width = scene.height = side;
+  scene.to_light = sun_direction(60, 40);
+  return scene;
+}
+
 glm::mat4 orthographic(float half_width, float half_height, float near, float far) {
   glm::mat4 m(1);
   m[0][0] = 1 / half_width;

@@ -2,11 +2,13 @@
 
 #include <functional>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "gl/pass.h"
+#include "gpu/gpu_test.h"
 #include "shadow/soft_shadows.h"
 
 namespace penumbra::test {
@@ -26,6 +28,9 @@ struct TriangleScene {
   void add_quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v);
   void add_box(const glm::vec3& min, const glm::vec3& max);
 };
+
+// A box of 2 m on a ground of 10 m, so many pixels wide and high.
+TriangleScene box_on_ground(int side = 64);
 
 // Reversed-Z, z in 0..1.
 glm::mat4 orthographic(float half_width, float half_height, float near, float far);
@@ -67,6 +72,20 @@ class TriangleRenderer {
   gl::Device device_;
   shadow::SoftShadows shadows_;
   shadow::Mask mask_;
+};
+
+// A test with a renderer of its own.
+class TriangleTest : public GpuTest {
+ protected:
+  void SetUp() override {
+    GpuTest::SetUp();
+    renderer_ = std::make_unique<TriangleRenderer>();
+  }
+  void TearDown() override {
+    renderer_.reset();
+    GpuTest::TearDown();
+  }
+  std::unique_ptr<TriangleRenderer> renderer_;
 };
 
 }  // namespace penumbra::test
