@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "light_block.h"
 #include "shadow_map.h"
 
 namespace penumbra::shadow {

@@ -145,13 +145,12 @@ Mask SoftShadows::render(const Inputs& inputs, const ParamSet& params) {
   check(inputs);
   ViewState& view = state_->views[inputs.view.id];
   begin_frame(view, inputs);
-  const auto& [width, height] = std::pair(inputs.depth.width, inputs.depth.height);
   Mask mask;
   mask.texture = &device_.target(view_prefix(inputs.view.id) + "mask",
                                  {.target = GL_TEXTURE_2D_ARRAY,
                                   .format = GL_RGBA16F,
-                                  .width = width,
-                                  .height = height,
+                                  .width = inputs.depth.width,
+                                  .height = inputs.depth.height,
                                   .layers = std::max(1, static_cast<int>(inputs.lights.size()))});
   for (const Light& light : inputs.lights) {
     mask.lights.push_back(render_light(inputs, light, params_of(registry_, params, light), view.lights[light.id],
