@@ -1,10 +1,23 @@
+// What of a caster is there, and whether it moved.
+#if MASKED
 #include "scene/material.glsl"
 
 in Caster {
   vec4 uv;
   vec4 color;
 } caster;
+#endif
+
+#if MARKS_MOVED
+flat in float caster_moved;
+layout(location = 0) out float moved;
+#endif
 
 void main() {
+#if MASKED
   if (base_color(caster.uv, caster.color).a < material.alpha_cutoff) discard;
+#endif
+#if MARKS_MOVED
+  moved = caster_moved;
+#endif
 }

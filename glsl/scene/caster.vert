@@ -1,4 +1,4 @@
-// What casts shadows: depth, and texture coordinates where alpha decides.
+// What casts shadows: depth, texture coordinates where alpha decides, and whether it moved.
 #include "scene/instance.glsl"
 
 #if LAST_POSE
@@ -12,11 +12,17 @@ layout(location = 6) in uint instance;
 
 uniform mat4 world_to_clip;
 
+// Passes that test against a shadow map's depth need its very positions.
+invariant gl_Position;
+
 #if MASKED
 out Caster {
   vec4 uv;
   vec4 color;
 } caster;
+#endif
+#if MARKS_MOVED
+flat out float caster_moved;
 #endif
 
 void main() {
@@ -29,5 +35,8 @@ void main() {
 #if MASKED
   caster.uv = uv;
   caster.color = color;
+#endif
+#if MARKS_MOVED
+  caster_moved = (instances[instance].flags & INSTANCE_MOVED) != 0u ? 1.0 : 0.0;
 #endif
 }

@@ -8,12 +8,19 @@ shadow::TextureView view_of(const gl::Texture& texture) { return {texture.id(), 
 
 shadow::Box box_of(const scene::Bounds& bounds) { return {bounds.min, bounds.max}; }
 
+shadow::Box moved_box(const scene::GpuScene& scene) {
+  const scene::Bounds bounds = scene.moved_bounds();
+  return bounds.empty ? shadow::Box{glm::vec3(1), glm::vec3(-1)} : box_of(bounds);
+}
+
 scene::Casters casters_of(shadow::CasterKind kind) {
   switch (kind) {
     case shadow::CasterKind::moved_now:
       return scene::Casters::moved_now;
     case shadow::CasterKind::moved_last:
       return scene::Casters::moved_last;
+    case shadow::CasterKind::depth_and_moved:
+      return scene::Casters::all_and_moved;
     case shadow::CasterKind::depth:
     case shadow::CasterKind::geometry:
       break;
@@ -42,6 +49,7 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
                                      .lights = std::span(&sun, 1),
                                      .casters = box_of(inputs.scene.casters()),
                                      .receivers = box_of(inputs.scene.receivers()),
+                                     .moved = moved_box(inputs.scene),
                                      .draw = draw},
                                     inputs.params);
 }

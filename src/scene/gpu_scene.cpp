@@ -206,7 +206,7 @@ void GpuScene::State::update_instances() {
   std::vector<glsl::InstanceBlock> blocks;
   blocks.reserve(instances.size());
   moved = false;
-  casters = receivers = {};
+  casters = receivers = moved_casters = {};
   for (Instance& instance : instances) {
     const glm::mat4 world = placement(instance, now->pose);
     const glm::mat4 last_world = placement(instance, last->pose);
@@ -217,7 +217,13 @@ void GpuScene::State::update_instances() {
     instance.box = box(instance, now->pose, world);
     instance.last_box = instance.moved ? box(instance, last->pose, last_world) : instance.box;
     moved = moved || instance.moved;
-    if (instance.casts != Casts::never) casters.add(instance.box);
+    if (instance.casts != Casts::never) {
+      casters.add(instance.box);
+      if (instance.moved) {
+        moved_casters.add(instance.box);
+        moved_casters.add(instance.last_box);
+      }
+    }
     receivers.add(instance.box);
     const unsigned triangles = instance.topology == Topology::triangles ? INSTANCE_TRIANGLES : 0u;
     blocks.push_back({.world = world,
@@ -225,7 +231,7 @@ void GpuScene::State::update_instances() {
                       .area = glm::mat4(area_matrix(glm::mat3(world))),
                       .first_index = instance.first_index,
                       .base_vertex = instance.base_vertex,
-                      .flags = triangles,
+                      .flags = triangles | (instance.moved ? INSTANCE_MOVED : 0u),
                       .winding = instance.mirrored ? -1.0f : 1.0f});
   }
   instance_blocks.write(std::as_bytes(std::span(blocks)));
@@ -239,6 +245,7 @@ bool GpuScene::has_blended() const { return state_->blended; }
 bool GpuScene::moved() const { return state_->moved; }
 Bounds GpuScene::casters() const { return state_->casters; }
 Bounds GpuScene::receivers() const { return state_->receivers; }
+Bounds GpuScene::moved_bounds() const { return state_->moved_casters; }
 bool GpuScene::lit_by_file() const { return state_->lit_by_file; }
 
 std::vector<glm::vec3> GpuScene::read_deformed() const {

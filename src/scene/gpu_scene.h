@@ -20,9 +20,10 @@ using BoxTest = std::function<bool(const Bounds&)>;
 enum class Surfaces { opaque, masked };
 
 enum class Casters {
-  all,
-  moved_now,   // those that moved since the last frame, where they are
-  moved_last,  // those that moved, where they were
+  all,            // depth only
+  all_and_moved,  // and 1 in fragment output 0 for those that moved since the last frame, else 0
+  moved_now,      // those that moved, where they are; output 0 is 1
+  moved_last,     // those that moved, where they were; output 0 is 1
 };
 
 // A scene on the GPU: one set of vertex buffers, one of indices, one of instances. `scene` must outlive it unchanged.
@@ -42,7 +43,7 @@ class GpuScene {
   // Draws BLEND surfaces from back to front as seen from `eye`.
   void draw_blended(gl::Device& device, gl::Pass& pass, const gl::ProgramDesc& program, const glm::vec3& eye,
                     const BoxTest& visible);
-  // Draws what casts shadows, depth only: opaque surfaces, and of the others what their alpha leaves.
+  // Draws what casts shadows: opaque surfaces, and of the others what their alpha leaves.
   void draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
                     const BoxTest& reaches);
 
@@ -52,7 +53,8 @@ class GpuScene {
   bool moved() const;      // anything, between the two poses
   Bounds casters() const;  // world bounds in the present pose
   Bounds receivers() const;
-  bool lit_by_file() const;  // it brings a directional light, so its emission is in the same units
+  Bounds moved_bounds() const;  // of the casters that moved between the two poses, in both; empty: none did
+  bool lit_by_file() const;     // it brings a directional light, so its emission is in the same units
 
   // Every program that draw_casters() and pose() use.
   static std::vector<gl::ProgramDesc> programs();

@@ -26,11 +26,13 @@ GLenum mode_of(Topology topology) {
   return GL_TRIANGLES;
 }
 
-gl::ProgramDesc caster_program(bool masked, bool last_pose) {
+gl::ProgramDesc caster_program(bool masked, bool marks_moved, bool last_pose) {
   gl::ProgramDesc program{.name = masked ? "alpha caster" : "caster",
                           .vertex = "scene/caster.vert",
-                          .defines = {{"LAST_POSE", last_pose ? "1" : "0"}, {"MASKED", masked ? "1" : "0"}}};
-  if (masked) program.fragment = "scene/caster.frag";
+                          .defines = {{"LAST_POSE", last_pose ? "1" : "0"},
+                                      {"MASKED", masked ? "1" : "0"},
+                                      {"MARKS_MOVED", marks_moved ? "1" : "0"}}};
+  if (masked || marks_moved) program.fragment = "scene/caster.frag";
   return program;
 }
 
@@ -120,19 +122,20 @@ void GpuScene::draw_blended(gl::Device& device, gl::Pass& pass, const gl::Progra
 void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
                             const BoxTest& reaches) {
   const bool last = casters == Casters::moved_last;
+  const bool only_moved = last || casters == Casters::moved_now;
   for (const bool masked : {false, true}) {
     DrawList list;
     for (std::uint32_t i = 0; i < state_->instances.size(); ++i) {
       const Instance& instance = state_->instances[i];
       if (instance.casts != (masked ? Casts::by_alpha : Casts::always)) continue;
-      if (casters != Casters::all && !instance.moved) continue;
+      if (only_moved && !instance.moved) continue;
       if (!reaches(last ? instance.last_box : instance.box)) continue;
       // Without a material or sides to tell apart, all are one draw.
       list.add(instance, i,
                {.deformed = instance.job >= 0, .double_sided = true, .material = masked ? instance.material : -1});
     }
     if (list.commands.empty()) continue;
-    pass.use(caster_program(masked, last)).set("world_to_clip", world_to_clip);
+    pass.use(caster_program(masked, casters != Casters::all, last)).set("world_to_clip", world_to_clip);
     state_->draw(device, pass, list);
   }
 }
@@ -140,7 +143,9 @@ void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, Casters casters,
 std::vector<gl::ProgramDesc> GpuScene::programs() {
   std::vector<gl::ProgramDesc> programs{Deformer::program()};
   for (const bool masked : {false, true}) {
-    for (const bool last_pose : {false, true}) programs.push_back(caster_program(masked, last_pose));
+    programs.push_back(caster_program(masked, /*marks_moved=*/false, /*last_pose=*/false));
+    for (const bool last_pose : {false, true})
+      programs.push_back(caster_program(masked, /*marks_moved=*/true, last_pose));
   }
   return programs;
 }

@@ -82,7 +82,7 @@ struct GpuScene::State {
   std::pair<double, double> times;  // of the last and the present pose
 
   bool moved = false, blended = false, lit_by_file = false;
-  Bounds casters, receivers;
+  Bounds casters, receivers, moved_casters;
 
   PosedVertices& posed_at(gl::Device& device, double time, const PosedVertices* keep);
   void set_vertex_arrays() const;

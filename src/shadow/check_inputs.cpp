@@ -28,10 +28,14 @@ void check_matrix(std::string_view name, const glm::mat4& matrix) {
   if (glm::determinant(glm::dmat4(matrix)) == 0) fail("soft shadows: {} has no inverse", name);
 }
 
-void check_box(std::string_view name, const Box& box) {
+void check_finite(std::string_view name, const Box& box) {
   if (!all_finite(glm::value_ptr(box.min), 3) || !all_finite(glm::value_ptr(box.max), 3)) {
     fail("soft shadows: the box of the {} is not finite", name);
   }
+}
+
+void check_box(std::string_view name, const Box& box) {
+  check_finite(name, box);
   if (glm::any(glm::greaterThan(box.min, box.max))) fail("soft shadows: the box of the {} is empty", name);
 }
 
@@ -157,6 +161,8 @@ void check(const Inputs& inputs) {
     check_receivers("motion vectors", inputs.motion, inputs.depth, 2);
   }
   check_viewport(inputs.viewport, inputs.depth);
+  const bool none_moved = inputs.moved && glm::all(glm::greaterThan(inputs.moved->min, inputs.moved->max));
+  if (inputs.moved && !none_moved) check_finite("moved casters", *inputs.moved);
   check_lights(inputs);
 }
 

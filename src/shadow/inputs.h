@@ -45,20 +45,25 @@ struct Rect {
   bool operator==(const Rect&) const = default;
 };
 
+// Which casters are drawn, and what their fragments write to output 0, a float, besides depth. What moved has another
+// transform, skin, morph or shape than in the last frame; what is new or gone was, or is, nowhere.
 enum class CasterKind {
-  depth,       // all casters that the volume holds, depth only
-  moved_now,   // those that moved since the last frame, where they are
-  moved_last,  // those that moved, where they were
-  geometry,    // all, for techniques that need triangles
+  depth,            // all casters that the volume holds; no output
+  depth_and_moved,  // the same; output 0 is 1 for those that moved since the last frame, else 0
+  moved_now,        // those that moved, where they are; output 0 is 1
+  moved_last,       // those that moved, where they were; output 0 is 1
+  geometry,         // all, for techniques that need triangles; outputs are the technique's own
 };
 
 // One call to the caller's code: draw these casters with these matrices. The framebuffer, viewport, depth test and
 // culling state are set; the callback binds its own programs and vertex arrays, both sides of every triangle cast, and
-// polygon offset stays off.
+// polygon offset stays off. Casters that are drawn in several of these passes must get the same depth in each: the same
+// positions and matrices through the same sums. The kinds from depth_and_moved to moved_last are asked for only where
+// something keeps history.
 struct CasterPass {
   CasterKind kind = CasterKind::depth;
   int cascade = 0;
-  glm::mat4 world_to_clip{1};
+  glm::mat4 world_to_clip{1};  // of the present frame, for moved_last too
   CullVolume cull;
 };
 using DrawCasters = std::function<void(const CasterPass&, gl::Pass&)>;
@@ -89,12 +94,16 @@ struct Inputs {
   std::span<const Light> lights;
   // World bounds; unused when every light brings its maps. A point is a box, what was never set is none.
   Box casters{glm::vec3(1), glm::vec3(-1)}, receivers{glm::vec3(1), glm::vec3(-1)};
+  // World bounds of the casters that moved since the last frame, where they are and where they were, together. Absent:
+  // not known, so any may have. A box that holds nothing (min > max): none moved, and no movement map is drawn.
+  std::optional<Box> moved;
   DrawCasters draw;  // optional when every light brings its maps
 };
 
 // Throws Error, in one line that names the input and the fault: textures that are none, of another size or of a format
 // that can't be read as what they are given for; matrices that are not finite or can't be inverted; boxes that hold
-// nothing or are not finite; lights without direction, without maps, or with the id of another.
+// nothing or are not finite (`moved` may hold nothing); lights without direction, without maps, or with the id of
+// another.
 void check(const Inputs& inputs);
 
 // Inputs::viewport, or all of the depth texture.

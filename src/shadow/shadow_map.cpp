@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "movement_map.h"
+
 namespace penumbra::shadow {
 
 const gl::Texture& draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs) {
@@ -12,12 +14,16 @@ const gl::Texture& draw_shadow_map(gl::Device& device, const ShadowMapInputs& in
                                                          .height = inputs.cascades.size,
                                                          .layers = count});
   for (int i = 0; i < count; ++i) {
-    gl::Pass pass(device, {.name = "shadow map",
-                           .depth = gl::Attachment{.texture = &depth, .layer = i, .clear = glm::vec4(1)},
-                           .depth_test = gl::DepthTest::less_equal,
-                           .depth_write = true});
+    gl::PassDesc desc{.name = "shadow map",
+                      .depth = gl::Attachment{.texture = &depth, .layer = i, .clear = glm::vec4(1)},
+                      .depth_test = gl::DepthTest::less_equal,
+                      .depth_write = true};
+    const CullVolume cull = cull_volume(inputs.cascades, i);
+    const bool marks = inputs.moved != nullptr && may_hold_moved(cull, inputs.moved_bounds);
+    if (marks) desc.colors = {{.texture = inputs.moved, .layer = i, .clear = glm::vec4(0)}};
+    gl::Pass pass(device, desc);
     const glm::mat4 world_to_clip(inputs.cascades.items[static_cast<size_t>(i)].world_to_clip);
-    inputs.draw({CasterKind::depth, i, world_to_clip, cull_volume(inputs.cascades, i)}, pass);
+    inputs.draw({marks ? CasterKind::depth_and_moved : CasterKind::depth, i, world_to_clip, cull}, pass);
   }
   return depth;
 }

@@ -11,6 +11,10 @@ struct ShadowMapInputs {
   std::string name;  // of the target: one map a light
   const Cascades& cascades;
   const DrawCasters& draw;
+  // Level 0 of a movement map: takes the present position of what moved as a second target. What moved lies within
+  // `moved_bounds` (see Inputs::moved); layers of cascades that do not hold it stay as they are.
+  const gl::Texture* moved = nullptr;
+  std::optional<Box> moved_bounds;
 };
 
 // Depth of the casters: DEPTH_COMPONENT32F array, one layer a cascade, linear, near 0, far 1.

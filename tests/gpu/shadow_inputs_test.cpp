@@ -42,6 +42,12 @@ TEST_F(ShadowInputs, MatricesAndBoxesAreChecked) {
   expect_refusal("the box of the receivers is empty", [](Inputs& in) { in.receivers.min.y = 100; });
   expect_refusal("the box of the casters is not finite", [](Inputs& in) { in.casters.max.x = infinite; });
   expect_refusal("the box of the receivers is not finite", [](Inputs& in) { in.receivers.min.z = NAN; });
+  expect_refusal("the box of the moved casters is not finite", [](Inputs& in) {
+    in.moved = shadow::Box{glm::vec3(0), {0, NAN, 0}};
+  });
+  EXPECT_NO_THROW(renderer.render(box_on_ground(48), params, [](Inputs& in) {
+    in.moved = shadow::Box{glm::vec3(infinite), glm::vec3(-infinite)};
+  })) << "none moved";
 }
 
 TEST_F(ShadowInputs, TexturesAreChecked) {
