@@ -1,0 +1,104 @@
+// What filters are written in: each one's file includes this and defines
+//   uint filtered(ivec2 pixel);
+#include "shadow/drivers/gbuffer.glsl"
+#include "lib/packed_texel.glsl"
+#include "lib/projection.glsl"
+
+// Of pixels within the viewport and within Filter::reach of the filtered one: the packed texel, and the depth as stored.
+// The drivers define them.
+uint texel_at(ivec2 pixel);
+float stored_depth_at(ivec2 pixel);
+
+const int filter_pass = FILTER_PASS;
+
+ivec2 lowest_pixel() { return ivec2(shadow.viewport.xy); }
+ivec2 highest_pixel() { return ivec2(shadow.viewport.xy + shadow.viewport.zw) - 1; }
+
+bool is_sky_depth(float depth) { return depth == shadow.depth_to_ndc.z; }
+
+// A texel with another visibility.
+uint with_visibility(uint texel, float visibility) {
+  return (texel & 0x8000ffffu) | (pack_texel(0.0, visibility, false) & 0x7fff0000u);
+}
+
+// The plane of a pixel's receiver, as its neighbours are measured against it.
+struct Surface {
+  float depth;      // as stored
+  vec3 above;       // see plane_distance()
+  vec3 inverse_w;   // the same
+  float own_inverse_w;
+  vec2 pixels;      // that a metre on the plane takes along x and along y
+};
+
+// A point q that is seen at clip-space position c has q = Q.xyz / Q.w with Q = clip_to_view · c, so its distance from the
+// plane (n, −n·p) is (n, −n·p)·Q / Q.w: a quotient of two linear forms in pixel offset and stored depth, of which the
+// first is 0 and the second 1 / clip w at the receiver itself.
+Surface surface_at(ivec2 pixel) {
+  vec3 at = view_position_at(pixel);
+  vec4 stored = texelFetch(receiver_normal, pixel, 0);
+  vec3 world_normal = shadow.depth_to_ndc.w != 0.0 ? octahedral_decode(stored.xy) : normalize(stored.xyz);
+  vec3 normal = (mat3(shadow.world_to_light) * world_normal) * mat3(shadow.view_to_light);
+  float clip_w = shadow.pixel_size.z * at.z + shadow.pixel_size.w;
+  vec2 size = abs(shadow.pixel_size.xy * clip_w);
+  // The view ray: where the point goes as depth changes.
+  vec3 ray = shadow.clip_to_view[2].xyz - at * shadow.clip_to_view[2].w;
+  vec3 step_of = vec3(2.0 / shadow.viewport.zw, shadow.depth_to_ndc.x);
+  vec3 above = (vec4(normal, -dot(normal, at)) * shadow.clip_to_view).xyz * step_of;
+  vec3 inverse_w = (vec4(0.0, 0.0, 0.0, 1.0) * shadow.clip_to_view).xyz * step_of;
+  return Surface(stored_depth_at(pixel), above / (filter_edge * max(size.x, size.y)), inverse_w, 1.0 / clip_w,
+                 vec2(pixels_a_metre(vec3(size.x, 0.0, 0.0), ray, normal),
+                      pixels_a_metre(vec3(0.0, size.y, 0.0), ray, normal)));
+}
+
+// How far a neighbour lies off the receiver's plane, in units of filter.edge pixels at the receiver. Not for the sky.
+float plane_distance(Surface surface, ivec2 offset, float depth) {
+  vec3 from_receiver = vec3(vec2(offset), depth - surface.depth);
+  return dot(surface.above, from_receiver) / (surface.own_inverse_w + dot(surface.inverse_w, from_receiver));
+}
+
+// Mean blocker distance that the size of a pixel's kernel is taken from, metres; 0: nothing is to be filtered. A pixel
+// that met no blocker may lie in a penumbra all the same, and few blocker taps miss often where little light is lost:
+// then those of its neighbours that met one decide.
+float kernel_distance(ivec2 pixel, uint texel) {
+  const ivec2 moves[8] = ivec2[8](ivec2(1, 2), ivec2(2, 1), ivec2(2, -1), ivec2(1, -2), ivec2(-1, -2), ivec2(-2, -1),
+                                  ivec2(-2, 1), ivec2(-1, 2));
+  float own = texel_distance(texel);
+  if (own > 0.0 || is_sky_depth(stored_depth_at(pixel))) return own;
+  float sum = 0.0;
+  float found = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    float of_neighbour = texel_distance(texel_at(clamp(pixel + moves[i], lowest_pixel(), highest_pixel())));
+    sum += of_neighbour;
+    found += of_neighbour > 0.0 ? 1.0 : 0.0;
+  }
+  return found > 0.0 ? sum / found : 0.0;
+}
+
+// Standard deviation of the kernel along x and y, pixels: filter.width of the penumbra's full width 2 · tan(half angle) ·
+// distance, as the receiver's plane is seen.
+vec2 kernel_sigma(Surface surface, float distance_to) {
+  return min(filter_width * 2.0 * shadow.light.x * distance_to * surface.pixels, filter_max_sigma);
+}
+
+// Kernels below this are narrower than a pixel: a neighbour would weigh under 0.004.
+const float least_sigma = 0.3;
+
+// Taps on a line of pixels through the filtered one: evenly spaced over `radius`, at most `max_taps` to a side, within
+// the viewport. Noise that differs from pixel to pixel averages as well over some hundred spaced taps as over all.
+const int max_taps = 8;
+struct Taps {
+  int first, last;
+  float spacing;  // pixels, at least 1
+};
+
+Taps taps_along(int axis, ivec2 pixel, float radius) {
+  float spacing = max(radius / float(max_taps), 1.0);
+  int side = int(radius / spacing + 0.5);
+  int below = int(float(pixel[axis] - lowest_pixel()[axis]) / spacing);
+  int above = int(float(highest_pixel()[axis] - pixel[axis]) / spacing);
+  return Taps(-min(side, below), min(side, above), spacing);
+}
+
+int tap_offset(Taps taps, int index) { return int(roundEven(float(index) * taps.spacing)); }
+
+ivec2 along(int axis, int offset) { return axis == 0 ? ivec2(offset, 0) : ivec2(0, offset); }

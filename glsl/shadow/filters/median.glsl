@@ -1,0 +1,36 @@
+// Median of the mean blocker distances of 3 × 3 pixels, before the size of a kernel is taken from them (Deligiannis 2019,
+// section 3.4). Few blocker taps miss a blocker that covers little of the disc, so single pixels of a penumbra hold no
+// distance, and single lit ones hold some. "None" is the distance 0 and takes part: where most of the neighbours met no
+// blocker, the pixel is lit. Halves that are not negative are in the order of their bits.
+#include "shadow/drivers/filter.glsl"
+#include "lib/median.glsl"
+
+// The distances of two opposite neighbours. One of another surface says nothing of this one's penumbra, and must not
+// outvote it along an edge: the opposite one stands for it, and the pixel itself for both, so that there are always nine.
+uvec2 opposite_distances(ivec2 pixel, ivec2 offset, uint own, Surface surface) {
+  ivec2 low = lowest_pixel();
+  ivec2 high = highest_pixel();
+  uvec2 distances;
+  bvec2 counts;
+  for (int i = 0; i < 2; ++i) {
+    ivec2 to = i == 0 ? offset : -offset;
+    ivec2 at = clamp(pixel + to, low, high);
+    float depth = stored_depth_at(at);
+    distances[i] = texel_at(at) & 0xffffu;
+    counts[i] = at == pixel + to && !is_sky_depth(depth) && abs(plane_distance(surface, to, depth)) <= 1.0;
+  }
+  return uvec2(counts.x ? distances.x : counts.y ? distances.y : own,
+               counts.y ? distances.y : counts.x ? distances.x : own);
+}
+
+uint filtered(ivec2 pixel) {
+  uint texel = texel_at(pixel);
+  if (is_sky_depth(stored_depth_at(pixel))) return texel;
+  uint own = texel & 0xffffu;
+  Surface surface = surface_at(pixel);
+  uvec2 a = opposite_distances(pixel, ivec2(1, 0), own, surface);
+  uvec2 b = opposite_distances(pixel, ivec2(0, 1), own, surface);
+  uvec2 c = opposite_distances(pixel, ivec2(1, 1), own, surface);
+  uvec2 d = opposite_distances(pixel, ivec2(1, -1), own, surface);
+  return (texel & 0xffff0000u) | median_of_nine(uvec3(a.x, b.x, c.x), uvec3(d.x, own, d.y), uvec3(a.y, b.y, c.y));
+}

@@ -1,0 +1,15 @@
+#include "../technique.h"
+
+namespace penumbra::shadow {
+
+Filter bilateral_separable() {
+  return {.name = "bilateral_separable",
+          .summary = "Gaussian mean, weighted by distance from the receiver's plane, along x and then along y.",
+          .source = "Pham and van Vliet 2005, Separable bilateral filtering for fast video preprocessing",
+          .glsl = "shadow/filters/bilateral_separable.glsl",
+          .of = Filter::Of::visibility,
+          .passes = 2,
+          .reach = {{48, 2}, {2, 48}}};
+}
+
+}  // namespace penumbra::shadow

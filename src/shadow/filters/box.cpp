@@ -1,0 +1,15 @@
+#include "../technique.h"
+
+namespace penumbra::shadow {
+
+Filter box() {
+  return {.name = "box",
+          .summary = "Mean over a rectangle that follows the penumbra's width; knows no edges.",
+          .source = "Deligiannis 2019, section 2.7.1",
+          .glsl = "shadow/filters/box.glsl",
+          .of = Filter::Of::visibility,
+          .passes = 2,
+          .reach = {{43, 2}, {2, 43}}};
+}
+
+}  // namespace penumbra::shadow

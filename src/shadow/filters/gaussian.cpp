@@ -1,0 +1,15 @@
+#include "../technique.h"
+
+namespace penumbra::shadow {
+
+Filter gaussian() {
+  return {.name = "gaussian",
+          .summary = "Gaussian mean that follows the penumbra's width; knows no edges.",
+          .source = "Deligiannis 2019, section 2.7.2",
+          .glsl = "shadow/filters/gaussian.glsl",
+          .of = Filter::Of::visibility,
+          .passes = 2,
+          .reach = {{48, 2}, {2, 48}}};
+}
+
+}  // namespace penumbra::shadow

@@ -1,0 +1,15 @@
+#include "../technique.h"
+
+namespace penumbra::shadow {
+
+Filter median() {
+  return {.name = "median",
+          .summary = "Median of the blocker distances of 3 × 3 pixels.",
+          .source = "Tukey 1977, Exploratory data analysis, chapter 7",
+          .glsl = "shadow/filters/median.glsl",
+          .of = Filter::Of::penumbra,
+          .passes = 1,
+          .reach = {{1, 1}}};
+}
+
+}  // namespace penumbra::shadow
