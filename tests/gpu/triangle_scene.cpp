@@ -7,7 +7,7 @@ namespace penumbra::test {
 
 namespace {
 
-constexpr const char* vertex_text = R"(
+constexpr const char* receiver_vertex_text = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 uniform mat4 world_to_clip;
@@ -18,53 +18,44 @@ void main() {
 }
 )";
 
-constexpr const char* fragment_text = R"(
+constexpr const char* receiver_fragment_text = R"(
 #include "lib/octahedral.glsl"
 flat in vec3 world_normal;
 layout(location = 0) out vec2 encoded;
 void main() { encoded = octahedral_encode(gl_FrontFacing ? world_normal : -world_normal); }
 )";
 
+constexpr const char* caster_vertex_text = R"(
+layout(location = 0) in vec3 position;
+layout(location = 2) in vec3 moved_by;
+uniform mat4 world_to_clip;
+uniform int only_moved;
+uniform float poses_ago;
+invariant gl_Position;
+flat out float caster_moved;
+void main() {
+  caster_moved = moved_by != vec3(0.0) ? 1.0 : 0.0;
+  gl_Position = world_to_clip * vec4(position - poses_ago * moved_by, 1.0);
+  if (only_moved != 0 && caster_moved == 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+}
+)";
+
+constexpr const char* caster_fragment_text = R"(
+flat in float caster_moved;
+layout(location = 0) out float moved;
+void main() { moved = caster_moved; }
+)";
+
 const gl::ProgramDesc receiver_program{
-    .name = "test receivers", .vertex = "test/scene.vert", .fragment = "test/scene.frag"};
-const gl::ProgramDesc caster_program{.name = "test casters", .vertex = "test/scene.vert"};
+    .name = "test receivers", .vertex = "test/receiver.vert", .fragment = "test/receiver.frag"};
+
+gl::ProgramDesc caster_program(shadow::CasterKind kind) {
+  const bool depth_only = kind == shadow::CasterKind::depth || kind == shadow::CasterKind::geometry;
+  return {.name = "test casters", .vertex = "test/caster.vert", .fragment = depth_only ? "" : "test/caster.frag"};
+}
 
 struct Vertex {
-  glm::vec3 position, normal;
-};
-
-// The triangles' vertices on the GPU, with the vertex array that reads them.
-class Geometry {
- public:
-  explicit Geometry(const std::vector<Triangle>& triangles) {
-    std::vector<Vertex> vertices;
-    for (const Triangle& t : triangles) {
-      const glm::vec3 normal = glm::normalize(glm::cross(t.b - t.a, t.c - t.a));
-      for (const glm::vec3& corner : {t.a, t.b, t.c}) vertices.push_back({corner, normal});
-    }
-    count_ = static_cast<GLsizei>(vertices.size());
-    buffer_ = gl::Buffer::of("test vertices", std::span<const Vertex>(vertices));
-    gl::glCreateVertexArrays(1, &array_);
-    gl::glVertexArrayVertexBuffer(array_, 0, buffer_.id(), 0, sizeof(Vertex));
-    for (GLuint i = 0; i < 2; ++i) {
-      gl::glEnableVertexArrayAttrib(array_, i);
-      gl::glVertexArrayAttribFormat(array_, i, 3, GL_FLOAT, GL_FALSE, i * sizeof(glm::vec3));
-      gl::glVertexArrayAttribBinding(array_, i, 0);
-    }
-  }
-  ~Geometry() { gl::glDeleteVertexArrays(1, &array_); }
-  Geometry(const Geometry&) = delete;
-  Geometry& operator=(const Geometry&) = delete;
-
-  void draw() const {
-    gl::glBindVertexArray(array_);
-    gl::glDrawArrays(GL_TRIANGLES, 0, count_);
-  }
-
- private:
-  gl::Buffer buffer_;
-  GLuint array_ = 0;
-  GLsizei count_ = 0;
+  glm::vec3 position, normal, moved_by;
 };
 
 shadow::Box bounds_of(const TriangleScene& scene) {
@@ -93,6 +84,66 @@ void TriangleScene::add_box(const glm::vec3& min, const glm::vec3& max) {
   add_quad(min + x, y, z);
   add_quad(min, x, z);
   add_quad(min + y, z, x);
+}
+
+void TriangleScene::move_from(size_t first, const glm::vec3& by) {
+  for (size_t i = first; i < triangles.size(); ++i) {
+    Triangle& t = triangles[i];
+    t = {t.a + by, t.b + by, t.c + by, t.moved_by + by};
+  }
+}
+
+shadow::Box TriangleScene::moved() const {
+  shadow::Box box{glm::vec3(1e30f), glm::vec3(-1e30f)};
+  for (const Triangle& t : triangles) {
+    if (t.moved_by == glm::vec3(0)) continue;
+    for (const glm::vec3& corner : {t.a, t.b, t.c}) {
+      for (const glm::vec3& at : {corner, corner - t.moved_by}) box = {glm::min(box.min, at), glm::max(box.max, at)};
+    }
+  }
+  return box;
+}
+
+Geometry::Geometry(const TriangleScene& scene) {
+  std::vector<Vertex> vertices;
+  for (const Triangle& t : scene.triangles) {
+    const glm::vec3 normal = glm::normalize(glm::cross(t.b - t.a, t.c - t.a));
+    for (const glm::vec3& corner : {t.a, t.b, t.c}) vertices.push_back({corner, normal, t.moved_by});
+  }
+  count_ = static_cast<GLsizei>(vertices.size());
+  buffer_ = gl::Buffer::of("test vertices", std::span<const Vertex>(vertices));
+  gl::glCreateVertexArrays(1, &array_);
+  gl::glVertexArrayVertexBuffer(array_, 0, buffer_.id(), 0, sizeof(Vertex));
+  for (GLuint i = 0; i < 3; ++i) {
+    gl::glEnableVertexArrayAttrib(array_, i);
+    gl::glVertexArrayAttribFormat(array_, i, 3, GL_FLOAT, GL_FALSE, i * sizeof(glm::vec3));
+    gl::glVertexArrayAttribBinding(array_, i, 0);
+  }
+}
+
+Geometry::~Geometry() { gl::glDeleteVertexArrays(1, &array_); }
+
+void Geometry::put_shaders(gl::ShaderFiles& files) {
+  files.put("test/receiver.vert", receiver_vertex_text);
+  files.put("test/receiver.frag", receiver_fragment_text);
+  files.put("test/caster.vert", caster_vertex_text);
+  files.put("test/caster.frag", caster_fragment_text);
+}
+
+void Geometry::draw() const {
+  gl::glBindVertexArray(array_);
+  gl::glDrawArrays(GL_TRIANGLES, 0, count_);
+}
+
+shadow::DrawCasters Geometry::casters() const {
+  return [this](const shadow::CasterPass& casters, gl::Pass& pass) {
+    using enum shadow::CasterKind;
+    const gl::Program& program = pass.use(caster_program(casters.kind));
+    program.set("world_to_clip", casters.world_to_clip);
+    program.set("only_moved", casters.kind == moved_now || casters.kind == moved_last ? 1 : 0);
+    program.set("poses_ago", casters.kind == moved_last ? 1.0f : 0.0f);
+    draw();
+  };
 }
 
 TriangleScene box_on_ground(int side) {
@@ -133,12 +184,11 @@ glm::vec3 sun_direction(float azimuth_degrees, float elevation_degrees) {
 
 TriangleRenderer::TriangleRenderer(shadow::Registry registry)
     : device_(gl::ShaderFiles(), gl::Timers::Mode::off), shadows_(device_, std::move(registry)) {
-  device_.shaders.files().put("test/scene.vert", vertex_text);
-  device_.shaders.files().put("test/scene.frag", fragment_text);
+  Geometry::put_shaders(device_.shaders.files());
 }
 
 Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& params, const Adjust& adjust) {
-  const Geometry geometry(scene.triangles);
+  const Geometry geometry(scene);
   const gl::Texture& depth =
       device_.target("test depth", {.format = GL_DEPTH_COMPONENT32F, .width = scene.width, .height = scene.height});
   const gl::Texture& normals =
@@ -153,17 +203,14 @@ Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& pa
     geometry.draw();
   }
   const shadow::Light light{.to_light = scene.to_light};
-  const auto draw = [&geometry](const shadow::CasterPass& casters, gl::Pass& pass) {
-    pass.use(caster_program).set("world_to_clip", casters.world_to_clip);
-    geometry.draw();
-  };
   shadow::Inputs inputs{.view = {.view = scene.view, .projection = scene.projection},
                         .depth = {depth.id(), scene.width, scene.height},
                         .normals = {normals.id(), scene.width, scene.height},
                         .lights = {&light, 1},
                         .casters = scene.casters.value_or(bounds_of(scene)),
                         .receivers = scene.receivers.value_or(bounds_of(scene)),
-                        .draw = draw};
+                        .moved = scene.moved(),
+                        .draw = geometry.casters()};
   if (adjust) adjust(inputs);
   mask_ = shadows_.render(inputs, params);
   Shadowed result{.width = scene.width,

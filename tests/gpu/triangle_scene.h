@@ -15,6 +15,7 @@ namespace penumbra::test {
 
 struct Triangle {
   glm::vec3 a, b, c;
+  glm::vec3 moved_by{0};  // since the last frame
 };
 
 // A few triangles, a camera and a sun: enough to hand the shadow library its inputs as an engine would.
@@ -27,6 +28,28 @@ struct TriangleScene {
 
   void add_quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v);
   void add_box(const glm::vec3& min, const glm::vec3& max);
+  // Moves the triangles from that one on.
+  void move_from(size_t first, const glm::vec3& by);
+  // Of what moved, where it is and where it was; min > max: nothing did.
+  shadow::Box moved() const;
+};
+
+// A scene's triangles on the GPU, and a callback that draws them as a renderer's passes ask.
+class Geometry {
+ public:
+  explicit Geometry(const TriangleScene& scene);
+  ~Geometry();
+  Geometry(const Geometry&) = delete;
+  Geometry& operator=(const Geometry&) = delete;
+
+  static void put_shaders(gl::ShaderFiles& files);
+  void draw() const;
+  shadow::DrawCasters casters() const;  // to be used while this lives
+
+ private:
+  gl::Buffer buffer_;
+  GLuint array_ = 0;
+  GLsizei count_ = 0;
 };
 
 // A box of 2 m on a ground of 10 m, so many pixels wide and high.
