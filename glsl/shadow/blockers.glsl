@@ -41,7 +41,10 @@ float filtered_share(Receiver receiver, float radius, int taps, float bias, Ligh
   if (radius <= 0.0) return lit_share(receiver, vec2(0.0), bias, light);
   Scramble scramble = scramble_of(receiver, filter_step);
   float lit = 0.0;
-  for (int i = 0; i < taps; ++i) lit += lit_share(receiver, radius * filter_point(i, scramble, light), bias, light);
+  for (int i = 0; i < taps; ++i) {
+    vec2 point = receiver.renewed ? renewal_point(i, scramble, light) : filter_point(i, scramble, light);
+    lit += lit_share(receiver, radius * point, bias, light);
+  }
   return lit / float(taps);
 }
 

@@ -19,6 +19,7 @@ struct Receiver {
   vec2 gradient;  // of its plane: change of depth per metre across the light
   Corner corner;  // the faces beside it
   vec2 pixel;     // seeds the noise
+  bool renewed;   // there is a history, and it was refused here: more taps are worth it
 };
 
 struct Light {
@@ -201,4 +202,9 @@ vec2 blocker_point(int index, Scramble scramble, Light light) {
 
 vec2 filter_point(int index, Scramble scramble, Light light) {
   return shape_point(samples.filter_points[index >> 1], index, scramble, light);
+}
+
+// Instead of those, where the history is refused.
+vec2 renewal_point(int index, Scramble scramble, Light light) {
+  return shape_point(samples.renewal_points[index >> 1], index, scramble, light);
 }

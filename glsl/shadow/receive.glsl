@@ -7,10 +7,17 @@ struct Shadowed {
   int cascade;
 };
 
-Shadowed shadow_of(Receiver receiver) {
+bool faces_light(Receiver receiver) { return receiver.normal.z < 0.0; }
+
+// The light of the frame, with what the technique will read of it for a receiver.
+Light light_for(Receiver receiver) {
   Light light = frame_light();
-  if (receiver.normal.z >= 0.0) return Shadowed(Visibility(0.0, 0.0, 0.0, false), 0);
-  light.reach = reach(receiver, light);
+  if (faces_light(receiver)) light.reach = reach(receiver, light);
+  return light;
+}
+
+Shadowed shadow_of(Receiver receiver, Light light) {
+  if (!faces_light(receiver)) return Shadowed(Visibility(0.0, 0.0, 0.0, false), 0);
   int cascade = finest_cascade(light, receiver.position, light.reach);
   float edge = cascade_edge(cascade, receiver.position, light.reach);
   if (cascade == light.cascades - 1 && cascade_edge(cascade, receiver.position, 0.0) > 1.0) {

@@ -16,13 +16,18 @@ struct CascadeBlock {
 
 struct ShadowBlock {
   mat4 clip_to_view;
-  mat4 view_to_light;   // orthogonal, determinant -1 (light space is left-handed); its origin is the camera
-  mat4 world_to_light;  // its turn alone
-  vec4 viewport;        // xy: its lowest pixel; zw: size, pixels
-  vec4 jitter;          // xy: NDC
-  vec4 depth_to_ndc;    // x: scale; y: offset; z: depth of the sky; w: 1 for octahedral normals, 0 for xyz
-  vec4 light;           // x: tan of the half angle; y: 1: square light, 0: disc; z: cascades; w: map size, texels
-  vec4 noise_shift;     // on the torus; xy: of the blocker step; zw: of the filter step
+  mat4 view_to_light;      // orthogonal, determinant -1 (light space is left-handed); its origin is the camera
+  mat4 world_to_light;     // its turn alone
+  mat4 view_to_last_clip;  // from this frame's view space
+  mat4 last_clip_to_view;  // and back
+  vec4 viewport;           // xy: its lowest pixel; zw: size, pixels
+  vec4 jitter;             // NDC; xy: of this frame; zw: of the last one
+  vec4 depth_to_ndc;       // x: scale; y: offset; z: depth of the sky; w: 1 for octahedral normals, 0 for xyz
+  vec4 pixel_size;         // xy: of a pixel in metres, a unit of clip w; clip w is z times view z plus w
+  vec4 light;              // x: tan of the half angle; y: 1: square light, 0: disc; z: cascades; w: map size, texels
+  vec4 noise_shift;        // on the torus; xy: of the blocker step; zw: of the filter step
+  vec4 history;  // 1 or 0, x: the last frame's is valid; y: there are motion vectors; z: there is a movement map;
+                 // w: least depth of what moved, light space, metres
   CascadeBlock cascades[SHADOW_MAX_CASCADES];
 };
 
@@ -30,6 +35,7 @@ struct ShadowBlock {
 struct SampleBlock {
   vec4 blocker[SHADOW_MAX_TAPS / 2];
   vec4 filter_points[SHADOW_MAX_TAPS / 2];
+  vec4 renewal_points[SHADOW_MAX_TAPS / 2];  // the filter's, where the history is refused
 };
 
 GLSL_END

@@ -65,7 +65,7 @@ Bytes relative_bytes(int channels, const std::vector<float>& pixels, bool is_sig
   return each(channels, pixels, [=](float v) { return is_signed ? 0.5f + 0.5f * v * scale : v * scale; });
 }
 
-Bytes cascade_bytes(int channels, const std::vector<float>& pixels) {
+Bytes label_bytes(int channels, const std::vector<float>& pixels) {
   static constexpr std::array<std::array<std::uint8_t, 3>, 8> colors{{{{214, 69, 65}},
                                                                       {{84, 160, 72}},
                                                                       {{66, 110, 196}},
@@ -155,7 +155,7 @@ Bytes display_bytes(std::vector<std::uint8_t> rgb, int width, int height, int fa
 }
 
 Bytes aov_bytes(std::string_view name, int channels, const std::vector<float>& pixels) {
-  if (name == "cascade") return cascade_bytes(channels, pixels);
+  if (name == "cascade" || name == "history") return label_bytes(channels, pixels);
   if (name == "depth") return depth_bytes(pixels);
   if (name == "albedo") return each(channels, pixels, glsl::srgb_encode);
   if (name == "motion") return with_third(relative_bytes(channels, pixels, /* is_signed= */ true));

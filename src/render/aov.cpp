@@ -2,6 +2,7 @@
 
 #include "core/names.h"
 #include "lib/octahedral.glsl"
+#include "lib/packed_texel.glsl"
 #include "render/frame.h"
 
 namespace penumbra::render {
@@ -112,6 +113,24 @@ std::vector<float> under_texel(const FrameParts& frame) {
   return of_mask(frame, [](const float* p, bool) { return p[3] - std::floor(p[3]) >= 0.25f ? 1.0f : 0.0f; });
 }
 
+// Of the sun, whose light is the frame's first.
+std::vector<float> history(const FrameParts& frame) {
+  const Picture sky = read(*frame.gbuffer.depth, 1);
+  const gl::Texture* notes = frame.mask.lights.front().notes;
+  if (notes == nullptr) {
+    return each(sky, [&](std::size_t i, const float*, std::vector<float>& out) {
+      out.push_back(is_sky(sky, i) ? -1.0f : static_cast<float>(HISTORY_NONE));
+    });
+  }
+  const std::vector<unsigned> bits = gl::read_uints(*notes, 1);
+  const auto width = static_cast<std::size_t>(notes->width());
+  const auto height = static_cast<std::size_t>(notes->height());
+  return each(sky, [&](std::size_t i, const float*, std::vector<float>& out) {
+    const std::size_t flipped = (height - 1 - i / width) * width + i % width;
+    out.push_back(is_sky(sky, i) ? -1.0f : static_cast<float>(glsl::notes_refusal(bits[flipped])));
+  });
+}
+
 struct Row {
   Aov aov;
   std::vector<float> (*read)(const FrameParts&);
@@ -142,6 +161,11 @@ const std::vector<Row>& rows() {
       {{"penumbra", "Full width of the penumbra, m; 0 where nothing hides the sun.", v, mean_of_valid}, penumbra_width},
       {{"under_texel", "1 where the penumbra is narrower than the shadow map can show.", v, nearest_center},
        under_texel},
+      {{"history",
+        "What became of the last frames' shadow: 0 kept, 1 there is none, 2 it was off screen, 3 another surface was "
+        "there, 4 a caster moved; -1 for the sky.",
+        v, nearest_center},
+       history},
   };
   return all;
 }

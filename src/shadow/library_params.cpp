@@ -1,5 +1,7 @@
 #include "library_params.h"
 
+#include <cmath>
+#include <glm/trigonometric.hpp>
 #include <iterator>
 #include <utility>
 
@@ -69,13 +71,54 @@ std::vector<Param> sampling_rows() {
   };
 }
 
+std::vector<Param> history_rows() {
+  using enum ParamBinding;
+  return {
+      {"history.reuse", false, 0, 1, "", "Blends each frame with the last ones where they show the same surface."},
+      {"history.alpha", 0.1f, 0.01, 1, "", "Weight of the present frame in the blend."},
+      {"history.distance", 1.0f, 0, 100, "px",
+       "How far before or behind a receiver's plane, in widths of a pixel, the last frame's surface may lie."},
+      {"history.turn", 30.0f, 0, 180, "deg", "How far their normals may turn from each other."},
+      with_default(word("movement.map", {"none", "average", "maximum"},
+                        "Pyramid over what moved in the shadow map: where it shows in a receiver's kernel, the history "
+                        "is refused."),
+                   "maximum"),
+      word("movement.present", {"shadow_pass", "own_pass"},
+           "What moved is drawn, where it is, as a second target of the shadow map's pass or in a pass of its own."),
+  };
+}
+
+std::vector<std::string> names_of(std::span<const Filter> filters, Filter::Of of) {
+  std::vector<std::string> names{"none"};
+  for (const Filter& filter : filters) {
+    if (filter.of == of) names.push_back(filter.name);
+  }
+  return names;
+}
+
+std::vector<Param> filter_rows(std::span<const Filter> filters) {
+  return {
+      word("filter.penumbra", names_of(filters, Filter::Of::penumbra),
+           "Filter of the blocker distances, before penumbrae get their width from them."),
+      word("filter.visibility", names_of(filters, Filter::Of::visibility), "Filter of the mask."),
+      {"filter.width", 0.1f, 0, 1, "", "Its standard deviation, as a part of the penumbra's width."},
+      {"filter.max_sigma", 24.0f, 0, 24, "px", "The most that may be."},
+      {"filter.edge", 1.0f, 0.01, 100, "px",
+       "Distance from the receiver's plane, in widths of a pixel, at which a neighbour's weight is e^-1/2."},
+  };
+}
+
 }  // namespace
 
-std::vector<Param> library_params() {
+std::vector<Param> library_params(std::span<const Filter> filters) {
   std::vector<Param> rows = light_rows();
   append(rows, map_rows());
   append(rows, sampling_rows());
+  append(rows, history_rows());
+  append(rows, filter_rows(filters));
   return rows;
 }
+
+float tan_half_angle(const ParamSet& params) { return std::tan(glm::radians(params.get_float("sun.angle")) * 0.5f); }
 
 }  // namespace penumbra::shadow

@@ -5,8 +5,8 @@ namespace penumbra::shadow {
 namespace {
 
 static_assert(sizeof(glsl::CascadeBlock) == 32);
-static_assert(offsetof(glsl::ShadowBlock, viewport) == 192);
-static_assert(offsetof(glsl::ShadowBlock, cascades) == 272);
+static_assert(offsetof(glsl::ShadowBlock, viewport) == 320);
+static_assert(offsetof(glsl::ShadowBlock, cascades) == 432);
 
 // `shift`: where the origin of the cascade's light space lies in the view's.
 glsl::CascadeBlock cascade_block(const Cascade& cascade, int size, const glm::dvec3& shift) {
@@ -18,24 +18,48 @@ glsl::CascadeBlock cascade_block(const Cascade& cascade, int size, const glm::dv
           {cascade.near_z + static_cast<float>(shift.z), range, rounding, 0.0f}};
 }
 
+// Of a pixel in the plane of the image, for each unit of clip-space w; and how w follows from view-space z.
+glm::vec4 pixel_size(const glm::mat4& projection, const Rect& viewport) {
+  return {2.0f / (projection[0][0] * static_cast<float>(viewport.width)),
+          2.0f / (projection[1][1] * static_cast<float>(viewport.height)), projection[2][3], projection[3][3]};
+}
+
+// Least depth along the light, from the camera, of what moved since the last frame.
+float least_moved_depth(const Inputs& inputs, const LightFrame& light, const glm::dvec3& eye, double last_near) {
+  if (!inputs.moved) return static_cast<float>(last_near);
+  const glm::dvec3 along = glm::transpose(light.cascades.world_to_light)[2];
+  const glm::dvec3 low = glm::dvec3(inputs.moved->min) - eye;
+  const glm::dvec3 high = glm::dvec3(inputs.moved->max) - eye;
+  return static_cast<float>(glm::dot(glm::min(along * low, along * high), glm::dvec3(1)));
+}
+
 }  // namespace
 
 glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, const LightTraits& traits) {
   const Conventions& conventions = inputs.conventions;
   const glm::dmat4 view_to_world = glm::inverse(glm::dmat4(inputs.view.view));
   const bool zero_to_one = conventions.depth_zero_to_one;
-  const glm::dvec3 shift = light.cascades.world_to_light * (light.cascades.anchor - glm::dvec3(view_to_world[3]));
+  const glm::dvec3 eye(view_to_world[3]);
+  const glm::dvec3 shift = light.cascades.world_to_light * (light.cascades.anchor - eye);
+  const glm::dmat4 view_to_last_clip =
+      glm::dmat4(inputs.view.last_projection) * glm::dmat4(inputs.view.last_view) * view_to_world;
   glsl::ShadowBlock block{};
   block.clip_to_view = glm::mat4(glm::inverse(glm::dmat4(inputs.view.projection)));
   block.view_to_light = glm::mat4(glm::dmat4(light.cascades.world_to_light * glm::dmat3(view_to_world)));
   block.world_to_light = glm::mat4(glm::dmat4(light.cascades.world_to_light));
+  block.view_to_last_clip = glm::mat4(view_to_last_clip);
+  block.last_clip_to_view = glm::mat4(glm::inverse(view_to_last_clip));
   block.viewport = {light.viewport.x, light.viewport.y, light.viewport.width, light.viewport.height};
-  block.jitter = {inputs.view.jitter, 0, 0};
+  block.jitter = {inputs.view.jitter, traits.last_jitter};
   block.depth_to_ndc = {zero_to_one ? 1.0f : 2.0f, zero_to_one ? 0.0f : -1.0f, conventions.reversed_z ? 0.0f : 1.0f,
                         conventions.octahedral_normals ? 1.0f : 0.0f};
+  block.pixel_size = pixel_size(inputs.view.projection, light.viewport);
   block.light = {light.tan_half_angle, traits.square ? 1.0f : 0.0f, static_cast<float>(light.cascades.items.size()),
                  static_cast<float>(light.cascades.size)};
   block.noise_shift = traits.noise_shift;
+  const double nearest = light.cascades.items.empty() ? 0.0 : light.cascades.items.back().near_z + shift.z;
+  block.history = {traits.history ? 1.0f : 0.0f, inputs.motion.id != 0 ? 1.0f : 0.0f, light.casters_moved ? 1.0f : 0.0f,
+                   least_moved_depth(inputs, light, eye, nearest)};
   for (size_t i = 0; i < light.cascades.items.size(); ++i) {
     block.cascades[i] = cascade_block(light.cascades.items[i], light.cascades.size, shift);
   }

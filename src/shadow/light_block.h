@@ -7,10 +7,12 @@
 
 namespace penumbra::shadow {
 
-// What a light's parameters say of it in a frame.
+// What a light's parameters and its state say of it in a frame.
 struct LightTraits {
   bool square = false;       // else a disc
   glm::vec4 noise_shift{0};  // see samples.h
+  glm::vec2 last_jitter{0};
+  bool history = false;  // the last frame's is valid
 };
 
 // What the GLSL of the shadow passes reads of a view and a light.

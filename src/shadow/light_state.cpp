@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "library_params.h"
-
 namespace penumbra::shadow {
 
 namespace {
@@ -26,12 +24,13 @@ bool same_matrix(const glm::mat4& a, const glm::mat4& b) {
 
 // Whether all that a technique can see is the same: its choice, the library's rows and its own.
 bool same_values(const Technique& technique, const ParamSet& a, const ParamSet& b) {
-  static const std::vector<Param> library = library_params();
-  const auto same = [&](std::string_view name) {
-    return a.contains(name) && b.contains(name) && a.value(name) == b.value(name);
-  };
-  const auto same_row = [&](const Param& row) { return same(row.name); };
-  return same("technique") && std::ranges::all_of(library, same_row) && std::ranges::all_of(technique.params, same_row);
+  if (!a.contains("technique")) return false;
+  const std::vector<std::string>& techniques = b.row("technique").choices;
+  return std::ranges::all_of(b.rows(), [&](const Param& row) {
+    const std::string owner = row.name.substr(0, row.name.find('.'));
+    const bool of_another = owner != technique.name && std::ranges::find(techniques, owner) != techniques.end();
+    return of_another || a.value(row.name) == b.value(row.name);
+  });
 }
 
 bool same_conventions(const Conventions& a, const Conventions& b) {
@@ -54,6 +53,8 @@ void begin_frame(ViewState& view, const Inputs& inputs) {
     light.goes_on = goes_on && light.drawn;
     light.drawn = false;
   }
+  view.last_jitter = view.jitter;
+  view.jitter = inputs.view.jitter;
   view.view = inputs.view.view;
   view.projection = inputs.view.projection;
   view.conventions = inputs.conventions;

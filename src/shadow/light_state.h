@@ -41,6 +41,7 @@ struct LightState {
 // What outlives a frame of a view.
 struct ViewState {
   glm::mat4 view{1}, projection{1};
+  glm::vec2 jitter{0}, last_jitter{0};
   Conventions conventions;
   int width = 0, height = 0;  // of the receivers' textures
   Rect viewport;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "denoise.h"
+#include "movement_map.h"
 #include "shadow_map.h"
 
 namespace penumbra::shadow {
@@ -23,6 +25,14 @@ std::vector<ParamSet> compiled_variants(const Technique& technique, const ParamS
     variants = std::move(grown);
   }
   return variants;
+}
+
+std::vector<Programs::MaskForm> mask_forms(bool rotated) {
+  std::vector<Programs::MaskForm> forms;
+  for (const bool compute : {false, true}) {
+    for (const bool packed : {false, true}) forms.push_back({rotated, compute, packed});
+  }
+  return forms;
 }
 
 // What the generated files of a registry are made from.
@@ -60,10 +70,14 @@ std::string Programs::driver_file(const Technique& technique, std::string_view d
   return fmt::format("{}/{}/{}", folder_, technique.name, driver);
 }
 
-std::string Programs::with_params(const std::string& file) const {
+std::string Programs::with_params(const std::string& file, const std::string& before) const {
   if (file.empty()) return {};
-  std::string name = fmt::format("{}/{}", folder_, file);
-  device_.shaders.files().put(name, fmt::format("#include \"{}/params.glsl\"\n#include \"{}\"\n", folder_, file));
+  std::string name = fmt::format("{}/{}{}{}", folder_, before, before.empty() ? "" : "/", file);
+  std::string text = fmt::format("#include \"{}/params.glsl\"\n", folder_);
+  for (const std::string& included : {before, file}) {
+    if (!included.empty()) text += fmt::format("#include \"{}\"\n", included);
+  }
+  device_.shaders.files().put(name, std::move(text));
   return name;
 }
 
@@ -75,15 +89,23 @@ std::vector<gl::Define> Programs::defines(const Technique& technique, const Para
   return defines;
 }
 
-gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& params, bool rotated, bool compute) const {
-  gl::ProgramDesc program{.name = technique.name, .defines = defines(technique, params, rotated)};
-  if (compute) {
+gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& params, const MaskForm& form) const {
+  gl::ProgramDesc program{.name = technique.name, .defines = defines(technique, params, form.rotated)};
+  program.defines.push_back({"PACKED", form.packed ? "1" : "0"});
+  if (form.compute) {
     program.compute = driver_file(technique, "mask.comp");
   } else {
     program.vertex = "shared/full_screen.vert";
     program.fragment = driver_file(technique, "mask.frag");
   }
   return program;
+}
+
+gl::ProgramDesc Programs::library(const LibraryProgram& program) const {
+  gl::ProgramDesc desc = program.desc;
+  desc.fragment = with_params(desc.fragment, program.before);
+  desc.compute = with_params(desc.compute, program.before);
+  return desc;
 }
 
 std::string Programs::forward_file(const Technique& technique) const { return driver_file(technique, "forward.glsl"); }
@@ -113,12 +135,15 @@ std::vector<std::vector<gl::Define>> Programs::all_defines(const Technique& tech
 }
 
 std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
-  std::vector<gl::ProgramDesc> programs{depth_pyramid_program(true), depth_pyramid_program(false)};
+  std::vector<gl::ProgramDesc> programs{depth_pyramid_program(true), depth_pyramid_program(false),
+                                        movement_pyramid_program(MovementForm::average),
+                                        movement_pyramid_program(MovementForm::maximum)};
+  for (const LibraryProgram& program : denoise_programs(registry_)) programs.push_back(library(program));
   for (const Technique& technique : registry_.techniques()) {
     for (const ParamSet& params : compiled_variants(technique, defaults)) {
       for (const bool rotated : {true, false}) {
-        for (const bool compute : {false, true}) {
-          if (!technique.glsl.empty()) programs.push_back(mask(technique, params, rotated, compute));
+        for (const MaskForm& form : mask_forms(rotated)) {
+          if (!technique.glsl.empty()) programs.push_back(mask(technique, params, form));
         }
         for (gl::ProgramDesc& program : own(technique, params, rotated)) programs.push_back(std::move(program));
       }

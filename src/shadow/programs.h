@@ -8,6 +8,12 @@
 
 namespace penumbra::shadow {
 
+// A program of the library's own passes. `before`: a file to be included before its fragment or compute shader.
+struct LibraryProgram {
+  gl::ProgramDesc desc;
+  std::string before = {};
+};
+
 // The shader programs of a registry's techniques. Each begins with the registry's parameters, in files that are
 // generated here; registries with other rows or techniques have files of their own.
 class Programs {
@@ -17,8 +23,15 @@ class Programs {
   // Constants that a technique's GLSL is compiled with; `rotated`: how its sample points differ from pixel to pixel.
   static std::vector<gl::Define> defines(const Technique& technique, const ParamSet& params, bool rotated);
 
-  // A technique's visibility() under a driver.
-  gl::ProgramDesc mask(const Technique& technique, const ParamSet& params, bool rotated, bool compute) const;
+  // How a technique's visibility() is driven.
+  struct MaskForm {
+    bool rotated = true;
+    bool compute = false;
+    bool packed = false;  // packed texels and notes, for history and filters; else the mask itself
+  };
+  gl::ProgramDesc mask(const Technique& technique, const ParamSet& params, const MaskForm& form) const;
+  // A program of the library's, ready to be compiled.
+  gl::ProgramDesc library(const LibraryProgram& program) const;
   // The file that gives forward surfaces a technique's visibility().
   std::string forward_file(const Technique& technique) const;
   // Technique::programs(), ready to be compiled, and the names that they then have.
@@ -31,7 +44,7 @@ class Programs {
 
  private:
   std::string driver_file(const Technique& technique, std::string_view driver) const;
-  std::string with_params(const std::string& file) const;
+  std::string with_params(const std::string& file, const std::string& before = {}) const;
 
   gl::Device& device_;
   const Registry& registry_;

@@ -11,6 +11,7 @@ namespace penumbra::shadow {
 namespace {
 
 using MakeTechnique = Technique();
+using MakeFilter = Filter();
 
 // One line a technique; each is defined in techniques/<name>.cpp.
 #define PENUMBRA_TECHNIQUES(X) \
@@ -20,11 +21,25 @@ using MakeTechnique = Technique();
   X(pcss)                      \
   X(brute_force)
 
+// One line a filter; each is defined in filters/<name>.cpp.
+#define PENUMBRA_FILTERS(X) \
+  X(median)                 \
+  X(box)                    \
+  X(gaussian)               \
+  X(bilateral)              \
+  X(bilateral_separable)
+
 void check_word(std::string_view technique, std::string_view kind, const std::string& word,
                 const std::vector<std::string>& known) {
   if (!word.empty() && std::ranges::find(known, word) == known.end()) {
     fail_unknown(fmt::format("{} of technique '{}'", kind, technique), word, known);
   }
+}
+
+void check_names(std::string_view kind, std::vector<std::string> names) {
+  std::ranges::sort(names);
+  const auto twice = std::ranges::adjacent_find(names);
+  if (twice != names.end()) fail("two {} have the name '{}'", kind, *twice);
 }
 
 void check(const Technique& technique, const Registry& registry) {
@@ -44,6 +59,54 @@ void check(const Technique& technique, const Registry& registry) {
 #define X(name) MakeTechnique name;
 PENUMBRA_TECHNIQUES(X)
 #undef X
+#define X(name) MakeFilter name;
+PENUMBRA_FILTERS(X)
+#undef X
+
+std::vector<Filter> built_in_filters() {
+  return {
+#define X(name) name(),
+      PENUMBRA_FILTERS(X)
+#undef X
+  };
+}
+
+namespace {
+
+// What is set, and the same in compute shaders.
+std::vector<Alias> presets() {
+  const std::vector<std::string> thesis{"pcss.blocker_taps=16",
+                                        "pcss.filter_taps=16",
+                                        "pcss.renewal_taps=64",
+                                        "sampling.blocker_pattern=poisson_hierarchical",
+                                        "sampling.filter_pattern=poisson_hierarchical",
+                                        "sampling.scramble=shift",
+                                        "sampling.noise=blue",
+                                        "sampling.filter_sequence=set",
+                                        "history.reuse=true",
+                                        "movement.map=average",
+                                        "filter.penumbra=median",
+                                        "filter.visibility=bilateral_separable"};
+  const std::vector<std::string> thesis_8x8{"pcss.blocker_taps=8",
+                                            "pcss.filter_taps=8",
+                                            "sampling.blocker_pattern=hammersley",
+                                            "sampling.filter_pattern=hammersley",
+                                            "sampling.scramble=shift",
+                                            "sampling.noise=blue",
+                                            "filter.penumbra=median",
+                                            "filter.visibility=bilateral_separable"};
+  std::vector<Alias> aliases{
+      {"thesis", "pcss", "The method of Deligiannis 2019: few taps, a history with a movement map, filters.", thesis},
+      {"thesis_8x8", "pcss", "Its fast form, of figure 4.12: 8/8 taps and a filter, no history.", thesis_8x8}};
+  for (const Alias& alias : std::vector{Alias{"pcss", "pcss", "", {}}, Alias{"brute_force", "brute_force", "", {}},
+                                        aliases[0], aliases[1]}) {
+    aliases.push_back({alias.name + "_compute", alias.technique, "The same in compute shaders.", alias.assignments});
+    aliases.back().assignments.emplace_back("driver=compute");
+  }
+  return aliases;
+}
+
+}  // namespace
 
 const Registry& built_in_registry() {
   static const Registry registry(
@@ -52,23 +115,22 @@ const Registry& built_in_registry() {
           PENUMBRA_TECHNIQUES(X)
 #undef X
       },
-      {
-          {"pcss_compute", "pcss", "PCSS in a compute shader.", {"driver=compute"}},
-      },
-      "pcss");
+      presets(), "pcss");
   return registry;
 }
 
-Registry::Registry(std::vector<Technique> techniques, std::vector<Alias> aliases, std::string default_technique)
+Registry::Registry(std::vector<Technique> techniques, std::vector<Alias> aliases, std::string default_technique,
+                   std::vector<Filter> filters)
     : techniques_(std::move(techniques)),
       aliases_(std::move(aliases)),
-      default_technique_(std::move(default_technique)) {
+      default_technique_(std::move(default_technique)),
+      filters_(std::move(filters)) {
   if (techniques_.empty()) fail("a registry needs a technique");
   if (default_technique_.empty()) default_technique_ = techniques_.front().name;
-  std::vector<std::string> sorted = names();
-  std::ranges::sort(sorted);
-  const auto twice = std::ranges::adjacent_find(sorted);
-  if (twice != sorted.end()) fail("two techniques have the name '{}'", *twice);
+  check_names("techniques", names());
+  std::vector<std::string> filter_names;
+  for (const Filter& filter : filters_) filter_names.push_back(filter.name);
+  check_names("filters", std::move(filter_names));
   for (const Technique& technique : techniques_) check(technique, *this);
   for (const Alias& alias : aliases_) find(alias.technique);
   find(default_technique_);
@@ -103,7 +165,7 @@ std::vector<Param> Registry::params() const {
   for (const Technique& technique : techniques_) choices.push_back(technique.name);
   std::vector<Param> rows{
       {"technique", default_technique_, 0, 0, "", "How shadows are computed.", ParamBinding::host, choices}};
-  for (Param& row : library_params()) rows.push_back(std::move(row));
+  for (Param& row : library_params(filters_)) rows.push_back(std::move(row));
   for (const Technique& technique : techniques_)
     rows.insert(rows.end(), technique.params.begin(), technique.params.end());
   return rows;

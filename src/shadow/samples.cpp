@@ -8,7 +8,7 @@ namespace penumbra::shadow {
 
 namespace {
 
-static_assert(sizeof(glsl::SampleBlock) == 4096);
+static_assert(sizeof(glsl::SampleBlock) == 6144);
 
 // Sets that a step takes in turn.
 constexpr int set_count = 16;
@@ -21,9 +21,9 @@ void fill_table(glm::vec4* table, const std::vector<glm::vec2>& points) {
   }
 }
 
-int taps(const Technique& technique, const ParamSet& params, const std::string& step) {
+int taps(const Technique& technique, const ParamSet& params, const std::string& step, int otherwise = 0) {
   const std::string name = technique.name + "." + step + "_taps";
-  return params.contains(name) ? params.get_int(name) : 0;
+  return params.contains(name) ? params.get_int(name) : otherwise;
 }
 
 // Point `index` of the lattice of the plastic number.
@@ -56,16 +56,18 @@ glm::vec4 noise_shift(const ParamSet& params, int frame) {
 
 glsl::SampleBlock Samples::block(const Technique& technique, const ParamSet& params, int frame) {
   const bool disc = turns_samples(technique, params);
-  const auto step = [&](const std::string& name) -> const std::vector<glm::vec2>& {
-    const std::string prefix = "sampling." + name;
+  const auto points_of = [&](const std::string& step, int count) -> const std::vector<glm::vec2>& {
+    const std::string prefix = "sampling." + step;
     const std::string& pattern = technique.pattern.empty() ? params.get_word(prefix + "_pattern") : technique.pattern;
     const bool changes = params.get_word(prefix + "_sequence") == "set";
     const auto set = static_cast<std::uint64_t>(changes ? frame % set_count : 0);
-    return points({pattern, taps(technique, params, name), disc, set});
+    return points({pattern, count, disc, set});
   };
   glsl::SampleBlock block{};
-  fill_table(block.blocker, step("blocker"));
-  fill_table(block.filter_points, step("filter"));
+  const int filter_taps = taps(technique, params, "filter");
+  fill_table(block.blocker, points_of("blocker", taps(technique, params, "blocker")));
+  fill_table(block.filter_points, points_of("filter", filter_taps));
+  fill_table(block.renewal_points, points_of("filter", taps(technique, params, "renewal", filter_taps)));
   return block;
 }
 

@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <map>
 
 #include "../core/error.h"
+#include "denoise.h"
 #include "forward_source.h"
+#include "library_params.h"
 #include "light_block.h"
+#include "light_maps.h"
 #include "light_state.h"
 #include "programs.h"
 #include "samples.h"
-#include "shadow_map.h"
 
 namespace penumbra::shadow {
 
@@ -48,37 +49,6 @@ SoftShadows::~SoftShadows() { device_.drop(fmt::format("shadow {}/", state_->num
 
 std::string SoftShadows::view_prefix(int id) const { return fmt::format("shadow {}/view {}/", state_->number, id); }
 
-// Maps, and what is made of them, as far as the technique and its stand-in ask.
-void SoftShadows::make_maps(const Inputs& inputs, const Light& light, const std::string& prefix, const ParamSet& params,
-                            LightFrame& frame) {
-  const unsigned needs = registry_.find(params.get_word("technique")).needs | forward_technique(params).needs;
-  frame.tan_half_angle = std::tan(glm::radians(params.get_float("sun.angle")) * 0.5f);
-  frame.cascades = light.maps ? light.maps->cascades
-                              : fit_cascades({.view = inputs.view.view,
-                                              .projection = inputs.view.projection,
-                                              .to_light = light.to_light,
-                                              .tan_half_angle = frame.tan_half_angle,
-                                              .casters = inputs.casters,
-                                              .receivers = inputs.receivers,
-                                              .count = params.get_int("cascades.count"),
-                                              .size = params.get_int("cascades.size"),
-                                              .split_blend = params.get_float("cascades.split"),
-                                              .distance = params.get_float("cascades.distance")});
-  if ((needs & (needs_shadow_map | needs_depth_pyramid)) != 0) {
-    frame.depth =
-        light.maps
-            ? light.maps->depth.id
-            : draw_shadow_map(device_, {.name = prefix + "shadow map", .cascades = frame.cascades, .draw = inputs.draw})
-                  .id();
-  }
-  if ((needs & needs_depth_pyramid) != 0) {
-    frame.pyramid = &build_depth_pyramid(device_, {.name = prefix + "depth pyramid",
-                                                   .depth = frame.depth,
-                                                   .size = frame.cascades.size,
-                                                   .layers = static_cast<int>(frame.cascades.items.size())});
-  }
-}
-
 void SoftShadows::upload_blocks(const Technique& technique, const Inputs& inputs, const LightFrame& frame,
                                 const std::string& prefix, LightState& state) {
   const std::vector<std::byte> params = uniform_bytes(state.params);
@@ -90,7 +60,9 @@ void SoftShadows::upload_blocks(const Technique& technique, const Inputs& inputs
   state.sample_block = &device_.scratch(prefix + "samples", sizeof(glsl::SampleBlock));
   state.params_block->write(params);
   const LightTraits traits{.square = state.params.get_word("sun.shape") == "square",
-                           .noise_shift = noise_shift(state.params, age)};
+                           .noise_shift = noise_shift(state.params, age),
+                           .last_jitter = state_->views[frame.view].last_jitter,
+                           .history = age > 0 && state.params.get_bool("history.reuse")};
   gl::write_value(*state.shadow_block, shadow_block(inputs, frame, traits));
   gl::write_value(*state.sample_block, state_->samples.block(technique, state.params, age));
 }
@@ -122,16 +94,23 @@ LightFrame SoftShadows::render_light(const Inputs& inputs, const Light& light, P
                                      const gl::Texture& mask, int layer) {
   const std::string prefix = fmt::format("{}light {}/", view_prefix(inputs.view.id), light.id);
   const Technique& technique = registry_.find(params.get_word("technique"));
-  LightFrame frame{
-      .view = inputs.view.id, .light = light.id, .layer = layer, .viewport = viewport_of(inputs), .cascades = {}};
-  make_maps(inputs, light, prefix, params, frame);
+  LightFrame frame{.view = inputs.view.id,
+                   .light = light.id,
+                   .layer = layer,
+                   .viewport = viewport_of(inputs),
+                   .cascades = cascades_of(inputs, light, params),
+                   .tan_half_angle = tan_half_angle(params)};
   begin_frame(state, technique, light, frame, std::move(params));
+  const unsigned needs = technique.needs | forward_technique(state.params).needs;
+  make_maps(device_, {.inputs = inputs, .light = light, .state = state, .needs = needs, .prefix = prefix}, frame);
   upload_blocks(technique, inputs, frame, prefix, state);
 
   const TechniqueFrame work({device_, state_->programs, technique, inputs, light, mask, frame, state, prefix});
   if (technique.prepare) technique.prepare(work);
   if (technique.resolve) {
     technique.resolve(work);
+  } else if (is_denoised(state.params)) {
+    frame.notes = &draw_denoised(work, registry_);
   } else {
     work.evaluate(mask, layer);
   }

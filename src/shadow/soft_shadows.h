@@ -78,8 +78,6 @@ class SoftShadows {
 
  private:
   struct State;
-  void make_maps(const Inputs& inputs, const Light& light, const std::string& prefix, const ParamSet& params,
-                 LightFrame& frame);
   void upload_blocks(const Technique& technique, const Inputs& inputs, const LightFrame& frame,
                      const std::string& prefix, LightState& state);
   void prepare_stand_in(const Inputs& inputs, const Light& light, const std::string& light_prefix, LightFrame& frame,

@@ -45,35 +45,77 @@ History TechniqueFrame::history(std::string_view name, const gl::TextureDesc& de
   return {texture(1 - ring.now), texture(ring.now), valid};
 }
 
+void TechniqueFrame::bind_inputs() const {
+  bind_light(parts_.device, parts_.frame, parts_.state);
+  bind_receivers(parts_.device, parts_.inputs);
+}
+
 const gl::Program& TechniqueFrame::use(gl::Pass& pass, std::string_view program) const {
   for (const gl::ProgramDesc& own : parts_.programs.own(parts_.technique, parts_.state.params, parts_.state.rotated)) {
     if (own.name != parts_.programs.own_name(parts_.technique, program)) continue;
     const gl::Program& used = pass.use(own);
-    bind_light(parts_.device, parts_.frame, parts_.state);
-    bind_receivers(parts_.device, parts_.inputs);
+    bind_inputs();
     return used;
   }
   throw std::logic_error(fmt::format("technique '{}' has no program '{}'", parts_.technique.name, program));
 }
 
-void TechniqueFrame::evaluate(const gl::Texture& target, int layer) const {
-  const bool compute = parts_.state.params.get_word("driver") == "compute";
-  const Rect& viewport = parts_.frame.viewport;
-  gl::PassDesc desc{.name = "shadow mask"};
-  if (!compute) desc.colors = {{.texture = &target, .layer = layer}};
-  gl::Pass pass(parts_.device, desc);
+const gl::Program& TechniqueFrame::use_library(gl::Pass& pass, const LibraryProgram& program) const {
+  const gl::Program& used = pass.use(parts_.programs.library(program));
+  bind_inputs();
+  return used;
+}
+
+bool TechniqueFrame::uses_compute() const { return params().get_word("driver") == "compute"; }
+
+const gl::Program& TechniqueFrame::use_visibility(gl::Pass& pass, bool packed) const {
   const gl::Program& program =
-      pass.use(parts_.programs.mask(parts_.technique, parts_.state.params, parts_.state.rotated, compute));
-  bind_light(parts_.device, parts_.frame, parts_.state);
-  bind_receivers(parts_.device, parts_.inputs);
-  if (compute) {
-    program.set("mask_layer", layer);
-    target.bind_image(0, GL_WRITE_ONLY);
+      pass.use(parts_.programs.mask(parts_.technique, params(), {parts_.state.rotated, uses_compute(), packed}));
+  bind_inputs();
+  return program;
+}
+
+void TechniqueFrame::cover(gl::Pass& pass) const {
+  const Rect& viewport = parts_.frame.viewport;
+  if (uses_compute()) {
     pass.dispatch(viewport.width, viewport.height);
   } else {
     pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
     pass.draw_full_screen();
   }
+}
+
+void TechniqueFrame::evaluate(const gl::Texture& target, int layer) const {
+  gl::PassDesc desc{.name = "shadow mask"};
+  if (!uses_compute()) desc.colors = {{.texture = &target, .layer = layer}};
+  gl::Pass pass(parts_.device, desc);
+  const gl::Program& program = use_visibility(pass, /*packed=*/false);
+  if (uses_compute()) {
+    program.set("mask_layer", layer);
+    target.bind_image(0, GL_WRITE_ONLY);
+  }
+  cover(pass);
+}
+
+void TechniqueFrame::bind_history(const gl::Texture& last_surfaces) const {
+  const gl::Texture* movement = parts_.frame.movement;
+  for (const GLuint unit : {unit_motion, unit_last_surface, unit_movement}) parts_.device.sampler({}).bind(unit);
+  gl::glBindTextureUnit(unit_motion, parts_.inputs.motion.id);
+  last_surfaces.bind(unit_last_surface);
+  gl::glBindTextureUnit(unit_movement, movement != nullptr ? movement->id() : 0);
+}
+
+void TechniqueFrame::evaluate(const PackedMask& target, const gl::Texture* last_surfaces) const {
+  gl::PassDesc desc{.name = "shadow mask"};
+  if (!uses_compute()) desc.colors = {{.texture = &target.texels}, {.texture = &target.notes}};
+  gl::Pass pass(parts_.device, desc);
+  use_visibility(pass, /*packed=*/true);
+  if (last_surfaces != nullptr) bind_history(*last_surfaces);
+  if (uses_compute()) {
+    target.texels.bind_image(0, GL_WRITE_ONLY);
+    target.notes.bind_image(1, GL_WRITE_ONLY);
+  }
+  cover(pass);
 }
 
 void TechniqueFrame::draw_casters(gl::Pass& pass, CasterKind kind, int cascade) const {

@@ -4,5 +4,5 @@
 
 float shadow_visibility(vec3 view_position, vec3 geometric_normal, vec2 pixel) {
   Receiver receiver = make_receiver(view_position, mat3(shadow.world_to_light) * geometric_normal, pixel);
-  return shadow_of(receiver).visibility.visibility;
+  return shadow_of(receiver, light_for(receiver)).visibility.visibility;
 }

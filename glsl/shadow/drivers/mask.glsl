@@ -1,8 +1,22 @@
 // What a pixel of the mask holds. Included after a technique.
 #include "shadow/receive.glsl"
 #include "shadow/drivers/gbuffer.glsl"
+#if PACKED
+#include "shadow/drivers/packed.glsl"
+
+PackedPixel shade_pixel(ivec2 pixel) {
+  if (is_sky(pixel)) return PackedPixel(pack_texel(0.0, 1.0, true), pack_notes(0, false, HISTORY_NONE));
+  Receiver receiver = receiver_at(pixel);
+  Light light = light_for(receiver);
+  uint refusal = refusal_of(receiver, light, pixel);
+  receiver.renewed = history_reuse != 0 && refusal != HISTORY_KEPT;
+  return packed_pixel(shadow_of(receiver, light), refusal);
+}
+#else
 
 vec4 shade_pixel(ivec2 pixel) {
   if (is_sky(pixel)) return vec4(1.0, 0.0, 0.0, 0.0);
-  return mask_texel(shadow_of(receiver_at(pixel)));
+  Receiver receiver = receiver_at(pixel);
+  return mask_texel(shadow_of(receiver, light_for(receiver)));
 }
+#endif

@@ -8,5 +8,6 @@ Receiver make_receiver(vec3 view_position, vec3 light_normal, vec2 pixel) {
   receiver.gradient = plane_gradient(light_normal, max_plane_slope);
   receiver.corner = Corner(vec4(0.0), 0.0);
   receiver.pixel = pixel;
+  receiver.renewed = false;
   return receiver;
 }

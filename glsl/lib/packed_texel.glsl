@@ -1,0 +1,50 @@
+// A pixel's shadow in 32 bits (Deligiannis 2019, section 3.3): bits 0 to 15 mean blocker distance, half precision, 0 for
+// none; 16 to 30 visibility; 31 history invalid. For integer textures: float ones may change bit patterns.
+#ifndef PENUMBRA_PACKED_TEXEL_GLSL
+#define PENUMBRA_PACKED_TEXEL_GLSL
+
+#include "shared/language.h"
+
+GLSL_BEGIN
+
+// The nearest half to a float that is not negative, ties to even; 65504 for all beyond, 0 for NaN. In integers, since
+// the rounding of packHalf2x16 differs from driver to driver.
+GLSL_FUNCTION uint half_bits(float value) {
+  float v = value > 0.0f ? min(value, 65504.0f) : 0.0f;
+  if (v < 6.103515625e-5f) return uint(roundEven(v * 16777216.0f));
+  uint bits = floatBitsToUint(v);
+  return (bits + 0xfffu + ((bits >> 13) & 1u) - 0x38000000u) >> 13;
+}
+
+GLSL_FUNCTION float half_value(uint bits) {
+  return bits < 0x400u ? float(bits) / 16777216.0f : uintBitsToFloat((bits << 13) + 0x38000000u);
+}
+
+GLSL_FUNCTION uint pack_texel(float distance_to, float visibility, bool invalid) {
+  float v = visibility > 0.0f ? min(visibility, 1.0f) : 0.0f;
+  return half_bits(distance_to) | (uint(v * 32767.0f + 0.5f) << 16) | (invalid ? 0x80000000u : 0u);
+}
+
+GLSL_FUNCTION float texel_distance(uint texel) { return half_value(texel & 0xffffu); }
+GLSL_FUNCTION float texel_visibility(uint texel) { return float((texel >> 16) & 0x7fffu) / 32767.0f; }
+GLSL_FUNCTION bool texel_invalid(uint texel) { return (texel & 0x80000000u) != 0u; }
+
+// Eight bits beside it: bits 0 to 3 cascade; 4 the kernel is smaller than a texel of the map; 5 to 7 what became of the
+// history.
+#define HISTORY_KEPT 0u
+#define HISTORY_NONE 1u            // nothing is kept: a first frame, a cut, a new size
+#define HISTORY_OFF_SCREEN 2u      // the surface was outside of the picture
+#define HISTORY_OTHER_SURFACE 3u   // another one was there
+#define HISTORY_CASTER_MOVED 4u    // something that may hide the light did move
+
+GLSL_FUNCTION uint pack_notes(int cascade, bool under_texel, uint refusal) {
+  return uint(cascade) | (under_texel ? 16u : 0u) | (refusal << 5);
+}
+
+GLSL_FUNCTION int notes_cascade(uint notes) { return int(notes & 15u); }
+GLSL_FUNCTION bool notes_under_texel(uint notes) { return (notes & 16u) != 0u; }
+GLSL_FUNCTION uint notes_refusal(uint notes) { return notes >> 5; }
+
+GLSL_END
+
+#endif

@@ -1,0 +1,31 @@
+// A pixel of a mask that goes through history and filters: what it holds, and whether its history holds.
+#include "shadow/receive.glsl"
+#include "shadow/history.glsl"
+#include "shadow/movement.glsl"
+
+struct PackedPixel {
+  uint texel;
+  uint notes;
+};
+
+PackedPixel packed_pixel(Shadowed shadowed, uint refusal) {
+  Visibility seen = shadowed.visibility;
+  // Kernels take their size from the distance, also those of techniques that give the size alone.
+  float distance_to = seen.penumbra_radius / max(shadow.light.x, 1e-6);
+  return PackedPixel(pack_texel(distance_to, seen.visibility, refusal != HISTORY_KEPT),
+                     pack_notes(shadowed.cascade, seen.under_texel, refusal));
+}
+
+// Whether something moved that hides, or hid, a part of the light. The technique's reach follows from the casters of
+// this frame; one that has left may have stood higher.
+bool caster_moved(Receiver receiver, Light light) {
+  float reach = max(light.reach, penumbra_radius(light.tan_half_angle, receiver.position.z, shadow.history.w));
+  int cascade = finest_cascade(light, receiver.position, reach);
+  return movement_seen(receiver.position, reach + 1.5 * shadow.cascades[cascade].map.w, cascade);
+}
+
+uint refusal_of(Receiver receiver, Light light, ivec2 pixel) {
+  uint refusal = reproject(receiver, pixel).refusal;
+  bool asks = refusal == HISTORY_KEPT && shadow.history.z != 0.0 && faces_light(receiver);
+  return asks && caster_moved(receiver, light) ? HISTORY_CASTER_MOVED : refusal;
+}
