@@ -87,11 +87,16 @@ const Filter& filter_named(const Registry& registry, const std::string& name) {
   fail("there is no filter '{}'", name);
 }
 
+// A row of timings; all visibility filters share one, so that they can be compared.
+std::string_view pass_name(const Filter& filter) {
+  const bool filters = filter.of == Filter::Of::visibility && &filter != &unfiltered();
+  return filters ? std::string_view("filter") : filter.name;
+}
+
 // One pass, from texels to `target`: texels, or a layer of the mask. Notes are for the latter alone.
 void run(const TechniqueFrame& work, const Step& step, const PackedMask& source, const gl::Texture& target) {
   const LightFrame& frame = work.frame();
-  gl::PassDesc desc{.name = step.filter.of == Filter::Of::visibility ? "filter" : step.filter.name};
-  if (&step.filter == &unfiltered()) desc.name = step.filter.name;
+  gl::PassDesc desc{.name = pass_name(step.filter)};
   if (!step.compute) desc.colors = {{.texture = &target, .layer = step.to_mask ? frame.layer : 0}};
   gl::Pass pass(work.device(), desc);
   const gl::Program& program = work.use_library(pass, program_of(step));
