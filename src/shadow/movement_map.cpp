@@ -67,10 +67,11 @@ void build_pyramid(gl::Device& device, const MovementInputs& inputs, const std::
   glm::vec2 widest(0);
   for (const Region& region : regions)
     widest = glm::max(widest, glm::vec2(region.z, region.w) - glm::vec2(region) + 1.0f);
-  const gl::Program& program = pass.use(movement_pyramid_program(inputs.form));
+  const gl::Program& program =
+      pass.use(movement_pyramid_program(inputs.form, !std::has_single_bit(static_cast<unsigned>(desc.width))));
   for (size_t i = 0; i < regions.size(); ++i) program.set(fmt::format("regions[{}]", i), regions[i]);
   inputs.map.bind(0);
-  device.sampler({.min_filter = GL_NEAREST_MIPMAP_NEAREST}).bind(0);
+  device.sampler({.min_filter = GL_LINEAR_MIPMAP_NEAREST, .mag_filter = GL_LINEAR}).bind(0);
   for (int below = 0; below + 1 < desc.levels; below += levels_a_step) {
     const int second = std::min(below + 2, desc.levels - 1);
     program.set("below", below);
@@ -122,11 +123,11 @@ bool may_hold_moved(const CullVolume& volume, const std::optional<Box>& moved) {
   return !moved || (!nothing_moved(moved) && volume.holds(*moved));
 }
 
-gl::ProgramDesc movement_pyramid_program(MovementForm form) {
+gl::ProgramDesc movement_pyramid_program(MovementForm form, bool any_size) {
   const bool average = form == MovementForm::average;
   return {.name = average ? "movement pyramid, average" : "movement pyramid, maximum",
           .compute = "shadow/movement_pyramid.comp",
-          .defines = {{"AVERAGE", average ? "1" : "0"}}};
+          .defines = {{"AVERAGE", average ? "1" : "0"}, {"ANY_SIZE", any_size ? "1" : "0"}}};
 }
 
 }  // namespace penumbra::shadow

@@ -42,7 +42,7 @@ bool nothing_moved(const std::optional<Box>& moved);
 // False only if nothing that moved can be in the volume.
 bool may_hold_moved(const CullVolume& volume, const std::optional<Box>& moved);
 
-// The program of the pyramid's first levels, or of those that follow.
-gl::ProgramDesc movement_pyramid_program(MovementForm form);
+// The program of the pyramid; `any_size`: for maps whose size is no power of two, at more cost.
+gl::ProgramDesc movement_pyramid_program(MovementForm form, bool any_size = false);
 
 }  // namespace penumbra::shadow

@@ -223,8 +223,9 @@ TEST_F(ShadowMovement, WhatFellFromBeyondThePresentSceneIsMarked) {
   const shadow::Cascade& coarsest = cascades.items[2];
   size_t uncovered = 0;
   for (int i = 0; i < map_size * map_size; ++i) {
-    const glm::dvec4 clip((i % map_size + 0.5) / map_size * 2 - 1, (i / map_size + 0.5) / map_size * 2 - 1, 0, 1);
-    const glm::dvec4 at = glm::inverse(coarsest.world_to_clip) * clip;
+    const glm::dvec2 texel(i % map_size, i / map_size);
+    const glm::dvec4 at = glm::inverse(coarsest.world_to_clip) *
+                          glm::dvec4((texel + 0.5) / static_cast<double>(map_size) * 2.0 - 1.0, 0, 1);
     if (at.x < 2.01 || at.x > 2.99 || at.z < 2.01 || at.z > 2.99) continue;
     EXPECT_EQ(marks[static_cast<size_t>(2 * map_size * map_size + i)], 1) << at.x << ", " << at.z;
     ++uncovered;

@@ -1,0 +1,155 @@
+// What a movement map costs: the second target of the shadow pass against a pass of its own, the last position, and the
+// pyramid, in both forms, with and without the bounds of what moved. Frames of all ways alternate in one run.
+//   movement_map [SCENE.glb] [FRAMES]
+
+#include "shadow/movement_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "core/error.h"
+#include "gl/context.h"
+#include "io/image_read.h"
+#include "render/setup.h"
+#include "scene/gltf.h"
+#include "scene/gpu_scene.h"
+#include "shadow/shadow_map.h"
+
+namespace penumbra {
+namespace {
+
+struct Way {
+  const char* name;
+  shadow::MovementForm form;
+  bool second_target, bounds, none;
+};
+
+constexpr std::array<Way, 6> ways{{
+    {"no movement map", shadow::MovementForm::maximum, false, false, true},
+    {"maximum, own pass", shadow::MovementForm::maximum, false, false, false},
+    {"maximum, second target", shadow::MovementForm::maximum, true, false, false},
+    {"maximum, second target, bounds", shadow::MovementForm::maximum, true, true, false},
+    {"average, second target", shadow::MovementForm::average, true, false, false},
+    {"average, second target, bounds", shadow::MovementForm::average, true, true, false},
+}};
+
+shadow::Box box_of(const scene::Bounds& bounds) { return {bounds.min, bounds.max}; }
+
+scene::Casters casters_of(shadow::CasterKind kind) {
+  switch (kind) {
+    case shadow::CasterKind::depth_and_moved:
+      return scene::Casters::all_and_moved;
+    case shadow::CasterKind::moved_now:
+      return scene::Casters::moved_now;
+    case shadow::CasterKind::moved_last:
+      return scene::Casters::moved_last;
+    default:
+      return scene::Casters::all;
+  }
+}
+
+// A scene in motion under its own camera and sun.
+struct Stage {
+  gl::Device& device;
+  scene::GpuScene& scene;
+  shadow::Cascades cascades;
+};
+
+void draw(Stage& stage, const Way& way) {
+  const shadow::DrawCasters draw = [&](const shadow::CasterPass& casters, gl::Pass& pass) {
+    stage.scene.draw_casters(stage.device, pass, casters_of(casters.kind), casters.world_to_clip,
+                             [&](const scene::Bounds& box) { return casters.cull.holds(box_of(box)); });
+  };
+  const int layers = static_cast<int>(stage.cascades.items.size());
+  const bool average = way.form == shadow::MovementForm::average;
+  const gl::Texture* map = way.none ? nullptr
+                                    : &shadow::movement_target(stage.device, average ? "average" : "maximum",
+                                                               stage.cascades.size, layers, way.form);
+  std::optional<shadow::Box> moved;
+  if (way.bounds) moved = box_of(stage.scene.moved_bounds());
+  const gl::Texture& depth = shadow::draw_shadow_map(stage.device, {.name = "shadow map",
+                                                                    .cascades = stage.cascades,
+                                                                    .draw = draw,
+                                                                    .moved = way.second_target ? map : nullptr,
+                                                                    .moved_bounds = moved});
+  shadow::build_depth_pyramid(
+      stage.device, {.name = "depth pyramid", .depth = depth.id(), .size = stage.cascades.size, .layers = layers});
+  if (map == nullptr) return;
+  shadow::draw_movement(stage.device, {.map = *map,
+                                       .form = way.form,
+                                       .cascades = stage.cascades,
+                                       .draw = draw,
+                                       .depth = &depth,
+                                       .moved = moved,
+                                       .present_is_drawn = way.second_target});
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values.at(values.size() / 2);
+}
+
+int run(const std::filesystem::path& path, int frames) {
+  const auto context = gl::make_context("auto");
+  const auto timing = gl::device_info().software ? gl::Timers::Mode::finish : gl::Timers::Mode::query;
+  scene::Scene scene = scene::read_gltf(path, io::image_decoder());
+  const scene::Pose pose = scene::pose_at(scene, 0);
+  const render::Setup setup = render::choose_setup(scene, pose);
+
+  // One device a way, so that each has rows of its own.
+  struct Case {
+    gl::Device device;
+    scene::GpuScene scene;
+    Case(gl::Timers::Mode timing, const scene::Scene& of) : device(gl::ShaderFiles(), timing), scene(device, of) {}
+  };
+  std::vector<std::unique_ptr<Case>> cases;
+  for (size_t i = 0; i < ways.size(); ++i) cases.push_back(std::make_unique<Case>(timing, scene));
+  for (int frame = 0; frame < frames; ++frame) {
+    for (size_t i = 0; i < ways.size(); ++i) {
+      Case& own = *cases[i];
+      own.scene.pose(own.device, 0.5 + (frame - 1) / 60.0, 0.5 + frame / 60.0);
+      Stage stage{own.device, own.scene,
+                  shadow::fit_cascades({.view = setup.camera.view,
+                                        .projection = render::projection_of(setup.camera, 1280.0f / 720.0f),
+                                        .to_light = setup.sun.to_light,
+                                        .tan_half_angle = 0.0046f,
+                                        .casters = box_of(own.scene.casters()),
+                                        .receivers = box_of(own.scene.receivers())})};
+      own.device.timers.begin_frame();
+      draw(stage, ways[i]);
+      own.device.timers.end_frame();
+    }
+  }
+  for (size_t i = 0; i < ways.size(); ++i) {
+    const gl::Device& device = cases[i]->device;
+    fmt::print("{}\n", ways[i].name);
+    for (const gl::Timers::Row& row : cases[i]->device.timers.rows()) {
+      fmt::print("  {:<20} {:8.2f} ms\n", row.name, median(row.milliseconds));
+    }
+    if (ways[i].none) continue;
+    const std::size_t bytes = device.target_bytes("maximum") + device.target_bytes("average");
+    fmt::print("  memory, share of the shadow map's {:.1f} %\n",
+               100.0 * static_cast<double>(bytes) / static_cast<double>(device.target_bytes("shadow map")));
+  }
+  fmt::print("{}, 4 cascades of 2048x2048, {}, medians of {}\n", path.filename().string(), gl::device_info().renderer,
+             frames);
+  return 0;
+}
+
+}  // namespace
+}  // namespace penumbra
+
+int main(int argc, char** argv) {
+  try {
+    return penumbra::run(argc > 1 ? argv[1] : PENUMBRA_ROOT "/scenes/moving.glb", argc > 2 ? std::atoi(argv[2]) : 15);
+  } catch (const penumbra::Error& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return 1;
+  }
+}
