@@ -48,17 +48,19 @@ float filtered_share(Receiver receiver, float radius, int taps, float bias, Ligh
   return lit / float(taps);
 }
 
-// Both steps with so many taps each. With early exits, taps that all agree decide, and so do the bounds on depth.
+// Both steps with so many taps each; neither where depth bounds, if asked, rule blockers out.
 Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, int filter_taps, bool early_exits) {
   float bias = depth_bias(receiver, light);
   Search search = narrow_search(receiver, light, light.cascade, light.reach);
   if (early_exits && search.nearest >= receiver.position.z - bias) return fully_lit();
   receiver = receiver_in_corner(receiver, bias, cone_slope(light), light);
   Blockers blockers = find_blockers(receiver, search.radius, blocker_taps, bias, light);
-  if (blockers.weight == 0.0) return fully_lit();
+  // A few taps can miss blockers that hide little. What they would hide is asked of the widest kernel that there can be.
+  if (blockers.weight == 0.0) {
+    return Visibility(filtered_share(receiver, search.radius, filter_taps, bias, light), 0.0, 0.0, false);
+  }
   float mean = mean_distance(blockers);
   float radius = light.tan_half_angle * mean;
-  bool agreed = early_exits && blockers.weight >= float(blocker_taps);
-  float lit = agreed ? 0.0 : filtered_share(receiver, radius, filter_taps, bias, light);
-  return Visibility(lit, radius, mean, radius < texel_size(light));
+  return Visibility(filtered_share(receiver, radius, filter_taps, bias, light), radius, mean,
+                    radius < texel_size(light));
 }
