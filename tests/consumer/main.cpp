@@ -34,6 +34,7 @@ shadow::Inputs inputs_of(const Setting& setting, std::span<const shadow::Light> 
   inputs.lights = lights;
   inputs.casters = {glm::min(engine::caster_center - reach, -ground), glm::max(engine::caster_center + reach, ground)};
   inputs.receivers = inputs.casters;
+  inputs.moved = shadow::Box{glm::vec3(1), glm::vec3(-1)};  // nothing moves
   inputs.draw = [&scene = setting.scene](const shadow::CasterPass& pass, gl::Pass&) {
     scene.draw(pass.world_to_clip, /*casters_only=*/false);
   };
