@@ -60,16 +60,17 @@ float plane_distance(Surface surface, ivec2 offset, float depth) {
 // that met no blocker may lie in a penumbra all the same, and few blocker taps miss often where little light is lost:
 // then those of its neighbours that met one decide.
 float kernel_distance(ivec2 pixel, uint texel) {
-  const ivec2 moves[8] = ivec2[8](ivec2(1, 2), ivec2(2, 1), ivec2(2, -1), ivec2(1, -2), ivec2(-1, -2), ivec2(-2, -1),
-                                  ivec2(-2, 1), ivec2(-1, 2));
   float own = texel_distance(texel);
-  if (own > 0.0 || is_sky_depth(stored_depth_at(pixel))) return own;
-  float sum = 0.0;
-  float found = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    float of_neighbour = texel_distance(texel_at(clamp(pixel + moves[i], lowest_pixel(), highest_pixel())));
+  float sum = own;
+  float found = own > 0.0 ? 1.0 : 0.0;
+  // A count that compilers don't know, so that they leave a loop, which costs nothing where it is not run.
+  ivec2 move = ivec2(1, 2);
+  int count = own > 0.0 || is_sky_depth(stored_depth_at(pixel)) ? 0 : 8;
+  for (int i = 0; i < count; ++i) {
+    float of_neighbour = texel_distance(texel_at(clamp(pixel + move, lowest_pixel(), highest_pixel())));
     sum += of_neighbour;
     found += of_neighbour > 0.0 ? 1.0 : 0.0;
+    move = i == 3 ? ivec2(2, 1) : ivec2(-move.y, move.x);
   }
   return found > 0.0 ? sum / found : 0.0;
 }
@@ -83,22 +84,33 @@ vec2 kernel_sigma(Surface surface, float distance_to) {
 // Kernels below this are narrower than a pixel: a neighbour would weigh under 0.004.
 const float least_sigma = 0.3;
 
-// Taps on a line of pixels through the filtered one: evenly spaced over `radius`, at most `max_taps` to a side, within
-// the viewport. Noise that differs from pixel to pixel averages as well over some hundred spaced taps as over all.
+// Taps on a line of pixels through the filtered one: itself, and others evenly spaced over `radius`, at most `max_taps`
+// to a side, within the viewport. Noise that differs from pixel to pixel averages as well over some hundred spaced taps
+// as over all. Spaced alike for every pixel they would leave their lattice in the picture, so each pixel shifts them.
 const int max_taps = 8;
 struct Taps {
   int first, last;
   float spacing;  // pixels, at least 1
+  float shift;    // pixels, less than half the spacing; 0 where none are left out
 };
+
+// Interleaved gradient noise (Jimenez 2014, "Next generation post processing in Call of Duty: Advanced Warfare").
+float tap_noise(ivec2 pixel, int axis) {
+  ivec2 at = pixel - lowest_pixel();
+  return fract(52.9829189 * fract(dot(vec2(axis == 0 ? at : at.yx), vec2(0.06711056, 0.00583715))));
+}
 
 Taps taps_along(int axis, ivec2 pixel, float radius) {
   float spacing = max(radius / float(max_taps), 1.0);
+  float shift = (tap_noise(pixel, axis) - 0.5) * (spacing - 1.0);
   int side = int(radius / spacing + 0.5);
-  int below = int(float(pixel[axis] - lowest_pixel()[axis]) / spacing);
-  int above = int(float(highest_pixel()[axis] - pixel[axis]) / spacing);
-  return Taps(-min(side, below), min(side, above), spacing);
+  int below = int((float(pixel[axis] - lowest_pixel()[axis]) + shift) / spacing);
+  int above = int((float(highest_pixel()[axis] - pixel[axis]) - shift) / spacing);
+  return Taps(-min(side, below), min(side, above), spacing, shift);
 }
 
-int tap_offset(Taps taps, int index) { return int(roundEven(float(index) * taps.spacing)); }
+int tap_offset(Taps taps, int index) {
+  return index == 0 ? 0 : int(roundEven(float(index) * taps.spacing + taps.shift));
+}
 
 ivec2 along(int axis, int offset) { return axis == 0 ? ivec2(offset, 0) : ivec2(0, offset); }

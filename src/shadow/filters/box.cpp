@@ -9,7 +9,7 @@ Filter box() {
           .glsl = "shadow/filters/box.glsl",
           .of = Filter::Of::visibility,
           .passes = 2,
-          .reach = {{43, 2}, {2, 43}}};
+          .reach = {{45, 2}, {2, 45}}};
 }
 
 }  // namespace penumbra::shadow

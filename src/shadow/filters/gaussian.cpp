@@ -9,7 +9,7 @@ Filter gaussian() {
           .glsl = "shadow/filters/gaussian.glsl",
           .of = Filter::Of::visibility,
           .passes = 2,
-          .reach = {{48, 2}, {2, 48}}};
+          .reach = {{51, 2}, {2, 51}}};
 }
 
 }  // namespace penumbra::shadow
