@@ -1,4 +1,4 @@
-// What of a caster is there, and whether it moved.
+// What of a caster is there, and the mark of one that moved.
 #if MASKED
 #include "scene/material.glsl"
 
@@ -9,7 +9,6 @@ in Caster {
 #endif
 
 #if MARKS_MOVED
-flat in float caster_moved;
 layout(location = 0) out float moved;
 #endif
 
@@ -18,6 +17,6 @@ void main() {
   if (base_color(caster.uv, caster.color).a < material.alpha_cutoff) discard;
 #endif
 #if MARKS_MOVED
-  moved = caster_moved;
+  moved = 1.0;
 #endif
 }

@@ -1,4 +1,4 @@
-// What casts shadows: depth, texture coordinates where alpha decides, and whether it moved.
+// What casts shadows: depth, and texture coordinates where alpha decides.
 #include "scene/instance.glsl"
 
 #if LAST_POSE
@@ -21,9 +21,6 @@ out Caster {
   vec4 color;
 } caster;
 #endif
-#if MARKS_MOVED
-flat out float caster_moved;
-#endif
 
 void main() {
 #if LAST_POSE
@@ -35,8 +32,5 @@ void main() {
 #if MASKED
   caster.uv = uv;
   caster.color = color;
-#endif
-#if MARKS_MOVED
-  caster_moved = (instances[instance].flags & INSTANCE_MOVED) != 0u ? 1.0 : 0.0;
 #endif
 }

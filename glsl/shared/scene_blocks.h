@@ -8,7 +8,6 @@ GLSL_BEGIN
 
 // InstanceBlock::flags
 #define INSTANCE_TRIANGLES 1u
-#define INSTANCE_MOVED 2u  // since the last frame
 
 // A primitive at a place.
 struct InstanceBlock {

@@ -231,7 +231,7 @@ void GpuScene::State::update_instances() {
                       .area = glm::mat4(area_matrix(glm::mat3(world))),
                       .first_index = instance.first_index,
                       .base_vertex = instance.base_vertex,
-                      .flags = triangles | (instance.moved ? INSTANCE_MOVED : 0u),
+                      .flags = triangles,
                       .winding = instance.mirrored ? -1.0f : 1.0f});
   }
   instance_blocks.write(std::as_bytes(std::span(blocks)));

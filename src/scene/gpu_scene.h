@@ -21,7 +21,8 @@ enum class Surfaces { opaque, masked };
 
 enum class Casters {
   all,            // depth only
-  all_and_moved,  // and 1 in fragment output 0 for those that moved since the last frame, else 0
+  all_and_moved,  // and 1 in fragment output 0, which was clear, where those that moved since the last frame are
+                  // nearest
   moved_now,      // those that moved, where they are; output 0 is 1
   moved_last,     // those that moved, where they were; output 0 is 1
 };

@@ -119,24 +119,45 @@ void GpuScene::draw_blended(gl::Device& device, gl::Pass& pass, const gl::Progra
   state_->draw(device, pass, list);
 }
 
-void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
-                            const BoxTest& reaches) {
-  const bool last = casters == Casters::moved_last;
-  const bool only_moved = last || casters == Casters::moved_now;
+void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const CasterDraw& which,
+                                   const glm::mat4& world_to_clip, const BoxTest& reaches) const {
   for (const bool masked : {false, true}) {
     DrawList list;
-    for (std::uint32_t i = 0; i < state_->instances.size(); ++i) {
-      const Instance& instance = state_->instances[i];
+    for (std::uint32_t i = 0; i < instances.size(); ++i) {
+      const Instance& instance = instances[i];
       if (instance.casts != (masked ? Casts::by_alpha : Casts::always)) continue;
-      if (only_moved && !instance.moved) continue;
-      if (!reaches(last ? instance.last_box : instance.box)) continue;
+      if (!(instance.moved ? which.moved : which.still)) continue;
+      if (!reaches(which.last_pose ? instance.last_box : instance.box)) continue;
       // Without a material or sides to tell apart, all are one draw.
       list.add(instance, i,
                {.deformed = instance.job >= 0, .double_sided = true, .material = masked ? instance.material : -1});
     }
     if (list.commands.empty()) continue;
-    pass.use(caster_program(masked, casters != Casters::all, last)).set("world_to_clip", world_to_clip);
-    state_->draw(device, pass, list);
+    pass.use(caster_program(masked, which.marks, which.last_pose)).set("world_to_clip", world_to_clip);
+    draw(device, pass, list);
+  }
+}
+
+void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
+                            const BoxTest& reaches) {
+  const auto draw = [&](const CasterDraw& which) { state_->draw_casters(device, pass, which, world_to_clip, reaches); };
+  switch (casters) {
+    case Casters::all:
+      draw({.still = true, .moved = true});
+      break;
+    case Casters::all_and_moved:
+      // What stands still only hides, so it needs no fragment stage: drawn first, it leaves the mark of nobody.
+      gl::glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+      draw({.still = true});
+      gl::glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+      draw({.moved = true, .marks = true});
+      break;
+    case Casters::moved_now:
+      draw({.moved = true, .marks = true});
+      break;
+    case Casters::moved_last:
+      draw({.moved = true, .marks = true, .last_pose = true});
+      break;
   }
 }
 

@@ -56,6 +56,13 @@ struct DrawList {
   void add(const Instance& instance, std::uint32_t index, Batch batch);
 };
 
+// Which casters a draw has, and how.
+struct CasterDraw {
+  bool still = false, moved = false;
+  bool marks = false;      // 1 in fragment output 0
+  bool last_pose = false;  // where they were
+};
+
 // A pose on the GPU: the deformed vertices of a moment.
 struct PosedVertices {
   std::optional<double> time;
@@ -88,6 +95,8 @@ struct GpuScene::State {
   void set_vertex_arrays() const;
   void update_instances();
   void draw(gl::Device& device, gl::Pass& pass, const DrawList& list) const;
+  void draw_casters(gl::Device& device, gl::Pass& pass, const CasterDraw& which, const glm::mat4& world_to_clip,
+                    const BoxTest& reaches) const;
 };
 
 }  // namespace penumbra::scene

@@ -49,7 +49,8 @@ struct Rect {
 // transform, skin, morph or shape than in the last frame; what is new or gone was, or is, nowhere.
 enum class CasterKind {
   depth,            // all casters that the volume holds; no output
-  depth_and_moved,  // the same; output 0 is 1 for those that moved since the last frame, else 0
+  depth_and_moved,  // the same; output 0, clear at first, ends as 1 where one that moved since the last frame is
+                    // nearest, else 0. Cheap: what stands still first, colour writes off; then what moved, writing 1
   moved_now,        // those that moved, where they are; output 0 is 1
   moved_last,       // those that moved, where they were; output 0 is 1
   geometry,         // all, for techniques that need triangles; outputs are the technique's own
