@@ -1,0 +1,215 @@
+// Filters of the mask over real penumbrae: agreement of the drivers, width, noise.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <glm/gtc/matrix_transform.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gpu/gpu_test.h"
+#include "gpu/triangle_scene.h"
+
+namespace penumbra::test {
+namespace {
+
+const std::vector<std::string> all_filters{"none", "box", "gaussian", "bilateral", "bilateral_separable"};
+constexpr int side = 128;
+
+// A half-plane 5 m up over a ground: under a sun of 8 degrees a penumbra of 0.7 m in the middle of the picture, of
+// whose width `part` is seen.
+TriangleScene half_plane(float part) {
+  constexpr float radius = 5 * 0.0699268f;
+  TriangleScene scene;
+  scene.add_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0});
+  scene.add_quad({-20, 5, -20}, {0, 0, 40}, {20, 0, 0});
+  scene.receivers = shadow::Box{{-2, 0, -2}, {2, 0, 2}};
+  scene.width = scene.height = side;
+  scene.view = glm::lookAt(glm::vec3(0, 2.5f, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+  scene.projection = orthographic(part * radius, part * radius, 0.05f, 5);
+  return scene;
+}
+
+class ShadowFilterQuality : public TriangleTest {
+ protected:
+  void SetUp() override {
+    TriangleTest::SetUp();
+    params_ = std::make_unique<ParamSet>(renderer_->params());
+    params_->set("sun.angle", 8.0f);
+    params_->set("cascades.count", 1);
+    params_->set("cascades.size", 256);
+    use_8_taps();
+  }
+  void TearDown() override {
+    params_.reset();
+    TriangleTest::TearDown();
+  }
+
+  void set(const char* name, const std::string& word) { params_->set(name, word); }
+  void use_8_taps() {
+    set("technique", "pcss");
+    params_->set("pcss.blocker_taps", 8);
+    params_->set("pcss.filter_taps", 8);
+    set("sampling.blocker_pattern", "hammersley");
+    set("sampling.filter_pattern", "hammersley");
+    set("sampling.scramble", "shift");
+    set("sampling.noise", "blue");
+  }
+  void use_every_texel() {
+    set("technique", "brute_force");
+    params_->set("brute_force.every_texel", true);
+  }
+  Shadowed draw(const TriangleScene& scene, const std::string& filter) {
+    set("filter.visibility", filter);
+    return renderer_->render(scene, *params_);
+  }
+  // The same as a part of larger textures, with something beside it.
+  std::vector<float> draw_part(const TriangleScene& scene, const shadow::Rect& part) {
+    renderer_->render(scene, *params_, [&](shadow::Inputs& in) {
+      in.depth = larger(in.depth, "large depth", GL_DEPTH_COMPONENT32F, part);
+      in.normals = larger(in.normals, "large normals", GL_RG32F, part);
+      in.viewport = part;
+    });
+    const gl::Texture& mask = *renderer_->mask().texture;
+    const std::vector<float> texels = gl::read_floats(mask, 4);
+    std::vector<float> inside;
+    for (int y = 0; y < part.height; ++y) {
+      const auto row = texels.begin() + 4 * ((y + part.y) * mask.width() + part.x);
+      inside.insert(inside.end(), row, row + 4 * part.width);
+    }
+    return inside;
+  }
+
+  std::unique_ptr<ParamSet> params_;
+
+ private:
+  shadow::TextureView larger(const shadow::TextureView& from, const char* name, GLenum format,
+                             const shadow::Rect& part) {
+    const gl::Texture& to =
+        renderer_->device().target(name, {.format = format, .width = part.width + 40, .height = part.height + 30});
+    const float beside = 0.01f;
+    gl::glClearTexImage(to.id(), 0, format == GL_RG32F ? GL_RED : GL_DEPTH_COMPONENT, GL_FLOAT, &beside);
+    gl::glCopyImageSubData(from.id, GL_TEXTURE_2D, 0, 0, 0, 0, to.id(), GL_TEXTURE_2D, 0, part.x, part.y, 0, part.width,
+                           part.height, 1);
+    return {to.id(), to.width(), to.height()};
+  }
+};
+
+TriangleScene odd_box() {
+  TriangleScene scene = box_on_ground();
+  scene.width = 75;
+  scene.height = 53;
+  scene.projection = perspective(0.8f, 75.0f / 53, 0.1f);
+  return scene;
+}
+
+TEST_F(ShadowFilterQuality, FragmentAndComputeGiveTheSameMask) {
+  params_->set("filter.width", 0.4f);  // spaced taps too
+  const shadow::Rect part{13, 5, 75, 53};
+  for (const std::string& filter : all_filters) {
+    for (const std::string median : {"none", "median"}) {
+      set("filter.penumbra", median);
+      set("driver", "fragment");
+      const std::vector<float> mask = draw(odd_box(), filter).mask;
+      const std::vector<float> of_part = draw_part(odd_box(), part);
+      set("driver", "compute");
+      EXPECT_EQ(draw(odd_box(), filter).mask, mask) << filter << ", penumbra " << median;
+      EXPECT_EQ(draw_part(odd_box(), part), of_part) << filter << ", penumbra " << median;
+    }
+  }
+}
+
+TEST_F(ShadowFilterQuality, NothingBesideTheViewportIsRead) {
+  params_->set("filter.width", 0.4f);
+  set("filter.penumbra", "median");
+  set("sampling.noise", "none");  // which differs from texel to texel of the textures
+  for (const std::string driver : {"fragment", "compute"}) {
+    set("driver", driver);
+    for (const std::string& filter : all_filters) {
+      const std::vector<float> whole = draw(odd_box(), filter).mask;
+      EXPECT_EQ(draw_part(odd_box(), {13, 5, 75, 53}), whole) << filter;
+    }
+  }
+}
+
+// Mean of each column.
+std::vector<double> profile(const Shadowed& shadowed) {
+  std::vector<double> means(side, 0.0);
+  for (int x = 0; x < side; ++x) {
+    for (int y = 0; y < side; ++y) means[static_cast<size_t>(x)] += shadowed.visibility(x, y) / side;
+  }
+  return means;
+}
+
+// Where a rising profile first reaches a value, pixels.
+double crossing(const std::vector<double>& profile, double value) {
+  for (size_t x = 1; x < profile.size(); ++x) {
+    if (profile[x] >= value) {
+      return static_cast<double>(x) - (profile[x] - value) / (profile[x] - profile[x - 1]);
+    }
+  }
+  return NAN;
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+TEST_F(ShadowFilterQuality, APenumbraKeepsItsMeanAndItsWidth) {
+  for (const std::string shape : {"disc", "square"}) {
+    set("sun.shape", shape);
+    use_every_texel();
+    const std::vector<double> raw = profile(draw(half_plane(1.8f), "none"));
+    const double width = crossing(raw, 0.9) - crossing(raw, 0.1);
+    for (const std::string filter : {"box", "gaussian", "bilateral", "bilateral_separable"}) {
+      const std::vector<double> filtered = profile(draw(half_plane(1.8f), filter));
+      const double filtered_width = crossing(filtered, 0.9) - crossing(filtered, 0.1);
+      std::printf("%s, %s: 10 to 90 %% in %.2f pixels, was %.2f\n", shape.c_str(), filter.c_str(), filtered_width,
+                  width);
+      EXPECT_NEAR(filtered_width / width, 1, 0.1) << filter;
+      EXPECT_NEAR(mean_of(filtered), mean_of(raw), 0.003) << filter;
+      EXPECT_NEAR(crossing(filtered, 0.5), crossing(raw, 0.5), 0.5) << filter;
+    }
+  }
+}
+
+double rmse(const std::vector<float>& a, const std::vector<float>& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+TEST_F(ShadowFilterQuality, TheSeparableFilterIsCloseToTheFullOne) {
+  const TriangleScene scene = box_on_ground(128);
+  params_->set("filter.width", 0.4f);
+  const std::vector<float> raw = draw(scene, "none").visibilities();
+  const std::vector<float> full = draw(scene, "bilateral").visibilities();
+  const std::vector<float> separable = draw(scene, "bilateral_separable").visibilities();
+  std::printf("RMSE of the separable filter to the full one: %.4f; of no filter: %.4f\n", rmse(separable, full),
+              rmse(raw, full));
+  EXPECT_LT(rmse(separable, full), 0.2 * rmse(raw, full));
+}
+
+TEST_F(ShadowFilterQuality, NoiseIsFilteredAway) {
+  const TriangleScene scene = half_plane(0.9f);
+  use_every_texel();
+  const std::vector<float> truth = draw(scene, "none").visibilities();
+  use_8_taps();
+  const auto psnr = [&](const std::string& filter) {
+    const double decibels = -20 * std::log10(rmse(draw(scene, filter).visibilities(), truth));
+    std::printf("8/8 taps, %s: %.1f dB\n", filter.c_str(), decibels);
+    return decibels;
+  };
+  const double raw = psnr("none");
+  for (const std::string& filter : all_filters) {
+    if (filter == "none") continue;
+    EXPECT_GT(psnr(filter), raw + 7) << filter;
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
