@@ -1,21 +1,21 @@
 // Two levels of a movement map's pyramid from the one below them: a texel of the second and its texels of the first are
 // one invocation.
-#include "shared/language.h"
-
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2DArray map;  // filters linearly
 #if AVERAGE
+layout(binding = 0, r16) uniform readonly image2DArray source;
 layout(binding = 1, r16) uniform writeonly image2DArray first;
 layout(binding = 2, r16) uniform writeonly image2DArray second;
 #else
+layout(binding = 0, r8) uniform readonly image2DArray source;
 layout(binding = 1, r8) uniform writeonly image2DArray first;
 layout(binding = 2, r8) uniform writeonly image2DArray second;
 #endif
 
-uniform int below;        // the level that is read
+uniform int size;         // of level 0
+uniform int below;        // level of the source
 uniform vec4 regions[8];  // by layer: lowest and highest texel of level 0 between which something can have moved
 
-ivec2 size_of(int level) { return max(textureSize(map, 0).xy >> level, ivec2(1)); }
+int size_of(int level) { return max(size >> level, 1); }
 
 // The texel of a level that has a texel of level 0.
 ivec2 texel_at(ivec2 base, int level) { return min(base >> level, size_of(level) - 1); }
@@ -28,16 +28,16 @@ struct Range {
 };
 
 Range children(ivec2 at, int level) {
-  ivec2 last = size_of(level) - 1;
-  bvec2 at_end = equal(at, size_of(level + 1) - 1);
-  return Range(min(at * 2, last), ivec2(at_end.x ? last.x : at.x * 2 + 1, at_end.y ? last.y : at.y * 2 + 1));
+  int last = size_of(level) - 1;
+  int end = size_of(level + 1) - 1;
+  return Range(min(at * 2, ivec2(last)), ivec2(at.x == end ? last : at.x * 2 + 1, at.y == end ? last : at.y * 2 + 1));
 }
 
 // Texels of level 0 that a texel has.
 float area(ivec2 at, int level) {
-  ivec2 rest = textureSize(map, 0).xy - (at << level);
-  bvec2 at_end = equal(at, size_of(level) - 1);
-  return float(at_end.x ? rest.x : 1 << level) * float(at_end.y ? rest.y : 1 << level);
+  int end = size_of(level) - 1;
+  ivec2 rest = size - (at << level);
+  return float(at.x == end ? rest.x : 1 << level) * float(at.y == end ? rest.y : 1 << level);
 }
 
 struct Sum {
@@ -63,7 +63,7 @@ float first_texel(ivec3 at) {
   Sum sum = Sum(0.0, 0.0, 0.0);
   for (int y = range.low.y; y <= range.high.y; ++y) {
     for (int x = range.low.x; x <= range.high.x; ++x) {
-      add(sum, texelFetch(map, ivec3(x, y, at.z), below).x, area(ivec2(x, y), below));
+      add(sum, imageLoad(source, ivec3(x, y, at.z)).x, area(ivec2(x, y), below));
     }
   }
   return result(sum);
@@ -82,30 +82,28 @@ float second_texel(ivec3 at) {
   return result(sum);
 }
 #else
-// Bilinear filtering at the corner that four texels share gives their mean, which is zero only where all are.
-float first_texel(ivec3 at) {
-  vec2 corner = vec2(at.xy * 2 + 1) / vec2(size_of(below));
-  float mean = textureLod(map, vec3(corner, float(at.z)), float(below)).x;
-#if AVERAGE
-  return mean;
-#else
-  return mean > 0.0 ? 1.0 : 0.0;
-#endif
-}
-
-float second_texel(ivec3 at) {
-  ivec3 low = ivec3(at.xy * 2, at.z);
-  vec4 values;
-  for (int i = 0; i < 4; ++i) {
-    ivec3 child = low + ivec3(i & 1, i >> 1, 0);
-    values[i] = first_texel(child);
-    imageStore(first, child, vec4(values[i]));
-  }
+float reduced(vec4 values) {
 #if AVERAGE
   return dot(values, vec4(0.25));
 #else
   return max(max(values.x, values.y), max(values.z, values.w));
 #endif
+}
+
+float first_texel(ivec3 at) {
+  ivec3 low = ivec3(at.xy * 2, at.z);
+  return reduced(vec4(imageLoad(source, low).x, imageLoad(source, low + ivec3(1, 0, 0)).x,
+                      imageLoad(source, low + ivec3(0, 1, 0)).x, imageLoad(source, low + ivec3(1, 1, 0)).x));
+}
+
+float second_texel(ivec3 at) {
+  vec4 values;
+  for (int i = 0; i < 4; ++i) {
+    ivec3 child = ivec3(at.xy * 2, at.z) + ivec3(i & 1, i >> 1, 0);
+    values[i] = first_texel(child);
+    imageStore(first, child, vec4(values[i]));
+  }
+  return reduced(values);
 }
 #endif
 
@@ -115,5 +113,6 @@ void main() {
   ivec2 high = texel_at(ivec2(region.zw), below + 2);
   ivec3 at = ivec3(low, 0) + ivec3(gl_GlobalInvocationID);
   if (region.z < region.x || any(greaterThan(at.xy, high))) return;
-  imageStore(second, at, vec4(second_texel(at)));
+  float value = second_texel(at);
+  if (size >> (below + 2) != 0) imageStore(second, at, vec4(value));  // else the first is the last of all
 }

@@ -70,11 +70,11 @@ void build_pyramid(gl::Device& device, const MovementInputs& inputs, const std::
   const gl::Program& program =
       pass.use(movement_pyramid_program(inputs.form, !std::has_single_bit(static_cast<unsigned>(desc.width))));
   for (size_t i = 0; i < regions.size(); ++i) program.set(fmt::format("regions[{}]", i), regions[i]);
-  inputs.map.bind(0);
-  device.sampler({.min_filter = GL_LINEAR_MIPMAP_NEAREST, .mag_filter = GL_LINEAR}).bind(0);
+  program.set("size", desc.width);
   for (int below = 0; below + 1 < desc.levels; below += levels_a_step) {
     const int second = std::min(below + 2, desc.levels - 1);
     program.set("below", below);
+    inputs.map.bind_image(0, GL_READ_ONLY, below);
     inputs.map.bind_image(1, GL_WRITE_ONLY, below + 1);
     inputs.map.bind_image(2, GL_WRITE_ONLY, second);
     const glm::ivec2 groups = (glm::ivec2(widest) >> (below + 2)) + 2;
