@@ -30,6 +30,11 @@ def techniques(program):
     return table(["technique", "what it does", "source"], rows)
 
 
+def filters(program):
+    rows = [[f"`{row['name']}`", f"`{row['param']}`", row["help"], row["source"]] for row in listed(program, "filters")]
+    return table(["filter", "parameter", "what it does", "source"], rows)
+
+
 def value(default):
     if isinstance(default, bool):
         return str(default).lower()
@@ -49,7 +54,8 @@ def params(program):
 def main():
     program, write = sys.argv[1], "--write" in sys.argv[2:]
     text = made = DOCUMENT.read_text()
-    for name, rows in {"techniques": techniques(program), "parameters": params(program)}.items():
+    tables = {"techniques": techniques(program), "filters": filters(program), "parameters": params(program)}
+    for name, rows in tables.items():
         made = re.sub(rf"(<!-- {name} -->\n).*?(<!-- end -->)", lambda m: m[1] + rows + "\n" + m[2], made, flags=re.DOTALL)
     if write:
         DOCUMENT.write_text(made)

@@ -68,6 +68,18 @@ bool explain_param(const std::string& name) {
   return false;
 }
 
+bool explain_filter(const std::string& name) {
+  for (const shadow::Filter& filter : shadow::built_in_registry().filters()) {
+    if (filter.name != name) continue;
+    const bool of_penumbra = filter.of == shadow::Filter::Of::penumbra;
+    fmt::print("{}: {}\n\n  source  {}\n", filter.name, filter.summary, filter.source);
+    fmt::print("\n  penumbra render SCENE -o FILE --set filter.{}={}\n", of_penumbra ? "penumbra" : "visibility",
+               filter.name);
+    return true;
+  }
+  return false;
+}
+
 const char* to_text(render::Reduction reduction) {
   switch (reduction) {
     case render::Reduction::mean:
@@ -94,6 +106,7 @@ bool explain_aov(const std::string& name) {
 std::vector<std::string> explained_names() {
   std::vector<std::string> names = shadow::built_in_registry().names();
   for (const Command& command : commands()) names.emplace_back(command.name);
+  for (const shadow::Filter& filter : shadow::built_in_registry().filters()) names.push_back(filter.name);
   for (const render::Aov& aov : render::aovs()) names.push_back(aov.name);
   for (const Param& param : render::Renderer::params(shadow::built_in_registry())) names.push_back(param.name);
   return names;
@@ -102,13 +115,15 @@ std::vector<std::string> explained_names() {
 }  // namespace
 
 int run_help(const Arguments& arguments) {
-  CLI::App app("Explain a parameter, technique, AOV or sub-command", "penumbra help");
+  CLI::App app("Explain a parameter, technique, filter, AOV or sub-command", "penumbra help");
   std::string name;
   app.add_option("NAME", name, "What to explain")->required()->type_name("");
   if (!parse(app, arguments)) return 0;
-  if (explain_command(name) || explain_technique(name) || explain_param(name) || explain_aov(name)) return 0;
+  for (const auto explain : {explain_command, explain_technique, explain_filter, explain_param, explain_aov}) {
+    if (explain(name)) return 0;
+  }
   const std::vector<std::string> near = near_names(name, explained_names());
-  if (near.empty()) fail_usage("nothing is called '{}'; see penumbra list techniques, params or aovs", name);
+  if (near.empty()) fail_usage("nothing is called '{}'; see penumbra list techniques, filters, params or aovs", name);
   fail_usage("nothing is called '{}'; did you mean '{}'?", name, fmt::join(near, "' or '"));
 }
 

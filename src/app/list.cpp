@@ -38,6 +38,16 @@ Json technique_rows() {
   return rows;
 }
 
+Json filter_rows() {
+  Json rows = Json::array();
+  for (const shadow::Filter& filter : shadow::built_in_registry().filters())
+    rows.push_back({{"name", filter.name},
+                    {"help", filter.summary},
+                    {"source", filter.source},
+                    {"param", filter.of == shadow::Filter::Of::penumbra ? "filter.penumbra" : "filter.visibility"}});
+  return rows;
+}
+
 Json param_rows() {
   Json rows = Json::array();
   for (const Param& param : render::Renderer::params(shadow::built_in_registry())) rows.push_back(io::to_json(param));
@@ -59,10 +69,12 @@ Json backend_rows() {
           {{"name", "window"}, {"help", "An invisible window on a display."}}};
 }
 
-constexpr std::array listings{Listing{"techniques", "Ways to draw shadows, for --technique.", technique_rows},
-                              Listing{"params", "Parameters, for --set and presets.", param_rows},
-                              Listing{"aovs", "Pictures of a frame, for --aov.", aov_rows},
-                              Listing{"backends", "Ways to an OpenGL context, for --backend.", backend_rows}};
+constexpr std::array listings{
+    Listing{"techniques", "Ways to draw shadows, for --technique.", technique_rows},
+    Listing{"filters", "Filters of the shadow mask, for filter.penumbra and filter.visibility.", filter_rows},
+    Listing{"params", "Parameters, for --set and presets.", param_rows},
+    Listing{"aovs", "Pictures of a frame, for --aov.", aov_rows},
+    Listing{"backends", "Ways to an OpenGL context, for --backend.", backend_rows}};
 
 Json listing_rows() {
   Json rows = Json::array();
@@ -113,7 +125,8 @@ int run_list(const Arguments& arguments) {
   CLI::App app("List what penumbra knows by name", "penumbra list");
   std::string what;
   bool json = false;
-  app.add_option("WHAT", what, "techniques, params, aovs or backends; without it, these choices")->type_name("");
+  app.add_option("WHAT", what, "techniques, filters, params, aovs or backends; without it, these choices")
+      ->type_name("");
   app.add_flag("--json", json, "For machines")->disable_flag_override();
   if (!parse(app, arguments)) return 0;
   const Json rows = app.count("WHAT") == 0 ? listing_rows() : find_listing(what).rows();

@@ -1,0 +1,154 @@
+// What history gives and where it must not be trusted: figures against brute_force.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "gpu/gpu_test.h"
+#include "image/scene_run.h"
+#include "lib/packed_texel.glsl"
+
+namespace penumbra::test {
+namespace {
+
+class ShadowHistory : public GpuTest {};
+
+TEST_F(ShadowHistory, AStillPictureGetsNoWorse) {
+  for (const std::string sequence : {"set", "shift"}) {
+    SceneRun run("thesis", 480, 270);
+    run.choose("thesis");
+    run.params().set("sampling.filter_sequence", sequence);
+    const Picture reference = run.draw_reference();
+    const std::vector<std::size_t> penumbra = penumbra_of(reference);
+    double best = 0;
+    double flicker = 0;
+    Picture last;
+    std::printf("thesis.glb 480x270, filter sequence %s:", sequence.c_str());
+    for (int frame = 1; frame <= 64; ++frame) {
+      const Picture picture = run.draw(/*cut=*/frame == 1);
+      if (frame > 32) flicker += mean_error(picture, last, penumbra) / 32;
+      last = picture;
+      if (frame != 1 && frame != 4 && frame != 16 && frame != 64) continue;
+      const double quality = decibels(rmse(picture, reference, penumbra));
+      std::printf(" %d: %.2f dB", frame, quality);
+      EXPECT_GE(quality, best - (sequence == "shift" ? 0.1 : 0.5)) << sequence << ", frame " << frame;
+      best = std::max(best, quality);
+    }
+    std::printf(", flicker %.5f\n", flicker);
+  }
+}
+
+// Shadows of the last frames, and where they were and are no more.
+class Trail {
+ public:
+  std::vector<std::size_t> behind(const Picture& reference) {
+    std::vector<std::size_t> pixels;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+      bool was = false;
+      for (const Picture& last : last_) was = was || (last[i] >= 0 && last[i] < reference[i] - 0.05f);
+      if (was) pixels.push_back(i);
+    }
+    last_.push_back(reference);
+    if (last_.size() > 8) last_.erase(last_.begin());
+    return pixels;
+  }
+
+ private:
+  std::vector<Picture> last_;
+};
+
+TEST_F(ShadowHistory, NoGhostFollowsACasterWithAMovementMap) {
+  constexpr double step = 1 / 30.0;
+  constexpr int begin = 44, stop = 60, end = 80;
+  std::array<double, 2> trail_error{};
+  for (const std::string map : {"none", "average", "maximum"}) {
+    SceneRun run("moving", 480, 270);
+    run.choose("thesis");
+    run.params().set("movement.map", map);
+    Trail trail;
+    double sum = 0;
+    int frames = 0;
+    int recovered = -1;
+    std::vector<std::size_t> last_trail;
+    double still = 0;
+    std::vector<std::pair<double, int>> after;
+    for (int frame = begin; frame < end; ++frame) {
+      run.time() = frame * step;
+      const Picture picture = run.draw(frame == begin);
+      const Picture reference = run.draw_reference();
+      const std::vector<std::size_t> behind = trail.behind(reference);
+      if (frame <= stop) last_trail = behind;
+      if (frame >= begin + 8 && frame <= stop && !behind.empty()) {
+        sum += mean_error(picture, reference, behind);
+        ++frames;
+      }
+      if (frame >= stop) after.emplace_back(mean_error(picture, reference, last_trail), frame - stop);
+      still = mean_error(picture, reference, last_trail);
+    }
+    for (const auto& [error, frame] : after) {
+      if (recovered < 0 && error <= still + 1 / 255.0) recovered = frame;
+    }
+    std::printf(
+        "moving.glb 480x270, movement map %s: mean error of the trail %.4f, at rest %.4f, %d frames to recover\n",
+        map.c_str(), sum / frames, still, recovered);
+    if (map == "none") trail_error[0] = sum / frames;
+    if (map == "maximum") trail_error[1] = sum / frames;
+  }
+  EXPECT_LT(trail_error[1], 0.25 * trail_error[0]);
+}
+
+// A step along the path: a turn of at most 1 degree and a way of at most 5 cm.
+void walk(render::Camera& camera) {
+  const glm::mat4 turn = glm::rotate(glm::mat4(1), glm::radians(0.8f), glm::vec3(0, 1, 0));
+  camera.view = turn * glm::translate(glm::mat4(1), glm::vec3(0.03f, 0, 0.03f)) * camera.view;
+}
+
+TEST_F(ShadowHistory, MostPixelsKeepTheirHistoryWhileTheCameraMoves) {
+  SceneRun run("courtyard", 480, 270);
+  run.choose("thesis");
+  std::array<int, 5> count{};
+  run.draw(/*cut=*/true);
+  for (int frame = 0; frame < 12; ++frame) {
+    walk(run.camera());
+    run.draw();
+    for (const float refusal : run.read_aov("history")) {
+      if (refusal >= 0) ++count.at(static_cast<std::size_t>(refusal));
+    }
+  }
+  EXPECT_EQ(count[HISTORY_NONE], 0);
+  EXPECT_EQ(count[HISTORY_CASTER_MOVED], 0);
+  const double on_screen = count[HISTORY_KEPT] + count[HISTORY_OTHER_SURFACE];
+  std::printf(
+      "courtyard.glb 480x270, 0.8 degrees and 4 cm a frame: %.2f %% of the pixels that were on screen keep their "
+      "history\n",
+      100 * count[HISTORY_KEPT] / on_screen);
+  EXPECT_GE(count[HISTORY_KEPT], 0.9 * on_screen);
+}
+
+TEST_F(ShadowHistory, TheFrameAfterACutIsThatOfARunThatStartsThere) {
+  for (const char* preset : {"thesis", "thesis_compute"}) {
+    SceneRun run("moving", 237, 131);
+    run.choose(preset);
+    for (int frame = 0; frame < 5; ++frame) {
+      run.time() = frame / 30.0;
+      walk(run.camera());
+      run.draw(/*cut=*/frame == 0);
+    }
+    run.time() = 1.3;
+    walk(run.camera());
+    SceneRun fresh("moving", 237, 131);
+    fresh.choose(preset);
+    fresh.camera() = run.camera();
+    fresh.time() = run.time();
+    EXPECT_EQ(run.draw(/*cut=*/true), fresh.draw());
+    run.time() = fresh.time() += 1 / 30.0;
+    EXPECT_EQ(run.draw(), fresh.draw()) << "and so on";
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test

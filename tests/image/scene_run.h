@@ -1,0 +1,62 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "gl/pass.h"
+#include "render/renderer.h"
+#include "scene/gpu_scene.h"
+#include "scene/scene.h"
+
+namespace penumbra::test {
+
+// A frame's visibility, rows top to bottom; -1 for the sky.
+using Picture = std::vector<float>;
+
+// A scene of scenes/ that is drawn frame by frame by a technique under test and by brute_force, whose pictures it is
+// compared with.
+class SceneRun {
+ public:
+  SceneRun(const std::string& scene, int width, int height, const std::string& camera = {});
+
+  // What the technique under test is: a technique or a preset.
+  void choose(const std::string& technique);
+  ParamSet& params() { return params_; }
+
+  // Draws the next frame. Its history goes on from the last one unless `cut`.
+  Picture draw(bool cut = false);
+  // The same frame by brute_force.
+  Picture draw_reference();
+  std::vector<float> read_aov(const char* name) const { return renderer_.read_aov(name); }
+
+  // Of the next frame.
+  render::Camera& camera() { return setup_.camera; }
+  double& time() { return time_; }
+
+  int width() const { return width_; }
+  gl::Device& device() { return device_; }
+
+ private:
+  Picture picture_of(const render::Renderer& renderer) const;
+  render::FrameInputs inputs(bool cut) const;
+
+  int width_, height_;
+  gl::Device device_{gl::ShaderFiles(), gl::Timers::Mode::off};
+  scene::Scene scene_;
+  render::Setup setup_;
+  std::optional<scene::GpuScene> gpu_scene_;
+  render::Renderer renderer_{device_}, reference_{device_};
+  ParamSet params_{render::Renderer::params(renderer_.registry())};
+  double time_ = 0, last_time_ = 0;
+  render::Camera last_camera_;
+  bool drawn_ = false;
+};
+
+// Receivers in the penumbra: those whose reference lies between 0.02 and 0.98.
+std::vector<std::size_t> penumbra_of(const Picture& reference);
+double rmse(const Picture& picture, const Picture& reference, const std::vector<std::size_t>& pixels);
+double mean_error(const Picture& picture, const Picture& reference, const std::vector<std::size_t>& pixels);
+double decibels(double rmse);
+
+}  // namespace penumbra::test
