@@ -83,8 +83,8 @@ std::vector<Param> history_rows() {
                         "Pyramid over what moved in the shadow map: where it shows in a receiver's kernel, the history "
                         "is refused."),
                    "maximum"),
-      word("movement.present", {"shadow_pass", "own_pass"},
-           "What moved is drawn, where it is, as a second target of the shadow map's pass or in a pass of its own."),
+      word("movement.present", {"own_pass", "shadow_pass"},
+           "What moved is drawn, where it is, in a pass of its own or as a second target of the shadow map's."),
   };
 }
 

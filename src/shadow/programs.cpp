@@ -135,9 +135,10 @@ std::vector<std::vector<gl::Define>> Programs::all_defines(const Technique& tech
 }
 
 std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
-  std::vector<gl::ProgramDesc> programs{depth_pyramid_program(true), depth_pyramid_program(false),
-                                        movement_pyramid_program(MovementForm::average),
-                                        movement_pyramid_program(MovementForm::maximum)};
+  std::vector<gl::ProgramDesc> programs{depth_pyramid_program(true), depth_pyramid_program(false)};
+  for (const MovementForm form : {MovementForm::average, MovementForm::maximum}) {
+    for (const bool any_size : {false, true}) programs.push_back(movement_pyramid_program(form, any_size));
+  }
   for (const LibraryProgram& program : denoise_programs(registry_)) programs.push_back(library(program));
   for (const Technique& technique : registry_.techniques()) {
     for (const ParamSet& params : compiled_variants(technique, defaults)) {
