@@ -249,6 +249,17 @@ TEST_F(ShadowFilter, TheMedianRemovesSingleWrongDistances) {
   }
 }
 
+TEST_F(ShadowFilter, DarkDotsAmongLitPixelsAreFilteredAway) {
+  params.set("filter.penumbra", std::string("median"));
+  params.set("pattern.visibility", 1.0f);
+  params.set("pattern.distance", 0.0f);
+  params.set("pattern.marked_visibility", 0.0f);
+  for (const std::string filter : {"box", "gaussian", "bilateral", "bilateral_separable"}) {
+    const std::vector<float> visibilities = draw(ground(61, 89.9f, true), "dots", filter).visibilities();
+    EXPECT_GT(*std::ranges::min_element(visibilities), 0.7f) << filter;
+  }
+}
+
 TEST_F(ShadowFilter, TheMedianKeepsEdges) {
   params.set("pattern.depth", between);
   params.set("pattern.marked_distance", 9.0f);

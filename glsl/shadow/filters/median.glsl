@@ -1,7 +1,8 @@
 // Median of the mean blocker distances of 3 × 3 pixels, before the size of a kernel is taken from them (Deligiannis 2019,
 // section 3.4). Few blocker taps miss a blocker that covers little of the disc, so single pixels of a penumbra hold no
-// distance, and single lit ones hold some. "None" is the distance 0 and takes part: where most of the neighbours met no
-// blocker, the pixel is lit. Halves that are not negative are in the order of their bits.
+// distance. "None" is the distance 0 and takes part, but where most met no blocker and the pixel itself did, it keeps its
+// own: it has lost light, and without a kernel it would stay a dark dot. Halves that are not negative are in the order of
+// their bits.
 #include "shadow/drivers/filter.glsl"
 #include "lib/median.glsl"
 
@@ -32,5 +33,6 @@ uint filtered(ivec2 pixel) {
   uvec2 b = opposite_distances(pixel, ivec2(0, 1), own, surface);
   uvec2 c = opposite_distances(pixel, ivec2(1, 1), own, surface);
   uvec2 d = opposite_distances(pixel, ivec2(1, -1), own, surface);
-  return (texel & 0xffff0000u) | median_of_nine(uvec3(a.x, b.x, c.x), uvec3(d.x, own, d.y), uvec3(a.y, b.y, c.y));
+  uint median = median_of_nine(uvec3(a.x, b.x, c.x), uvec3(d.x, own, d.y), uvec3(a.y, b.y, c.y));
+  return (texel & 0xffff0000u) | (median == 0u ? own : median);
 }
