@@ -8,7 +8,8 @@ GLSL_BEGIN
 GLSL_FUNCTION uint median_of_three(uint a, uint b, uint c) { return max(min(a, b), min(max(a, b), c)); }
 
 // Of the nine values of three rows, in exchanges of minima and maxima (Smith 1996, "Implementing median filters in
-// XC4000E FPGAs"): sort each column; the median is that of the greatest minimum, the middle median and the least maximum.
+// XC4000E FPGAs"): sort each column; the median is that of the greatest minimum, the middle median and the least
+// maximum.
 GLSL_FUNCTION uint median_of_nine(uvec3 a, uvec3 b, uvec3 c) {
   uvec3 low = min(a, b);
   uvec3 high = max(a, b);

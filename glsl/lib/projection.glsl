@@ -5,12 +5,12 @@
 
 GLSL_BEGIN
 
-// How many pixels along an axis of the picture a metre on a plane takes. `across`: from one pixel's point to that of the
-// next, metres, parallel to the image plane. The next pixel sees the plane where its ray meets it, `across` less as much
-// of the ray as leads back to the plane:
+// How many pixels along an axis of the picture a metre on a plane takes. `across`: from one pixel's point to that of
+// the next, metres, parallel to the image plane. The next pixel sees the plane where its ray meets it, `across` less as
+// much of the ray as leads back to the plane:
 //   on_plane = across − ray · (n·across / n·ray),   pixels = 1 / |on_plane|.
-// For a plane that faces the camera that is height / (2 · tan(fov/2) · z); it goes to 0 where the view grazes the plane.
-// Lengths of ray and normal do not matter.
+// For a plane that faces the camera that is height / (2 · tan(fov/2) · z); it goes to 0 where the view grazes the
+// plane. Lengths of ray and normal do not matter.
 GLSL_FUNCTION float pixels_a_metre(vec3 across, vec3 ray, vec3 normal) {
   float facing = dot(normal, ray);
   vec3 on_plane = across * facing - ray * dot(normal, across);

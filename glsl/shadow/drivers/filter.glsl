@@ -4,8 +4,8 @@
 #include "lib/packed_texel.glsl"
 #include "lib/projection.glsl"
 
-// Of pixels within the viewport and within Filter::reach of the filtered one: the packed texel, and the depth as stored.
-// The drivers define them.
+// Of pixels within the viewport and within Filter::reach of the filtered one: the packed texel, and the depth as
+// stored. The drivers define them.
 uint texel_at(ivec2 pixel);
 float stored_depth_at(ivec2 pixel);
 
@@ -30,9 +30,9 @@ struct Surface {
   vec2 pixels;      // that a metre on the plane takes along x and along y
 };
 
-// A point q that is seen at clip-space position c has q = Q.xyz / Q.w with Q = clip_to_view · c, so its distance from the
-// plane (n, −n·p) is (n, −n·p)·Q / Q.w: a quotient of two linear forms in pixel offset and stored depth, of which the
-// first is 0 and the second 1 / clip w at the receiver itself.
+// A point q that is seen at clip-space position c has q = Q.xyz / Q.w with Q = clip_to_view · c, so its distance from
+// the plane (n, −n·p) is (n, −n·p)·Q / Q.w: a quotient of two linear forms in pixel offset and stored depth, of which
+// the first is 0 and the second 1 / clip w at the receiver itself.
 Surface surface_at(ivec2 pixel) {
   vec3 at = view_position_at(pixel);
   vec4 stored = texelFetch(receiver_normal, pixel, 0);
@@ -75,8 +75,8 @@ float kernel_distance(ivec2 pixel, uint texel) {
   return found > 0.0 ? sum / found : 0.0;
 }
 
-// Standard deviation of the kernel along x and y, pixels: filter.width of the penumbra's full width 2 · tan(half angle) ·
-// distance, as the receiver's plane is seen.
+// Standard deviation of the kernel along x and y, pixels: filter.width of the penumbra's full width 2 · tan(half angle)
+// · distance, as the receiver's plane is seen.
 vec2 kernel_sigma(Surface surface, float distance_to) {
   return min(filter_width * 2.0 * shadow.light.x * distance_to * surface.pixels, filter_max_sigma);
 }
