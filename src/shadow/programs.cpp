@@ -30,7 +30,9 @@ std::vector<ParamSet> compiled_variants(const Technique& technique, const ParamS
 std::vector<Programs::MaskForm> mask_forms(bool rotated) {
   std::vector<Programs::MaskForm> forms;
   for (const bool compute : {false, true}) {
-    for (const bool packed : {false, true}) forms.push_back({rotated, compute, packed});
+    forms.push_back({rotated, compute, /*packed=*/false, /*history=*/false});
+    forms.push_back({rotated, compute, /*packed=*/true, /*history=*/false});
+    forms.push_back({rotated, compute, /*packed=*/true, /*history=*/true});
   }
   return forms;
 }
@@ -92,6 +94,7 @@ std::vector<gl::Define> Programs::defines(const Technique& technique, const Para
 gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& params, const MaskForm& form) const {
   gl::ProgramDesc program{.name = technique.name, .defines = defines(technique, params, form.rotated)};
   program.defines.push_back({"PACKED", form.packed ? "1" : "0"});
+  program.defines.push_back({"HISTORY", form.history ? "1" : "0"});
   if (form.compute) {
     program.compute = driver_file(technique, "mask.comp");
   } else {

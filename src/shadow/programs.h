@@ -23,11 +23,12 @@ class Programs {
   // Constants that a technique's GLSL is compiled with; `rotated`: how its sample points differ from pixel to pixel.
   static std::vector<gl::Define> defines(const Technique& technique, const ParamSet& params, bool rotated);
 
-  // How a technique's visibility() is driven.
+  // How a technique's visibility() is driven. Apart, not by a uniform: a software rasteriser runs both sides of a branch.
   struct MaskForm {
     bool rotated = true;
     bool compute = false;
-    bool packed = false;  // packed texels and notes, for history and filters; else the mask itself
+    bool packed = false;   // packed texels and notes, for history and filters; else the mask itself
+    bool history = false;  // packed, and what the history says
   };
   gl::ProgramDesc mask(const Technique& technique, const ParamSet& params, const MaskForm& form) const;
   // A program of the library's, ready to be compiled.

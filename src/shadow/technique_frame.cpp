@@ -68,9 +68,9 @@ const gl::Program& TechniqueFrame::use_library(gl::Pass& pass, const LibraryProg
 
 bool TechniqueFrame::uses_compute() const { return params().get_word("driver") == "compute"; }
 
-const gl::Program& TechniqueFrame::use_visibility(gl::Pass& pass, bool packed) const {
-  const gl::Program& program =
-      pass.use(parts_.programs.mask(parts_.technique, params(), {parts_.state.rotated, uses_compute(), packed}));
+const gl::Program& TechniqueFrame::use_visibility(gl::Pass& pass, bool packed, bool history) const {
+  const gl::Program& program = pass.use(
+      parts_.programs.mask(parts_.technique, params(), {parts_.state.rotated, uses_compute(), packed, history}));
   bind_inputs();
   return program;
 }
@@ -89,7 +89,7 @@ void TechniqueFrame::evaluate(const gl::Texture& target, int layer) const {
   gl::PassDesc desc{.name = "shadow mask"};
   if (!uses_compute()) desc.colors = {{.texture = &target, .layer = layer}};
   gl::Pass pass(parts_.device, desc);
-  const gl::Program& program = use_visibility(pass, /*packed=*/false);
+  const gl::Program& program = use_visibility(pass, /*packed=*/false, /*history=*/false);
   if (uses_compute()) {
     program.set("mask_layer", layer);
     target.bind_image(0, GL_WRITE_ONLY);
@@ -109,7 +109,7 @@ void TechniqueFrame::evaluate(const PackedMask& target, const gl::Texture* last_
   gl::PassDesc desc{.name = "shadow mask"};
   if (!uses_compute()) desc.colors = {{.texture = &target.texels}, {.texture = &target.notes}};
   gl::Pass pass(parts_.device, desc);
-  use_visibility(pass, /*packed=*/true);
+  use_visibility(pass, /*packed=*/true, /*history=*/last_surfaces != nullptr);
   if (last_surfaces != nullptr) bind_history(*last_surfaces);
   if (uses_compute()) {
     target.texels.bind_image(0, GL_WRITE_ONLY);

@@ -89,7 +89,7 @@ class TechniqueFrame {
 
  private:
   void bind_inputs() const;
-  const gl::Program& use_visibility(gl::Pass& pass, bool packed) const;
+  const gl::Program& use_visibility(gl::Pass& pass, bool packed, bool history) const;
 
   Parts parts_;
 };

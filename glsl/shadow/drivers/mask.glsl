@@ -8,8 +8,11 @@ PackedPixel shade_pixel(ivec2 pixel) {
   if (is_sky(pixel)) return PackedPixel(pack_texel(0.0, 1.0, true), pack_notes(0, false, HISTORY_NONE));
   Receiver receiver = receiver_at(pixel);
   Light light = light_for(receiver);
-  uint refusal = refusal_of(receiver, light, pixel);
-  receiver.renewed = history_reuse != 0 && refusal != HISTORY_KEPT;
+  uint refusal = HISTORY_NONE;
+#if HISTORY
+  refusal = refusal_of(receiver, light, pixel);
+  receiver.renewed = refusal != HISTORY_KEPT;
+#endif
   return packed_pixel(shadow_of(receiver, light), refusal);
 }
 #else

@@ -1,7 +1,10 @@
 // A pixel of a mask that goes through history and filters: what it holds, and whether its history holds.
 #include "shadow/receive.glsl"
+#include "lib/packed_texel.glsl"
+#if HISTORY
 #include "shadow/history.glsl"
 #include "shadow/movement.glsl"
+#endif
 
 struct PackedPixel {
   uint texel;
@@ -16,6 +19,8 @@ PackedPixel packed_pixel(Shadowed shadowed, uint refusal) {
                      pack_notes(shadowed.cascade, seen.under_texel, refusal));
 }
 
+#if HISTORY
+
 // Whether something moved that hides, or hid, a part of the light. The technique's reach follows from the casters of
 // this frame; one that has left may have stood higher.
 bool caster_moved(Receiver receiver, Light light) {
@@ -29,3 +34,4 @@ uint refusal_of(Receiver receiver, Light light, ivec2 pixel) {
   bool asks = refusal == HISTORY_KEPT && shadow.history.z != 0.0 && faces_light(receiver);
   return asks && caster_moved(receiver, light) ? HISTORY_CASTER_MOVED : refusal;
 }
+#endif

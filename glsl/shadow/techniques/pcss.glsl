@@ -4,6 +4,5 @@
 float reach(Receiver receiver, Light light) { return search_reach(receiver, light); }
 
 Visibility visibility(Receiver receiver, Light light) {
-  int filter_taps = receiver.renewed ? pcss_renewal_taps : pcss_filter_taps;
-  return soft_shadow(receiver, light, pcss_blocker_taps, filter_taps, pcss_early_exit != 0);
+  return soft_shadow(receiver, light, pcss_blocker_taps, pcss_filter_taps, pcss_renewal_taps, pcss_early_exit != 0);
 }
