@@ -66,7 +66,7 @@ TEST_F(ShadowHistory, NoGhostFollowsACasterWithAMovementMap) {
   constexpr int begin = 44, stop = 60, end = 80;
   std::array<double, 2> trail_error{};
   for (const std::string map : {"none", "average", "maximum"}) {
-    SceneRun run("moving", 480, 270);
+    SceneRun run("moving", 320, 180);
     run.choose("thesis");
     run.params().set("movement.map", map);
     Trail trail;
@@ -93,7 +93,7 @@ TEST_F(ShadowHistory, NoGhostFollowsACasterWithAMovementMap) {
       if (recovered < 0 && error <= still + 1 / 255.0) recovered = frame;
     }
     std::printf(
-        "moving.glb 480x270, movement map %s: mean error of the trail %.4f, at rest %.4f, %d frames to recover\n",
+        "moving.glb 320x180, movement map %s: mean error of the trail %.4f, at rest %.4f, %d frames to recover\n",
         map.c_str(), sum / frames, still, recovered);
     if (map == "none") trail_error[0] = sum / frames;
     if (map == "maximum") trail_error[1] = sum / frames;
