@@ -24,6 +24,13 @@ uvec2 surface_bits(ivec2 pixel, Receiver receiver) {
                packSnorm2x16(octahedral_encode(receiver.normal)));
 }
 
+vec3 receiver_view_position(Receiver receiver) { return receiver.position * mat3(shadow.view_to_light); }
+
+// Of a pixel at that place in view space, metres.
+float pixel_width(vec3 position) {
+  return max(shadow.pixel_size.x, shadow.pixel_size.y) * abs(shadow.pixel_size.z * position.z + shadow.pixel_size.w);
+}
+
 // What a surface must lie within to be the receiver's own.
 struct Likeness {
   vec3 position;   // view space
@@ -63,15 +70,15 @@ LastPlace last_place(ivec2 pixel, vec3 position) {
 
 // A receiver that itself moved may be as far from its plane in the last frame as it went across the picture.
 Likeness likeness_of(Receiver receiver, vec3 position, LastPlace last) {
-  vec2 pixel = shadow.pixel_size.xy * abs(shadow.pixel_size.z * position.z + shadow.pixel_size.w);
-  float way = length((last.ndc - last.at_rest) * 0.5 * shadow.viewport.zw * pixel);
-  return Likeness(position, receiver.normal * mat3(shadow.view_to_light), history_distance * max(pixel.x, pixel.y) + way,
+  float width = pixel_width(position);
+  float way = length((last.ndc - last.at_rest) * 0.5 * shadow.viewport.zw) * width;
+  return Likeness(position, receiver.normal * mat3(shadow.view_to_light), history_distance * width + way,
                   cos(radians(history_turn)));
 }
 
 Reprojection reproject(Receiver receiver, ivec2 pixel) {
   if (shadow.history.x == 0.0) return refused(HISTORY_NONE);
-  vec3 position = receiver.position * mat3(shadow.view_to_light);
+  vec3 position = receiver_view_position(receiver);
   LastPlace last = last_place(pixel, position);
   vec2 place = ((last.ndc + shadow.jitter.zw) * 0.5 + 0.5) * shadow.viewport.zw;
   bool inside = all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, shadow.viewport.zw));

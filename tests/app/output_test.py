@@ -119,7 +119,7 @@ class Output(TestCase):
                 for x, value in enumerate(row):
                     block = [large[name][2 * y + j][2 * x + i] for j in (0, 1) for i in (0, 1)]
                     mixed[name] += len(set(block)) > 1
-                    if layer in ("depth", "normal", "geometric_normal", "cascade", "under_texel"):
+                    if layer in ("depth", "normal", "geometric_normal", "cascade", "under_texel", "history"):
                         self.assertEqual(value, block[3], name)
                     elif layer == "motion":
                         self.assertEqual(value, block[3] / 2)

@@ -19,12 +19,25 @@ float last_visibility(Reprojection last) {
   return sum;
 }
 
+// Weight of the present frame. Each bilinear look-up blurs by a variance of x(1 − x) pixels squared, with x the fraction
+// of a pixel that was moved by, and a weight of α lets (1 − α)/α of that add up: no more than the variance that the
+// visibility filter has leave to blur by. So narrow penumbrae stay sharp while the camera moves, and have little noise.
+float present_weight(Reprojection last, Receiver receiver, float distance_to) {
+  vec2 part = vec2(last.weights.y + last.weights.w, last.weights.z + last.weights.w);
+  vec2 blur = part * (1.0 - part);
+  float variance = max(blur.x, blur.y);
+  float sigma = filter_width * 2.0 * shadow.light.x * distance_to / pixel_width(receiver_view_position(receiver));
+  return variance > 0.0 ? max(history_alpha, variance / (variance + sigma * sigma)) : history_alpha;
+}
+
 Kept blend(ivec2 pixel) {
   uint now = texelFetch(texels, pixel, 0).x;
   if (is_sky(pixel)) return Kept(now, uvec2(floatBitsToUint(shadow.depth_to_ndc.z), 0u));
   Receiver receiver = receiver_at(pixel);
   uvec2 surface = surface_bits(pixel, receiver);
   if (texel_invalid(now)) return Kept(now, surface);
-  float visibility = mix(last_visibility(reproject(receiver, pixel)), texel_visibility(now), history_alpha);
+  Reprojection last = reproject(receiver, pixel);
+  float weight = present_weight(last, receiver, texel_distance(now));
+  float visibility = mix(last_visibility(last), texel_visibility(now), weight);
   return Kept(pack_texel(texel_distance(now), visibility, false), surface);
 }

@@ -1,0 +1,82 @@
+"""The pictures of docs/techniques.md, drawn by the program.
+
+  pictures.py PROGRAM            draws all into docs/pictures
+  pictures.py PROGRAM NAME...    draws these
+  pictures.py --list             their names
+
+Every picture is the shadow mask of a scene of scenes/ (or another picture of the frame, where its row says so).
+"""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+FOLDER = ROOT / "docs" / "pictures"
+
+# A place with sharp and soft edges, one that is all penumbra, one where things move.
+SOFT = ["scenes/courtyard.glb", "--camera", "fountain", "--sun-angle", "3", "--size", "320x180"]
+WIDE = ["scenes/thesis.glb", "--size", "320x180"]
+MOVING = ["scenes/moving.glb", "--size", "320x180", "--sun-angle", "2"]
+FEW = ["--technique", "thesis_8x8", "--set", "filter.penumbra=none", "--set", "filter.visibility=none"]
+
+
+def techniques():
+    return {f"technique_{name}": SOFT + ["--technique", name]
+            for name in ("none", "hard", "pcf", "pcss", "brute_force", "thesis", "thesis_8x8")}
+
+
+def patterns():
+    names = ("vogel", "regular", "uniform", "poisson", "poisson_hierarchical", "hammersley", "halton")
+    return {f"pattern_{name}": WIDE + FEW + ["--set", f"sampling.filter_pattern={name}", "--set",
+                                             f"sampling.blocker_pattern={name}", "--set", "sampling.noise=none"]
+            for name in names}
+
+
+def noises():
+    return {f"noise_{name}": WIDE + FEW + ["--set", "pcss.filter_taps=1", "--set", f"sampling.noise={name}"]
+            for name in ("none", "white", "blue", "void_and_cluster")}
+
+
+def filters():
+    rows = {f"filter_{name}": SOFT + ["--technique", "thesis_8x8", "--set", f"filter.visibility={name}"]
+            for name in ("none", "box", "gaussian", "bilateral", "bilateral_separable")}
+    for name in ("none", "median"):
+        rows[f"filter_penumbra_{name}"] = (SOFT + ["--technique", "thesis_8x8", "--set", "pcss.blocker_taps=4", "--set",
+                                                    f"filter.penumbra={name}"], "penumbra")
+    return rows
+
+
+def histories():
+    still = MOVING + ["--technique", "thesis", "--frames", "44:60"]
+    rows = {f"history_map_{name}": still + ["--set", f"movement.map={name}"] for name in ("none", "average", "maximum")}
+    rows["history_refused"] = (still, "history")
+    return rows
+
+
+PICTURES = {**techniques(), **patterns(), **noises(), **filters(), **histories()}
+
+
+def draw(program, name):
+    row = PICTURES[name]
+    arguments, aov = row if isinstance(row, tuple) else (row, "shadow")
+    frames = "--frames" in arguments
+    with tempfile.TemporaryDirectory() as folder:
+        picture = pathlib.Path(folder) / ("p_#.png" if frames else "p.png")
+        subprocess.run([program, "render", *arguments, "-o", picture, "--aov", aov, "--quiet"], cwd=ROOT, check=True)
+        made = sorted(pathlib.Path(folder).glob(f"*.{aov}.png"))[-1]
+        (FOLDER / f"{name}.png").write_bytes(made.read_bytes())
+
+
+def main():
+    if "--list" in sys.argv:
+        print("\n".join(PICTURES))
+        return
+    FOLDER.mkdir(exist_ok=True)
+    for name in sys.argv[2:] or PICTURES:
+        draw(pathlib.Path(sys.argv[1]).resolve(), name)
+
+
+if __name__ == "__main__":
+    main()
