@@ -1,6 +1,6 @@
 #include "denoise.h"
 
-#include <iterator>
+#include <utility>
 
 #include "filters.h"
 
@@ -19,7 +19,7 @@ LibraryProgram history_program(bool compute) {
   return program;
 }
 
-gl::TextureDesc of_mask(const TechniqueFrame& work, GLenum format) {
+gl::TextureDesc of_mask(const LibraryFrame& work, GLenum format) {
   return {.format = format, .width = work.mask().width(), .height = work.mask().height()};
 }
 
@@ -28,7 +28,7 @@ struct Memory {
   History surfaces, texels;
 };
 
-const gl::Texture& blend_history(const TechniqueFrame& work, const Memory& memory, const gl::Texture& texels) {
+const gl::Texture& blend_history(const LibraryFrame& work, const Memory& memory, const gl::Texture& texels) {
   const bool compute = work.uses_compute();
   gl::PassDesc desc{.name = "shadow history"};
   if (!compute) desc.colors = {{.texture = &memory.texels.now}, {.texture = &memory.surfaces.now}};
@@ -54,16 +54,17 @@ bool is_denoised(const ParamSet& params) {
          params.get_word("filter.visibility") != "none";
 }
 
-const gl::Texture& draw_denoised(const TechniqueFrame& work, const Registry& registry) {
-  const PackedMask raw{work.target("texels", of_mask(work, GL_R32UI)), work.target("notes", of_mask(work, GL_R8UI))};
+const gl::Texture& draw_denoised(const LibraryFrame& work, const Registry& registry) {
+  const PackedMask raw{work.target("denoise/texels", of_mask(work, GL_R32UI)),
+                       work.target("denoise/notes", of_mask(work, GL_R8UI))};
   if (!work.params().get_bool("history.reuse")) {
-    work.evaluate(raw, /*last_surfaces=*/nullptr);
+    work.evaluate_packed(raw, /*last_surfaces=*/nullptr);
     filter_visibility(work, registry, {filter_penumbra(work, registry, raw.texels), raw.notes});
     return raw.notes;
   }
   const Memory memory{work.history("surfaces", of_mask(work, GL_RG32UI)),
                       work.history("texels", of_mask(work, GL_R32UI))};
-  work.evaluate(raw, &memory.surfaces.last);
+  work.evaluate_packed(raw, &memory.surfaces.last);
   const gl::Texture& penumbrae = filter_penumbra(work, registry, raw.texels);
   const gl::Texture& blended = blend_history(work, memory, penumbrae);
   filter_visibility(work, registry, {blended, raw.notes});

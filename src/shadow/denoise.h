@@ -1,10 +1,8 @@
 #pragma once
 
-#include <string_view>
 #include <vector>
 
-#include "programs.h"
-#include "technique_frame.h"
+#include "library_frame.h"
 
 namespace penumbra::shadow {
 
@@ -14,7 +12,7 @@ bool is_denoised(const ParamSet& params);
 // Fills the mask's layer: the technique's visibility as packed texels, its penumbrae filtered, blended with the last
 // frames, and filtered (Deligiannis 2019, section 3.5). What is kept for the next frame is not yet filtered, so that no
 // blur comes on top of another. Returns the notes on each pixel (see LightFrame).
-const gl::Texture& draw_denoised(const TechniqueFrame& work, const Registry& registry);
+const gl::Texture& draw_denoised(const LibraryFrame& work, const Registry& registry);
 
 // Programs of the library's own passes here.
 std::vector<LibraryProgram> denoise_programs(const Registry& registry);

@@ -10,8 +10,6 @@ namespace penumbra::shadow {
 
 namespace {
 
-static_assert(unit_texels == 12 && unit_notes == 13, "glsl/shadow/drivers/filter.* have these numbers");
-
 // What "none" is where texels have to become a mask all the same.
 const Filter& unfiltered() {
   static const Filter filter{.name = "unpack",
@@ -94,7 +92,7 @@ std::string_view pass_name(const Filter& filter) {
 }
 
 // One pass, from texels to `target`: texels, or a layer of the mask. Notes are for the latter alone.
-void run(const TechniqueFrame& work, const Step& step, const PackedMask& source, const gl::Texture& target) {
+void run(const LibraryFrame& work, const Step& step, const PackedMask& source, const gl::Texture& target) {
   const LightFrame& frame = work.frame();
   gl::PassDesc desc{.name = pass_name(step.filter)};
   if (!step.compute) desc.colors = {{.texture = &target, .layer = step.to_mask ? frame.layer : 0}};
@@ -114,14 +112,14 @@ void run(const TechniqueFrame& work, const Step& step, const PackedMask& source,
 }
 
 // All passes of a filter. `to_mask`: the last one fills the mask, which is returned; else texels.
-const gl::Texture& run_all(const TechniqueFrame& work, const Filter& filter, const PackedMask& source, bool to_mask) {
+const gl::Texture& run_all(const LibraryFrame& work, const Filter& filter, const PackedMask& source, bool to_mask) {
   const bool compute = work.uses_compute() && has_compute_form(filter);
   const gl::Texture* texels = &source.texels;
   for (int i = 0; i < filter.passes; ++i) {
     const Step step{filter, i, compute, to_mask && i + 1 == filter.passes};
     const gl::Texture& target =
         step.to_mask ? work.mask()
-                     : work.target(fmt::format("{} {}", filter.name, i),
+                     : work.target(fmt::format("denoise/{} {}", filter.name, i),
                                    {.format = GL_R32UI, .width = work.mask().width(), .height = work.mask().height()});
     run(work, step, {*texels, source.notes}, target);
     texels = &target;
@@ -131,14 +129,14 @@ const gl::Texture& run_all(const TechniqueFrame& work, const Filter& filter, con
 
 }  // namespace
 
-const gl::Texture& filter_penumbra(const TechniqueFrame& work, const Registry& registry, const gl::Texture& source) {
+const gl::Texture& filter_penumbra(const LibraryFrame& work, const Registry& registry, const gl::Texture& source) {
   const std::string& name = work.params().get_word("filter.penumbra");
   if (name == "none") return source;
   // No pass of it reads notes.
   return run_all(work, filter_named(registry, name), {source, source}, /*to_mask=*/false);
 }
 
-void filter_visibility(const TechniqueFrame& work, const Registry& registry, const PackedMask& packed) {
+void filter_visibility(const LibraryFrame& work, const Registry& registry, const PackedMask& packed) {
   run_all(work, filter_named(registry, work.params().get_word("filter.visibility")), packed, /*to_mask=*/true);
 }
 

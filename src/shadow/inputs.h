@@ -97,6 +97,8 @@ struct Inputs {
   Box casters{glm::vec3(1), glm::vec3(-1)}, receivers{glm::vec3(1), glm::vec3(-1)};
   // World bounds of the casters that moved since the last frame, where they are and where they were, together. Absent:
   // not known, so any may have. A box that holds nothing (min > max): none moved, and no movement map is drawn.
+  // Where all lights bring their maps and there is no `draw`, no map can show what moved: with a movement.map, history
+  // is then only kept in frames of which this says that none did.
   std::optional<Box> moved;
   DrawCasters draw;  // optional when every light brings its maps
 };

@@ -58,7 +58,7 @@ glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, co
                  static_cast<float>(light.cascades.size)};
   block.noise_shift = traits.noise_shift;
   const double nearest = light.cascades.items.empty() ? 0.0 : light.cascades.items.back().near_z + shift.z;
-  block.history = {traits.history ? 1.0f : 0.0f, inputs.motion.id != 0 ? 1.0f : 0.0f, light.casters_moved ? 1.0f : 0.0f,
+  block.history = {light.history ? 1.0f : 0.0f, inputs.motion.id != 0 ? 1.0f : 0.0f, light.casters_moved ? 1.0f : 0.0f,
                    least_moved_depth(inputs, light, eye, nearest)};
   for (size_t i = 0; i < light.cascades.items.size(); ++i) {
     block.cascades[i] = cascade_block(light.cascades.items[i], light.cascades.size, shift);

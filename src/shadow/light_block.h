@@ -12,7 +12,6 @@ struct LightTraits {
   bool square = false;       // else a disc
   glm::vec4 noise_shift{0};  // see samples.h
   glm::vec2 last_jitter{0};
-  bool history = false;  // the last frame's is valid
 };
 
 // What the GLSL of the shadow passes reads of a view and a light.

@@ -10,13 +10,22 @@ namespace {
 
 int layers_of(const LightFrame& frame) { return static_cast<int>(frame.cascades.items.size()); }
 
+// Whether casters may have moved, where the parameters ask, and no map can show which.
+bool moved_unseen(const MapsInputs& maps) {
+  const bool asked = maps.state.params.get_word("movement.map") != "none";
+  return asked && !maps.inputs.draw && !nothing_moved(maps.inputs.moved);
+}
+
 // The map that the parameters ask for, whether or not something moved in this frame, so that memory stays the same;
 // none for a caller that has no casters to draw.
 const gl::Texture* movement_map(gl::Device& device, const MapsInputs& maps, MovementForm form,
                                 const LightFrame& frame) {
   const ParamSet& params = maps.state.params;
   const bool wanted = params.get_bool("history.reuse") && params.get_word("movement.map") != "none";
-  if (!wanted || !maps.inputs.draw) return nullptr;
+  if (!wanted || !maps.inputs.draw) {
+    device.drop(maps.prefix + "movement map");
+    return nullptr;
+  }
   return &movement_target(device, maps.prefix + "movement map", frame.cascades.size, layers_of(frame), form);
 }
 
@@ -37,6 +46,7 @@ Cascades cascades_of(const Inputs& inputs, const Light& light, const ParamSet& p
 }
 
 void make_maps(gl::Device& device, const MapsInputs& maps, LightFrame& frame) {
+  frame.history = maps.state.age > 0 && maps.state.params.get_bool("history.reuse");
   if ((maps.needs & (needs_shadow_map | needs_depth_pyramid)) == 0) return;
   const Inputs& inputs = maps.inputs;
   const ParamSet& params = maps.state.params;
@@ -47,6 +57,8 @@ void make_maps(gl::Device& device, const MapsInputs& maps, LightFrame& frame) {
   frame.movement = movement_map(device, maps, form, frame);
   frame.casters_moved = frame.movement != nullptr && maps.state.age > 0 && !nothing_moved(inputs.moved);
   const bool in_one_pass = frame.casters_moved && !finished && params.get_word("movement.present") == "shadow_pass";
+
+  frame.history = frame.history && !moved_unseen(maps);
 
   const gl::Texture* depth = nullptr;
   if (!finished) {

@@ -23,7 +23,8 @@ class Programs {
   // Constants that a technique's GLSL is compiled with; `rotated`: how its sample points differ from pixel to pixel.
   static std::vector<gl::Define> defines(const Technique& technique, const ParamSet& params, bool rotated);
 
-  // How a technique's visibility() is driven. Apart, not by a uniform: a software rasteriser runs both sides of a branch.
+  // How a technique's visibility() is driven. Apart, not by a uniform: a software rasteriser runs both sides of a
+  // branch.
   struct MaskForm {
     bool rotated = true;
     bool compute = false;

@@ -61,8 +61,7 @@ void SoftShadows::upload_blocks(const Technique& technique, const Inputs& inputs
   state.params_block->write(params);
   const LightTraits traits{.square = state.params.get_word("sun.shape") == "square",
                            .noise_shift = noise_shift(state.params, age),
-                           .last_jitter = state_->views[frame.view].last_jitter,
-                           .history = age > 0 && state.params.get_bool("history.reuse")};
+                           .last_jitter = state_->views[frame.view].last_jitter};
   gl::write_value(*state.shadow_block, shadow_block(inputs, frame, traits));
   gl::write_value(*state.sample_block, state_->samples.block(technique, state.params, age));
 }
@@ -105,13 +104,14 @@ LightFrame SoftShadows::render_light(const Inputs& inputs, const Light& light, P
   make_maps(device_, {.inputs = inputs, .light = light, .state = state, .needs = needs, .prefix = prefix}, frame);
   upload_blocks(technique, inputs, frame, prefix, state);
 
-  const TechniqueFrame work({device_, state_->programs, technique, inputs, light, mask, frame, state, prefix});
+  const LibraryFrame work({device_, state_->programs, technique, inputs, light, mask, frame, state, prefix});
   if (technique.prepare) technique.prepare(work);
   if (technique.resolve) {
     technique.resolve(work);
   } else if (is_denoised(state.params)) {
     frame.notes = &draw_denoised(work, registry_);
   } else {
+    device_.drop(prefix + "denoise/");
     work.evaluate(mask, layer);
   }
   drop_unused_rings(state, device_, prefix);

@@ -14,8 +14,9 @@ namespace penumbra::shadow {
 
 // What the mask holds, layer by layer (one a light): RGBA16F, the size of the depth texture, texel for texel:
 // R visibility 0..1; G penumbra radius at the receiver, metres (0: none); B mean distance from receiver to blockers
-// along the light, metres (0: none); A cascade index, plus 0.5 where the kernel is smaller than a texel.
-// Texels outside of the viewport are undefined. It lasts until the next render() of its view.
+// along the light, metres (0: none; with a history or filter that which G stands for, also of techniques without one);
+// A cascade index, plus 0.5 where the kernel is smaller than a texel. Texels outside of the viewport are undefined. It
+// lasts until the next render() of its view.
 struct Mask {
   const gl::Texture* texture = nullptr;
   std::vector<LightFrame> lights;
@@ -40,7 +41,8 @@ struct ForwardProgram {
 // It leaves changed: the viewport, the blend function and equation, uniform buffers 0 to 2. All else stays, but for
 // what the caster callback and techniques of the caller's own change. After an Error any of these may be changed.
 //
-// Memory. After the first frame of a size no OpenGL object is made. Maps, masks and history belong to a view's id until
+// Memory. After the first frame of a size no texture is made, and after the first in which a caster moved (with a
+// history) no OpenGL object. Maps, masks and history belong to a view's id until
 // forget_view(); a light's go when a frame of its view leaves it out.
 //
 // Throws Error for bad input (see check()) and for shaders that do not compile.

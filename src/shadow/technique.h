@@ -62,8 +62,9 @@ struct LightFrame {
   const gl::Texture* pyramid = nullptr;   // R32F: minimum; level 0 is a quarter of the map's side
   const gl::Texture* movement = nullptr;  // see movement_map.h; absent unless a history asks for it
   bool casters_moved = false;             // since the last frame: `movement` shows where
-  // R8UI, of masks that went through the history: bits 0 to 3 cascade, 4 kernel smaller than a texel, 5 to 7 why the
-  // history was refused (see History in docs/techniques.md).
+  bool history = false;                   // the last frame's shadow may be taken up
+  // R8UI, of masks that went through history or filters: bits 0 to 3 cascade, 4 kernel smaller than a texel, 5 to 7 why
+  // the history was refused (see History in docs/techniques.md).
   const gl::Texture* notes = nullptr;
   // Bound wherever the technique is evaluated. In a Mask: those that forward surfaces read, a stand-in's own if it has
   // one.

@@ -60,20 +60,7 @@ const gl::Program& TechniqueFrame::use(gl::Pass& pass, std::string_view program)
   throw std::logic_error(fmt::format("technique '{}' has no program '{}'", parts_.technique.name, program));
 }
 
-const gl::Program& TechniqueFrame::use_library(gl::Pass& pass, const LibraryProgram& program) const {
-  const gl::Program& used = pass.use(parts_.programs.library(program));
-  bind_inputs();
-  return used;
-}
-
 bool TechniqueFrame::uses_compute() const { return params().get_word("driver") == "compute"; }
-
-const gl::Program& TechniqueFrame::use_visibility(gl::Pass& pass, bool packed, bool history) const {
-  const gl::Program& program = pass.use(
-      parts_.programs.mask(parts_.technique, params(), {parts_.state.rotated, uses_compute(), packed, history}));
-  bind_inputs();
-  return program;
-}
 
 void TechniqueFrame::cover(gl::Pass& pass) const {
   const Rect& viewport = parts_.frame.viewport;
@@ -89,31 +76,12 @@ void TechniqueFrame::evaluate(const gl::Texture& target, int layer) const {
   gl::PassDesc desc{.name = "shadow mask"};
   if (!uses_compute()) desc.colors = {{.texture = &target, .layer = layer}};
   gl::Pass pass(parts_.device, desc);
-  const gl::Program& program = use_visibility(pass, /*packed=*/false, /*history=*/false);
+  const gl::Program& program = pass.use(
+      parts_.programs.mask(parts_.technique, params(), {.rotated = parts_.state.rotated, .compute = uses_compute()}));
+  bind_inputs();
   if (uses_compute()) {
     program.set("mask_layer", layer);
     target.bind_image(0, GL_WRITE_ONLY);
-  }
-  cover(pass);
-}
-
-void TechniqueFrame::bind_history(const gl::Texture& last_surfaces) const {
-  const gl::Texture* movement = parts_.frame.movement;
-  for (const GLuint unit : {unit_motion, unit_last_surface, unit_movement}) parts_.device.sampler({}).bind(unit);
-  gl::glBindTextureUnit(unit_motion, parts_.inputs.motion.id);
-  last_surfaces.bind(unit_last_surface);
-  gl::glBindTextureUnit(unit_movement, movement != nullptr ? movement->id() : 0);
-}
-
-void TechniqueFrame::evaluate(const PackedMask& target, const gl::Texture* last_surfaces) const {
-  gl::PassDesc desc{.name = "shadow mask"};
-  if (!uses_compute()) desc.colors = {{.texture = &target.texels}, {.texture = &target.notes}};
-  gl::Pass pass(parts_.device, desc);
-  use_visibility(pass, /*packed=*/true, /*history=*/last_surfaces != nullptr);
-  if (last_surfaces != nullptr) bind_history(*last_surfaces);
-  if (uses_compute()) {
-    target.texels.bind_image(0, GL_WRITE_ONLY);
-    target.notes.bind_image(1, GL_WRITE_ONLY);
   }
   cover(pass);
 }

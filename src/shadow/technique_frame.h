@@ -11,7 +11,6 @@
 namespace penumbra::shadow {
 
 class Programs;
-struct LibraryProgram;
 struct LightState;
 
 // A texture that lives from frame to frame, one for each light in each view.
@@ -19,13 +18,6 @@ struct History {
   const gl::Texture& last;  // as the last frame left it; undefined unless `valid`
   const gl::Texture& now;   // to be filled in this frame
   bool valid = false;
-};
-
-// A mask as the library's own passes hand it on, both the size of the mask: R32UI packed texels (see
-// glsl/lib/packed_texel.glsl), and R8UI notes (see LightFrame).
-struct PackedMask {
-  const gl::Texture& texels;
-  const gl::Texture& notes;
 };
 
 // One light of one view in one frame: what a technique's functions read, make and draw with.
@@ -73,13 +65,6 @@ class TechniqueFrame {
   // Runs the technique's visibility() under the driver of the parameters, into a layer of an RGBA16F array of the
   // size of the mask, which is laid out like it (see Mask).
   void evaluate(const gl::Texture& target, int layer) const;
-  // The same into packed texels, with what the history says of each; `last_surfaces` as for bind_history(), null
-  // without a history.
-  void evaluate(const PackedMask& target, const gl::Texture* last_surfaces) const;
-  // Binds what glsl/shadow/history.glsl reads; `last_surfaces`: RG32UI, depth and normal of the last frame's receivers.
-  void bind_history(const gl::Texture& last_surfaces) const;
-  // Makes one of the library's own programs current, with the same bound as in use().
-  const gl::Program& use_library(gl::Pass& pass, const LibraryProgram& program) const;
   // Whether the parameters ask for compute shaders.
   bool uses_compute() const;
   // Draws, or dispatches, over the viewport.
@@ -87,9 +72,8 @@ class TechniqueFrame {
   // The caller's casters, into a pass that is open on a layer of the cascade's size. Throws Error without Inputs::draw.
   void draw_casters(gl::Pass& pass, CasterKind kind, int cascade) const;
 
- private:
+ protected:
   void bind_inputs() const;
-  const gl::Program& use_visibility(gl::Pass& pass, bool packed, bool history) const;
 
   Parts parts_;
 };

@@ -1,5 +1,7 @@
 // A surface that appears from behind another takes nothing of it along.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -53,6 +55,59 @@ TEST_F(ShadowHistory, NothingTrailsBehindAnEdge) {
   }
   params.set("history.distance", 100.0f);
   EXPECT_GT(mixed_pixels(params, 1), 20) << "the picture shows no trail at all";
+}
+
+// A penumbra over all of the picture, every texel of it read: a smooth function of the place and nothing else.
+TriangleScene wide_penumbra() {
+  TriangleScene scene;
+  scene.add_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0});
+  scene.add_quad({-20, 5, -20}, {0, 0, 40}, {20, 0, 0});
+  scene.receivers = shadow::Box{{-2, 0, -2}, {2, 0, 2}};
+  scene.width = scene.height = 64;
+  scene.view = glm::lookAt(glm::vec3(0, 2.5f, 0.4f), glm::vec3(0), glm::vec3(0, 0, -1));
+  scene.projection = perspective(0.2f, 1, 0.05f);
+  return scene;
+}
+
+// Two frames under a jitter each: how far the blend is at most from what the second frame shows alone.
+double most_off(TriangleRenderer& renderer, const ParamSet& plain, const shadow::Rect& viewport) {
+  ParamSet blended = plain;
+  blended.set("history.reuse", true);
+  const TriangleScene still = wide_penumbra();
+  const std::array jitters{glm::vec2(0.9f, -0.7f) / 64.0f, glm::vec2(-0.8f, 0.6f) / 64.0f};
+  std::vector<Shadowed> drawn;
+  for (const ParamSet& params : {plain, blended}) {
+    for (int frame = 0; frame < 2; ++frame) {
+      const glm::vec2 jitter = jitters.at(static_cast<std::size_t>(frame));
+      TriangleScene scene = still;
+      scene.projection = glm::translate(glm::mat4(1), glm::vec3(jitter, 0)) * still.projection;
+      drawn.push_back(renderer.render(scene, params, [&](shadow::Inputs& inputs) {
+        inputs.view.projection = inputs.view.last_projection = still.projection;
+        inputs.view.last_view = inputs.view.view;
+        inputs.view.jitter = jitter;
+        inputs.view.cut = frame == 0;
+        inputs.viewport = viewport;
+      }));
+    }
+  }
+  double most = 0;
+  for (int y = viewport.y + 1; y < viewport.y + viewport.height - 1; ++y) {
+    for (int x = viewport.x + 1; x < viewport.x + viewport.width - 1; ++x) {
+      most = std::max<double>(most, std::abs(drawn[3].visibility(x, y) - drawn[1].visibility(x, y)));
+    }
+  }
+  return most;
+}
+
+TEST_F(ShadowHistory, JitterMovesNothing) {
+  ParamSet params = renderer_->params();
+  params.set("technique", std::string("brute_force"));
+  params.set("brute_force.every_texel", true);
+  params.set("sun.angle", 8.0f);
+  params.set("cascades.count", 1);
+  params.set("cascades.size", 256);
+  params.set("history.alpha", 0.05f);
+  EXPECT_LT(most_off(*renderer_, params, {0, 0, 64, 64}), 0.004);
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ float kernel_distance(ivec2 pixel, uint texel) {
 // Standard deviation of the kernel along x and y, pixels: filter.width of the penumbra's full width 2 · tan(half angle)
 // · distance, as the receiver's plane is seen.
 vec2 kernel_sigma(Surface surface, float distance_to) {
-  return min(filter_width * 2.0 * shadow.light.x * distance_to * surface.pixels, filter_max_sigma);
+  return min(filter_width * 2.0 * packed_slope(shadow.light.x) * distance_to * surface.pixels, filter_max_sigma);
 }
 
 // Kernels below this are narrower than a pixel: a neighbour would weigh under 0.004.
@@ -93,6 +93,7 @@ struct Taps {
   int first, last;
   float spacing;  // pixels, at least 1
   float shift;    // pixels, less than half the spacing; 0 where none are left out
+  float radius;   // pixels
 };
 
 // Interleaved gradient noise (Jimenez 2014, "Next generation post processing in Call of Duty: Advanced Warfare").
@@ -107,11 +108,13 @@ Taps taps_along(int axis, ivec2 pixel, float radius) {
   int side = int(radius / spacing + 0.5);
   int below = int((float(pixel[axis] - lowest_pixel()[axis]) + shift) / spacing);
   int above = int((float(highest_pixel()[axis] - pixel[axis]) - shift) / spacing);
-  return Taps(-min(side, below), min(side, above), spacing, shift);
+  return Taps(-min(side, below), min(side, above), spacing, shift, radius);
 }
 
+// Within the radius, shifted or not: no more is shared by a group.
 int tap_offset(Taps taps, int index) {
-  return index == 0 ? 0 : int(roundEven(float(index) * taps.spacing + taps.shift));
+  float offset = float(index) * taps.spacing + taps.shift;
+  return index == 0 ? 0 : int(roundEven(clamp(offset, -taps.radius, taps.radius)));
 }
 
 ivec2 along(int axis, int offset) { return axis == 0 ? ivec2(offset, 0) : ivec2(0, offset); }

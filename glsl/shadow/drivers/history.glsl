@@ -19,15 +19,30 @@ float last_visibility(Reprojection last) {
   return sum;
 }
 
+// Least mean blocker distance, metres, about a pixel: the narrowest penumbra there is what must not be blurred. At a rim,
+// where few blocker taps meet none, a neighbour's stands in.
+float penumbra_distance(ivec2 pixel, uint texel) {
+  const ivec2 moves[4] = ivec2[4](ivec2(2, 1), ivec2(-1, 2), ivec2(-2, -1), ivec2(1, -2));
+  ivec2 low = ivec2(shadow.viewport.xy);
+  ivec2 high = low + ivec2(shadow.viewport.zw) - 1;
+  float least = texel_distance(texel);
+  for (int i = 0; i < 4; ++i) {
+    float beside = texel_distance(texelFetch(texels, clamp(pixel + moves[i], low, high), 0).x);
+    if (least == 0.0 || (beside > 0.0 && beside < least)) least = beside;
+  }
+  return least;
+}
+
 // Weight of the present frame. Each bilinear look-up blurs by a variance of x(1 − x) pixels squared, with x the fraction
-// of a pixel that was moved by, and a weight of α lets (1 − α)/α of that add up: no more than the variance that the
-// visibility filter has leave to blur by. So narrow penumbrae stay sharp while the camera moves, and have little noise.
+// of a pixel that was moved by, and a weight of α lets (1 − α)/α of that add up: no more than a kernel of the visibility
+// filter's size blurs by. So narrow penumbrae, which have little noise, stay sharp while the camera moves.
 float present_weight(Reprojection last, Receiver receiver, float distance_to) {
   vec2 part = vec2(last.weights.y + last.weights.w, last.weights.z + last.weights.w);
   vec2 blur = part * (1.0 - part);
   float variance = max(blur.x, blur.y);
-  float sigma = filter_width * 2.0 * shadow.light.x * distance_to / pixel_width(receiver_view_position(receiver));
-  return variance > 0.0 ? max(history_alpha, variance / (variance + sigma * sigma)) : history_alpha;
+  float width = 2.0 * packed_slope(shadow.light.x) * distance_to / pixel_width(receiver_view_position(receiver));
+  float sigma = min(filter_width * width, filter_max_sigma);
+  return max(history_alpha, variance / max(variance + sigma * sigma, 1e-6));
 }
 
 Kept blend(ivec2 pixel) {
@@ -36,8 +51,10 @@ Kept blend(ivec2 pixel) {
   Receiver receiver = receiver_at(pixel);
   uvec2 surface = surface_bits(pixel, receiver);
   if (texel_invalid(now)) return Kept(now, surface);
+  // The mask found it kept; another program's rounding may not.
   Reprojection last = reproject(receiver, pixel);
-  float weight = present_weight(last, receiver, texel_distance(now));
+  if (last.refusal != HISTORY_KEPT) return Kept(now, surface);
+  float weight = present_weight(last, receiver, penumbra_distance(pixel, now));
   float visibility = mix(last_visibility(last), texel_visibility(now), weight);
   return Kept(pack_texel(texel_distance(now), visibility, false), surface);
 }
