@@ -7,6 +7,7 @@
 
 #include "gpu/gpu_test.h"
 #include "gpu/triangle_scene.h"
+#include "lib/packed_texel.glsl"
 
 namespace penumbra::test {
 namespace {
@@ -108,6 +109,62 @@ TEST_F(ShadowHistory, JitterMovesNothing) {
   params.set("cascades.size", 256);
   params.set("history.alpha", 0.05f);
   EXPECT_LT(most_off(*renderer_, params, {0, 0, 64, 64}), 0.004);
+}
+
+// The maps of the last frame as an engine's own.
+shadow::FinishedMaps finished(const shadow::LightFrame& light, const gl::Texture& copy) {
+  gl::glCopyImageSubData(light.depth, GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, copy.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0,
+                         copy.width(), copy.height(), 1);
+  return {{copy.id(), copy.width(), copy.height()}, light.cascades};
+}
+
+TEST_F(ShadowHistory, WithoutCastersToDrawItIsKeptOnlyWhereNothingMoved) {
+  ParamSet params = renderer_->params();
+  params.set("history.reuse", true);
+  params.set("cascades.count", 1);
+  params.set("cascades.size", 256);
+  const TriangleScene scene = wide_penumbra();
+  renderer_->render(scene, params);
+  const gl::Texture copy("copy",
+                         {.target = GL_TEXTURE_2D_ARRAY, .format = GL_DEPTH_COMPONENT32F, .width = 256, .height = 256});
+  const shadow::Light light{.to_light = scene.to_light, .maps = finished(renderer_->mask().lights[0], copy)};
+  const shadow::Box nothing{glm::vec3(1), glm::vec3(-1)};
+  const shadow::Box all{glm::vec3(-20), glm::vec3(20)};
+  const auto refusal = [&](const std::optional<shadow::Box>& moved) {
+    renderer_->render(scene, params, [&](shadow::Inputs& inputs) {
+      inputs.lights = {&light, 1};
+      inputs.draw = {};
+      inputs.moved = moved;
+      inputs.view.last_view = inputs.view.view;
+      inputs.view.last_projection = inputs.view.projection;
+    });
+    const std::vector<unsigned> notes = gl::read_uints(*renderer_->mask().lights[0].notes, 1);
+    return glsl::notes_refusal(notes[notes.size() / 2]);
+  };
+  refusal(nothing);
+  EXPECT_EQ(refusal(nothing), HISTORY_KEPT);
+  EXPECT_EQ(refusal(std::nullopt), HISTORY_NONE) << "anything may have moved";
+  EXPECT_EQ(refusal(nothing), HISTORY_KEPT);
+  EXPECT_EQ(refusal(all), HISTORY_NONE);
+  params.set("movement.map", std::string("none"));
+  refusal(all);
+  EXPECT_EQ(refusal(all), HISTORY_KEPT) << "nobody asked";
+}
+
+TEST_F(ShadowHistory, ItsMemoryIsGivenBack) {
+  ParamSet params = renderer_->params();
+  const TriangleScene scene = wide_penumbra();
+  const auto bytes = [&] {
+    renderer_->render(scene, params);
+    return renderer_->device().target_bytes();
+  };
+  const std::size_t without = bytes();
+  params.set("history.reuse", true);
+  params.set("filter.penumbra", std::string("median"));
+  params.set("filter.visibility", std::string("bilateral_separable"));
+  EXPECT_GT(bytes(), without);
+  for (const char* name : {"history.reuse", "filter.penumbra", "filter.visibility"}) params.reset(name);
+  EXPECT_EQ(bytes(), without);
 }
 
 }  // namespace
