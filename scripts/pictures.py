@@ -51,7 +51,7 @@ def filters():
 def histories():
     still = MOVING + ["--technique", "thesis", "--frames", "44:60"]
     rows = {f"history_map_{name}": still + ["--set", f"movement.map={name}"] for name in ("none", "average", "maximum")}
-    rows["history_refused"] = (still, "history")
+    rows["history_refused"] = (MOVING + ["--technique", "thesis", "--frames", "50:52"], "history")
     return rows
 
 

@@ -31,6 +31,8 @@ Blockers find_blockers(Receiver receiver, float radius, int taps, float bias, Li
   for (int i = 0; i < taps; ++i) {
     add_blockers(blockers, receiver, radius * blocker_point(i, scramble, light), bias, light);
   }
+  // The cone is narrow over what lies near: taps over a wide disc can all miss the foot of a thing, but not this one.
+  if (blockers.weight == 0.0) add_blockers(blockers, receiver, vec2(0.0), bias, light);
   return blockers;
 }
 
