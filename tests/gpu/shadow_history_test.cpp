@@ -111,6 +111,52 @@ TEST_F(ShadowHistory, JitterMovesNothing) {
   EXPECT_LT(most_off(*renderer_, params, {0, 0, 64, 64}), 0.004);
 }
 
+// Ground and caster move together by three pixels a frame: the shadow stands still on the ground. How far the blend is
+// off at most, if the motion vectors say that all moved by so many pixels.
+double off_by_motion(TriangleRenderer& renderer, float pixels) {
+  constexpr int side = 64;
+  constexpr float half = 0.3f;
+  const gl::Texture motion("motion", {.format = GL_RG32F, .width = side, .height = side});
+  const std::vector<glm::vec2> vectors(std::size_t{side} * side, glm::vec2(pixels * 2 / side, 0));
+  motion.upload(GL_RG, GL_FLOAT, std::as_bytes(std::span(vectors)));
+  ParamSet plain = renderer.params();
+  plain.set("sun.angle", 8.0f);
+  plain.set("pcss.blocker_taps", 64);
+  plain.set("pcss.filter_taps", 64);
+  plain.set("sampling.noise", std::string("none"));
+  plain.set("movement.map", std::string("none"));
+  ParamSet blended = plain;
+  blended.set("history.reuse", true);
+  std::vector<Shadowed> drawn;
+  for (const ParamSet& params : {plain, blended}) {
+    for (int frame = 0; frame < 2; ++frame) {
+      TriangleScene scene = wide_penumbra();
+      scene.projection = orthographic(half, half, 0.05f, 5);
+      const glm::vec3 way(3 * 2 * half / side * static_cast<float>(frame), 0, 0);
+      for (Triangle& triangle : scene.triangles) triangle = {triangle.a + way, triangle.b + way, triangle.c + way};
+      drawn.push_back(renderer.render(scene, params, [&](shadow::Inputs& inputs) {
+        inputs.motion = {motion.id(), side, side};
+        inputs.view.last_view = inputs.view.view;
+        inputs.view.last_projection = inputs.view.projection;
+        inputs.view.cut = frame == 0;
+      }));
+    }
+  }
+  double most = 0;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 4; x < side; ++x) {
+      most = std::max<double>(most, std::abs(drawn[3].visibility(x, y) - drawn[1].visibility(x, y)));
+    }
+  }
+  return most;
+}
+
+TEST_F(ShadowHistory, FollowsReceiversByTheirMotion) {
+  EXPECT_LT(off_by_motion(*renderer_, 3), 0.01);
+  EXPECT_GT(off_by_motion(*renderer_, 0), 0.03) << "the ground did move";
+  EXPECT_GT(off_by_motion(*renderer_, -3), 0.06);
+}
+
 // The maps of the last frame as an engine's own.
 shadow::FinishedMaps finished(const shadow::LightFrame& light, const gl::Texture& copy) {
   gl::glCopyImageSubData(light.depth, GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, copy.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0,

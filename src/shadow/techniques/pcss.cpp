@@ -15,8 +15,8 @@ Technique pcss() {
           {"pcss.blocker_taps", 16, 1, 256, "taps", "Points at which blockers are looked for.", compiled},
           {"pcss.filter_taps", 16, 1, 256, "taps", "Points of the penumbra's disc that are compared.", compiled},
           {"pcss.renewal_taps", 64, 1, 256, "taps", "The same where there is a history and it is refused.", compiled},
-          {"pcss.early_exit", true, 0, 1, "", "Skips both steps where depth bounds rule blockers out; changes no result.",
-           compiled},
+          {"pcss.early_exit", true, 0, 1, "",
+           "Skips both steps where depth bounds rule blockers out; changes no result.", compiled},
       }};
 }
 
