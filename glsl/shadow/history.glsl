@@ -33,10 +33,10 @@ float pixel_width(vec3 position) {
 
 // What a surface must lie within to be the receiver's own.
 struct Likeness {
-  vec3 position;   // view space
-  vec3 normal;     // the same
+  vec3 position;      // view space
+  vec3 normal;        // the same
   float distance_to;  // from the plane, metres
-  float cosine;    // of the angle between normals
+  float cosine;       // of the angle between normals
 };
 
 bool is_own(Likeness like, Receiver receiver, ivec2 tap) {

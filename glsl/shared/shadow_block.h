@@ -23,11 +23,12 @@ struct ShadowBlock {
   vec4 viewport;           // xy: its lowest pixel; zw: size, pixels
   vec4 jitter;             // NDC; xy: of this frame; zw: of the last one
   vec4 depth_to_ndc;       // x: scale; y: offset; z: depth of the sky; w: 1 for octahedral normals, 0 for xyz
-  vec4 pixel_size;         // xy: of a pixel in metres, a unit of clip w; clip w is z times view z plus w
+  vec4 pixel_size;         // xy: metres that a pixel spans where clip w is 1; zw: clip w is z · view z + w
   vec4 light;              // x: tan of the half angle; y: 1: square light, 0: disc; z: cascades; w: map size, texels
   vec4 noise_shift;        // on the torus; xy: of the blocker step; zw: of the filter step
-  vec4 history;  // 1 or 0, x: the last frame's is valid; y: there are motion vectors; z: there is a movement map;
-                 // w: least depth of what moved, light space, metres
+  // 1 or 0, x: the last frame's shadow is valid; y: there are motion vectors; z: casters moved, and the movement map
+  // shows where; w: least depth of what moved, light space, metres.
+  vec4 history;
   CascadeBlock cascades[SHADOW_MAX_CASCADES];
 };
 
