@@ -46,7 +46,7 @@ void log_from(const std::string& name) {
   }
   const std::string name = extra.substr(0, extra.find('='));
   const std::vector<std::string> near = near_names(name, names);
-  if (near.empty()) fail_usage("unknown option '{}'; see penumbra {} --help", name, options.get_name());
+  if (near.empty()) fail_usage("unknown option '{}'; see {} --help", name, options.get_name());
   fail_unknown("option", name, names);
 }
 

@@ -17,7 +17,8 @@ void store_unit(std::vector<float>& value) {
   for (int c = 0; c < 4; ++c) value[static_cast<std::size_t>(c)] = static_cast<float>(unit[c]);
 }
 
-// Between keys `key` and the next; s from 0 to 1.
+// Between keys `key` and the next; s from 0 to 1. Between equal values nothing changes, not even by rounding: what rests
+// must not count as moving.
 std::vector<float> linear(const AnimationChannel& channel, std::size_t key, float s) {
   const auto width = static_cast<std::size_t>(channel.components);
   const float* const a = &channel.values[key * width];
@@ -27,10 +28,11 @@ std::vector<float> linear(const AnimationChannel& channel, std::size_t key, floa
     std::vector<float> from(a, a + 4), to(b, b + 4);
     store_unit(from);
     store_unit(to);
+    if (from == to) return from;
     const glm::quat q = glm::slerp(quaternion(from.data()), quaternion(to.data()), s);
     return {q.x, q.y, q.z, q.w};
   }
-  for (std::size_t c = 0; c < width; ++c) value[c] = a[c] * (1 - s) + b[c] * s;
+  for (std::size_t c = 0; c < width; ++c) value[c] = a[c] + (b[c] - a[c]) * s;
   return value;
 }
 
@@ -42,8 +44,8 @@ std::vector<float> cubic(const AnimationChannel& channel, std::size_t key, float
   const float s2 = s * s, s3 = s2 * s;
   std::vector<float> value(width);
   for (std::size_t c = 0; c < width; ++c)
-    value[c] = (2 * s3 - 3 * s2 + 1) * a[width + c] + (s3 - 2 * s2 + s) * duration * a[2 * width + c] +
-               (3 * s2 - 2 * s3) * b[width + c] + (s3 - s2) * duration * b[c];
+    value[c] = a[width + c] + (3 * s2 - 2 * s3) * (b[width + c] - a[width + c]) +
+               (s3 - 2 * s2 + s) * duration * a[2 * width + c] + (s3 - s2) * duration * b[c];
   return value;
 }
 

@@ -104,7 +104,7 @@ std::vector<Param> filter_rows(std::span<const Filter> filters) {
       {"filter.width", 0.1f, 0, 1, "", "Its standard deviation, as a part of the penumbra's width."},
       {"filter.max_sigma", 24.0f, 0, 24, "px", "The most that may be."},
       {"filter.taps", 6, 1, 48, "taps", "The most that it reads to each side along an axis; wider kernels space them."},
-      {"filter.edge", 1.0f, 0.01, 100, "px",
+      {"filter.edge", 0.25f, 0.01, 100, "px",
        "Distance from the receiver's plane, in widths of a pixel, at which a neighbour's weight is e^-1/2."},
   };
 }

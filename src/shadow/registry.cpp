@@ -93,11 +93,13 @@ std::vector<Alias> presets() {
                                             "sampling.filter_pattern=hammersley",
                                             "sampling.scramble=shift",
                                             "sampling.noise=blue",
+                                            "history.reuse=false",
                                             "filter.penumbra=median",
                                             "filter.visibility=bilateral_separable"};
   std::vector<Alias> aliases{
       {"thesis", "pcss", "The method of Deligiannis 2019: few taps, a history with a movement map, filters.", thesis},
       {"thesis_8x8", "pcss", "Its fast form, of figure 4.12: 8/8 taps and a filter, no history.", thesis_8x8}};
+  for (Alias& alias : aliases) alias.assignments.emplace_back("driver=fragment");
   for (const Alias& alias : std::vector{Alias{"pcss", "pcss", "", {}}, Alias{"brute_force", "brute_force", "", {}},
                                         aliases[0], aliases[1]}) {
     aliases.push_back({alias.name + "_compute", alias.technique, "The same in compute shaders.", alias.assignments});

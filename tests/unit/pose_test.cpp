@@ -90,6 +90,17 @@ TEST(Animation, CubicSplineIsHermites) {
   for (const double t : {0.0, 0.3, 1.0, 1.7, 2.0}) EXPECT_NEAR(sample(c, t)[1], t * t * t, 1e-5) << t;
 }
 
+TEST(Animation, WhatRestsDoesNotMoveByRounding) {
+  const auto line = channel(Path::translation, Interpolation::linear, {0, 3}, {0.1f, -4.7f, 3.3f, 0.1f, -4.7f, 3.3f});
+  const auto turn =
+      channel(Path::rotation, Interpolation::linear, {0, 3}, {0.1f, 0.7f, -0.3f, 0.64f, 0.1f, 0.7f, -0.3f, 0.64f}, 4);
+  const auto curve = channel(Path::translation, Interpolation::cubic_spline, {0, 3},
+                             {0, 0, 0, 0.1f, -4.7f, 3.3f, 0, 0, 0, 0, 0, 0, 0.1f, -4.7f, 3.3f, 0, 0, 0});
+  for (const auto& at_rest : {line, turn, curve}) {
+    for (double time = 0; time < 3; time += 0.013) ASSERT_EQ(sample(at_rest, time), sample(at_rest, 0)) << time;
+  }
+}
+
 TEST(Animation, LoopsOverItsOwnDuration) {
   EXPECT_DOUBLE_EQ(looped_time(0, 2), 0);
   EXPECT_DOUBLE_EQ(looped_time(2, 2), 2) << "its end is not its start";
