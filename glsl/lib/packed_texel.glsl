@@ -1,5 +1,5 @@
-// A pixel's shadow in 32 bits (Deligiannis 2019, section 3.3): bits 0 to 15 mean blocker distance, half precision, 0 for
-// none; 16 to 30 visibility; 31 history invalid. For integer textures: float ones may change bit patterns.
+// A pixel's shadow in 32 bits (Deligiannis 2019, section 3.3): bits 0 to 15 mean blocker distance, half precision, 0
+// for none; 16 to 30 visibility; 31 history invalid. For integer textures: float ones may change bit patterns.
 #ifndef PENUMBRA_PACKED_TEXEL_GLSL
 #define PENUMBRA_PACKED_TEXEL_GLSL
 

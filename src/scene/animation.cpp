@@ -17,8 +17,8 @@ void store_unit(std::vector<float>& value) {
   for (int c = 0; c < 4; ++c) value[static_cast<std::size_t>(c)] = static_cast<float>(unit[c]);
 }
 
-// Between keys `key` and the next; s from 0 to 1. Between equal values nothing changes, not even by rounding: what rests
-// must not count as moving.
+// Between keys `key` and the next; s from 0 to 1. Between equal values nothing changes, not even by rounding: what
+// rests must not count as moving.
 std::vector<float> linear(const AnimationChannel& channel, std::size_t key, float s) {
   const auto width = static_cast<std::size_t>(channel.components);
   const float* const a = &channel.values[key * width];

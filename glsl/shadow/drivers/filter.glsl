@@ -84,11 +84,11 @@ vec2 kernel_sigma(Surface surface, float distance_to) {
 // Kernels below this are narrower than a pixel: a neighbour would weigh under 0.004.
 const float least_sigma = 0.3;
 
-// Taps on a line of pixels through the filtered one: itself, and others evenly spaced over `radius`, at most filter.taps
-// to a side, within the viewport. Noise that differs from pixel to pixel comes down by the root of their number, with 6 to
-// a tenth over both axes, below what blurring itself is off by. What blue noise is better by than white comes only from
-// reading all pixels. Spaced alike for every pixel they would leave their lattice in the picture, so each pixel shifts
-// them.
+// Taps on a line of pixels through the filtered one: itself, and others evenly spaced over `radius`, at most
+// filter.taps to a side, within the viewport. Noise that differs from pixel to pixel comes down by the root of their
+// number, with 6 to a tenth over both axes, below what blurring itself is off by. What blue noise is better by than
+// white comes only from reading all pixels. Spaced alike for every pixel they would leave their lattice in the picture,
+// so each pixel shifts them.
 struct Taps {
   int first, last;
   float spacing;  // pixels, at least 1

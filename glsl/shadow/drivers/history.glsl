@@ -19,8 +19,8 @@ float last_visibility(Reprojection last) {
   return sum;
 }
 
-// Least mean blocker distance, metres, about a pixel: the narrowest penumbra there is what must not be blurred. At a rim,
-// where few blocker taps meet none, a neighbour's stands in.
+// Least mean blocker distance, metres, about a pixel: the narrowest penumbra there is what must not be blurred. At a
+// rim, where few blocker taps meet none, a neighbour's stands in.
 float penumbra_distance(ivec2 pixel, uint texel) {
   const ivec2 moves[4] = ivec2[4](ivec2(2, 1), ivec2(-1, 2), ivec2(-2, -1), ivec2(1, -2));
   ivec2 low = ivec2(shadow.viewport.xy);
@@ -33,9 +33,9 @@ float penumbra_distance(ivec2 pixel, uint texel) {
   return least;
 }
 
-// Weight of the present frame. Each bilinear look-up blurs by a variance of x(1 − x) pixels squared, with x the fraction
-// of a pixel that was moved by, and a weight of α lets (1 − α)/α of that add up: no more than a kernel of the visibility
-// filter's size blurs by. So narrow penumbrae, which have little noise, stay sharp while the camera moves.
+// Weight of the present frame. Each bilinear look-up blurs by a variance of x(1 − x) pixels squared, with x the
+// fraction of a pixel that was moved by, and a weight of α lets (1 − α)/α of that add up: no more than a kernel of the
+// visibility filter's size blurs by. So narrow penumbrae, which have little noise, stay sharp while the camera moves.
 float present_weight(Reprojection last, Receiver receiver, float distance_to) {
   vec2 part = vec2(last.weights.y + last.weights.w, last.weights.z + last.weights.w);
   vec2 blur = part * (1.0 - part);
