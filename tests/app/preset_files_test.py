@@ -6,7 +6,7 @@ from pictures import SMALL, scene
 from support import ROOT, TestCase, main
 
 FILES = sorted((ROOT / "presets").glob("*.toml"))
-CAMERA_STANDS = ["--frames", "0:2", "--fps", "30"]
+FRAMES = ["--frames", "0:2", "--fps", "30"]
 
 
 class PresetFiles(TestCase):
@@ -33,7 +33,7 @@ class PresetFiles(TestCase):
         pictures = {}
         for name in ("thesis", "thesis", "thesis_compute"):
             self.succeed("render", scene("moving"), "-o", self.folder / "x_#.png", "--technique", name, *SMALL,
-                         *CAMERA_STANDS, "--quiet")
+                         *FRAMES, "--quiet")
             drawn = [path.read_bytes() for path in sorted(self.folder.glob("x_*.png"))]
             self.assertEqual(len(drawn), 3)
             self.assertEqual(pictures.setdefault("first", drawn), drawn, name)

@@ -22,12 +22,7 @@ constexpr int side = 128;
 // whose width `part` is seen.
 TriangleScene half_plane(float part) {
   constexpr float radius = 5 * 0.0699268f;
-  TriangleScene scene;
-  scene.add_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0});
-  scene.add_quad({-20, 5, -20}, {0, 0, 40}, {20, 0, 0});
-  scene.receivers = shadow::Box{{-2, 0, -2}, {2, 0, 2}};
-  scene.width = scene.height = side;
-  scene.view = glm::lookAt(glm::vec3(0, 2.5f, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+  TriangleScene scene = half_plane_over_ground(side);
   scene.projection = orthographic(part * radius, part * radius, 0.05f, 5);
   return scene;
 }

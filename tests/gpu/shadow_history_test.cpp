@@ -60,11 +60,7 @@ TEST_F(ShadowHistory, NothingTrailsBehindAnEdge) {
 
 // A penumbra over all of the picture, every texel of it read: a smooth function of the place and nothing else.
 TriangleScene wide_penumbra() {
-  TriangleScene scene;
-  scene.add_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0});
-  scene.add_quad({-20, 5, -20}, {0, 0, 40}, {20, 0, 0});
-  scene.receivers = shadow::Box{{-2, 0, -2}, {2, 0, 2}};
-  scene.width = scene.height = 64;
+  TriangleScene scene = half_plane_over_ground(64);
   scene.view = glm::lookAt(glm::vec3(0, 2.5f, 0.4f), glm::vec3(0), glm::vec3(0, 0, -1));
   scene.projection = perspective(0.2f, 1, 0.05f);
   return scene;

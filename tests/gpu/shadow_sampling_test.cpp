@@ -21,12 +21,7 @@ constexpr float grid = 0.02f;  // rows lie otherwise on the map's texels
 // The penumbra of a half-plane 5 m up over all of the picture, under a sun of 8 degrees.
 TriangleScene wide_penumbra() {
   constexpr float radius = 5 * 0.0699f;
-  TriangleScene scene;
-  scene.add_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0});
-  scene.add_quad({-20, 5, -20}, {0, 0, 40}, {20, 0, 0});
-  scene.receivers = shadow::Box{{-2, 0, -2}, {2, 0, 2}};
-  scene.width = scene.height = side;
-  scene.view = glm::lookAt(glm::vec3(0, 2.5f, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+  TriangleScene scene = half_plane_over_ground(side);
   scene.projection = orthographic(0.9f * radius, 0.9f * radius, 0.05f, 5);
   return scene;
 }

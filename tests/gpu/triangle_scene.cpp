@@ -157,6 +157,16 @@ TriangleScene box_on_ground(int side) {
   return scene;
 }
 
+TriangleScene half_plane_over_ground(int side) {
+  TriangleScene scene;
+  scene.add_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0});
+  scene.add_quad({-20, 5, -20}, {0, 0, 40}, {20, 0, 0});
+  scene.receivers = shadow::Box{{-2, 0, -2}, {2, 0, 2}};
+  scene.width = scene.height = side;
+  scene.view = glm::lookAt(glm::vec3(0, 2.5f, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+  return scene;
+}
+
 glm::mat4 orthographic(float half_width, float half_height, float near, float far) {
   glm::mat4 m(1);
   m[0][0] = 1 / half_width;

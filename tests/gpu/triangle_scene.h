@@ -55,6 +55,10 @@ class Geometry {
 // A box of 2 m on a ground of 10 m, so many pixels wide and high.
 TriangleScene box_on_ground(int side = 64);
 
+// A half-plane 5 m up whose edge stands over the middle of a ground of 4 m, under a sun at the zenith, seen from
+// between them, so many pixels wide and high; the projection is left to be set.
+TriangleScene half_plane_over_ground(int side);
+
 // Reversed-Z, z in 0..1.
 glm::mat4 orthographic(float half_width, float half_height, float near, float far);
 glm::mat4 perspective(float fov_y, float aspect, float near);
