@@ -35,7 +35,7 @@ void LibraryFrame::bind_history(const gl::Texture& last_surfaces) const {
 }
 
 const gl::Program& LibraryFrame::use_library(gl::Pass& pass, const LibraryProgram& program) const {
-  const gl::Program& used = pass.use(parts_.programs.library(program));
+  const gl::Program& used = pass.use(parts_.programs.ready(program));
   bind_inputs();
   return used;
 }

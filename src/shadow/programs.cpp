@@ -104,7 +104,7 @@ gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& param
   return program;
 }
 
-gl::ProgramDesc Programs::library(const LibraryProgram& program) const {
+gl::ProgramDesc Programs::ready(const LibraryProgram& program) const {
   gl::ProgramDesc desc = program.desc;
   desc.fragment = with_params(desc.fragment, program.before);
   desc.compute = with_params(desc.compute, program.before);
@@ -142,7 +142,7 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
   for (const MovementForm form : {MovementForm::average, MovementForm::maximum}) {
     for (const bool any_size : {false, true}) programs.push_back(movement_pyramid_program(form, any_size));
   }
-  for (const LibraryProgram& program : denoise_programs(registry_)) programs.push_back(library(program));
+  for (const LibraryProgram& program : denoise_programs(registry_)) programs.push_back(ready(program));
   for (const Technique& technique : registry_.techniques()) {
     for (const ParamSet& params : compiled_variants(technique, defaults)) {
       for (const bool rotated : {true, false}) {

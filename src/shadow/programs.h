@@ -33,7 +33,7 @@ class Programs {
   };
   gl::ProgramDesc mask(const Technique& technique, const ParamSet& params, const MaskForm& form) const;
   // A program of the library's, ready to be compiled.
-  gl::ProgramDesc library(const LibraryProgram& program) const;
+  gl::ProgramDesc ready(const LibraryProgram& program) const;
   // The file that gives forward surfaces a technique's visibility().
   std::string forward_file(const Technique& technique) const;
   // Technique::programs(), ready to be compiled, and the names that they then have.
