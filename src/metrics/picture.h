@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace penumbra::metrics {
+
+// A picture that somebody else owns: rows top to bottom, channels interleaved.
+struct Picture {
+  int width = 0, height = 0;
+  std::span<const float> pixels;  // width · height · channels values
+  int channels = 1;               // 1: visibility or grey, 3: colour
+
+  std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+};
+
+// One byte a pixel, rows top to bottom: pixels that are not 0 are measured, the others are left out. Empty: all pixels.
+using Receivers = std::span<const std::uint8_t>;
+
+// How every metric takes values that are no numbers: a test value that is NaN or infinite is at the error 1, on the
+// side of the reference where there is more room. Sky and other pixels that are no receivers may hold anything.
+float signed_error(float test, float reference);  // test − reference
+
+// Throws Error if the two differ in size or channels, if `receivers` is neither empty nor one byte a pixel, or if the
+// reference is not finite at a receiver.
+void check(const Picture& test, const Picture& reference, Receivers receivers);
+
+inline bool is_receiver(Receivers receivers, std::size_t pixel) { return receivers.empty() || receivers[pixel] != 0; }
+
+}  // namespace penumbra::metrics
