@@ -1,0 +1,83 @@
+#include "truth/sampling.h"
+
+#include <cstddef>
+
+#include "lib/disc.glsl"
+
+namespace penumbra::truth {
+
+namespace {
+
+constexpr std::size_t lanes = packet_width;
+
+// Wellons' "lowbias32" family of finalisers (2018), with constants of TheIronBorn.
+constexpr std::uint32_t hash(std::uint32_t x) {
+  x ^= x >> 16U;
+  x *= 0x21f0aaadU;
+  x ^= x >> 15U;
+  x *= 0xd35a2d97U;
+  return x ^ (x >> 15U);
+}
+
+// What a digit becomes depends on higher digits only; here digits are reversed, the highest in bit 0.
+constexpr std::uint32_t scrambled(std::uint32_t reversed, std::uint32_t seed) {
+  reversed ^= reversed * 0x3d20adeaU;
+  reversed += seed;
+  reversed *= (seed >> 16U) | 1U;
+  reversed ^= reversed * 0x05526c56U;
+  return reversed ^ (reversed * 0x53a22864U);
+}
+
+constexpr std::uint32_t reversed_bits(std::uint32_t x) {
+  x = (x >> 16U) | (x << 16U);
+  x = ((x >> 8U) & 0x00ff00ffU) | ((x & 0x00ff00ffU) << 8U);
+  x = ((x >> 4U) & 0x0f0f0f0fU) | ((x & 0x0f0f0f0fU) << 4U);
+  x = ((x >> 2U) & 0x33333333U) | ((x & 0x33333333U) << 2U);
+  return ((x >> 1U) & 0x55555555U) | ((x & 0x55555555U) << 1U);
+}
+
+// Sobol's second dimension, digits reversed. Its direction numbers are the powers of 1 + x over GF(2), so digit j is
+// the parity of the index's bits k with j a subset of k, a transform of five steps. The first dimension is the index
+// itself.
+constexpr std::uint32_t second_dimension(std::uint32_t index) {
+  index ^= (index >> 1U) & 0x55555555U;
+  index ^= (index >> 2U) & 0x33333333U;
+  index ^= (index >> 4U) & 0x0f0f0f0fU;
+  index ^= (index >> 8U) & 0x00ff00ffU;
+  return index ^ (index >> 16U);
+}
+
+// 24 bits, so that a float holds them and never rounds up to 1.
+constexpr float unit(std::uint32_t bits) { return static_cast<float>(bits >> 8U) * 0x1p-24f; }
+
+}  // namespace
+
+PixelPoints::PixelPoints(std::uint32_t seed, std::uint32_t pixel) {
+  const std::uint32_t of_pixel = hash(hash(seed) ^ pixel);
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const auto scrambling = static_cast<std::uint32_t>(lane % scrambling_count);
+    const std::uint32_t own = hash(of_pixel + 0x9e3779b9U * scrambling);
+    seeds_x_[lane] = hash(own ^ 0x85ebca6bU);
+    seeds_y_[lane] = hash(own ^ 0xc2b2ae35U);
+  }
+}
+
+void PixelPoints::square(std::uint32_t first, PacketPoints& points) const {
+  const std::array<std::uint32_t, 2> second = {second_dimension(first), second_dimension(first + 1)};
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const std::size_t point = lane / scrambling_count;
+    const std::uint32_t index = first + static_cast<std::uint32_t>(point);
+    points.x[lane] = unit(reversed_bits(scrambled(index, seeds_x_[lane])));
+    points.y[lane] = unit(reversed_bits(scrambled(second[point], seeds_y_[lane])));
+  }
+}
+
+void square_to_disc(PacketPoints& points) {
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const glsl::vec2 p = glsl::concentric_disc({points.x[lane], points.y[lane]});
+    points.x[lane] = p.x;
+    points.y[lane] = p.y;
+  }
+}
+
+}  // namespace penumbra::truth
