@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "gl/context.h"
-#include "io/image_read.h"
+#include "image/read.h"
 #include "render/renderer.h"
 #include "scene/gltf.h"
 
@@ -88,7 +88,7 @@ int run(const std::filesystem::path& path, int pairs) {
   ParamSet params(render::Renderer::params(renderer.registry()));
   params.set("pcss.early_exit", false);
 
-  scene::Scene scene = scene::read_gltf(path, io::image_decoder());
+  scene::Scene scene = scene::read_gltf(path, image::image_decoder());
   const scene::Pose pose = scene::pose_at(scene, 0);
   const render::Setup setup = render::choose_setup(scene, pose);
   if (setup.ground) render::add_ground(scene, scene::bounds_of(scene, pose));

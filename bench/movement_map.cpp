@@ -15,7 +15,7 @@
 
 #include "core/error.h"
 #include "gl/context.h"
-#include "io/image_read.h"
+#include "image/read.h"
 #include "render/setup.h"
 #include "scene/gltf.h"
 #include "scene/gpu_scene.h"
@@ -98,7 +98,7 @@ double median(std::vector<double> values) {
 int run(const std::filesystem::path& path, int frames) {
   const auto context = gl::make_context("auto");
   const auto timing = gl::device_info().software ? gl::Timers::Mode::finish : gl::Timers::Mode::query;
-  scene::Scene scene = scene::read_gltf(path, io::image_decoder());
+  scene::Scene scene = scene::read_gltf(path, image::image_decoder());
   const scene::Pose pose = scene::pose_at(scene, 0);
   const render::Setup setup = render::choose_setup(scene, pose);
 

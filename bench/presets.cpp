@@ -14,7 +14,7 @@
 
 #include "core/error.h"
 #include "gl/context.h"
-#include "io/image_read.h"
+#include "image/read.h"
 #include "render/renderer.h"
 #include "scene/gltf.h"
 
@@ -62,7 +62,7 @@ std::vector<double> costs_of(Run& run, std::size_t warm_up) {
 int run(const std::filesystem::path& path, int frames, const std::vector<std::string>& presets) {
   const auto context = gl::make_context("auto");
   const auto timing = gl::device_info().software ? gl::Timers::Mode::finish : gl::Timers::Mode::query;
-  scene::Scene scene = scene::read_gltf(path, io::image_decoder());
+  scene::Scene scene = scene::read_gltf(path, image::image_decoder());
   const scene::Pose pose = scene::pose_at(scene, 0);
   const render::Setup setup = render::choose_setup(scene, pose);
   if (setup.ground) render::add_ground(scene, scene::bounds_of(scene, pose));

@@ -22,7 +22,7 @@ Json examine() {
   for (const char* name : {"egl", "osmesa", "window"}) backends.push_back(probe_backend(name));
   Json devices = Json::array();
   for (const std::string& device : probe_egl_devices()) devices.push_back(device);
-  return {{"version", version()}, {"backends", backends}, {"egl_devices", devices}};
+  return {{"version", studio::version()}, {"backends", backends}, {"egl_devices", devices}};
 }
 
 bool works(const Json& backend) { return backend["works"].get<bool>(); }
@@ -72,7 +72,7 @@ int run_doctor(const Arguments& arguments) {
   CLI::App app("Tell which OpenGL backends work here", "penumbra doctor");
   bool json = false;
   app.add_flag("--json", json, "For machines")->disable_flag_override();
-  if (!parse(app, arguments)) return 0;
+  if (!studio::parse(app, arguments)) return 0;
   const Json report = examine();
   if (json) {
     fmt::print("{}", io::text_of(report));

@@ -27,7 +27,7 @@ bool replaces(const fs::path& result, const fs::path& input) {
 
 // A picture of any frame.
 bool is_picture(const fs::path& result, const RenderOptions& options, const OutputNames& names) {
-  const FrameRange range = options.frames.value_or(FrameRange{});
+  const studio::FrameRange range = options.frames.value_or(studio::FrameRange{});
   if (place_of(result).parent_path() != place_of(names.picture(range.first)).parent_path()) return false;
   const fs::path name = result.filename();
   for (int frame = range.first; frame <= range.last; ++frame) {
@@ -40,7 +40,7 @@ bool is_picture(const fs::path& result, const RenderOptions& options, const Outp
 
 void check_alone(const char* option, const fs::path& result, const RenderOptions& options, const OutputNames& names) {
   if (is_picture(result, options, names))
-    fail_usage("{} {} is a picture of this command too", option, io::quoted(result));
+    studio::fail_usage("{} {} is a picture of this command too", option, io::quoted(result));
   io::check_writable(result);
 }
 
@@ -49,7 +49,7 @@ void check_alone(const char* option, const fs::path& result, const RenderOptions
 void check_scene_files(const std::vector<fs::path>& files, const RenderOptions& options, const OutputNames& names) {
   for (const fs::path& file : files) {
     const auto refuse = [&](const char* option) {
-      fail_usage("{} would overwrite the scene's file {}", option, io::quoted(file));
+      studio::fail_usage("{} would overwrite the scene's file {}", option, io::quoted(file));
     };
     std::error_code error;
     const fs::path target = fs::weakly_canonical(file, error);
@@ -63,15 +63,16 @@ void check_files(const RenderOptions& options, const OutputNames& names) {
   if (!options.glsl.empty() && !fs::is_directory(options.glsl))
     fail("--glsl: {} is not a folder", io::quoted(options.glsl));
   check_scene_files({options.scene}, options, names);
-  io::check_writable(names.picture(options.frames.value_or(FrameRange{}).first));
+  io::check_writable(names.picture(options.frames.value_or(studio::FrameRange{}).first));
   // A preset may be read and saved under one name: that changes it.
   if (!options.save_preset.empty()) check_alone("--save-preset", options.save_preset, options, names);
   if (options.stats.empty()) return;
   check_alone("--stats", options.stats, options, names);
   if (!options.save_preset.empty() && place_of(options.stats) == place_of(options.save_preset))
-    fail_usage("--stats and --save-preset name the same file {}", io::quoted(options.stats));
+    studio::fail_usage("--stats and --save-preset name the same file {}", io::quoted(options.stats));
   for (const std::string& preset : options.presets) {
-    if (replaces(options.stats, preset)) fail_usage("--stats {} would overwrite a preset", io::quoted(options.stats));
+    if (replaces(options.stats, preset))
+      studio::fail_usage("--stats {} would overwrite a preset", io::quoted(options.stats));
   }
 }
 

@@ -8,7 +8,7 @@
 
 #include "app/commands.h"
 #include "app/picture.h"
-#include "io/image_write.h"
+#include "image/write.h"
 
 namespace penumbra::app {
 
@@ -34,19 +34,20 @@ std::vector<float> read_layer(const render::Renderer& renderer, const RenderOpti
 
 std::string text_of(const glm::vec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
 
-io::Metadata metadata_of(const RenderOptions& options, const render::Setup& setup, const ParamSet& params, int frame) {
+image::Metadata metadata_of(const RenderOptions& options, const render::Setup& setup, const ParamSet& params,
+                            int frame) {
   const render::Camera& camera = setup.camera;
   const glm::vec3 forward = -glm::vec3(camera.view[0][2], camera.view[1][2], camera.view[2][2]);
-  io::Metadata metadata{{"Software", version()},
-                        {"penumbra:scene", options.scene},
-                        {"penumbra:technique", params.get_word("technique")},
-                        {"penumbra:frame", std::to_string(frame)},
-                        {"penumbra:time", fmt::format("{}", time_of(options, frame))},
-                        {"penumbra:supersample", std::to_string(options.supersample)},
-                        {"penumbra:camera.eye", text_of(render::position_of(camera))},
-                        {"penumbra:camera.forward", text_of(forward)},
-                        {"penumbra:sun.to_light", text_of(setup.sun.to_light)},
-                        {"penumbra:sun.illuminance", text_of(setup.sun.illuminance)}};
+  image::Metadata metadata{{"Software", studio::version()},
+                           {"penumbra:scene", options.scene},
+                           {"penumbra:technique", params.get_word("technique")},
+                           {"penumbra:frame", std::to_string(frame)},
+                           {"penumbra:time", fmt::format("{}", studio::time_of(options, frame))},
+                           {"penumbra:supersample", std::to_string(options.supersample)},
+                           {"penumbra:camera.eye", text_of(render::position_of(camera))},
+                           {"penumbra:camera.forward", text_of(forward)},
+                           {"penumbra:sun.to_light", text_of(setup.sun.to_light)},
+                           {"penumbra:sun.illuminance", text_of(setup.sun.illuminance)}};
   if (camera.orthographic) {
     metadata.emplace_back("penumbra:camera.half_height", fmt::format("{}", camera.half_height));
   } else {
@@ -59,33 +60,33 @@ io::Metadata metadata_of(const RenderOptions& options, const render::Setup& setu
 
 void write_pngs(const render::Renderer& renderer, const RenderOptions& options, const OutputNames& names, int frame) {
   const auto [width, height] = options.size;
-  const io::Metadata metadata{{"Software", version()}};
+  const image::Metadata metadata{{"Software", studio::version()}};
   const Bytes display = display_bytes(renderer.read_display(), width, height, options.supersample);
-  io::write_png(names.picture(frame), width, height, display.channels, display.pixels, metadata);
+  image::write_png(names.picture(frame), width, height, display.channels, display.pixels, metadata);
   for (const std::string& name : options.aovs) {
     if (name == color_name) continue;
     const render::Aov& aov = find_aov(name);
     const Bytes bytes = aov_bytes(name, static_cast<int>(aov.channels.size()), read_layer(renderer, options, aov));
-    io::write_png(names.aov(frame, name), width, height, bytes.channels, bytes.pixels, metadata);
+    image::write_png(names.aov(frame, name), width, height, bytes.channels, bytes.pixels, metadata);
   }
 }
 
-void write_layers(const render::Renderer& renderer, const RenderOptions& options, const io::Metadata& metadata,
+void write_layers(const render::Renderer& renderer, const RenderOptions& options, const image::Metadata& metadata,
                   const OutputNames& names, int frame) {
   std::vector<std::string> wanted{std::string(color_name)};
   std::remove_copy(options.aovs.begin(), options.aovs.end(), std::back_inserter(wanted), color_name);
-  std::vector<io::Layer> layers;
+  std::vector<image::Layer> layers;
   for (const std::string& name : wanted) {
     const render::Aov& aov = find_aov(name);
     layers.push_back({name == color_name ? "" : name, aov.channels, read_layer(renderer, options, aov)});
   }
-  io::write_exr(names.picture(frame), options.size.width, options.size.height, layers, metadata);
+  image::write_exr(names.picture(frame), options.size.width, options.size.height, layers, metadata);
 }
 
 }  // namespace
 
-void write_frame(const Studio& studio, const RenderOptions& options, const ParamSet& params, const OutputNames& names,
-                 int frame) {
+void write_frame(const studio::Studio& studio, const RenderOptions& options, const ParamSet& params,
+                 const OutputNames& names, int frame) {
   const render::Renderer& renderer = studio.renderer();
   if (names.is_exr()) {
     write_layers(renderer, options, metadata_of(options, studio.setup(), params, frame), names, frame);

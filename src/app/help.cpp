@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/usage.h"
 #include "core/names.h"
 #include "render/renderer.h"
+#include "studio/usage.h"
 
 namespace penumbra::app {
 
@@ -118,13 +118,14 @@ int run_help(const Arguments& arguments) {
   CLI::App app("Explain a parameter, technique, filter, AOV or sub-command", "penumbra help");
   std::string name;
   app.add_option("NAME", name, "What to explain")->required()->type_name("");
-  if (!parse(app, arguments)) return 0;
+  if (!studio::parse(app, arguments)) return 0;
   for (const auto explain : {explain_command, explain_technique, explain_filter, explain_param, explain_aov}) {
     if (explain(name)) return 0;
   }
   const std::vector<std::string> near = near_names(name, explained_names());
-  if (near.empty()) fail_usage("nothing is called '{}'; see penumbra list techniques, filters, params or aovs", name);
-  fail_usage("nothing is called '{}'; did you mean '{}'?", name, fmt::join(near, "' or '"));
+  if (near.empty())
+    studio::fail_usage("nothing is called '{}'; see penumbra list techniques, filters, params or aovs", name);
+  studio::fail_usage("nothing is called '{}'; did you mean '{}'?", name, fmt::join(near, "' or '"));
 }
 
 }  // namespace penumbra::app

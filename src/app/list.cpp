@@ -4,10 +4,10 @@
 #include <string>
 
 #include "app/commands.h"
-#include "app/usage.h"
 #include "core/names.h"
 #include "io/report.h"
 #include "render/renderer.h"
+#include "studio/usage.h"
 
 namespace penumbra::app {
 
@@ -88,7 +88,7 @@ const Listing& find_listing(const std::string& name) {
     if (name == listing.name) return listing;
     names.emplace_back(listing.name);
   }
-  fail_unknown_usage("list", name, names);
+  studio::fail_unknown_usage("list", name, names);
 }
 
 // "0.53 deg, 0 to 20", what a parameter's row shows between its name and its sentence.
@@ -128,7 +128,7 @@ int run_list(const Arguments& arguments) {
   app.add_option("WHAT", what, "techniques, filters, params, aovs or backends; without it, these choices")
       ->type_name("");
   app.add_flag("--json", json, "For machines")->disable_flag_override();
-  if (!parse(app, arguments)) return 0;
+  if (!studio::parse(app, arguments)) return 0;
   const Json rows = app.count("WHAT") == 0 ? listing_rows() : find_listing(what).rows();
   if (json) {
     fmt::print("{}", io::text_of(rows));

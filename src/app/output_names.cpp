@@ -5,7 +5,7 @@
 #include <regex>
 #include <vector>
 
-#include "app/usage.h"
+#include "studio/usage.h"
 
 namespace penumbra::app {
 
@@ -41,7 +41,7 @@ OutputNames::OutputNames(const std::string& output, bool sequence) {
   const std::filesystem::path path(output);
   extension_ = lower(path.extension().string());
   if (extension_ != ".png" && extension_ != ".exr")
-    fail_usage("'{}' is not a kind of picture that can be written: use .png or .exr", output);
+    studio::fail_usage("'{}' is not a kind of picture that can be written: use .png or .exr", output);
   const std::string stem = path.stem().string();
   const std::string folder = (path.parent_path() / "").string();
   after_ = path.extension().string();
@@ -49,7 +49,7 @@ OutputNames::OutputNames(const std::string& output, bool sequence) {
 
   const std::vector<Place> places = places_in(stem);
   if (!sequence) {
-    if (!places.empty()) fail_usage("-o '{}' has a place for a frame's number: it goes with --frames", output);
+    if (!places.empty()) studio::fail_usage("-o '{}' has a place for a frame's number: it goes with --frames", output);
     return;
   }
   if (places.empty() && stem.find('%') == std::string::npos) {
@@ -58,7 +58,7 @@ OutputNames::OutputNames(const std::string& output, bool sequence) {
     return;
   }
   if (places.size() != 1 || std::ranges::count(stem, '%') > (stem[places[0].begin] == '%' ? 1 : 0))
-    fail_usage("-o '{}' is no file pattern: the frame's number goes to one place, #### or %04d", output);
+    studio::fail_usage("-o '{}' is no file pattern: the frame's number goes to one place, #### or %04d", output);
   digits_ = places[0].digits;
   before_ = folder + stem.substr(0, places[0].begin);
   after_ = stem.substr(places[0].end) + after_;

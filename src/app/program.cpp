@@ -1,12 +1,8 @@
 #include <array>
-#include <cstdio>
-#include <exception>
-#include <new>
 #include <string>
 
 #include "app/commands.h"
-#include "app/text.h"
-#include "app/usage.h"
+#include "studio/usage.h"
 
 namespace penumbra::app {
 
@@ -39,15 +35,15 @@ const Command& find_command(const std::string& name) {
     if (name == command.name) return command;
     names.emplace_back(command.name);
   }
-  if (name.starts_with('-')) fail_usage("'{}' comes before a command; see penumbra --help", name);
-  fail_unknown_usage("command", name, names);
+  if (name.starts_with('-')) studio::fail_usage("'{}' comes before a command; see penumbra --help", name);
+  studio::fail_unknown_usage("command", name, names);
 }
 
 int dispatch(const Arguments& arguments) {
-  if (arguments.empty()) fail_usage("no command given; see penumbra --help");
+  if (arguments.empty()) studio::fail_usage("no command given; see penumbra --help");
   const std::string& first = arguments.front();
   if (first == "--version") {
-    fmt::print("{}\n", version());
+    fmt::print("{}\n", studio::version());
     return 0;
   }
   if (first == "--help" || first == "-h" || (first == "help" && arguments.size() == 1)) {
@@ -57,33 +53,12 @@ int dispatch(const Arguments& arguments) {
   return find_command(first).run(Arguments(arguments.begin() + 1, arguments.end()));
 }
 
-// One line whatever a file's names hold, so that scripts can read it.
-int report(const std::string& message, int code) {
-  // Not by fmt::print, which throws where stderr is closed.
-  std::fputs(fmt::format("error: {}\n", printable(message)).c_str(), stderr);
-  return code;
-}
-
 }  // namespace
 
 std::span<const Command> commands() { return table; }
 
-std::string version() { return "Penumbra " PENUMBRA_VERSION; }
-
 int run_program(const Arguments& arguments) {
-  try {
-    const int code = dispatch(arguments);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail("cannot write to standard output");
-    return code;
-  } catch (const UsageError& error) {
-    return report(error.what(), 2);
-  } catch (const Error& error) {
-    return report(error.what(), 1);
-  } catch (const std::bad_alloc&) {
-    return report("out of memory", 1);
-  } catch (const std::exception& error) {
-    return report(std::string("internal error: ") + error.what(), 1);
-  }
+  return studio::run_guarded([&] { return dispatch(arguments); });
 }
 
 }  // namespace penumbra::app

@@ -7,14 +7,15 @@
 #include "app/file_check.h"
 #include "app/frame_files.h"
 #include "app/output_names.h"
-#include "app/progress.h"
 #include "app/render_options.h"
-#include "app/signals.h"
-#include "app/stage.h"
 #include "app/stats.h"
-#include "app/studio.h"
+#include "image/read.h"
 #include "io/output_file.h"
 #include "io/presets.h"
+#include "studio/progress.h"
+#include "studio/signals.h"
+#include "studio/stage.h"
+#include "studio/studio.h"
 
 namespace penumbra::app {
 
@@ -24,15 +25,16 @@ using Clock = std::chrono::steady_clock;
 
 // Draws a single picture again to measure it; of a sequence it counts what was drawn. The very first draw compiles
 // shaders and never counts.
-std::size_t measure(const RenderOptions& options, Studio& studio, const ParamSet& params, const FrameRange& range) {
+std::size_t measure(const RenderOptions& options, studio::Studio& studio, const ParamSet& params,
+                    const studio::FrameRange& range) {
   if (range.count() > 1) return static_cast<std::size_t>(range.count() - (options.warmup == 0 ? 1 : 0));
   for (int i = 0; i < options.stats_frames; ++i) studio.redraw(params);
   return static_cast<std::size_t>(options.stats_frames);
 }
 
-void draw_all(const RenderOptions& options, Studio& studio, const ParamSet& params, const OutputNames& names,
-              const FrameRange& range) {
-  Progress progress("frame", options.warmup + range.count(), !options.quiet);
+void draw_all(const RenderOptions& options, studio::Studio& studio, const ParamSet& params, const OutputNames& names,
+              const studio::FrameRange& range) {
+  studio::Progress progress("frame", options.warmup + range.count(), !options.quiet);
   for (int frame = range.first - options.warmup; frame <= range.last; ++frame) {
     studio.draw(frame, params);
     if (frame >= range.first) write_frame(studio, options, params, names, frame);
@@ -41,7 +43,7 @@ void draw_all(const RenderOptions& options, Studio& studio, const ParamSet& para
 }
 
 std::string summary(const RenderOptions& options, const ParamSet& params, const OutputNames& names,
-                    const FrameRange& range, double seconds) {
+                    const studio::FrameRange& range, double seconds) {
   std::string files = names.picture(range.first).string();
   if (range.count() > 1) files += " to " + names.picture(range.last).string();
   if (const std::size_t count = options.aovs.size(); count > 0)
@@ -53,18 +55,20 @@ std::string summary(const RenderOptions& options, const ParamSet& params, const 
 void render_files(const RenderOptions& options) {
   const Clock::time_point start = Clock::now();
   const OutputNames names(options.output, options.frames.has_value());
-  const ParamSet params = resolve_params(options, shadow::built_in_registry());
-  const FrameRange range = options.frames.value_or(FrameRange{});
-  clean_up_on_signals();
-  limit_threads(options);
+  const ParamSet params = studio::resolve_params(options, shadow::built_in_registry());
+  const studio::FrameRange range = options.frames.value_or(studio::FrameRange{});
+  studio::clean_up_on_signals();
+  studio::limit_threads(options);
   check_files(options, names);
 
   // Drivers take as long to start as scenes to load, and there are two cores nearly everywhere.
-  std::future<Stage> loading = std::async(std::launch::async, [&options] { return load_stage(options); });
-  std::unique_ptr<gl::Context> context = open_context(options);
-  const Stage stage = loading.get();
+  std::future<studio::Stage> loading =
+      std::async(std::launch::async, [&options] { return studio::load_stage(options, image::image_decoder()); });
+  std::unique_ptr<gl::Context> context = studio::open_context(options, options);
+  const studio::Stage stage = loading.get();
   check_scene_files(stage.scene.files, options, names);
-  Studio studio(options, std::move(context), stage);
+  studio::Studio studio(options, gl::ShaderFiles(options.glsl), std::move(context), stage,
+                        /* timed= */ !options.stats.empty());
 
   draw_all(options, studio, params, names, range);
   if (!options.stats.empty()) {
@@ -82,7 +86,7 @@ int run_render(const Arguments& arguments) {
   CLI::App app("Draw a glTF scene into a PNG or EXR file", "penumbra render");
   RenderOptions options;
   add_render_options(app, options);
-  if (!parse(app, arguments)) return 0;
+  if (!studio::parse(app, arguments)) return 0;
   check_together(options);
   render_files(options);
   return 0;

@@ -24,7 +24,7 @@ long peak_resident() {
 
 }  // namespace
 
-Json stats_of(const RenderOptions& options, const Stage& stage, const ParamSet& params, Studio& studio,
+Json stats_of(const RenderOptions& options, const studio::Stage& stage, const ParamSet& params, studio::Studio& studio,
               std::size_t measured) {
   const render::Setup& setup = studio.setup();
   const std::vector<gl::Timers::Row> rows = studio.device().timers.rows();
@@ -36,7 +36,7 @@ Json stats_of(const RenderOptions& options, const Stage& stage, const ParamSet& 
       passes.push_back(io::to_json(cost));
     }
   }
-  return {{"version", version()},
+  return {{"version", studio::version()},
           {"scene", options.scene},
           {"scene_facts", io::to_json(scene::describe(stage.scene))},
           {"width", options.size.width},

@@ -68,7 +68,8 @@ class Builder {
     const Node& node = scene_.nodes[static_cast<std::size_t>(node_index)];
     const Material& material = Materials::of(scene_, primitive.material);
     Placed& placed = place(primitive);
-    Instance instance{.node = node_index,
+    Instance instance{.primitive = &primitive,
+                      .node = node_index,
                       .topology = primitive.topology,
                       .alpha_mode = material.alpha_mode,
                       .casts = casts_of(primitive, material),
@@ -208,7 +209,7 @@ void GpuScene::State::update_instances() {
   moved = false;
   casters = receivers = moved_casters = {};
   for (Instance& instance : instances) {
-    const glm::mat4 world = placement(instance, now->pose);
+    const glm::mat4& world = instance.world = placement(instance, now->pose);
     const glm::mat4 last_world = placement(instance, last->pose);
     const bool skinned = instance.job >= 0 && deformer.skinned(instance.job);
     instance.mirrored = skinned ? deformer.mirrored(instance.job, now->pose) : is_mirror(world);
@@ -247,15 +248,5 @@ Bounds GpuScene::casters() const { return state_->casters; }
 Bounds GpuScene::receivers() const { return state_->receivers; }
 Bounds GpuScene::moved_bounds() const { return state_->moved_casters; }
 bool GpuScene::lit_by_file() const { return state_->lit_by_file; }
-
-std::vector<glm::vec3> GpuScene::read_deformed() const {
-  const gl::Buffer& buffer = state_->now->positions;
-  std::vector<glm::vec3> positions(buffer.size() / sizeof(glm::vec3));
-  if (!positions.empty()) {
-    gl::glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    gl::glGetNamedBufferSubData(buffer.id(), 0, static_cast<GLsizeiptr>(buffer.size()), positions.data());
-  }
-  return positions;
-}
 
 }  // namespace penumbra::scene

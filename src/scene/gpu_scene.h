@@ -9,6 +9,7 @@
 
 #include "gl/pass.h"
 #include "scene/pose.h"
+#include "scene/posed_geometry.h"
 #include "scene/scene.h"
 
 namespace penumbra::scene {
@@ -56,6 +57,9 @@ class GpuScene {
   Bounds receivers() const;
   Bounds moved_bounds() const;  // of the casters that moved between the two poses, in both; empty: none did
   bool lit_by_file() const;     // it brings a directional light, so its emission is in the same units
+
+  // The present pose's triangles as shaders get them. Refers to the scene; waits for the GPU.
+  PosedGeometry posed_geometry() const;
 
   // Every program that draw_casters() and pose() use.
   static std::vector<gl::ProgramDesc> programs();

@@ -10,14 +10,13 @@
 #include "scene/gpu_scene_deform.h"
 #include "scene/gpu_scene_materials.h"
 #include "scene/gpu_scene_vertices.h"
+#include "scene/posed_geometry.h"
 
 namespace penumbra::scene {
 
-// How a surface casts shadows.
-enum class Casts { never, always, by_alpha };
-
 // A primitive at a place. Instances of one primitive follow one another, so that a run of them is one draw.
 struct Instance {
+  const Primitive* primitive = nullptr;
   int node = -1;
   int copy = -1;  // of EXT_mesh_gpu_instancing
   int job = -1;   // of the deformer; -1: none
@@ -30,6 +29,7 @@ struct Instance {
   Bounds local;  // of what does not deform
 
   // In the present pose.
+  glm::mat4 world{1};
   bool mirrored = false, moved = false;
   Bounds box, last_box;
 };

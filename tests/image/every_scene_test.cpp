@@ -15,7 +15,7 @@
 #include "core/error.h"
 #include "gl/context.h"
 #include "gl/debug.h"
-#include "io/image_read.h"
+#include "image/read.h"
 #include "render/renderer.h"
 #include "scene/gltf.h"
 #include "support/alike.h"
@@ -121,7 +121,7 @@ class EveryScene : public testing::Test {
 
   static void check(const fs::path& path) {
     const std::string name = path.filename().string();
-    scene::Scene scene = scene::read_gltf(path, io::image_decoder());
+    scene::Scene scene = scene::read_gltf(path, image::image_decoder());
     const scene::Pose pose = scene::pose_at(scene, 0.4);
     const render::Setup setup = render::choose_setup(scene, pose);
     if (setup.ground) render::add_ground(scene, scene::bounds_of(scene, pose));

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "gpu/gpu_test.h"
-#include "io/image_read.h"
+#include "image/read.h"
 #include "render/renderer.h"
 #include "scene/gltf.h"
 
@@ -125,7 +125,7 @@ render::Setup setup_at(const scene::Scene& scene, float z) {
 }
 
 TEST_F(Posts, PenumbraWidthIsTheSameForEveryCascadeCountMapSizeAndBounds) {
-  scene::Scene near = scene::read_gltf(PENUMBRA_ROOT "/scenes/posts.glb", io::image_decoder());
+  scene::Scene near = scene::read_gltf(PENUMBRA_ROOT "/scenes/posts.glb", image::image_decoder());
   scene::Scene far = near;
   add_far_object(far);
   scene::GpuScene near_gpu(device_, near);

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "io/image_read.h"
+#include "image/read.h"
 #include "render/setup.h"
 #include "scene/gltf.h"
 #include "scene/pose.h"
@@ -12,7 +12,7 @@ namespace penumbra::test {
 
 SceneRun::SceneRun(const std::string& scene, int width, int height, const std::string& camera)
     : width_(width), height_(height) {
-  scene_ = scene::read_gltf(std::filesystem::path(PENUMBRA_ROOT) / "scenes" / (scene + ".glb"), io::image_decoder());
+  scene_ = scene::read_gltf(std::filesystem::path(PENUMBRA_ROOT) / "scenes" / (scene + ".glb"), image::image_decoder());
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
   setup_ = render::choose_setup(scene_, scene::pose_at(scene_, 0), {camera, render::GroundChoice::automatic, aspect});
   gpu_scene_.emplace(device_, scene_);

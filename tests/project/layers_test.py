@@ -11,10 +11,14 @@ BELOW = {
     "gl": {"core"},
     "scene": {"gl", "core"},
     "shadow": {"gl", "core"},
+    "metrics": {"core"},
     "truth": {"scene", "gl", "core"},
     "io": {"scene", "gl", "core"},
-    "render": {"shadow", "truth", "io", "scene", "gl", "core"},
-    "app": {"render", "shadow", "truth", "io", "scene", "gl", "core"},
+    "image": {"io", "scene", "gl", "core"},
+    "report": {"io", "scene", "gl", "core"},
+    "render": {"shadow", "truth", "scene", "gl", "core"},
+    "studio": {"render", "shadow", "truth", "io", "scene", "gl", "core"},
+    "app": {"studio", "report", "image", "metrics", "render", "shadow", "truth", "io", "scene", "gl", "core"},
 }
 INSTALLED = {"core", "gl", "shadow"}
 GENERATED = "gl/api.h"
@@ -29,15 +33,16 @@ LIBRARIES = {
     "tiny_gltf.h": {"scene"},
     "draco/": {"scene"},
     "meshoptimizer.h": {"scene"},
-    "OpenImageIO/": {"io"},
+    "embree3/": {"truth"},
+    "OpenImageIO/": {"image"},
     "toml++/": {"io"},
-    "nlohmann/": {"scene", "io", "app"},
-    "CLI/": {"app"},
+    "nlohmann/": {"scene", "io", "report", "studio", "app"},
+    "CLI/": {"studio", "app"},
 }
 
 # The operating system's headers, which the portable layers core and shadow leave alone.
 SYSTEM = re.compile(r"(sys/\w+|dlfcn|fcntl|poll|signal|termios|unistd)\.h")
-USES_SYSTEM = {"gl", "scene", "io", "app"}
+USES_SYSTEM = {"gl", "scene", "io", "studio", "app"}
 
 # Folders of glsl that the files of one may include.
 GLSL_BELOW = {

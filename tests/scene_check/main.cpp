@@ -15,7 +15,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
-#include "io/image_read.h"
+#include "image/read.h"
 #include "scene/gltf.h"
 #include "scene_check/checks.h"
 #include "support/scene_faults.h"
@@ -56,7 +56,7 @@ void start_hang_guard(const std::string& file) {
 Reading read_and_check(const std::filesystem::path& file) {
   scene::Scene scene;
   try {
-    scene = scene::read_gltf(file, io::image_decoder());
+    scene = scene::read_gltf(file, image::image_decoder());
   } catch (const Error& e) {
     return {Outcome::refused, e.what()};
   }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/image_read.h"
+#include "image/read.h"
 #include "scene/gltf.h"
 #include "scene/scene_info.h"
 #include "support/gltf_files.h"
@@ -27,7 +27,7 @@ class PublicScenes : public testing::Test {
     if (!std::filesystem::is_directory(folder_)) GTEST_SKIP() << "skipped: PENUMBRA_ASSETS names no folder with scenes";
   }
 
-  Scene load(const std::string& name) const { return scene::read_gltf(folder_ / name, io::image_decoder()); }
+  Scene load(const std::string& name) const { return scene::read_gltf(folder_ / name, image::image_decoder()); }
 
   std::filesystem::path folder_;
 };
@@ -48,7 +48,7 @@ TEST_F(PublicScenes, AllLoad) {
   for (const auto& file : scenes_below(folder_)) {
     ++count;
     const std::string fault = error_of([&] {
-      const Scene scene = scene::read_gltf(file, io::image_decoder());
+      const Scene scene = scene::read_gltf(file, image::image_decoder());
       check_scene(scene);
       if (scene::describe(scene).bounds.empty) fail("nothing to draw");
     });

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/image_read.h"
+#include "image/read.h"
 #include "scene/gltf/resources.h"
 #include "support/gltf_files.h"
 
@@ -27,7 +27,7 @@ const std::string grey_with_profile =
 using Rgba = std::vector<uint8_t>;
 
 scene::Image decode(std::vector<std::byte> bytes, std::size_t max_pixels = 100) {
-  return io::read_image(bytes, "test.png", max_pixels);
+  return image::read_image(bytes, "test.png", max_pixels);
 }
 
 scene::Image decode(const std::string& base64_text, std::size_t max_pixels = 100) {

@@ -1,4 +1,4 @@
-#include "io/image_write.h"
+#include "image/write.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ std::string bytes_of(const fs::path& path) {
 TEST_F(ImageWrite, PngHoldsTheBytesAsTheyAre) {
   std::vector<std::uint8_t> pixels(3 * 2 * 3);
   std::iota(pixels.begin(), pixels.end(), std::uint8_t{100});
-  penumbra::io::write_png(folder_ / "x.png", 3, 2, 3, pixels);
+  penumbra::image::write_png(folder_ / "x.png", 3, 2, 3, pixels);
   const auto input = OIIO::ImageInput::open((folder_ / "x.png").string());
   ASSERT_TRUE(input);
   std::vector<std::uint8_t> read(pixels.size());
@@ -56,8 +56,8 @@ TEST_F(ImageWrite, PngHoldsTheBytesAsTheyAre) {
 TEST_F(ImageWrite, ExrHoldsFloatsAsTheyAreInNamedLayers) {
   const std::vector<float> color{0.1f, 2.0f, 1e6f, -1.0f, 0.0f, 65536.0f};
   const std::vector<float> shadow{0.25f, 1.0f / 3.0f};
-  const std::vector<penumbra::io::Layer> layers{{"", {"R", "G", "B"}, color}, {"shadow", {"V"}, shadow}};
-  penumbra::io::write_exr(folder_ / "x.exr", 2, 1, layers, {{"penumbra:technique", "pcss"}});
+  const std::vector<penumbra::image::Layer> layers{{"", {"R", "G", "B"}, color}, {"shadow", {"V"}, shadow}};
+  penumbra::image::write_exr(folder_ / "x.exr", 2, 1, layers, {{"penumbra:technique", "pcss"}});
   const auto input = OIIO::ImageInput::open((folder_ / "x.exr").string());
   ASSERT_TRUE(input);
   const OIIO::ImageSpec& spec = input->spec();
@@ -70,18 +70,18 @@ TEST_F(ImageWrite, ExrHoldsFloatsAsTheyAreInNamedLayers) {
 }
 
 TEST_F(ImageWrite, FilesHoldNoTime) {
-  const std::vector<penumbra::io::Layer> layers{{"", {"R", "G", "B"}, {1, 2, 3}}};
-  penumbra::io::write_exr(folder_ / "a.exr", 1, 1, layers);
-  penumbra::io::write_png(folder_ / "a.png", 1, 1, 1, std::vector<std::uint8_t>{7});
+  const std::vector<penumbra::image::Layer> layers{{"", {"R", "G", "B"}, {1, 2, 3}}};
+  penumbra::image::write_exr(folder_ / "a.exr", 1, 1, layers);
+  penumbra::image::write_png(folder_ / "a.png", 1, 1, 1, std::vector<std::uint8_t>{7});
   sleep(1);  // a time stamp counts whole seconds
-  penumbra::io::write_exr(folder_ / "b.exr", 1, 1, layers);
-  penumbra::io::write_png(folder_ / "b.png", 1, 1, 1, std::vector<std::uint8_t>{7});
+  penumbra::image::write_exr(folder_ / "b.exr", 1, 1, layers);
+  penumbra::image::write_png(folder_ / "b.png", 1, 1, 1, std::vector<std::uint8_t>{7});
   EXPECT_EQ(bytes_of(folder_ / "a.exr"), bytes_of(folder_ / "b.exr"));
   EXPECT_EQ(bytes_of(folder_ / "a.png"), bytes_of(folder_ / "b.png"));
 }
 
 TEST_F(ImageWrite, MakesMissingFolders) {
-  penumbra::io::write_png(folder_ / "a/b/x.png", 1, 1, 1, std::vector<std::uint8_t>{7});
+  penumbra::image::write_png(folder_ / "a/b/x.png", 1, 1, 1, std::vector<std::uint8_t>{7});
   EXPECT_TRUE(fs::exists(folder_ / "a/b/x.png"));
 }
 

@@ -5,55 +5,55 @@
 
 #include "app/output_names.h"
 #include "app/picture.h"
-#include "app/usage.h"
+#include "studio/usage.h"
 
 namespace {
 
 using penumbra::app::OutputNames;
-using penumbra::app::UsageError;
+using penumbra::studio::UsageError;
 
 TEST(Usage, NumbersAreReadWhole) {
-  EXPECT_EQ(penumbra::app::parse_number("--time", "1.5", 0, 10), 1.5);
-  EXPECT_EQ(penumbra::app::parse_number("--time", "+2e0", 0, 10), 2.0);
+  EXPECT_EQ(penumbra::studio::parse_number("--time", "1.5", 0, 10), 1.5);
+  EXPECT_EQ(penumbra::studio::parse_number("--time", "+2e0", 0, 10), 2.0);
   for (const char* text :
        {"", " 1", "1 ", "1x", "nan", "inf", "-inf", "1e999", "0x10", "1,5", "--1", "+-1", "11", "-1"})
-    EXPECT_THROW(penumbra::app::parse_number("--time", text, 0, 10), UsageError) << text;
+    EXPECT_THROW(penumbra::studio::parse_number("--time", text, 0, 10), UsageError) << text;
 }
 
 TEST(Usage, CountsAreWholeAndInRange) {
-  EXPECT_EQ(penumbra::app::parse_count("--threads", "4", 1, 16), 4);
+  EXPECT_EQ(penumbra::studio::parse_count("--threads", "4", 1, 16), 4);
   for (const char* text : {"", "4.0", "0", "17", "99999999999999999999", "four"})
-    EXPECT_THROW(penumbra::app::parse_count("--threads", text, 1, 16), UsageError) << text;
+    EXPECT_THROW(penumbra::studio::parse_count("--threads", text, 1, 16), UsageError) << text;
 }
 
 TEST(Usage, SizesHaveTwoSides) {
-  const auto size = penumbra::app::parse_size("--size", "640x360");
+  const auto size = penumbra::studio::parse_size("--size", "640x360");
   EXPECT_EQ(size.width, 640);
   EXPECT_EQ(size.height, 360);
   for (const char* text : {"640", "640x", "x360", "640x360x1", "-640x360", "0x1", "16385x1", "640X360", "1e3x10"})
-    EXPECT_THROW(penumbra::app::parse_size("--size", text), UsageError) << text;
+    EXPECT_THROW(penumbra::studio::parse_size("--size", text), UsageError) << text;
 }
 
 TEST(Usage, PointsHaveThreeCoordinates) {
-  EXPECT_EQ(penumbra::app::parse_point("--eye", "-1,2.5,1e3"), glm::vec3(-1, 2.5, 1000));
+  EXPECT_EQ(penumbra::studio::parse_point("--eye", "-1,2.5,1e3"), glm::vec3(-1, 2.5, 1000));
   for (const char* text : {"1,2", "1,2,3,4", "1,,3", "nan,0,0", "1e10,0,0", "1;2;3"})
-    EXPECT_THROW(penumbra::app::parse_point("--eye", text), UsageError) << text;
+    EXPECT_THROW(penumbra::studio::parse_point("--eye", text), UsageError) << text;
 }
 
 TEST(Usage, FramesRunForwards) {
-  const auto range = penumbra::app::parse_frames("--frames", "3:7");
+  const auto range = penumbra::studio::parse_frames("--frames", "3:7");
   EXPECT_EQ(range.first, 3);
   EXPECT_EQ(range.count(), 5);
   for (const char* text : {"7:3", "3", "3:", "-1:2", "1:2:3", "1:1000000"})
-    EXPECT_THROW(penumbra::app::parse_frames("--frames", text), UsageError) << text;
+    EXPECT_THROW(penumbra::studio::parse_frames("--frames", text), UsageError) << text;
 }
 
 TEST(Usage, DirectionsAreInDegrees) {
-  const auto direction = penumbra::app::parse_direction("--sun", "90,-45");
+  const auto direction = penumbra::studio::parse_direction("--sun", "90,-45");
   EXPECT_FLOAT_EQ(direction.azimuth, 1.5707964f);
   EXPECT_FLOAT_EQ(direction.elevation, -0.78539819f);
   for (const char* text : {"10", "10,91", "361,10", "a,b"})
-    EXPECT_THROW(penumbra::app::parse_direction("--sun", text), UsageError) << text;
+    EXPECT_THROW(penumbra::studio::parse_direction("--sun", text), UsageError) << text;
 }
 
 TEST(OutputNames, OnePictureKeepsItsName) {

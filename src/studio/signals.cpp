@@ -1,4 +1,4 @@
-#include "app/signals.h"
+#include "studio/signals.h"
 
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 
 #include "io/output_file.h"
 
-namespace penumbra::app {
+namespace penumbra::studio {
 
 namespace {
 
@@ -24,4 +24,4 @@ void clean_up_on_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-}  // namespace penumbra::app
+}  // namespace penumbra::studio

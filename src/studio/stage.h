@@ -1,10 +1,11 @@
 #pragma once
 
-#include "app/render_options.h"
 #include "render/setup.h"
+#include "scene/gltf.h"
 #include "scene/scene.h"
+#include "studio/options.h"
 
-namespace penumbra::app {
+namespace penumbra::studio {
 
 // What stands before the camera: the scene with its ground, and all that the options and the scene settle.
 struct Stage {
@@ -14,12 +15,12 @@ struct Stage {
 
 // Reads the scene and sets it up. What is chosen from its bounds is chosen at --time, so that it is the same in all
 // frames of a sequence, wherever one starts. Throws Error.
-Stage load_stage(const RenderOptions& options);
+Stage load_stage(const StageOptions& options, const scene::ImageDecoder& decode);
 
 // The setup at a moment: a camera and a sun of the file follow its animation.
 render::Setup setup_at(const Stage& stage, double seconds);
 
 // When a frame is, seconds: frames count from 0 at --time; a single picture is frame 0.
-double time_of(const RenderOptions& options, int frame);
+double time_of(const StageOptions& options, int frame);
 
-}  // namespace penumbra::app
+}  // namespace penumbra::studio

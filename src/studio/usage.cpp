@@ -1,4 +1,4 @@
-#include "app/usage.h"
+#include "studio/usage.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "core/names.h"
 
-namespace penumbra::app {
+namespace penumbra::studio {
 
 namespace {
 
@@ -111,4 +111,4 @@ Direction parse_direction(std::string_view option, std::string_view text) {
   return {static_cast<float>(azimuth * radians), static_cast<float>(elevation * radians)};
 }
 
-}  // namespace penumbra::app
+}  // namespace penumbra::studio

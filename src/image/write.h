@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace penumbra::io {
+namespace penumbra::image {
 
 // What a file says about itself: name and value, in this order.
 using Metadata = std::vector<std::pair<std::string, std::string>>;
@@ -28,4 +28,4 @@ void write_png(const std::filesystem::path& path, int width, int height, int cha
 void write_exr(const std::filesystem::path& path, int width, int height, std::span<const Layer> layers,
                const Metadata& metadata = {});
 
-}  // namespace penumbra::io
+}  // namespace penumbra::image

@@ -1,4 +1,4 @@
-#include "io/image_precheck.h"
+#include "image/precheck.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 
-namespace penumbra::io {
+namespace penumbra::image {
 namespace {
 
 constexpr std::size_t png_signature = 8, chunk_frame = 12;  // length and type before the data, checksum after
@@ -73,4 +73,4 @@ void check_jpeg_scans(std::span<const std::byte> encoded) {
   if (scans > most_scans) fail("JPEG of {} scans, over the limit of {}", scans, most_scans);
 }
 
-}  // namespace penumbra::io
+}  // namespace penumbra::image

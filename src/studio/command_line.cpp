@@ -1,16 +1,19 @@
+#include "studio/command_line.h"
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <map>
+#include <new>
 #include <string>
 
-#include "app/commands.h"
-#include "app/text.h"
-#include "app/usage.h"
 #include "core/log.h"
 #include "core/names.h"
+#include "studio/text.h"
+#include "studio/usage.h"
 
-namespace penumbra::app {
+namespace penumbra::studio {
 
 namespace {
 
@@ -62,7 +65,32 @@ std::string one_line(const CLI::ParseError& error) {
   return text;
 }
 
+// One line whatever a file's names hold, so that scripts can read it.
+int report(const std::string& message, int code) {
+  // Not by fmt::print, which throws where stderr is closed.
+  std::fputs(fmt::format("error: {}\n", printable(message)).c_str(), stderr);
+  return code;
+}
+
 }  // namespace
+
+std::string version() { return "Penumbra " PENUMBRA_VERSION; }
+
+int run_guarded(const std::function<int()>& program) {
+  try {
+    const int code = program();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail("cannot write to standard output");
+    return code;
+  } catch (const UsageError& error) {
+    return report(error.what(), 2);
+  } catch (const Error& error) {
+    return report(error.what(), 1);
+  } catch (const std::bad_alloc&) {
+    return report("out of memory", 1);
+  } catch (const std::exception& error) {
+    return report(std::string("internal error: ") + error.what(), 1);
+  }
+}
 
 bool parse(CLI::App& options, const Arguments& arguments) {
   std::string level = "warning";
@@ -87,4 +115,4 @@ bool parse(CLI::App& options, const Arguments& arguments) {
   return true;
 }
 
-}  // namespace penumbra::app
+}  // namespace penumbra::studio

@@ -1,4 +1,4 @@
-#include "io/image_write.h"
+#include "image/write.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "io/output_file.h"
 
-namespace penumbra::io {
+namespace penumbra::image {
 
 namespace {
 
@@ -22,13 +22,13 @@ OIIO::ImageSpec image_spec(int width, int height, int channels, const OIIO::Type
 // By way of memory: OpenImageIO doesn't notice when a disk is full.
 void write(const std::filesystem::path& path, const char* format, const OIIO::ImageSpec& spec, const void* pixels) {
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-  if (!output) fail("cannot write {}: this OpenImageIO has no {} support", quoted(path), format);
+  if (!output) fail("cannot write {}: this OpenImageIO has no {} support", io::quoted(path), format);
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   const bool encoded = output->set_ioproxy(&memory) && output->open(path.string(), spec) &&
                        output->write_image(spec.format, pixels) && output->close();
-  if (!encoded) fail("cannot write {}: {}", quoted(path), output->geterror());
-  write_text(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (!encoded) fail("cannot write {}: {}", io::quoted(path), output->geterror());
+  io::write_text(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace
@@ -67,4 +67,4 @@ void write_exr(const std::filesystem::path& path, int width, int height, std::sp
   write(path, "openexr", spec, pixels.data());
 }
 
-}  // namespace penumbra::io
+}  // namespace penumbra::image

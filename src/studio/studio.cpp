@@ -1,55 +1,57 @@
-#include "app/studio.h"
+#include "studio/studio.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "gl/api.h"
 #include "scene/animation.h"
 
-namespace penumbra::app {
+namespace penumbra::studio {
 
 namespace {
 
-gl::Timers::Mode timing(const RenderOptions& options, const gl::DeviceInfo& device) {
-  if (options.stats.empty()) return gl::Timers::Mode::off;
+gl::Timers::Mode timing(bool timed, const gl::DeviceInfo& device) {
+  if (!timed) return gl::Timers::Mode::off;
   return device.software ? gl::Timers::Mode::finish : gl::Timers::Mode::query;
 }
 
-bool debug_wanted(const RenderOptions& options) {
+bool debug_wanted(const DeviceOptions& options) {
   const char* value = std::getenv("PENUMBRA_DEBUG");
   return options.debug || (value != nullptr && std::string_view(value) == "1");
 }
 
 }  // namespace
 
-void limit_threads(const RenderOptions& options) {
+void limit_threads(const DeviceOptions& options) {
   // Mesa reads it when the rasteriser starts.
   if (options.threads) setenv("LP_NUM_THREADS", std::to_string(*options.threads).c_str(), /* overwrite= */ 1);
 }
 
-std::unique_ptr<gl::Context> open_context(const RenderOptions& options) {
+std::unique_ptr<gl::Context> open_context(const DeviceOptions& options, const StageOptions& stage) {
   gl::ContextOptions wanted;
   wanted.debug = wanted.debug || debug_wanted(options);
   wanted.egl_device = options.egl_device;
-  wanted.width = options.size.width;
-  wanted.height = options.size.height;
+  wanted.width = stage.size.width;
+  wanted.height = stage.size.height;
   wanted.visible = false;
   std::unique_ptr<gl::Context> context = gl::make_context(options.egl_device ? "egl" : options.backend, wanted);
   GLint most = 0;
   gl::glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-  const int side = std::max(options.size.width, options.size.height) * options.supersample;
+  const int side = std::max(stage.size.width, stage.size.height) * stage.supersample;
   if (side > most) fail("a picture {} pixels long is over this driver's limit of {}", side, most);
   return context;
 }
 
-Studio::Studio(const RenderOptions& options, std::unique_ptr<gl::Context> context, const Stage& stage)
+Studio::Studio(const StageOptions& options, gl::ShaderFiles shaders, std::unique_ptr<gl::Context> context,
+               const Stage& stage, bool timed)
     : options_(options),
       stage_(stage),
       context_(std::move(context)),
       device_info_(gl::device_info()),
-      device_(gl::ShaderFiles(options.glsl), timing(options, device_info_)),
+      device_(std::move(shaders), timing(timed, device_info_)),
       scene_(device_, stage.scene),
       renderer_(device_) {}
 
@@ -81,4 +83,4 @@ void Studio::draw_at(double time, double last_time, const render::Camera& last_c
                  params);
 }
 
-}  // namespace penumbra::app
+}  // namespace penumbra::studio

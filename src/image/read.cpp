@@ -1,4 +1,4 @@
-#include "io/image_read.h"
+#include "image/read.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/image_precheck.h"
+#include "image/precheck.h"
 
-namespace penumbra::io {
+namespace penumbra::image {
 namespace {
 
 bool starts_with(std::span<const std::byte> bytes, std::string_view signature) {
@@ -78,4 +78,4 @@ scene::ImageDecoder image_decoder(const scene::ReadLimits& limits) {
   };
 }
 
-}  // namespace penumbra::io
+}  // namespace penumbra::image

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 
-namespace penumbra::app {
+namespace penumbra::studio {
 
 // The command line itself is wrong, whatever the files hold: exit code 2.
 struct UsageError : Error {
@@ -58,4 +58,4 @@ Direction parse_direction(std::string_view option, std::string_view text);  // "
 // The text, which is one of the choices, else fail_unknown_usage().
 std::string one_of(std::string_view kind, const std::string& text, std::span<const std::string> choices);
 
-}  // namespace penumbra::app
+}  // namespace penumbra::studio

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace penumbra::io {
+namespace penumbra::image {
 
 // A PNG without the chunks that don't carry pixels: text and profiles are of no use to a texture, can be bombs, and
 // make libpng write warnings to stderr. Throws Error when a chunk's length or checksum is wrong, which libpng would
@@ -15,4 +15,4 @@ std::vector<std::byte> pixel_chunks_of_png(std::span<const std::byte> encoded);
 // past a generous number.
 void check_jpeg_scans(std::span<const std::byte> encoded);
 
-}  // namespace penumbra::io
+}  // namespace penumbra::image

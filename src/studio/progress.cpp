@@ -1,4 +1,4 @@
-#include "app/progress.h"
+#include "studio/progress.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace penumbra::app {
+namespace penumbra::studio {
 
 Progress::Progress(std::string part, int count, bool wanted)
     : part_(std::move(part)), count_(count), shown_(wanted && count > 1 && isatty(STDERR_FILENO) != 0) {}
@@ -27,4 +27,4 @@ void Progress::reach(int done) {
   std::fputs(fmt::format("\r{}, {}:{:02} left\x1b[K", done_so_far, left / 60, left % 60).c_str(), stderr);
 }
 
-}  // namespace penumbra::app
+}  // namespace penumbra::studio

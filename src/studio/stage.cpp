@@ -1,17 +1,16 @@
-#include "app/stage.h"
+#include "studio/stage.h"
 
 #include <algorithm>
 #include <glm/trigonometric.hpp>
 
-#include "io/image_read.h"
 #include "scene/gltf.h"
 #include "scene/pose.h"
 
-namespace penumbra::app {
+namespace penumbra::studio {
 
 namespace {
 
-void aim(render::Setup& setup, const RenderOptions& options, const scene::Bounds& bounds) {
+void aim(render::Setup& setup, const StageOptions& options, const scene::Bounds& bounds) {
   render::Camera& camera = setup.camera;
   const float fov = options.fov ? glm::radians(static_cast<float>(*options.fov)) : camera.fov_y;
   if (options.eye) {
@@ -25,9 +24,9 @@ void aim(render::Setup& setup, const RenderOptions& options, const scene::Bounds
 
 }  // namespace
 
-Stage load_stage(const RenderOptions& options) {
+Stage load_stage(const StageOptions& options, const scene::ImageDecoder& decode) {
   Stage stage;
-  stage.scene = scene::read_gltf(options.scene, io::image_decoder());
+  stage.scene = scene::read_gltf(options.scene, decode);
   const scene::Pose pose = scene::pose_at(stage.scene, options.time);
   const scene::Bounds bounds = scene::bounds_of(stage.scene, pose);
   const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
@@ -48,8 +47,8 @@ render::Setup setup_at(const Stage& stage, double seconds) {
   return setup;
 }
 
-double time_of(const RenderOptions& options, int frame) {
+double time_of(const StageOptions& options, int frame) {
   return options.time + (options.frames ? std::max(frame, 0) / options.fps : 0.0);
 }
 
-}  // namespace penumbra::app
+}  // namespace penumbra::studio

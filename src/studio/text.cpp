@@ -1,10 +1,10 @@
-#include "app/text.h"
+#include "studio/text.h"
 
 #include <fmt/format.h>
 
 #include <array>
 
-namespace penumbra::app {
+namespace penumbra::studio {
 
 std::string printable(std::string text) {
   for (char& c : text) {
@@ -20,4 +20,4 @@ std::string bytes_text(double bytes) {
   return fmt::format("{:.{}f} {}", bytes, unit == 0 ? 0 : 1, units[unit]);
 }
 
-}  // namespace penumbra::app
+}  // namespace penumbra::studio

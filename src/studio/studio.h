@@ -3,19 +3,21 @@
 #include <memory>
 #include <optional>
 
-#include "app/render_options.h"
-#include "app/stage.h"
 #include "gl/context.h"
 #include "gl/pass.h"
 #include "render/renderer.h"
 #include "scene/gpu_scene.h"
+#include "studio/options.h"
+#include "studio/stage.h"
 
-namespace penumbra::app {
+namespace penumbra::studio {
 
 // A context and all that draws a stage in it. Members are in the order of their making: what is made last goes first.
 class Studio {
  public:
-  Studio(const RenderOptions& options, std::unique_ptr<gl::Context> context, const Stage& stage);
+  // `timed`: each pass is, by the means that fits the device.
+  Studio(const StageOptions& options, gl::ShaderFiles shaders, std::unique_ptr<gl::Context> context, const Stage& stage,
+         bool timed);
 
   // Draws frame `frame`, with the motion since the frame before it. What techniques remember goes on if that one was
   // the last drawn and no animation jumps in between.
@@ -33,7 +35,7 @@ class Studio {
  private:
   void draw_at(double time, double last_time, const render::Camera& last_camera, bool cut, const ParamSet& params);
 
-  const RenderOptions& options_;
+  const StageOptions& options_;
   const Stage& stage_;
   std::unique_ptr<gl::Context> context_;
   gl::DeviceInfo device_info_;
@@ -46,9 +48,9 @@ class Studio {
 
 // Holds the software rasteriser of contexts opened later to --threads. It sets the environment, which other threads may
 // be reading: call it before there are any.
-void limit_threads(const RenderOptions& options);
+void limit_threads(const DeviceOptions& options);
 
 // The context that the options ask for, current. Throws Error, also where it can't draw a picture of their size.
-std::unique_ptr<gl::Context> open_context(const RenderOptions& options);
+std::unique_ptr<gl::Context> open_context(const DeviceOptions& options, const StageOptions& stage);
 
-}  // namespace penumbra::app
+}  // namespace penumbra::studio

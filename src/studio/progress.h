@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-namespace penumbra::app {
+namespace penumbra::studio {
 
 // "frame 12 of 100, 1:14 left" on one line of the terminal; nothing when stderr is no terminal. It never throws once it
 // is made.
@@ -27,4 +27,4 @@ class Progress {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace penumbra::app
+}  // namespace penumbra::studio
