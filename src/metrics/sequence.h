@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "metrics/picture.h"
+
+namespace penumbra::metrics {
+
+// What happens at a frame, before it is drawn. A cut: camera or scene are others than in the last frame, which then
+// says nothing. A stop: the first frame in which all is where it stays. A start: something moves again.
+enum class Event : std::uint8_t { none, cut, stop, start };
+
+// How a technique came to rest after a cut or a stop.
+struct Recovery {
+  std::size_t frame = 0;              // of the event, counted from 0
+  Event event = Event::cut;           // cut or stop
+  std::optional<std::size_t> frames;  // after which it is at rest: 0 if from the event's own frame on; none: not told
+  double static_error = 0;            // mean |e| of the region at rest, NaN if not told
+};
+
+// Figures of all frames so far; NaN where nothing was measured.
+struct SequenceFigures {
+  std::size_t frames = 0;
+  std::size_t not_finite = 0;      // test values that were NaN or infinite; each counts as |e| = 1
+  double flicker = 0;              // mean |e_t − e_(t−1)|
+  std::size_t flicker_pixels = 0;  // in that mean, of all pairs of frames
+  double ghost = 0;                // mean |e| where the shadow was and is not
+  std::size_t ghost_pixels = 0;    // in that mean, of all frames
+  std::vector<Recovery> recoveries;
+};
+
+// How many frames after the first until the error is at most `static_error` + `tolerance` and stays so. Nothing if the
+// last one is still above.
+std::optional<std::size_t> recovery_frames(std::span<const double> errors, double static_error,
+                                           double tolerance = 1.0 / 255);
+
+// What happens over time, frame by frame, of visibilities (one channel) with e = test − reference. Pixels are compared
+// with the same pixel of the last frames, whatever surface moved into it: under a moving camera the figures are those
+// of the screen, as a viewer sees them.
+//
+// Flicker: mean |e_t − e_(t−1)| over the pixels that are receivers in both frames, except across a cut. A change that
+// the reference makes too is no flicker; an error that stays is none either.
+// Ghost: mean |e| over the receivers that are lit now (reference above 0.98) and were receivers in shadow (below 0.5)
+// in any of the last 8 frames, those before a cut left out. It has the technique's usual error of lit pixels in it.
+// Recovery: the frames after a stop or a cut until the region's mean |e| is, and stays, at most 1/255 above the one at
+// rest. The region of a cut is all receivers; that of a stop is where the reference changed by more than 1/255 in the 8
+// frames before it, the frame of the stop included. At rest means the last 8 frames before the next event or the end,
+// so at least 16 frames have to follow the event, and enough for the technique to come to rest.
+//
+// Memory: 12 bytes a pixel and 8 bytes a frame, however long the sequence. Results are the same in every run.
+class SequenceMetrics {
+ public:
+  static constexpr std::size_t memory_frames = 8;
+
+  // Throws Error as check() does, for more than one channel, and for a size other than the first frame's.
+  void add(const Picture& test, const Picture& reference, Receivers receivers = {}, Event event = Event::none);
+
+  SequenceFigures figures() const;
+
+ private:
+  struct Pixel {
+    float error = 0, reference = 0;
+    std::uint8_t since_shadow = never, since_change = never;  // frames
+    bool receiver = false, region = false;
+  };
+  static constexpr std::uint8_t never = 255;
+
+  struct Segment {
+    std::size_t frame = 0;
+    Event event = Event::none;
+    std::vector<double> errors;  // mean |e| of the region, a value a frame
+  };
+
+  void check_frame(const Picture& test, const Picture& reference, Receivers receivers);
+  void begin(Event event);
+  void end_segment();
+  void add_receiver(const Pixel& last, Pixel& pixel, float test);
+
+  int width_ = 0, height_ = 0;
+  std::vector<Pixel> pixels_;
+  bool has_last_ = false;
+  SequenceFigures sums_;  // flicker and ghost are sums
+  Segment segment_;
+  double region_sum_ = 0;  // of this frame
+  std::size_t region_count_ = 0;
+};
+
+}  // namespace penumbra::metrics

@@ -1,0 +1,61 @@
+#include "metrics/ssim.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "metrics/convolve.h"
+
+namespace penumbra::metrics {
+
+namespace {
+
+constexpr float c1 = 0.01f * 0.01f, c2 = 0.03f * 0.03f;
+
+float value_at(const Picture& picture, std::size_t pixel) {
+  if (picture.channels == 1) return picture.pixels[pixel];
+  const float* rgb = &picture.pixels[pixel * 3];
+  return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+}
+
+// Means under the window of what `value` gives for each receiver, without the window's weight.
+template <class Value>
+Plane sums(const Picture& size, Receivers receivers, Value value) {
+  static const Kernel window = gaussian(1.5, 5);
+  Plane plane(size.width, size.height);
+  for (std::size_t i = 0; i < plane.pixels.size(); ++i)
+    if (is_receiver(receivers, i)) plane.pixels[i] = value(i);
+  return convolve(plane, window, window, Border::zero);
+}
+
+}  // namespace
+
+double ssim(const Picture& test, const Picture& reference, Receivers receivers) {
+  check(test, reference, receivers);
+  if (reference.channels != 1 && reference.channels != 3)
+    fail("SSIM compares pictures of 1 or 3 channels, not {}", reference.channels);
+  const auto truth = [&](std::size_t i) { return value_at(reference, i); };
+  const auto shown = [&](std::size_t i) {
+    const float value = value_at(test, i);
+    return std::isfinite(value) ? value : truth(i) <= 0.5f ? 1.0f : 0.0f;
+  };
+  const auto product = [](const auto& a, const auto& b) { return [&](std::size_t i) { return a(i) * b(i); }; };
+  const Plane weight = sums(reference, receivers, [](std::size_t) { return 1.0f; });
+  const Plane x = sums(reference, receivers, shown), xx = sums(reference, receivers, product(shown, shown));
+  const Plane y = sums(reference, receivers, truth), yy = sums(reference, receivers, product(truth, truth));
+  const Plane xy = sums(reference, receivers, product(shown, truth));
+
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < weight.pixels.size(); ++i) {
+    if (!is_receiver(receivers, i)) continue;
+    const float w = weight.pixels[i], mx = x.pixels[i] / w, my = y.pixels[i] / w;
+    const float variances = xx.pixels[i] / w - mx * mx + yy.pixels[i] / w - my * my;
+    const float covariance = xy.pixels[i] / w - mx * my;
+    sum += (2 * mx * my + c1) * (2 * covariance + c2) / ((mx * mx + my * my + c1) * (variances + c2));
+    ++count;
+  }
+  return count == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(count);
+}
+
+}  // namespace penumbra::metrics
