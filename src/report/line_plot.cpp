@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/number.h"
+#include "report/plot.h"
+#include "report/plot_frame.h"
+
+namespace penumbra::report {
+
+namespace {
+
+constexpr double dot_radius = 3.2;
+constexpr double name_gap = 10;
+constexpr int colours = 8;  // .line-0 to .line-7 in page.css
+
+// A line's name, at the height of its end.
+struct Name {
+  std::size_t line;
+  double y;
+};
+
+// Pushes names that would overlap apart, each as little as it takes, and keeps them within the plot.
+void part(std::vector<Name>& names, const Box& area) {
+  constexpr double step = 1.25 * font_size;
+  std::ranges::stable_sort(names, {}, &Name::y);
+  for (std::size_t i = 1; i < names.size(); ++i) names[i].y = std::max(names[i].y, names[i - 1].y + step);
+  double limit = area.bottom;
+  for (std::size_t i = names.size(); i-- > 0; limit -= step) names[i].y = std::min(names[i].y, limit);
+}
+
+std::string line_class(const LinePlot& plot, std::size_t index) {
+  if (plot.lines[index].guide) return "guide";
+  const auto before = plot.lines.begin() + static_cast<std::ptrdiff_t>(index);
+  return fmt::format("line-{}",
+                     std::count_if(plot.lines.begin(), before, [](const Line& l) { return !l.guide; }) % colours);
+}
+
+std::string dot_svg(const LinePlot& plot, const Line& line, const Point& point, double x, double y) {
+  const auto value = [](const Axis& axis, double v) {
+    return significant(v, 4) + (axis.unit.empty() ? "" : " " + axis.unit);
+  };
+  const std::string tooltip = fmt::format("{}: {}, {}", line.label, value(plot.x, point.x), value(plot.y, point.y));
+  return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}</title></circle>", x, y, dot_radius,
+                     escape(tooltip));
+}
+
+// Its path and dots; `end` becomes the height of its last point.
+std::string line_svg(const LinePlot& plot, const PlotFrame& frame, std::size_t index, double& end) {
+  const Line& line = plot.lines[index];
+  std::string path, dots;
+  bool drawing = false;
+  for (const Point& point : line.points) {
+    if (!frame.x().shows(point.x) || !frame.y().shows(point.y)) {
+      drawing = false;
+      continue;
+    }
+    const double x = frame.x().at(point.x), y = frame.y().at(point.y);
+    path += fmt::format("{}{:.1f} {:.1f}", drawing ? 'L' : 'M', x, y);
+    if (!line.guide) dots += dot_svg(plot, line, point, x, y);
+    drawing = true;
+    end = y;
+  }
+  if (path.empty()) return "";
+  return fmt::format("<g class=\"{}\"><path d=\"{}\"/>{}</g>", line_class(plot, index), path, dots);
+}
+
+}  // namespace
+
+Html to_html(const LinePlot& plot) {
+  std::vector<double> xs, ys;
+  double widest = 0;
+  for (const Line& line : plot.lines) {
+    widest = std::max(widest, text_width(line.label));
+    for (const Point& point : line.points) {
+      xs.push_back(point.x);
+      ys.push_back(point.y);
+    }
+  }
+  const PlotFrame frame(plot.title, plot.x, plot.y, xs, ys, std::min(widest, 260.0) + 2 * name_gap);
+
+  std::string drawn;
+  std::vector<Name> names;
+  for (std::size_t i = 0; i < plot.lines.size(); ++i) {
+    Name name{i, 0};
+    const std::string svg = line_svg(plot, frame, i, name.y);
+    if (svg.empty()) continue;
+    drawn += svg;
+    names.push_back(name);
+  }
+  part(names, frame.area());
+  for (const Name& name : names)
+    drawn +=
+        fmt::format("<text class=\"label name {}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", line_class(plot, name.line),
+                    frame.area().right + name_gap, name.y + 4.5, escape(plot.lines[name.line].label));
+  return Html(frame.svg(drawn));
+}
+
+}  // namespace penumbra::report

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "report/axis.h"
+
+namespace penumbra::report {
+
+// A box in the units of a plot's drawing, y downwards.
+struct Box {
+  double left = 0, top = 0, right = 0, bottom = 0;
+
+  bool overlaps(const Box& other) const {
+    return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
+  }
+  bool holds(const Box& other) const {
+    return left <= other.left && other.right <= right && top <= other.top && other.bottom <= bottom;
+  }
+};
+
+constexpr double font_size = 13;
+// About how wide a text is: an SVG is drawn before its font is known.
+double text_width(std::string_view text);
+
+// What plots have in common: the drawing's size, its axes with grid and labels.
+class PlotFrame {
+ public:
+  // `room` is what stays free to the right of the axes.
+  PlotFrame(std::string title, const Axis& x, const Axis& y, std::span<const double> xs, std::span<const double> ys,
+            double room);
+
+  const Scale& x() const { return x_; }
+  const Scale& y() const { return y_; }
+  const Box& area() const { return area_; }
+  // The svg element with the axes and `drawn` over them.
+  std::string svg(const std::string& drawn) const;
+
+ private:
+  std::string title_;
+  Axis x_axis_, y_axis_;
+  Box area_;
+  Scale x_, y_;
+};
+
+}  // namespace penumbra::report
