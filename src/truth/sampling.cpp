@@ -80,4 +80,11 @@ void square_to_disc(PacketPoints& points) {
   }
 }
 
+void square_to_sides(PacketPoints& points) {
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    points.x[lane] = 2 * points.x[lane] - 1;
+    points.y[lane] = 2 * points.y[lane] - 1;
+  }
+}
+
 }  // namespace penumbra::truth

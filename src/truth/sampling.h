@@ -37,4 +37,7 @@ class PixelPoints {
 // disk and square").
 void square_to_disc(PacketPoints& points);
 
+// The unit square to the one from −1 to 1.
+void square_to_sides(PacketPoints& points);
+
 }  // namespace penumbra::truth

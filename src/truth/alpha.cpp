@@ -1,0 +1,96 @@
+#include "truth/alpha.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace penumbra::truth {
+
+namespace {
+
+// A coordinate in 0 to 1. What lies beyond a texel at the rim is then handled by wrapped_texel().
+float wrapped(scene::Wrap wrap, float coordinate) {
+  if (wrap == scene::Wrap::repeat) {
+    coordinate -= std::floor(coordinate);
+  } else if (wrap == scene::Wrap::mirrored_repeat) {
+    coordinate -= 2 * std::floor(coordinate * 0.5f);
+    if (coordinate > 1) coordinate = 2 - coordinate;
+  }
+  return coordinate > 0 ? std::min(coordinate, 1.0f) : 0.0f;  // 0 for NaN
+}
+
+// From −1 to `size`, of coordinates that wrapped() returned.
+int wrapped_texel(scene::Wrap wrap, int texel, int size) {
+  if (wrap != scene::Wrap::repeat) return std::clamp(texel, 0, size - 1);
+  return texel < 0 ? texel + size : (texel >= size ? texel - size : texel);
+}
+
+float cutoff_of(const scene::Material& material) {
+  // As scene/gpu_scene_materials.cpp: a blended surface casts where it is more opaque than not.
+  if (material.alpha_mode == scene::AlphaMode::blend) return std::nextafter(0.5f, 1.0f);
+  return material.alpha_cutoff;
+}
+
+// Vertex colours are 16-bit on the GPU.
+float stored_alpha(float alpha) { return std::round(std::clamp(alpha, 0.0f, 1.0f) * 65535.0f) / 65535.0f; }
+
+}  // namespace
+
+AlphaTexture::AlphaTexture(const scene::Texture& texture, const scene::Image& image)
+    : width_(image.width),
+      height_(image.height),
+      wrap_s_(texture.wrap_s),
+      wrap_t_(texture.wrap_t),
+      linear_(texture.mag == scene::Filter::linear) {
+  alpha_.reserve(image.rgba.size() / 4);
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) alpha_.push_back(image.rgba[i]);
+}
+
+float AlphaTexture::texel(int x, int y) const {
+  return static_cast<float>(
+      alpha_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)]);
+}
+
+float AlphaTexture::at(glm::vec2 uv) const {
+  const float x = wrapped(wrap_s_, uv.x) * static_cast<float>(width_);
+  const float y = wrapped(wrap_t_, uv.y) * static_cast<float>(height_);
+  if (!linear_) {
+    return texel(std::min(static_cast<int>(x), width_ - 1), std::min(static_cast<int>(y), height_ - 1)) / 255.0f;
+  }
+  const float left = std::floor(x - 0.5f);
+  const float low = std::floor(y - 0.5f);
+  const int x0 = wrapped_texel(wrap_s_, static_cast<int>(left), width_);
+  const int x1 = wrapped_texel(wrap_s_, static_cast<int>(left) + 1, width_);
+  const int y0 = wrapped_texel(wrap_t_, static_cast<int>(low), height_);
+  const int y1 = wrapped_texel(wrap_t_, static_cast<int>(low) + 1, height_);
+  const float s = x - 0.5f - left;
+  const float t = y - 0.5f - low;
+  const float first = texel(x0, y0) + s * (texel(x1, y0) - texel(x0, y0));
+  const float second = texel(x0, y1) + s * (texel(x1, y1) - texel(x0, y1));
+  return (first + t * (second - first)) / 255.0f;
+}
+
+AlphaTest::AlphaTest(const scene::Material& material, const scene::Primitive& primitive, const AlphaTexture* texture,
+                     std::span<const std::uint32_t> triangles)
+    : texture_(texture), cutoff_(cutoff_of(material)) {
+  const scene::TextureRef& ref = material.base_color_texture;
+  const auto& uvs = primitive.uvs[ref.uv_set == 1 ? 1 : 0];
+  corners_.reserve(3 * triangles.size());
+  for (const std::uint32_t triangle : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t vertex = primitive.indices[3 * std::size_t{triangle} + i];
+      const glm::vec2 uv = uvs.empty() ? glm::vec2(0) : uvs[vertex];
+      const float color = primitive.colors.empty() ? 1 : stored_alpha(primitive.colors[vertex].a);
+      corners_.push_back({ref.uv_transform * glm::vec3(uv, 1.0f), material.base_color.a * color});
+    }
+  }
+}
+
+bool AlphaTest::passes(std::size_t triangle, float u, float v) const {
+  const Corner* c = &corners_[3 * triangle];
+  const float w = 1 - u - v;
+  float alpha = w * c[0].alpha + u * c[1].alpha + v * c[2].alpha;
+  if (texture_ != nullptr) alpha *= texture_->at(w * c[0].uv + u * c[1].uv + v * c[2].uv);
+  return alpha >= cutoff_;
+}
+
+}  // namespace penumbra::truth

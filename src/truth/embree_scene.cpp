@@ -1,0 +1,262 @@
+#include "truth/embree_scene.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <glm/glm.hpp>
+#include <limits>
+#include <map>
+#include <new>
+#include <utility>
+
+#include "core/error.h"
+#include "truth/posed_triangle.h"
+
+namespace penumbra::truth {
+
+namespace {
+
+constexpr std::size_t least_shared = 64;  // triangles: fewer take less memory than an instance of them
+
+// Where between two coordinates zero should be, so that all between them get smaller and none is rounded: a multiple of
+// the coarsest step between floats there, and no further out than twice the end that is nearer to zero.
+double best_zero(float low, float high) {
+  if (low <= 0 && high >= 0) return 0;
+  if (!(low <= high)) return 0;  // there is nothing between them
+  if (high < 0) return -best_zero(-high, -low);
+  const double step = double{std::nextafter(high, std::numeric_limits<float>::infinity())} - high;
+  return std::floor(std::min(0.5 * (double{low} + high), 2.0 * low) / step) * step;
+}
+
+// Triangles that can be hit.
+std::vector<std::uint32_t> solid_triangles(const scene::PosedSurface& surface) {
+  std::vector<std::uint32_t> solid;
+  for (std::size_t i = 0; i < triangle_count(surface); ++i) {
+    if (world_triangle(surface, i)) solid.push_back(static_cast<std::uint32_t>(i));
+  }
+  return solid;
+}
+
+// Whether rays can be turned to where the vertices are at rest without loss.
+bool turns_back(const glm::mat4& world) {
+  const glm::dmat3 linear(world);
+  const double volume = std::abs(glm::determinant(linear));
+  const double longest = std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
+  return std::isfinite(volume) && volume > 1e-2 * longest * longest * longest;
+}
+
+// Lets rays through where a surface's alpha leaves nothing.
+void pass_through_holes(const RTCFilterFunctionNArguments* args) {
+  const auto& test = *static_cast<const AlphaTest*>(args->geometryUserPtr);
+  const unsigned int count = args->N;
+  for (unsigned int i = 0; i < count; ++i) {
+    if (args->valid[i] == 0) continue;
+    const bool there = test.passes(RTCHitN_primID(args->hit, count, i), RTCHitN_u(args->hit, count, i),
+                                   RTCHitN_v(args->hit, count, i));
+    if (!there) args->valid[i] = 0;
+  }
+}
+
+bool keep_to_limit(void* pointer, ssize_t bytes, bool /*already_done*/) {
+  MemoryUse& use = *static_cast<MemoryUse*>(pointer);
+  const std::ptrdiff_t held = use.bytes += bytes;
+  return bytes <= 0 || use.limit == 0 || held <= use.limit;
+}
+
+}  // namespace
+
+class EmbreeSceneBuilder {
+ public:
+  EmbreeSceneBuilder(EmbreeScene& out, const scene::Scene& scene, const scene::PosedGeometry& geometry)
+      : out_(out), scene_(scene), geometry_(geometry) {
+    out_.textures_.resize(scene.textures.size());
+  }
+
+  void build(const BuildOptions& options);
+
+ private:
+  using Surfaces = std::vector<const scene::PosedSurface*>;
+
+  void check() const;
+  EmbreeObject new_object() const;
+  std::vector<Surfaces> copies();
+  void find_origin(const std::vector<Surfaces>& copies);
+  const AlphaTexture* texture_of(const scene::Material& material);
+  void set_vertices(RTCGeometry geometry, const scene::PosedSurface& surface, const glm::dvec3& origin) const;
+  void set_triangles(RTCGeometry geometry, const scene::Primitive& primitive,
+                     const std::vector<std::uint32_t>& solid) const;
+  void add(RTCScene object, const scene::PosedSurface& surface, const glm::dvec3& origin);
+  void add_shared(const Surfaces& copies);
+
+  EmbreeScene& out_;
+  const scene::Scene& scene_;
+  const scene::PosedGeometry& geometry_;
+};
+
+void EmbreeSceneBuilder::check() const {
+  const RTCError error = rtcGetDeviceError(out_.device_.get());
+  if (error == RTC_ERROR_NONE) return;
+  if (error == RTC_ERROR_OUT_OF_MEMORY) fail("ray tracing: not enough memory for {} triangles", out_.stats_.triangles);
+  if (error == RTC_ERROR_UNSUPPORTED_CPU) fail("ray tracing: Embree does not support this processor");
+  fail("ray tracing: Embree fails with its error {}", static_cast<int>(error));
+}
+
+EmbreeObject EmbreeSceneBuilder::new_object() const {
+  EmbreeObject object(rtcNewScene(out_.device_.get()));
+  check();
+  // Robust: a ray through a shared edge hits one of the triangles, and boxes lose no triangle to rounding.
+  rtcSetSceneFlags(object.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(object.get(), RTC_BUILD_QUALITY_HIGH);
+  return object;
+}
+
+// Casters, those of the same vertices and material together.
+std::vector<EmbreeSceneBuilder::Surfaces> EmbreeSceneBuilder::copies() {
+  std::map<std::pair<const scene::Primitive*, const glm::vec3*>, std::size_t> place;
+  std::vector<Surfaces> all;
+  for (const scene::PosedSurface& surface : geometry_.surfaces) {
+    const std::size_t count = triangle_count(surface);
+    if (surface.casts == scene::Casts::never || count == 0) continue;
+    out_.stats_.triangles += count;
+    const auto [at, added] = place.try_emplace({surface.primitive, surface.positions.data()}, all.size());
+    if (added) all.emplace_back();
+    all[at->second].push_back(&surface);
+  }
+  return all;
+}
+
+void EmbreeSceneBuilder::find_origin(const std::vector<Surfaces>& copies) {
+  glm::vec3 low(std::numeric_limits<float>::infinity());
+  glm::vec3 high = -low;
+  for (const Surfaces& surfaces : copies) {
+    for (const scene::PosedSurface* surface : surfaces) {
+      for (std::uint32_t i = 0; i < surface->positions.size(); ++i) {
+        const glm::vec3 p = world_position(*surface, i);
+        if (!near_enough(p)) continue;
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+      }
+    }
+  }
+  for (glm::length_t axis = 0; axis < 3; ++axis) out_.origin_[axis] = best_zero(low[axis], high[axis]);
+  const glm::dvec3 reach =
+      glm::max(glm::abs(glm::dvec3(low) - out_.origin_), glm::abs(glm::dvec3(high) - out_.origin_));
+  out_.shared_reach_ = glm::length(reach);
+}
+
+const AlphaTexture* EmbreeSceneBuilder::texture_of(const scene::Material& material) {
+  const int index = material.base_color_texture.texture;
+  if (index < 0) return nullptr;
+  const scene::Texture& texture = scene_.textures[static_cast<std::size_t>(index)];
+  if (texture.image < 0) return nullptr;
+  std::unique_ptr<AlphaTexture>& made = out_.textures_[static_cast<std::size_t>(index)];
+  if (!made) made = std::make_unique<AlphaTexture>(texture, scene_.images[static_cast<std::size_t>(texture.image)]);
+  return made.get();
+}
+
+void EmbreeSceneBuilder::set_vertices(RTCGeometry geometry, const scene::PosedSurface& surface,
+                                      const glm::dvec3& origin) const {
+  auto* to = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                         3 * sizeof(float), surface.positions.size()));
+  check();
+  for (std::uint32_t i = 0; i < surface.positions.size(); ++i) {
+    const glm::vec3 p(glm::dvec3(world_position(surface, i)) - origin);
+    for (glm::length_t axis = 0; axis < 3; ++axis) *to++ = p[axis];
+  }
+}
+
+void EmbreeSceneBuilder::set_triangles(RTCGeometry geometry, const scene::Primitive& primitive,
+                                       const std::vector<std::uint32_t>& solid) const {
+  auto* to = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                 3 * sizeof(std::uint32_t), solid.size()));
+  check();
+  for (const std::uint32_t triangle : solid) {
+    std::memcpy(to, &primitive.indices[3 * std::size_t{triangle}], 3 * sizeof(std::uint32_t));
+    to += 3;
+  }
+}
+
+// A surface where it is drawn, relative to `origin`.
+void EmbreeSceneBuilder::add(RTCScene object, const scene::PosedSurface& surface, const glm::dvec3& origin) {
+  const std::vector<std::uint32_t> solid = solid_triangles(surface);
+  if (solid.empty()) return;
+  const EmbreeGeometry geometry(rtcNewGeometry(out_.device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+  check();
+  set_vertices(geometry.get(), surface, origin);
+  set_triangles(geometry.get(), *surface.primitive, solid);
+  if (surface.casts == scene::Casts::by_alpha) {
+    static const scene::Material unspecified;
+    const int index = surface.primitive->material;
+    const scene::Material& material = index < 0 ? unspecified : scene_.materials[static_cast<std::size_t>(index)];
+    out_.alpha_tests_.push_back(std::make_unique<AlphaTest>(material, *surface.primitive, texture_of(material), solid));
+    rtcSetGeometryUserData(geometry.get(), out_.alpha_tests_.back().get());
+    rtcSetGeometryOccludedFilterFunction(geometry.get(), pass_through_holes);
+  }
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometry(object, geometry.get());
+  check();
+  out_.stats_.stored += solid.size();
+}
+
+// One object of the triangles at rest, and a copy of it at each place.
+void EmbreeSceneBuilder::add_shared(const Surfaces& copies) {
+  EmbreeObject object = new_object();
+  scene::PosedSurface at_rest = *copies.front();
+  at_rest.world = glm::mat4(1);
+  add(object.get(), at_rest, glm::dvec3(0));
+  rtcCommitScene(object.get());
+  check();
+  for (const scene::PosedSurface* surface : copies) {
+    glm::mat4 world = surface->world;
+    world[3] = glm::vec4(glm::dvec3(world[3]) - out_.origin_, 1.0);
+    const EmbreeGeometry instance(rtcNewGeometry(out_.device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+    check();
+    rtcSetGeometryInstancedScene(instance.get(), object.get());
+    rtcSetGeometryTransform(instance.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &world);
+    rtcCommitGeometry(instance.get());
+    rtcAttachGeometry(out_.top_.get(), instance.get());
+    check();
+    ++out_.stats_.instances;
+  }
+  out_.prototypes_.push_back(std::move(object));
+}
+
+void EmbreeSceneBuilder::build(const BuildOptions& options) {
+  out_.memory_->limit = static_cast<std::ptrdiff_t>(options.memory);
+  out_.device_.reset(rtcNewDevice("ignore_config_files=1"));
+  check();
+  rtcSetDeviceMemoryMonitorFunction(out_.device_.get(), keep_to_limit, out_.memory_.get());
+  const std::vector<Surfaces> all = copies();
+  find_origin(all);
+  out_.top_ = new_object();
+  const bool share = out_.stats_.triangles > options.flat_triangles;
+  for (const Surfaces& surfaces : all) {
+    Surfaces shared;
+    Surfaces flat;
+    for (const scene::PosedSurface* surface : surfaces) {
+      const bool fit = share && triangle_count(*surface) >= least_shared && turns_back(surface->world);
+      (fit ? shared : flat).push_back(surface);
+    }
+    if (shared.size() == 1) flat.push_back(shared.front());
+    if (shared.size() > 1) add_shared(shared);
+    for (const scene::PosedSurface* surface : flat) add(out_.top_.get(), *surface, out_.origin_);
+  }
+  if (out_.stats_.instances == 0) out_.shared_reach_ = 0;
+  rtcCommitScene(out_.top_.get());
+  check();
+}
+
+EmbreeScene::EmbreeScene(const scene::Scene& scene, const scene::PosedGeometry& geometry, const BuildOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    EmbreeSceneBuilder(*this, scene, geometry).build(options);
+  } catch (const std::bad_alloc&) {
+    fail("ray tracing: not enough memory for {} triangles", stats_.triangles);
+  }
+  stats_.memory = static_cast<std::size_t>(std::max<std::ptrdiff_t>(memory_->bytes, 0));
+  stats_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace penumbra::truth

@@ -1,0 +1,48 @@
+#include "truth/light.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace penumbra::truth {
+
+namespace {
+
+// Rays end so much before the light: what models the lamp's own surface is not in its way.
+constexpr float nearly_all_the_way = 0.9999f;
+
+struct Sides {
+  glm::dvec3 x, y;
+};
+
+// Two unit vectors perpendicular to a unit vector and each other, the first one horizontal: shadow/cascades.cpp has the
+// same.
+Sides sides_about(const glm::dvec3& axis) {
+  const glm::dvec3 z = -axis;
+  const glm::dvec3 horizontal = glm::cross(z, glm::dvec3(0, 1, 0));
+  const glm::dvec3 x = glm::length(horizontal) > 1e-6 ? glm::normalize(horizontal) : glm::dvec3(1, 0, 0);
+  return {x, glm::cross(x, z)};
+}
+
+SeenLight seen(const Sun& sun, const glm::dvec3& /*point*/) {
+  const glm::dvec3 center = glm::normalize(sun.to_light);
+  const Sides sides = sides_about(center);
+  const double reach = std::tan(sun.angle / 2);
+  return {center, sides.x * reach, sides.y * reach, std::numeric_limits<float>::infinity(), sun.square};
+}
+
+SeenLight seen(const LocalLight& light, const glm::dvec3& point) {
+  const glm::dvec3 center = light.position - point;
+  const glm::dvec3 axis = light.axis.value_or(center);
+  const double length = glm::length(axis);
+  const Sides sides = sides_about(length > 0 ? axis / length : glm::dvec3(0, 1, 0));
+  return {center, sides.x * light.radius, sides.y * light.radius, nearly_all_the_way, false};
+}
+
+}  // namespace
+
+SeenLight seen_from(const Light& light, const glm::dvec3& point) {
+  return std::visit([&](const auto& kind) { return seen(kind, point); }, light);
+}
+
+}  // namespace penumbra::truth

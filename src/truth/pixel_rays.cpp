@@ -1,0 +1,108 @@
+#include "truth/pixel_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/glm.hpp>
+
+namespace penumbra::truth {
+
+static_assert(packet_width == 16);
+
+namespace {
+
+// Half a unit in the last place of a float, relative to it.
+constexpr double rounding = 0x1p-24;
+// What a ray's start is off its plane, in roundings of the numbers that Embree's test of that plane has: those of the
+// start itself, of three differences with the corners, and of products of two.
+constexpr double clearance = 8;
+
+}  // namespace
+
+PixelRays::PixelRays(const EmbreeScene& scene, const Light& light) : scene_(scene), light_(light), rays_{} {
+  std::ranges::fill(rays_.tnear, 0.0f);
+  std::ranges::fill(rays_.mask, ~0U);
+}
+
+void PixelRays::start_at(const Receiver& receiver) {
+  const glm::dvec3 place = receiver.position - scene_.origin();
+  const double furthest = std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+  const double off = clearance * rounding * (receiver.reach + furthest + 2 * scene_.shared_reach());
+  const glm::vec3 start(place + receiver.normal * off);
+  std::ranges::fill(rays_.org_x, start.x);
+  std::ranges::fill(rays_.org_y, start.y);
+  std::ranges::fill(rays_.org_z, start.z);
+  seen_ = seen_from(light_, glm::dvec3(start) + scene_.origin());
+  cosine_center_ = glm::dot(receiver.normal, seen_.center);
+  cosine_x_ = glm::dot(receiver.normal, seen_.side_x);
+  cosine_y_ = glm::dot(receiver.normal, seen_.side_y);
+}
+
+void PixelRays::aim(const PacketPoints& points, int lanes) {
+  const glm::vec3 center(seen_.center);
+  const glm::vec3 side_x(seen_.side_x);
+  const glm::vec3 side_y(seen_.side_y);
+  const auto cosine = static_cast<float>(cosine_center_);
+  const auto cosine_x = static_cast<float>(cosine_x_);
+  const auto cosine_y = static_cast<float>(cosine_y_);
+  for (int lane = 0; lane < packet_width; ++lane) {
+    const auto i = static_cast<std::size_t>(lane);
+    const float x = points.x[i];
+    const float y = points.y[i];
+    rays_.dir_x[lane] = center.x + x * side_x.x + y * side_y.x;
+    rays_.dir_y[lane] = center.y + x * side_x.y + y * side_y.y;
+    rays_.dir_z[lane] = center.z + x * side_x.z + y * side_y.z;
+    rays_.tfar[lane] = seen_.far;
+    valid_[i] = (cosine + x * cosine_x + y * cosine_y > 0) && lane < lanes ? -1 : 0;
+  }
+}
+
+void PixelRays::count_lit(LitCounts& lit) const {
+  for (std::size_t i = 0; i < packet_width; ++i) {
+    lit[i % scrambling_count] += valid_[i] != 0 && rays_.tfar[i] >= 0 ? 1 : 0;  // −∞: occluded
+  }
+}
+
+void PixelRays::trace(const PixelPoints& pixel, std::uint32_t first, std::uint32_t last, LitCounts& lit) {
+  PacketPoints points;
+  for (std::uint32_t point = first; point < last; point += 2) {
+    pixel.square(point, points);
+    if (seen_.square) {
+      square_to_sides(points);
+    } else {
+      square_to_disc(points);
+    }
+    aim(points, point + 1 < last ? packet_width : scrambling_count);
+    const auto rays = std::ranges::count(valid_, -1);
+    if (rays == 0) continue;
+    traced_ += rays;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcOccluded16(valid_.data(), scene_.get(), &context, &rays_);
+    count_lit(lit);
+  }
+}
+
+bool PixelRays::center_lit() {
+  if (!(cosine_center_ > 0)) return false;
+  RTCRay ray{.org_x = rays_.org_x[0],
+             .org_y = rays_.org_y[0],
+             .org_z = rays_.org_z[0],
+             .tnear = 0,
+             .dir_x = static_cast<float>(seen_.center.x),
+             .dir_y = static_cast<float>(seen_.center.y),
+             .dir_z = static_cast<float>(seen_.center.z),
+             .time = 0,
+             .tfar = seen_.far,
+             .mask = ~0U,
+             .id = 0,
+             .flags = 0};
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene_.get(), &context, &ray);
+  ++traced_;
+  return ray.tfar >= 0;
+}
+
+}  // namespace penumbra::truth

@@ -1,0 +1,100 @@
+#include "truth/receiver.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "truth/posed_triangle.h"
+
+namespace penumbra::truth {
+
+namespace {
+
+struct Ray {
+  glm::dvec3 origin{0}, direction{0};
+};
+
+// A picture's eye: a point, or a direction from everywhere.
+class Eye {
+ public:
+  explicit Eye(const EyeRays& rays) : rays_(rays) {
+    // Clip space's z axis runs through the eye, and where the eye is far away, along its rays.
+    const glm::dvec4 axis = rays.clip_to_world[2];
+    perspective_ = axis.w != 0;
+    if (perspective_) {
+      origin_ = glm::dvec3(axis) / axis.w;
+    } else {
+      // x right, y up and z towards the eye make a right-handed system: with z away from it, its determinant is
+      // negative.
+      const double towards = glm::determinant(glm::dmat3(rays.clip_to_world)) < 0 ? -1 : 1;
+      forward_ = glm::normalize(glm::dvec3(axis)) * -towards;
+    }
+  }
+
+  Ray ray(int x, int y) const {
+    const glm::dvec2 ndc(2 * (x + 0.5) / rays_.width - 1, 2 * (y + 0.5) / rays_.height - 1);
+    const glm::dvec4 place = rays_.clip_to_world * glm::dvec4(ndc, 0.5, 1);
+    const glm::dvec3 point = glm::dvec3(place) / place.w;
+    if (!perspective_) return {point, forward_};
+    // Half way between the near and the far plane is before the eye; at an infinite far plane too.
+    return {origin_, glm::normalize(point - origin_)};
+  }
+
+  // Only a point before a perspective's eye is seen.
+  bool before(const Ray& ray, const glm::dvec3& point) const {
+    return !perspective_ || glm::dot(point - ray.origin, ray.direction) > 0;
+  }
+
+ private:
+  EyeRays rays_;
+  bool perspective_ = false;
+  glm::dvec3 origin_{0}, forward_{0};
+};
+
+double distance_to(const Ray& ray, const glm::dvec3& point) {
+  return glm::length(glm::cross(point - ray.origin, ray.direction));
+}
+
+glm::dvec3 nearest_corner(const Ray& ray, const Corners& corners) {
+  return *std::ranges::min_element(corners, {}, [&](const glm::dvec3& c) { return distance_to(ray, c); });
+}
+
+Receiver receiver_at(const Eye& eye, const Ray& ray, const Corners& corners) {
+  Receiver receiver;
+  receiver.there = true;
+  receiver.normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  const glm::dvec3 to_eye = ray.origin - corners[0];
+  const double height = glm::dot(receiver.normal, to_eye);
+  const double descent = glm::dot(receiver.normal, ray.direction);
+  receiver.position = corners[0] + (to_eye - ray.direction * (height / descent));
+  const glm::dvec3& p = receiver.position;
+  if (!std::isfinite(p.x + p.y + p.z) || !eye.before(ray, p)) receiver.position = nearest_corner(ray, corners);
+  if (descent > 0) receiver.normal = -receiver.normal;
+  for (const glm::dvec3& corner : corners)
+    receiver.reach = std::max(receiver.reach, glm::length(corner - receiver.position));
+  return receiver;
+}
+
+}  // namespace
+
+std::vector<Receiver> receivers_of(const scene::PosedGeometry& geometry, const EyeRays& rays,
+                                   std::span<const glm::uvec2> drawn) {
+  assert(drawn.size() == static_cast<std::size_t>(rays.width) * static_cast<std::size_t>(rays.height));
+  std::vector<Receiver> receivers(drawn.size());
+  const Eye eye(rays);
+  for (int y = 0; y < rays.height; ++y) {
+    for (int x = 0; x < rays.width; ++x) {
+      const std::size_t pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(rays.width) + static_cast<std::size_t>(x);
+      const glm::uvec2 which = drawn[pixel];
+      if (which.x >= geometry.surfaces.size()) continue;
+      const auto corners = world_triangle(geometry.surfaces[which.x], which.y);
+      if (corners) receivers[pixel] = receiver_at(eye, eye.ray(x, y), *corners);
+    }
+  }
+  return receivers;
+}
+
+}  // namespace penumbra::truth
