@@ -34,7 +34,10 @@ struct Field {
     return is_receiver(receivers, i) ? picture.pixels[i] : std::numeric_limits<float>::quiet_NaN();
   }
 
-  float bilinear(const Point& p) const {
+  float bilinear(const Point& point) const {
+    // Rounding must not carry a line along the border out of the picture.
+    const auto snapped = [](float v) { return std::abs(v - std::round(v)) < 1e-3f ? std::round(v) : v; };
+    const Point p{snapped(point.x), snapped(point.y)};
     const float left = std::floor(p.x), top = std::floor(p.y), u = p.x - left, v = p.y - top;
     const int x = static_cast<int>(left), y = static_cast<int>(top);
     // A pixel of weight 0 is not read: it may be none.

@@ -10,6 +10,8 @@ namespace penumbra::metrics {
 
 namespace {
 
+// Taken from all values, so that rounding does not eat small variances.
+constexpr float middle = 0.5f;
 constexpr float c1 = 0.01f * 0.01f, c2 = 0.03f * 0.03f;
 
 float value_at(const Picture& picture, std::size_t pixel) {
@@ -34,10 +36,10 @@ double ssim(const Picture& test, const Picture& reference, Receivers receivers) 
   check(test, reference, receivers);
   if (reference.channels != 1 && reference.channels != 3)
     fail("SSIM compares pictures of 1 or 3 channels, not {}", reference.channels);
-  const auto truth = [&](std::size_t i) { return value_at(reference, i); };
+  const auto truth = [&](std::size_t i) { return value_at(reference, i) - middle; };
   const auto shown = [&](std::size_t i) {
     const float value = value_at(test, i);
-    return std::isfinite(value) ? value : truth(i) <= 0.5f ? 1.0f : 0.0f;
+    return (std::isfinite(value) ? value : truth(i) <= 0 ? 1.0f : 0.0f) - middle;
   };
   const auto product = [](const auto& a, const auto& b) { return [&](std::size_t i) { return a(i) * b(i); }; };
   const Plane weight = sums(reference, receivers, [](std::size_t) { return 1.0f; });
@@ -49,9 +51,10 @@ double ssim(const Picture& test, const Picture& reference, Receivers receivers) 
   std::size_t count = 0;
   for (std::size_t i = 0; i < weight.pixels.size(); ++i) {
     if (!is_receiver(receivers, i)) continue;
-    const float w = weight.pixels[i], mx = x.pixels[i] / w, my = y.pixels[i] / w;
-    const float variances = xx.pixels[i] / w - mx * mx + yy.pixels[i] / w - my * my;
-    const float covariance = xy.pixels[i] / w - mx * my;
+    const float w = weight.pixels[i], dx = x.pixels[i] / w, dy = y.pixels[i] / w;
+    const float mx = dx + middle, my = dy + middle;
+    const float variances = xx.pixels[i] / w - dx * dx + yy.pixels[i] / w - dy * dy;
+    const float covariance = xy.pixels[i] / w - dx * dy;
     sum += (2 * mx * my + c1) * (2 * covariance + c2) / ((mx * mx + my * my + c1) * (variances + c2));
     ++count;
   }
