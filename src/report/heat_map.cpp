@@ -62,7 +62,7 @@ std::string cell(const HeatMap& map, const Range& range, double value) {
   const Rgb colour = colour_at(range.share(value));
   // The luminance at which black and white text have the same contrast.
   const char* ink = luminance(colour) > 0.179 ? "#111" : "#fff";
-  return fmt::format("<td style=\"background:rgb({:.0f} {:.0f} {:.0f});color:{}\">{}</td>", colour[0], colour[1],
+  return fmt::format("<td style='background:rgb({:.0f} {:.0f} {:.0f});color:{}'>{}</td>", colour[0], colour[1],
                      colour[2], ink, fixed(value, map.decimals));
 }
 
@@ -73,19 +73,19 @@ Html to_html(const HeatMap& map) {
   assert(map.values.size() == rows * columns);
   const Range range = range_of(map);
   std::string head =
-      fmt::format("<tr><td></td><th scope=\"colgroup\" colspan=\"{}\">{}</th></tr>\n<tr><th scope=\"col\">{}</th>",
-                  columns, escape(map.column_title), escape(map.row_title));
-  for (const std::string& name : map.column_names) head += fmt::format("<th scope=\"col\">{}</th>", escape(name));
+      fmt::format("<tr><td></td><th scope='colgroup' colspan='{}'>{}</th></tr>\n<tr><th scope='col'>{}</th>", columns,
+                  escape(map.column_title), escape(map.row_title));
+  for (const std::string& name : map.column_names) head += fmt::format("<th scope='col'>{}</th>", escape(name));
   std::string body;
   for (std::size_t row = 0; row < rows; ++row) {
-    body += fmt::format("<tr><th scope=\"row\">{}</th>", escape(map.row_names[row]));
+    body += fmt::format("<tr><th scope='row'>{}</th>", escape(map.row_names[row]));
     for (std::size_t column = 0; column < columns; ++column)
       body += cell(map, range, map.values[row * columns + column]);
     body += "</tr>\n";
   }
-  const std::string unit = map.unit.empty() ? "" : fmt::format(" <span class=\"unit\">({})</span>", escape(map.unit));
+  const std::string unit = map.unit.empty() ? "" : fmt::format(" <span class='unit'>({})</span>", escape(map.unit));
   return Html(
-      fmt::format("<div class=\"table\" tabindex=\"0\"><table class=\"heat\"><caption>{}{}</caption>\n"
+      fmt::format("<div class='table' tabindex='0'><table class='heat'><caption>{}{}</caption>\n"
                   "<thead>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
                   escape(map.caption), unit, head, body));
 }

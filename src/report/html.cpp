@@ -112,7 +112,7 @@ std::string Html::str() const {
   std::string result;
   for (const Part& part : parts_) {
     result += part.markup;
-    if (part.picture.png) result += " src=\"" + data_uri(part.picture) + "\"";
+    if (part.picture.png) result += " src='" + data_uri(part.picture) + "'";
   }
   return result;
 }

@@ -41,7 +41,7 @@ std::string dot_svg(const LinePlot& plot, const Line& line, const Point& point, 
     return significant(v, 4) + (axis.unit.empty() ? "" : " " + axis.unit);
   };
   const std::string tooltip = fmt::format("{}: {}, {}", line.label, value(plot.x, point.x), value(plot.y, point.y));
-  return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}</title></circle>", x, y, dot_radius,
+  return fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='{}'><title>{}</title></circle>", x, y, dot_radius,
                      escape(tooltip));
 }
 
@@ -62,7 +62,7 @@ std::string line_svg(const LinePlot& plot, const PlotFrame& frame, std::size_t i
     end = y;
   }
   if (path.empty()) return "";
-  return fmt::format("<g class=\"{}\"><path d=\"{}\"/>{}</g>", line_class(plot, index), path, dots);
+  return fmt::format("<g class='{}'><path d='{}'/>{}</g>", line_class(plot, index), path, dots);
 }
 
 }  // namespace
@@ -90,9 +90,8 @@ Html to_html(const LinePlot& plot) {
   }
   part(names, frame.area());
   for (const Name& name : names)
-    drawn +=
-        fmt::format("<text class=\"label name {}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", line_class(plot, name.line),
-                    frame.area().right + name_gap, name.y + 4.5, escape(plot.lines[name.line].label));
+    drawn += fmt::format("<text class='label name {}' x='{:.1f}' y='{:.1f}'>{}</text>", line_class(plot, name.line),
+                         frame.area().right + name_gap, name.y + 4.5, escape(plot.lines[name.line].label));
   return Html(frame.svg(drawn));
 }
 

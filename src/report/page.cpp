@@ -16,12 +16,12 @@ constexpr std::string_view policy =
 
 std::string head(const Page& page) {
   return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n"
+      "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n"
+      "<meta http-equiv='Content-Security-Policy' content='{}'>\n"
+      "<meta name='viewport' content='width=device-width, initial-scale=1'>\n"
+      "<meta name='color-scheme' content='light dark'>\n<link rel='icon' href='data:,'>\n"
       "<title>{}</title>\n<style>\n{}</style>\n</head>\n",
-      policy, escape(page.title), page_css());
+      escape(policy), escape(page.title), page_css());
 }
 
 std::string id_of(std::size_t section) { return fmt::format("section-{}", section + 1); }
@@ -29,8 +29,8 @@ std::string id_of(std::size_t section) { return fmt::format("section-{}", sectio
 Html header(const Page& page) {
   Html html("<header>\n<h1>");
   html.text(page.title).add("</h1>\n");
-  if (!page.summary.empty()) html.add("<p class=\"lead\">").text(page.summary).add("</p>\n");
-  if (!page.facts.empty()) html.add("<dl class=\"facts\">\n");
+  if (!page.summary.empty()) html.add("<p class='lead'>").text(page.summary).add("</p>\n");
+  if (!page.facts.empty()) html.add("<dl class='facts'>\n");
   for (const auto& [name, value] : page.facts)
     html.add("<div><dt>").text(name).add("</dt><dd>").text(value).add("</dd></div>\n");
   if (!page.facts.empty()) html.add("</dl>\n");
@@ -39,28 +39,28 @@ Html header(const Page& page) {
 
 Html contents(const Page& page) {
   if (page.sections.size() < 2) return {};
-  Html html("<nav aria-label=\"Contents\"><ul>\n");
+  Html html("<nav aria-label='Contents'><ul>\n");
   for (std::size_t i = 0; i < page.sections.size(); ++i)
-    html.add("<li><a href=\"#" + id_of(i) + "\">").text(page.sections[i].title).add("</a></li>\n");
+    html.add("<li><a href='#" + id_of(i) + "'>").text(page.sections[i].title).add("</a></li>\n");
   return html.add("</ul></nav>\n");
 }
 
 // Stays in sight while the page has pictures.
 constexpr std::string_view picture_bar =
-    "<div class=\"picture-bar\" role=\"toolbar\" aria-label=\"All pictures\">"
-    "<span class=\"group\" role=\"group\" aria-label=\"Zoom\"><span aria-hidden=\"true\">Zoom</span>"
-    "<button type=\"button\" data-zoom=\"1\" aria-pressed=\"true\">1×</button>"
-    "<button type=\"button\" data-zoom=\"2\" aria-pressed=\"false\">2×</button>"
-    "<button type=\"button\" data-zoom=\"4\" aria-pressed=\"false\">4×</button></span>"
-    "<label><input type=\"checkbox\" id=\"together\" checked> Move all dividers together</label>"
-    "<span class=\"hint\">Zoomed in, drag a picture or use the arrow keys: all pictures show the same spot.</span>"
+    "<div class='picture-bar' role='toolbar' aria-label='All pictures'>"
+    "<span class='group' role='group' aria-label='Zoom'><span aria-hidden='true'>Zoom</span>"
+    "<button type='button' data-zoom='1' aria-pressed='true'>1×</button>"
+    "<button type='button' data-zoom='2' aria-pressed='false'>2×</button>"
+    "<button type='button' data-zoom='4' aria-pressed='false'>4×</button></span>"
+    "<label><input type='checkbox' id='together' checked> Move all dividers together</label>"
+    "<span class='hint'>Zoomed in, drag a picture or use the arrow keys: all pictures show the same spot.</span>"
     "</div>\n";
 
 Html body(const Page& page) {
   Html sections;
   for (std::size_t i = 0; i < page.sections.size(); ++i) {
     const Section& section = page.sections[i];
-    sections.add(fmt::format("<section aria-labelledby=\"{0}\">\n<h2 id=\"{0}\">", id_of(i)));
+    sections.add(fmt::format("<section aria-labelledby='{0}'>\n<h2 id='{0}'>", id_of(i)));
     sections.text(section.title).add("</h2>\n").add(section.body).add("</section>\n");
   }
   bool pictures = false;
@@ -83,8 +83,8 @@ std::string with_pictures(const Html& html) {
     const std::vector<std::byte>& png = *part.picture.png;
     const std::string_view bytes(reinterpret_cast<const char*>(png.data()), png.size());
     const auto [entry, is_new] = numbers.try_emplace(bytes, numbers.size() + 1);
-    text += is_new ? fmt::format(" id=\"picture-{}\" src=\"{}\"", entry->second, data_uri(part.picture))
-                   : fmt::format(" data-same-as=\"picture-{}\"", entry->second);
+    text += is_new ? fmt::format(" id='picture-{}' src='{}'", entry->second, data_uri(part.picture))
+                   : fmt::format(" data-same-as='picture-{}'", entry->second);
   }
   return text;
 }

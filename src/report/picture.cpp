@@ -12,19 +12,19 @@ namespace {
 // pushes out.
 std::string open_pane(const Picture& picture, std::string_view kind, std::string_view label) {
   return fmt::format(
-      "<div class=\"pane{}\" style=\"aspect-ratio:{}/{}\">"
-      "<div class=\"view\" tabindex=\"0\" role=\"group\" aria-label=\"{}\">",
+      "<div class='pane{}' style='aspect-ratio:{}/{}'>"
+      "<div class='view' tabindex='0' role='group' aria-label='{}'>",
       kind, picture.width, picture.height, escape(label));
 }
 
 Html image(const Figure& figure) {
-  Html html(fmt::format("<img alt=\"{}\" width=\"{}\" height=\"{}\" decoding=\"async\" draggable=\"false\"",
-                        escape(figure.alt), figure.picture.width, figure.picture.height));
+  Html html(fmt::format("<img alt='{}' width='{}' height='{}' decoding='async' draggable='false'", escape(figure.alt),
+                        figure.picture.width, figure.picture.height));
   return html.source(figure.picture).add(">");
 }
 
 std::string label(std::string_view side, const std::string& text) {
-  return text.empty() ? "" : fmt::format("<span class=\"label {}\">{}</span>", side, escape(text));
+  return text.empty() ? "" : fmt::format("<span class='label {}'>{}</span>", side, escape(text));
 }
 
 }  // namespace
@@ -33,11 +33,10 @@ Html picture_slider(const Figure& left, const Figure& right) {
   assert(left.picture.width == right.picture.width && left.picture.height == right.picture.height);
   const std::string both = left.label + " against " + right.label;
   Html html(open_pane(left.picture, " slider", both));
-  html.add(image(left)).add("<div class=\"over\">").add(image(right)).add("</div></div>");
+  html.add(image(left)).add("<div class='over'>").add(image(right)).add("</div></div>");
   html.add(label("left", left.label) + label("right", right.label));
   return html.add(fmt::format(
-      "<input type=\"range\" min=\"0\" max=\"100\" step=\"0.5\" value=\"50\" aria-label=\"Divider: {}\"></div>\n",
-      escape(both)));
+      "<input type='range' min='0' max='100' step='0.5' value='50' aria-label='Divider: {}'></div>\n", escape(both)));
 }
 
 Html picture(const Figure& figure) {
@@ -50,19 +49,19 @@ Html legend(const Legend& legend) {
   for (const std::string& colour : legend.colours) colours += "," + escape(colour);
   for (const std::string& text : legend.labels) labels += fmt::format("<span>{}</span>", escape(text));
   return Html(
-      fmt::format("<div class=\"legend\"><span class=\"legend-title\">{}</span>"
-                  "<div class=\"bar\" style=\"background:linear-gradient(90deg{})\"></div>"
-                  "<div class=\"ends\">{}</div></div>\n",
+      fmt::format("<div class='legend'><span class='legend-title'>{}</span>"
+                  "<div class='bar' style='background:linear-gradient(90deg{})'></div>"
+                  "<div class='ends'>{}</div></div>\n",
                   escape(legend.title), colours, labels));
 }
 
 Html error_map(const Figure& figure, const Legend& of) { return picture(figure).add(legend(of)); }
 
 Html tiles(const std::vector<Tile>& tiles) {
-  Html html("<div class=\"tiles\">\n");
+  Html html("<div class='tiles'>\n");
   for (const Tile& tile : tiles) {
-    html.add("<article class=\"tile\"><h4>").text(tile.title).add("</h4>");
-    if (!tile.note.empty()) html.add("<p class=\"note\">").text(tile.note).add("</p>");
+    html.add("<article class='tile'><h4>").text(tile.title).add("</h4>");
+    if (!tile.note.empty()) html.add("<p class='note'>").text(tile.note).add("</p>");
     html.add("\n").add(tile.body).add("</article>\n");
   }
   return html.add("</div>\n");

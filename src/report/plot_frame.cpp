@@ -19,14 +19,14 @@ std::string grid(const Scale& x, const Scale& y, const Box& area) {
   std::string svg;
   for (const Tick& tick : x.ticks()) {
     svg += fmt::format(
-        "<path class=\"grid\" d=\"M{0:.1f} {1:.1f}V{2:.1f}\"/>"
-        "<text class=\"tick\" x=\"{0:.1f}\" y=\"{3:.1f}\" text-anchor=\"middle\">{4}</text>",
+        "<path class='grid' d='M{0:.1f} {1:.1f}V{2:.1f}'/>"
+        "<text class='tick' x='{0:.1f}' y='{3:.1f}' text-anchor='middle'>{4}</text>",
         x.at(tick.value), area.top, area.bottom, area.bottom + 20, escape(tick.label));
   }
   for (const Tick& tick : y.ticks()) {
     svg += fmt::format(
-        "<path class=\"grid\" d=\"M{1:.1f} {0:.1f}H{2:.1f}\"/>"
-        "<text class=\"tick\" x=\"{3:.1f}\" y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>",
+        "<path class='grid' d='M{1:.1f} {0:.1f}H{2:.1f}'/>"
+        "<text class='tick' x='{3:.1f}' y='{4:.1f}' text-anchor='end'>{5}</text>",
         y.at(tick.value), area.left, area.right, area.left - 9, y.at(tick.value) + 4.5, escape(tick.label));
   }
   return svg;
@@ -55,10 +55,10 @@ PlotFrame::PlotFrame(std::string title, const Axis& x, const Axis& y, std::span<
 std::string PlotFrame::svg(const std::string& drawn) const {
   const double middle_x = (area_.left + area_.right) / 2, middle_y = (area_.top + area_.bottom) / 2;
   return fmt::format(
-      "<div class=\"plot\" tabindex=\"0\"><svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">{}"
-      "<path class=\"axis\" d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\"/>"
-      "<text class=\"axis-title\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>"
-      "<text class=\"axis-title\" transform=\"translate(18 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>"
+      "<div class='plot' tabindex='0'><svg viewBox='0 0 {} {}' role='img' aria-label='{}'>{}"
+      "<path class='axis' d='M{:.1f} {:.1f}V{:.1f}H{:.1f}'/>"
+      "<text class='axis-title' x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>"
+      "<text class='axis-title' transform='translate(18 {:.1f}) rotate(-90)' text-anchor='middle'>{}</text>"
       "{}</svg></div>\n",
       width, height, escape(title_), grid(x_, y_, area_), area_.left, area_.top, area_.bottom, area_.right, middle_x,
       height - 12, axis_title(x_axis_), middle_y, axis_title(y_axis_), drawn);

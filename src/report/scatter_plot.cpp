@@ -75,22 +75,21 @@ std::string front_path(const std::vector<Spot>& front, const Box& area) {
   if (front.empty()) return "";
   std::string path = fmt::format("M{:.1f} {:.1f}V{:.1f}", front[0].x, area.top, front[0].y);
   for (std::size_t i = 1; i < front.size(); ++i) path += fmt::format("H{:.1f}V{:.1f}", front[i].x, front[i].y);
-  return fmt::format("<path class=\"front\" d=\"{}H{:.1f}\"/>", path, area.right);
+  return fmt::format("<path class='front' d='{}H{:.1f}'/>", path, area.right);
 }
 
 std::string dot_svg(const Spot& spot, bool on_front, const std::string& tooltip) {
-  return fmt::format("<circle class=\"dot{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}</title></circle>",
+  return fmt::format("<circle class='dot{}' cx='{:.1f}' cy='{:.1f}' r='{}'><title>{}</title></circle>",
                      on_front ? " on-front" : "", spot.x, spot.y, radius, tooltip);
 }
 
 std::string label_svg(const Box& box, const std::string& label) {
-  return fmt::format("<text class=\"label\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", box.left, box.bottom - 3.5,
-                     escape(label));
+  return fmt::format("<text class='label' x='{:.1f}' y='{:.1f}'>{}</text>", box.left, box.bottom - 3.5, escape(label));
 }
 
 std::string missing_note(const ScatterPlot& plot, const std::vector<Dot>& missing) {
   if (missing.empty()) return "";
-  std::string text = "<p class=\"note\">Off the plot: ";
+  std::string text = "<p class='note'>Off the plot: ";
   for (const Dot& dot : missing)
     text += fmt::format("{}{} ({}, {})", &dot == &missing.front() ? "" : "; ", escape(dot.label),
                         value_text(plot.x, dot.at.x), value_text(plot.y, dot.at.y));

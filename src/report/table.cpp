@@ -43,11 +43,10 @@ bool is_numeric(const Table& table, std::size_t column) {
 
 std::string head_cell(const Table& table, std::size_t i) {
   const Column& column = table.columns[i];
-  const std::string unit =
-      column.unit.empty() ? "" : fmt::format("<span class=\"unit\">{}</span>", escape(column.unit));
-  const std::string help = column.help.empty() ? "" : fmt::format(" title=\"{}\"", escape(column.help));
-  return fmt::format("<th scope=\"col\"{}><button type=\"button\"{}>{}{}</button></th>",
-                     is_numeric(table, i) ? " class=\"number\"" : "", help, escape(column.title), unit);
+  const std::string unit = column.unit.empty() ? "" : fmt::format("<span class='unit'>{}</span>", escape(column.unit));
+  const std::string help = column.help.empty() ? "" : fmt::format(" title='{}'", escape(column.help));
+  return fmt::format("<th scope='col'{}><button type='button'{}>{}{}</button></th>",
+                     is_numeric(table, i) ? " class='number'" : "", help, escape(column.title), unit);
 }
 
 // JavaScript's spelling of a number.
@@ -57,13 +56,13 @@ std::string sort_key(double value) {
 }
 
 std::string body_cell(const Table& table, const Cell& cell, std::size_t i, const std::optional<double>& best) {
-  if (i == 0) return fmt::format("<th scope=\"row\">{}</th>", escape(cell.text));
+  if (i == 0) return fmt::format("<th scope='row'>{}</th>", escape(cell.text));
   const bool is_best = best && cell.value && badness(table.columns[i].best, *cell.value) == *best;
   std::string classes = is_numeric(table, i) ? "number" : "";
   if (is_best) classes += " best";
-  const std::string key = cell.value ? fmt::format(" data-value=\"{}\"", sort_key(*cell.value)) : "";
-  return fmt::format("<td{}{}>{}{}</td>", classes.empty() ? "" : " class=\"" + classes + "\"", key, escape(cell.text),
-                     is_best ? "<span class=\"spoken\"> (best)</span>" : "");
+  const std::string key = cell.value ? fmt::format(" data-value='{}'", sort_key(*cell.value)) : "";
+  return fmt::format("<td{}{}>{}{}</td>", classes.empty() ? "" : " class='" + classes + "'", key, escape(cell.text),
+                     is_best ? "<span class='spoken'> (best)</span>" : "");
 }
 
 }  // namespace
@@ -84,7 +83,7 @@ Html to_html(const Table& table) {
     body += "</tr>\n";
   }
   return Html(
-      fmt::format("<div class=\"table\" tabindex=\"0\"><table class=\"sortable\"><caption>{}</caption>\n"
+      fmt::format("<div class='table' tabindex='0'><table class='sortable'><caption>{}</caption>\n"
                   "<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
                   escape(table.caption), head, body));
 }

@@ -4,14 +4,14 @@ namespace penumbra::report {
 
 Html paragraph(std::string_view text) { return Html("<p>").text(text).add("</p>\n"); }
 
-Html note(std::string_view text) { return Html("<p class=\"note\">").text(text).add("</p>\n"); }
+Html note(std::string_view text) { return Html("<p class='note'>").text(text).add("</p>\n"); }
 
 Html heading(std::string_view text) { return Html("<h3>").text(text).add("</h3>\n"); }
 
 Html code_block(std::string_view code) {
-  return Html("<div class=\"code\"><pre tabindex=\"0\"><code>")
+  return Html("<div class='code'><pre tabindex='0'><code>")
       .text(code)
-      .add("</code></pre><button type=\"button\" class=\"copy\">Copy</button></div>\n");
+      .add("</code></pre><button type='button' class='copy'>Copy</button></div>\n");
 }
 
 Html definition_list(const std::vector<std::pair<std::string, std::string>>& entries) {
