@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -24,6 +25,9 @@ struct Layer {
 // 8-bit sRGB: `channels` is 1 (grey), 3 or 4; rows top to bottom.
 void write_png(const std::filesystem::path& path, int width, int height, int channels,
                std::span<const std::uint8_t> pixels, const Metadata& metadata = {});
+// The bytes of such a file.
+std::vector<std::byte> encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels,
+                                  const Metadata& metadata = {});
 // 32-bit float, linear.
 void write_exr(const std::filesystem::path& path, int width, int height, std::span<const Layer> layers,
                const Metadata& metadata = {});
