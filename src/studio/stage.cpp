@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 #include "scene/gltf.h"
 #include "scene/pose.h"
@@ -24,9 +25,8 @@ void aim(render::Setup& setup, const StageOptions& options, const scene::Bounds&
 
 }  // namespace
 
-Stage load_stage(const StageOptions& options, const scene::ImageDecoder& decode) {
-  Stage stage;
-  stage.scene = scene::read_gltf(options.scene, decode);
+Stage set_up(scene::Scene scene, const StageOptions& options) {
+  Stage stage{.scene = std::move(scene), .setup = {}};
   const scene::Pose pose = scene::pose_at(stage.scene, options.time);
   const scene::Bounds bounds = scene::bounds_of(stage.scene, pose);
   const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
@@ -38,6 +38,10 @@ Stage load_stage(const StageOptions& options, const scene::ImageDecoder& decode)
   }
   if (stage.setup.ground) render::add_ground(stage.scene, bounds);
   return stage;
+}
+
+Stage load_stage(const StageOptions& options, const scene::ImageDecoder& decode) {
+  return set_up(scene::read_gltf(options.scene, decode), options);
 }
 
 render::Setup setup_at(const Stage& stage, double seconds) {

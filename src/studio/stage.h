@@ -13,8 +13,11 @@ struct Stage {
   render::Setup setup;  // at --time
 };
 
-// Reads the scene and sets it up. What is chosen from its bounds is chosen at --time, so that it is the same in all
-// frames of a sequence, wherever one starts. Throws Error.
+// Sets a scene up. What is chosen from its bounds is chosen at --time, so that it is the same in all frames of a
+// sequence, wherever one starts. Throws Error.
+Stage set_up(scene::Scene scene, const StageOptions& options);
+
+// Reads the scene and sets it up. Throws Error.
 Stage load_stage(const StageOptions& options, const scene::ImageDecoder& decode);
 
 // The setup at a moment: a camera and a sun of the file follow its animation.

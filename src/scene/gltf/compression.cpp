@@ -3,14 +3,41 @@
 #include <draco/compression/decode.h>
 #include <draco/core/varint_decoding.h>
 #include <draco/metadata/metadata_decoder.h>
+#define MESHOPTIMIZER_NO_WRAPPERS
 #include <meshoptimizer.h>
 
 #include <cstring>
 
 #include "core/error.h"
+#include "gl/shared_library.h"
 
 namespace penumbra::scene::gltf {
 namespace {
+
+// The functions of libmeshoptimizer, loaded when the first file needs them: a program without it reads all others.
+struct Meshopt {
+  decltype(&meshopt_decodeVertexBuffer) decode_vertices = nullptr;
+  decltype(&meshopt_decodeIndexBuffer) decode_triangles = nullptr;
+  decltype(&meshopt_decodeIndexSequence) decode_indices = nullptr;
+  decltype(&meshopt_decodeFilterOct) filter_octahedral = nullptr;
+  decltype(&meshopt_decodeFilterQuat) filter_quaternion = nullptr;
+  decltype(&meshopt_decodeFilterExp) filter_exponential = nullptr;
+
+  Meshopt() {
+    const gl::SharedLibrary library("EXT_meshopt_compression", {"libmeshoptimizer.so.2d", "libmeshoptimizer.so"});
+    library.require(decode_vertices, "meshopt_decodeVertexBuffer");
+    library.require(decode_triangles, "meshopt_decodeIndexBuffer");
+    library.require(decode_indices, "meshopt_decodeIndexSequence");
+    library.require(filter_octahedral, "meshopt_decodeFilterOct");
+    library.require(filter_quaternion, "meshopt_decodeFilterQuat");
+    library.require(filter_exponential, "meshopt_decodeFilterExp");
+  }
+};
+
+const Meshopt& meshopt() {
+  static const Meshopt functions;
+  return functions;
+}
 
 // meshoptimizer asserts on sizes it does not handle, so they are refused before it sees them.
 void check_meshopt_sizes(const MeshoptStream& s) {
@@ -114,15 +141,15 @@ std::vector<std::byte> decode_meshopt(const MeshoptStream& s) {
   const auto* data = reinterpret_cast<const unsigned char*>(s.bytes.data());
   int error = 0;
   if (s.mode == "ATTRIBUTES")
-    error = meshopt_decodeVertexBuffer(decoded.data(), s.count, s.stride, data, s.bytes.size());
+    error = meshopt().decode_vertices(decoded.data(), s.count, s.stride, data, s.bytes.size());
   else if (s.mode == "TRIANGLES")
-    error = meshopt_decodeIndexBuffer(decoded.data(), s.count, s.stride, data, s.bytes.size());
+    error = meshopt().decode_triangles(decoded.data(), s.count, s.stride, data, s.bytes.size());
   else
-    error = meshopt_decodeIndexSequence(decoded.data(), s.count, s.stride, data, s.bytes.size());
+    error = meshopt().decode_indices(decoded.data(), s.count, s.stride, data, s.bytes.size());
   if (error != 0) fail("EXT_meshopt_compression: the data is damaged");
-  if (s.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(decoded.data(), s.count, s.stride);
-  if (s.filter == "QUATERNION") meshopt_decodeFilterQuat(decoded.data(), s.count, s.stride);
-  if (s.filter == "EXPONENTIAL") meshopt_decodeFilterExp(decoded.data(), s.count, s.stride);
+  if (s.filter == "OCTAHEDRAL") meshopt().filter_octahedral(decoded.data(), s.count, s.stride);
+  if (s.filter == "QUATERNION") meshopt().filter_quaternion(decoded.data(), s.count, s.stride);
+  if (s.filter == "EXPONENTIAL") meshopt().filter_exponential(decoded.data(), s.count, s.stride);
   return decoded;
 }
 

@@ -1,0 +1,15 @@
+# penumbra_embed_commit(TARGET): bench::commit() tells which commit the build is of. Looked up at every build, since no
+# file of the build changes with it; compiled only when it differs.
+find_package(Git QUIET)
+
+function(penumbra_embed_commit target)
+  set(output "${CMAKE_BINARY_DIR}/generated/commit.cpp")
+  set(script "${CMAKE_SOURCE_DIR}/cmake/write_commit.cmake")
+  add_custom_target(penumbra_commit
+    COMMAND "${CMAKE_COMMAND}" "-DGIT=${GIT_EXECUTABLE}" "-DROOT=${CMAKE_SOURCE_DIR}" "-DOUTPUT=${output}"
+            -P "${script}"
+    BYPRODUCTS "${output}"
+    VERBATIM)
+  target_sources(${target} PRIVATE "${output}")
+  add_dependencies(${target} penumbra_commit)
+endfunction()

@@ -1,0 +1,32 @@
+// Only the fetches of a technique that searches for blockers and filters: as many, from the same discs of the same map.
+#include "shadow/search.glsl"
+
+layout(binding = 5) uniform sampler2DArray kernels;  // a mask of the technique's: G is the filter's radius
+
+float reach(Receiver receiver, Light light) {
+  return fetch_floor_radius > 0.0 ? fetch_floor_radius : search_reach(receiver, light);
+}
+
+vec4 fetch(Receiver receiver, vec2 offset, Light light) {
+  vec4 map = shadow.cascades[light.cascade].map;
+  return textureGather(shadow_depth, vec3((receiver.position.xy + offset - map.xy) * map.z + 0.5, float(light.cascade)));
+}
+
+Visibility visibility(Receiver receiver, Light light) {
+  vec4 sum = vec4(0.0);
+#if fetch_floor_blocker_taps > 0
+  float search = narrow_search(receiver, light, light.cascade, light.reach).radius;
+  Scramble turned = scramble_of(receiver, blocker_step);
+  for (int i = 0; i < fetch_floor_blocker_taps; ++i) {
+    sum += fetch(receiver, search * blocker_point(i, turned, light), light);
+  }
+#endif
+  float radius = fetch_floor_radius > 0.0 ? fetch_floor_radius : texelFetch(kernels, ivec3(receiver.pixel, 0), 0).y;
+  if (radius > 0.0) {
+    Scramble scramble = scramble_of(receiver, filter_step);
+    for (int i = 0; i < fetch_floor_filter_taps; ++i) {
+      sum += fetch(receiver, radius * filter_point(i, scramble, light), light);
+    }
+  }
+  return Visibility(dot(sum, vec4(1e-3)), radius, 0.0, false);
+}

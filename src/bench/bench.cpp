@@ -1,0 +1,76 @@
+#include "bench/bench.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "bench/measure.h"
+#include "bench/options.h"
+#include "bench/results.h"
+#include "core/log.h"
+#include "io/output_file.h"
+#include "studio/signals.h"
+#include "studio/studio.h"
+
+namespace penumbra::bench {
+
+namespace {
+
+// As a reader would type it, with files by their names alone: where they lay is no matter of the measurement.
+std::string command_of(const std::string& name, const studio::Arguments& arguments) {
+  std::string command = name;
+  for (const std::string& argument : arguments) {
+    const std::size_t slash = argument.rfind('/');
+    const std::string shown = slash == std::string::npos ? argument : argument.substr(slash + 1);
+    command += shown.find(' ') == std::string::npos ? " " + shown : " '" + shown + "'";
+  }
+  return command;
+}
+
+// The first device that is no software rasteriser; none where the user chose, or there is none.
+std::unique_ptr<gl::Context> open_hardware(const Options& options) {
+  if (options.egl_device || options.backend != "auto") return nullptr;
+  const int count = static_cast<int>(gl::egl_devices().size());
+  for (int i = 0; i < count; ++i) {
+    Options one = options;
+    one.egl_device = i;
+    try {
+      std::unique_ptr<gl::Context> context = studio::open_context(one, one);
+      if (!gl::device_info().software) return context;
+    } catch (const Error& error) {
+      log(LogLevel::debug, error.what());  // a device that can't be opened is no reason not to try the next
+    }
+  }
+  return nullptr;
+}
+
+void write(const Results& results, const std::string& output) {
+  const std::string extension = std::filesystem::path(output).extension().string();
+  io::write_text(output, extension == ".json"  ? json_of(results)
+                         : extension == ".csv" ? csv_of(results)
+                                               : html_of(results));
+}
+
+}  // namespace
+
+int run(const std::string& name, const studio::Arguments& arguments, const scene::ImageDecoder& decode) {
+  CLI::App app("Measure what shadows cost, pass by pass", name);
+  Options options;
+  options.command = command_of(name, arguments);
+  add_options(app, options);
+  if (!studio::parse(app, arguments)) return 0;
+  check_together(options);
+  entries_of(options, shadow::built_in_registry());  // wrong names before a driver starts
+  for (const std::string& output : options.outputs) io::check_writable(output);
+  studio::clean_up_on_signals();
+  studio::limit_threads(options);
+
+  std::unique_ptr<gl::Context> context = open_hardware(options);
+  if (!context) context = studio::open_context(options, options);
+  Results results = measure(options, decode);
+  results.backend = gl::to_string(context->backend());
+  for (const std::string& output : options.outputs) write(results, output);
+  if (!options.quiet) fmt::print("{}", text_of(results));
+  return 0;
+}
+
+}  // namespace penumbra::bench

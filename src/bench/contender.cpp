@@ -1,0 +1,41 @@
+#include "bench/contender.h"
+
+namespace penumbra::bench {
+
+namespace {
+
+constexpr const char* mask_pass = "shadow mask";
+
+}  // namespace
+
+Contender::Contender(const Entry& entry, const scene::Scene& scene, const gl::ShaderFiles& shaders,
+                     gl::Timers::Mode timing, bool with_floor)
+    : device_(shaders, timing), scene_(device_, scene), renderer_(device_) {
+  const shadow::Technique& technique = renderer_.registry().find(entry.params.get_word("technique"));
+  if (with_floor) floor_.emplace(technique, scene, shaders, timing);
+}
+
+void Contender::draw(const render::FrameInputs& inputs, const ParamSet& params) {
+  const render::Frame& frame = renderer_.draw(scene_, inputs, params);
+  if (!floor_) return;
+  // Outside of both frames: no pass's time holds it.
+  floor_->take_kernels(*frame.mask.texture);
+  floor_->draw(inputs, params);
+}
+
+void Contender::keep(PassTimes& own, PassTimes& floor, std::size_t count) {
+  own.append(device_.timers.rows(), count);
+  if (floor_) floor.append(floor_->timers().rows(), count);
+}
+
+std::optional<FloorCost> Contender::floor_cost(const PassTimes& own, const PassTimes& floor) const {
+  if (!floor_) return std::nullopt;
+  FloorCost cost{.copy = summary_of(floor.of("mask copy"))};
+  if (floor_->has_fetches()) {
+    cost.fetch = summary_of(floor.of(mask_pass));
+    cost.mask_ratio = paired_ratio(own.of(mask_pass), floor.of(mask_pass));
+  }
+  return cost;
+}
+
+}  // namespace penumbra::bench

@@ -1,0 +1,193 @@
+#include "bench/measure.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bench/caster_grid.h"
+#include "core/error.h"
+#include "gl/api.h"
+#include "scene/animation.h"
+#include "scene/pose.h"
+#include "studio/command_line.h"
+#include "studio/progress.h"
+#include "studio/stage.h"
+
+namespace penumbra::bench {
+
+namespace {
+
+using Contenders = std::vector<std::unique_ptr<Contender>>;
+
+// What is measured of one entry at one point, over all visits.
+struct Kept {
+  PassTimes own, floor;
+};
+
+// The frames of a visit to a point, one after the other.
+class Clock {
+ public:
+  Clock(const Options& options, const studio::Stage& stage, const studio::Size& size)
+      : options_(options), stage_(stage), size_(size) {}
+
+  render::FrameInputs next() {
+    constexpr double rate = 60;  // frames a second
+    const double last = options_.time + (options_.play ? std::max(frame_ - 1, 0) / rate : 0);
+    const double now = options_.time + (options_.play ? frame_ / rate : 0);
+    const render::Setup setup = studio::setup_at(stage_, now);
+    const bool first = frame_++ == 0;
+    return {.width = size_.width,
+            .height = size_.height,
+            .camera = setup.camera,
+            .last_camera = first ? setup.camera : studio::setup_at(stage_, last).camera,
+            .sun = setup.sun,
+            .time = now,
+            .last_time = last,
+            .cut = first || scene::jumps_between(stage_.scene, last, now)};
+  }
+
+ private:
+  const Options& options_;
+  const studio::Stage& stage_;
+  studio::Size size_;
+  int frame_ = 0;
+};
+
+class Bench {
+ public:
+  Bench(const Options& options, const scene::ImageDecoder& decode)
+      : options_(options), decode_(decode), device_(gl::device_info()) {
+    results_.entries = entries_of(options, shadow::built_in_registry());
+    if (options.sweep == "casters" && !options.scene.empty()) model_ = scene::read_gltf(options.scene, decode);
+    results_.sweep = make_sweep(options.sweep, limits());
+    results_.frames = frame_counts(options, device_.software);
+    for (const Point& point : results_.sweep.points) {
+      for (const Entry& entry : results_.entries) params_at(point, entry.params);  // throws before minutes are spent
+    }
+  }
+
+  Results run() {
+    describe();
+    kept_.assign(results_.sweep.points.size(), std::vector<Kept>(results_.entries.size()));
+    results_.points.resize(results_.sweep.points.size());
+    const int visits = visit_count();
+    const int points = static_cast<int>(results_.sweep.points.size());
+    studio::Progress progress("frame", points * (results_.frames.measured + visits * results_.frames.warmup),
+                              !options_.quiet);
+    for (int visit = 0; visit < visits; ++visit) {
+      for (std::size_t i = 0; i < results_.sweep.points.size(); ++i) {
+        const int measured = results_.frames.measured / visits + (visit < results_.frames.measured % visits ? 1 : 0);
+        visit_point(i, measured, progress);
+      }
+    }
+    fit();
+    return std::move(results_);
+  }
+
+ private:
+  SweepLimits limits() const {
+    SweepLimits limits{.software = device_.software, .size = options_.size, .cascades = 1};
+    gl::glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limits.max_texture);
+    for (const Entry& entry : results_.entries)
+      limits.cascades = std::max(limits.cascades, entry.params.get_int("cascades.count"));
+    if (model_) limits.own_triangles = drawn_triangles(*model_);
+    return limits;
+  }
+
+  // Points take turns, so that a machine that slows down meanwhile slows all of them.
+  int visit_count() const {
+    constexpr int most = 4;
+    return results_.sweep.axes.empty() ? 1 : std::min(results_.frames.measured, most);
+  }
+
+  void describe() {
+    results_.version = studio::version();
+    results_.commit = commit();
+    results_.command = options_.command;
+    results_.machine = machine();
+    results_.device = device_;
+    results_.timing = device_.software ? "CPU clock, a finish around each pass" : "GPU timestamps, read late";
+  }
+
+  // Scenes stay loaded from visit to visit, unless each point has its own.
+  void prepare(const Point& point) {
+    if (stage_ && !point.triangles) return;
+    contenders_.clear();
+    stage_.emplace(stage_at(point));
+    results_.scene = options_.scene.empty() ? "generated grid of casters"
+                                            : std::filesystem::path(options_.scene).filename().string();
+    const auto timing = device_.software ? gl::Timers::Mode::finish : gl::Timers::Mode::query;
+    for (const Entry& entry : results_.entries) {
+      contenders_.push_back(
+          std::make_unique<Contender>(entry, stage_->scene, gl::ShaderFiles(options_.glsl), timing, options_.floor));
+    }
+  }
+
+  studio::Stage stage_at(const Point& point) const {
+    if (!point.triangles) return studio::load_stage(options_, decode_);
+    return studio::set_up(model_ ? repeated(*model_, *point.triangles) : caster_grid(*point.triangles), options_);
+  }
+
+  void visit_point(std::size_t index, int measured, studio::Progress& progress) {
+    const Point& point = results_.sweep.points[index];
+    prepare(point);
+    const studio::Size size = point.size.value_or(options_.size);
+    std::vector<ParamSet> params;
+    for (const Entry& entry : results_.entries) params.push_back(params_at(point, entry.params));
+    Clock clock(options_, *stage_, size);
+    for (int i = 0; i < results_.frames.warmup + measured; ++i) {
+      const render::FrameInputs inputs = clock.next();
+      for (std::size_t c = 0; c < contenders_.size(); ++c) contenders_[c]->draw(inputs, params[c]);
+      progress.step();
+    }
+    for (std::size_t c = 0; c < contenders_.size(); ++c) {
+      Kept& kept = kept_[index][c];
+      contenders_[c]->keep(kept.own, kept.floor, static_cast<std::size_t>(measured));
+    }
+    sum_up(index, size);
+  }
+
+  void sum_up(std::size_t index, const studio::Size& size) {
+    Measured& point = results_.points[index];
+    point = {.point = results_.sweep.points[index], .size = size, .triangles = drawn_triangles(stage_->scene)};
+    for (std::size_t c = 0; c < contenders_.size(); ++c) {
+      const Kept& kept = kept_[index][c];
+      Cost cost = cost_of(kept.own, kept_[index].front().own);
+      cost.label = results_.entries[c].label;
+      cost.target_bytes = contenders_[c]->target_bytes();
+      cost.floor = contenders_[c]->floor_cost(kept.own, kept.floor);
+      point.costs.push_back(std::move(cost));
+    }
+  }
+
+  void fit() {
+    if (results_.points.size() < results_.sweep.axes.size() + 2 || results_.sweep.axes.empty()) return;
+    for (std::size_t c = 0; c < results_.entries.size(); ++c) {
+      std::vector<std::vector<double>> xs;
+      std::vector<double> ys;
+      for (const Measured& point : results_.points) {
+        xs.push_back(point.point.at);
+        ys.push_back(point.costs[c].shadow.median);
+      }
+      results_.models.push_back({results_.entries[c].label, fit_linear(xs, ys)});
+    }
+  }
+
+  const Options& options_;
+  const scene::ImageDecoder& decode_;
+  gl::DeviceInfo device_;
+  Results results_;
+  std::optional<scene::Scene> model_;  // that casters are copies of
+  std::optional<studio::Stage> stage_;
+  Contenders contenders_;                // after the stage that they draw
+  std::vector<std::vector<Kept>> kept_;  // by point, by entry
+};
+
+}  // namespace
+
+Results measure(const Options& options, const scene::ImageDecoder& decode) { return Bench(options, decode).run(); }
+
+}  // namespace penumbra::bench

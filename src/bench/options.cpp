@@ -1,0 +1,116 @@
+#include "bench/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+
+#include "bench/sweep.h"
+#include "io/presets.h"
+#include "studio/usage.h"
+
+namespace penumbra::bench {
+
+namespace {
+
+using studio::add_value;
+using studio::fail_usage;
+
+std::vector<std::string> split(std::string_view option, const std::string& text) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    if (parts.back().empty()) fail_usage("{} can't be '{}': a name in it is empty", option, text);
+    begin = end + 1;
+  }
+  return parts;
+}
+
+bool is_preset(const std::string& name) { return std::filesystem::path(name).extension() == ".toml"; }
+
+void add_output(Options& options, const std::string& name) {
+  const std::string extension = std::filesystem::path(name).extension().string();
+  if (extension != ".json" && extension != ".csv" && extension != ".html")
+    fail_usage("-o '{}': the name ends in none of .json, .csv, .html", name);
+  if (std::ranges::find(options.outputs, name) != options.outputs.end()) fail_usage("-o '{}' is given twice", name);
+  options.outputs.push_back(name);
+}
+
+void add_bench_options(CLI::App& app, Options& o) {
+  add_value(app, "--technique", "NAME,...",
+            "Techniques or presets (.toml) to compare, in turn frame by frame; see penumbra list techniques",
+            [&o](const auto& text) { o.techniques = split("--technique", text); });
+  add_value(app, "--frames", "N", "Frames that count, for each technique and point (400; in software 20, of a sweep 4)",
+            [&o](const auto& text) { o.frame_count = studio::parse_count("--frames", text, 1, 100000); });
+  add_value(app, "--warmup", "N", "Frames before them that don't (20; in software 2)",
+            [&o](const auto& text) { o.warmup = studio::parse_count("--warmup", text, 1, 100000); });
+  add_value(app, "--time", "S", "Time of the scene's animation, seconds",
+            [&o](const auto& text) { o.time = studio::parse_number("--time", text, 0, 1e6); });
+  app.add_flag("--play", o.play, "Lets the animation run, 60 frames a second; else it stands still")
+      ->disable_flag_override();
+  app.add_flag("--floor", o.floor,
+               "Also measures the fetches alone of each technique, and one read and write of the mask")
+      ->disable_flag_override();
+  const std::string sweeps = fmt::format("Measures over a range: {}", fmt::join(sweep_names(), ", "));
+  add_value(app, "--sweep", "NAME", sweeps.c_str(),
+            [&o](const auto& text) { o.sweep = studio::one_of("sweep", text, sweep_names()); });
+  app.add_option_function<std::vector<std::string>>(
+         "-o,--output",
+         [&o](const auto& names) {
+           for (const std::string& name : names) add_output(o, name);
+         },
+         "Writes all of it: .json, .csv or .html; repeatable")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  app.add_flag("--quiet,-q", o.quiet, "No progress and no table")->disable_flag_override();
+}
+
+}  // namespace
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("SCENE", options.scene, "glTF file, .gltf or .glb; a sweep of casters makes one of its own")
+      ->type_name("");
+  add_bench_options(app, options);
+  add_value(app, "--size", "WIDTHxHEIGHT", "Pixels (1280x720)",
+            [&options](const auto& text) { options.size = studio::parse_size("--size", text); });
+  studio::add_view_options(app, options);
+  studio::add_shadow_options(app, options);
+  studio::add_device_options(app, options);
+}
+
+void check_together(const Options& o) {
+  studio::check_together(static_cast<const studio::StageOptions&>(o));
+  studio::check_together(static_cast<const studio::DeviceOptions&>(o));
+  if (o.scene.empty() && o.sweep != "casters") fail_usage("SCENE is required");
+  if (o.quiet && o.outputs.empty()) fail_usage("--quiet without -o would measure for nobody");
+}
+
+std::vector<Entry> entries_of(const Options& options, const shadow::Registry& registry) {
+  std::vector<std::string> names = options.techniques;
+  if (names.empty()) names.emplace_back();  // what the presets say
+  std::vector<Entry> entries;
+  for (const std::string& name : names) {
+    studio::ShadowOptions one = options;
+    if (is_preset(name)) {
+      one.presets.push_back(name);
+    } else {
+      one.technique = name;
+    }
+    Entry entry{.label = name, .params = studio::resolve_params(one, registry)};
+    if (is_preset(name)) entry.label = std::filesystem::path(name).stem().string();
+    if (name.empty()) entry.label = entry.params.get_word("technique");
+    for (const Entry& other : entries) {
+      if (other.label == entry.label) fail_usage("--technique has '{}' twice", entry.label);
+    }
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+FrameCounts frame_counts(const Options& options, bool software) {
+  constexpr int on_gpu = 400, in_software = 20, in_software_sweep = 4;
+  const int usual = !software ? on_gpu : options.sweep.empty() ? in_software : in_software_sweep;
+  return {.measured = options.frame_count.value_or(usual), .warmup = options.warmup.value_or(software ? 2 : 20)};
+}
+
+}  // namespace penumbra::bench

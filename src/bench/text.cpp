@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/results.h"
+#include "studio/text.h"
+
+namespace penumbra::bench {
+
+namespace {
+
+std::string pass_lines(const Cost& cost) {
+  const auto line = [](const std::string& name, const Summary& ms, double share) {
+    return fmt::format("  {:<22}{:>10.3f}{:>10.3f}{:>10.3f}{:>8.1f} %\n", name, ms.median, ms.min, ms.max, 100 * share);
+  };
+  std::string text = fmt::format("{:<24}{:>10}{:>10}{:>10}{:>10}\n", studio::printable(cost.label), "median ms", "min",
+                                 "max", "share");
+  for (const PassCost& pass : cost.passes) text += line(pass.name, pass.ms, pass.share);
+  text += line("sum of passes", cost.passes_sum, cost.sum_ratio);
+  text += line("frame", cost.frame, 1);
+  if (!cost.adds_up())
+    text += fmt::format("  warning: the passes make up {:.0f} % of the frame: a time is missing or counted twice\n",
+                        100 * cost.sum_ratio);
+  return text + "\n";
+}
+
+bool has_floor(const Measured& point) {
+  return std::ranges::any_of(point.costs, [](const Cost& cost) { return cost.floor.has_value(); });
+}
+
+std::string floor_cells(const FloorCost& floor) {
+  const std::string fetch = floor.fetch ? fmt::format("{:.3f}", floor.fetch->median) : "-";
+  const std::string ratio = floor.mask_ratio ? fmt::format("{:.2f}", *floor.mask_ratio) : "-";
+  return fmt::format("{:>13}{:>13}{:>13.3f}", fetch, ratio, floor.copy.median);
+}
+
+std::string summary_lines(const Measured& point) {
+  std::string text = fmt::format("{:<24}{:>16}{:>12}{:>12}", "shadow passes", "median ms", "of first", "memory");
+  if (has_floor(point)) text += fmt::format("{:>13}{:>13}{:>13}", "fetches ms", "mask/fetches", "mask copy ms");
+  text += "\n";
+  for (const Cost& cost : point.costs) {
+    text += fmt::format("{:<24}{:>16.3f}{:>12.3f}{:>12}", studio::printable(cost.label), cost.shadow.median,
+                        cost.of_first, studio::bytes_text(static_cast<double>(cost.target_bytes)));
+    if (cost.floor) text += floor_cells(*cost.floor);
+    text += "\n";
+  }
+  return text;
+}
+
+// One line a point: its place, and the shadow passes of each entry.
+std::string sweep_lines(const Results& results) {
+  std::string text;
+  for (const Axis& axis : results.sweep.axes) text += fmt::format("{:>14}", axis.name);
+  for (const Entry& entry : results.entries) text += fmt::format("{:>24}", studio::printable(entry.label) + " ms");
+  text += "\n";
+  for (const Measured& point : results.points) {
+    for (const std::string& name : point.point.names) text += fmt::format("{:>14}", name);
+    for (const Cost& cost : point.costs) text += fmt::format("{:>24.3f}", cost.shadow.median);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string setting_of(const Results& results) {
+  const ParamSet& params = results.entries.front().params;
+  const auto swept = [&results](const char* name) { return results.sweep.name == name; };
+  std::string text = studio::printable(results.scene);
+  if (!swept("resolution")) {
+    const studio::Size& size = results.points.front().size;
+    text += fmt::format(", {}×{}", size.width, size.height);
+  }
+  if (!swept("cascades") && !swept("map_size")) {
+    const int side = params.get_int("cascades.size");
+    text += fmt::format(", {} cascades of {}×{}", params.get_int("cascades.count"), side, side);
+  }
+  return text;
+}
+
+std::string equation_of(const Model& model, const Sweep& sweep) {
+  std::string text = fmt::format("ms = {:.4g}", model.fit.constant);
+  for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
+    const double slope = model.fit.slopes[i];
+    const std::string unit = sweep.axes[i].unit == "million" ? " (million)" : "";
+    text += fmt::format(" {} {:.4g} · {}{}", slope < 0 ? "-" : "+", std::abs(slope), sweep.axes[i].name, unit);
+  }
+  return text;
+}
+
+std::string text_of(const Results& results) {
+  std::string text = fmt::format("{}\n{}, {}\n{} frames after {}, {}\n\n", setting_of(results), results.device.renderer,
+                                 results.machine.cpu, results.frames.measured, results.frames.warmup, results.timing);
+  if (results.sweep.axes.empty()) {
+    for (const Cost& cost : results.points.front().costs) text += pass_lines(cost);
+    return text + summary_lines(results.points.front());
+  }
+  text += "shadow passes, medians\n" + sweep_lines(results);
+  for (const Model& model : results.models)
+    text += fmt::format("\n{}: {}, R² {:.4f}\n", studio::printable(model.label), equation_of(model, results.sweep),
+                        model.fit.r_squared);
+  return text;
+}
+
+}  // namespace penumbra::bench

@@ -1,0 +1,81 @@
+#include "bench/times.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+namespace penumbra::bench {
+
+namespace {
+
+bool is_nested(std::string_view name) { return name.find('/') != std::string_view::npos; }
+
+std::vector<double> sum_of(const PassTimes& times, const std::function<bool(std::string_view)>& counted) {
+  std::vector<double> sums(times.frames.size(), 0.0);
+  for (const gl::Timers::Row& pass : times.passes) {
+    if (is_nested(pass.name) || !counted(pass.name)) continue;
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += pass.milliseconds[i];
+  }
+  return sums;
+}
+
+std::vector<double>& times_of(PassTimes& times, const std::string& name) {
+  for (gl::Timers::Row& pass : times.passes) {
+    if (pass.name == name) return pass.milliseconds;
+  }
+  times.passes.push_back({name, {}});
+  return times.passes.back().milliseconds;
+}
+
+}  // namespace
+
+void PassTimes::append(const std::vector<gl::Timers::Row>& rows, std::size_t count) {
+  const std::size_t before = frames.size();
+  for (const gl::Timers::Row& row : rows) {
+    const auto tail = row.milliseconds.end() - static_cast<std::ptrdiff_t>(std::min(count, row.milliseconds.size()));
+    if (std::all_of(tail, row.milliseconds.end(), [](double ms) { return ms == 0; })) continue;
+    std::vector<double>& times = row.name == "frame" ? frames : times_of(*this, row.name);
+    times.resize(before);
+    times.insert(times.end(), tail, row.milliseconds.end());
+  }
+  for (gl::Timers::Row& pass : passes) pass.milliseconds.resize(frames.size());
+}
+
+std::vector<double> PassTimes::of(std::string_view pass) const {
+  for (const gl::Timers::Row& row : passes) {
+    if (row.name == pass) return row.milliseconds;
+  }
+  return std::vector<double>(frames.size(), 0.0);
+}
+
+std::vector<double> PassTimes::shadow_sums() const { return sum_of(*this, is_shadow_pass); }
+
+std::vector<double> PassTimes::sums() const {
+  return sum_of(*this, [](std::string_view) { return true; });
+}
+
+bool is_shadow_pass(std::string_view name) {
+  constexpr std::array own{"deform", "gbuffer", "lighting", "blended", "exposure", "tone map"};
+  return std::find(own.begin(), own.end(), name.substr(0, name.find('/'))) == own.end();
+}
+
+Cost cost_of(const PassTimes& times, const PassTimes& first) {
+  const std::vector<double> shadow = times.shadow_sums(), sums = times.sums();
+  Cost cost{.frame = summary_of(times.frames),
+            .passes_sum = summary_of(sums),
+            .sum_ratio = paired_ratio(sums, times.frames),
+            .shadow = summary_of(shadow),
+            .of_first = paired_ratio(shadow, first.shadow_sums())};
+  for (const gl::Timers::Row& pass : times.passes) {
+    std::vector<double> drawn = pass.milliseconds;
+    std::erase(drawn, 0.0);
+    const Summary ms = summary_of(drawn);
+    cost.passes.push_back({.name = pass.name,
+                           .ms = ms,
+                           .share = cost.frame.median > 0 ? ms.median / cost.frame.median : 0,
+                           .shadow = is_shadow_pass(pass.name)});
+  }
+  return cost;
+}
+
+}  // namespace penumbra::bench
