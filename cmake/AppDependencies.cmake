@@ -21,10 +21,14 @@ function(penumbra_dependency name)
   mark_as_advanced(PENUMBRA_${name}_INCLUDE)
 endfunction()
 
-penumbra_dependency(tinygltf HEADER tiny_gltf.h LIBRARIES tinygltf)
-penumbra_dependency(draco HEADER draco/compression/decode.h LIBRARIES draco)
-penumbra_dependency(meshoptimizer HEADER meshoptimizer.h LIBRARIES meshoptimizer)
+# Compiled by scene from its header, without what opens files and decodes images: see ImageDecoder.
+penumbra_dependency(tinygltf HEADER tiny_gltf.h)
+target_compile_definitions(penumbra::tinygltf INTERFACE TINYGLTF_NO_FS TINYGLTF_NO_STB_IMAGE
+  TINYGLTF_NO_STB_IMAGE_WRITE TINYGLTF_NO_INCLUDE_JSON)
+penumbra_dependency(draco HEADER draco/compression/decode.h LIBRARIES libdraco.a)  # penumbra-bench takes it along
+penumbra_dependency(meshoptimizer HEADER meshoptimizer.h)                           # loaded when a file needs it
 penumbra_dependency(embree HEADER embree3/rtcore.h LIBRARIES embree3)
+penumbra_dependency(xxhash HEADER xxhash.h)
 penumbra_dependency(openimageio HEADER OpenImageIO/imageio.h LIBRARIES OpenImageIO OpenImageIO_Util)
 penumbra_dependency(toml HEADER toml++/toml.h)
 penumbra_dependency(json HEADER nlohmann/json.hpp)

@@ -23,6 +23,9 @@ out Surface {
   flat uint instance;
 } surface;
 
+// Passes over the same surfaces see the same one nearest.
+invariant gl_Position;
+
 void main() {
   mat4 world = instances[instance].world;
   vec4 place = world * vec4(position, 1.0);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/trigonometric.hpp>
 #include <string>
 #include <vector>
 
-#include "app/commands.h"
+#include "app/metadata.h"
 #include "app/picture.h"
 #include "image/write.h"
+#include "studio/command_line.h"
 
 namespace penumbra::app {
 
@@ -30,32 +30,6 @@ std::vector<float> read_layer(const render::Renderer& renderer, const RenderOpti
     for (float& v : layer) v /= static_cast<float>(options.supersample);
   }
   return layer;
-}
-
-std::string text_of(const glm::vec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
-
-image::Metadata metadata_of(const RenderOptions& options, const render::Setup& setup, const ParamSet& params,
-                            int frame) {
-  const render::Camera& camera = setup.camera;
-  const glm::vec3 forward = -glm::vec3(camera.view[0][2], camera.view[1][2], camera.view[2][2]);
-  image::Metadata metadata{{"Software", studio::version()},
-                           {"penumbra:scene", options.scene},
-                           {"penumbra:technique", params.get_word("technique")},
-                           {"penumbra:frame", std::to_string(frame)},
-                           {"penumbra:time", fmt::format("{}", studio::time_of(options, frame))},
-                           {"penumbra:supersample", std::to_string(options.supersample)},
-                           {"penumbra:camera.eye", text_of(render::position_of(camera))},
-                           {"penumbra:camera.forward", text_of(forward)},
-                           {"penumbra:sun.to_light", text_of(setup.sun.to_light)},
-                           {"penumbra:sun.illuminance", text_of(setup.sun.illuminance)}};
-  if (camera.orthographic) {
-    metadata.emplace_back("penumbra:camera.half_height", fmt::format("{}", camera.half_height));
-  } else {
-    metadata.emplace_back("penumbra:camera.fov", fmt::format("{}", glm::degrees(camera.fov_y)));
-  }
-  for (const Param& param : params.rows())
-    metadata.emplace_back("penumbra:param." + param.name, to_text(params.value(param.name)));
-  return metadata;
 }
 
 void write_pngs(const render::Renderer& renderer, const RenderOptions& options, const OutputNames& names, int frame) {

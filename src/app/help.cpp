@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/techniques.h"
 #include "core/names.h"
 #include "render/renderer.h"
 #include "studio/usage.h"
@@ -44,7 +45,7 @@ bool explain_command(const std::string& name) {
 }
 
 bool explain_technique(const std::string& name) {
-  const shadow::Registry& registry = shadow::built_in_registry();
+  const shadow::Registry& registry = all_techniques();
   for (const shadow::Alias& alias : registry.aliases()) {
     if (alias.name != name) continue;
     fmt::print("{}: {}\n\n  {} with {}\n", alias.name, alias.summary, alias.technique,
@@ -60,7 +61,7 @@ bool explain_technique(const std::string& name) {
 }
 
 bool explain_param(const std::string& name) {
-  for (const Param& param : render::Renderer::params(shadow::built_in_registry())) {
+  for (const Param& param : render::Renderer::params(all_techniques())) {
     if (param.name != name) continue;
     print_param(param);
     return true;
@@ -69,7 +70,7 @@ bool explain_param(const std::string& name) {
 }
 
 bool explain_filter(const std::string& name) {
-  for (const shadow::Filter& filter : shadow::built_in_registry().filters()) {
+  for (const shadow::Filter& filter : all_techniques().filters()) {
     if (filter.name != name) continue;
     const bool of_penumbra = filter.of == shadow::Filter::Of::penumbra;
     fmt::print("{}: {}\n\n  source  {}\n", filter.name, filter.summary, filter.source);
@@ -104,11 +105,11 @@ bool explain_aov(const std::string& name) {
 }
 
 std::vector<std::string> explained_names() {
-  std::vector<std::string> names = shadow::built_in_registry().names();
+  std::vector<std::string> names = all_techniques().names();
   for (const Command& command : commands()) names.emplace_back(command.name);
-  for (const shadow::Filter& filter : shadow::built_in_registry().filters()) names.push_back(filter.name);
+  for (const shadow::Filter& filter : all_techniques().filters()) names.push_back(filter.name);
   for (const render::Aov& aov : render::aovs()) names.push_back(aov.name);
-  for (const Param& param : render::Renderer::params(shadow::built_in_registry())) names.push_back(param.name);
+  for (const Param& param : render::Renderer::params(all_techniques())) names.push_back(param.name);
   return names;
 }
 

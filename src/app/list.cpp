@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/techniques.h"
 #include "core/names.h"
 #include "io/report.h"
 #include "render/renderer.h"
@@ -24,7 +25,7 @@ struct Listing {
 
 Json technique_rows() {
   Json rows = Json::array();
-  const shadow::Registry& registry = shadow::built_in_registry();
+  const shadow::Registry& registry = all_techniques();
   for (const shadow::Technique& technique : registry.techniques()) {
     Json params = Json::array();
     for (const Param& param : technique.params) params.push_back(param.name);
@@ -40,7 +41,7 @@ Json technique_rows() {
 
 Json filter_rows() {
   Json rows = Json::array();
-  for (const shadow::Filter& filter : shadow::built_in_registry().filters())
+  for (const shadow::Filter& filter : all_techniques().filters())
     rows.push_back({{"name", filter.name},
                     {"help", filter.summary},
                     {"source", filter.source},
@@ -50,7 +51,7 @@ Json filter_rows() {
 
 Json param_rows() {
   Json rows = Json::array();
-  for (const Param& param : render::Renderer::params(shadow::built_in_registry())) rows.push_back(io::to_json(param));
+  for (const Param& param : render::Renderer::params(all_techniques())) rows.push_back(io::to_json(param));
   return rows;
 }
 

@@ -9,6 +9,7 @@
 #include "app/output_names.h"
 #include "app/render_options.h"
 #include "app/stats.h"
+#include "app/techniques.h"
 #include "image/read.h"
 #include "io/output_file.h"
 #include "io/presets.h"
@@ -16,6 +17,7 @@
 #include "studio/signals.h"
 #include "studio/stage.h"
 #include "studio/studio.h"
+#include "truth/technique.h"
 
 namespace penumbra::app {
 
@@ -55,7 +57,7 @@ std::string summary(const RenderOptions& options, const ParamSet& params, const 
 void render_files(const RenderOptions& options) {
   const Clock::time_point start = Clock::now();
   const OutputNames names(options.output, options.frames.has_value());
-  const ParamSet params = studio::resolve_params(options, shadow::built_in_registry());
+  const ParamSet params = studio::resolve_params(options, all_techniques());
   const studio::FrameRange range = options.frames.value_or(studio::FrameRange{});
   studio::clean_up_on_signals();
   studio::limit_threads(options);
@@ -67,8 +69,10 @@ void render_files(const RenderOptions& options) {
   std::unique_ptr<gl::Context> context = studio::open_context(options, options);
   const studio::Stage stage = loading.get();
   check_scene_files(stage.scene.files, options, names);
-  studio::Studio studio(options, gl::ShaderFiles(options.glsl), std::move(context), stage,
-                        /* timed= */ !options.stats.empty());
+  const truth::TruthTechnique truth({.cache = options.folder(), .threads = options.threads.value_or(0)});
+  studio::Studio studio(
+      options, std::move(context), stage,
+      {.shaders = gl::ShaderFiles(options.glsl), .techniques = truth.registry(), .timed = !options.stats.empty()});
 
   draw_all(options, studio, params, names, range);
   if (!options.stats.empty()) {

@@ -51,11 +51,13 @@ void add_output_options(CLI::App& app, RenderOptions& o) {
 void add_render_options(CLI::App& app, RenderOptions& options) {
   studio::add_scene_option(app, options);
   add_output_options(app, options);
-  studio::add_size_options(app, options);
+  studio::add_size_option(app, options);
+  studio::add_supersample_option(app, options);
   studio::add_view_options(app, options);
   studio::add_time_options(app, options);
   studio::add_technique_option(app, options);
   studio::add_shadow_options(app, options);
+  add_cache_options(app, options);
   studio::add_device_options(app, options);
 }
 

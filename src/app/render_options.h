@@ -3,12 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "app/cache_options.h"
 #include "studio/options.h"
 
 namespace penumbra::app {
 
 // What `penumbra render` was asked for; every value is parsed and in range.
-struct RenderOptions : studio::StageOptions, studio::ShadowOptions, studio::DeviceOptions {
+struct RenderOptions : studio::StageOptions, studio::ShadowOptions, studio::DeviceOptions, CacheOptions {
   std::string output;
   int warmup = 0;
   std::string save_preset;

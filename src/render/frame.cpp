@@ -30,6 +30,8 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                                                       .scene = scene,
                                                       .camera = camera,
                                                       .last_camera = last_camera,
+                                                      .view = view,
+                                                      .time = inputs.time,
                                                       .cut = inputs.cut,
                                                       .sun = sun,
                                                       .gbuffer = gbuffer,

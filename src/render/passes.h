@@ -31,11 +31,29 @@ struct GBufferInputs {
 GBuffer draw_gbuffer(gl::Device& device, const GBufferInputs& inputs);
 std::vector<gl::ProgramDesc> gbuffer_programs();
 
+// Which triangle a pixel shows, for techniques that trace rays from it; drawn on demand.
+struct SurfaceIdInputs {
+  scene::GpuScene& scene;
+  const glsl::ViewBlock& view;
+};
+// RG32UI: 1 + index in PosedGeometry::surfaces (0: sky), and triangle of that surface.
+const gl::Texture& draw_surface_ids(gl::Device& device, const SurfaceIdInputs& inputs);
+std::vector<gl::ProgramDesc> surface_id_programs();
+
+// What shadow::Inputs::user points to in a frame of this renderer.
+struct FrameScene {
+  scene::GpuScene& scene;
+  const glsl::ViewBlock& view;
+  double time;  // seconds
+};
+
 struct ShadowMaskInputs {
   shadow::SoftShadows& soft_shadows;
   scene::GpuScene& scene;
   const Camera& camera;
   const Camera& last_camera;
+  const glsl::ViewBlock& view;
+  double time = 0;
   bool cut = false;  // as FrameInputs::cut
   const Sun& sun;
   const GBuffer& gbuffer;

@@ -64,9 +64,10 @@ std::vector<std::uint8_t> Renderer::read_display() const {
 std::vector<gl::ProgramDesc> Renderer::all_programs(const ParamSet& defaults) {
   std::vector<gl::ProgramDesc> all;
   for (std::vector<gl::ProgramDesc>& programs :
-       std::vector{scene::GpuScene::programs(), gbuffer_programs(), state_->soft_shadows.all_programs(defaults),
-                   lighting_programs(), blended_programs(state_->device, state_->soft_shadows, defaults),
-                   exposure_programs(), tone_map_programs()}) {
+       std::vector{scene::GpuScene::programs(), gbuffer_programs(), surface_id_programs(),
+                   state_->soft_shadows.all_programs(defaults), lighting_programs(),
+                   blended_programs(state_->device, state_->soft_shadows, defaults), exposure_programs(),
+                   tone_map_programs()}) {
     std::move(programs.begin(), programs.end(), std::back_inserter(all));
   }
   return all;

@@ -34,6 +34,7 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
   const gl::Texture& depth = *inputs.gbuffer.depth;
   const float aspect = static_cast<float>(depth.width()) / static_cast<float>(depth.height());
   const shadow::Light sun{.to_light = inputs.sun.to_light};
+  const FrameScene frame_scene{.scene = inputs.scene, .view = inputs.view, .time = inputs.time};
   const auto draw = [&](const shadow::CasterPass& casters, gl::Pass& pass) {
     const auto reaches = [&](const scene::Bounds& box) { return casters.cull.holds(box_of(box)); };
     inputs.scene.draw_casters(device, pass, casters_of(casters.kind), casters.world_to_clip, reaches);
@@ -50,7 +51,8 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
                                      .casters = box_of(inputs.scene.casters()),
                                      .receivers = box_of(inputs.scene.receivers()),
                                      .moved = moved_box(inputs.scene),
-                                     .draw = draw},
+                                     .draw = draw,
+                                     .user = &frame_scene},
                                     inputs.params);
 }
 

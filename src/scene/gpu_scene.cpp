@@ -241,6 +241,7 @@ void GpuScene::State::update_instances() {
 GpuScene::GpuScene(gl::Device& device, const Scene& scene) : state_(std::make_unique<State>(device, scene)) {}
 GpuScene::~GpuScene() = default;
 
+const Scene& GpuScene::scene() const { return state_->scene; }
 std::uint64_t GpuScene::id() const { return state_->id; }
 bool GpuScene::has_blended() const { return state_->blended; }
 bool GpuScene::moved() const { return state_->moved; }

@@ -49,6 +49,7 @@ class GpuScene {
   void draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
                     const BoxTest& reaches);
 
+  const Scene& scene() const;
   // Unlike that of any other scene of this process, those that are gone included; never 0.
   std::uint64_t id() const;
   bool has_blended() const;

@@ -100,7 +100,8 @@ struct Inputs {
   // Where all lights bring their maps and there is no `draw`, no map can show what moved: with a movement.map, history
   // is then only kept in frames of which this says that none did.
   std::optional<Box> moved;
-  DrawCasters draw;  // optional when every light brings its maps
+  DrawCasters draw;            // optional when every light brings its maps
+  const void* user = nullptr;  // for techniques of the caller's own: handed on, never read
 };
 
 // Throws Error, in one line that names the input and the fault: textures that are none, of another size or of a format

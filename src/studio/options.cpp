@@ -36,9 +36,12 @@ void add_scene_option(CLI::App& app, StageOptions& o) {
   app.add_option("SCENE", o.scene, "glTF file, .gltf or .glb")->required()->type_name("");
 }
 
-void add_size_options(CLI::App& app, StageOptions& o) {
+void add_size_option(CLI::App& app, StageOptions& o) {
   add_value(app, "--size", "WIDTHxHEIGHT", "Pixels (1280x720)",
             [&o](const auto& text) { o.size = parse_size("--size", text); });
+}
+
+void add_supersample_option(CLI::App& app, StageOptions& o) {
   add_value(app, "--supersample", "N", "Draws N times larger each way and averages, in linear light (1)",
             [&o](const auto& text) { o.supersample = parse_count("--supersample", text, 1, 16); });
 }

@@ -46,7 +46,8 @@ struct DeviceOptions {
 };
 
 void add_scene_option(CLI::App& app, StageOptions& options);
-void add_size_options(CLI::App& app, StageOptions& options);
+void add_size_option(CLI::App& app, StageOptions& options);
+void add_supersample_option(CLI::App& app, StageOptions& options);
 void add_view_options(CLI::App& app, StageOptions& options);
 void add_time_options(CLI::App& app, StageOptions& options);
 void add_technique_option(CLI::App& app, ShadowOptions& options);

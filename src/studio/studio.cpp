@@ -45,15 +45,15 @@ std::unique_ptr<gl::Context> open_context(const DeviceOptions& options, const St
   return context;
 }
 
-Studio::Studio(const StageOptions& options, gl::ShaderFiles shaders, std::unique_ptr<gl::Context> context,
-               const Stage& stage, bool timed)
+Studio::Studio(const StageOptions& options, std::unique_ptr<gl::Context> context, const Stage& stage,
+               Equipment equipment)
     : options_(options),
       stage_(stage),
       context_(std::move(context)),
       device_info_(gl::device_info()),
-      device_(std::move(shaders), timing(timed, device_info_)),
+      device_(std::move(equipment.shaders), timing(equipment.timed, device_info_)),
       scene_(device_, stage.scene),
-      renderer_(device_) {}
+      renderer_(device_, std::move(equipment.techniques)) {}
 
 void Studio::draw(int frame, const ParamSet& params) {
   const double time = time_of(options_, frame), last_time = time_of(options_, frame - 1);

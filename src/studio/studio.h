@@ -12,12 +12,17 @@
 
 namespace penumbra::studio {
 
+// What a studio draws with.
+struct Equipment {
+  gl::ShaderFiles shaders;
+  shadow::Registry techniques;
+  bool timed = false;  // each pass is, by the means that fits the device
+};
+
 // A context and all that draws a stage in it. Members are in the order of their making: what is made last goes first.
 class Studio {
  public:
-  // `timed`: each pass is, by the means that fits the device.
-  Studio(const StageOptions& options, gl::ShaderFiles shaders, std::unique_ptr<gl::Context> context, const Stage& stage,
-         bool timed);
+  Studio(const StageOptions& options, std::unique_ptr<gl::Context> context, const Stage& stage, Equipment equipment);
 
   // Draws frame `frame`, with the motion since the frame before it. What techniques remember goes on if that one was
   // the last drawn and no animation jumps in between.

@@ -42,15 +42,28 @@ Picture SceneRun::draw(bool cut) {
   return picture_of(renderer_);
 }
 
-Picture SceneRun::draw_reference() {
+ParamSet SceneRun::reference_params() const {
   ParamSet params = params_;
   for (const Param& row : params.rows()) {
     const bool of_scene = row.name.starts_with("sun.") || row.name.starts_with("cascades.");
     if (!of_scene) params.reset(row.name);
   }
-  renderer_.registry().select(params, "brute_force");
-  reference_.draw(*gpu_scene_, inputs(/*cut=*/true), params);
+  return params;
+}
+
+Picture SceneRun::draw_by(const char* technique, const ParamSet& params) {
+  ParamSet chosen = params;
+  renderer_.registry().select(chosen, technique);
+  reference_.draw(*gpu_scene_, inputs(/*cut=*/true), chosen);
   return picture_of(reference_);
+}
+
+Picture SceneRun::draw_reference() { return draw_by("brute_force", reference_params()); }
+
+Picture SceneRun::draw_truth(int rays) {
+  ParamSet params = reference_params();
+  params.set("truth.samples", rays);
+  return draw_by("truth", params);
 }
 
 Picture SceneRun::picture_of(const render::Renderer& renderer) const {

@@ -8,6 +8,7 @@
 #include "render/renderer.h"
 #include "scene/gpu_scene.h"
 #include "scene/scene.h"
+#include "truth/technique.h"
 
 namespace penumbra::test {
 
@@ -26,12 +27,19 @@ class SceneRun {
 
   // Draws the next frame. Its history goes on from the last one unless `cut`.
   Picture draw(bool cut = false);
-  // The same frame by brute_force.
+  // The same frame by brute_force, or by `truth` with so many rays a pixel.
   Picture draw_reference();
+  Picture draw_truth(int rays);
   std::vector<float> read_aov(const char* name) const { return renderer_.read_aov(name); }
+
+  // What the last draw_truth() traced.
+  const truth::TruthTechnique::Last& traced() const { return truth_.last(); }
+  // Under a mask of the last draw_reference() or draw_truth().
+  std::vector<float> read_reference_aov(const char* name) const { return reference_.read_aov(name); }
 
   // Of the next frame.
   render::Camera& camera() { return setup_.camera; }
+  render::Sun& sun() { return setup_.sun; }
   double& time() { return time_; }
 
   int width() const { return width_; }
@@ -39,6 +47,8 @@ class SceneRun {
 
  private:
   Picture picture_of(const render::Renderer& renderer) const;
+  Picture draw_by(const char* technique, const ParamSet& params);
+  ParamSet reference_params() const;
   render::FrameInputs inputs(bool cut) const;
 
   int width_, height_;
@@ -46,7 +56,8 @@ class SceneRun {
   scene::Scene scene_;
   render::Setup setup_;
   std::optional<scene::GpuScene> gpu_scene_;
-  render::Renderer renderer_{device_}, reference_{device_};
+  truth::TruthTechnique truth_{{.cache = {}}};
+  render::Renderer renderer_{device_, truth_.registry()}, reference_{device_, truth_.registry()};
   ParamSet params_{render::Renderer::params(renderer_.registry())};
   double time_ = 0, last_time_ = 0;
   render::Camera last_camera_;

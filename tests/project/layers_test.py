@@ -12,13 +12,14 @@ BELOW = {
     "scene": {"gl", "core"},
     "shadow": {"gl", "core"},
     "metrics": {"core"},
-    "truth": {"scene", "gl", "core"},
     "io": {"scene", "gl", "core"},
     "image": {"io", "scene", "gl", "core"},
     "report": {"io", "scene", "gl", "core"},
-    "render": {"shadow", "truth", "scene", "gl", "core"},
-    "studio": {"render", "shadow", "truth", "io", "scene", "gl", "core"},
-    "app": {"studio", "report", "image", "metrics", "render", "shadow", "truth", "io", "scene", "gl", "core"},
+    "render": {"shadow", "scene", "gl", "core"},
+    "truth": {"render", "shadow", "io", "scene", "gl", "core"},
+    "studio": {"render", "shadow", "io", "scene", "gl", "core"},
+    "bench": {"studio", "report", "render", "shadow", "io", "scene", "gl", "core"},
+    "app": {"bench", "studio", "report", "image", "metrics", "render", "shadow", "truth", "io", "scene", "gl", "core"},
 }
 INSTALLED = {"core", "gl", "shadow"}
 GENERATED = "gl/api.h"
@@ -34,10 +35,11 @@ LIBRARIES = {
     "draco/": {"scene"},
     "meshoptimizer.h": {"scene"},
     "embree3/": {"truth"},
+    "xxhash.h": {"truth"},
     "OpenImageIO/": {"image"},
     "toml++/": {"io"},
-    "nlohmann/": {"scene", "io", "report", "studio", "app"},
-    "CLI/": {"studio", "app"},
+    "nlohmann/": {"scene", "io", "report", "studio", "bench", "app"},
+    "CLI/": {"studio", "bench", "app"},
 }
 
 # The operating system's headers, which the portable layers core and shadow leave alone.
@@ -51,6 +53,7 @@ GLSL_BELOW = {
     "shadow": {"shared", "lib", "shadow", "generated"},
     "scene": {"shared", "lib", "scene"},
     "render": {"shared", "lib", "scene", "shadow", "render", "generated"},
+    "bench": {"shared", "lib", "shadow", "bench", "generated"},
 }
 # Those whose shaders the C++ of a layer may name.
 GLSL_NAMED = {"gl": GLSL_BELOW["shared"], "shadow": GLSL_BELOW["shadow"], "scene": GLSL_BELOW["scene"]}

@@ -1,0 +1,22 @@
+#include "app/cache_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "studio/options.h"
+#include "truth/cache.h"
+
+namespace penumbra::app {
+
+std::filesystem::path CacheOptions::folder() const {
+  if (no_cache) return {};
+  return cache ? std::filesystem::path(*cache) : truth::default_cache_folder();
+}
+
+void add_cache_options(CLI::App& app, CacheOptions& options) {
+  studio::add_value(app, "--cache", "DIR", "Where ray-traced shadows are kept ($XDG_CACHE_HOME/penumbra/truth)",
+                    [&options](const auto& text) { options.cache = text; });
+  app.add_flag("--no-cache", options.no_cache, "Ray traced shadows are neither looked up nor kept")
+      ->disable_flag_override();
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "studio/cli_fwd.h"
+
+namespace penumbra::app {
+
+// Where ray-traced shadows are kept.
+struct CacheOptions {
+  std::optional<std::string> cache;
+  bool no_cache = false;
+
+  std::filesystem::path folder() const;  // empty: nowhere
+};
+
+void add_cache_options(CLI::App& app, CacheOptions& options);
+
+}  // namespace penumbra::app

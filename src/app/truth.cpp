@@ -1,0 +1,168 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/cache_options.h"
+#include "app/commands.h"
+#include "app/local_light.h"
+#include "app/metadata.h"
+#include "app/output_names.h"
+#include "image/read.h"
+#include "image/write.h"
+#include "io/output_file.h"
+#include "studio/progress.h"
+#include "studio/signals.h"
+#include "studio/stage.h"
+#include "studio/studio.h"
+#include "truth/technique.h"
+
+namespace penumbra::app {
+
+namespace {
+
+using studio::add_value;
+
+struct TruthOptions : studio::StageOptions, studio::ShadowOptions, studio::DeviceOptions, CacheOptions {
+  std::string output;
+  std::optional<std::string> samples, error, seed;
+  std::optional<std::string> light;
+  double light_radius = 0.1;
+  bool quiet = false;
+};
+
+void add_truth_options(CLI::App& app, TruthOptions& o) {
+  studio::add_scene_option(app, o);
+  app.add_option("-o,--output", o.output,
+                 "File to write: .exr (layers shadow, standard_error, hard) or .png (shadow alone, 8 bits)")
+      ->required()
+      ->type_name("FILE");
+  add_value(app, "--spp", "N", "Rays of each pixel; short for --set truth.samples=N (256)",
+            [&o](const auto& text) { o.samples = text; });
+  add_value(app, "--error", "E", "Standard error to reach in 99.9 % of pixels; short for --set truth.error=E",
+            [&o](const auto& text) { o.error = text; });
+  add_value(app, "--seed", "N", "Another number gives other points; short for --set truth.seed=N",
+            [&o](const auto& text) { o.seed = text; });
+  studio::add_size_option(app, o);
+  studio::add_view_options(app, o);
+  add_value(app, "--light", "NAME|INDEX", "A point or spot light of the scene in the sun's place",
+            [&o](const auto& text) { o.light = text; });
+  add_value(app, "--light-radius", "M", "Radius of that light, metres (0.1): a sphere's, or of a spot light's disc",
+            [&o](const auto& text) { o.light_radius = studio::parse_number("--light-radius", text, 0, 1e6); });
+  studio::add_time_options(app, o);
+  studio::add_shadow_options(app, o);
+  add_cache_options(app, o);
+  app.add_flag("--quiet,-q", o.quiet, "No progress and no summary")->disable_flag_override();
+  studio::add_device_options(app, o);
+}
+
+// The short options stand before every --set, as --sun-angle does.
+ParamSet params_of(const TruthOptions& options, const shadow::Registry& registry) {
+  studio::ShadowOptions all = options;
+  all.technique = "truth";
+  std::vector<std::string> assignments;
+  const auto add = [&](const char* name, const std::optional<std::string>& text) {
+    if (text) assignments.push_back(fmt::format("{}={}", name, *text));
+  };
+  add("truth.samples", options.samples);
+  add("truth.error", options.error);
+  add("truth.seed", options.seed);
+  all.assignments.insert(all.assignments.begin(), assignments.begin(), assignments.end());
+  return studio::resolve_params(all, registry);
+}
+
+// Of rows from the bottom.
+std::vector<float> from_top(const std::vector<float>& rows, int width) {
+  std::vector<float> flipped;
+  flipped.reserve(rows.size());
+  for (auto row = rows.end(); row != rows.begin();) {
+    row -= width;
+    flipped.insert(flipped.end(), row, row + width);
+  }
+  return flipped;
+}
+
+// That 99.9 % of the pixels have no more of.
+float error_of_most(std::vector<float> errors) {
+  const std::size_t rank = errors.size() - 1 - errors.size() / 1000;
+  std::ranges::nth_element(errors, errors.begin() + static_cast<std::ptrdiff_t>(rank));
+  return errors[rank];
+}
+
+void write(const std::filesystem::path& path, const studio::Size& size, const truth::Traced& traced,
+           const image::Metadata& metadata) {
+  const std::vector<float> shadow = from_top(traced.visibility, size.width);
+  if (path.extension() == ".png") {
+    std::vector<std::uint8_t> bytes;
+    for (const float v : shadow) bytes.push_back(static_cast<std::uint8_t>(std::lround(v * 255.0f)));
+    image::write_png(path, size.width, size.height, 1, bytes, metadata);
+    return;
+  }
+  const std::vector<image::Layer> layers{{"shadow", {"V"}, shadow},
+                                         {"standard_error", {"V"}, from_top(traced.standard_error, size.width)},
+                                         {"hard", {"V"}, from_top(traced.hard, size.width)}};
+  image::write_exr(path, size.width, size.height, layers, metadata);
+}
+
+std::string summary(const std::filesystem::path& path, const studio::Size& size,
+                    const truth::TruthTechnique::Last& last) {
+  const truth::Traced& traced = last.traced;
+  const double millions = static_cast<double>(traced.rays) * 1e-6;
+  const std::string cost = last.from_cache
+                               ? "from the cache"
+                               : fmt::format("{:.1f} million rays in {:.2f} s, {:.1f} million a second", millions,
+                                             traced.seconds, millions / std::max(traced.seconds, 1e-9));
+  return fmt::format("wrote {} ({}×{}, {} rays a pixel, {}, standard error up to {:.2g} in 99.9 %)", path.string(),
+                     size.width, size.height, traced.samples, cost, error_of_most(traced.standard_error));
+}
+
+void trace_files(const TruthOptions& options) {
+  const OutputNames names(options.output, options.frames.has_value());
+  const studio::FrameRange range = options.frames.value_or(studio::FrameRange{});
+  studio::clean_up_on_signals();
+  studio::limit_threads(options);
+  io::check_writable(names.picture(range.first));
+  const studio::Stage stage = studio::load_stage(options, image::image_decoder());
+
+  constexpr int parts = 1000;  // of a frame
+  studio::Progress progress(range.count() > 1 ? "frame" : "", range.count() > 1 ? range.count() : parts,
+                            !options.quiet);
+  truth::TechniqueOptions how{.cache = options.folder(), .threads = options.threads.value_or(0)};
+  if (range.count() == 1) {
+    how.progress = [&progress](double share) {
+      progress.reach(std::min(static_cast<int>(share * parts), parts - 1));
+      return true;
+    };
+  }
+  if (options.light) how.local_light = local_light(stage.scene, *options.light, options.light_radius);
+  const truth::TruthTechnique truth(std::move(how));
+  const shadow::Registry registry = truth.registry();
+  const ParamSet params = params_of(options, registry);
+  studio::Studio studio(options, studio::open_context(options, options), stage,
+                        {.shaders = gl::ShaderFiles(options.glsl), .techniques = registry});
+  std::string last_line;
+  for (int frame = range.first; frame <= range.last; ++frame) {
+    studio.draw(frame, params);
+    write(names.picture(frame), options.size, truth.last().traced, metadata_of(options, studio.setup(), params, frame));
+    progress.step();
+    last_line = summary(names.picture(frame), options.size, truth.last());
+  }
+  if (!options.quiet) fmt::print("{}\n", last_line);
+}
+
+}  // namespace
+
+int run_truth(const Arguments& arguments) {
+  CLI::App app("Ray trace the shadows of a scene, for techniques to be measured against", "penumbra truth");
+  TruthOptions options;
+  add_truth_options(app, options);
+  if (!studio::parse(app, arguments)) return 0;
+  studio::check_together(static_cast<const studio::StageOptions&>(options));
+  studio::check_together(static_cast<const studio::DeviceOptions&>(options));
+  trace_files(options);
+  return 0;
+}
+
+}  // namespace penumbra::app

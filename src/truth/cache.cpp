@@ -1,0 +1,125 @@
+#include "truth/cache.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/log.h"
+#include "io/output_file.h"
+
+namespace penumbra::truth {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A file is this, then visibility, standard error and hard shadow as floats of this machine's byte order.
+struct Header {
+  std::array<char, 16> magic{'p', 'e', 'n', 'u', 'm', 'b', 'r', 'a', ' ', 't', 'r', 'u', 't', 'h', ' ', '1'};
+  Key key;
+  std::uint64_t pixels = 0;
+  std::int64_t rays = 0, samples = 0;
+  double seconds = 0;
+};
+
+constexpr std::array layers{&Traced::visibility, &Traced::standard_error, &Traced::hard};
+
+fs::path file_of(const fs::path& folder, const Key& key) { return folder / (key.text() + ".truth"); }
+
+std::uintmax_t bytes_of(std::size_t pixels) { return sizeof(Header) + layers.size() * pixels * sizeof(float); }
+
+// Whether the header is that of a file for `key`, and whole.
+bool fits(const Header& header, const Key& key, std::size_t pixels, std::uintmax_t bytes) {
+  return header.magic == Header{}.magic && header.key == key && header.pixels == pixels && bytes == bytes_of(pixels);
+}
+
+std::optional<Traced> read(const fs::path& path, const Key& key, std::size_t pixels) {
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  if (error) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  Header header;
+  file.read(reinterpret_cast<char*>(&header), sizeof(header));
+  if (!file || !fits(header, key, pixels, bytes)) return std::nullopt;
+  Traced traced{.rays = header.rays, .seconds = header.seconds, .samples = static_cast<int>(header.samples)};
+  for (const auto layer : layers) {
+    std::vector<float>& values = traced.*layer;
+    values.resize(pixels);
+    file.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(pixels * sizeof(float)));
+  }
+  if (!file) return std::nullopt;
+  return traced;
+}
+
+// Makes room for `needed` bytes.
+void shrink(const fs::path& folder, std::uintmax_t needed) {
+  struct Entry {
+    fs::file_time_type used;
+    std::uintmax_t bytes;
+    fs::path path;
+  };
+  std::vector<Entry> entries;
+  std::uintmax_t total = needed;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() != ".truth") continue;
+    const Entry found{entry.last_write_time(error), entry.file_size(error), entry.path()};
+    if (error) continue;  // another process took it away
+    entries.push_back(found);
+    total += found.bytes;
+  }
+  std::ranges::sort(entries, {}, &Entry::used);
+  for (const Entry& entry : entries) {
+    if (total <= Cache::largest) return;
+    if (fs::remove(entry.path, error)) total -= entry.bytes;
+  }
+}
+
+}  // namespace
+
+std::optional<Traced> Cache::find(const Key& key, std::size_t pixels) const {
+  if (folder_.empty()) return std::nullopt;
+  const fs::path path = file_of(folder_, key);
+  std::optional<Traced> traced = read(path, key, pixels);
+  std::error_code ignored;
+  if (traced) fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
+  return traced;
+}
+
+void Cache::keep(const Key& key, const Traced& traced) const {
+  const std::uintmax_t bytes = bytes_of(traced.visibility.size());
+  if (folder_.empty() || bytes > largest) return;
+  const Header header{.key = key,
+                      .pixels = traced.visibility.size(),
+                      .rays = traced.rays,
+                      .samples = traced.samples,
+                      .seconds = traced.seconds};
+  std::string contents(reinterpret_cast<const char*>(&header), sizeof(header));
+  contents.reserve(bytes);
+  for (const auto layer : layers) {
+    const std::vector<float>& values = traced.*layer;
+    contents.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+  }
+  try {
+    shrink(folder_, bytes);
+    io::write_text(file_of(folder_, key), contents);
+  } catch (const Error& error) {
+    warn("the cache of traced shadows: {}", error.what());
+  }
+}
+
+std::filesystem::path default_cache_folder() {
+  const auto from = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    const fs::path path = value == nullptr ? "" : value;
+    return path.is_absolute() ? path : fs::path();
+  };
+  if (const fs::path cache = from("XDG_CACHE_HOME"); !cache.empty()) return cache / "penumbra/truth";
+  if (const fs::path home = from("HOME"); !home.empty()) return home / ".cache/penumbra/truth";
+  return {};
+}
+
+}  // namespace penumbra::truth

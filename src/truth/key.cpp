@@ -1,0 +1,135 @@
+#define XXH_INLINE_ALL
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <bit>
+#include <memory>
+#include <type_traits>
+#include <variant>
+
+#include "truth/cache.h"
+
+namespace penumbra::truth {
+
+namespace {
+
+// Raise it when the same input gives another picture.
+constexpr int generation = 1;
+
+// XXH3 (Collet) of plain values, each without padding.
+class Hash {
+ public:
+  Hash() {
+    XXH3_128bits_reset(state_.get());
+    add(generation);
+  }
+
+  template <class T>
+  void add(const T& value) {
+    static_assert(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>);
+    XXH3_128bits_update(state_.get(), &value, sizeof(value));
+  }
+  template <int n, class T>
+  void add(const glm::vec<n, T>& value) {
+    for (int i = 0; i < n; ++i) add(value[i]);
+  }
+  // Elements without padding, their number included.
+  template <class T>
+  void add_all(std::span<const T> values) {
+    add(values.size());
+    XXH3_128bits_update(state_.get(), values.data(), values.size_bytes());
+  }
+
+  Key key() const {
+    const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
+    return {hash.high64, hash.low64};
+  }
+
+ private:
+  struct Free {
+    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+  };
+  std::unique_ptr<XXH3_state_t, Free> state_{XXH3_createState()};
+};
+
+void add_texture(Hash& hash, const scene::Scene& scene, const scene::TextureRef& ref) {
+  hash.add(ref.texture >= 0);
+  if (ref.texture < 0) return;
+  const scene::Texture& texture = scene.textures[static_cast<std::size_t>(ref.texture)];
+  hash.add(ref.uv_set);
+  for (int column = 0; column < 3; ++column) hash.add(ref.uv_transform[column]);
+  hash.add(texture.wrap_s);
+  hash.add(texture.wrap_t);
+  hash.add(texture.mag);
+  hash.add(texture.image >= 0);
+  if (texture.image < 0) return;
+  const scene::Image& image = scene.images[static_cast<std::size_t>(texture.image)];
+  hash.add(image.width);
+  hash.add(image.height);
+  hash.add_all(std::span(image.rgba));
+}
+
+void add_alpha(Hash& hash, const scene::Scene& scene, const scene::Primitive& primitive) {
+  hash.add(primitive.material);
+  if (primitive.material >= 0) {
+    const scene::Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+    hash.add(material.base_color.a);
+    hash.add(material.alpha_mode);
+    hash.add(material.alpha_cutoff);
+    add_texture(hash, scene, material.base_color_texture);
+  }
+  for (const std::vector<glm::vec2>& uvs : primitive.uvs) hash.add_all(std::span(uvs));
+  hash.add_all(std::span(primitive.colors));
+}
+
+void add_light(Hash& hash, const Sun& sun) {
+  hash.add(sun.to_light);
+  hash.add(sun.angle);
+  hash.add(sun.square);
+}
+
+void add_light(Hash& hash, const LocalLight& light) {
+  hash.add(light.position);
+  hash.add(light.radius);
+  hash.add(light.axis.has_value());
+  if (light.axis) hash.add(*light.axis);
+}
+
+}  // namespace
+
+std::string Key::text() const { return fmt::format("{:016x}{:016x}", high, low); }
+
+Key key_of(const scene::Scene& scene, const scene::PosedGeometry& geometry) {
+  Hash hash;
+  for (const scene::PosedSurface& surface : geometry.surfaces) {
+    hash.add(surface.casts);
+    if (surface.casts == scene::Casts::never) continue;
+    for (int column = 0; column < 4; ++column) hash.add(surface.world[column]);
+    hash.add_all(surface.positions);
+    hash.add_all(std::span(surface.primitive->indices));
+    if (surface.casts == scene::Casts::by_alpha) add_alpha(hash, scene, *surface.primitive);
+  }
+  return hash.key();
+}
+
+Key key_of(const Key& casters, std::span<const Receiver> receivers, const Light& light, const TraceOptions& options) {
+  Hash hash;
+  hash.add(casters);
+  hash.add(receivers.size());
+  for (const Receiver& receiver : receivers) {
+    hash.add(receiver.there);
+    if (!receiver.there) continue;
+    hash.add(receiver.position);
+    hash.add(receiver.normal);
+    hash.add(receiver.reach);
+  }
+  hash.add(light.index());
+  std::visit([&](const auto& kind) { add_light(hash, kind); }, light);
+  hash.add(options.samples);
+  hash.add(options.error);
+  hash.add(options.seed);
+  return hash.key();
+}
+
+}  // namespace penumbra::truth

@@ -1,0 +1,120 @@
+// The ray-traced truth in a renderer's frame: against closed forms, against another renderer's picture, and against the
+// shadow map, which sees the same casters.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <glm/glm.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "gpu/gpu_test.h"
+#include "image/read.h"
+#include "image/scene_run.h"
+
+namespace penumbra::test {
+namespace {
+
+using TruthImage = GpuTest;
+
+// Visibility under a half-plane whose edge is at t = 0, in penumbra radii; scenes/README.md has the formulas.
+double exact_disc(double t) {
+  t = std::clamp(t, -1.0, 1.0);
+  return 0.5 + (t * std::sqrt(1 - t * t) + std::asin(t)) / std::numbers::pi;
+}
+double exact_square(double t) { return 0.5 + 0.5 * std::clamp(t, -1.0, 1.0); }
+
+// World x under each pixel's centre of an orthographic camera that looks down, rows from the top.
+std::vector<double> ground_x(const render::Camera& camera, int width, int height) {
+  const glm::dmat4 to_world = glm::inverse(glm::dmat4(camera.view));
+  std::vector<double> xs;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double half = camera.half_height;
+      const glm::dvec4 eye((2 * (x + 0.5) / width - 1) * half * width / height, (1 - 2 * (y + 0.5) / height) * half, 0,
+                           1);
+      xs.push_back((to_world * eye).x);
+    }
+  }
+  return xs;
+}
+
+TEST_F(TruthImage, IsTheExactPenumbraOfAnEdge) {
+  constexpr int width = 96, height = 54;
+  for (const std::string shape : {"disc", "square"}) {
+    SCOPED_TRACE(shape);
+    SceneRun run("knife_edge", width, height, "top");
+    run.params().set("sun.angle", 8.0f);
+    run.params().set("sun.shape", shape);
+    run.draw_truth(4096);
+    const std::vector<float>& traced = run.traced().traced.visibility;
+    const std::vector<double> xs = ground_x(run.camera(), width, height);
+    const double radius = 5 * std::tan(glm::radians(4.0));
+    double squares = 0;
+    double worst = 0;
+    int penumbra = 0;
+    for (std::size_t i = 0; i < xs.size(); ++i) {
+      const std::size_t from_bottom = (height - 1 - i / width) * width + i % width;
+      const double exact = shape == "disc" ? exact_disc(xs[i] / radius) : exact_square(xs[i] / radius);
+      const double error = std::abs(traced[from_bottom] - exact);
+      squares += error * error;
+      worst = std::max(worst, error);
+      penumbra += exact > 0.02 && exact < 0.98 ? 1 : 0;
+    }
+    EXPECT_GT(penumbra, width * height / 4);
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(xs.size())), 0.001);
+    EXPECT_LT(worst, 0.005);
+  }
+}
+
+// Share of receivers of which the shadow map and the ray to the sun's centre say different things.
+double disagreement(SceneRun& run) {
+  run.choose("hard");
+  const Picture hard = run.draw(/*cut=*/true);
+  run.draw_truth(8);
+  const std::vector<float>& rays = run.traced().traced.hard;
+  const std::vector<float> normals = run.read_reference_aov("geometric_normal");
+  const glm::vec3 to_light = run.sun().to_light;
+  const auto width = static_cast<std::size_t>(run.width());
+  const std::size_t height = hard.size() / width;
+  int receivers = 0;
+  int different = 0;
+  for (std::size_t i = 0; i < hard.size(); ++i) {
+    const glm::vec3 normal(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]);
+    if (hard[i] < 0 || !(glm::dot(normal, to_light) > 0.05f)) continue;
+    ++receivers;
+    different += std::abs(hard[i] - rays[(height - 1 - i / width) * width + i % width]) > 0.5f ? 1 : 0;
+  }
+  EXPECT_GT(receivers, static_cast<int>(hard.size() / 20));
+  return static_cast<double>(different) / receivers;
+}
+
+TEST_F(TruthImage, SeesTheCastersThatTheShadowMapSees) {
+  for (const char* scene : {"courtyard", "knife_edge", "posts", "steps", "thesis", "moving", "fence", "foliage"}) {
+    SceneRun run(scene, 320, 180);
+    EXPECT_LT(disagreement(run), 0.02) << scene;
+  }
+}
+
+TEST_F(TruthImage, SeesSkinnedAndMorphingCastersWhereTheyAreDrawn) {
+  SceneRun run("moving", 320, 180);
+  for (const double time : {0.4, 1.1, 2.3}) {
+    run.time() = time;
+    EXPECT_LT(disagreement(run), 0.01) << time << " s";
+  }
+}
+
+TEST_F(TruthImage, IsTheSameWhereverTheTechniqueIsAsked) {
+  SceneRun run("fence", 96, 54);
+  const Picture mask = run.draw_truth(64);
+  const std::vector<float>& traced = run.traced().traced.visibility;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (mask[i] >= 0) EXPECT_NEAR(mask[i], traced[(53 - i / 96) * 96 + i % 96], 0.0005);
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
