@@ -1,8 +1,7 @@
 #include "truth/sampling.h"
 
+#include <cmath>
 #include <cstddef>
-
-#include "lib/disc.glsl"
 
 namespace penumbra::truth {
 
@@ -63,20 +62,30 @@ PixelPoints::PixelPoints(std::uint32_t seed, std::uint32_t pixel) {
 }
 
 void PixelPoints::square(std::uint32_t first, PacketPoints& points) const {
-  const std::array<std::uint32_t, 2> second = {second_dimension(first), second_dimension(first + 1)};
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const std::size_t point = lane / scrambling_count;
+  for (std::size_t point = 0; point < 2; ++point) {
     const std::uint32_t index = first + static_cast<std::uint32_t>(point);
-    points.x[lane] = unit(reversed_bits(scrambled(index, seeds_x_[lane])));
-    points.y[lane] = unit(reversed_bits(scrambled(second[point], seeds_y_[lane])));
+    const std::uint32_t second = second_dimension(index);
+    for (std::size_t lane = point * scrambling_count; lane < (point + 1) * scrambling_count; ++lane) {
+      points.x[lane] = unit(reversed_bits(scrambled(index, seeds_x_[lane])));
+      points.y[lane] = unit(reversed_bits(scrambled(second, seeds_y_[lane])));
+    }
   }
 }
 
+// concentric_disc() of glsl/lib/disc.glsl without branches, so that it is done for several lanes at once.
 void square_to_disc(PacketPoints& points) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const glsl::vec2 p = glsl::concentric_disc({points.x[lane], points.y[lane]});
-    points.x[lane] = p.x;
-    points.y[lane] = p.y;
+    const float px = 2 * points.x[lane] - 1;
+    const float py = 2 * points.y[lane] - 1;
+    const bool wide = std::abs(px) > std::abs(py);
+    const float radius = wide ? px : py;
+    const float other = wide ? py : px;
+    const float angle = 0.78539816f * (other / (radius != 0 ? radius : 1));
+    const float x = angle * angle;
+    const float c = radius * (1 + x * (-0.5f + x * (4.1666667e-2f + x * (-1.3888889e-3f + x * 2.4801587e-5f))));
+    const float s = radius * angle * (1 + x * (-0.16666667f + x * (8.3333333e-3f - x * 1.9841270e-4f)));
+    points.x[lane] = wide ? c : s;
+    points.y[lane] = wide ? s : c;
   }
 }
 
