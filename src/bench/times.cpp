@@ -61,11 +61,12 @@ bool is_shadow_pass(std::string_view name) {
 
 Cost cost_of(const PassTimes& times, const PassTimes& first) {
   const std::vector<double> shadow = times.shadow_sums(), sums = times.sums();
-  Cost cost{.frame = summary_of(times.frames),
-            .passes_sum = summary_of(sums),
-            .sum_ratio = paired_ratio(sums, times.frames),
-            .shadow = summary_of(shadow),
-            .of_first = paired_ratio(shadow, first.shadow_sums())};
+  Cost cost;
+  cost.frame = summary_of(times.frames);
+  cost.passes_sum = summary_of(sums);
+  cost.sum_ratio = paired_ratio(sums, times.frames);
+  cost.shadow = summary_of(shadow);
+  cost.of_first = paired_ratio(shadow, first.shadow_sums());
   for (const gl::Timers::Row& pass : times.passes) {
     std::vector<double> drawn = pass.milliseconds;
     std::erase(drawn, 0.0);

@@ -1,5 +1,6 @@
-// tinygltf's functions, from its header.
-#include <nlohmann/json.hpp>  // which the header is told not to include itself
+// tinygltf's functions, from its header, which is told not to include these itself.
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #define TINYGLTF_IMPLEMENTATION
 #include <tiny_gltf.h>

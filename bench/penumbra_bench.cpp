@@ -1,0 +1,16 @@
+// `penumbra bench` in a program that needs no more than an EGL driver: for bare servers with a GPU.
+
+#include "bench/bench.h"
+#include "stb_decoder.h"
+
+int main(int argc, char** argv) {
+  namespace studio = penumbra::studio;
+  const studio::Arguments arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
+  return studio::run_guarded([&] {
+    if (!arguments.empty() && arguments.front() == "--version") {
+      fmt::print("{}, commit {}\n", studio::version(), penumbra::bench::commit());
+      return 0;
+    }
+    return penumbra::bench::run("penumbra-bench", arguments, penumbra::stb_decoder());
+  });
+}
