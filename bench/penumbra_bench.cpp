@@ -1,6 +1,9 @@
 // `penumbra bench` in a program that needs no more than an EGL driver: for bare servers with a GPU.
 
+#include <fmt/format.h>
+
 #include "bench/bench.h"
+#include "bench/machine.h"
 #include "stb_decoder.h"
 
 int main(int argc, char** argv) {

@@ -15,6 +15,7 @@ constexpr std::array table{
     Command{"list", "List techniques, params, aovs or backends", run_list},
     Command{"diff", "Compare two pictures, and fail past a limit", run_diff},
     Command{"compare", "Compare techniques with the truth: tables and an HTML page", run_compare},
+    Command{"bench", "Measure what shadows cost, pass by pass", run_bench},
     Command{"bake", "Make noise tiles and sets of sample points", run_bake},
     Command{"help", "Explain a parameter, technique, AOV or sub-command", run_help},
     Command{"doctor", "Tell which OpenGL backends work here", run_doctor},
