@@ -11,24 +11,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where a result is put: in a real folder, in place of what has its name there, links included.
-fs::path place_of(const fs::path& path) {
-  std::error_code error;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  const fs::path real = fs::weakly_canonical(fs::absolute(folder), error);
-  return (error ? folder.lexically_normal() : real) / path.filename();
-}
-
-bool replaces(const fs::path& result, const fs::path& input) {
-  std::error_code error;
-  const fs::path place = place_of(result);
-  return place == place_of(input) || place == fs::weakly_canonical(input, error);
-}
-
 // A picture of any frame.
 bool is_picture(const fs::path& result, const RenderOptions& options, const OutputNames& names) {
   const studio::FrameRange range = options.frames.value_or(studio::FrameRange{});
-  if (place_of(result).parent_path() != place_of(names.picture(range.first)).parent_path()) return false;
+  if (io::place_of(result).parent_path() != io::place_of(names.picture(range.first)).parent_path()) return false;
   const fs::path name = result.filename();
   for (int frame = range.first; frame <= range.last; ++frame) {
     if (name == names.picture(frame).filename()) return true;
@@ -54,8 +40,8 @@ void check_scene_files(const std::vector<fs::path>& files, const RenderOptions& 
     std::error_code error;
     const fs::path target = fs::weakly_canonical(file, error);
     if (is_picture(file, options, names) || (!error && is_picture(target, options, names))) refuse("-o");
-    if (!options.stats.empty() && replaces(options.stats, file)) refuse("--stats");
-    if (!options.save_preset.empty() && replaces(options.save_preset, file)) refuse("--save-preset");
+    if (!options.stats.empty() && io::would_replace(options.stats, file)) refuse("--stats");
+    if (!options.save_preset.empty() && io::would_replace(options.save_preset, file)) refuse("--save-preset");
   }
 }
 
@@ -68,10 +54,10 @@ void check_files(const RenderOptions& options, const OutputNames& names) {
   if (!options.save_preset.empty()) check_alone("--save-preset", options.save_preset, options, names);
   if (options.stats.empty()) return;
   check_alone("--stats", options.stats, options, names);
-  if (!options.save_preset.empty() && place_of(options.stats) == place_of(options.save_preset))
+  if (!options.save_preset.empty() && io::place_of(options.stats) == io::place_of(options.save_preset))
     studio::fail_usage("--stats and --save-preset name the same file {}", io::quoted(options.stats));
   for (const std::string& preset : options.presets) {
-    if (replaces(options.stats, preset))
+    if (io::would_replace(options.stats, preset))
       studio::fail_usage("--stats {} would overwrite a preset", io::quoted(options.stats));
   }
 }

@@ -110,6 +110,18 @@ void check_writable(const fs::path& path) {
   unlink(make_temporary(path, folder).c_str());
 }
 
+fs::path place_of(const fs::path& path) {
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(fs::absolute(folder_of(path)), error);
+  return (error ? folder_of(path).lexically_normal() : real) / path.filename();
+}
+
+bool would_replace(const fs::path& result, const fs::path& file) {
+  std::error_code error;
+  const fs::path place = place_of(result);
+  return place == place_of(file) || place == fs::weakly_canonical(file, error);
+}
+
 void write_text(const fs::path& path, std::string_view text) {
   OutputFile file(path);
   std::ofstream stream(file.temporary(), std::ios::binary);

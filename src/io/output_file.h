@@ -29,6 +29,12 @@ void check_writable(const std::filesystem::path& path);
 
 void write_text(const std::filesystem::path& path, std::string_view text);
 
+// Where a file written to `path` is put: in a real folder, in place of what has its name there, links included.
+std::filesystem::path place_of(const std::filesystem::path& path);
+
+// Would a file written to `result` take the place of `file`, or of what `file` links to?
+bool would_replace(const std::filesystem::path& result, const std::filesystem::path& file);
+
 // The error's one line for the user: `path` quoted as given.
 std::string quoted(const std::filesystem::path& path);
 

@@ -1,0 +1,159 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/commands.h"
+#include "app/diff_figures.h"
+#include "app/heat_map.h"
+#include "image/picture.h"
+#include "image/write.h"
+#include "io/output_file.h"
+#include "io/report.h"
+#include "studio/options.h"
+#include "studio/usage.h"
+
+namespace penumbra::app {
+
+namespace {
+
+struct DiffOptions {
+  std::string test, reference, layer, heatmap, json;
+  std::string metric = "rmse";
+  std::optional<double> max, min;
+  bool quiet = false;
+};
+
+std::string description() {
+  std::string text =
+      "Tell how far picture A is from picture B, the reference: PNG (display values from 0 to 1) or EXR (its values as "
+      "they are). Exits with 1 past a limit, and with a limit also if A has values that are not finite, each of which "
+      "counts as the error 1.\n\nMetrics:\n";
+  for (const Metric& metric : diff_metrics()) text += fmt::format("  {:<15} {}\n", metric.name, metric.help);
+  return text +
+         "psnr is for references from 0 to 1; ssim and flip for PNGs and single channels from 0 to 1; "
+         "psnr_penumbra and penumbra_width for single channels from 0 to 1.";
+}
+
+void add_options(CLI::App& app, DiffOptions& options) {
+  app.add_option("A", options.test, "Picture to test, .png or .exr")->required()->type_name("");
+  app.add_option("B", options.reference, "Picture to compare with")->required()->type_name("");
+  app.add_option("--metric", options.metric, "What --max, --min and --heatmap are about")
+      ->type_name("METRIC")
+      ->capture_default_str();
+  studio::add_value(app, "--max", "V", "Fail if the metric is greater",
+                    [&](const std::string& text) { options.max = studio::parse_number("--max", text, 0, 1e9); });
+  studio::add_value(app, "--min", "V", "Fail if psnr, psnr_penumbra or ssim is less",
+                    [&](const std::string& text) { options.min = studio::parse_number("--min", text, -1e3, 1e3); });
+  app.add_option("--layer", options.layer, "Layer of both EXRs; else the one without a name, or the only one")
+      ->type_name("NAME");
+  app.add_option("--heatmap", options.heatmap, "Draw where they differ into a PNG: FLIP for that metric, else |error|")
+      ->type_name("FILE");
+  app.add_option("--json", options.json, "Write the figures as JSON; - is standard output, in place of the line")
+      ->type_name("FILE");
+  app.add_flag("--quiet", options.quiet, "Print errors alone")->disable_flag_override();
+}
+
+void check_together(const DiffOptions& options, const Metric& metric) {
+  if (options.max && metric.higher_is_better)
+    studio::fail_usage("--max is no limit for {}, of which more is better: use --min", metric.name);
+  if (options.min && !metric.higher_is_better)
+    studio::fail_usage("--min is no limit for {}, of which less is better: use --max", metric.name);
+  if (!options.heatmap.empty() && std::filesystem::path(options.heatmap).extension() != ".png")
+    studio::fail_usage("--heatmap {}: the name does not end in .png", io::quoted(options.heatmap));
+}
+
+// Before minutes of measuring; and no result takes the place of another or of what is read.
+void check_results(const DiffOptions& options) {
+  const std::string json = options.json == "-" ? "" : options.json;
+  for (const auto& [option, result] : {std::pair("--heatmap", options.heatmap), std::pair("--json", json)}) {
+    if (result.empty()) continue;
+    for (const std::string& input : {options.test, options.reference})
+      if (io::would_replace(result, input))
+        studio::fail_usage("{} would overwrite the picture {}", option, io::quoted(input));
+    io::check_writable(result);
+  }
+  if (!json.empty() && !options.heatmap.empty() && io::would_replace(json, options.heatmap))
+    studio::fail_usage("--heatmap and --json name the same file {}", io::quoted(json));
+}
+
+void write_heatmap(const DiffOptions& options, const Metric& metric, const Difference& difference,
+                   const image::Picture& reference) {
+  const bool flip = std::string_view(metric.name) == "flip";
+  const std::vector<float>& errors = flip ? difference.flip_map : difference.errors;
+  const float scale = flip ? 1.0f : heat_scale(*std::max_element(errors.begin(), errors.end()));
+  image::write_png(options.heatmap, reference.width, reference.height + heat_legend_rows, 3,
+                   heat_map(errors, reference.width, reference.height, scale),
+                   {{"Software", studio::version()}, {"penumbra:full_scale", fmt::format("{:g}", scale)}});
+}
+
+// What the limit says, in one line; empty if all is well.
+std::string verdict(const DiffOptions& options, const Figure& figure, const Difference& difference) {
+  const std::string names = fmt::format("{} against {}", io::quoted(options.test), io::quoted(options.reference));
+  if (!options.max && !options.min) return {};
+  if (difference.not_finite > 0)
+    return fmt::format("{}: {} values of the first are not finite", names, difference.not_finite);
+  if (std::isnan(figure.value)) return fmt::format("{}: the reference has no penumbra to measure", names);
+  const double value = options.max ? std::abs(figure.value) : figure.value;
+  if (options.max && value > *options.max)
+    return fmt::format("{}: {} is {}, over the limit of {:g}", names, figure.metric->name, text_of(figure),
+                       *options.max);
+  if (options.min && value < *options.min)
+    return fmt::format("{}: {} is {}, under the limit of {:g}", names, figure.metric->name, text_of(figure),
+                       *options.min);
+  return {};
+}
+
+void write_json(const DiffOptions& options, const Figure& figure, const Difference& difference,
+                const image::Picture& reference) {
+  io::Json json{{"test", options.test},
+                {"reference", options.reference},
+                {"layer", reference.layer},
+                {"width", reference.width},
+                {"height", reference.height},
+                {"channels", reference.channels},
+                {"samples", difference.samples},
+                {"penumbra_samples", difference.penumbra_samples},
+                {"not_finite", difference.not_finite},
+                {"figures", to_json(difference)}};
+  if (options.max || options.min) {
+    io::Json& limit = json["limit"] = {{"metric", figure.metric->name}};
+    limit[options.max ? "max" : "min"] = options.max ? *options.max : *options.min;
+    limit["kept"] = verdict(options, figure, difference).empty();
+  }
+  if (options.json == "-")
+    fmt::print("{}", io::text_of(json));
+  else
+    io::write_text(options.json, io::text_of(json));
+}
+
+}  // namespace
+
+int run_diff(const Arguments& arguments) {
+  CLI::App app(description(), "penumbra diff");
+  DiffOptions options;
+  add_options(app, options);
+  if (!studio::parse(app, arguments)) return 0;
+  const Metric& metric = find_diff_metric(options.metric);
+  check_together(options, metric);
+  check_results(options);
+
+  const image::Picture test = image::read_picture(options.test, options.layer);
+  const image::Picture reference = image::read_picture(options.reference, options.layer);
+  check_comparable(test, reference, options.test, options.reference);
+  const Difference difference = difference_of(test, reference);
+  const Figure& figure = difference.figure(metric);
+  const bool asked = options.max || options.min || !options.heatmap.empty();
+  if (asked && !figure.unfit.empty())
+    fail("{} can't be measured for {}: it {}", metric.name, io::quoted(options.reference), figure.unfit);
+
+  if (!options.heatmap.empty()) write_heatmap(options, metric, difference, reference);
+  if (!options.json.empty()) write_json(options, figure, difference, reference);
+  if (!options.quiet && options.json != "-") fmt::print("{}\n", text_of(difference));
+  const std::string fault = verdict(options, figure, difference);
+  if (!fault.empty()) fail("{}", fault);
+  return 0;
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "image/picture.h"
+#include "io/report.h"
+#include "metrics/picture.h"
+
+namespace penumbra::app {
+
+// A figure by which two pictures are compared. Its formula stands in docs/metrics.md.
+struct Metric {
+  const char* name;
+  const char* help;
+  const char* unit;       // empty for none
+  bool higher_is_better;  // so its limit is a least value
+};
+std::span<const Metric> diff_metrics();
+// Throws UsageError with near names for an unknown name.
+const Metric& find_diff_metric(const std::string& name);
+
+struct Figure {
+  const Metric* metric = nullptr;
+  double value = std::numeric_limits<double>::quiet_NaN();  // infinite for the PSNR of equal pictures
+  std::string unfit;  // why these pictures have no such figure; empty if they have
+};
+
+// All figures of two pictures of one size, and the errors pixel by pixel.
+struct Difference {
+  std::vector<Figure> figures;  // one a metric, in their order
+  std::size_t samples = 0, penumbra_samples = 0;
+  std::size_t not_finite = 0;   // values of the test
+  std::vector<float> errors;    // a pixel: the greatest |e| of its channels
+  std::vector<float> flip_map;  // empty where FLIP is unfit
+
+  const Figure& figure(const Metric& metric) const;
+};
+
+// Throws Error if the pictures can't be compared; the texts name `test_name` and `reference_name`.
+void check_comparable(const image::Picture& test, const image::Picture& reference, const std::string& test_name,
+                      const std::string& reference_name);
+Difference difference_of(const image::Picture& test, const image::Picture& reference);
+
+// "rmse 0.0123, psnr 38.20 dB, …": what fits these pictures.
+std::string text_of(const Difference& difference);
+std::string text_of(const Figure& figure);  // with its unit; "inf" for an infinite one
+// The figures by name; infinite ones and those of an empty penumbra are null, unfit ones are left out.
+io::Json to_json(const Difference& difference);
+
+}  // namespace penumbra::app

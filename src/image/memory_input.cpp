@@ -1,0 +1,39 @@
+#include "image/memory_input.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/error.h"
+
+namespace penumbra::image {
+
+bool starts_with(std::span<const std::byte> bytes, std::string_view signature) {
+  return bytes.size() >= signature.size() && std::memcmp(bytes.data(), signature.data(), signature.size()) == 0;
+}
+
+std::string cause(std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  return message.empty() ? "damaged" : message;
+}
+
+MemoryInput::MemoryInput(const char* format, std::span<const std::byte> bytes, const std::string& name,
+                         std::size_t max_pixels)
+    : memory_(const_cast<std::byte*>(bytes.data()), bytes.size()), input_(OIIO::ImageInput::create(format)) {
+  if (!input_) fail("no decoder: {}", cause(OIIO::geterror()));
+  OIIO::ImageSpec request;
+  request.attribute("oiio:UnassociatedAlpha", 1);  // the library would multiply alpha into the colour
+  if (!input_->set_ioproxy(&memory_) || !input_->open(name, spec_, request)) fail("{}", cause(input_->geterror()));
+  if (spec_.width <= 0 || spec_.height <= 0 || spec_.depth > 1 || spec_.nchannels < 1) fail("an image without pixels");
+  const auto width = static_cast<std::size_t>(spec_.width), height = static_cast<std::size_t>(spec_.height);
+  if (height > max_pixels / width) fail("{} x {} pixels, over the limit of {}", width, height, max_pixels);
+}
+
+std::size_t MemoryInput::pixels() const {
+  return static_cast<std::size_t>(spec_.width) * static_cast<std::size_t>(spec_.height);
+}
+
+void MemoryInput::read(int first, int end, const OIIO::TypeDesc& type, void* pixels) {
+  if (!input_->read_image(0, 0, first, end, type, pixels)) fail("{}", cause(input_->geterror()));
+}
+
+}  // namespace penumbra::image

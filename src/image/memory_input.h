@@ -1,0 +1,39 @@
+#pragma once
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace penumbra::image {
+
+bool starts_with(std::span<const std::byte> bytes, std::string_view signature);
+
+constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
+
+// The library's cause, which may be several lines, as one.
+std::string cause(std::string message);
+
+// An image file in memory, opened with OpenImageIO. Alpha stays unassociated. Throws Error with the cause.
+class MemoryInput {
+ public:
+  // `format` as OpenImageIO names it; `bytes` must live as long as this.
+  MemoryInput(const char* format, std::span<const std::byte> bytes, const std::string& name, std::size_t max_pixels);
+
+  const OIIO::ImageSpec& spec() const { return spec_; }
+  std::size_t pixels() const;
+  // Channels `first` to `end` without it, interleaved, rows top to bottom.
+  void read(int first, int end, const OIIO::TypeDesc& type, void* pixels);
+
+ private:
+  OIIO::Filesystem::IOMemReader memory_;
+  std::unique_ptr<OIIO::ImageInput> input_;
+  OIIO::ImageSpec spec_;
+};
+
+}  // namespace penumbra::image
