@@ -86,10 +86,10 @@ AlphaTest::AlphaTest(const scene::Material& material, const scene::Primitive& pr
 }
 
 bool AlphaTest::passes(std::size_t triangle, float u, float v) const {
+  // In terms of differences, so that a value that all corners have stays what it is.
   const Corner* c = &corners_[3 * triangle];
-  const float w = 1 - u - v;
-  float alpha = w * c[0].alpha + u * c[1].alpha + v * c[2].alpha;
-  if (texture_ != nullptr) alpha *= texture_->at(w * c[0].uv + u * c[1].uv + v * c[2].uv);
+  float alpha = c[0].alpha + u * (c[1].alpha - c[0].alpha) + v * (c[2].alpha - c[0].alpha);
+  if (texture_ != nullptr) alpha *= texture_->at(c[0].uv + u * (c[1].uv - c[0].uv) + v * (c[2].uv - c[0].uv));
   return alpha >= cutoff_;
 }
 

@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t tile_size = 8;  // pixels: small enough that threads end at nearly the same time
 constexpr int least_first_samples = 64;
 constexpr double allowed_over = 0.001;
+constexpr double agreeing_samples = 2;  // over the error: so many must agree beside a penumbra
 constexpr double fall_of_error = 0.75;  // it falls as samples^-0.75 across an edge
 constexpr std::chrono::milliseconds report_interval(100);
 
@@ -144,7 +145,7 @@ bool Picture::resolved(std::size_t pixel) const {
   if (samples >= max_samples) return true;
   if (out_.standard_error[pixel] > options_.error) return false;
   const bool all_agree = out_.visibility[pixel] == 0 || out_.visibility[pixel] == 1;
-  return !all_agree || samples * options_.error >= 1 || !differs_from_neighbour(pixel);
+  return !all_agree || samples * options_.error >= agreeing_samples || !differs_from_neighbour(pixel);
 }
 
 // Which pixels another round has to go on with; false if there are few enough.

@@ -36,8 +36,8 @@ struct TraceOptions {
   int samples = 256;
   // Over 0: `samples` (at least 64) are the first round. Pixels whose standard error is over this go on in rounds that
   // double their samples, until no more than a thousandth of the receivers is over it, or a pixel has max_samples. A
-  // pixel whose samples all agree counts as done unless a neighbour's visibility is another; then it goes on until one
-  // more point of a scrambling changes it by less than this error.
+  // pixel whose samples all agree may still have a penumbra that they missed: if a neighbour's visibility is another,
+  // it goes on until it has 2 / error samples.
   double error = 0;
   std::uint32_t seed = 0;
   int threads = 0;  // 0: one a core
