@@ -46,8 +46,6 @@ void check_scene_files(const std::vector<fs::path>& files, const RenderOptions& 
 }
 
 void check_files(const RenderOptions& options, const OutputNames& names) {
-  if (!options.glsl.empty() && !fs::is_directory(options.glsl))
-    fail("--glsl: {} is not a folder", io::quoted(options.glsl));
   check_scene_files({options.scene}, options, names);
   io::check_writable(names.picture(options.frames.value_or(studio::FrameRange{}).first));
   // A preset may be read and saved under one name: that changes it.

@@ -118,13 +118,25 @@ std::string summary(const std::filesystem::path& path, const studio::Size& size,
                      size.width, size.height, traced.samples, cost, error_of_most(traced.standard_error));
 }
 
+void check_scene_files(const std::vector<std::filesystem::path>& files, const OutputNames& names,
+                       const studio::FrameRange& range) {
+  for (const std::filesystem::path& file : files) {
+    for (int frame = range.first; frame <= range.last; ++frame) {
+      if (io::would_replace(names.picture(frame), file))
+        studio::fail_usage("-o would overwrite the scene's file {}", io::quoted(file));
+    }
+  }
+}
+
 void trace_files(const TruthOptions& options) {
   const OutputNames names(options.output, options.frames.has_value());
   const studio::FrameRange range = options.frames.value_or(studio::FrameRange{});
   studio::clean_up_on_signals();
   studio::limit_threads(options);
+  check_scene_files({options.scene}, names, range);
   io::check_writable(names.picture(range.first));
   const studio::Stage stage = studio::load_stage(options, image::image_decoder());
+  check_scene_files(stage.scene.files, names, range);
 
   constexpr int parts = 1000;  // of a frame
   studio::Progress progress(range.count() > 1 ? "frame" : "", range.count() > 1 ? range.count() : parts,

@@ -1,9 +1,11 @@
 #include "studio/options.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 
 #include "core/names.h"
+#include "io/output_file.h"
 #include "io/presets.h"
 #include "render/renderer.h"
 
@@ -123,6 +125,7 @@ void check_together(const StageOptions& o) {
 }
 
 void check_together(const DeviceOptions& o) {
+  if (!o.glsl.empty() && !std::filesystem::is_directory(o.glsl)) fail("--glsl: {} is not a folder", io::quoted(o.glsl));
   if (o.egl_device && o.backend != "auto" && o.backend != "egl")
     fail_usage("--egl-device has no meaning for --backend {}", o.backend);
 }

@@ -54,7 +54,7 @@ void add_technique_option(CLI::App& app, ShadowOptions& options);
 void add_shadow_options(CLI::App& app, ShadowOptions& options);
 void add_device_options(CLI::App& app, DeviceOptions& options);
 
-// Throw UsageError where options that are right alone don't go together.
+// Throw UsageError where options that are right alone don't go together, and Error for a --glsl that is no folder.
 void check_together(const StageOptions& options);
 void check_together(const DeviceOptions& options);
 
