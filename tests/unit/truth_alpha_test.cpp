@@ -19,18 +19,19 @@ struct Masked {
   TruthScene scene;
   scene::Primitive* primitive = nullptr;
 
-  explicit Masked(std::vector<std::uint8_t> alphas, int width = 2) {
+  explicit Masked(const std::vector<std::uint8_t>& alphas, int width = 2) {
     scene::Image image{.width = width, .height = static_cast<int>(alphas.size()) / width};
     for (const std::uint8_t alpha : alphas) image.rgba.insert(image.rgba.end(), {255, 255, 255, alpha});
     scene.scene.images.push_back(std::move(image));
     scene.scene.textures.push_back({.image = 0});
     scene.scene.materials.push_back({.alpha_mode = AlphaMode::mask});
     material().base_color_texture.texture = 0;
-    auto& surface = scene.add_quad({0, 1, 0}, {4, 0, 0}, {0, 0, 4});
-    surface.casts = scene::Casts::by_alpha;
-    primitive = const_cast<scene::Primitive*>(surface.primitive);
+    primitive = &scene.add_primitive();
+    primitive->positions = {{0, 1, 0}, {4, 1, 0}, {4, 1, 4}, {0, 1, 4}};
+    primitive->indices = {0, 1, 2, 0, 2, 3};
     primitive->material = 0;
     primitive->uvs[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    scene.place(*primitive).casts = scene::Casts::by_alpha;
   }
 
   scene::Material& material() { return scene.scene.materials[0]; }

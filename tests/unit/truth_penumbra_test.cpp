@@ -14,7 +14,6 @@ using truth::LocalLight;
 using truth::Receiver;
 using truth::Sun;
 using truth::Traced;
-using truth::TraceOptions;
 
 constexpr double edge_height = 5;
 
