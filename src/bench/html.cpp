@@ -83,6 +83,12 @@ Html passes(const Cost& cost) {
 
 // ---- Sweeps ----
 
+// "blocker_taps", the key of files, in words.
+std::string in_words(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
 std::vector<std::string> names_along(const Results& results, std::size_t axis) {
   std::vector<std::string> names;
   for (const Measured& point : results.points) {
@@ -94,40 +100,43 @@ std::vector<std::string> names_along(const Results& results, std::size_t axis) {
 
 // Of two axes, points row by row.
 Html heat_map(const Results& results, std::size_t entry) {
-  report::HeatMap map{.caption = results.entries[entry].label + ": shadow passes, medians",
-                      .row_title = results.sweep.axes[0].name,
-                      .column_title = results.sweep.axes[1].name,
-                      .row_names = names_along(results, 0),
-                      .column_names = names_along(results, 1),
-                      .values = {},
-                      .unit = "ms"};
-  for (const Measured& point : results.points) map.values.push_back(point.costs[entry].shadow.median);
+  report::HeatMap map{
+      .caption = fmt::format("{}: {}, medians", results.entries[entry].label, subject_of(results.sweep)),
+      .row_title = in_words(results.sweep.axes[0].name),
+      .column_title = in_words(results.sweep.axes[1].name),
+      .row_names = names_along(results, 0),
+      .column_names = names_along(results, 1),
+      .values = {},
+      .unit = "ms"};
+  for (const Measured& point : results.points) map.values.push_back(point.costs[entry].swept.median);
   return to_html(map);
 }
 
 Html line_plot(const Results& results) {
   const Axis& axis = results.sweep.axes.front();
-  report::LinePlot plot{.title = "Shadow passes over " + axis.name,
-                        .x = {.label = axis.name, .unit = axis.unit, .log = axis.log},
-                        .y = {.label = "shadow passes", .unit = "ms", .log = axis.log},
+  report::LinePlot plot{.title = subject_of(results.sweep) + " over " + in_words(axis.name),
+                        .x = {.label = in_words(axis.name), .unit = axis.unit, .log = axis.log},
+                        .y = {.label = subject_of(results.sweep), .unit = "ms", .log = axis.log},
                         .lines = {}};
   for (std::size_t i = 0; i < results.entries.size(); ++i) {
     report::Line line{.label = results.entries[i].label, .points = {}};
     for (const Measured& point : results.points)
-      line.points.push_back({point.point.at.front(), point.costs[i].shadow.median});
+      line.points.push_back({point.point.at.front(), point.costs[i].swept.median});
     plot.lines.push_back(std::move(line));
   }
   return to_html(plot);
 }
 
 report::Table sweep_table(const Results& results) {
-  report::Table table{.caption = "Shadow passes at each point, medians", .columns = {}};
-  for (const Axis& axis : results.sweep.axes) table.columns.push_back({.title = axis.name});
+  report::Table table{.caption = subject_of(results.sweep) + " at each point, medians",
+                      .columns = {{.title = "point"}}};
+  for (const Axis& axis : results.sweep.axes)
+    table.columns.push_back({.title = in_words(axis.name), .unit = axis.unit});
   for (const Entry& entry : results.entries) table.columns.push_back({.title = entry.label, .unit = "ms"});
   for (const Measured& point : results.points) {
-    std::vector<Cell> row;
-    for (std::size_t i = 0; i < point.point.at.size(); ++i) row.push_back({point.point.names[i], point.point.at[i]});
-    for (const Cost& cost : point.costs) row.push_back(milliseconds(cost.shadow.median));
+    std::vector<Cell> row{{fmt::format("{}", fmt::join(point.point.names, " × "))}};
+    for (const double at : point.point.at) row.push_back({report::significant(at, 6), at});
+    for (const Cost& cost : point.costs) row.push_back(milliseconds(cost.swept.median));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -150,7 +159,7 @@ std::vector<report::Section> sweep_sections(const Results& results) {
   } else {
     shown.add(line_plot(results));
   }
-  std::vector<report::Section> sections{{"Cost over " + results.sweep.name, std::move(shown)}};
+  std::vector<report::Section> sections{{"Cost over " + in_words(results.sweep.name), std::move(shown)}};
   if (!results.models.empty()) sections.push_back({"Cost model", models(results)});
   sections.push_back({"All points", to_html(sweep_table(results))});
   return sections;
@@ -174,7 +183,7 @@ report::Section how(const Results& results) {
 
 std::string html_of(const Results& results) {
   report::Page page{
-      .title = results.sweep.name.empty() ? "What a frame costs" : "Cost over " + results.sweep.name,
+      .title = results.sweep.name.empty() ? "What a frame costs" : "Cost over " + in_words(results.sweep.name),
       .summary = setting_of(results) + ". Compare by ratio within this run, not with times of another.",
       .facts = {{"device", results.device.renderer},
                 {"driver", results.device.version},

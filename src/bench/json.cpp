@@ -44,6 +44,7 @@ Json json_of(const Cost& cost) {
                {"adds_up", cost.adds_up()},
                {"frame", json_of(cost.frame)},
                {"shadow_passes", json_of(cost.shadow)},
+               {"swept", json_of(cost.swept)},
                {"shadow_over_first", rounded(cost.of_first)},
                {"target_bytes", cost.target_bytes}};
   if (cost.floor) json["floor"] = json_of(*cost.floor);
@@ -96,6 +97,7 @@ std::string json_of(const Results& results) {
                       {"warmup_frames", results.frames.warmup},
                       {"techniques", techniques},
                       {"sweep", results.sweep.name.empty() ? Json() : Json(results.sweep.name)},
+                      {"sweep_measures", results.sweep.name.empty() ? Json() : Json(subject_of(results.sweep))},
                       {"points", points},
                       {"models", models}});
 }

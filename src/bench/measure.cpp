@@ -157,6 +157,8 @@ class Bench {
       const Kept& kept = kept_[index][c];
       Cost cost = cost_of(kept.own, kept_[index].front().own);
       cost.label = results_.entries[c].label;
+      const std::string& pass = results_.sweep.pass;
+      cost.swept = pass.empty() ? cost.shadow : summary_of(kept.own.of(pass));
       cost.target_bytes = contenders_[c]->target_bytes();
       cost.floor = contenders_[c]->floor_cost(kept.own, kept.floor);
       point.costs.push_back(std::move(cost));
@@ -170,7 +172,7 @@ class Bench {
       std::vector<double> ys;
       for (const Measured& point : results_.points) {
         xs.push_back(point.point.at);
-        ys.push_back(point.costs[c].shadow.median);
+        ys.push_back(point.costs[c].swept.median);
       }
       results_.models.push_back({results_.entries[c].label, fit_linear(xs, ys)});
     }

@@ -22,7 +22,7 @@ struct Measured {
   std::vector<Cost> costs;  // in the order of Results::entries
 };
 
-// The shadow passes' cost over a sweep, for one entry.
+// What a sweep found of one entry.
 struct Model {
   std::string label;
   LinearFit fit;  // of milliseconds, by the axes
@@ -45,6 +45,8 @@ struct Results {
 
 // "ms = 0.12 + 0.034 · blocker_taps + 0.05 · filter_taps"
 std::string equation_of(const Model& model, const Sweep& sweep);
+// "shadow passes" or the one pass that the sweep is about
+std::string subject_of(const Sweep& sweep);
 // "courtyard.glb, 1280×720, 4 cascades of 2048×2048"
 std::string setting_of(const Results& results);
 

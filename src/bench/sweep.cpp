@@ -19,7 +19,7 @@ Point point_of(double at, std::string name) { return {.at = {at}, .names = {std:
 // Figure 4.13 of Deligiannis 2019.
 Sweep taps() {
   constexpr std::array counts{8, 32, 64, 128};
-  Sweep sweep{.axes = {{"blocker_taps", "taps"}, {"filter_taps", "taps"}}};
+  Sweep sweep{.pass = "shadow mask", .axes = {{"blocker_taps", "taps"}, {"filter_taps", "taps"}}};
   for (const int blocker : counts) {
     for (const int filter : counts) {
       sweep.points.push_back({.at = {static_cast<double>(blocker), static_cast<double>(filter)},

@@ -29,6 +29,7 @@ struct Axis {
 
 struct Sweep {
   std::string name;  // empty: one point that differs in nothing
+  std::string pass;  // the one that it is about; empty: all that are there for shadows
   std::vector<Axis> axes;
   std::vector<Point> points;
 };

@@ -56,7 +56,7 @@ std::string sweep_lines(const Results& results) {
   text += "\n";
   for (const Measured& point : results.points) {
     for (const std::string& name : point.point.names) text += fmt::format("{:>14}", name);
-    for (const Cost& cost : point.costs) text += fmt::format("{:>24.3f}", cost.shadow.median);
+    for (const Cost& cost : point.costs) text += fmt::format("{:>24.3f}", cost.swept.median);
     text += "\n";
   }
   return text;
@@ -79,6 +79,8 @@ std::string setting_of(const Results& results) {
   return text;
 }
 
+std::string subject_of(const Sweep& sweep) { return sweep.pass.empty() ? "shadow passes" : sweep.pass; }
+
 std::string equation_of(const Model& model, const Sweep& sweep) {
   std::string text = fmt::format("ms = {:.4g}", model.fit.constant);
   for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
@@ -96,7 +98,7 @@ std::string text_of(const Results& results) {
     for (const Cost& cost : results.points.front().costs) text += pass_lines(cost);
     return text + summary_lines(results.points.front());
   }
-  text += "shadow passes, medians\n" + sweep_lines(results);
+  text += subject_of(results.sweep) + ", medians\n" + sweep_lines(results);
   for (const Model& model : results.models)
     text += fmt::format("\n{}: {}, R² {:.4f}\n", studio::printable(model.label), equation_of(model, results.sweep),
                         model.fit.r_squared);

@@ -51,6 +51,7 @@ struct Cost {
   Summary passes_sum;    // of the sums of each frame
   double sum_ratio = 0;  // of that sum to the frame, paired
   Summary shadow;        // of the sums of the shadow passes
+  Summary swept;         // of what a sweep is about: all shadow passes, or one
   double of_first = 1;   // its shadow passes over the first contender's, paired
   std::size_t target_bytes = 0;
   std::optional<FloorCost> floor;
@@ -59,7 +60,7 @@ struct Cost {
   bool adds_up() const { return sum_ratio > 0.9 && sum_ratio < 1.1; }
 };
 
-// The cost of `times` beside those of the first contender; label, memory and floor are the caller's.
+// The cost of `times` beside those of the first contender; label, memory, floor and `swept` are the caller's.
 Cost cost_of(const PassTimes& times, const PassTimes& first);
 
 }  // namespace penumbra::bench

@@ -1,0 +1,166 @@
+"""penumbra bench: what it writes agrees with itself. How long anything takes is no matter of a test."""
+
+import csv
+import json
+import math
+import re
+import signal
+import statistics
+import subprocess
+import time
+
+from support import PROGRAM, ROOT, TestCase, main
+
+SCENE = ROOT / "scenes" / "steps.glb"
+SMALL = ("--size", "64x36", "--set", "cascades.size=64", "--frames", "2", "--warmup", "1")
+
+
+class Bench(TestCase):
+    def bench(self, *arguments):
+        """Runs it with a JSON file, which it returns read."""
+        self.succeed("bench", *arguments, *SMALL, "-o", self.folder / "bench.json")
+        return json.loads((self.folder / "bench.json").read_text())
+
+    def read_csv(self):
+        with open(self.folder / "bench.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def test_passes_make_up_what_is_told_of_them(self):
+        data = self.bench(SCENE, "--technique", "pcss,thesis_8x8,none")
+        costs = data["points"][0]["costs"]
+        self.assertEqual([cost["label"] for cost in costs], ["pcss", "thesis_8x8", "none"])
+        for cost in costs:
+            frame = cost["frame"]
+            # Medians of sums are no sums of medians; of two frames they are.
+            for name, passes in {"passes_sum": cost["passes"],
+                                 "shadow_passes": [each for each in cost["passes"] if each["shadow"]]}.items():
+                self.assertAlmostEqual(sum(each["median_ms"] for each in passes), cost[name]["median_ms"], delta=0.01)
+            self.assertLessEqual(frame["min_ms"], frame["median_ms"])
+            self.assertLessEqual(frame["median_ms"], frame["max_ms"])
+            self.assertEqual(frame["frames"], 2)
+            # A field tells it: a busy machine is no fault.
+            self.assertEqual(cost["adds_up"], 0.9 < cost["passes_sum_over_frame"] < 1.1)
+            for each in cost["passes"]:
+                self.assertAlmostEqual(each["share"], each["median_ms"] / frame["median_ms"], delta=0.001)
+        self.assertEqual(costs[0]["shadow_over_first"], 1)
+        self.assertIn("filter", {each["name"] for each in costs[1]["passes"]})
+        self.assertNotIn("shadow map", {each["name"] for each in costs[2]["passes"]})
+
+    def test_says_with_what_it_was_measured_and_not_where(self):
+        data = self.bench(SCENE, "--technique", "pcss", "--set", "pcss.filter_taps=5")
+        for field in ("version", "commit", "timing", "backend"):
+            self.assertTrue(data[field], field)
+        self.assertRegex(data["commit"], r"^([0-9a-f]{12}(-changed)?|unknown)$")
+        self.assertGreater(data["machine"]["cores"], 0)
+        self.assertTrue(data["device"]["renderer"])
+        self.assertEqual((data["points"][0]["width"], data["points"][0]["height"]), (64, 36))
+        self.assertEqual(data["techniques"][0]["params"]["pcss.filter_taps"], 5)
+        self.assertEqual(data["scene"], "steps.glb")
+        text = (self.folder / "bench.json").read_text()
+        self.assertNotIn(str(ROOT), text)
+        self.assertNotIn(str(self.folder), text)
+
+    def test_csv_has_the_figures_of_the_json(self):
+        data = self.bench(SCENE, "--technique", "pcss,pcf", "--floor", "-o", self.folder / "bench.csv")
+        rows = {(row["label"], row["pass"]): row for row in self.read_csv()}
+        for cost in data["points"][0]["costs"]:
+            figures = {each["name"]: each for each in cost["passes"]}
+            figures |= {"frame": cost["frame"], "shadow passes": cost["shadow_passes"],
+                        "sum of passes": cost["passes_sum"], "floor: fetches": cost["floor"]["fetches"],
+                        "floor: mask copy": cost["floor"]["mask_copy"]}
+            self.assertEqual({name for label, name in rows if label == cost["label"]}, set(figures))
+            for name, figure in figures.items():
+                row = rows[cost["label"], name]
+                for field in ("median_ms", "min_ms", "max_ms"):
+                    self.assertAlmostEqual(float(row[field]), figure[field], delta=1e-4)
+                self.assertEqual(row["commit"], data["commit"])
+                self.assertEqual(row["renderer"], data["device"]["renderer"])
+
+    def test_floor_stands_beside_techniques_with_taps(self):
+        costs = self.bench(SCENE, "--technique", "pcss,pcf,hard", "--floor")["points"][0]["costs"]
+        for cost in costs[:2]:
+            self.assertGreater(cost["floor"]["fetches"]["median_ms"], 0)
+            self.assertGreater(cost["floor"]["mask_over_fetches"], 0)
+        self.assertIsNone(costs[2]["floor"]["fetches"])
+        for cost in costs:
+            self.assertGreater(cost["floor"]["mask_copy"]["median_ms"], 0)
+
+    def test_sweep_of_taps_fits_a_cost_model(self):
+        page = self.folder / "bench.html"
+        data = self.bench(SCENE, "--sweep", "taps", "-o", self.folder / "bench.csv", "-o", page)
+        places = [(point["blocker_taps"], point["filter_taps"]) for point in data["points"]]
+        self.assertEqual(places, [(a, b) for a in (8, 32, 64, 128) for b in (8, 32, 64, 128)])
+        times = [point["costs"][0]["swept"]["median_ms"] for point in data["points"]]
+        model = data["models"][0]
+        slopes = model["ms_per"]
+        errors = [ms - model["constant_ms"] - a * slopes["blocker_taps"] - b * slopes["filter_taps"]
+                  for (a, b), ms in zip(places, times)]
+        # Least squares: nothing is left along any of the model's directions.
+        self.assertAlmostEqual(math.fsum(errors), 0, delta=0.01)
+        self.assertAlmostEqual(math.fsum(e * a for e, (a, _) in zip(errors, places)), 0, delta=1)
+        mean = statistics.fmean(times)
+        explained = 1 - sum(e * e for e in errors) / sum((ms - mean) ** 2 for ms in times)
+        self.assertAlmostEqual(model["r_squared"], explained, delta=0.01)
+        masks = [row for row in self.read_csv() if row["pass"] == "shadow mask"]
+        self.assertEqual([(float(row["blocker_taps"]), float(row["filter_taps"])) for row in masks], places)
+        for row, ms in zip(masks, times):
+            self.assertAlmostEqual(float(row["median_ms"]), ms, delta=1e-4)
+        text = page.read_text()
+        self.assertIn("ms = ", text)
+        self.assertNotIn(str(ROOT), text)
+        self.assertIsNone(re.search(r"(src|href)\s*=\s*.?https?:", text), "the page asks the network")
+
+    def test_sweeps_change_what_they_say(self):
+        for name, field in {"resolution": "width", "sun_angle": "sun_angle", "cascades": "cascades"}.items():
+            data = self.bench(SCENE, "--sweep", name)
+            values = [point[field] for point in data["points"]]
+            self.assertEqual(values, sorted(set(values)), name)
+            self.assertEqual(data["sweep"], name)
+        memory = [point["costs"][0]["target_bytes"] for point in self.bench(SCENE, "--sweep", "cascades")["points"]]
+        self.assertEqual(memory, sorted(set(memory)))
+
+    def test_casters_are_instanced(self):
+        data = self.bench("--sweep", "casters", "--technique", "hard", "--set", "cascades.count=1")
+        self.assertEqual([point["triangles"] - 2 for point in data["points"]], [1000, 10000, 100000, 1000000])
+
+    def test_presets_are_techniques_too(self):
+        preset = self.folder / "mine.toml"
+        preset.write_text('technique = "pcss"\npcss.filter_taps = 3\n')
+        data = self.bench(SCENE, "--technique", f"pcss,{preset}")
+        self.assertEqual([each["label"] for each in data["techniques"]], ["pcss", "mine"])
+        self.assertEqual([each["params"]["pcss.filter_taps"] for each in data["techniques"]], [16, 3])
+
+    def test_refuses_what_it_cannot_do(self):
+        for arguments, said in {
+            ("--technique", "pcs"): "did you mean 'pcf'",
+            ("--technique", "pcss,pcss"): "twice",
+            ("--technique", "pcss,,hard"): "empty",
+            ("--technique", "hard", "--sweep", "taps"): "hard.blocker_taps",
+            ("--sweep", "tap"): "did you mean 'taps'",
+            ("--frames", "0"): "--frames",
+            ("-o", "bench.xml"): ".json, .csv, .html",
+            ("--quiet",): "-o",
+        }.items():
+            self.assertIn(said, self.refuse("bench", SCENE, *arguments, code=2), arguments)
+        self.assertIn("SCENE", self.refuse("bench", code=2))
+
+    def test_unwritable_output_is_told_before_anything_is_measured(self):
+        blocker = self.folder / "file"
+        blocker.write_text("")
+        said = self.refuse("bench", SCENE, "--frames", "100000", "-o", blocker / "bench.json", timeout=60)
+        self.assertIn("cannot write", said)
+
+    def test_ctrl_c_leaves_nothing(self):
+        run = subprocess.Popen([PROGRAM, "bench", SCENE, "--size", "64x36", "--frames", "100000", "-o",
+                                self.folder / "bench.json"], stderr=subprocess.PIPE, stdout=subprocess.PIPE)
+        time.sleep(3)
+        self.assertIsNone(run.poll())
+        run.send_signal(signal.SIGINT)
+        out, _ = run.communicate(timeout=60)
+        self.assertEqual(run.returncode, 130)
+        self.assertEqual(out, b"")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+if __name__ == "__main__":
+    main()
