@@ -26,7 +26,7 @@ constexpr double mebibyte = 1024.0 * 1024.0;
 std::string reference_name(const Comparison& comparison) {
   const ParamSet& params = comparison.reference_params;
   if (params.get_word("technique") != "truth") return params.get_word("technique");
-  return fmt::format("truth, {} rays a pixel", params.get_int("truth.samples"));
+  return fmt::format("the ray-traced truth, {} rays a pixel", params.get_int("truth.samples"));
 }
 
 std::vector<report::Column> columns_of(bool sequence) {
@@ -59,7 +59,7 @@ std::vector<Cell> row_of(const ComparedTechnique& technique, bool sequence) {
                         cell(static_cast<double>(technique.target_bytes) / mebibyte, 1),
                         cell(f.psnr_penumbra, 2),
                         cell(f.psnr, 2),
-                        cell(f.bias, 4),
+                        cell(f.bias, 5),
                         cell(f.p99, 3),
                         cell(f.ssim, 4),
                         cell(f.flip, 4),
@@ -93,6 +93,11 @@ Html plot_of(const ComparedScene& scene) {
   return report::to_html(plot);
 }
 
+std::string figures_text(const ComparedTechnique& technique) {
+  return fmt::format("{} ms · PSNR in the penumbra {} dB · bias {}", report::fixed(technique.cost.median, 1),
+                     report::fixed(technique.figures.psnr_penumbra, 2), report::fixed(technique.figures.bias, 5));
+}
+
 Html pictures_of(const ComparedScene& scene, const Comparison& comparison, const studio::Size& size) {
   const std::string& reference = comparison.reference_params.get_word("technique");
   const report::Picture display = display_picture(scene.reference, size);
@@ -105,13 +110,14 @@ Html pictures_of(const ComparedScene& scene, const Comparison& comparison, const
       return report::Figure{.label = name, .alt = fmt::format("{} drawn by {}", what, name), .picture = picture};
     };
     html.add(report::heading(label));
+    html.add(report::note(figures_text(technique)));
     html.add(report::tiles(
         {{.title = "Picture",
-          .note = {},
+          .note = "The last frame, tone mapped.",
           .body = report::picture_slider(figure(label, "The scene", display_picture(technique.pictures, size)),
                                          figure(reference, "The scene", display))},
          {.title = "Visibility of the sun",
-          .note = {},
+          .note = "White: the whole sun is seen. Figures are of this.",
           .body = report::picture_slider(
               figure(label, "The share of the sun that is seen", visibility_picture(technique.pictures, size)),
               figure(reference, "The share of the sun that is seen", visibility))},

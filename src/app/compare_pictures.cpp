@@ -56,12 +56,13 @@ report::Picture visibility_picture(const ComparedPictures& pictures, const studi
 }
 
 float error_scale(const ComparedScene& scene) {
-  double largest = 0;
+  double best = 1;
   for (const ComparedTechnique& technique : scene.techniques) {
-    if (!std::isnan(technique.figures.p99)) largest = std::max(largest, technique.figures.p99);
+    // One that is the reference itself says nothing of the others' errors.
+    if (technique.figures.p99 > 0) best = std::min(best, technique.figures.p99);
   }
   for (const float scale : {0.05f, 0.1f, 0.2f, 0.5f}) {
-    if (largest <= scale) return scale;
+    if (best <= scale) return scale;
   }
   return 1.0f;
 }
@@ -79,7 +80,7 @@ report::Picture error_picture(const ComparedPictures& pictures, const studio::Si
 report::Legend error_legend(float scale) {
   std::vector<std::string> colours;
   for (const Rgb& colour : ramp) colours.push_back(fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]));
-  return {.title = "Visibility minus the reference's; grey where nothing receives sunlight",
+  return {.title = "Visibility minus the reference's; dark grey: not measured",
           .colours = std::move(colours),
           .labels = {fmt::format("−{:g} too dark", scale), "0", fmt::format("+{:g} too bright", scale)}};
 }

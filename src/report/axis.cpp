@@ -52,7 +52,7 @@ std::vector<Tick> log_ticks(double low, double high) {
   static constexpr double one[] = {1}, three[] = {1, 2, 5};
   std::vector<Tick> ticks = power_ticks(low, high, one);
   if (ticks.size() < 3) ticks = power_ticks(low, high, three);
-  if (ticks.size() < 3) ticks = linear_ticks(low, high, 4);
+  if (ticks.size() < 3) ticks = linear_ticks(low, high, 6);
   return ticks;
 }
 

@@ -60,9 +60,9 @@ Html error_map(const Figure& figure, const Legend& of) { return picture(figure).
 Html tiles(const std::vector<Tile>& tiles) {
   Html html("<div class='tiles'>\n");
   for (const Tile& tile : tiles) {
-    html.add("<article class='tile'><h4>").text(tile.title).add("</h4>");
+    html.add("<article class='tile'><h4>").text(tile.title).add("</h4>\n").add(tile.body);
     if (!tile.note.empty()) html.add("<p class='note'>").text(tile.note).add("</p>");
-    html.add("\n").add(tile.body).add("</article>\n");
+    html.add("</article>\n");
   }
   return html.add("</div>\n");
 }

@@ -33,9 +33,9 @@ Html legend(const Legend& legend);
 // A picture of errors, with what its colours mean under it.
 Html error_map(const Figure& figure, const Legend& legend);
 
-// Side by side where there is room, each under its title.
+// Side by side where there is room, each under its title and over its note, which may be empty.
 struct Tile {
-  std::string title, note;  // the note may be empty
+  std::string title, note;
   Html body;
 };
 Html tiles(const std::vector<Tile>& tiles);

@@ -41,21 +41,36 @@ std::vector<Box> places(const Spot& spot, double width) {
   return boxes;
 }
 
-// For every dot a place for its label that covers neither dots nor other labels; none where there is no room.
+// The front's stair as thin boxes.
+std::vector<Box> boxes_of_front(const std::vector<Spot>& front, const Box& area) {
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < front.size(); ++i) {
+    const bool first = i == 0, last = i + 1 == front.size();
+    boxes.push_back({front[i].x - 1, first ? area.top : front[i - 1].y, front[i].x + 1, front[i].y});
+    boxes.push_back({front[i].x, front[i].y - 1, last ? area.right : front[i + 1].x, front[i].y + 1});
+  }
+  return boxes;
+}
+
+bool overlaps_any(const Box& box, const std::vector<Box>& others) {
+  return std::ranges::any_of(others, [&](const Box& other) { return box.overlaps(other); });
+}
+
+// For every dot a place for its label that covers neither dots nor other labels, and the front only if it must; none
+// where there is no room.
 std::vector<std::optional<Box>> place_labels(const std::vector<Spot>& spots, const std::vector<std::string>& labels,
-                                             const Box& area) {
+                                             const std::vector<Box>& front, const Box& area) {
   std::vector<Box> taken;
   for (const Spot& spot : spots) taken.push_back(around(spot, radius + 1));
   std::vector<std::optional<Box>> placed(spots.size());
   for (std::size_t i = 0; i < spots.size(); ++i) {
     for (const Box& box : places(spots[i], text_width(labels[i]))) {
-      const bool free =
-          area.holds(box) && std::ranges::none_of(taken, [&](const Box& other) { return box.overlaps(other); });
-      if (!free) continue;
-      placed[i] = box;
-      taken.push_back(box);
-      break;
+      if (!area.holds(box) || overlaps_any(box, taken)) continue;
+      const bool clear = !overlaps_any(box, front);
+      if (clear || !placed[i]) placed[i] = box;
+      if (clear) break;
     }
+    if (placed[i]) taken.push_back(*placed[i]);
   }
   return placed;
 }
@@ -139,7 +154,8 @@ Html to_html(const ScatterPlot& plot) {
   std::string drawn = front_path(front_spots, frame.area());
   for (std::size_t i = 0; i < shown.size(); ++i)
     drawn += dot_svg(spots[i], std::ranges::find(front, i) != front.end(), tooltip_of(plot, shown[i]));
-  const std::vector<std::optional<Box>> placed = place_labels(spots, labels, frame.area());
+  const std::vector<std::optional<Box>> placed =
+      place_labels(spots, labels, boxes_of_front(front_spots, frame.area()), frame.area());
   for (std::size_t i = 0; i < shown.size(); ++i) {
     if (placed[i]) drawn += label_svg(*placed[i], labels[i]);
   }

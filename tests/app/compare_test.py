@@ -1,0 +1,207 @@
+"""penumbra compare: its table, CSV and JSON agree; what can't be done is told before anything is drawn."""
+
+import csv
+import json
+import re
+import resource
+import signal
+
+from pictures import SMALL, scene
+from support import TestCase, main
+
+POSTS = scene("posts")
+NAMES = ["hard", "pcf", "pcss:pcss.filter_taps=4,pcss.blocker_taps=4"]
+BRUTE = ("--reference", "brute_force", "--technique", ",".join(NAMES))
+COSTS = ("cost_median_ms", "cost_min_ms", "cost_max_ms")
+
+
+def rows_of(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+class Compare(TestCase):
+    def compare(self, *arguments, of=(POSTS,), into="report", size=SMALL, **options):
+        result = self.succeed("compare", *of, "-o", self.folder / into, *size, "--no-cache", *arguments, **options)
+        folder = self.folder / into
+        return result.stdout, rows_of(folder / "results.csv"), json.loads((folder / "results.json").read_text())
+
+    def files(self):
+        return sorted(path.relative_to(self.folder).as_posix() for path in self.folder.rglob("*"))
+
+    def test_three_files_and_no_others(self):
+        self.compare(*BRUTE)
+        self.assertEqual(self.files(), ["report", "report/index.html", "report/results.csv", "report/results.json"])
+
+    def test_the_table_csv_and_json_agree(self):
+        table, rows, data = self.compare(*BRUTE)
+        lines = table.splitlines()
+        self.assertEqual(lines[-1], f"wrote {self.folder / 'report' / 'index.html'}")
+        self.assertEqual([line.split()[0] for line in lines[1:-1]], NAMES)
+        self.assertEqual([row["technique"] for row in rows], NAMES)
+        techniques = data["scenes"][0]["techniques"]
+        self.assertEqual([technique["label"] for technique in techniques], NAMES)
+        for line, row, technique in zip(lines[1:-1], rows, techniques):
+            cells = re.split(r"\s{2,}", line)
+            for cell, name, decimals in ((cells[1], "cost_median_ms", 1), (cells[3], "psnr_penumbra_db", 2),
+                                         (cells[4], "bias", 4), (cells[5], "flip", 4)):
+                self.assertAlmostEqual(float(cell), float(row[name]), delta=0.51 * 10**-decimals, msg=name)
+            for name, value in {**technique["figures"], **technique["cost"]}.items():
+                if name in row:
+                    self.assertEqual(row[name], "" if value is None else f"{value:.6g}", name)
+            self.assertEqual(int(row["shadow_bytes"]), technique["shadow_bytes"])
+
+    def test_parameters_of_one_technique_are_its_own(self):
+        _, _, data = self.compare(*BRUTE, "--set", "sun.angle=3")
+        hard, pcf, pcss = (technique["changed_params"] for technique in data["scenes"][0]["techniques"])
+        self.assertEqual(pcss, {"sun.angle": 3, "pcss.filter_taps": 4, "pcss.blocker_taps": 4})
+        self.assertEqual((hard["sun.angle"], hard["technique"]), (3, "hard"))
+        self.assertNotIn("pcss.filter_taps", {**hard, **pcf})
+        self.assertEqual(data["reference"]["changed_params"], {"sun.angle": 3, "technique": "brute_force"})
+
+    def test_a_reference_is_not_filtered(self):
+        _, _, data = self.compare(*BRUTE, "--set", "history.reuse=true", "--set", "filter.visibility=box")
+        self.assertEqual(data["reference"]["changed_params"], {"technique": "brute_force"})
+        self.assertEqual(data["scenes"][0]["techniques"][0]["changed_params"]["filter.visibility"], "box")
+
+    def test_two_runs_give_the_same_figures(self):
+        first, second = (self.compare(*BRUTE, into=name) for name in ("a", "b"))
+        for rows in (first[1], second[1]):
+            for row in rows:
+                for cost in COSTS:
+                    row.pop(cost)
+        self.assertEqual(first[1], second[1])
+        for data in (first[2], second[2]):
+            for technique in data["scenes"][0]["techniques"]:
+                technique.pop("cost")
+        self.assertEqual(first[2], second[2])
+
+    def test_figures_do_not_depend_on_what_else_is_compared(self):
+        thesis = ("--set", "sun.angle=4")
+        together = self.compare("--reference", "brute_force", "--technique", "pcf,thesis", *thesis, into="a")[2]
+        alone = self.compare("--reference", "brute_force", "--technique", "thesis", *thesis, into="b")[2]
+        a, b = together["scenes"][0]["techniques"][1], alone["scenes"][0]["techniques"][0]
+        self.assertEqual((a["figures"], a["shadow_bytes"]), (b["figures"], b["shadow_bytes"]))
+
+    def test_what_equals_the_reference_has_no_error(self):
+        table, rows, data = self.compare("--reference", "brute_force", "--technique", "brute_force,hard")
+        self.assertEqual((rows[0]["psnr_penumbra_db"], float(rows[0]["bias"])), ("inf", 0))
+        self.assertEqual(data["scenes"][0]["techniques"][0]["figures"]["psnr_penumbra_db"], "inf")
+        self.assertRegex(table, r"brute_force .* inf ")
+        self.assertLess(float(rows[1]["psnr_penumbra_db"]), 40)
+
+    def test_better_techniques_have_better_figures_against_the_truth(self):
+        _, rows, data = self.compare("--technique", "none,hard,pcss,brute_force", "--spp", "64", "--set", "sun.angle=4")
+        self.assertEqual(data["reference"]["changed_params"]["truth.samples"], 64)
+        psnr = [float(row["psnr_penumbra_db"]) for row in rows]
+        self.assertEqual(psnr, sorted(psnr))
+        self.assertGreater(float(rows[0]["bias"]), 0.05)  # all lit
+        self.assertEqual(int(data["scenes"][0]["pixels"]), 96 * 54)
+        self.assertGreater(data["scenes"][0]["receivers"], 96 * 54 / 4)
+
+    def test_surfaces_that_the_sun_does_not_reach_are_no_receivers(self):
+        arguments = ("--reference", "brute_force", "--technique", "hard", "--ground", "off")
+        noon = self.compare(*arguments, "--sun", "0,80")[2]["scenes"][0]["receivers"]
+        below = self.compare(*arguments, "--sun", "0,-80")[2]["scenes"][0]
+        self.assertLess(below["receivers"], noon)
+
+    def test_several_scenes(self):
+        scenes = (POSTS, scene("steps"))
+        table, rows, data = self.compare("--reference", "brute_force", "--technique", "hard,pcf", of=scenes)
+        self.assertEqual([row["scene"] for row in rows], [str(scenes[0])] * 2 + [str(scenes[1])] * 2)
+        self.assertEqual([part["scene"] for part in data["scenes"]], [str(path) for path in scenes])
+        for path in scenes:
+            self.assertIn(f"{path}\n", table)
+
+    def test_a_sequence_has_flicker_and_a_picture_has_none(self):
+        _, rows, _ = self.compare("--reference", "brute_force", "--technique", "hard")
+        self.assertEqual(rows[0]["flicker"], "")
+        _, rows, data = self.compare("--reference", "brute_force", "--technique", "hard,thesis", "--frames", "0:5",
+                                     of=(scene("moving"),))
+        self.assertEqual(data["frames"], 6)
+        for row in rows:
+            self.assertGreater(float(row["flicker"]), 0)
+
+    def test_an_orbit_moves_the_camera_and_cuts(self):
+        arguments = ("--reference", "brute_force", "--technique", "thesis", "--frames", "0:5")
+        _, still, _ = self.compare(*arguments)
+        _, moving, data = self.compare(*arguments, "--orbit", "2", "--cut-at", "4")
+        self.assertNotEqual(still[0]["psnr_db"], moving[0]["psnr_db"])
+        recoveries = data["scenes"][0]["techniques"][0]["figures"]["recoveries"]
+        self.assertEqual([recovery["frame"] for recovery in recoveries], [4])
+        _, _, data = self.compare(*arguments, "--orbit", "2")
+        self.assertEqual(data["scenes"][0]["techniques"][0]["figures"]["recoveries"][0]["frame"], 3)
+
+    def test_quiet_prints_nothing(self):
+        result = self.succeed("compare", POSTS, "-o", self.folder / "x", *SMALL, *BRUTE, "--quiet")
+        self.assertEqual((result.stdout, result.stderr), ("", ""))
+
+
+class Refusals(TestCase):
+    def refused(self, *arguments, code=2, of=POSTS):
+        line = self.refuse("compare", of, "-o", self.folder / "report", *arguments, code=code)
+        self.assertEqual(list(self.folder.iterdir()), [], line)
+        return line
+
+    def test_unknown_names(self):
+        self.assertIn("did you mean 'pcss'", self.refused("--technique", "hard,pcsss"))
+        self.assertIn("did you mean 'pcss.filter_taps'", self.refused("--technique", "pcss:pcss.filter_tap=4"))
+        self.assertIn("did you mean 'truth'", self.refused("--technique", "pcss", "--reference", "thruth"))
+
+    def test_values_out_of_range(self):
+        self.assertIn("pcss.filter_taps", self.refused("--technique", "pcss:pcss.filter_taps=-1"))
+
+    def test_a_picture_that_is_too_large(self):
+        self.assertIn("100000", self.refused("--technique", "pcss", "--size", "100000x10"))
+
+    def test_more_references_than_memory_should_hold(self):
+        self.assertIn("2 GiB", self.refused("--technique", "pcss", "--size", "4096x4096", "--frames", "0:99"))
+
+    def test_techniques(self):
+        self.assertIn("--technique is required", self.refused())
+        self.assertIn("'pcss' twice", self.refused("--technique", "pcss,hard,pcss"))
+        self.assertIn("follows no technique", self.refused("--technique", "pcss,pcss.filter_taps=4"))
+        self.assertIn("a name is missing", self.refused("--technique", "hard,,pcss"))
+        self.assertIn("see --technique", self.refused("--technique", "pcss", "--set", "technique=hard"))
+
+    def test_options_that_do_not_go_together(self):
+        self.assertIn("--frames", self.refused("--technique", "pcss", "--orbit", "2"))
+        self.assertIn("--orbit", self.refused("--technique", "pcss", "--cut-at", "2"))
+        self.assertIn("0:9", self.refused("--technique", "pcss", "--frames", "0:9", "--orbit", "2", "--cut-at", "10"))
+        self.assertIn("--spp", self.refused("--technique", "pcss", "--reference", "brute_force", "--spp", "64"))
+
+    def test_scenes_that_are_not_there(self):
+        self.assertIn("nothing.glb", self.refused("--technique", "pcss", code=1, of=self.folder / "nothing.glb"))
+        # The second too is told before the first is drawn.
+        line = self.refuse("compare", POSTS, self.folder / "none.glb", "-o", self.folder / "report", "--technique", "pcss")
+        self.assertIn("none.glb", line)
+
+    def test_folders_that_cannot_be_written(self):
+        (self.folder / "file").write_text("mine")
+        line = self.refuse("compare", POSTS, "-o", self.folder / "file", "--technique", "pcss")
+        self.assertIn("is not a folder", line)
+        self.assertEqual((self.folder / "file").read_text(), "mine")
+        line = self.refuse("compare", POSTS, "-o", "/proc/report", "--technique", "pcss")
+        self.assertIn("/proc/report/index.html", line)
+
+    def test_a_full_disk_is_an_error_and_leaves_no_file(self):
+        def few_bytes():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+        folder = self.folder / "report"
+        self.assertIn("index.html", self.refuse("compare", POSTS, "-o", folder, *SMALL, *BRUTE, preexec_fn=few_bytes))
+        self.assertEqual([path for path in self.folder.rglob("*") if path.is_file()], [])
+
+    def test_a_report_keeps_its_files_when_the_next_one_fails(self):
+        folder = self.folder / "report"
+        self.succeed("compare", POSTS, "-o", folder, *SMALL, *BRUTE)
+        before = {path.name: path.read_bytes() for path in folder.iterdir()}
+        bad = self.folder / "bad.glb"
+        bad.write_bytes(POSTS.read_bytes()[:200])
+        self.refuse("compare", POSTS, bad, "-o", folder, *SMALL, *BRUTE)
+        self.assertEqual({path.name: path.read_bytes() for path in folder.iterdir()}, before)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,136 @@
+#include "report/plot.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <regex>
+
+#include "report/plot_frame.h"
+
+namespace penumbra::report {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::vector<std::string> labels_of(const std::vector<Tick>& ticks) {
+  std::vector<std::string> labels;
+  for (const Tick& tick : ticks) labels.push_back(tick.label);
+  return labels;
+}
+
+using Labels = std::vector<std::string>;
+using Indices = std::vector<std::size_t>;
+
+TEST(ReportPlot, LinearTicksAreRoundNumbers) {
+  EXPECT_EQ(labels_of(linear_ticks(0, 10, 5)), (Labels{"0", "2", "4", "6", "8", "10"}));
+  EXPECT_EQ(labels_of(linear_ticks(0.13, 0.42, 6)), (Labels{"0.15", "0.20", "0.25", "0.30", "0.35", "0.40"}));
+  EXPECT_EQ(labels_of(linear_ticks(-1, 1, 4)), (Labels{"\u22121.0", "\u22120.5", "0.0", "0.5", "1.0"}));
+  EXPECT_EQ(labels_of(linear_ticks(3, 3, 4)), (Labels{"3"}));
+  EXPECT_EQ(linear_ticks(0, 1e9, 5).size(), 6u);
+}
+
+TEST(ReportPlot, LogTicksArePowersOfTenOrFinerWhereThoseAreFew) {
+  EXPECT_EQ(labels_of(log_ticks(0.9, 1100)), (Labels{"1", "10", "100", "1000"}));
+  EXPECT_EQ(labels_of(log_ticks(0.8, 25)), (Labels{"1", "2", "5", "10", "20"}));
+  EXPECT_EQ(labels_of(log_ticks(2.1, 2.9)), (Labels{"2.2", "2.4", "2.6", "2.8"}));
+  EXPECT_EQ(labels_of(log_ticks(0.0008, 0.12)), (Labels{"0.001", "0.01", "0.1"}));
+}
+
+TEST(ReportPlot, AScaleHoldsItsValuesWithRoomToSpare) {
+  const std::vector<double> values{1, 10, 100};
+  const Scale log({.label = "x", .log = true}, values, 0, 200);
+  EXPECT_NEAR(log.at(10), 100, 1e-9);
+  EXPECT_GT(log.at(1), 0);
+  EXPECT_LT(log.at(100), 200);
+  const Scale down({.label = "y"}, values, 200, 0);  // as a picture's rows
+  EXPECT_GT(down.at(1), down.at(100));
+}
+
+TEST(ReportPlot, AScaleShowsWhatItCan) {
+  const std::vector<double> values{0, -3, infinity, std::nan(""), 5};
+  const Scale log({.label = "x", .log = true}, values, 0, 1);
+  EXPECT_TRUE(log.shows(5));
+  for (const double value : {0.0, -3.0, infinity, std::nan("")}) EXPECT_FALSE(log.shows(value)) << value;
+  EXPECT_NEAR(log.at(5), 0.5, 1e-9);
+  EXPECT_FALSE(Scale({.label = "x"}, {}, 0, 1).ticks().empty());
+}
+
+TEST(ReportPlot, AnAxisOfWhatIsNeverNegativeDoesNotBeginBelowZero) {
+  const std::vector<double> values{0, 10};
+  EXPECT_EQ(Scale({.label = "x"}, values, 0, 100).at(0), 0);
+}
+
+TEST(ReportPlot, TheFrontHasWhatNothingBetters) {
+  //                      best cost   dominated  front    dominated  best error
+  const std::vector<Point> points{{1, 9}, {2, 9.5}, {3, 4}, {4, 4}, {8, 1}};
+  EXPECT_EQ(pareto_front(points), (Indices{0, 2, 4}));
+}
+
+TEST(ReportPlot, TheFrontDoesNotDependOnTheOrder) {
+  const std::vector<Point> points{{8, 1}, {4, 4}, {1, 9}, {3, 4}, {2, 9.5}};
+  EXPECT_EQ(pareto_front(points), (Indices{2, 3, 0}));
+}
+
+TEST(ReportPlot, EqualsShareTheFrontAndWhatIsNoNumberIsNotOnIt) {
+  const std::vector<Point> points{{1, 1}, {1, 1}, {0.5, infinity}, {std::nan(""), 0}};
+  EXPECT_EQ(pareto_front(points), (Indices{0, 1}));
+  EXPECT_TRUE(pareto_front({}).empty());
+}
+
+// Boxes of the labels in a plot's SVG.
+std::vector<Box> label_boxes(const std::string& svg) {
+  static const std::regex label("<text class='label[^']*' x='([-0-9.]+)' y='([-0-9.]+)'>([^<]*)</text>");
+  std::vector<Box> boxes;
+  for (std::sregex_iterator i(svg.begin(), svg.end(), label), end; i != end; ++i) {
+    const double left = std::stod((*i)[1]), base = std::stod((*i)[2]);
+    boxes.push_back({left, base - 0.7 * font_size, left + text_width((*i)[3].str()), base});
+  }
+  return boxes;
+}
+
+void expect_apart(const std::vector<Box>& boxes) {
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(boxes[i].overlaps(boxes[k])) << i << " and " << k;
+  }
+}
+
+TEST(ReportPlot, LabelsOfACrowdDoNotOverlap) {
+  ScatterPlot plot{.title = "t", .x = {"x", "ms", true}, .y = {"y"}, .dots = {}};
+  for (int i = 0; i < 14; ++i)
+    plot.dots.push_back({.label = "technique_" + std::to_string(i), .tooltip = {}, .at = {10 + 0.1 * i, 5.0 + i % 3}});
+  plot.dots.push_back({.label = "far", .tooltip = {}, .at = {1000, 50}});
+  const std::vector<Box> boxes = label_boxes(to_html(plot).str());
+  EXPECT_GE(boxes.size(), 3u);
+  expect_apart(boxes);
+}
+
+TEST(ReportPlot, NamesAtTheEndsOfLinesDoNotOverlap) {
+  LinePlot plot{.title = "t", .x = {"x"}, .y = {"y"}, .lines = {}};
+  for (int i = 0; i < 9; ++i)
+    plot.lines.push_back({.label = "line " + std::to_string(i), .points = {{0, 0}, {1, 1 + 0.001 * i}}});
+  const std::vector<Box> boxes = label_boxes(to_html(plot).str());
+  EXPECT_EQ(boxes.size(), 9u);
+  expect_apart(boxes);
+}
+
+TEST(ReportPlot, WhatALogAxisCannotShowIsNamedBelow) {
+  const ScatterPlot plot{.title = "t",
+                         .x = {"cost", "ms", true},
+                         .y = {"error", "", true},
+                         .dots = {{"some", "", {2, 0.1}}, {"the truth <itself>", "", {3, 0}}}};
+  const std::string html = to_html(plot).str();
+  EXPECT_NE(html.find("Off the plot: the truth &lt;itself&gt; (3 ms, 0)."), std::string::npos) << html;
+  EXPECT_EQ(label_boxes(html).size(), 1u);
+}
+
+TEST(ReportPlot, EveryDotSaysWhatItIs) {
+  const ScatterPlot plot{
+      .title = "cost & error", .x = {"cost", "ms"}, .y = {"error"}, .dots = {{"a<b", "more", {2, 0.5}}}};
+  const std::string html = to_html(plot).str();
+  EXPECT_NE(html.find("<title>a&lt;b: 2 ms, 0.5\nmore</title>"), std::string::npos) << html;
+  EXPECT_NE(html.find("aria-label='cost &amp; error'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace penumbra::report
