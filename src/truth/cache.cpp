@@ -54,8 +54,8 @@ std::optional<Traced> read(const fs::path& path, const Key& key, std::size_t pix
   return traced;
 }
 
-// Makes room for `needed` bytes.
-void shrink(const fs::path& folder, std::uintmax_t needed) {
+// Makes room for `needed` of at most `largest` bytes.
+void shrink(const fs::path& folder, std::uintmax_t needed, std::uintmax_t largest) {
   struct Entry {
     fs::file_time_type used;
     std::uintmax_t bytes;
@@ -73,7 +73,7 @@ void shrink(const fs::path& folder, std::uintmax_t needed) {
   }
   std::ranges::sort(entries, {}, &Entry::used);
   for (const Entry& entry : entries) {
-    if (total <= Cache::largest) return;
+    if (total <= largest) return;
     if (fs::remove(entry.path, error)) total -= entry.bytes;
   }
 }
@@ -91,7 +91,7 @@ std::optional<Traced> Cache::find(const Key& key, std::size_t pixels) const {
 
 void Cache::keep(const Key& key, const Traced& traced) const {
   const std::uintmax_t bytes = bytes_of(traced.visibility.size());
-  if (folder_.empty() || bytes > largest) return;
+  if (folder_.empty() || bytes > largest_) return;
   const Header header{.key = key,
                       .pixels = traced.visibility.size(),
                       .rays = traced.rays,
@@ -104,7 +104,7 @@ void Cache::keep(const Key& key, const Traced& traced) const {
     contents.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
   }
   try {
-    shrink(folder_, bytes);
+    shrink(folder_, bytes, largest_);
     io::write_text(file_of(folder_, key), contents);
   } catch (const Error& error) {
     warn("the cache of traced shadows: {}", error.what());

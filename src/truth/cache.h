@@ -27,17 +27,17 @@ Key key_of(const Key& casters, std::span<const Receiver> receivers, const Light&
 // damaged counts as absent, and what can't be written is told in a warning, for a cache is no result.
 class Cache {
  public:
-  // All files together; the ones least recently used go first.
-  static constexpr std::uintmax_t largest = 1ULL << 30;
-
-  // `folder` is made when it is needed; empty: nothing is found or kept.
-  explicit Cache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  // `folder` is made when it is needed; empty: nothing is found or kept. Its files have no more than `largest` bytes
+  // together: those least recently used go first.
+  explicit Cache(std::filesystem::path folder, std::uintmax_t largest = 1ULL << 30)
+      : folder_(std::move(folder)), largest_(largest) {}
 
   std::optional<Traced> find(const Key& key, std::size_t pixels) const;
   void keep(const Key& key, const Traced& traced) const;
 
  private:
   std::filesystem::path folder_;
+  std::uintmax_t largest_;
 };
 
 // $XDG_CACHE_HOME/penumbra/truth, else $HOME/.cache/penumbra/truth, else empty.

@@ -1,0 +1,150 @@
+// The cache of traced pictures: what it tells apart, what it believes, and how much it keeps.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include "truth/cache.h"
+
+namespace penumbra::test {
+namespace {
+
+namespace fs = std::filesystem;
+using truth::Cache;
+using truth::Key;
+
+class TruthCache : public testing::Test {
+ protected:
+  TruthCache() : folder_(fs::temp_directory_path() / ("penumbra-cache-" + std::to_string(getpid()))) {}
+  ~TruthCache() override { fs::remove_all(folder_); }
+
+  // A file of 1000 pixels is a little over 12,000 bytes.
+  static truth::Traced traced(float value) {
+    return {.visibility = std::vector<float>(1000, value),
+            .standard_error = std::vector<float>(1000, value / 2),
+            .hard = std::vector<float>(1000, 1),
+            .rays = 7,
+            .seconds = 0.5,
+            .samples = 64};
+  }
+  void age(const Key& key, int hours) const {
+    const fs::path file = folder_ / (key.text() + ".truth");
+    fs::last_write_time(file, fs::last_write_time(file) - std::chrono::hours(hours));
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(TruthCache, GivesBackWhatItKept) {
+  const Cache cache(folder_);
+  const Key key{1, 2};
+  EXPECT_FALSE(cache.find(key, 1000));
+  cache.keep(key, traced(0.25f));
+  const auto found = cache.find(key, 1000);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->visibility, traced(0.25f).visibility);
+  EXPECT_EQ(found->standard_error, traced(0.25f).standard_error);
+  EXPECT_EQ(found->hard, traced(0.25f).hard);
+  EXPECT_EQ(found->rays, 7);
+  EXPECT_EQ(found->samples, 64);
+  EXPECT_FALSE(cache.find({2, 1}, 1000));
+  EXPECT_FALSE(cache.find(key, 999)) << "a picture of another size";
+}
+
+TEST_F(TruthCache, DoesNotBelieveAFileOfAnotherName) {
+  const Cache cache(folder_);
+  cache.keep({1, 2}, traced(1));
+  fs::rename(folder_ / (Key{1, 2}.text() + ".truth"), folder_ / (Key{3, 4}.text() + ".truth"));
+  EXPECT_FALSE(cache.find({3, 4}, 1000));
+}
+
+TEST_F(TruthCache, LetsGoOfWhatWasNotUsedForLongest) {
+  const Cache cache(folder_, 40'000);
+  for (const std::uint64_t i : {1u, 2u, 3u}) {
+    cache.keep({0, i}, traced(1));
+    age({0, i}, static_cast<int>(10 - i));
+  }
+  EXPECT_TRUE(cache.find({0, 1}, 1000));  // used now: no more the oldest
+  std::ofstream(folder_ / "of somebody else") << std::string(100'000, 'x');
+  cache.keep({0, 4}, traced(1));
+  EXPECT_TRUE(cache.find({0, 1}, 1000));
+  EXPECT_FALSE(cache.find({0, 2}, 1000));
+  EXPECT_TRUE(cache.find({0, 3}, 1000));
+  EXPECT_TRUE(cache.find({0, 4}, 1000));
+  EXPECT_TRUE(fs::exists(folder_ / "of somebody else"));
+}
+
+TEST_F(TruthCache, KeepsNothingThatIsLargerThanAllOfIt) {
+  const Cache cache(folder_, 10'000);
+  cache.keep({0, 1}, traced(1));
+  EXPECT_FALSE(fs::exists(folder_));
+}
+
+TEST_F(TruthCache, WithoutAFolderKeepsNothing) {
+  const Cache cache({});
+  cache.keep({0, 1}, traced(1));
+  EXPECT_FALSE(cache.find({0, 1}, 1000));
+}
+
+// A leaf whose texture decides, over nothing.
+struct Leaf {
+  Leaf() {
+    scene.images = {{.width = 2, .height = 1, .rgba = {0, 0, 0, 255, 0, 0, 0, 0}}};
+    scene.textures = {{.image = 0}};
+    scene.materials = {{.base_color_texture = {.texture = 0}, .alpha_mode = scene::AlphaMode::mask}};
+    primitive = {.indices = {0, 1, 2}, .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .material = 0};
+    primitive.uvs[0] = {{0, 0}, {1, 0}, {0, 1}};
+  }
+
+  Key key() {
+    scene::PosedGeometry geometry;
+    geometry.surfaces = {{.primitive = &primitive, .positions = primitive.positions, .world = world, .casts = casts}};
+    return truth::key_of(scene, geometry);
+  }
+
+  scene::Scene scene;
+  scene::Primitive primitive;
+  glm::mat4 world{1};
+  scene::Casts casts = scene::Casts::by_alpha;
+};
+
+TEST(TruthKey, DiffersWithAllThatCastersAreMadeOf) {
+  std::set<std::string> keys{Leaf().key().text()};
+  EXPECT_TRUE(keys.contains(Leaf().key().text()));
+  const auto differs = [&](const char* what, auto change) {
+    Leaf leaf;
+    change(leaf);
+    EXPECT_TRUE(keys.insert(leaf.key().text()).second) << what;
+  };
+  differs("position", [](Leaf& l) { l.primitive.positions[1].x = 1.0000001f; });
+  differs("index", [](Leaf& l) { l.primitive.indices = {0, 2, 1}; });
+  differs("place", [](Leaf& l) { l.world[3].x = 1; });
+  differs("kind of caster", [](Leaf& l) { l.casts = scene::Casts::always; });
+  differs("none", [](Leaf& l) { l.casts = scene::Casts::never; });
+  differs("texels", [](Leaf& l) { l.scene.images[0].rgba[3] = 254; });
+  differs("wrap", [](Leaf& l) { l.scene.textures[0].wrap_s = scene::Wrap::clamp_to_edge; });
+  differs("filter", [](Leaf& l) { l.scene.textures[0].mag = scene::Filter::nearest; });
+  differs("texture coordinates", [](Leaf& l) { l.primitive.uvs[0][1].x = 2; });
+  differs("set of them", [](Leaf& l) { l.scene.materials[0].base_color_texture.uv_set = 1; });
+  differs("transform of them", [](Leaf& l) { l.scene.materials[0].base_color_texture.uv_transform[2].x = 0.5f; });
+  differs("colour", [](Leaf& l) { l.primitive.colors = {glm::vec4(1), glm::vec4(1), glm::vec4(0.5f)}; });
+  differs("material's alpha", [](Leaf& l) { l.scene.materials[0].base_color.a = 0.9f; });
+  differs("cutoff", [](Leaf& l) { l.scene.materials[0].alpha_cutoff = 0.4f; });
+}
+
+TEST(TruthKey, DoesNotDifferWithWhatNoRaySees) {
+  const Key key = Leaf().key();
+  Leaf leaf;
+  leaf.scene.materials[0].roughness = 0.1f;
+  leaf.scene.materials[0].emissive = glm::vec3(3);
+  leaf.primitive.normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+  EXPECT_EQ(leaf.key(), key);
+}
+
+}  // namespace
+}  // namespace penumbra::test
