@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -19,7 +21,7 @@ namespace penumbra::app {
 namespace {
 
 struct DiffOptions {
-  std::string test, reference, layer, heatmap, json;
+  std::string test, reference, layer, mask, heatmap, json;
   std::string metric = "rmse";
   std::optional<double> max, min;
   bool quiet = false;
@@ -48,6 +50,7 @@ void add_options(CLI::App& app, DiffOptions& options) {
                     [&](const std::string& text) { options.min = studio::parse_number("--min", text, -1e3, 1e3); });
   app.add_option("--layer", options.layer, "Layer of both EXRs; else the one without a name, or the only one")
       ->type_name("NAME");
+  app.add_option("--mask", options.mask, "Layer of B, of one channel: what is 0 there is left out")->type_name("NAME");
   app.add_option("--heatmap", options.heatmap, "Draw where they differ into a PNG: FLIP for that metric, else |error|")
       ->type_name("FILE");
   app.add_option("--json", options.json, "Write the figures as JSON; - is standard output, in place of the line")
@@ -62,6 +65,20 @@ void check_together(const DiffOptions& options, const Metric& metric) {
     studio::fail_usage("--min is no limit for {}, of which less is better: use --max", metric.name);
   if (!options.heatmap.empty() && std::filesystem::path(options.heatmap).extension() != ".png")
     studio::fail_usage("--heatmap {}: the name does not end in .png", io::quoted(options.heatmap));
+}
+
+// Empty for all pixels.
+std::vector<std::uint8_t> receivers_of(const DiffOptions& options) {
+  if (options.mask.empty()) return {};
+  const image::Picture mask = image::read_picture(options.reference, options.mask);
+  if (mask.channels.size() != 1)
+    fail("--mask {}: that layer of {} has {} channels, not 1", options.mask, io::quoted(options.reference),
+         mask.channels.size());
+  std::vector<std::uint8_t> receivers(mask.pixels.size());
+  for (std::size_t i = 0; i < receivers.size(); ++i) receivers[i] = mask.pixels[i] != 0 ? 1 : 0;
+  if (std::count(receivers.begin(), receivers.end(), 0) == static_cast<std::ptrdiff_t>(receivers.size()))
+    fail("--mask {}: that layer of {} leaves no pixel", options.mask, io::quoted(options.reference));
+  return receivers;
 }
 
 // Before minutes of measuring; and no result takes the place of another or of what is read.
@@ -110,6 +127,7 @@ void write_json(const DiffOptions& options, const Figure& figure, const Differen
   io::Json json{{"test", options.test},
                 {"reference", options.reference},
                 {"layer", reference.layer},
+                {"mask", options.mask},
                 {"width", reference.width},
                 {"height", reference.height},
                 {"channels", reference.channels},
@@ -141,8 +159,9 @@ int run_diff(const Arguments& arguments) {
 
   const image::Picture test = image::read_picture(options.test, options.layer);
   const image::Picture reference = image::read_picture(options.reference, options.layer);
-  check_comparable(test, reference, options.test, options.reference);
-  const Difference difference = difference_of(test, reference);
+  const std::vector<std::uint8_t> receivers = receivers_of(options);
+  check_comparable(test, reference, receivers, options.test, options.reference);
+  const Difference difference = difference_of(test, reference, receivers);
   const Figure& figure = difference.figure(metric);
   const bool asked = options.max || options.min || !options.heatmap.empty();
   if (asked && !figure.unfit.empty())

@@ -37,21 +37,31 @@ struct Kind {
   bool shown = false;  // values for a display, or a visibility
 };
 
-Kind kind_of(const image::Picture& reference) {
+// The first value at a receiver for which `wanted` holds, or none.
+template <class Wanted>
+std::optional<std::size_t> find_value(const image::Picture& picture, metrics::Receivers receivers, Wanted wanted) {
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+    if (wanted(picture.pixels[i]) && metrics::is_receiver(receivers, i / picture.channels.size())) return i;
+  return {};
+}
+
+Kind kind_of(const image::Picture& reference, metrics::Receivers receivers) {
   constexpr float slack = 1e-6f;
-  const auto inside = [](float v) { return v >= -slack && v <= 1 + slack; };
+  const auto outside = [](float v) { return v < -slack || v > 1 + slack; };
   const std::size_t channels = reference.channels.size();
   Kind kind;
-  kind.unit_range = std::all_of(reference.pixels.begin(), reference.pixels.end(), inside);
+  kind.unit_range = !find_value(reference, receivers, outside);
   kind.one_channel = channels == 1;
   kind.shown = kind.unit_range && (kind.one_channel || (channels == 3 && reference.display));
   return kind;
 }
 
-std::vector<float> pixel_errors(const image::Picture& test, const image::Picture& reference) {
+std::vector<float> pixel_errors(const image::Picture& test, const image::Picture& reference,
+                                metrics::Receivers receivers) {
   const std::size_t channels = reference.channels.size();
   std::vector<float> errors(reference.pixels.size() / channels);
   for (std::size_t i = 0; i < reference.pixels.size(); ++i) {
+    if (!metrics::is_receiver(receivers, i / channels)) continue;
     float& error = errors[i / channels];
     error = std::max(error, std::abs(metrics::signed_error(test.pixels[i], reference.pixels[i])));
   }
@@ -81,8 +91,8 @@ const Figure& Difference::figure(const Metric& metric) const {
   return *std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.metric == &metric; });
 }
 
-void check_comparable(const image::Picture& test, const image::Picture& reference, const std::string& test_name,
-                      const std::string& reference_name) {
+void check_comparable(const image::Picture& test, const image::Picture& reference, metrics::Receivers receivers,
+                      const std::string& test_name, const std::string& reference_name) {
   const auto refuse = [&](const char* cause) {
     fail("cannot compare {} with {}: {}", described(test, test_name), described(reference, reference_name), cause);
   };
@@ -90,24 +100,23 @@ void check_comparable(const image::Picture& test, const image::Picture& referenc
   if (test.channels.size() != reference.channels.size()) refuse("they differ in channels");
   // Of one channel both hold the value itself, as visibility does.
   if (test.display != reference.display && test.channels.size() != 1) refuse("one holds display values, one linear");
-  const auto bad =
-      std::find_if(reference.pixels.begin(), reference.pixels.end(), [](float v) { return !std::isfinite(v); });
-  if (bad == reference.pixels.end()) return;
-  const std::size_t pixel = static_cast<std::size_t>(bad - reference.pixels.begin()) / reference.channels.size();
+  const auto bad = find_value(reference, receivers, [](float v) { return !std::isfinite(v); });
+  if (!bad) return;
+  const std::size_t pixel = *bad / reference.channels.size();
   const auto width = static_cast<std::size_t>(reference.width);
   fail("cannot compare with '{}': its value at pixel {},{} is not finite", reference_name, pixel % width,
        pixel / width);
 }
 
-Difference difference_of(const image::Picture& test, const image::Picture& reference) {
+Difference difference_of(const image::Picture& test, const image::Picture& reference, metrics::Receivers receivers) {
   const metrics::Picture a = view(test), b = view(reference);
-  const Kind kind = kind_of(reference);
-  const metrics::ErrorFigures errors = metrics::error_figures(a, b);
+  const Kind kind = kind_of(reference, receivers);
+  const metrics::ErrorFigures errors = metrics::error_figures(a, b, receivers);
   Difference difference;
   difference.samples = errors.samples;
   difference.penumbra_samples = kind.one_channel && kind.unit_range ? errors.penumbra_samples : 0;
   difference.not_finite = errors.not_finite;
-  difference.errors = pixel_errors(test, reference);
+  difference.errors = pixel_errors(test, reference, receivers);
 
   const auto add = [&](double value) {
     difference.figures.push_back({&all_metrics[difference.figures.size()], value, {}});
@@ -126,13 +135,13 @@ Difference difference_of(const image::Picture& test, const image::Picture& refer
   add(errors.bias);
   add(errors.max);
   add(errors.p99);
-  add_if(kind.shown, needs_shown, [&] { return metrics::ssim(a, b); });
+  add_if(kind.shown, needs_shown, [&] { return metrics::ssim(a, b, receivers); });
   add_if(kind.shown, needs_shown, [&] {
-    metrics::Flip flip = metrics::flip(a, b);
+    metrics::Flip flip = metrics::flip(a, b, receivers);
     difference.flip_map = std::move(flip.map);
     return flip.mean;
   });
-  add_if(penumbra, needs_one, [&] { return metrics::penumbra_width(a, b).relative; });
+  add_if(penumbra, needs_one, [&] { return metrics::penumbra_width(a, b, receivers).relative; });
   return difference;
 }
 

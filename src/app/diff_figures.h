@@ -41,9 +41,9 @@ struct Difference {
 };
 
 // Throws Error if the pictures can't be compared; the texts name `test_name` and `reference_name`.
-void check_comparable(const image::Picture& test, const image::Picture& reference, const std::string& test_name,
-                      const std::string& reference_name);
-Difference difference_of(const image::Picture& test, const image::Picture& reference);
+void check_comparable(const image::Picture& test, const image::Picture& reference, metrics::Receivers receivers,
+                      const std::string& test_name, const std::string& reference_name);
+Difference difference_of(const image::Picture& test, const image::Picture& reference, metrics::Receivers receivers);
 
 // "rmse 0.0123, psnr 38.20 dB, …": what fits these pictures.
 std::string text_of(const Difference& difference);

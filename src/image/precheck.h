@@ -16,8 +16,8 @@ std::vector<std::byte> pixel_chunks_of_png(std::span<const std::byte> encoded);
 void check_jpeg_scans(std::span<const std::byte> encoded);
 
 // What an EXR says of itself before anything is allocated for it. Throws Error for a header that is cut or contradicts
-// itself, for more than `max_pixels` or 16 times as many values, and for kinds that are not read: several parts, deep
-// data, and channels of fewer pixels than the picture.
+// itself; for more than `max_pixels`, 16 times as many values, 32768 pixels a side or 2^20 values a line; and for kinds
+// that are not read: several parts, deep data, and channels of fewer pixels than the picture.
 void check_exr_header(std::span<const std::byte> encoded, std::size_t max_pixels);
 
 }  // namespace penumbra::image

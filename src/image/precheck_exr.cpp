@@ -11,7 +11,8 @@ namespace {
 // OpenEXR file layout: https://openexr.com/en/latest/OpenEXRFileLayout.html
 constexpr std::uint32_t tiled = 0x200, deep = 0x800, multipart = 0x1000;
 constexpr std::size_t values_per_pixel = 16;
-constexpr std::int64_t largest_tile = 1 << 14;
+constexpr std::int64_t largest_side = 1 << 15, largest_tile = 1 << 14;
+constexpr std::size_t line_values = std::size_t{1} << 20;  // the library decodes up to 256 lines at once
 
 // Reads the header from front to back; no read leaves the file.
 class Reader {
@@ -93,8 +94,12 @@ void check_exr_header(std::span<const std::byte> encoded, std::size_t max_pixels
   if (header.width < 1 || header.height < 1) fail("an image without pixels");
   if (header.channels == 0) fail("EXR without channels");
   if (((version & tiled) != 0) != header.has_tiles) fail("EXR contradicts itself about tiles");
+  if (header.width > largest_side || header.height > largest_side)
+    fail("{} x {} pixels, over the limit of {} a side", header.width, header.height, largest_side);
   const auto width = static_cast<std::size_t>(header.width), height = static_cast<std::size_t>(header.height);
   if (height > max_pixels / width) fail("{} x {} pixels, over the limit of {}", width, height, max_pixels);
+  if (header.channels > line_values / width)
+    fail("lines of {} pixels with {} channels, over the limit of {} values", width, header.channels, line_values);
   if (header.channels > values_per_pixel * max_pixels / (width * height))
     fail("{} x {} pixels with {} channels, over the limit of {} values", width, height, header.channels,
          values_per_pixel * max_pixels);

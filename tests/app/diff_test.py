@@ -118,6 +118,22 @@ class Figures(Diff):
         only = exr(self.folder / "only.exr", 4, 3, {"truth.V": other})
         self.assertEqual(self.figures(only, only)["layer"], "truth")
 
+    def test_a_mask_leaves_pixels_out(self):
+        a = exr(self.folder / "a.exr", 4, 3, {"shadow.V": [0.25] * 11 + [math.nan]})
+        layers = {"shadow.V": [0.5] * 10 + [7.0, math.inf], "none.V": [0.0] * 12}
+        b = exr(self.folder / "b.exr", 4, 3, {**layers, "receiver.V": [1.0] * 10 + [0.0] * 2})
+        told = self.figures(a, b, "--layer", "shadow", "--mask", "receiver")
+        self.assertEqual((told["samples"], told["not_finite"], told["mask"]), (10, 0, "receiver"))
+        self.assertEqual(told["figures"]["max"], 0.25)
+        self.assertIn("flip", told["figures"], "what is left out may hold anything")
+        heat = self.folder / "heat.png"
+        self.succeed("diff", a, b, "--layer", "shadow", "--mask", "receiver", "--heatmap", heat)
+        rows = read_png(heat)
+        self.assertEqual(rows[2][2:], [(0, 0, 0)] * 2)
+        self.assertNotEqual(rows[2][1], (0, 0, 0))
+        self.assertIn("no pixel", self.refuse("diff", a, b, "--layer", "shadow", "--mask", "none"))
+        self.assertIn("'receiver'", self.refuse("diff", a, b, "--layer", "shadow", "--mask", "reciever"))
+
     def test_values_that_are_not_finite_keep_no_limit(self):
         good = exr(self.folder / "good.exr", 4, 3, {"V": [0.5] * 12})
         bad = exr(self.folder / "bad.exr", 4, 3, {"V": [0.5] * 10 + [math.nan, math.inf]})
@@ -183,15 +199,6 @@ class Refusals(Diff):
         whole = exr(self.folder / "whole.exr", 4, 3, {"V": [0.5] * 12}).read_bytes()
         for size in (4, 9, 100, 300, len(whole) - 60, len(whole) - 1):
             self.broken("cut.exr", whole[:size])
-
-    def test_flipped_bytes_of_a_header_never_end_in_a_crash(self):
-        whole = exr(self.folder / "whole.exr", 4, 3, {"V": [0.5] * 12}).read_bytes()
-        path = self.folder / "flipped.exr"
-        for at in range(0, 330, 3):
-            path.write_bytes(whole[:at] + bytes([whole[at] ^ 0xFF]) + whole[at + 1:])
-            result = run("diff", path, path)
-            self.assertIn(result.returncode, (0, 1), f"byte {at}: {result.stderr}")
-            self.assertLessEqual(len(result.stderr.splitlines()), 1, result.stderr)
 
     def test_headers_that_ask_for_much(self):
         huge = struct.pack("<4i", 0, 0, 99_999, 99_999)
