@@ -1,6 +1,7 @@
 #include "bench/bench.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 
 #include "bench/measure.h"
@@ -19,8 +20,13 @@ namespace {
 std::string command_of(const std::string& name, const studio::Arguments& arguments) {
   std::string command = name;
   for (const std::string& argument : arguments) {
-    const std::size_t slash = argument.rfind('/');
-    const std::string shown = slash == std::string::npos ? argument : argument.substr(slash + 1);
+    std::string shown;
+    for (std::size_t begin = 0; begin < argument.size();) {
+      const std::size_t end = std::min(argument.find_first_of(",=", begin), argument.size());
+      const std::string part = argument.substr(begin, end - begin);
+      shown += part.substr(part.rfind('/') + 1) + argument.substr(end, 1);
+      begin = end + 1;
+    }
     command += shown.find(' ') == std::string::npos ? " " + shown : " '" + shown + "'";
   }
   return command;

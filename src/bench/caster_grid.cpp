@@ -56,8 +56,10 @@ std::vector<glm::vec2> cells(long long count) {
   const auto side = static_cast<long long>(std::ceil(std::sqrt(static_cast<double>(count))));
   const float middle = 0.5F * static_cast<float>(side - 1);
   std::vector<glm::vec2> places;
-  for (long long i = 0; i < count; ++i)
-    places.emplace_back(static_cast<float>(i % side) - middle, static_cast<float>(i / side) - middle);
+  for (long long i = 0; i < count; ++i) {
+    const long long column = i % side, row = i / side;
+    places.emplace_back(static_cast<float>(column) - middle, static_cast<float>(row) - middle);
+  }
   return places;
 }
 

@@ -129,6 +129,8 @@ class Bench(TestCase):
         data = self.bench(SCENE, "--technique", f"pcss,{preset}")
         self.assertEqual([each["label"] for each in data["techniques"]], ["pcss", "mine"])
         self.assertEqual([each["params"]["pcss.filter_taps"] for each in data["techniques"]], [16, 3])
+        # As it could be typed again, less where the files lie.
+        self.assertTrue(data["command"].startswith("penumbra bench steps.glb --technique pcss,mine.toml "))
 
     def test_refuses_what_it_cannot_do(self):
         for arguments, said in {
