@@ -9,7 +9,6 @@ namespace penumbra::app {
 namespace {
 
 using studio::add_value;
-using studio::fail_usage;
 
 std::string trimmed(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(' '), end = text.find_last_not_of(' ');

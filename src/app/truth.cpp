@@ -60,7 +60,7 @@ void add_truth_options(CLI::App& app, TruthOptions& o) {
 
 // The short options stand before every --set, as --sun-angle does.
 ParamSet params_of(const TruthOptions& options, const shadow::Registry& registry) {
-  studio::ShadowOptions all = options;
+  auto all = static_cast<const studio::ShadowOptions&>(options);
   all.technique = "truth";
   std::vector<std::string> assignments;
   const auto add = [&](const char* name, const std::optional<std::string>& text) {
