@@ -130,12 +130,12 @@ TEST(TruthGeometry, LargePlanesDoNotShadowThemselves) {
   }
 }
 
-// A box on the ground: its shadow begins at its foot, to the millimetre, and its lit side has none.
+// A slab of 4 mm on the ground: its shadow begins at its foot, to the millimetre, and its lit side has none.
 TEST(TruthGeometry, ContactShadowsReachTheMillimetre) {
   for (const glm::vec3 at : {glm::vec3(0), glm::vec3(8192, 0, 4096), glm::vec3(-10000, 64, 10000)}) {
     TruthScene scene;
     scene.add_quad(at + glm::vec3(-100, 0, -100), {0, 0, 200}, {200, 0, 0});
-    scene.add_box(at, at + glm::vec3(1, 1, 1));
+    scene.add_box(at, at + glm::vec3(1, 0.004f, 1));
     std::vector<Receiver> behind, before;
     for (int i = 1; i < 200; ++i) {
       const double z = i / 200.0;
@@ -143,7 +143,7 @@ TEST(TruthGeometry, ContactShadowsReachTheMillimetre) {
       before.push_back(receiver_at(glm::dvec3(at) + glm::dvec3(1.001, 0, z), {0, 1, 0}, 200));
     }
     const truth::Tracer tracer = scene.tracer();
-    for (const double height : {0.3, 1.0, 4.0}) {
+    for (const double height : {0.3, 1.0, 2.0}) {
       const Sun sun{.to_light = {1, height, 0}, .angle = glm::radians(0.53)};
       for (const float v : trace_row(tracer, behind, sun, {.samples = 64}).visibility) EXPECT_EQ(v, 0) << height;
       for (const float v : trace_row(tracer, before, sun, {.samples = 64}).visibility) EXPECT_EQ(v, 1) << height;
@@ -151,44 +151,46 @@ TEST(TruthGeometry, ContactShadowsReachTheMillimetre) {
   }
 }
 
-// Rays to a point sun that pass exactly through the edges and corners between triangles.
+// A sheet of hills over `at`, 0.25 m a step.
+scene::Primitive& add_hills(TruthScene& scene, const glm::vec3& at, std::uint32_t side) {
+  scene::Primitive& hills = scene.add_primitive();
+  Random random(2);
+  for (std::uint32_t i = 0; i <= side; ++i) {
+    for (std::uint32_t k = 0; k <= side; ++k) {
+      const auto height = static_cast<float>(4 + random.real());
+      hills.positions.push_back(at + glm::vec3(0.25f * static_cast<float>(i), height, 0.25f * static_cast<float>(k)));
+    }
+  }
+  for (std::uint32_t i = 0; i < side; ++i) {
+    for (std::uint32_t k = 0; k < side; ++k) {
+      const std::uint32_t a = i * (side + 1) + k;
+      hills.indices.insert(hills.indices.end(), {a, a + 1, a + side + 2, a, a + side + 2, a + side + 1});
+    }
+  }
+  return hills;
+}
+
+// Rays to a point sun that pass through the edges and corners between triangles, to the last bit.
 TEST(TruthGeometry, SharedEdgesAreWatertight) {
+  constexpr std::uint32_t side = 60;
+  const Sun sun{.to_light = {0.237, 1, 0.1411}, .angle = 0};
   for (const glm::vec3 at : {glm::vec3(0), glm::vec3(0.1f, 0.3f, -0.7f), glm::vec3(3000, 10, 5000)}) {
     TruthScene scene;
-    scene::Primitive& grid = scene.add_primitive();
-    Random random(2);
-    constexpr std::uint32_t side = 40;
-    for (std::uint32_t i = 0; i <= side; ++i) {
-      for (std::uint32_t k = 0; k <= side; ++k) {
-        const auto height = static_cast<float>(4 + random.below(64) / 64.0);
-        grid.positions.push_back(at + glm::vec3(0.25f * static_cast<float>(i), height, 0.25f * static_cast<float>(k)));
-      }
-    }
-    for (std::uint32_t i = 0; i < side; ++i) {
-      for (std::uint32_t k = 0; k < side; ++k) {
-        const std::uint32_t a = i * (side + 1) + k;
-        grid.indices.insert(grid.indices.end(), {a, a + 1, a + side + 2, a, a + side + 2, a + side + 1});
-      }
-    }
-    scene.place(grid);
-    const glm::dvec3 to_light(0.25, 1, 0.125);
+    const scene::Primitive& hills = add_hills(scene, at, side);
+    scene.place(hills);
     std::vector<Receiver> row;
-    for (std::uint32_t i = 4; i < side - 4; ++i) {
-      for (std::uint32_t k = 4; k < side - 4; ++k) {
-        const std::uint32_t a = i * (side + 1) + k;
-        for (const std::uint32_t b : {a, a + 1, a + side + 1, a + side + 2}) {
-          for (const double t : {0.25, 0.5, 0.8125}) {
-            const glm::dvec3 p = glm::mix(glm::dvec3(grid.positions[a]), glm::dvec3(grid.positions[b]), t);
-            row.push_back(receiver_at(p - to_light * (p.y - at.y), {0, 1, 0}, 0));
-          }
+    for (std::uint32_t a = 6 * side; a < hills.positions.size() - 6 * side; ++a) {
+      if (a % (side + 1) < 6 || a % (side + 1) > side - 6) continue;
+      for (const std::uint32_t b : {a, a + 1, a + side + 1, a + side + 2}) {
+        for (const double t : {0.17, 0.25, 0.5, 0.77, 0.9}) {
+          const glm::dvec3 p = glm::mix(glm::dvec3(hills.positions[a]), glm::dvec3(hills.positions[b]), t);
+          row.push_back(receiver_at(p - sun.to_light * (p.y - at.y), {0, 1, 0}, 0));
         }
       }
     }
-    const Traced traced = trace_row(scene.tracer(), row, Sun{.to_light = to_light, .angle = 0}, {.samples = 8});
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      ASSERT_EQ(traced.hard[i], 0) << i;
-      ASSERT_EQ(traced.visibility[i], 0) << i;
-    }
+    const Traced traced = trace_row(scene.tracer(), row, sun, {.samples = 8});
+    EXPECT_EQ(std::ranges::count_if(traced.visibility, [](float v) { return v != 0; }), 0) << "of " << row.size();
+    EXPECT_EQ(std::ranges::count_if(traced.hard, [](float v) { return v != 0; }), 0) << "of " << row.size();
   }
 }
 
