@@ -54,6 +54,8 @@ TEST(ErrorFigures, PercentileIsTheNearestRank) {
   const Grey shown(200, 1, [](int x, int) { return ((x * 77) % 200) / 1000.0; });  // 0, 0.001 … 0.199, shuffled
   EXPECT_NEAR(error_figures(shown, reference).p99, 0.197, 1e-6) << "198 of 200 are no greater";
   EXPECT_NEAR(error_figures(shown, reference).max, 0.199, 1e-6);
+  const Grey fewer(150, 1, [](int x, int) { return ((x * 77) % 150) / 1000.0; });
+  EXPECT_NEAR(error_figures(fewer, Grey(150, 1, 0.0f)).p99, 0.148, 1e-6) << "148 of 150 are not 99 of 100 yet";
 }
 
 TEST(ErrorFigures, LeaveOutWhatIsNoReceiver) {
