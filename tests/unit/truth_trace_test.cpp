@@ -197,6 +197,15 @@ TEST(TruthTrace, StopsAtTheErrorThatIsAskedFor) {
   }
 }
 
+TEST(TruthTrace, WhatAgreesWithItsNeighboursIsDoneAfterTheFirstRound) {
+  TruthScene scene;
+  scene.add_quad({-9, 5, -9}, {18, 0, 0}, {0, 0, 18});
+  const auto row = ground_row(-5, 5, 50);
+  const Traced traced = trace_row(scene.tracer(), row, Sun{}, {.samples = 8, .error = 0.0001});
+  EXPECT_EQ(traced.samples, 64);
+  EXPECT_EQ(traced.rays, 50 * 65);
+}
+
 // A sliver of the sun that the first round's samples miss: its neighbours in the penumbra give it away.
 TEST(TruthTrace, FirstSamplesThatAgreeProveNothingBesideAPenumbra) {
   TruthScene scene;
