@@ -1,14 +1,14 @@
 #include "app/compare_draw.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <limits>
-#include <string_view>
+#include <string>
 #include <utility>
 
 #include "app/compare_figures.h"
+#include "bench/times.h"
 #include "render/renderer.h"
 
 namespace penumbra::app {
@@ -17,20 +17,16 @@ namespace {
 
 constexpr int usual_warmup = 32;  // e^-3 is left of what a history of the usual weight began with
 
-// Rows of the timers that are no shadow: all between G-buffer and lighting is.
-constexpr std::array<std::string_view, 8> other_passes{"frame",    "deform",  "gbuffer",  "surface ids",
-                                                       "lighting", "blended", "exposure", "tone map"};
-
-bool is_shadow_pass(const std::string& name) {
-  // Nested passes are in the time of the one around them.
-  return name.find('/') == std::string::npos && std::ranges::find(other_passes, name) == other_passes.end();
+// Nested passes are in the time of the one around them.
+bool is_shadow_row(const std::string& name) {
+  return name != "frame" && name.find('/') == std::string::npos && bench::is_shadow_pass(name);
 }
 
 // Of the last `frames` frames.
 ShadowCost shadow_cost(gl::Timers& timers, std::size_t frames) {
   std::vector<double> sums(frames, 0.0);
   for (const gl::Timers::Row& row : timers.rows()) {
-    if (!is_shadow_pass(row.name)) continue;
+    if (!is_shadow_row(row.name)) continue;
     for (std::size_t i = 0; i < frames; ++i) sums[i] += row.milliseconds[row.milliseconds.size() - frames + i];
   }
   std::ranges::sort(sums);

@@ -120,7 +120,7 @@ bool parse_compare(const studio::Arguments& arguments, CompareOptions& options) 
 }
 
 ParamSet params_of(const CompareOptions& options, const Contender& contender, const shadow::Registry& registry) {
-  studio::ShadowOptions own = options;
+  auto own = static_cast<const studio::ShadowOptions&>(options);
   own.technique = contender.name;
   for (const std::string& assignment : options.assignments) check_assignment(assignment);
   ParamSet params = studio::resolve_params(own, registry);

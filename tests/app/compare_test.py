@@ -5,9 +5,11 @@ import json
 import re
 import resource
 import signal
+import subprocess
+import time
 
 from pictures import SMALL, scene
-from support import TestCase, main
+from support import PROGRAM, TestCase, main
 
 POSTS = scene("posts")
 NAMES = ["hard", "pcf", "pcss:pcss.filter_taps=4,pcss.blocker_taps=4"]
@@ -192,6 +194,16 @@ class Refusals(TestCase):
         folder = self.folder / "report"
         self.assertIn("index.html", self.refuse("compare", POSTS, "-o", folder, *SMALL, *BRUTE, preexec_fn=few_bytes))
         self.assertEqual([path for path in self.folder.rglob("*") if path.is_file()], [])
+
+    def test_signals_leave_no_file(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number):
+                process = subprocess.Popen([PROGRAM, "compare", POSTS, "-o", self.folder / "report", "--technique", "pcss",
+                                            "--frames", "0:99999", "--size", "64x36", "--reference", "brute_force"])
+                time.sleep(2)
+                process.send_signal(number)
+                self.assertEqual(process.wait(timeout=60), 128 + number)
+                self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_a_report_keeps_its_files_when_the_next_one_fails(self):
         folder = self.folder / "report"

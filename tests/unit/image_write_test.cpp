@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -51,6 +52,14 @@ TEST_F(ImageWrite, PngHoldsTheBytesAsTheyAre) {
   ASSERT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, read.data()));
   EXPECT_EQ(input->spec().width, 3);
   EXPECT_EQ(read, pixels);
+}
+
+TEST_F(ImageWrite, APngInMemoryIsTheFile) {
+  const std::vector<std::uint8_t> pixels{1, 2, 3, 250, 251, 252};
+  penumbra::image::write_png(folder_ / "x.png", 2, 1, 3, pixels);
+  const std::vector<std::byte> encoded = penumbra::image::encode_png(2, 1, 3, pixels);
+  const std::string file = bytes_of(folder_ / "x.png");
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(encoded.data()), encoded.size()), file);
 }
 
 TEST_F(ImageWrite, ExrHoldsFloatsAsTheyAreInNamedLayers) {
