@@ -90,7 +90,7 @@ std::vector<Entry> entries_of(const Options& options, const shadow::Registry& re
   if (names.empty()) names.emplace_back();  // what the presets say
   std::vector<Entry> entries;
   for (const std::string& name : names) {
-    studio::ShadowOptions one = options;
+    studio::ShadowOptions one = static_cast<const studio::ShadowOptions&>(options);
     if (is_preset(name)) {
       one.presets.push_back(name);
     } else {
