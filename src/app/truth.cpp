@@ -36,7 +36,7 @@ struct TruthOptions : studio::StageOptions, studio::ShadowOptions, studio::Devic
 void add_truth_options(CLI::App& app, TruthOptions& o) {
   studio::add_scene_option(app, o);
   app.add_option("-o,--output", o.output,
-                 "File to write: .exr (layers shadow, standard_error, hard) or .png (shadow alone, 8 bits)")
+                 "File to write: .exr (layers shadow, standard_error, hard, receiver) or .png (shadow alone, 8 bits)")
       ->required()
       ->type_name("FILE");
   add_value(app, "--spp", "N", "Rays of each pixel; short for --set truth.samples=N (256)",
@@ -91,8 +91,9 @@ float error_of_most(std::vector<float> errors) {
   return errors[rank];
 }
 
-void write(const std::filesystem::path& path, const studio::Size& size, const truth::Traced& traced,
+void write(const std::filesystem::path& path, const studio::Size& size, const truth::TruthTechnique::Last& last,
            const image::Metadata& metadata) {
+  const truth::Traced& traced = last.traced;
   const std::vector<float> shadow = from_top(traced.visibility, size.width);
   if (path.extension() == ".png") {
     std::vector<std::uint8_t> bytes;
@@ -102,7 +103,8 @@ void write(const std::filesystem::path& path, const studio::Size& size, const tr
   }
   const std::vector<image::Layer> layers{{"shadow", {"V"}, shadow},
                                          {"standard_error", {"V"}, from_top(traced.standard_error, size.width)},
-                                         {"hard", {"V"}, from_top(traced.hard, size.width)}};
+                                         {"hard", {"V"}, from_top(traced.hard, size.width)},
+                                         {"receiver", {"V"}, from_top(last.receiver, size.width)}};
   image::write_exr(path, size.width, size.height, layers, metadata);
 }
 
@@ -157,7 +159,7 @@ void trace_files(const TruthOptions& options) {
   std::string last_line;
   for (int frame = range.first; frame <= range.last; ++frame) {
     studio.draw(frame, params);
-    write(names.picture(frame), options.size, truth.last().traced, metadata_of(options, studio.setup(), params, frame));
+    write(names.picture(frame), options.size, truth.last(), metadata_of(options, studio.setup(), params, frame));
     progress.step();
     last_line = summary(names.picture(frame), options.size, truth.last());
   }

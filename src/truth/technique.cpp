@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <glm/trigonometric.hpp>
 #include <utility>
 
@@ -42,6 +43,22 @@ Light light_of(const shadow::TechniqueFrame& frame, const TechniqueOptions& opti
   return Sun{.to_light = glm::dvec3(frame.light().to_light),
              .angle = glm::radians(static_cast<double>(frame.params().get_float("sun.angle"))),
              .square = frame.params().get_word("sun.shape") == "square"};
+}
+
+// Of surfaces that the light only grazes, a part of it lies behind them.
+std::vector<float> before_light(std::span<const Receiver> receivers, const Light& light) {
+  std::vector<float> before;
+  before.reserve(receivers.size());
+  for (const Receiver& receiver : receivers) {
+    bool all = receiver.there;
+    if (all) {
+      const SeenLight seen = seen_from(light, receiver.position);
+      const double radius = glm::length(seen.side_x), distance = glm::length(seen.center);
+      all = glm::dot(receiver.normal, seen.center) > distance * radius / std::hypot(distance, radius);
+    }
+    before.push_back(all ? 1.0f : 0.0f);
+  }
+  return before;
 }
 
 // Visibility alone: a ray tells no penumbra radius.
@@ -98,6 +115,7 @@ void TruthTechnique::State::resolve(const shadow::TechniqueFrame& frame) {
     last.traced = tracer_of(casters_key, scene, geometry).trace(receivers, frame.mask().width(), light, how);
     cache.keep(key, last.traced);
   }
+  last.receiver = before_light(receivers, light);
   fill_mask(frame, last.traced.visibility);
 }
 

@@ -33,6 +33,8 @@ class TruthTechnique {
   // What the last frame drew by it; rows from the bottom.
   struct Last {
     Traced traced;
+    std::vector<float>
+        receiver;  // a pixel: 1 where all of the light is before the surface (see docs/metrics.md), else 0
     bool from_cache = false;
     std::optional<BuildStats> build;  // where triangles had to be laid out for it
   };

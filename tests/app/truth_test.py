@@ -11,7 +11,7 @@ from pictures import SMALL, read_exr, read_exr_header, read_png, scene
 from support import PROGRAM, TestCase, main
 
 FENCE = scene("fence")
-LAYERS = {"shadow.V", "standard_error.V", "hard.V"}
+LAYERS = {"shadow.V", "standard_error.V", "hard.V", "receiver.V"}
 
 
 class Truth(TestCase):
@@ -36,6 +36,7 @@ class Truth(TestCase):
         pixels = [(s, e, h) for rows in zip(*(layers[n] for n in ("shadow.V", "standard_error.V", "hard.V")))
                   for s, e, h in zip(*rows)]
         self.assertEqual({h for _, _, h in pixels}, {0.0, 1.0})
+        self.assertEqual({r for row in layers["receiver.V"] for r in row}, {0.0, 1.0})
         self.assertTrue(all(0 <= s <= 1 and 0 <= e < 0.2 for s, e, _ in pixels))
         penumbra = [(s, e) for s, e, _ in pixels if 0.1 < s < 0.9]
         self.assertGreater(len(penumbra), 50)
@@ -219,6 +220,16 @@ class Truth(TestCase):
         worst = max(abs(a - b) for rows in zip(traced, drawn) for a, b in zip(*rows))
         self.assertLess(worst, 0.0006)  # the mask holds half floats
         self.assertEqual(len(self.kept()), 1)
+
+    def test_receivers_are_a_mask_for_diff(self):
+        # Seen from the side, half of what the posts show faces away from the sun or lies along its rays.
+        of, view = scene("posts"), ("--eye", "0,4,14", "--target", "0,2,0", "--fov", "50", *SMALL)
+        self.trace("t.exr", *view, of=of, size=())
+        self.succeed("render", of, "-o", self.folder / "r.exr", "--aov", "shadow", "--technique", "brute_force", *view)
+        figures = [json.loads(self.succeed("diff", self.folder / "r.exr", self.folder / "t.exr", "--layer", "shadow",
+                                           "--json", "-", *mask).stdout)["rmse"] for mask in ((), ("--mask", "receiver"))]
+        self.assertLess(figures[1], 0.1)
+        self.assertLess(figures[1], figures[0])
 
     def test_the_usual_cache_is_the_users(self):
         home = self.folder / "home"
