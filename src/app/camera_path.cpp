@@ -9,8 +9,6 @@ namespace penumbra::app {
 
 namespace {
 
-constexpr double jump = 90;  // degrees, of an orbit's cut
-
 // What the camera looks at: the point on its axis that is nearest to the scene's centre, in front of it.
 glm::vec3 target_of(const CompareOptions& options, const studio::Stage& stage) {
   if (options.target) return *options.target;
@@ -42,8 +40,9 @@ CameraPath::CameraPath(const CompareOptions& options, const studio::Stage& stage
 render::Setup CameraPath::setup_at(int frame) const {
   render::Setup setup = studio::setup_at(stage_, studio::time_of(options_, frame));
   if (!options_.orbit) return setup;
+  // On both sides of the view that was asked for, which is the first and the last.
   const bool after_cut = cut_ && frame >= *cut_;
-  turn(setup.camera, center_, *options_.orbit * (frame - range_.first) + (after_cut ? jump : 0.0));
+  turn(setup.camera, center_, *options_.orbit * (frame - (after_cut ? range_.last : range_.first)));
   return setup;
 }
 

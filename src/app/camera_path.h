@@ -8,8 +8,8 @@
 
 namespace penumbra::app {
 
-// Where the camera is in each frame of a comparison, and when: the file's animation, or an orbit about the target with
-// a cut.
+// Where the camera is in each frame of a comparison, and when: the file's animation, or an orbit about the target that
+// leaves the view that was asked for, is cut, and comes back to it from the other side.
 class CameraPath {
  public:
   CameraPath(const CompareOptions& options, const studio::Stage& stage);

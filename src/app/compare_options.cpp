@@ -53,7 +53,8 @@ void add_compare_options(CLI::App& app, CompareOptions& o) {
   studio::add_time_options(app, o);
   add_value(app, "--orbit", "DEG", "The camera circles its target, so many degrees a frame",
             [&o](const auto& text) { o.orbit = studio::parse_number("--orbit", text, -180, 180); });
-  add_value(app, "--cut-at", "FRAME", "Frame at which the orbit jumps by 90 degrees (the middle one)",
+  add_value(app, "--cut-at", "FRAME",
+            "Frame at which the orbit jumps, to come back to its first view with the last frame (the middle one)",
             [&o](const auto& text) { o.cut_at = studio::parse_count("--cut-at", text, 0, 1000000); });
   add_value(app, "--warmup", "N", "Frames drawn before a single picture by techniques with a history (32)",
             [&o](const auto& text) { o.warmup = studio::parse_count("--warmup", text, 0, 10000); });

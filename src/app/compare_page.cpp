@@ -72,8 +72,9 @@ std::vector<Cell> row_of(const ComparedTechnique& technique, bool sequence) {
 }
 
 Html table_of(const ComparedScene& scene, const Comparison& comparison, bool sequence) {
-  report::Table table{.caption = fmt::format("Measured against {} over {} of {} pixels, those that receive sunlight.",
-                                             reference_name(comparison), scene.receivers, scene.pixels),
+  report::Table table{.caption = fmt::format("Measured against {} where the sun can shine: {} of {} pixels{}.",
+                                             reference_name(comparison), scene.receivers, scene.pixels,
+                                             sequence ? " of the last frame" : ""),
                       .columns = columns_of(sequence),
                       .rows = {}};
   for (const ComparedTechnique& technique : scene.techniques) table.rows.push_back(row_of(technique, sequence));

@@ -38,6 +38,7 @@ std::optional<double> best_of(const Table& table, std::size_t column) {
 }
 
 bool is_numeric(const Table& table, std::size_t column) {
+  if (table.columns[column].best != Best::none) return true;
   return std::ranges::any_of(table.rows, [&](const std::vector<Cell>& row) { return row[column].value.has_value(); });
 }
 

@@ -126,9 +126,10 @@ class Compare(TestCase):
 
     def test_an_orbit_moves_the_camera_and_cuts(self):
         arguments = ("--reference", "brute_force", "--technique", "thesis", "--frames", "0:5")
-        _, still, _ = self.compare(*arguments)
+        _, still, at_rest = self.compare(*arguments)
         _, moving, data = self.compare(*arguments, "--orbit", "2", "--cut-at", "4")
         self.assertNotEqual(still[0]["psnr_db"], moving[0]["psnr_db"])
+        self.assertEqual(data["scenes"][0]["receivers"], at_rest["scenes"][0]["receivers"])  # back where it began
         recoveries = data["scenes"][0]["techniques"][0]["figures"]["recoveries"]
         self.assertEqual([recovery["frame"] for recovery in recoveries], [4])
         _, _, data = self.compare(*arguments, "--orbit", "2")
