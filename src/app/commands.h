@@ -21,6 +21,7 @@ int run_truth(const Arguments& arguments);
 int run_diff(const Arguments& arguments);
 int run_compare(const Arguments& arguments);
 int run_bench(const Arguments& arguments);
+int run_reproduce(const Arguments& arguments);
 int run_bake(const Arguments& arguments);
 int run_list(const Arguments& arguments);
 int run_help(const Arguments& arguments);

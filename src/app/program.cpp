@@ -16,6 +16,7 @@ constexpr std::array table{
     Command{"diff", "Compare two pictures, and fail past a limit", run_diff},
     Command{"compare", "Compare techniques with the truth: tables and an HTML page", run_compare},
     Command{"bench", "Measure what shadows cost, pass by pass", run_bench},
+    Command{"reproduce", "Make and measure the figures of the thesis anew: an HTML page", run_reproduce},
     Command{"bake", "Make noise tiles and sets of sample points", run_bake},
     Command{"help", "Explain a parameter, technique, AOV or sub-command", run_help},
     Command{"doctor", "Tell which OpenGL backends work here", run_doctor},
@@ -23,7 +24,7 @@ constexpr std::array table{
 
 std::string overview() {
   std::string text = "Penumbra renders soft shadows.\n\nusage: penumbra COMMAND [OPTIONS]\n\n";
-  for (const Command& command : table) text += fmt::format("  {:<8} {}\n", command.name, command.summary);
+  for (const Command& command : table) text += fmt::format("  {:<9} {}\n", command.name, command.summary);
   return text +
          "\npenumbra COMMAND --help lists its options, penumbra list what has a name, and penumbra help NAME explains "
          "it.\n"

@@ -1,0 +1,119 @@
+"""reproduce: every figure of the thesis that shows a result, with verdicts that rest on what was measured."""
+
+import csv
+import json
+import re
+
+import browser
+from support import ROOT, TestCase, main, run, temporary_folder
+
+IDS = [*(f"2.{n}" for n in (8, 9, 10, 11, 12, 13, 14)), *(f"4.{n}" for n in range(1, 14))]
+BRACKETED = re.compile(r"\(([^()]*)\)")
+
+
+class Reproduce(TestCase):
+    """One run for all: it takes most of a minute."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = temporary_folder()
+        cls.addClassCleanup(cls.temporary.cleanup)
+        cls.report = f"{cls.temporary.name}/report"
+        cls.result = run("reproduce", "-o", cls.report, "--quick", "--no-cache", "--size", "96x54", cwd=ROOT)
+        if cls.result.returncode != 0:
+            raise AssertionError(cls.result.stderr)
+        with open(f"{cls.report}/figures.json", encoding="utf-8") as file:
+            cls.data = json.load(file)
+        with open(f"{cls.report}/index.html", encoding="utf-8") as file:
+            cls.page = file.read()
+
+    def test_every_figure_is_there(self):
+        self.assertEqual([figure["id"] for figure in self.data["figures"]], IDS)
+        for figure in self.data["figures"]:
+            self.assertIn(f"Figure {figure['id']}: {figure['title']}", self.page)
+            self.assertGreaterEqual(len(figure["figures"]), 1, figure["id"])
+
+    def test_sentences_rest_on_the_figures(self):
+        for figure in self.data["figures"]:
+            known = {measured["text"] for measured in figure["figures"]}
+            shown = BRACKETED.findall(figure["sentence"])
+            self.assertTrue(shown, figure["sentence"])
+            self.assertLessEqual(set(shown), known, figure["sentence"])
+            # Each part says by itself whether it holds; the verdict is what they say together.
+            failed = len(re.findall(r"\) is not (above|below|at|within)", figure["sentence"]))
+            held = len(re.findall(r"\) is (above|below|at|within)", figure["sentence"]))
+            verdict = "confirmed" if not failed else "confirmed in part" if held else "not confirmed"
+            self.assertEqual(figure["verdict"], verdict, figure["sentence"])
+
+    def test_comparisons_are_told_as_they_are(self):
+        relation = re.compile(r"\(([−\d.]+)[^()]*\) is (not )?(above|below) [^()]*\(([−\d.]+)")
+        found = 0
+        for figure in self.data["figures"]:
+            for a, negated, word, b in relation.findall(figure["sentence"]):
+                a, b = (float(text.replace("−", "-")) for text in (a, b))
+                if a != b:  # as far as the digits tell
+                    self.assertEqual(a > b, (word == "above") != bool(negated), figure["sentence"])
+                    found += 1
+        self.assertGreater(found, 10)
+
+    def test_gains_that_are_called_clear_are_told_as_they_are(self):
+        relation = re.compile(r"\(([\d.]+) dB\) is (not )?at least ([\d.]+) dB above [^()]*\(([\d.]+) dB\)")
+        found = 0
+        for figure in self.data["figures"]:
+            for a, negated, margin, b in relation.findall(figure["sentence"]):
+                self.assertEqual(float(a) - float(b) >= float(margin) - 1e-6, not negated, figure["sentence"])
+                found += 1
+        self.assertGreaterEqual(found, 4)
+
+    def test_csv_has_the_figures_of_json(self):
+        with open(f"{self.report}/figures.csv", newline="", encoding="utf-8") as file:
+            rows = [(row["figure"], row["name"], row["unit"], row["value"]) for row in csv.DictReader(file)]
+        expected = [(figure["id"], measured["name"], measured["unit"], measured["value"])
+                    for figure in self.data["figures"] for measured in figure["figures"]]
+        self.assertEqual([row[:3] for row in rows], [row[:3] for row in expected])
+        for row, wanted in zip(rows, expected):
+            self.assertEqual(float(row[3] or "nan"), float(wanted[3] if wanted[3] is not None else "nan"), row)
+
+    def test_the_machine_and_the_references_are_on_the_page(self):
+        for text in ("thesis.glb", "96 × 54", self.data["machine"]["cpu"], self.data["device"]["renderer"],
+                     f"{self.data['truth_samples']} rays a pixel"):
+            self.assertIn(text, self.page)
+
+    def test_nothing_asks_the_network(self):
+        self.assertEqual(re.findall(r"""(?:src|href)=['"]?(?!data:|#)[^'" >]+""", self.page), [])
+        self.assertNotIn("@import", self.page)
+
+    def test_a_browser_shows_it_without_complaint(self):
+        with browser.Browser() as window:
+            window.open(f"{self.report}/index.html")
+            self.assertEqual(window.log(), [])
+            broken = window.script("return [...document.images].filter(i => !i.complete || !i.naturalWidth).length")
+            self.assertEqual(broken, 0)
+            wide = window.script("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
+            self.assertLessEqual(wide, 0)
+            titles = window.script("return [...document.querySelectorAll('h2')].map(e => e.textContent)")
+            self.assertEqual([title.split(":")[0] for title in titles if title.startswith("Figure")],
+                             [f"Figure {name}" for name in IDS])
+            self.assertEqual(len(window.all("p.verdict")), len(IDS))
+            window.screenshot(browser.results_folder() / "reproduce.png")
+
+
+class ReproduceRefuses(TestCase):
+    def test_a_folder_that_cannot_be_written_before_anything_is_drawn(self):
+        place = self.folder / "file"
+        place.write_text("no folder")
+        line = self.refuse("reproduce", "-o", place, "--quick", timeout=20)
+        self.assertIn("file", line)
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["file"])
+
+    def test_a_scene_that_is_not_there(self):
+        line = self.refuse("reproduce", self.folder / "none.glb", "-o", self.folder / "report", "--quick", timeout=60)
+        self.assertIn("none.glb", line)
+        self.assertFalse((self.folder / "report" / "index.html").exists())
+
+    def test_no_output(self):
+        self.refuse("reproduce", code=2)
+
+
+if __name__ == "__main__":
+    main()
