@@ -227,7 +227,8 @@ class Truth(TestCase):
         self.trace("t.exr", *view, of=of, size=())
         self.succeed("render", of, "-o", self.folder / "r.exr", "--aov", "shadow", "--technique", "brute_force", *view)
         figures = [json.loads(self.succeed("diff", self.folder / "r.exr", self.folder / "t.exr", "--layer", "shadow",
-                                           "--json", "-", *mask).stdout)["rmse"] for mask in ((), ("--mask", "receiver"))]
+                                           "--json", "-", *mask).stdout)["figures"]["rmse"]
+                   for mask in ((), ("--mask", "receiver"))]
         self.assertLess(figures[1], 0.1)
         self.assertLess(figures[1], figures[0])
 
