@@ -1,10 +1,10 @@
-# penumbra_embed_web(TARGET): the style and the script of src/report/web become C++ data in TARGET, which
+# penumbra_embed_web(TARGET): the styles and the script of src/report/web become C++ data in TARGET, which
 # report::page_css() and page_js() read.
 function(penumbra_embed_web target)
   set(folder "${CMAKE_SOURCE_DIR}/src/report/web")
   set(output "${CMAKE_BINARY_DIR}/generated/web_files.cpp")
   set(script "${CMAKE_SOURCE_DIR}/cmake/embed_web_files.cmake")
-  set(files "${folder}/page.css" "${folder}/page.js")
+  set(files "${folder}/page.css" "${folder}/pictures.css" "${folder}/figures.css" "${folder}/page.js")
   add_custom_command(OUTPUT "${output}"
     COMMAND "${CMAKE_COMMAND}" "-DFOLDER=${folder}" "-DOUTPUT=${output}" -P "${script}"
     DEPENDS ${files} "${script}"

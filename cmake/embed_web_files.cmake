@@ -1,14 +1,20 @@
-# Run by penumbra_embed_web(): writes page.css and page.js of FOLDER as raw string literals to OUTPUT.
-set(functions "")
-foreach(name IN ITEMS page.css page.js)
-  file(READ "${FOLDER}/${name}" text)
-  string(REPLACE "." "_" function "${name}")
-  string(APPEND functions "std::string_view ${function}() { return R\"penumbra_web(${text})penumbra_web\"; }\n")
+# Run by penumbra_embed_web(): writes the files of FOLDER as raw string literals to OUTPUT, the styles one after the
+# other: what page.css says of narrow pages and of paper wins.
+set(literals_css "")
+foreach(name IN ITEMS figures pictures page)
+  file(READ "${FOLDER}/${name}.css" text)
+  string(APPEND literals_css "\n    R\"penumbra_web(${text})penumbra_web\"")
 endforeach()
+file(READ "${FOLDER}/page.js" script)
 file(WRITE "${OUTPUT}" "#include \"report/web_files.h\"
 
 namespace penumbra::report {
 
-${functions}
+std::string_view page_css() {
+  return${literals_css};
+}
+
+std::string_view page_js() { return R\"penumbra_web(${script})penumbra_web\"; }
+
 }  // namespace penumbra::report
 ")

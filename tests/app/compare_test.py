@@ -176,7 +176,8 @@ class Refusals(TestCase):
     def test_scenes_that_are_not_there(self):
         self.assertIn("nothing.glb", self.refused("--technique", "pcss", code=1, of=self.folder / "nothing.glb"))
         # The second too is told before the first is drawn.
-        line = self.refuse("compare", POSTS, self.folder / "none.glb", "-o", self.folder / "report", "--technique", "pcss")
+        scenes = (POSTS, self.folder / "none.glb")
+        line = self.refuse("compare", *scenes, "-o", self.folder / "report", "--technique", "pcss")
         self.assertIn("none.glb", line)
 
     def test_folders_that_cannot_be_written(self):
@@ -199,8 +200,8 @@ class Refusals(TestCase):
     def test_signals_leave_no_file(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             with self.subTest(number):
-                process = subprocess.Popen([PROGRAM, "compare", POSTS, "-o", self.folder / "report", "--technique", "pcss",
-                                            "--frames", "0:99999", "--size", "64x36", "--reference", "brute_force"])
+                process = subprocess.Popen([PROGRAM, "compare", POSTS, "-o", self.folder / "report", "--size", "64x36",
+                                            "--technique", "pcss", "--reference", "brute_force", "--frames", "0:99999"])
                 time.sleep(2)
                 process.send_signal(number)
                 self.assertEqual(process.wait(timeout=60), 128 + number)

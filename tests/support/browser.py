@@ -29,7 +29,8 @@ class Browser:
         if not driver or not browser:
             raise unittest.SkipTest("there is no chromedriver or no Chromium")
         self._profile = tempfile.TemporaryDirectory(prefix="penumbra-browser-", ignore_cleanup_errors=True)
-        self._driver = subprocess.Popen([driver, "--port=0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self._driver = subprocess.Popen([driver, "--port=0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                                        text=True)
         try:
             self._address = f"http://127.0.0.1:{self._port()}"
             self._session = self._open_session(browser)
@@ -65,7 +66,8 @@ class Browser:
 
     def _send(self, method, path, body=None):
         data = None if body is None and method != "POST" else json.dumps(body or {}).encode()
-        request = urllib.request.Request(self._address + path, data, {"Content-Type": "application/json"}, method=method)
+        headers = {"Content-Type": "application/json"}
+        request = urllib.request.Request(self._address + path, data, headers, method=method)
         opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
         try:
             with opener.open(request, timeout=120) as answer:
@@ -81,7 +83,8 @@ class Browser:
 
     def _set_size(self, width, height):
         # Of the page itself: a window can't be narrower than its buttons.
-        self._chrome("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        self._chrome("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
+                     mobile=False)
 
     def resize(self, width, height):
         self._set_size(width, height)
