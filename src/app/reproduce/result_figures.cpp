@@ -19,8 +19,8 @@ constexpr double order_of_magnitude = 10, alike = 30;  // dB
 
 bench::Options sweep_options(const Options& options) {
   bench::Options sweep;
-  static_cast<studio::StageOptions&>(sweep) = options;
-  static_cast<studio::DeviceOptions&>(sweep) = options;
+  static_cast<studio::StageOptions&>(sweep) = static_cast<const studio::StageOptions&>(options);
+  static_cast<studio::DeviceOptions&>(sweep) = static_cast<const studio::DeviceOptions&>(options);
   sweep.techniques = {"pcss"};
   sweep.sweep = "taps";
   sweep.quiet = options.quiet;
