@@ -84,18 +84,24 @@ std::vector<float> from_top(const std::vector<float>& rows, int width) {
   return flipped;
 }
 
-// That 99.9 % of the pixels have no more of.
-float error_of_most(std::vector<float> errors) {
+// That 99.9 % of the receivers have no more of.
+float error_of_most(const truth::TruthTechnique::Last& last) {
+  std::vector<float> errors;
+  for (std::size_t i = 0; i < last.receiver.size(); ++i) {
+    if (last.receiver[i] > 0) errors.push_back(last.traced.standard_error[i]);
+  }
+  if (errors.empty()) return 0;
   const std::size_t rank = errors.size() - 1 - errors.size() / 1000;
   std::ranges::nth_element(errors, errors.begin() + static_cast<std::ptrdiff_t>(rank));
   return errors[rank];
 }
 
-void write(const std::filesystem::path& path, const studio::Size& size, const truth::TruthTechnique::Last& last,
+void write(const OutputNames& names, int frame, const studio::Size& size, const truth::TruthTechnique::Last& last,
            const image::Metadata& metadata) {
   const truth::Traced& traced = last.traced;
+  const std::filesystem::path path = names.picture(frame);
   const std::vector<float> shadow = from_top(traced.visibility, size.width);
-  if (path.extension() == ".png") {
+  if (!names.is_exr()) {
     std::vector<std::uint8_t> bytes;
     for (const float v : shadow) bytes.push_back(static_cast<std::uint8_t>(std::lround(v * 255.0f)));
     image::write_png(path, size.width, size.height, 1, bytes, metadata);
@@ -117,7 +123,7 @@ std::string summary(const std::filesystem::path& path, const studio::Size& size,
                                : fmt::format("{:.1f} million rays in {:.2f} s, {:.1f} million a second", millions,
                                              traced.seconds, millions / std::max(traced.seconds, 1e-9));
   return fmt::format("wrote {} ({}×{}, {} rays a pixel, {}, standard error up to {:.2g} in 99.9 %)", path.string(),
-                     size.width, size.height, traced.samples, cost, error_of_most(traced.standard_error));
+                     size.width, size.height, traced.samples, cost, error_of_most(last));
 }
 
 void check_scene_files(const std::vector<std::filesystem::path>& files, const OutputNames& names,
@@ -141,12 +147,12 @@ void trace_files(const TruthOptions& options) {
   check_scene_files(stage.scene.files, names, range);
 
   constexpr int parts = 1000;  // of a frame
-  studio::Progress progress(range.count() > 1 ? "frame" : "", range.count() > 1 ? range.count() : parts,
-                            !options.quiet);
+  std::optional<studio::Progress> progress;
+  progress.emplace(range.count() > 1 ? "frame" : "", range.count() > 1 ? range.count() : parts, !options.quiet);
   truth::TechniqueOptions how{.cache = options.folder(), .threads = options.threads.value_or(0)};
   if (range.count() == 1) {
     how.progress = [&progress](double share) {
-      progress.reach(std::min(static_cast<int>(share * parts), parts - 1));
+      progress->reach(std::min(static_cast<int>(share * parts), parts - 1));
       return true;
     };
   }
@@ -160,9 +166,10 @@ void trace_files(const TruthOptions& options) {
   for (int frame = range.first; frame <= range.last; ++frame) {
     studio.draw(frame, params);
     write(names.picture(frame), options.size, truth.last(), metadata_of(options, studio.setup(), params, frame));
-    progress.step();
+    if (range.count() > 1) progress->step();
     last_line = summary(names.picture(frame), options.size, truth.last());
   }
+  progress.reset();
   if (!options.quiet) fmt::print("{}\n", last_line);
 }
 

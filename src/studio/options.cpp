@@ -97,7 +97,7 @@ void add_device_options(CLI::App& app, DeviceOptions& o) {
   });
   add_value(app, "--egl-device", "N", "EGL device by index; see penumbra doctor",
             [&o](const auto& text) { o.egl_device = parse_count("--egl-device", text, 0, 255); });
-  add_value(app, "--threads", "N", "Threads of a software rasteriser (all cores)",
+  add_value(app, "--threads", "N", "Threads of a software rasteriser and of a ray tracer (all cores)",
             [&o](const auto& text) { o.threads = parse_count("--threads", text, 1, 1024); });
   add_value(app, "--glsl", "DIR", "Shaders in this folder replace the built-in ones of the same name",
             [&o](const auto& text) { o.glsl = text; });

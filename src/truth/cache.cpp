@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
+#include <exception>
 #include <fstream>
 #include <system_error>
 
-#include "core/error.h"
 #include "core/log.h"
 #include "io/output_file.h"
 
@@ -54,6 +53,12 @@ std::optional<Traced> read(const fs::path& path, const Key& key, std::size_t pix
   return traced;
 }
 
+// A picture, or what a process that was killed left of one.
+bool is_ours(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return path.extension() == ".truth" || (name.starts_with('.') && name.find(".truth.") != std::string::npos);
+}
+
 // Makes room for `needed` of at most `largest` bytes.
 void shrink(const fs::path& folder, std::uintmax_t needed, std::uintmax_t largest) {
   struct Entry {
@@ -63,19 +68,32 @@ void shrink(const fs::path& folder, std::uintmax_t needed, std::uintmax_t larges
   };
   std::vector<Entry> entries;
   std::uintmax_t total = needed;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() != ".truth") continue;
-    const Entry found{entry.last_write_time(error), entry.file_size(error), entry.path()};
-    if (error) continue;  // another process took it away
+  std::error_code end;
+  for (fs::directory_iterator at(folder, end), none; !end && at != none; at.increment(end)) {
+    if (!is_ours(at->path())) continue;
+    std::error_code gone_time, gone_size;  // another process may take it away
+    const Entry found{at->last_write_time(gone_time), at->file_size(gone_size), at->path()};
+    if (gone_time || gone_size) continue;
     entries.push_back(found);
     total += found.bytes;
   }
   std::ranges::sort(entries, {}, &Entry::used);
+  std::error_code error;
   for (const Entry& entry : entries) {
     if (total <= largest) return;
     if (fs::remove(entry.path, error)) total -= entry.bytes;
   }
+}
+
+// Throws what writing throws.
+void write(const fs::path& path, const Header& header, const Traced& traced) {
+  std::string contents(reinterpret_cast<const char*>(&header), sizeof(header));
+  contents.reserve(bytes_of(traced.visibility.size()));
+  for (const auto layer : layers) {
+    const std::vector<float>& values = traced.*layer;
+    contents.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+  }
+  io::write_text(path, contents);
 }
 
 }  // namespace
@@ -97,16 +115,10 @@ void Cache::keep(const Key& key, const Traced& traced) const {
                       .rays = traced.rays,
                       .samples = traced.samples,
                       .seconds = traced.seconds};
-  std::string contents(reinterpret_cast<const char*>(&header), sizeof(header));
-  contents.reserve(bytes);
-  for (const auto layer : layers) {
-    const std::vector<float>& values = traced.*layer;
-    contents.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
-  }
   try {
     shrink(folder_, bytes, largest_);
-    io::write_text(file_of(folder_, key), contents);
-  } catch (const Error& error) {
+    write(file_of(folder_, key), header, traced);
+  } catch (const std::exception& error) {
     warn("the cache of traced shadows: {}", error.what());
   }
 }

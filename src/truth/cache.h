@@ -21,7 +21,8 @@ struct Key {
 // The casters' part of the key: triangles, where they are, and what their alpha is made of.
 Key key_of(const scene::Scene& scene, const scene::PosedGeometry& geometry);
 // The picture's.
-Key key_of(const Key& casters, std::span<const Receiver> receivers, const Light& light, const TraceOptions& options);
+Key key_of(const Key& casters, std::span<const Receiver> receivers, int width, const Light& light,
+           const TraceOptions& options);
 
 // Traced pictures on disk: a file each, named by its key, that appears whole or not at all. What can't be read or is
 // damaged counts as absent, and what can't be written is told in a warning, for a cache is no result.

@@ -113,9 +113,11 @@ Key key_of(const scene::Scene& scene, const scene::PosedGeometry& geometry) {
   return hash.key();
 }
 
-Key key_of(const Key& casters, std::span<const Receiver> receivers, const Light& light, const TraceOptions& options) {
+Key key_of(const Key& casters, std::span<const Receiver> receivers, int width, const Light& light,
+           const TraceOptions& options) {
   Hash hash;
   hash.add(casters);
+  hash.add(width);
   hash.add(receivers.size());
   for (const Receiver& receiver : receivers) {
     hash.add(receiver.there);

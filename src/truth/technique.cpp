@@ -106,7 +106,7 @@ void TruthTechnique::State::resolve(const shadow::TechniqueFrame& frame) {
   const Light light = light_of(frame, options, user->time);
   const TraceOptions how = trace_options(frame.params(), options);
   const Key casters_key = key_of(scene, geometry);
-  const Key key = key_of(casters_key, receivers, light, how);
+  const Key key = key_of(casters_key, receivers, frame.mask().width(), light, how);
   last = {};
   if (std::optional<Traced> kept = cache.find(key, receivers.size())) {
     last.traced = std::move(*kept);

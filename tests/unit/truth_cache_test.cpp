@@ -79,6 +79,17 @@ TEST_F(TruthCache, LetsGoOfWhatWasNotUsedForLongest) {
   EXPECT_TRUE(fs::exists(folder_ / "of somebody else"));
 }
 
+TEST_F(TruthCache, LetsGoOfWhatAKilledProcessLeft) {
+  const Cache cache(folder_, 40'000);
+  cache.keep({0, 1}, traced(1));
+  const fs::path left = folder_ / ".00000000000000000000000000000001.truth.Ab12Cd";
+  std::ofstream(left) << std::string(30'000, 'x');
+  fs::last_write_time(left, fs::last_write_time(left) - std::chrono::hours(48));
+  cache.keep({0, 2}, traced(1));
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(cache.find({0, 1}, 1000));
+}
+
 TEST_F(TruthCache, KeepsNothingThatIsLargerThanAllOfIt) {
   const Cache cache(folder_, 10'000);
   cache.keep({0, 1}, traced(1));
