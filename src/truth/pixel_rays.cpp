@@ -7,7 +7,7 @@
 
 namespace penumbra::truth {
 
-static_assert(packet_width == 16);
+static_assert(packet_width == 8);
 
 namespace {
 
@@ -38,48 +38,48 @@ void PixelRays::start_at(const Receiver& receiver) {
   cosine_y_ = glm::dot(receiver.normal, seen_.side_y);
 }
 
-void PixelRays::aim(const PacketPoints& points, int lanes) {
+// Returns how many of the rays are to be traced: the light's points before the surface.
+long PixelRays::aim(const PacketPoints& points) {
   const glm::vec3 center(seen_.center);
   const glm::vec3 side_x(seen_.side_x);
   const glm::vec3 side_y(seen_.side_y);
   const auto cosine = static_cast<float>(cosine_center_);
   const auto cosine_x = static_cast<float>(cosine_x_);
   const auto cosine_y = static_cast<float>(cosine_y_);
-  for (int lane = 0; lane < packet_width; ++lane) {
-    const auto i = static_cast<std::size_t>(lane);
+  for (std::size_t i = 0; i < packet_width; ++i) {
     const float x = points.x[i];
     const float y = points.y[i];
-    rays_.dir_x[lane] = center.x + x * side_x.x + y * side_y.x;
-    rays_.dir_y[lane] = center.y + x * side_x.y + y * side_y.y;
-    rays_.dir_z[lane] = center.z + x * side_x.z + y * side_y.z;
-    rays_.tfar[lane] = seen_.far;
-    valid_[i] = (cosine + x * cosine_x + y * cosine_y > 0) && lane < lanes ? -1 : 0;
+    rays_.dir_x[i] = center.x + x * side_x.x + y * side_y.x;
+    rays_.dir_y[i] = center.y + x * side_x.y + y * side_y.y;
+    rays_.dir_z[i] = center.z + x * side_x.z + y * side_y.z;
+    rays_.tfar[i] = seen_.far;
+    valid_[i] = cosine + x * cosine_x + y * cosine_y > 0 ? -1 : 0;
   }
+  return std::ranges::count(valid_, -1);
 }
 
 void PixelRays::count_lit(LitCounts& lit) const {
   for (std::size_t i = 0; i < packet_width; ++i) {
-    lit[i % scrambling_count] += valid_[i] != 0 && rays_.tfar[i] >= 0 ? 1 : 0;  // −∞: occluded
+    lit[i] += valid_[i] != 0 && rays_.tfar[i] >= 0 ? 1 : 0;  // −∞: occluded
   }
 }
 
 void PixelRays::trace(const PixelPoints& pixel, std::uint32_t first, std::uint32_t last, LitCounts& lit) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   PacketPoints points;
-  for (std::uint32_t point = first; point < last; point += 2) {
-    pixel.square(point, points);
+  for (std::uint32_t index = first; index < last; ++index) {
+    pixel.square(index, points);
     if (seen_.square) {
       square_to_sides(points);
     } else {
       square_to_disc(points);
     }
-    aim(points, point + 1 < last ? packet_width : scrambling_count);
-    const auto rays = std::ranges::count(valid_, -1);
+    const long rays = aim(points);
     if (rays == 0) continue;
     traced_ += rays;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcOccluded16(valid_.data(), scene_.get(), &context, &rays_);
+    rtcOccluded8(valid_.data(), scene_.get(), &context, &rays_);
     count_lit(lit);
   }
 }

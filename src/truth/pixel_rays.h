@@ -32,7 +32,7 @@ class PixelRays {
   long long traced() const { return traced_; }
 
  private:
-  void aim(const PacketPoints& points, int lanes);
+  long aim(const PacketPoints& points);
   void count_lit(LitCounts& lit) const;
 
   const EmbreeScene& scene_;
@@ -41,8 +41,8 @@ class PixelRays {
   SeenLight seen_;
   // Cosines to the receiver's normal, times the length: a ray's is center + x · side_x + y · side_y.
   double cosine_center_ = 0, cosine_x_ = 0, cosine_y_ = 0;
-  RTCRay16 rays_;
-  alignas(64) std::array<int, packet_width> valid_{};  // −1: to be traced
+  RTCRay8 rays_;
+  alignas(32) std::array<int, packet_width> valid_{};  // −1: to be traced
 };
 
 }  // namespace penumbra::truth

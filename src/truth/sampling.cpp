@@ -3,6 +3,13 @@
 #include <cmath>
 #include <cstddef>
 
+// The same arithmetic for as many lanes at once as the processor has, chosen when the program starts.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define TRUTH_WIDE_VECTORS __attribute__((target_clones("avx2", "default")))
+#else
+#define TRUTH_WIDE_VECTORS
+#endif
+
 namespace penumbra::truth {
 
 namespace {
@@ -54,26 +61,22 @@ constexpr float unit(std::uint32_t bits) { return static_cast<float>(bits >> 8U)
 PixelPoints::PixelPoints(std::uint32_t seed, std::uint32_t pixel) {
   const std::uint32_t of_pixel = hash(hash(seed) ^ pixel);
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const auto scrambling = static_cast<std::uint32_t>(lane % scrambling_count);
-    const std::uint32_t own = hash(of_pixel + 0x9e3779b9U * scrambling);
+    const std::uint32_t own = hash(of_pixel + 0x9e3779b9U * static_cast<std::uint32_t>(lane));
     seeds_x_[lane] = hash(own ^ 0x85ebca6bU);
     seeds_y_[lane] = hash(own ^ 0xc2b2ae35U);
   }
 }
 
-void PixelPoints::square(std::uint32_t first, PacketPoints& points) const {
-  for (std::size_t point = 0; point < 2; ++point) {
-    const std::uint32_t index = first + static_cast<std::uint32_t>(point);
-    const std::uint32_t second = second_dimension(index);
-    for (std::size_t lane = point * scrambling_count; lane < (point + 1) * scrambling_count; ++lane) {
-      points.x[lane] = unit(reversed_bits(scrambled(index, seeds_x_[lane])));
-      points.y[lane] = unit(reversed_bits(scrambled(second, seeds_y_[lane])));
-    }
+TRUTH_WIDE_VECTORS void PixelPoints::square(std::uint32_t index, PacketPoints& points) const {
+  const std::uint32_t second = second_dimension(index);
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    points.x[lane] = unit(reversed_bits(scrambled(index, seeds_x_[lane])));
+    points.y[lane] = unit(reversed_bits(scrambled(second, seeds_y_[lane])));
   }
 }
 
 // concentric_disc() of glsl/lib/disc.glsl without branches, so that it is done for several lanes at once.
-void square_to_disc(PacketPoints& points) {
+TRUTH_WIDE_VECTORS void square_to_disc(PacketPoints& points) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const float px = 2 * points.x[lane] - 1;
     const float py = 2 * points.y[lane] - 1;

@@ -7,13 +7,13 @@ namespace penumbra::truth {
 
 // Independent scramblings of one point set in each pixel, whose means' spread tells the error of their mean.
 constexpr int scrambling_count = 8;
-// Rays that are traced together: two points of each scrambling. Lane = scrambling + 8 · (point − first point).
-constexpr int packet_width = 2 * scrambling_count;
+// Rays that are traced together: a point of each scrambling.
+constexpr int packet_width = scrambling_count;
 
-// Points of the unit square, or of the unit disc, one a lane.
+// Points of the unit square, or of the unit disc.
 struct PacketPoints {
-  alignas(64) std::array<float, packet_width> x;
-  alignas(64) std::array<float, packet_width> y;
+  alignas(32) std::array<float, packet_width> x;
+  alignas(32) std::array<float, packet_width> y;
 };
 
 // The points of one pixel: the first two dimensions of Sobol's sequence (Sobol' 1967), in which a nested uniform
@@ -25,12 +25,12 @@ class PixelPoints {
   // Points of different pixels, scramblings and seeds are independent.
   PixelPoints(std::uint32_t seed, std::uint32_t pixel);
 
-  // Points `first` and `first` + 1 of each scrambling, in the unit square, 1 excluded.
-  void square(std::uint32_t first, PacketPoints& points) const;
+  // Point number `index` of each scrambling, in the unit square, 1 excluded.
+  void square(std::uint32_t index, PacketPoints& points) const;
 
  private:
-  std::array<std::uint32_t, packet_width> seeds_x_;
-  std::array<std::uint32_t, packet_width> seeds_y_;
+  alignas(32) std::array<std::uint32_t, packet_width> seeds_x_;
+  alignas(32) std::array<std::uint32_t, packet_width> seeds_y_;
 };
 
 // The unit square to the unit disc, equal areas to equal areas (Shirley and Chiu 1997, "A low distortion map between
