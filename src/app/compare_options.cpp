@@ -77,6 +77,8 @@ void check_together(const CompareOptions& o) {
   studio::check_together(static_cast<const studio::StageOptions&>(o));
   studio::check_together(static_cast<const studio::DeviceOptions&>(o));
   if (o.contenders.empty()) fail_usage("--technique is required: what to compare; see penumbra list techniques");
+  if (o.reference == "truth" && std::ranges::any_of(o.contenders, [](const auto& c) { return c.name == "truth"; }))
+    fail_usage("--technique truth is the reference already; see --reference");
   if (o.samples && o.reference != "truth") fail_usage("--spp has no meaning for --reference {}", o.reference);
   if (o.warmup && o.frames) fail_usage("--warmup is for single pictures: of --frames each is measured");
   check_orbit(o);
@@ -89,6 +91,13 @@ void check_together(const CompareOptions& o) {
 // All contenders are of a technique of their own.
 void check_assignment(const std::string& assignment) {
   if (assignment.starts_with("technique=")) fail_usage("'{}' has no meaning here: see --technique", assignment);
+}
+
+// And all under the reference's sun.
+void check_own_assignment(const std::string& assignment) {
+  check_assignment(assignment);
+  if (assignment.starts_with("sun."))
+    fail_usage("'{}' would give a technique another sun than the reference's: see --set", assignment);
 }
 
 }  // namespace
@@ -126,7 +135,7 @@ ParamSet params_of(const CompareOptions& options, const Contender& contender, co
   for (const std::string& assignment : options.assignments) check_assignment(assignment);
   ParamSet params = studio::resolve_params(own, registry);
   for (const std::string& assignment : contender.assignments) {
-    check_assignment(assignment);
+    check_own_assignment(assignment);
     studio::assign(params, assignment);
   }
   return params;

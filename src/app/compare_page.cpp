@@ -156,23 +156,6 @@ Html params_section(const Comparison& comparison) {
 }
 
 // For a POSIX shell.
-std::string shell_quoted(const std::string& text) {
-  const bool plain = !text.empty() && std::ranges::all_of(text, [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-           std::string_view("_-./:=,+@%").find(c) != std::string_view::npos;
-  });
-  if (plain) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
-}
-
-std::string command_line(const studio::Arguments& arguments) {
-  std::string text = "penumbra compare";
-  for (const std::string& argument : arguments) text += " " + shell_quoted(argument);
-  return text;
-}
-
 std::string frames_text(const CompareOptions& options) {
   if (!options.frames) return "a single picture";
   std::string text = fmt::format("{} frames, {:g} a second", options.frames->count(), options.fps);
@@ -213,7 +196,8 @@ report::Page comparison_page(const Comparison& comparison, const CompareOptions&
     body.add(pictures_of(scene, comparison, options.size));
     page.sections.push_back({.title = scene_name(scene.path), .body = std::move(body)});
   }
-  page.sections.push_back({.title = "Command", .body = report::code_block(command_line(arguments))});
+  page.sections.push_back(
+      {.title = "Command", .body = report::code_block(studio::command_text("penumbra compare", arguments))});
   page.sections.push_back({.title = "Parameters", .body = params_section(comparison)});
   return page;
 }

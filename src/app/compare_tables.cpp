@@ -59,10 +59,9 @@ std::string csv_text(const std::string& text) {
   return quoted + "\"";
 }
 
-Json json_number(double value) {
-  if (std::isnan(value)) return nullptr;
-  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-  return std::stod(fmt::format("{:.6g}", value));
+// Six digits: more say nothing.
+Json rounded(double value) {
+  return io::json_number(std::isfinite(value) ? std::stod(fmt::format("{:.6g}", value)) : value);
 }
 
 std::string fixed(double value, int decimals) {
@@ -94,16 +93,16 @@ Json recoveries(const ComparedFigures& figures) {
   for (const metrics::Recovery& recovery : figures.sequence->recoveries) {
     list.push_back({{"frame", recovery.frame},
                     {"recovery_frames", recovery.frames ? Json(*recovery.frames) : Json()},
-                    {"static_error", json_number(recovery.static_error)}});
+                    {"static_error", rounded(recovery.static_error)}});
   }
   return list;
 }
 
 Json json_of(const ComparedTechnique& technique) {
   Json figures = Json::object(), cost = Json::object();
-  for (const NamedFigure& figure : figures_of(technique.figures)) figures[figure.name] = json_number(figure.value);
+  for (const NamedFigure& figure : figures_of(technique.figures)) figures[figure.name] = rounded(figure.value);
   figures["recoveries"] = recoveries(technique.figures);
-  for (const NamedFigure& figure : costs_of(technique.cost)) cost[figure.name] = json_number(figure.value);
+  for (const NamedFigure& figure : costs_of(technique.cost)) cost[figure.name] = rounded(figure.value);
   cost["cost_frames"] = technique.cost.frames;
   return {{"label", technique.label},
           {"technique", technique.params.get_word("technique")},

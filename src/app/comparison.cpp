@@ -30,7 +30,8 @@ struct Machine {
   Machine(const CompareOptions& options, std::unique_ptr<gl::Context> opened)
       : context(std::move(opened)),
         info(gl::device_info()),
-        truth({.cache = options.folder(), .threads = options.threads.value_or(0)}),
+        truth({.cache = options.reference == "truth" ? options.folder() : std::filesystem::path(),
+               .threads = options.threads.value_or(0)}),
         techniques(truth.registry()),
         device(gl::ShaderFiles(options.glsl), info.software ? gl::Timers::Mode::finish : gl::Timers::Mode::query) {}
 };

@@ -111,7 +111,8 @@ std::string verdict(const DiffOptions& options, const Figure& figure, const Diff
   if (!options.max && !options.min) return {};
   if (difference.not_finite > 0)
     return fmt::format("{}: {} values of the first are not finite", names, difference.not_finite);
-  if (std::isnan(figure.value)) return fmt::format("{}: the reference has no penumbra to measure", names);
+  if (std::isnan(figure.value))
+    return fmt::format("{}: there is no penumbra to measure {} of", names, figure.metric->name);
   const double value = options.max ? std::abs(figure.value) : figure.value;
   if (options.max && value > *options.max)
     return fmt::format("{}: {} is {}, over the limit of {:g}", names, figure.metric->name, text_of(figure),

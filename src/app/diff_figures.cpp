@@ -73,9 +73,6 @@ std::string described(const image::Picture& picture, const std::string& name) {
                      picture.display ? ", display" : ", linear");
 }
 
-// Null for what is infinite or was not measured, which JSON has no number for.
-io::Json number(double value) { return std::isfinite(value) ? io::Json(value) : io::Json(); }
-
 }  // namespace
 
 std::span<const Metric> diff_metrics() { return all_metrics; }
@@ -163,7 +160,7 @@ std::string text_of(const Difference& difference) {
 io::Json to_json(const Difference& difference) {
   io::Json figures = io::Json::object();
   for (const Figure& figure : difference.figures)
-    if (figure.unfit.empty()) figures[figure.metric->name] = number(figure.value);
+    if (figure.unfit.empty()) figures[figure.metric->name] = io::json_number(figure.value);
   return figures;
 }
 

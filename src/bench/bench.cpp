@@ -11,6 +11,7 @@
 #include "io/output_file.h"
 #include "studio/signals.h"
 #include "studio/studio.h"
+#include "studio/text.h"
 
 namespace penumbra::bench {
 
@@ -18,7 +19,7 @@ namespace {
 
 // As a reader would type it, with files by their names alone: where they lay is no matter of the measurement.
 std::string command_of(const std::string& name, const studio::Arguments& arguments) {
-  std::string command = name;
+  std::vector<std::string> shown_arguments;
   for (const std::string& argument : arguments) {
     std::string shown;
     for (std::size_t begin = 0; begin < argument.size();) {
@@ -27,9 +28,9 @@ std::string command_of(const std::string& name, const studio::Arguments& argumen
       shown += part.substr(part.rfind('/') + 1) + argument.substr(end, 1);
       begin = end + 1;
     }
-    command += shown.find(' ') == std::string::npos ? " " + shown : " '" + shown + "'";
+    shown_arguments.push_back(shown);
   }
-  return command;
+  return studio::command_text(name, shown_arguments);
 }
 
 // The first device that is no software rasteriser; none where the user chose, or there is none.

@@ -34,7 +34,7 @@ class Contender {
   // Of the floor beside what it is the floor of.
   std::optional<FloorCost> floor_cost(const PassTimes& own, const PassTimes& floor) const;
 
-  std::size_t target_bytes() const { return device_.target_bytes(); }
+  std::size_t target_bytes() const { return device_.target_bytes("shadow "); }
 
  private:
   gl::Device device_;

@@ -38,8 +38,9 @@ Sweep resolution(const SweepLimits& limits) {
   for (const double factor : factors) {
     const auto scaled = [factor](int side) { return std::max(1, static_cast<int>(std::lround(side * factor))); };
     const studio::Size size{scaled(limits.size.width), scaled(limits.size.height)};
-    if ((limits.software && factor > largest_in_software) || std::max(size.width, size.height) > limits.max_texture)
-      break;
+    const bool too_large = std::max(size.width, size.height) > std::min(limits.max_texture, studio::largest_side) ||
+                           1LL * size.width * size.height > studio::largest_area;
+    if ((limits.software && factor > largest_in_software) || too_large) break;
     Point point = point_of(size.width * static_cast<double>(size.height) / million,
                            fmt::format("{}x{}", size.width, size.height));
     point.size = size;

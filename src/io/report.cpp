@@ -5,6 +5,12 @@
 
 namespace penumbra::io {
 
+Json json_number(double value) {
+  if (std::isnan(value)) return nullptr;
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  return value;
+}
+
 namespace {
 
 double median_of(std::vector<double> values) {

@@ -15,6 +15,9 @@ namespace penumbra::io {
 // JSON with its keys in the order of insertion, so that reports can be compared line by line.
 using Json = nlohmann::ordered_json;
 
+// JSON has no infinity: "inf" and "-inf", as text. NaN is null.
+Json json_number(double value);
+
 // What one pass cost over the frames that were counted, milliseconds.
 struct PassCost {
   std::string name;

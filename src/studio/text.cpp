@@ -1,5 +1,9 @@
 #include "studio/text.h"
 
+#include <cctype>
+
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <array>
@@ -18,6 +22,27 @@ std::string bytes_text(double bytes) {
   std::size_t unit = 0;
   for (; bytes >= 1024.0 && unit + 1 < units.size(); ++unit) bytes /= 1024.0;
   return fmt::format("{:.{}f} {}", bytes, unit == 0 ? 0 : 1, units[unit]);
+}
+
+namespace {
+
+std::string shell_quoted(const std::string& text) {
+  const bool plain = !text.empty() && std::ranges::all_of(text, [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("_-./:=,+@%").find(c) != std::string_view::npos;
+  });
+  if (plain) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
+
+std::string command_text(std::string_view program, const std::vector<std::string>& arguments) {
+  std::string text(program);
+  for (const std::string& argument : arguments) text += " " + shell_quoted(argument);
+  return text;
 }
 
 }  // namespace penumbra::studio

@@ -75,20 +75,6 @@ penumbra::report::Section overview(std::span<const Finding> findings) {
   return {.title = "What was found", .body = std::move(html.add("</ul>\n"))};
 }
 
-std::string command_line(const studio::Arguments& arguments) {
-  std::string text = "penumbra reproduce";
-  for (const std::string& argument : arguments)
-    text += argument.find_first_of(" '\"\\$`") == std::string::npos ? " " + argument : " '" + argument + "'";
-  return text;
-}
-
-// JSON has no infinity.
-io::Json number(double value) {
-  if (std::isnan(value)) return nullptr;
-  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-  return value;
-}
-
 std::string csv_field(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
@@ -118,7 +104,9 @@ penumbra::report::Page page_of(std::span<const Finding> findings, const Workbenc
       .footer = fmt::format("{}. Costs hold for this machine and run; compare them with each other alone.",
                             studio::version())};
   for (const Finding& finding : findings) page.sections.push_back(section_of(finding));
-  page.sections.push_back({.title = "Command", .body = penumbra::report::code_block(command_line(arguments))});
+  page.sections.push_back(
+      {.title = "Command",
+       .body = penumbra::report::code_block(studio::command_text("penumbra reproduce", arguments))});
   return page;
 }
 
@@ -128,7 +116,7 @@ io::Json json_of(std::span<const Finding> findings, const Workbench& bench) {
     io::Json quantities = io::Json::array();
     for (const Quantity& quantity : finding.quantities()) {
       quantities.push_back({{"name", quantity.name},
-                            {"value", number(quantity.value)},
+                            {"value", io::json_number(quantity.value)},
                             {"unit", quantity.unit},
                             {"text", quantity.text()}});
     }
