@@ -67,10 +67,6 @@ void Finding::expect_at_least(const Quantity& a, double limit) {
   expect(shown(a) >= limit, a, "at least " + limit_of(a, limit).text());
 }
 
-void Finding::expect_at_most(const Quantity& a, double limit) {
-  expect(shown(a) <= limit, a, "at most " + limit_of(a, limit).text());
-}
-
 void Finding::expect_near(const Quantity& a, const Quantity& b, double tolerance) {
   const double difference = std::abs(a.value - b.value);
   expect(difference <= tolerance, a,

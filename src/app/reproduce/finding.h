@@ -33,7 +33,6 @@ class Finding {
   void expect_above(const Quantity& a, const Quantity& b);
   void expect_above_by(double margin, const Quantity& a, const Quantity& b);  // at least
   void expect_at_least(const Quantity& a, double limit);
-  void expect_at_most(const Quantity& a, double limit);
   void expect_near(const Quantity& a, const Quantity& b, double tolerance);
 
   // Records a figure. Of one name the first counts.

@@ -15,14 +15,17 @@ Named sampled(const std::string& noise, const std::string& pattern, const Taps& 
             fmt::format("pcss.filter_taps={}", taps.filter)}}};
 }
 
-double fixed_sigma(const Workbench& bench) { return bench.height() / 90.0; }
+double fixed_sigma(const Workbench& bench) {
+  constexpr double largest = 24;  // of filter.max_sigma
+  return std::min(bench.height() / 90.0, largest);
+}
 
 Named denoised(const Workbench& bench, const Named& noisy, const std::string& filter) {
   Named result = noisy;
   result.name += filter == "gaussian" ? ", Gaussian" : ", bilateral";
   for (const std::string& value :
        {"filter.visibility=" + filter, std::string("filter.penumbra=median"), std::string("filter.width=1"),
-        fmt::format("filter.max_sigma={}", std::min(fixed_sigma(bench), 24.0))})
+        fmt::format("filter.max_sigma={}", fixed_sigma(bench))})
     result.look.values.push_back(value);
   return result;
 }

@@ -22,6 +22,7 @@ bench::Options sweep_options(const Options& options) {
   static_cast<studio::StageOptions&>(sweep) = static_cast<const studio::StageOptions&>(options);
   static_cast<studio::DeviceOptions&>(sweep) = static_cast<const studio::DeviceOptions&>(options);
   sweep.techniques = {"pcss"};
+  sweep.assignments = {"pcss.early_exit=off"};  // else taps that are left out cost nothing
   sweep.sweep = "taps";
   sweep.quiet = options.quiet;
   if (options.quick) {
@@ -104,8 +105,8 @@ Finding figure_4_13(Workbench& bench) {
       "on a GeForce RTX 2080 Ti.";
   finding.test =
       "8, 32, 64 and 128 taps of both steps, with a plane fitted through the 16 costs by least squares: it must "
-      "explain "
-      "0.98 of their variance. Milliseconds are this machine's; on a GPU, 8×8 taps must be within one.";
+      "explain 0.98 of their variance. Timed is the shadow mask's pass at this page's size, early exits off. "
+      "Milliseconds are this machine's, so the second part of the claim is not judged.";
   for (const bench::Measured& measured : results.points) {
     finding.record({fmt::format("the cost of {}×{} taps", measured.point.names[0], measured.point.names[1]),
                     measured.costs.front().swept.median, "ms", 2});
@@ -118,8 +119,6 @@ Finding figure_4_13(Workbench& bench) {
       fmt::format("{}, R² = {}.", bench::equation_of(model, results.sweep), report::fixed(model.fit.r_squared, 4))));
   finding.expect_at_least({"the share of the costs' variance that a linear model explains", model.fit.r_squared, "", 4},
                           linear);
-  const double least = results.points.front().costs.front().swept.median;
-  if (!bench.device().software) finding.expect_at_most({"the cost of 8×8 taps", least, "ms", 2}, 1);
   return finding;
 }
 
