@@ -31,7 +31,7 @@ std::vector<std::uint8_t> receivers_of(const studio::Studio& studio, double sun_
   return receivers;
 }
 
-metrics::Plane blurred(metrics::Plane plane) {
+metrics::Plane blurred(const metrics::Plane& plane) {
   const metrics::Kernel kernel = metrics::gaussian(blur_sigma, static_cast<int>(std::ceil(3 * blur_sigma)));
   return metrics::convolve(plane, kernel, kernel, metrics::Border::zero);
 }
