@@ -104,7 +104,7 @@ double Workbench::psnr_blurred(const std::vector<float>& visibility) const {
     errors.pixels[i] = metrics::signed_error(visibility[i], pcss_picture_[i]);
     weights.pixels[i] = 1;
   }
-  const metrics::Plane sums = blurred(std::move(errors)), shares = blurred(std::move(weights));
+  const metrics::Plane sums = blurred(errors), shares = blurred(weights);
   double squared = 0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < visibility.size(); ++i) {
