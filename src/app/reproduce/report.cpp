@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 
 #include "bench/machine.h"
 #include "report/text_blocks.h"
+#include "studio/text.h"
 
 namespace penumbra::app::reproduce {
 
