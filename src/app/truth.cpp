@@ -165,7 +165,7 @@ void trace_files(const TruthOptions& options) {
   std::string last_line;
   for (int frame = range.first; frame <= range.last; ++frame) {
     studio.draw(frame, params);
-    write(names.picture(frame), options.size, truth.last(), metadata_of(options, studio.setup(), params, frame));
+    write(names, frame, options.size, truth.last(), metadata_of(options, studio.setup(), params, frame));
     if (range.count() > 1) progress->step();
     last_line = summary(names.picture(frame), options.size, truth.last());
   }
