@@ -9,7 +9,8 @@ float reach(Receiver receiver, Light light) {
 
 vec4 fetch(Receiver receiver, vec2 offset, Light light) {
   vec4 map = shadow.cascades[light.cascade].map;
-  return textureGather(shadow_depth, vec3((receiver.position.xy + offset - map.xy) * map.z + 0.5, float(light.cascade)));
+  vec2 at = (receiver.position.xy + offset - map.xy) * map.z + 0.5;
+  return textureGather(shadow_depth, vec3(at, float(light.cascade)));
 }
 
 Visibility visibility(Receiver receiver, Light light) {

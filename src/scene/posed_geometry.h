@@ -24,8 +24,8 @@ struct PosedSurface {
   Casts casts = Casts::always;
 };
 
-// All that is drawn at a moment, in the order of the GPU's instances, so that the index of a surface is what shaders know
-// as the instance. Refers to the scene that it was made of.
+// All that is drawn at a moment, in the order of the GPU's instances, so that the index of a surface is what shaders
+// know as the instance. Refers to the scene that it was made of.
 struct PosedGeometry {
   std::vector<glm::vec3> deformed;  // what some positions refer to
   std::vector<PosedSurface> surfaces;

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 
 // A file is this, then visibility, standard error and hard shadow as floats of this machine's byte order.
 struct Header {
-  std::array<char, 16> magic{'p', 'e', 'n', 'u', 'm', 'b', 'r', 'a', ' ', 't', 'r', 'u', 't', 'h', ' ', '1'};
-  Key key;
+  std::array<char, 16> magic{'p', 'e', 'n', 'u', 'm', 'b', 'r', 'a', ' ', 't', 'r', 'u', 't', 'h', ' ', '2'};
+  Key key, contents;
   std::uint64_t pixels = 0;
   std::int64_t rays = 0, samples = 0;
   double seconds = 0;
@@ -49,7 +49,7 @@ std::optional<Traced> read(const fs::path& path, const Key& key, std::size_t pix
     values.resize(pixels);
     file.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(pixels * sizeof(float)));
   }
-  if (!file) return std::nullopt;
+  if (!file || key_of(traced) != header.contents) return std::nullopt;
   return traced;
 }
 
@@ -111,6 +111,7 @@ void Cache::keep(const Key& key, const Traced& traced) const {
   const std::uintmax_t bytes = bytes_of(traced.visibility.size());
   if (folder_.empty() || bytes > largest_) return;
   const Header header{.key = key,
+                      .contents = key_of(traced),
                       .pixels = traced.visibility.size(),
                       .rays = traced.rays,
                       .samples = traced.samples,

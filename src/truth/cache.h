@@ -24,6 +24,9 @@ Key key_of(const scene::Scene& scene, const scene::PosedGeometry& geometry);
 Key key_of(const Key& casters, std::span<const Receiver> receivers, int width, const Light& light,
            const TraceOptions& options);
 
+// Of a picture's values, to know them again.
+Key key_of(const Traced& traced);
+
 // Traced pictures on disk: a file each, named by its key, that appears whole or not at all. What can't be read or is
 // damaged counts as absent, and what can't be written is told in a warning, for a cache is no result.
 class Cache {

@@ -134,4 +134,11 @@ Key key_of(const Key& casters, std::span<const Receiver> receivers, int width, c
   return hash.key();
 }
 
+Key key_of(const Traced& traced) {
+  Hash hash;
+  for (const auto layer : {&Traced::visibility, &Traced::standard_error, &Traced::hard})
+    hash.add_all(std::span(traced.*layer));
+  return hash.key();
+}
+
 }  // namespace penumbra::truth

@@ -91,7 +91,8 @@ class Truth(TestCase):
         good = (self.folder / "x.exr").read_bytes()
         kept = self.kept()[0]
         contents = kept.read_bytes()
-        for damage in (b"", contents[:40], contents[:-1], contents + b"x", b"\0" * len(contents)):
+        for damage in (b"", contents[:40], contents[:-1], contents + b"x", b"\0" * len(contents),
+                       contents[:5000] + b"\xff\xff\xff\xff" + contents[5004:]):
             kept.write_bytes(damage)
             self.assertNotIn("from the cache", self.trace("x.exr"))
             self.assertEqual((self.folder / "x.exr").read_bytes(), good)
