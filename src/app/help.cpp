@@ -120,9 +120,11 @@ int run_help(const Arguments& arguments) {
   std::string name;
   app.add_option("NAME", name, "What to explain")->required()->type_name("");
   if (!studio::parse(app, arguments)) return 0;
-  for (const auto explain : {explain_command, explain_technique, explain_filter, explain_param, explain_aov}) {
-    if (explain(name)) return 0;
-  }
+  // One name may stand for several things: truth is a technique and a command.
+  bool found = false;
+  for (const auto explain : {explain_technique, explain_filter, explain_param, explain_aov, explain_command})
+    found = explain(name) || found;
+  if (found) return 0;
   const std::vector<std::string> near = near_names(name, explained_names());
   if (near.empty())
     studio::fail_usage("nothing is called '{}'; see penumbra list techniques, filters, params or aovs", name);
