@@ -26,7 +26,7 @@ std::string line_of(const std::vector<std::string>& fields) {
   return line + "\r\n";
 }
 
-std::string number(double value) { return fmt::format("{:.4f}", value); }
+std::string number(double value) { return fmt::format("{:.4f}", rounded(value)); }
 
 // Values that are not the defaults, "pcss.blocker_taps=8;pcss.filter_taps=8".
 std::string changes_of(const ParamSet& params) {

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "bench/results.h"
 #include "io/report.h"
 
@@ -8,9 +6,6 @@ namespace penumbra::bench {
 namespace {
 
 using io::Json;
-
-// Tenths of a microsecond.
-double rounded(double milliseconds) { return std::round(milliseconds * 1e4) / 1e4; }
 
 Json json_of(const Summary& ms) {
   return {{"median_ms", rounded(ms.median)},

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace penumbra::bench {
+
+double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
 Summary summary_of(std::vector<double> values) {
   if (values.empty()) return {};

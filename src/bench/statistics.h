@@ -6,6 +6,9 @@
 
 namespace penumbra::bench {
 
+// A figure as reports write it, to tenths of a microsecond of milliseconds: CSV and JSON say the same.
+double rounded(double value);
+
 // What measured times have in common. All 0 where there are none.
 struct Summary {
   double median = 0, min = 0, max = 0;

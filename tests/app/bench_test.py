@@ -72,7 +72,7 @@ class Bench(TestCase):
             for name, figure in figures.items():
                 row = rows[cost["label"], name]
                 for field in ("median_ms", "min_ms", "max_ms"):
-                    self.assertAlmostEqual(float(row[field]), figure[field], delta=1e-4)
+                    self.assertEqual(float(row[field]), figure[field])
                 self.assertEqual(row["commit"], data["commit"])
                 self.assertEqual(row["renderer"], data["device"]["renderer"])
 
