@@ -3,10 +3,10 @@
 #include <filesystem>
 
 #include "app/commands.h"
-#include "app/compare_options.h"
-#include "app/compare_page.h"
-#include "app/compare_tables.h"
-#include "app/comparison.h"
+#include "app/compare/comparison.h"
+#include "app/compare/options.h"
+#include "app/compare/page.h"
+#include "app/compare/tables.h"
 #include "io/output_file.h"
 #include "studio/signals.h"
 #include "studio/studio.h"

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "app/compare/options.h"
+#include "render/renderer.h"
+#include "studio/stage.h"
+
+namespace penumbra::app {
+
+// Where the camera is in each frame of a comparison, and when: the file's animation, or an orbit about the target that
+// leaves the view that was asked for, is cut, and comes back to it from the other side.
+class CameraPath {
+ public:
+  CameraPath(const CompareOptions& options, const studio::Stage& stage);
+
+  // What a renderer draws for a frame of the range; the first one follows none. `again`: the frame before showed the
+  // same.
+  render::FrameInputs frame(int frame, bool again = false) const;
+  // Whether frame shows another view or time than the one before leads to. The first frame does not count.
+  bool cuts(int frame) const;
+
+ private:
+  render::Setup setup_at(int frame) const;
+
+  const CompareOptions& options_;
+  const studio::Stage& stage_;
+  studio::FrameRange range_;
+  glm::vec3 center_{0};  // of the orbit
+  std::optional<int> cut_;
+};
+
+}  // namespace penumbra::app

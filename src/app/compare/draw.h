@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "app/compare/camera_path.h"
+#include "app/compare/comparison.h"
+#include "gl/pass.h"
+#include "metrics/sequence.h"
+#include "scene/gpu_scene.h"
+
+namespace penumbra::app {
+
+// What all techniques of a scene have in common.
+struct DrawnScene {
+  const CompareOptions& options;
+  gl::Device& device;
+  const shadow::Registry& techniques;
+  scene::GpuScene& scene;
+  const CameraPath& path;
+  const std::function<void()>& drawn;  // called after each frame of the range
+};
+
+// A frame of the reference.
+struct ReferenceFrame {
+  std::vector<float> visibility;
+  std::vector<std::uint8_t> receivers;  // 1: geometric normal · to light > sin(θ / 2)
+};
+
+// The reference's frames; `last` becomes the last one's pictures.
+std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamSet& params, ComparedPictures& last);
+
+// A technique drawn over all frames, measured against them.
+ComparedTechnique draw_technique(const DrawnScene& scene, const Contender& contender, const ParamSet& params,
+                                 const std::vector<ReferenceFrame>& reference);
+
+}  // namespace penumbra::app

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/cache_options.h"
+#include "studio/command_line.h"
+#include "studio/options.h"
+
+namespace penumbra::app {
+
+// One of those that are compared: a technique or an alias, and values of its own.
+struct Contender {
+  std::string label;  // as it was asked for: "pcss:pcss.filter_taps=64"
+  std::string name;
+  std::vector<std::string> assignments;  // "pcss.filter_taps=64"
+};
+
+// What `penumbra compare` was asked for; every value is parsed and in range.
+struct CompareOptions : studio::StageOptions, studio::ShadowOptions, studio::DeviceOptions, CacheOptions {
+  std::vector<std::string> scenes;
+  std::vector<Contender> contenders;
+  std::string reference = "truth";
+  std::optional<int> samples;  // rays a pixel of the truth
+
+  std::optional<double> orbit;  // degrees a frame
+  std::optional<int> cut_at;    // frame at which the orbit jumps
+  std::optional<int> warmup;    // frames of a picture before the one that counts, for techniques with a history
+  int cost_frames = 3;          // of a single picture
+
+  std::string output;  // a folder
+  bool quiet = false;
+};
+
+// Parses the command line; false: --help was asked for. Throws UsageError.
+bool parse_compare(const studio::Arguments& arguments, CompareOptions& options);
+
+// "a,b:p=1,q=2,c" is a, b with two values of its own, and c. Throws UsageError for what has no name.
+std::vector<Contender> parse_contenders(const std::string& text);
+
+// The values that a contender and the reference are drawn with. Throw UsageError for the command line's faults and
+// Error for a preset's.
+ParamSet params_of(const CompareOptions& options, const Contender& contender, const shadow::Registry& registry);
+ParamSet reference_params(const CompareOptions& options, const shadow::Registry& registry);
+
+}  // namespace penumbra::app
