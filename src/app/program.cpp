@@ -12,7 +12,7 @@ constexpr std::array table{
     Command{"render", "Draw a glTF scene into a PNG or EXR file", run_render},
     Command{"truth", "Ray trace the shadows of a scene, for techniques to be measured against", run_truth},
     Command{"info", "Tell what is in a scene", run_info},
-    Command{"list", "List techniques, params, aovs or backends", run_list},
+    Command{"list", "List techniques, filters, params, aovs or backends", run_list},
     Command{"diff", "Compare two pictures, and fail past a limit", run_diff},
     Command{"compare", "Compare techniques with the truth: tables and an HTML page", run_compare},
     Command{"bench", "Measure what shadows cost, pass by pass", run_bench},
