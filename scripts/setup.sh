@@ -122,12 +122,13 @@ configure() {
   fi
 }
 
-# report_progress PRESET LOG: how far a build is, until killed; on a terminal in one line, elsewhere now and then.
+# report_progress PRESET LOG: how far a build is, until standard input ends; on a terminal in one line, elsewhere now and
+# then. It waits by `read`: a `sleep` would outlive it.
 report_progress() {
   local step seconds=20 begin='' end='\n'
   [[ -t 2 ]] && seconds=1 begin='\r' end=''
-  while sleep "$seconds" >/dev/null 2>&1 </dev/null; do
-    step=$(grep -so '^\[[0-9]*/[0-9]*\]' "$2" | tail -n 1)
+  while ! read -rt "$seconds" && ((PIPESTATUS[0] > 128)); do
+    step=$(grep -so '^\[[0-9]*/[0-9]*\]' "$2" | tail -n 1) || true  # nothing yet
     [[ -z $step ]] || printf "${begin}Building %s %s${end}" "$1" "$step" >&2
   done
 }
@@ -135,15 +136,17 @@ report_progress() {
 # build PRESET TARGETS...: silent when nothing is to do, says how far it is when it takes long, and on failure shows
 # what failed.
 build() {
-  local preset=$1 log=$root/build/$1.build.log target targets=() reporter status=0
+  local preset=$1 log=$root/build/$1.build.log target targets=() building reporter status=0
   shift
   for target; do targets+=(--target "$target"); done
   : >"$log"
-  report_progress "$preset" "$log" 9>&- &
+  # The reporter reads a pipe that ends with the build, however that ends.
+  exec {building}> >(report_progress "$preset" "$log" 9>&-)
   reporter=$!
-  cmake --build "$root/build/$preset" --parallel "$(build_jobs)" "${targets[@]}" >"$log" 2>&1 9>&- || status=$?
-  kill "$reporter" 2>/dev/null || true
-  wait "$reporter" 2>/dev/null || true
+  cmake --build "$root/build/$preset" --parallel "$(build_jobs)" "${targets[@]}" >"$log" 2>&1 9>&- {building}>&- ||
+    status=$?
+  exec {building}>&-
+  wait "$reporter" || true
   [[ -t 2 ]] && printf '\r\033[K' >&2
   ((status == 0)) && return
   if grep -q "rebuilding 'build.ninja'" "$log"; then

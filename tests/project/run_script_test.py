@@ -1,6 +1,7 @@
 """run.sh: builds when something changed, then is as good as the program itself. Tried on a project of one file."""
 
 import os
+import pathlib
 import shutil
 import subprocess
 
@@ -25,6 +26,20 @@ run command cmake cmake
 run header stdio.h libc6-dev
 test command no-such no-such
 """
+
+
+def living_of_session(session):
+    """The names of its processes, without those that only wait to be counted by their parent."""
+    names = []
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            name, _, rest = (process / "stat").read_text().rpartition(")")
+        except OSError:
+            continue  # it has just ended
+        state, _, _, of = rest.split()[:4]
+        if int(of) == session and state not in "ZX":
+            names.append(name)
+    return names
 
 
 class RunScript(support.TestCase):
@@ -55,6 +70,14 @@ class RunScript(support.TestCase):
 
         (self.project / "main.cpp").write_text(PROGRAM.replace("return 7", "return 9"))
         self.assertEqual(self.run_script("a").returncode, 9, "a changed source was not built")
+
+    def test_leaves_no_process_behind(self):
+        for source in (PROGRAM, "int main() { return nonsense; }"):
+            (self.project / "main.cpp").write_text(source)
+            script = subprocess.Popen([self.project / "run.sh"], start_new_session=True, stdout=subprocess.DEVNULL,
+                                      stderr=subprocess.DEVNULL)
+            script.wait(timeout=300)
+            self.assertEqual(living_of_session(script.pid), [])
 
     def test_works_through_a_symbolic_link(self):
         (self.folder / "bin").mkdir()
