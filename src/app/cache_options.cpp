@@ -19,4 +19,8 @@ void add_cache_options(CLI::App& app, CacheOptions& options) {
       ->disable_flag_override();
 }
 
+void check_together(const CacheOptions& options) {
+  if (options.cache && options.no_cache) studio::fail_usage("--cache and --no-cache exclude each other");
+}
+
 }  // namespace penumbra::app

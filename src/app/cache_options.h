@@ -18,4 +18,7 @@ struct CacheOptions {
 
 void add_cache_options(CLI::App& app, CacheOptions& options);
 
+// Throws UsageError for --cache with --no-cache.
+void check_together(const CacheOptions& options);
+
 }  // namespace penumbra::app
