@@ -69,22 +69,28 @@ bool keep_to_limit(void* pointer, ssize_t bytes, bool /*already_done*/) {
   return bytes <= 0 || use.limit == 0 || held <= use.limit;
 }
 
+// On Embree's threads.
+bool goes_on(void* pointer, double /*share_done*/) {
+  return !static_cast<const BuildOptions*>(pointer)->stop.stop_requested();
+}
+
 }  // namespace
 
 class EmbreeSceneBuilder {
  public:
-  EmbreeSceneBuilder(EmbreeScene& out, const scene::Scene& scene, const scene::PosedGeometry& geometry)
-      : out_(out), scene_(scene), geometry_(geometry) {
+  EmbreeSceneBuilder(EmbreeScene& out, const scene::Scene& scene, const scene::PosedGeometry& geometry,
+                     BuildOptions options)
+      : out_(out), scene_(scene), geometry_(geometry), options_(std::move(options)) {
     out_.textures_.resize(scene.textures.size());
   }
 
-  void build(const BuildOptions& options);
+  void build();
 
  private:
   using Surfaces = std::vector<const scene::PosedSurface*>;
 
   void check() const;
-  EmbreeObject new_object() const;
+  EmbreeObject new_object();
   std::vector<Surfaces> copies();
   void find_origin(const std::vector<Surfaces>& copies);
   const AlphaTexture* texture_of(const scene::Material& material);
@@ -97,22 +103,25 @@ class EmbreeSceneBuilder {
   EmbreeScene& out_;
   const scene::Scene& scene_;
   const scene::PosedGeometry& geometry_;
+  BuildOptions options_;
 };
 
 void EmbreeSceneBuilder::check() const {
   const RTCError error = rtcGetDeviceError(out_.device_.get());
   if (error == RTC_ERROR_NONE) return;
+  if (error == RTC_ERROR_CANCELLED) throw Interrupted();
   if (error == RTC_ERROR_OUT_OF_MEMORY) fail("ray tracing: not enough memory for {} triangles", out_.stats_.triangles);
   if (error == RTC_ERROR_UNSUPPORTED_CPU) fail("ray tracing: Embree does not support this processor");
   fail("ray tracing: Embree fails with its error {}", static_cast<int>(error));
 }
 
-EmbreeObject EmbreeSceneBuilder::new_object() const {
+EmbreeObject EmbreeSceneBuilder::new_object() {
   EmbreeObject object(rtcNewScene(out_.device_.get()));
   check();
   // Robust: a ray through a shared edge hits one of the triangles, and boxes lose no triangle to rounding.
   rtcSetSceneFlags(object.get(), RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(object.get(), RTC_BUILD_QUALITY_HIGH);
+  rtcSetSceneProgressMonitorFunction(object.get(), goes_on, &options_);
   return object;
 }
 
@@ -184,6 +193,7 @@ void EmbreeSceneBuilder::set_triangles(RTCGeometry geometry, const scene::Primit
 
 // A surface where it is drawn, relative to `origin`.
 void EmbreeSceneBuilder::add(RTCScene object, const scene::PosedSurface& surface, const glm::dvec3& origin) {
+  if (options_.stop.stop_requested()) throw Interrupted();
   const std::vector<std::uint32_t> solid = solid_triangles(surface);
   if (solid.empty()) return;
   const EmbreeGeometry geometry(rtcNewGeometry(out_.device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
@@ -227,15 +237,15 @@ void EmbreeSceneBuilder::add_shared(const Surfaces& copies) {
   out_.prototypes_.push_back(std::move(object));
 }
 
-void EmbreeSceneBuilder::build(const BuildOptions& options) {
-  out_.memory_->limit = static_cast<std::ptrdiff_t>(options.memory);
+void EmbreeSceneBuilder::build() {
+  out_.memory_->limit = static_cast<std::ptrdiff_t>(options_.memory);
   out_.device_.reset(rtcNewDevice(device_options));
   check();
   rtcSetDeviceMemoryMonitorFunction(out_.device_.get(), keep_to_limit, out_.memory_.get());
   const std::vector<Surfaces> all = copies();
   find_origin(all);
   out_.top_ = new_object();
-  const bool share = out_.stats_.triangles > options.flat_triangles;
+  const bool share = out_.stats_.triangles > options_.flat_triangles;
   for (const Surfaces& surfaces : all) {
     Surfaces shared;
     Surfaces flat;
@@ -255,7 +265,7 @@ void EmbreeSceneBuilder::build(const BuildOptions& options) {
 EmbreeScene::EmbreeScene(const scene::Scene& scene, const scene::PosedGeometry& geometry, const BuildOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   try {
-    EmbreeSceneBuilder(*this, scene, geometry).build(options);
+    EmbreeSceneBuilder(*this, scene, geometry, options).build();
   } catch (const std::bad_alloc&) {
     fail("ray tracing: not enough memory for {} triangles", stats_.triangles);
   }

@@ -34,7 +34,7 @@ struct MemoryUse {
 // All casters of a posed scene in Embree. Keeps nothing of the scene but what it copies.
 class EmbreeScene {
  public:
-  // Throws Error if there is not enough memory.
+  // Throws Error if there is not enough memory, and Interrupted.
   EmbreeScene(const scene::Scene& scene, const scene::PosedGeometry& geometry, const BuildOptions& options);
 
   RTCScene get() const { return top_.get(); }

@@ -10,6 +10,8 @@
 #include "gl/api.h"
 #include "render/passes.h"
 #include "shadow/technique_frame.h"
+#include "truth/background_tracer.h"
+#include "truth/picture_request.h"
 
 namespace penumbra::truth {
 
@@ -61,6 +63,17 @@ std::vector<float> before_light(std::span<const Receiver> receivers, const Light
   return before;
 }
 
+// 1 where the light's centre is before the surface, or nothing is there.
+std::vector<float> unshadowed(std::span<const Receiver> receivers, const Light& light) {
+  std::vector<float> facing;
+  facing.reserve(receivers.size());
+  for (const Receiver& receiver : receivers) {
+    const bool lit = !receiver.there || glm::dot(receiver.normal, seen_from(light, receiver.position).center) > 0;
+    facing.push_back(lit ? 1.0f : 0.0f);
+  }
+  return facing;
+}
+
 // Visibility alone: a ray tells no penumbra radius.
 void fill_mask(const shadow::TechniqueFrame& frame, const std::vector<float>& visibility) {
   const gl::Texture& mask = frame.mask();
@@ -75,56 +88,119 @@ void fill_mask(const shadow::TechniqueFrame& frame, const std::vector<float>& vi
 }  // namespace
 
 struct TruthTechnique::State {
+  explicit State(TechniqueOptions how) : options(std::move(how)), cache(options.cache) {}
+
   TechniqueOptions options;
   Cache cache;
-  std::optional<Tracer> tracer;
-  Key casters;  // that the tracer has
+  PictureTracer tracer;
   Last last;
 
+  // In the background. The cache stays with the frame's thread: file modes, as a new file gets them, are a process's.
+  BackgroundTracer worker{tracer};
+  std::optional<Key> shown;    // the picture in `last`
+  std::optional<Key> awaited;  // by the last frame
+  std::optional<Key> failed;
+
   void resolve(const shadow::TechniqueFrame& frame);
-  const Tracer& tracer_of(const Key& key, const scene::Scene& scene, const scene::PosedGeometry& geometry);
+  PictureRequest request(const shadow::TechniqueFrame& frame, const render::FrameScene& user) const;
+  void show(const PictureRequest& wanted, TracedPicture picture, bool from_cache);
+  bool find(const PictureRequest& wanted);
+  void resolve_now(const shadow::TechniqueFrame& frame, const PictureRequest& wanted);
+  void resolve_later(const shadow::TechniqueFrame& frame, PictureRequest wanted);
+  void take(const PictureRequest& wanted, const std::optional<Key>& waited);
+  void stop();
 };
 
-const Tracer& TruthTechnique::State::tracer_of(const Key& key, const scene::Scene& scene,
-                                               const scene::PosedGeometry& geometry) {
-  if (!tracer || casters != key) {
-    tracer.reset();  // two would take twice the memory
-    tracer.emplace(scene, geometry);
-    casters = key;
-    last.build = tracer->stats();
+PictureRequest TruthTechnique::State::request(const shadow::TechniqueFrame& frame,
+                                              const render::FrameScene& user) const {
+  PictureRequest request{.scene = &user.scene.scene(),
+                         .geometry = user.scene.posed_geometry(),
+                         .width = frame.mask().width(),
+                         .light = light_of(frame, options, user.time),
+                         .options = trace_options(frame.params(), options)};
+  request.receivers = receivers_of(frame.device(), user, request.geometry);
+  request.casters = key_of(*request.scene, request.geometry);
+  request.key = key_of(request.casters, request.receivers, request.width, request.light, request.options);
+  return request;
+}
+
+void TruthTechnique::State::show(const PictureRequest& wanted, TracedPicture picture, bool from_cache) {
+  last = {.traced = std::move(picture.traced),
+          .receiver = before_light(wanted.receivers, wanted.light),
+          .from_cache = from_cache,
+          .build = picture.build};
+  shown = wanted.key;
+}
+
+// In the cache.
+bool TruthTechnique::State::find(const PictureRequest& wanted) {
+  std::optional<Traced> kept = cache.find(wanted.key, wanted.receivers.size());
+  if (kept) show(wanted, {.key = wanted.key, .traced = std::move(*kept), .build = {}}, /*from_cache=*/true);
+  return kept.has_value();
+}
+
+void TruthTechnique::State::resolve_now(const shadow::TechniqueFrame& frame, const PictureRequest& wanted) {
+  if (!find(wanted)) {
+    show(wanted, tracer.trace(wanted), /*from_cache=*/false);
+    cache.keep(wanted.key, last.traced);
   }
-  return *tracer;
+  fill_mask(frame, last.traced.visibility);
+}
+
+// What the worker has finished.
+void TruthTechnique::State::take(const PictureRequest& wanted, const std::optional<Key>& waited) {
+  try {
+    std::optional<TracedPicture> picture = worker.take();
+    if (!picture) return;
+    cache.keep(picture->key, picture->traced);
+    if (picture->key == wanted.key) show(wanted, std::move(*picture), /*from_cache=*/false);
+  } catch (...) {
+    failed = waited;
+    throw;
+  }
+}
+
+void TruthTechnique::State::resolve_later(const shadow::TechniqueFrame& frame, PictureRequest wanted) {
+  const std::optional<Key> waited = std::exchange(awaited, std::nullopt);
+  take(wanted, waited);
+  const Key key = wanted.key;
+  if (failed != key) failed.reset();
+  if (shown == key || (waited != key && find(wanted))) {
+    worker.cancel();
+    fill_mask(frame, last.traced.visibility);
+    return;
+  }
+  fill_mask(frame, unshadowed(wanted.receivers, wanted.light));
+  if (failed == key) return;
+  if (waited != key) worker.start(std::move(wanted));
+  awaited = key;
 }
 
 void TruthTechnique::State::resolve(const shadow::TechniqueFrame& frame) {
   const auto* user = static_cast<const render::FrameScene*>(frame.inputs().user);
   if (user == nullptr) fail("technique 'truth' traces a renderer's scene, and Inputs::user has none");
-  const scene::Scene& scene = user->scene.scene();
-  const scene::PosedGeometry geometry = user->scene.posed_geometry();
-  const std::vector<Receiver> receivers = receivers_of(frame.device(), *user, geometry);
+  PictureRequest wanted = request(frame, *user);
   const gl::Pass pass(frame.device(), {.name = "ray trace"});
-  const Light light = light_of(frame, options, user->time);
-  const TraceOptions how = trace_options(frame.params(), options);
-  const Key casters_key = key_of(scene, geometry);
-  const Key key = key_of(casters_key, receivers, frame.mask().width(), light, how);
-  last = {};
-  if (std::optional<Traced> kept = cache.find(key, receivers.size())) {
-    last.traced = std::move(*kept);
-    last.from_cache = true;
+  if (options.background) {
+    resolve_later(frame, std::move(wanted));
   } else {
-    last.traced = tracer_of(casters_key, scene, geometry).trace(receivers, frame.mask().width(), light, how);
-    cache.keep(key, last.traced);
+    resolve_now(frame, wanted);
   }
-  last.receiver = before_light(receivers, light);
-  fill_mask(frame, last.traced.visibility);
 }
 
-TruthTechnique::TruthTechnique(TechniqueOptions options)
-    : state_(std::make_shared<State>(State{std::move(options), Cache({}), {}, {}, {}})) {
-  state_->cache = Cache(state_->options.cache);
+void TruthTechnique::State::stop() {
+  worker.stop();
+  awaited.reset();
+  failed.reset();
 }
 
-TruthTechnique::~TruthTechnique() = default;
+TruthTechnique::TruthTechnique(TechniqueOptions options) : state_(std::make_shared<State>(std::move(options))) {}
+
+// Nobody could stop what a later frame begins.
+TruthTechnique::~TruthTechnique() {
+  state_->stop();
+  state_->options.background = false;
+}
 
 shadow::Registry TruthTechnique::registry(const shadow::Registry& base) const {
   using enum ParamBinding;
@@ -151,6 +227,13 @@ shadow::Registry TruthTechnique::registry(const shadow::Registry& base) const {
           base.default_technique(),
           {base.filters().begin(), base.filters().end()}};
 }
+
+std::optional<TruthTechnique::Pending> TruthTechnique::pending() const {
+  const std::optional<double> share = state_->awaited ? state_->worker.share_done() : std::nullopt;
+  return share ? std::optional(Pending{*share}) : std::nullopt;
+}
+
+void TruthTechnique::stop() { state_->stop(); }
 
 const TruthTechnique::Last& TruthTechnique::last() const { return state_->last; }
 

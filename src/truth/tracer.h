@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "scene/posed_geometry.h"
@@ -20,6 +21,8 @@ struct BuildOptions {
   // exact; beyond, copies share them, and are placed as exactly as single precision turns a ray instead of a triangle.
   std::size_t flat_triangles = 4'000'000;
   std::size_t memory = 0;  // bytes that Embree may use; 0: all there are
+  // Asked to stop, from any thread: Tracer() throws Interrupted.
+  std::stop_token stop = {};
 };
 
 struct BuildStats {
@@ -49,7 +52,7 @@ struct TraceOptions {
 // Most samples of a pixel that an error bound can ask for.
 constexpr int max_samples = 65536;
 
-// trace() was told to stop.
+// Tracer() or trace() was told to stop.
 class Interrupted : public std::exception {
  public:
   const char* what() const noexcept override { return "interrupted"; }
@@ -71,7 +74,7 @@ struct Traced {
 // (Wald et al. 2014).
 class Tracer {
  public:
-  // Copies what it needs: scene and geometry may go. Throws Error if there is not enough memory.
+  // Copies what it needs: scene and geometry may go. Throws Error if there is not enough memory, and Interrupted.
   Tracer(const scene::Scene& scene, const scene::PosedGeometry& geometry, const BuildOptions& options = {});
   ~Tracer();
   Tracer(Tracer&& other) noexcept;
