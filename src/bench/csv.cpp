@@ -1,27 +1,17 @@
 #include <fmt/format.h>
 
 #include "bench/results.h"
+#include "io/text.h"
 
 namespace penumbra::bench {
 
 namespace {
 
-// RFC 4180: a field with a separator, a quote or a line break stands in quotes.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
 std::string line_of(const std::vector<std::string>& fields) {
   std::string line;
   for (const std::string& text : fields) {
     if (!line.empty()) line += ',';
-    line += field(text);
+    line += io::csv_field(text);
   }
   return line + "\r\n";
 }

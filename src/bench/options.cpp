@@ -6,6 +6,7 @@
 
 #include "bench/sweep.h"
 #include "io/presets.h"
+#include "io/text.h"
 #include "studio/usage.h"
 
 namespace penumbra::bench {
@@ -15,15 +16,10 @@ namespace {
 using studio::add_value;
 using studio::fail_usage;
 
-std::vector<std::string> split(std::string_view option, const std::string& text) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
-    if (parts.back().empty()) fail_usage("{} can't be '{}': a name in it is empty", option, text);
-    begin = end + 1;
-  }
-  return parts;
+std::vector<std::string> names_of(std::string_view option, const std::string& text) {
+  std::vector<std::string> names = io::split(text, ',');
+  if (std::ranges::find(names, "") != names.end()) fail_usage("{} can't be '{}': a name in it is empty", option, text);
+  return names;
 }
 
 bool is_preset(const std::string& name) { return std::filesystem::path(name).extension() == ".toml"; }
@@ -39,7 +35,7 @@ void add_output(Options& options, const std::string& name) {
 void add_bench_options(CLI::App& app, Options& o) {
   add_value(app, "--technique", "NAME,...",
             "Techniques or presets (.toml) to compare, in turn frame by frame; see penumbra list techniques",
-            [&o](const auto& text) { o.techniques = split("--technique", text); });
+            [&o](const auto& text) { o.techniques = names_of("--technique", text); });
   add_value(app, "--frames", "N", "Frames that count, for each technique and point (400; in software 20, of a sweep 4)",
             [&o](const auto& text) { o.frame_count = studio::parse_count("--frames", text, 1, 100000); });
   add_value(app, "--warmup", "N", "Frames before them that don't (20; in software 2)",
@@ -94,6 +90,7 @@ std::vector<Entry> entries_of(const Options& options, const shadow::Registry& re
     if (is_preset(name)) {
       one.presets.push_back(name);
     } else {
+      if (name == "truth") fail_usage("--technique truth is traced by the CPU: penumbra truth tells its rays a second");
       one.technique = name;
     }
     Entry entry{.label = name, .params = studio::resolve_params(one, registry)};

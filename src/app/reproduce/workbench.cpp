@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "app/receivers.h"
 #include "bench/times.h"
 #include "image/read.h"
 #include "metrics/convolve.h"
@@ -18,18 +17,6 @@ namespace penumbra::app::reproduce {
 namespace {
 
 constexpr double blur_sigma = 1.5;  // pixels
-
-// Geometry that the whole sun could light.
-std::vector<std::uint8_t> receivers_of(const studio::Studio& studio, double sun_angle) {
-  const std::vector<float> normals = studio.renderer().read_aov("geometric_normal");
-  const auto least = static_cast<float>(std::sin(glm::radians(sun_angle) * 0.5));
-  std::vector<std::uint8_t> receivers(normals.size() / 3);
-  for (std::size_t i = 0; i < receivers.size(); ++i) {
-    const glm::vec3 normal(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]);
-    receivers[i] = glm::dot(normal, studio.setup().sun.to_light) > least ? 1 : 0;
-  }
-  return receivers;
-}
 
 metrics::Plane blurred(const metrics::Plane& plane) {
   const metrics::Kernel kernel = metrics::gaussian(blur_sigma, static_cast<int>(std::ceil(3 * blur_sigma)));
@@ -50,7 +37,7 @@ Workbench::Workbench(const Options& options, std::function<void()> drawn)
               {.shaders = gl::ShaderFiles(options.glsl), .techniques = techniques_, .timed = true}),
       device_(studio_.device_info()) {
   truth_picture_ = picture_of(truth_look());
-  receivers_ = receivers_of(studio_, sun_angle());
+  receivers_ = receivers_of(studio_.renderer(), studio_.setup().sun.to_light, sun_angle());
   pcss_picture_ = picture_of(pcss_look());
   drawings_.emplace(pcss_look().key(), measured(pcss_picture_));
 }
