@@ -27,7 +27,8 @@ double percentile(std::vector<float>& values, std::size_t hundredths) {
 
 }  // namespace
 
-double psnr_of(double mean_squared_error) { return -10 * std::log10(mean_squared_error); }
+// Of 1 it is 0, not -0.
+double psnr_of(double mean_squared_error) { return 10 * std::log10(1 / mean_squared_error); }
 
 ErrorFigures error_figures(const Picture& test, const Picture& reference, Receivers receivers) {
   check(test, reference, receivers);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "metrics/error_figures.h"
@@ -28,6 +29,12 @@ TEST(ErrorFigures, OfAConstantError) {
   EXPECT_NEAR(figures.max, 0.1, 1e-7);
   EXPECT_NEAR(figures.p99, 0.1, 1e-7);
   EXPECT_NEAR(error_figures(reference, brighter).bias, -0.1, 1e-7) << "bias has a sign";
+}
+
+TEST(ErrorFigures, OfTheGreatestErrorHaveNoSignOnZero) {
+  const double psnr = error_figures(Grey(4, 4, 1.0f), Grey(4, 4, 0.0f)).psnr;
+  EXPECT_EQ(psnr, 0);
+  EXPECT_FALSE(std::signbit(psnr));
 }
 
 TEST(ErrorFigures, OfEqualPicturesAreZeroAndInfinite) {

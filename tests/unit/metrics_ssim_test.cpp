@@ -74,6 +74,17 @@ TEST(Ssim, OfEqualPicturesIsOneAndOfInvertedOnesNegative) {
   EXPECT_LT(ssim(inverted, a), -0.5);
 }
 
+TEST(Ssim, OfNearlyEqualPicturesIsNotOverOne) {
+  for (int step = 0; step < 60; ++step) {
+    const auto shade = [=](int x, int y) { return step / 60.0 + 1e-4 * ((x * 7 + y * 3) % 5); };
+    const Grey a(17, 13, shade), b(17, 13, [&](int x, int y) { return shade(x, y) + 1e-7; });
+    for (const Grey& other : {a, b}) {
+      EXPECT_LE(ssim(other, a), 1) << step;
+      EXPECT_NEAR(ssim(other, a), 1, 1e-4) << step;
+    }
+  }
+}
+
 TEST(Ssim, IgnoresWhatIsNoReceiver) {
   const Grey a = pattern(3);
   Grey b = a;
