@@ -48,13 +48,13 @@ void add_options(CLI::App& app, DiffOptions& options) {
                     [&](const std::string& text) { options.max = studio::parse_number("--max", text, 0, 1e9); });
   studio::add_value(app, "--min", "V", "Fail if psnr, psnr_penumbra or ssim is less",
                     [&](const std::string& text) { options.min = studio::parse_number("--min", text, -1e3, 1e3); });
-  app.add_option("--layer", options.layer, "Layer of both EXRs; else the one without a name, or the only one")
-      ->type_name("NAME");
-  app.add_option("--mask", options.mask, "Layer of B, of one channel: what is 0 there is left out")->type_name("NAME");
-  app.add_option("--heatmap", options.heatmap, "Draw where they differ into a PNG: FLIP for that metric, else |error|")
-      ->type_name("FILE");
-  app.add_option("--json", options.json, "Write the figures as JSON; - is standard output, in place of the line")
-      ->type_name("FILE");
+  const auto add = [&app](const char* name, const char* type, const char* help, std::string& value) {
+    studio::add_value(app, name, type, help, [&value](const std::string& text) { value = text; });
+  };
+  add("--layer", "NAME", "Layer of both EXRs; else the one without a name, or the only one", options.layer);
+  add("--mask", "NAME", "Layer of B, of one channel: what is 0 or no number there is left out", options.mask);
+  add("--heatmap", "FILE", "Draw where they differ into a PNG: FLIP for that metric, else |error|", options.heatmap);
+  add("--json", "FILE", "Write the figures as JSON; - is standard output, in place of the line", options.json);
   app.add_flag("--quiet", options.quiet, "Print errors alone")->disable_flag_override();
 }
 
@@ -75,7 +75,8 @@ std::vector<std::uint8_t> receivers_of(const DiffOptions& options) {
     fail("--mask {}: that layer of {} has {} channels, not 1", options.mask, io::quoted(options.reference),
          mask.channels.size());
   std::vector<std::uint8_t> receivers(mask.pixels.size());
-  for (std::size_t i = 0; i < receivers.size(); ++i) receivers[i] = mask.pixels[i] != 0 ? 1 : 0;
+  for (std::size_t i = 0; i < receivers.size(); ++i)
+    receivers[i] = mask.pixels[i] == 0 || std::isnan(mask.pixels[i]) ? 0 : 1;
   if (std::count(receivers.begin(), receivers.end(), 0) == static_cast<std::ptrdiff_t>(receivers.size()))
     fail("--mask {}: that layer of {} leaves no pixel", options.mask, io::quoted(options.reference));
   return receivers;
@@ -111,6 +112,8 @@ std::string verdict(const DiffOptions& options, const Figure& figure, const Diff
   if (!options.max && !options.min) return {};
   if (difference.not_finite > 0)
     return fmt::format("{}: {} values of the first are not finite", names, difference.not_finite);
+  if (std::isnan(figure.value) && difference.width_lost > 0)
+    return fmt::format("{}: no penumbra of the first has a width to measure", names);
   if (std::isnan(figure.value))
     return fmt::format("{}: there is no penumbra to measure {} of", names, figure.metric->name);
   const double value = options.max ? std::abs(figure.value) : figure.value;

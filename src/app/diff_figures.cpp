@@ -138,12 +138,18 @@ Difference difference_of(const image::Picture& test, const image::Picture& refer
     difference.flip_map = std::move(flip.map);
     return flip.mean;
   });
-  add_if(penumbra, needs_one, [&] { return metrics::penumbra_width(a, b, receivers).relative; });
+  add_if(penumbra, needs_one, [&] {
+    const metrics::PenumbraWidth width = metrics::penumbra_width(a, b, receivers);
+    difference.width_lost = width.lost_share();
+    return width.relative;
+  });
   return difference;
 }
 
 std::string text_of(const Figure& figure) {
-  if (*figure.metric->unit != '\0') return fmt::format("{:.2f} {}", figure.value, figure.metric->unit);
+  // 0 has no sign, whatever rounds to it.
+  if (*figure.metric->unit != '\0')
+    return fmt::format("{:.2f} {}", std::round(figure.value * 100) / 100 + 0.0, figure.metric->unit);
   return fmt::format("{:.5g}", figure.value);
 }
 
@@ -153,6 +159,8 @@ std::string text_of(const Difference& difference) {
     if (std::isnan(figure.value)) continue;
     parts.push_back(fmt::format("{} {}", figure.metric->name, text_of(figure)));
   }
+  if (difference.width_lost > 0)
+    parts.push_back(fmt::format("penumbra widths lost {:.3g} %", 100 * difference.width_lost));
   if (difference.not_finite > 0) parts.push_back(fmt::format("{} values not finite", difference.not_finite));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -161,6 +169,7 @@ io::Json to_json(const Difference& difference) {
   io::Json figures = io::Json::object();
   for (const Figure& figure : difference.figures)
     if (figure.unfit.empty()) figures[figure.metric->name] = io::json_number(figure.value);
+  if (figures.contains("penumbra_width")) figures["penumbra_width_lost"] = io::json_number(difference.width_lost);
   return figures;
 }
 

@@ -33,9 +33,10 @@ struct Figure {
 struct Difference {
   std::vector<Figure> figures;  // one a metric, in their order
   std::size_t samples = 0, penumbra_samples = 0;
-  std::size_t not_finite = 0;   // values of the test
-  std::vector<float> errors;    // a pixel: the greatest |e| of its channels
-  std::vector<float> flip_map;  // empty where FLIP is unfit
+  std::size_t not_finite = 0;                                    // values of the test
+  double width_lost = std::numeric_limits<double>::quiet_NaN();  // metrics::PenumbraWidth::lost_share()
+  std::vector<float> errors;                                     // a pixel: the greatest |e| of its channels
+  std::vector<float> flip_map;                                   // empty where FLIP is unfit
 
   const Figure& figure(const Metric& metric) const;
 };
@@ -45,10 +46,11 @@ void check_comparable(const image::Picture& test, const image::Picture& referenc
                       const std::string& test_name, const std::string& reference_name);
 Difference difference_of(const image::Picture& test, const image::Picture& reference, metrics::Receivers receivers);
 
-// "rmse 0.0123, psnr 38.20 dB, …": what fits these pictures.
+// "rmse 0.0123, psnr 38.20 dB, …": what fits these pictures. Widths that the test lost are told after their error.
 std::string text_of(const Difference& difference);
 std::string text_of(const Figure& figure);  // with its unit; "inf" for an infinite one
-// The figures by name; infinite ones and those of an empty penumbra are null, unfit ones are left out.
+// The figures by name, and penumbra_width_lost; infinite ones are "inf" and those of an empty penumbra null, unfit ones
+// are left out.
 io::Json to_json(const Difference& difference);
 
 }  // namespace penumbra::app

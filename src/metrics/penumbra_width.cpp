@@ -106,6 +106,11 @@ std::optional<Point> direction_at(const Plane& plane, int x, int y) {
 
 }  // namespace
 
+double PenumbraWidth::lost_share() const {
+  const std::size_t all = measured + lost;
+  return all == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(lost) / static_cast<double>(all);
+}
+
 PenumbraWidth penumbra_width(const Picture& test, const Picture& reference, Receivers receivers) {
   check(test, reference, receivers);
   if (reference.channels != 1) fail("a penumbra's width is measured in 1 channel, not {}", reference.channels);

@@ -16,6 +16,9 @@ struct PenumbraWidth {
   double pixels = 0;         // mean |w_test − w_reference|, pixels
   std::size_t measured = 0;  // pixels in the means
   std::size_t lost = 0;      // pixels with a width in the reference but none in the test, which are in no mean
+
+  // Of the pixels with a width in the reference, 0 to 1; NaN where there are none.
+  double lost_share() const;
 };
 
 // Lines end at the picture's border, at pixels that are no receivers, at values that are not finite, and after 256

@@ -99,6 +99,21 @@ class Figures(Diff):
         self.assertEqual(told["penumbra_samples"], 14 * 30)
         self.assertLess(told["figures"]["psnr_penumbra"], told["figures"]["psnr"])
 
+    def test_penumbrae_without_a_width_are_told(self):
+        ramp = png(self.folder / "ramp.png", [[(min(255, max(0, 17 * (x - 12))),) for x in range(40)] for _ in range(30)])
+        lit = png(self.folder / "lit.png", flat(255, channels=1))
+        figures = self.figures(lit, ramp)["figures"]
+        self.assertEqual((figures["penumbra_width"], figures["penumbra_width_lost"]), (None, 1))
+        self.assertIn("penumbra widths lost 100 %", self.succeed("diff", lit, ramp).stdout)
+        self.assertEqual(self.figures(ramp, ramp)["figures"]["penumbra_width_lost"], 0)
+        self.assertNotIn("lost", self.succeed("diff", ramp, ramp).stdout)
+        self.assertIn("no penumbra of the first", self.refuse("diff", lit, ramp, "--metric", "penumbra_width", "--max=1"))
+        self.assertNotIn("penumbra_width_lost", self.figures(self.grey, self.grey)["figures"], "of three channels")
+
+    def test_black_is_no_less_than_0_dB_from_white(self):
+        black, white = (png(self.folder / f"{value}.png", flat(value)) for value in (0, 255))
+        self.assertIn("psnr 0.00 dB", self.succeed("diff", black, white).stdout)
+
     def test_exr_layers(self):
         shadow, other = [0.25] * 12, [0.5] * 12
         color = {name: [4.0] * 12 for name in "RGB"}
@@ -121,7 +136,7 @@ class Figures(Diff):
     def test_a_mask_leaves_pixels_out(self):
         a = exr(self.folder / "a.exr", 4, 3, {"shadow.V": [0.25] * 11 + [math.nan]})
         layers = {"shadow.V": [0.5] * 10 + [7.0, math.inf], "none.V": [0.0] * 12}
-        b = exr(self.folder / "b.exr", 4, 3, {**layers, "receiver.V": [1.0] * 10 + [0.0] * 2})
+        b = exr(self.folder / "b.exr", 4, 3, {**layers, "receiver.V": [1.0] * 10 + [0.0, math.nan]})
         told = self.figures(a, b, "--layer", "shadow", "--mask", "receiver")
         self.assertEqual((told["samples"], told["not_finite"], told["mask"]), (10, 0, "receiver"))
         self.assertEqual(told["figures"]["max"], 0.25)
@@ -228,7 +243,9 @@ class Refusals(Diff):
         for arguments, told in ((["--metric", "flop"], "'flip'"), (["--max", "x"], "--max"), (["--max=-1"], "--max"),
                                 (["--min", "1"], "--max"), (["--metric", "psnr", "--max", "1"], "--min"),
                                 (["--heatmap", "x.jpg"], ".png"), (["--heatmap", self.grey], "overwrite"),
-                                (["--json", self.lighter], "overwrite"), (["--tolerance", "1"], "--tolerance"),
+                                (["--json", self.lighter], "overwrite"), (["--json", ""], "empty"),
+                                (["--heatmap", ""], "empty"), (["--mask", ""], "empty"), (["--layer", ""], "empty"),
+                                (["--tolerance", "1"], "--tolerance"),
                                 (["--heatmap", self.folder / "a.png", "--json", self.folder / "a.png"], "same file")):
             self.assertIn(told, self.refuse("diff", self.grey, self.lighter, *arguments, code=2))
         self.assertIn("B", self.refuse("diff", self.grey, code=2))

@@ -59,7 +59,10 @@ TEST(PenumbraWidth, CountsWhatTheTestLost) {
   const PenumbraWidth width = penumbra_width(lit, reference);
   EXPECT_EQ(width.measured, 0u);
   EXPECT_GT(width.lost, 1000u);
+  EXPECT_EQ(width.lost_share(), 1);
   EXPECT_TRUE(std::isnan(width.relative));
+  EXPECT_EQ(penumbra_width(reference, reference).lost_share(), 0);
+  EXPECT_TRUE(std::isnan(penumbra_width(lit, lit).lost_share())) << "nothing to lose";
   Grey broken = reference;
   for (int y = 0; y < 100; ++y) broken.at(50, y) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_GT(penumbra_width(broken, reference).lost, 500u);
