@@ -28,7 +28,7 @@ namespace {
 using TruthInTheBackground = GpuTest;
 
 constexpr int width = 160, height = 90;
-constexpr int few = 64, endless = 16384;  // rays a pixel: the latter take minutes
+constexpr int few = 64, endless = 16384;  // rays a pixel: the latter take many seconds
 
 // Progress that is held up until the gate is opened, and remembered.
 class Gate {
