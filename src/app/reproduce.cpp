@@ -52,9 +52,9 @@ std::string default_scene() {
 
 void add_reproduce_options(CLI::App& app, reproduce::Options& o, std::optional<studio::Size>& size) {
   app.add_option("SCENE", o.scene, "glTF file, .gltf or .glb (our reference scene, scenes/thesis.glb)")->type_name("");
-  app.add_option("-o,--output", o.output, "Folder for index.html, figures.json and figures.csv")
-      ->required()
-      ->type_name("FOLDER");
+  studio::add_value(app, "-o,--output", "FOLDER", "Folder for index.html, figures.json and figures.csv",
+                    [&o](const auto& text) { o.output = text; });
+  app.get_option("--output")->required();
   app.add_flag("--quick", o.quick, "Small pictures and few frames: a look, no measurement")->disable_flag_override();
   studio::add_value(app, "--size", "WIDTHxHEIGHT", "Pixels (640x360; with --quick 192x108)",
                     [&size](const auto& text) { size = studio::parse_size("--size", text); });
@@ -71,6 +71,7 @@ bool parse(const Arguments& arguments, reproduce::Options& options) {
   if (!studio::parse(app, arguments)) return false;
   options.size = size.value_or(options.quick ? studio::Size{192, 108} : studio::Size{640, 360});
   studio::check_together(static_cast<const studio::StageOptions&>(options));
+  check_together(static_cast<const CacheOptions&>(options));
   studio::check_together(static_cast<const studio::DeviceOptions&>(options));
   return true;
 }
@@ -121,7 +122,7 @@ int run_reproduce(const Arguments& arguments) {
   io::write_text(json, io::text_of(reproduce::json_of(findings, bench)));
   io::write_text(csv, reproduce::csv_of(findings));
   io::write_text(page, report::to_text(reproduce::page_of(findings, bench, arguments)));
-  if (!options.quiet) fmt::print("{}wrote {}\n", reproduce::text_of(findings), page.string());
+  if (!options.quiet) fmt::print("{}wrote {}\n", reproduce::text_of(findings, options), page.string());
   return 0;
 }
 

@@ -79,6 +79,11 @@ class Reproduce(TestCase):
                      f"{self.data['truth_samples']} rays a pixel"):
             self.assertIn(text, self.page)
 
+    def test_a_quick_run_says_so(self):
+        self.assertIs(self.data["quick"], True)
+        for text in (self.page, self.result.stdout):
+            self.assertIn("a look, no measurement", text)
+
     def test_nothing_asks_the_network(self):
         self.assertEqual(re.findall(r"""(?:src|href)=['"]?(?!data:|#)[^'" >]+""", self.page), [])
         self.assertNotIn("@import", self.page)
@@ -113,6 +118,10 @@ class ReproduceRefuses(TestCase):
 
     def test_no_output(self):
         self.refuse("reproduce", code=2)
+        self.assertIn("empty", self.refuse("reproduce", "-o", "", code=2))
+
+    def test_a_cache_and_none(self):
+        self.assertIn("--no-cache", self.refuse("reproduce", "-o", self.folder, "--cache", "x", "--no-cache", code=2))
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "bench/machine.h"
+#include "io/text.h"
 #include "report/text_blocks.h"
 #include "studio/text.h"
 
@@ -14,6 +15,9 @@ namespace penumbra::app::reproduce {
 namespace {
 
 using penumbra::report::Html;
+
+constexpr std::string_view quick_warning =
+    "A quick run: small pictures, few frames and rays. Its figures are a look, no measurement.";
 
 constexpr int findings_before = 1;  // sections before the first figure's
 
@@ -76,12 +80,6 @@ penumbra::report::Section overview(std::span<const Finding> findings) {
   return {.title = "What was found", .body = std::move(html.add("</ul>\n"))};
 }
 
-std::string csv_field(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 }  // namespace
 
 penumbra::report::Page page_of(std::span<const Finding> findings, const Workbench& bench,
@@ -91,8 +89,10 @@ penumbra::report::Page page_of(std::span<const Finding> findings, const Workbenc
   penumbra::report::Page page{
       .title = "The thesis's figures, measured",
       .summary =
-          "Each figure of Deligiannis, “Real-Time Rendering of Soft Shadows” (LiU-ITN-TEK-A--19/060--SE), that "
-          "shows a result, in our version and with figures. Verdicts follow from what this run measured.",
+          std::string(
+              "Each figure of Deligiannis, “Real-Time Rendering of Soft Shadows” (LiU-ITN-TEK-A--19/060--SE), that "
+              "shows a result, in our version and with figures. Verdicts follow from what this run measured.") +
+          (options.quick ? fmt::format(" {}", quick_warning) : ""),
       .facts = {{"Scene", scene_name(bench)},
                 {"Size", fmt::format("{} × {}{}", bench.width(), bench.height(), options.quick ? ", quick" : "")},
                 {"Sun", fmt::format("{:g}° disc", bench.sun_angle())},
@@ -137,6 +137,7 @@ io::Json json_of(std::span<const Finding> findings, const Workbench& bench) {
           {"scene", scene_name(bench)},
           {"width", bench.width()},
           {"height", bench.height()},
+          {"quick", bench.options().quick},
           {"sun_angle", bench.sun_angle()},
           {"truth_samples", bench.options().truth_samples()},
           {"figures", figures}};
@@ -147,16 +148,17 @@ std::string csv_of(std::span<const Finding> findings) {
   for (const Finding& finding : findings) {
     for (const Quantity& quantity : finding.quantities()) {
       const std::string value = std::isnan(quantity.value) ? "" : fmt::format("{}", quantity.value);
-      text += fmt::format("{},{},{},{}\n", finding.id, csv_field(quantity.name), value, quantity.unit);
+      text += fmt::format("{},{},{},{}\n", finding.id, io::csv_field(quantity.name), value, quantity.unit);
     }
   }
   return text;
 }
 
-std::string text_of(std::span<const Finding> findings) {
+std::string text_of(std::span<const Finding> findings, const Options& options) {
   std::string text;
   for (const Finding& finding : findings)
     text += fmt::format("{:<6} {:<18} {}\n", finding.id, finding.verdict(), finding.title);
+  if (options.quick) text += fmt::format("{}\n", quick_warning);
   return text;
 }
 

@@ -18,6 +18,6 @@ penumbra::report::Page page_of(std::span<const Finding> findings, const Workbenc
                                const studio::Arguments& arguments);
 io::Json json_of(std::span<const Finding> findings, const Workbench& bench);
 std::string csv_of(std::span<const Finding> findings);
-std::string text_of(std::span<const Finding> findings);
+std::string text_of(std::span<const Finding> findings, const Options& options);
 
 }  // namespace penumbra::app::reproduce
