@@ -7,6 +7,7 @@
 #include "app/compare/options.h"
 #include "app/compare/page.h"
 #include "app/compare/tables.h"
+#include "app/techniques.h"
 #include "io/output_file.h"
 #include "studio/signals.h"
 #include "studio/studio.h"
@@ -26,8 +27,6 @@ Outputs outputs_of(const CompareOptions& options) {
 
 // Before minutes of drawing.
 void check_files(const CompareOptions& options, const Outputs& outputs) {
-  if (!options.glsl.empty() && !std::filesystem::is_directory(options.glsl))
-    fail("--glsl: {} is not a folder", io::quoted(options.glsl));
   for (const std::string& scene : options.scenes) {
     if (!std::filesystem::exists(scene)) fail("cannot read {}: there is no such file", io::quoted(scene));
   }
@@ -50,12 +49,13 @@ int run_compare(const Arguments& arguments) {
   const Outputs outputs = outputs_of(options);
   studio::clean_up_on_signals();
   studio::limit_threads(options);
+  const ComparedValues values = values_of(options, all_techniques());  // presets before scenes
   check_files(options, outputs);
 
-  const Comparison comparison = compare(options);
+  const Comparison comparison = compare(options, values);
   io::write_text(outputs.page, report::to_text(comparison_page(comparison, options, arguments)));
   io::write_text(outputs.csv, csv_table(comparison));
-  io::write_text(outputs.json, io::text_of(json_of(comparison, options)));
+  io::write_text(outputs.json, io::text_of(json_of(comparison, options, arguments)));
   if (!options.quiet) print(comparison, outputs);
   return 0;
 }

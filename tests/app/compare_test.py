@@ -59,11 +59,13 @@ class Compare(TestCase):
         self.assertEqual(pcss, {"sun.angle": 3, "pcss.filter_taps": 4, "pcss.blocker_taps": 4})
         self.assertEqual((hard["sun.angle"], hard["technique"]), (3, "hard"))
         self.assertNotIn("pcss.filter_taps", {**hard, **pcf})
-        self.assertEqual(data["reference"]["changed_params"], {"sun.angle": 3, "technique": "brute_force"})
+        reference = data["reference"]["changed_params"]
+        self.assertEqual((reference["sun.angle"], reference["technique"]), (3, "brute_force"))
 
     def test_a_reference_is_not_filtered(self):
         _, _, data = self.compare(*BRUTE, "--set", "history.reuse=true", "--set", "filter.visibility=box")
-        self.assertEqual(data["reference"]["changed_params"], {"technique": "brute_force"})
+        for name in data["reference"]["changed_params"]:
+            self.assertIn(name, ("technique", "sampling.seed"))
         self.assertEqual(data["scenes"][0]["techniques"][0]["changed_params"]["filter.visibility"], "box")
 
     def test_two_runs_give_the_same_figures(self):
@@ -74,6 +76,7 @@ class Compare(TestCase):
                     row.pop(cost)
         self.assertEqual(first[1], second[1])
         for data in (first[2], second[2]):
+            data.pop("command")
             for technique in data["scenes"][0]["techniques"]:
                 technique.pop("cost")
         self.assertEqual(first[2], second[2])
@@ -86,11 +89,58 @@ class Compare(TestCase):
         self.assertEqual((a["figures"], a["shadow_bytes"]), (b["figures"], b["shadow_bytes"]))
 
     def test_what_equals_the_reference_has_no_error(self):
-        table, rows, data = self.compare("--reference", "brute_force", "--technique", "brute_force,hard")
+        seed = self.compare(*BRUTE, into="seed")[2]["reference"]["changed_params"]["sampling.seed"]
+        same = f"brute_force:sampling.seed={seed}"
+        table, rows, data = self.compare("--reference", "brute_force", "--technique", f"{same},hard")
         self.assertEqual((rows[0]["psnr_penumbra_db"], float(rows[0]["bias"])), ("inf", 0))
         self.assertEqual(data["scenes"][0]["techniques"][0]["figures"]["psnr_penumbra_db"], "inf")
-        self.assertRegex(table, r"brute_force .* inf ")
+        self.assertRegex(table, same + r" .* inf ")
         self.assertLess(float(rows[1]["psnr_penumbra_db"]), 40)
+
+    def test_a_sampled_reference_has_other_points_than_what_is_measured(self):
+        for seed in ("0", "40000"):
+            _, rows, _ = self.compare("--reference", "brute_force", "--technique", "brute_force", "--set",
+                                      f"sampling.seed={seed}")
+            self.assertNotEqual(rows[0]["psnr_penumbra_db"], "inf")
+            self.assertGreater(float(rows[0]["psnr_penumbra_db"]), 40)
+
+    def test_penumbrae_without_a_width_are_told(self):
+        table, rows, data = self.compare("--reference", "brute_force", "--technique", "none,brute_force", "--set",
+                                         "sun.angle=4")
+        lost = [float(row["penumbra_width_lost"]) for row in rows]
+        self.assertEqual(lost[0], 1)  # all lit
+        self.assertLess(lost[1], 0.2)
+        self.assertEqual(rows[0]["penumbra_width_error"], "")
+        self.assertEqual(data["scenes"][0]["techniques"][0]["figures"]["penumbra_width_lost"], 1)
+        self.assertRegex(table, r"none .* 100\.0 ")
+        self.assertIn("Width lost", (self.folder / "report" / "index.html").read_text())
+
+    def test_a_run_can_be_repeated_from_what_the_report_says(self):
+        _, rows, data = self.compare(*BRUTE)
+        self.assertRegex(data["version"], r"^Penumbra \d")
+        self.assertTrue(data["commit"])
+        self.assertTrue(data["command"].startswith("penumbra compare "))
+        self.assertIn("--reference brute_force", data["command"])
+        camera, sun = (data["scenes"][0][name] for name in ("camera", "sun"))
+        page = (self.folder / "report" / "index.html").read_text()
+        self.assertIn(data["commit"], page)
+        self.assertIn("--sun=" + f"{sun['azimuth']:g}", page)
+        view = []
+        for name in ("eye", "target"):
+            view += [f"--{name}={','.join(map(str, camera[name]))}"]
+        again = self.compare(*BRUTE, *view, "--fov", camera["fov"], f"--sun={sun['azimuth']},{sun['elevation']}",
+                             into="again")
+        for row, other in zip(rows, again[1]):
+            self.assertAlmostEqual(float(row["psnr_db"]), float(other["psnr_db"]), delta=0.1)
+        length = sum(value * value for value in sun["to_light"])
+        self.assertAlmostEqual(length, 1, places=4)
+
+    def test_a_picture_that_the_sun_does_not_reach_is_told(self):
+        arguments = ("--ground", "off", "--eye", "0,50,0", "--target", "0,60,0")
+        result = self.succeed("compare", POSTS, "-o", self.folder / "sky", *SMALL, *BRUTE, *arguments)
+        self.assertEqual(len(result.stderr.splitlines()), 1)
+        self.assertIn("nothing to measure", result.stderr)
+        self.assertIn(POSTS.name, result.stderr)
 
     def test_better_techniques_have_better_figures_against_the_truth(self):
         _, rows, data = self.compare("--technique", "none,hard,pcss,brute_force", "--spp", "64", "--set", "sun.angle=4")
@@ -151,6 +201,23 @@ class Refusals(TestCase):
         self.assertIn("did you mean 'pcss.filter_taps'", self.refused("--technique", "pcss:pcss.filter_tap=4"))
         self.assertIn("did you mean 'truth'", self.refused("--technique", "pcss", "--reference", "thruth"))
 
+    def test_what_is_wrong_is_told_before_files_are_looked_at(self):
+        nowhere = self.folder / "nowhere"
+        for arguments in (("--technique", "pcsss"), ("--technique", "pcss:pcss.filter_tap=4"), ("--technique", "hard,"),
+                          ("--technique", "pcss", "--set", "pcss.filter_taps=-1"), ("--technique", "truth"),
+                          ("--technique", "pcss", "--sun-angle", "x"), ("--technique", "pcss:sun.angle=2"),
+                          ("--technique", "pcss", "--orbit", "2"), ("--technique", "pcss", "--exposure", "x"),
+                          ("--technique", "pcss", "--cache", "x", "--no-cache"),
+                          ("--technique", "pcss", "--cache", "x", "--reference", "brute_force")):
+            self.refused(*arguments, "--preset", nowhere / "none.toml", "--glsl", nowhere, of=nowhere / "none.glb")
+        self.assertIn("empty", self.refuse("compare", POSTS, "-o", "", "--technique", "pcss", code=2))
+
+    def test_a_cache_is_for_what_is_traced(self):
+        arguments = ("--reference", "brute_force", "--cache", self.folder / "kept", *SMALL)
+        self.assertIn("--cache", self.refused("--technique", "hard", *arguments))
+        self.succeed("compare", POSTS, "-o", self.folder / "report", "--technique", "truth:truth.samples=8", *arguments)
+        self.assertEqual(len([path for path in (self.folder / "kept").rglob("*") if path.is_file()]), 1)
+
     def test_values_out_of_range(self):
         self.assertIn("pcss.filter_taps", self.refused("--technique", "pcss:pcss.filter_taps=-1"))
 
@@ -179,6 +246,13 @@ class Refusals(TestCase):
         scenes = (POSTS, self.folder / "none.glb")
         line = self.refuse("compare", *scenes, "-o", self.folder / "report", "--technique", "pcss")
         self.assertIn("none.glb", line)
+
+    def test_a_camera_that_is_in_one_scene_alone(self):
+        scenes = (scene("fence"), POSTS)
+        line = self.refuse("compare", *scenes, "-o", self.folder / "report", *SMALL, "--technique", "pcss", "--camera",
+                           "close", timeout=60)
+        self.assertIn(f"'{POSTS}'", line)
+        self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_folders_that_cannot_be_written(self):
         (self.folder / "file").write_text("mine")

@@ -31,10 +31,11 @@ void turn(render::Camera& camera, const glm::vec3& center, double degrees) {
 }  // namespace
 
 CameraPath::CameraPath(const CompareOptions& options, const studio::Stage& stage)
-    : options_(options), stage_(stage), range_(options.frames.value_or(studio::FrameRange{})) {
-  if (!options.orbit) return;
-  center_ = target_of(options, stage);
-  if (range_.count() > 1) cut_ = options.cut_at.value_or(range_.first + range_.count() / 2);
+    : options_(options),
+      stage_(stage),
+      range_(options.frames.value_or(studio::FrameRange{})),
+      target_(target_of(options, stage)) {
+  if (options.orbit && range_.count() > 1) cut_ = options.cut_at.value_or(range_.first + range_.count() / 2);
 }
 
 render::Setup CameraPath::setup_at(int frame) const {
@@ -42,7 +43,7 @@ render::Setup CameraPath::setup_at(int frame) const {
   if (!options_.orbit) return setup;
   // On both sides of the view that was asked for, which is the first and the last.
   const bool after_cut = cut_ && frame >= *cut_;
-  turn(setup.camera, center_, *options_.orbit * (frame - (after_cut ? range_.last : range_.first)));
+  turn(setup.camera, target_, *options_.orbit * (frame - (after_cut ? range_.last : range_.first)));
   return setup;
 }
 

@@ -17,6 +17,8 @@ class CameraPath {
   // What a renderer draws for a frame of the range; the first one follows none. `again`: the frame before showed the
   // same.
   render::FrameInputs frame(int frame, bool again = false) const;
+  // What the first camera looks at, and what an orbit is about.
+  const glm::vec3& target() const { return target_; }
   // Whether frame shows another view or time than the one before leads to. The first frame does not count.
   bool cuts(int frame) const;
 
@@ -26,7 +28,7 @@ class CameraPath {
   const CompareOptions& options_;
   const studio::Stage& stage_;
   studio::FrameRange range_;
-  glm::vec3 center_{0};  // of the orbit
+  glm::vec3 target_;
   std::optional<int> cut_;
 };
 

@@ -1,15 +1,22 @@
 #include "app/compare/comparison.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <future>
+#include <glm/trigonometric.hpp>
 #include <memory>
 #include <numeric>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "app/compare/draw.h"
-#include "app/techniques.h"
+#include "core/log.h"
 #include "image/read.h"
+#include "io/output_file.h"
 #include "render/renderer.h"
+#include "scene/gltf.h"
 #include "studio/progress.h"
 #include "studio/stage.h"
 #include "studio/studio.h"
@@ -30,54 +37,85 @@ struct Machine {
   Machine(const CompareOptions& options, std::unique_ptr<gl::Context> opened)
       : context(std::move(opened)),
         info(gl::device_info()),
-        truth({.cache = options.reference == "truth" ? options.folder() : std::filesystem::path(),
-               .threads = options.threads.value_or(0)}),
+        truth({.cache = options.folder(), .threads = options.threads.value_or(0)}),
         techniques(truth.registry()),
         device(gl::ShaderFiles(options.glsl), info.software ? gl::Timers::Mode::finish : gl::Timers::Mode::query) {}
 };
 
+// Names the file, which the faults of its cameras don't.
+studio::Stage load_stage(const CompareOptions& options, const scene::ImageDecoder& decode) {
+  scene::Scene scene = scene::read_gltf(options.scene, decode);
+  try {
+    return studio::set_up(std::move(scene), options);
+  } catch (const Error& error) {
+    fail("{}: {}", io::quoted(options.scene), error.what());
+  }
+}
+
+// Whether a camera is there takes no pictures.
+void check_camera(const CompareOptions& options) {
+  load_stage(options, [](std::span<const std::byte>, const std::string& name) {
+    return scene::Image{.name = name, .width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
+  });
+}
+
+std::size_t receiver_count(const ReferenceFrame& frame) {
+  return std::accumulate(frame.receivers.begin(), frame.receivers.end(), std::size_t{0});
+}
+
+void warn_of_frames_without_receivers(const std::string& scene, const std::vector<ReferenceFrame>& frames) {
+  const auto count = std::ranges::count_if(frames, [](const auto& frame) { return receiver_count(frame) == 0; });
+  if (count == 0) return;
+  const std::string which = frames.size() == 1 ? "the picture" : fmt::format("{} of {} frames", count, frames.size());
+  warn("{}: the sun reaches nothing in {}, so there is nothing to measure", io::quoted(scene), which);
+}
+
 ComparedScene compare_scene(const CompareOptions& options, const studio::Stage& stage, Machine& machine,
-                            const Comparison& comparison, const std::vector<ParamSet>& params,
-                            const std::function<void()>& drawn) {
+                            const ComparedValues& values, const std::function<void()>& drawn) {
   scene::GpuScene scene(machine.device, stage.scene);
   const CameraPath path(options, stage);
   const DrawnScene common{options, machine.device, machine.techniques, scene, path, drawn};
-  ComparedScene result{.path = options.scene};
-  const std::vector<ReferenceFrame> reference = draw_reference(common, comparison.reference_params, result.reference);
-  const std::vector<std::uint8_t>& receivers = reference.back().receivers;
-  result.pixels = receivers.size();
-  result.receivers = std::accumulate(receivers.begin(), receivers.end(), std::size_t{0});
-  for (std::size_t i = 0; i < params.size(); ++i)
-    result.techniques.push_back(draw_technique(common, options.contenders[i], params[i], reference));
+  const render::FrameInputs first = path.frame(options.frames ? options.frames->first : 0);
+  ComparedScene result{.path = options.scene, .camera = first.camera, .sun = first.sun, .target = path.target()};
+  const std::vector<ReferenceFrame> reference = draw_reference(common, values.reference, result.reference);
+  warn_of_frames_without_receivers(options.scene, reference);
+  result.pixels = reference.back().receivers.size();
+  result.receivers = receiver_count(reference.back());
+  result.techniques = draw_techniques(common, values.contenders, reference);
   return result;
 }
 
 }  // namespace
 
-Comparison compare(const CompareOptions& options) {
-  Comparison comparison;
-  std::vector<ParamSet> params;
-  for (const Contender& contender : options.contenders)
-    params.push_back(params_of(options, contender, all_techniques()));
-  comparison.reference_params = reference_params(options, all_techniques());
+Angles angles_of(const glm::vec3& to_light) {
+  const glm::dvec3 v(to_light);
+  return {.azimuth = glm::degrees(std::atan2(v.x, v.z)),
+          .elevation = glm::degrees(std::atan2(v.y, std::hypot(v.x, v.z)))};
+}
+
+Comparison compare(const CompareOptions& options, const ComparedValues& values) {
+  Comparison comparison{.reference_params = values.reference};
 
   // Drivers take as long to start as scenes to load, and there are two cores nearly everywhere.
   std::vector<CompareOptions> of_scenes(options.scenes.size(), options);
   for (std::size_t i = 0; i < of_scenes.size(); ++i) of_scenes[i].scene = options.scenes[i];
-  const auto load = [](const CompareOptions& one) { return studio::load_stage(one, image::image_decoder()); };
+  const auto load = [](const CompareOptions& one) { return load_stage(one, image::image_decoder()); };
   std::future<studio::Stage> loading = std::async(std::launch::async, load, std::cref(of_scenes.front()));
   std::unique_ptr<gl::Context> context = studio::open_context(options, options);
   Machine machine(options, std::move(context));
   comparison.device = machine.info;
   comparison.backend = gl::to_string(machine.context->backend());
+  std::optional<studio::Stage> stage = loading.get();
+  for (std::size_t i = 1; i < of_scenes.size(); ++i) check_camera(of_scenes[i]);  // before minutes of drawing
 
-  const std::size_t drawings = options.scenes.size() * (params.size() + 1);
+  const std::size_t drawings = options.scenes.size() * (values.contenders.size() + 1);
   const int frames = options.frames ? options.frames->count() : 1;
   studio::Progress progress("picture", static_cast<int>(drawings) * frames, !options.quiet);
   const std::function<void()> drawn = [&progress] { progress.step(); };
-  for (std::size_t i = 0; i < of_scenes.size(); ++i) {
-    const studio::Stage stage = i == 0 ? loading.get() : load(of_scenes[i]);
-    comparison.scenes.push_back(compare_scene(of_scenes[i], stage, machine, comparison, params, drawn));
+  for (const CompareOptions& one : of_scenes) {
+    if (!stage) stage = load(one);
+    comparison.scenes.push_back(compare_scene(one, *stage, machine, values, drawn));
+    stage.reset();
   }
   return comparison;
 }

@@ -10,6 +10,7 @@
 #include "core/params.h"
 #include "gl/context.h"
 #include "metrics/sequence.h"
+#include "render/view.h"
 
 namespace penumbra::app {
 
@@ -18,7 +19,8 @@ struct ComparedFigures {
   double rmse = 0, psnr = 0;                    // all receivers
   double rmse_penumbra = 0, psnr_penumbra = 0;  // reference in the penumbra
   double bias = 0, max = 0, p99 = 0;
-  double ssim = 0, flip = 0, width_error = 0;        // means over the frames
+  double ssim = 0, flip = 0, width_error = 0;  // means over the frames
+  double width_lost = 0;                       // share of penumbra pixels in which the shadow has no width to measure
   std::optional<metrics::SequenceFigures> sequence;  // of more than one frame
 };
 
@@ -48,8 +50,18 @@ struct ComparedScene {
   std::string path;
   std::size_t receivers = 0, pixels = 0;  // of the last frame
   ComparedPictures reference;             // without an error
+  render::Camera camera;                  // of the first frame
+  render::Sun sun;
+  glm::vec3 target{0};  // what that camera looks at
   std::vector<ComparedTechnique> techniques;
 };
+
+// A direction as --sun takes it, degrees.
+struct Angles {
+  double azimuth = 0;    // from +Z towards +X
+  double elevation = 0;  // over the horizon
+};
+Angles angles_of(const glm::vec3& to_light);
 
 struct Comparison {
   gl::DeviceInfo device;
@@ -59,6 +71,6 @@ struct Comparison {
 };
 
 // Draws and measures all of it. Throws Error.
-Comparison compare(const CompareOptions& options);
+Comparison compare(const CompareOptions& options, const ComparedValues& values);
 
 }  // namespace penumbra::app

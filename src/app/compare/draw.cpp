@@ -1,13 +1,12 @@
 #include "app/compare/draw.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/trigonometric.hpp>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 
 #include "app/compare/figures.h"
+#include "app/receivers.h"
 #include "bench/times.h"
 #include "render/renderer.h"
 
@@ -22,28 +21,15 @@ bool is_shadow_row(const std::string& name) {
   return name != "frame" && name.find('/') == std::string::npos && bench::is_shadow_pass(name);
 }
 
-// Of the last `frames` frames.
-ShadowCost shadow_cost(gl::Timers& timers, std::size_t frames) {
-  std::vector<double> sums(frames, 0.0);
+// Of these frames of the device.
+ShadowCost shadow_cost(gl::Timers& timers, const std::vector<std::size_t>& frames) {
+  std::vector<double> sums(frames.size(), 0.0);
   for (const gl::Timers::Row& row : timers.rows()) {
     if (!is_shadow_row(row.name)) continue;
-    for (std::size_t i = 0; i < frames; ++i) sums[i] += row.milliseconds[row.milliseconds.size() - frames + i];
+    for (std::size_t i = 0; i < frames.size(); ++i) sums[i] += row.milliseconds[frames[i]];
   }
-  std::ranges::sort(sums);
-  const std::size_t middle = frames / 2;
-  const double median = frames % 2 != 0 ? sums[middle] : 0.5 * (sums[middle - 1] + sums[middle]);
-  return {median, sums.front(), sums.back(), frames};
-}
-
-std::vector<std::uint8_t> receivers_of(const render::Renderer& renderer, const glm::vec3& to_light, double sun_angle) {
-  const std::vector<float> normals = renderer.read_aov("geometric_normal");
-  const auto least = static_cast<float>(std::sin(glm::radians(sun_angle) * 0.5));
-  std::vector<std::uint8_t> receivers(normals.size() / 3);
-  for (std::size_t i = 0; i < receivers.size(); ++i) {
-    const float cosine = glm::dot(glm::vec3(normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]), to_light);
-    receivers[i] = cosine > least ? 1 : 0;
-  }
-  return receivers;
+  const bench::Summary summary = bench::summary_of(std::move(sums));
+  return {summary.median, summary.min, summary.max, summary.count};
 }
 
 studio::FrameRange range_of(const CompareOptions& options) { return options.frames.value_or(studio::FrameRange{}); }
@@ -54,16 +40,6 @@ int warmup_of(const CompareOptions& options, const ParamSet& params) {
   return options.warmup.value_or(usual_warmup);
 }
 
-// The frames that cost is taken from: all of a sequence but the first, which compiles shaders; a single picture is
-// drawn again.
-std::size_t measured_frames(const DrawnScene& scene, render::Renderer& renderer, const ParamSet& params) {
-  const studio::FrameRange range = range_of(scene.options);
-  if (range.count() > 1) return static_cast<std::size_t>(range.count() - 1);
-  for (int i = 0; i < scene.options.cost_frames; ++i)
-    renderer.draw(scene.scene, scene.path.frame(range.first, /* again= */ true), params);
-  return static_cast<std::size_t>(scene.options.cost_frames);
-}
-
 std::vector<float> error_of(const std::vector<float>& visibility, const ReferenceFrame& reference) {
   std::vector<float> error(visibility.size(), std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < error.size(); ++i) {
@@ -71,6 +47,89 @@ std::vector<float> error_of(const std::vector<float>& visibility, const Referenc
   }
   return error;
 }
+
+std::size_t frames_drawn(gl::Timers& timers) {
+  const std::vector<gl::Timers::Row> rows = timers.rows();
+  return rows.empty() ? 0 : rows.back().milliseconds.size();
+}
+
+// One of those that take turns. Its renderer is its own: what another technique left behind has no say.
+struct Turn {
+  Turn(const DrawnScene& scene, const ParamSet& own)
+      : params(own),
+        renderer(scene.device, scene.techniques),
+        sums(scene.options.size.width, scene.options.size.height) {}
+
+  const ParamSet& params;
+  render::Renderer renderer;
+  FigureSums sums;
+  ComparedPictures pictures;
+  std::vector<std::size_t> timed;  // the device's frames that its cost is taken from
+  std::size_t target_bytes = 0;
+};
+
+class Turns {
+ public:
+  Turns(const DrawnScene& scene, const std::vector<ParamSet>& params, const std::vector<ReferenceFrame>& reference)
+      : scene_(scene),
+        reference_(reference),
+        range_(range_of(scene.options)),
+        frames_drawn_(frames_drawn(scene.device.timers)) {
+    for (const ParamSet& own : params) turns_.push_back(std::make_unique<Turn>(scene, own));
+  }
+
+  // A sequence's cost is that of all its frames but the first, which compiles shaders; a single picture is drawn again.
+  std::vector<ComparedTechnique> results() {
+    for (int frame = range_.first; frame <= range_.last; ++frame) {
+      for (const auto& turn : turns_) measure(*turn, frame);
+    }
+    for (int i = 0; range_.count() == 1 && i < scene_.options.cost_frames; ++i) {
+      for (const auto& turn : turns_)
+        draw(*turn, scene_.path.frame(range_.first, /* again= */ true), /* timed= */ true);
+    }
+    std::vector<ComparedTechnique> results;
+    for (std::size_t i = 0; i < turns_.size(); ++i) {
+      Turn& turn = *turns_[i];
+      results.push_back({.label = scene_.options.contenders[i].label,
+                         .params = turn.params,
+                         .cost = shadow_cost(scene_.device.timers, turn.timed),
+                         .target_bytes = turn.target_bytes,
+                         .figures = turn.sums.figures(),
+                         .pictures = std::move(turn.pictures)});
+    }
+    return results;
+  }
+
+ private:
+  void draw(Turn& turn, const render::FrameInputs& inputs, bool timed) {
+    const std::size_t before = scene_.device.target_bytes("shadow ");
+    turn.renderer.draw(scene_.scene, inputs, turn.params);
+    turn.target_bytes += scene_.device.target_bytes("shadow ") - before;
+    if (timed) turn.timed.push_back(frames_drawn_);
+    ++frames_drawn_;
+  }
+
+  void measure(Turn& turn, int frame) {
+    draw(turn, scene_.path.frame(frame), /* timed= */ frame > range_.first);
+    for (int i = warmup_of(scene_.options, turn.params); i > 0; --i)
+      draw(turn, scene_.path.frame(frame, /* again= */ true), /* timed= */ false);
+    std::vector<float> visibility = turn.renderer.read_aov("shadow");
+    const ReferenceFrame& reference = reference_[static_cast<std::size_t>(frame - range_.first)];
+    turn.sums.add(visibility, reference, scene_.path.cuts(frame));
+    if (frame == range_.last) {
+      turn.pictures.display = turn.renderer.read_display();
+      turn.pictures.error = error_of(visibility, reference);
+      turn.pictures.visibility = std::move(visibility);
+    }
+    scene_.drawn();
+  }
+
+  const DrawnScene& scene_;
+  const std::vector<ReferenceFrame>& reference_;
+  studio::FrameRange range_;
+  std::size_t frames_drawn_;  // by the device
+  std::vector<std::unique_ptr<Turn>> turns_;
+};
 
 }  // namespace
 
@@ -89,29 +148,9 @@ std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamS
   return frames;
 }
 
-ComparedTechnique draw_technique(const DrawnScene& scene, const Contender& contender, const ParamSet& params,
-                                 const std::vector<ReferenceFrame>& reference) {
-  // One of its own: what another technique left behind has no say, and its memory is gone.
-  render::Renderer renderer(scene.device, scene.techniques);
-  const studio::FrameRange range = range_of(scene.options);
-  FigureSums sums(scene.options.size.width, scene.options.size.height);
-  std::vector<float> visibility;
-  for (int frame = range.first; frame <= range.last; ++frame) {
-    renderer.draw(scene.scene, scene.path.frame(frame), params);
-    for (int i = warmup_of(scene.options, params); i > 0; --i)
-      renderer.draw(scene.scene, scene.path.frame(frame, /* again= */ true), params);
-    visibility = renderer.read_aov("shadow");
-    sums.add(visibility, reference[static_cast<std::size_t>(frame - range.first)], scene.path.cuts(frame));
-    scene.drawn();
-  }
-  ComparedTechnique result{.label = contender.label, .params = params};
-  result.pictures.display = renderer.read_display();
-  result.pictures.error = error_of(visibility, reference.back());
-  result.pictures.visibility = std::move(visibility);
-  result.figures = sums.figures();
-  result.target_bytes = scene.device.target_bytes("shadow ");
-  result.cost = shadow_cost(scene.device.timers, measured_frames(scene, renderer, params));
-  return result;
+std::vector<ComparedTechnique> draw_techniques(const DrawnScene& scene, const std::vector<ParamSet>& params,
+                                               const std::vector<ReferenceFrame>& reference) {
+  return Turns(scene, params, reference).results();
 }
 
 }  // namespace penumbra::app

@@ -31,8 +31,9 @@ struct ReferenceFrame {
 // The reference's frames; `last` becomes the last one's pictures.
 std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamSet& params, ComparedPictures& last);
 
-// A technique drawn over all frames, measured against them.
-ComparedTechnique draw_technique(const DrawnScene& scene, const Contender& contender, const ParamSet& params,
-                                 const std::vector<ReferenceFrame>& reference);
+// The contenders drawn over all frames and measured against them, with values of `params` in the same order. They take
+// turns, frame by frame, so that a machine that slows down meanwhile slows all of them.
+std::vector<ComparedTechnique> draw_techniques(const DrawnScene& scene, const std::vector<ParamSet>& params,
+                                               const std::vector<ReferenceFrame>& reference);
 
 }  // namespace penumbra::app

@@ -36,6 +36,8 @@ void FigureSums::add(const std::vector<float>& visibility, const ReferenceFrame&
   ssim_.add(quality.ssim);
   flip_.add(quality.flip);
   width_error_.add(quality.width.relative);
+  widths_.measured += quality.width.measured;
+  widths_.lost += quality.width.lost;
   sequence_.add(test, truth, reference.receivers, cut ? metrics::Event::cut : metrics::Event::none);
   ++frames_;
 }
@@ -51,6 +53,7 @@ ComparedFigures FigureSums::figures() const {
                           .ssim = ssim_.mean(),
                           .flip = flip_.mean(),
                           .width_error = width_error_.mean(),
+                          .width_lost = widths_.lost_share(),
                           .sequence = {}};
   if (frames_ > 1) figures.sequence = sequence_.figures();
   return figures;

@@ -3,6 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "app/techniques.h"
+#include "io/text.h"
+
 namespace penumbra::app {
 
 namespace {
@@ -10,19 +13,11 @@ namespace {
 using studio::add_value;
 using studio::fail_usage;
 
+constexpr int seeds = 65536, seed_shift = seeds / 2;  // of sampling.seed, for a sampled reference
+
 // Of all reference pictures, which are kept until the last technique is drawn.
 constexpr long long largest_reference = 2LL << 30;
 constexpr long long reference_bytes = sizeof(float) + 1;  // a pixel: visibility, and whether it is a receiver
-
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(separator, begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
-}
 
 void add_contenders(std::vector<Contender>& list, const std::string& text) {
   for (Contender& contender : parse_contenders(text)) {
@@ -35,9 +30,9 @@ void add_contenders(std::vector<Contender>& list, const std::string& text) {
 
 void add_compare_options(CLI::App& app, CompareOptions& o) {
   app.add_option("SCENE", o.scenes, "glTF files, .gltf or .glb")->required()->type_name("");
-  app.add_option("-o,--output", o.output, "Folder for index.html, results.csv and results.json")
-      ->required()
-      ->type_name("FOLDER");
+  add_value(app, "-o,--output", "FOLDER", "Folder for index.html, results.csv and results.json",
+            [&o](const auto& text) { o.output = text; });
+  app.get_option("--output")->required();
   add_value(
       app, "--technique", "NAME,...",
       "What is compared; NAME:PARAM=VALUE,PARAM=VALUE is one with values of its own; see penumbra list techniques",
@@ -51,6 +46,7 @@ void add_compare_options(CLI::App& app, CompareOptions& o) {
   studio::add_size_option(app, o);
   studio::add_view_options(app, o);
   studio::add_time_options(app, o);
+  app.get_option("--frames")->description("A sequence: figures are of all its frames, pictures of the last");
   add_value(app, "--orbit", "DEG", "The camera circles its target, so many degrees a frame",
             [&o](const auto& text) { o.orbit = studio::parse_number("--orbit", text, -180, 180); });
   add_value(app, "--cut-at", "FRAME",
@@ -75,7 +71,7 @@ void check_orbit(const CompareOptions& o) {
 
 void check_together(const CompareOptions& o) {
   studio::check_together(static_cast<const studio::StageOptions&>(o));
-  studio::check_together(static_cast<const studio::DeviceOptions&>(o));
+  check_together(static_cast<const CacheOptions&>(o));
   if (o.contenders.empty()) fail_usage("--technique is required: what to compare; see penumbra list techniques");
   if (o.reference == "truth" && std::ranges::any_of(o.contenders, [](const auto& c) { return c.name == "truth"; }))
     fail_usage("--technique truth is the reference already; see --reference");
@@ -100,11 +96,56 @@ void check_own_assignment(const std::string& assignment) {
     fail_usage("'{}' would give a technique another sun than the reference's: see --set", assignment);
 }
 
+// Each value by itself: together they are right or wrong only with what presets say.
+void check_values(const CompareOptions& options, const shadow::Registry& registry) {
+  auto own = static_cast<const studio::ShadowOptions&>(options);
+  own.presets.clear();
+  own.assignments.clear();
+  bool traced = options.reference == "truth";
+  for (const Contender& contender : options.contenders) {
+    own.technique = contender.name;
+    ParamSet defaults = studio::resolve_params(own, registry);
+    traced = traced || defaults.get_word("technique") == "truth";
+    defaults.set("cascades.count", 1);  // so that maps of any size are within the limit
+    const auto check = [&defaults](const std::string& assignment) {
+      ParamSet params = defaults;
+      studio::assign(params, assignment);
+    };
+    for (const std::string& assignment : options.assignments) {
+      check_assignment(assignment);
+      check(assignment);
+    }
+    for (const std::string& assignment : contender.assignments) {
+      check_own_assignment(assignment);
+      check(assignment);
+    }
+  }
+  if (options.cache && !traced) fail_usage("--cache has no meaning where nothing is ray traced");
+}
+
+ParamSet params_of(const CompareOptions& options, const Contender& contender, const shadow::Registry& registry) {
+  auto own = static_cast<const studio::ShadowOptions&>(options);
+  own.technique = contender.name;
+  ParamSet params = studio::resolve_params(own, registry);
+  for (const std::string& assignment : contender.assignments) studio::assign(params, assignment);
+  return params;
+}
+
+ParamSet reference_params(const CompareOptions& options, const shadow::Registry& registry) {
+  ParamSet params =
+      params_of(options, {.label = options.reference, .name = options.reference, .assignments = {}}, registry);
+  // What approximates is no reference, whatever the contenders do.
+  for (const char* name : {"history.reuse", "filter.penumbra", "filter.visibility"}) params.reset(name);
+  if (options.samples) params.set("truth.samples", *options.samples);
+  if (options.reference != "truth") params.set("sampling.seed", (params.get_int("sampling.seed") + seed_shift) % seeds);
+  return params;
+}
+
 }  // namespace
 
 std::vector<Contender> parse_contenders(const std::string& text) {
   std::vector<Contender> list;
-  for (const std::string& part : split(text, ',')) {
+  for (const std::string& part : io::split(text, ',')) {
     const std::size_t colon = part.find(':');
     if (colon == std::string::npos && part.find('=') != std::string::npos) {
       if (list.empty() || list.back().assignments.empty())
@@ -126,28 +167,16 @@ bool parse_compare(const studio::Arguments& arguments, CompareOptions& options) 
   add_compare_options(app, options);
   if (!studio::parse(app, arguments)) return false;
   check_together(options);
+  check_values(options, all_techniques());
+  studio::check_together(static_cast<const studio::DeviceOptions&>(options));  // looks for a folder
   return true;
 }
 
-ParamSet params_of(const CompareOptions& options, const Contender& contender, const shadow::Registry& registry) {
-  auto own = static_cast<const studio::ShadowOptions&>(options);
-  own.technique = contender.name;
-  for (const std::string& assignment : options.assignments) check_assignment(assignment);
-  ParamSet params = studio::resolve_params(own, registry);
-  for (const std::string& assignment : contender.assignments) {
-    check_own_assignment(assignment);
-    studio::assign(params, assignment);
-  }
-  return params;
-}
-
-ParamSet reference_params(const CompareOptions& options, const shadow::Registry& registry) {
-  ParamSet params =
-      params_of(options, {.label = options.reference, .name = options.reference, .assignments = {}}, registry);
-  // What approximates is no reference, whatever the contenders do.
-  for (const char* name : {"history.reuse", "filter.penumbra", "filter.visibility"}) params.reset(name);
-  if (options.samples) params.set("truth.samples", *options.samples);
-  return params;
+ComparedValues values_of(const CompareOptions& options, const shadow::Registry& registry) {
+  ComparedValues values{.reference = reference_params(options, registry), .contenders = {}};
+  for (const Contender& contender : options.contenders)
+    values.contenders.push_back(params_of(options, contender, registry));
+  return values;
 }
 
 }  // namespace penumbra::app

@@ -32,15 +32,19 @@ struct CompareOptions : studio::StageOptions, studio::ShadowOptions, studio::Dev
   bool quiet = false;
 };
 
-// Parses the command line; false: --help was asked for. Throws UsageError.
+// Parses the command line; false: --help was asked for. Throws UsageError for all that is wrong whatever presets and
+// scenes hold, before any of them is looked at.
 bool parse_compare(const studio::Arguments& arguments, CompareOptions& options);
 
 // "a,b:p=1,q=2,c" is a, b with two values of its own, and c. Throws UsageError for what has no name.
 std::vector<Contender> parse_contenders(const std::string& text);
 
-// The values that a contender and the reference are drawn with. Throw UsageError for the command line's faults and
-// Error for a preset's.
-ParamSet params_of(const CompareOptions& options, const Contender& contender, const shadow::Registry& registry);
-ParamSet reference_params(const CompareOptions& options, const shadow::Registry& registry);
+// The values that the reference and the contenders are drawn with. A sampled reference has other points than contenders
+// have, lest errors of both agree. Throws UsageError for the command line's faults and Error for a preset's.
+struct ComparedValues {
+  ParamSet reference;
+  std::vector<ParamSet> contenders;
+};
+ComparedValues values_of(const CompareOptions& options, const shadow::Registry& registry);
 
 }  // namespace penumbra::app

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <glm/trigonometric.hpp>
 
 #include "app/compare/pictures.h"
+#include "bench/machine.h"
 #include "report/number.h"
 #include "report/plot.h"
 #include "report/table.h"
@@ -40,7 +42,9 @@ std::vector<report::Column> columns_of(bool sequence) {
       {"99th percentile", "visibility", "99 of 100 receivers are off by no more.", Best::lowest},
       {"SSIM", "", "Structural similarity, 1 where nothing differs.", Best::highest},
       {"FLIP", "", "How different the two look to somebody who flips between them, 0 to 1.", Best::lowest},
-      {"Width error", "%", "How much wider or narrower penumbrae are, on average.", Best::lowest}};
+      {"Width error", "%", "How much wider or narrower penumbrae are, on average.", Best::lowest},
+      {"Width lost", "%", "Share of penumbra pixels where the shadow has no edge to measure; in no other width.",
+       Best::lowest}};
   if (sequence) {
     columns.push_back({"Flicker", "visibility", "Mean change of the error from frame to frame.", Best::lowest});
     columns.push_back({"Ghost", "visibility", "Mean error where shadow has just gone.", Best::lowest});
@@ -63,7 +67,8 @@ std::vector<Cell> row_of(const ComparedTechnique& technique, bool sequence) {
                         cell(f.p99, 3),
                         cell(f.ssim, 4),
                         cell(f.flip, 4),
-                        cell(100 * f.width_error, 1)};
+                        cell(100 * f.width_error, 1),
+                        cell(100 * f.width_lost, 1)};
   if (sequence) {
     row.push_back(cell(f.sequence ? f.sequence->flicker : NAN, 4));
     row.push_back(cell(f.sequence ? f.sequence->ghost : NAN, 4));
@@ -155,15 +160,35 @@ Html params_section(const Comparison& comparison) {
   return html;
 }
 
-// For a POSIX shell.
+std::string scene_name(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+std::string point_text(const glm::vec3& v) { return fmt::format("{:.6g},{:.6g},{:.6g}", v.x, v.y, v.z); }
+
+// In the words of the options, for it to be drawn again should the file's camera or sun change.
+std::string view_text(const ComparedScene& scene) {
+  const render::Camera& camera = scene.camera;
+  const Angles sun = angles_of(scene.sun.to_light);
+  const std::string lens = camera.orthographic ? fmt::format("orthographic, half height {:g} m", camera.half_height)
+                                               : fmt::format("--fov={:.6g}", glm::degrees(camera.fov_y));
+  return fmt::format("--eye={} --target={} {} --sun={:.6g},{:.6g}", point_text(render::position_of(camera)),
+                     point_text(scene.target), lens, sun.azimuth, sun.elevation);
+}
+
+Html command_section(const Comparison& comparison, const studio::Arguments& arguments) {
+  // For a POSIX shell.
+  Html html = report::code_block(studio::command_text("penumbra compare", arguments));
+  std::vector<std::pair<std::string, std::string>> views;
+  for (const ComparedScene& scene : comparison.scenes)
+    views.emplace_back("View and sun of " + scene_name(scene.path), view_text(scene));
+  return html.add(report::definition_list(views));
+}
+
 std::string frames_text(const CompareOptions& options) {
   if (!options.frames) return "a single picture";
   std::string text = fmt::format("{} frames, {:g} a second", options.frames->count(), options.fps);
   if (options.orbit) text += fmt::format(", orbit of {:g}° a frame with a cut", *options.orbit);
   return text;
 }
-
-std::string scene_name(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 
 std::string count_of(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
@@ -185,8 +210,8 @@ report::Page comparison_page(const Comparison& comparison, const CompareOptions&
                                     comparison.reference_params.get_word("sun.shape"))},
                 {"Device", comparison.device.renderer}},
       .sections = {},
-      .footer = fmt::format("{}. Costs hold for this device and run; compare them with each other alone.",
-                            studio::version())};
+      .footer = fmt::format("{}, commit {}. Costs hold for this device and run; compare them with each other alone.",
+                            studio::version(), bench::commit())};
   for (const ComparedScene& scene : comparison.scenes) {
     Html body = table_of(scene, comparison, options.frames.has_value());
     body.add(report::heading("Cost against error"));
@@ -196,8 +221,7 @@ report::Page comparison_page(const Comparison& comparison, const CompareOptions&
     body.add(pictures_of(scene, comparison, options.size));
     page.sections.push_back({.title = scene_name(scene.path), .body = std::move(body)});
   }
-  page.sections.push_back(
-      {.title = "Command", .body = report::code_block(studio::command_text("penumbra compare", arguments))});
+  page.sections.push_back({.title = "Command", .body = command_section(comparison, arguments)});
   page.sections.push_back({.title = "Parameters", .body = params_section(comparison)});
   return page;
 }

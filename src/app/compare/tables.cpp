@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 #include <limits>
 #include <vector>
 
+#include "bench/machine.h"
+#include "io/text.h"
 #include "studio/command_line.h"
 #include "studio/text.h"
 
@@ -38,6 +41,7 @@ std::vector<NamedFigure> figures_of(const ComparedFigures& f) {
           {"ssim", f.ssim},
           {"flip", f.flip},
           {"penumbra_width_error", f.width_error},
+          {"penumbra_width_lost", f.width_lost},
           {"flicker", sequence_value(f, &metrics::SequenceFigures::flicker)},
           {"ghost", sequence_value(f, &metrics::SequenceFigures::ghost)}};
 }
@@ -49,14 +53,6 @@ std::vector<NamedFigure> costs_of(const ShadowCost& cost) {
 std::string csv_number(double value) {
   if (std::isnan(value)) return "";
   return std::isinf(value) ? (value > 0 ? "inf" : "-inf") : fmt::format("{:.6g}", value);
-}
-
-// RFC 4180.
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of("\",\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
 }
 
 // Six digits: more say nothing.
@@ -76,6 +72,8 @@ std::vector<std::string> terminal_row(const ComparedTechnique& technique) {
           fixed(figures.psnr_penumbra, 2),
           std::isnan(figures.bias) ? "-" : fmt::format("{:+.4f}", figures.bias),
           fixed(figures.flip, 4),
+          fixed(100 * figures.width_error, 1),
+          fixed(100 * figures.width_lost, 1),
           fixed(sequence_value(figures, &metrics::SequenceFigures::flicker), 4)};
 }
 
@@ -112,10 +110,34 @@ Json json_of(const ComparedTechnique& technique) {
           {"cost", cost}};
 }
 
+Json json_of(const glm::vec3& v) {
+  Json list = Json::array();
+  for (int i = 0; i < 3; ++i) list.push_back(io::to_json(ParamValue(v[i])));
+  return list;
+}
+
+Json camera_of(const ComparedScene& scene) {
+  const render::Camera& camera = scene.camera;
+  Json json = {{"eye", json_of(render::position_of(camera))}, {"target", json_of(scene.target)}};
+  if (camera.orthographic)
+    json["half_height"] = io::to_json(ParamValue(camera.half_height));
+  else
+    json["fov"] = rounded(glm::degrees(static_cast<double>(camera.fov_y)));
+  return json;
+}
+
+Json sun_of(const render::Sun& sun) {
+  const Angles angles = angles_of(sun.to_light);
+  return {{"to_light", json_of(sun.to_light)},
+          {"azimuth", rounded(angles.azimuth)},
+          {"elevation", rounded(angles.elevation)}};
+}
+
 }  // namespace
 
 std::string terminal_table(const ComparedScene& scene) {
-  std::vector<std::vector<std::string>> rows{{"technique", "cost ms", "memory", "PSNR dB", "bias", "FLIP", "flicker"}};
+  std::vector<std::vector<std::string>> rows{
+      {"technique", "cost ms", "memory", "PSNR dB", "bias", "FLIP", "width %", "lost %", "flicker"}};
   for (const ComparedTechnique& technique : scene.techniques) rows.push_back(terminal_row(technique));
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const auto& row : rows) {
@@ -138,7 +160,7 @@ std::string csv_table(const Comparison& comparison) {
   text += "\n";
   for (const ComparedScene& scene : comparison.scenes) {
     for (const ComparedTechnique& technique : scene.techniques) {
-      text += fmt::format("{},{},{},{}", csv_text(scene.path), csv_text(technique.label),
+      text += fmt::format("{},{},{},{}", io::csv_field(scene.path), io::csv_field(technique.label),
                           comparison.reference_params.get_word("technique"), technique.target_bytes);
       for (const NamedFigure& figure : figures_of(technique.figures)) text += "," + csv_number(figure.value);
       for (const NamedFigure& figure : costs_of(technique.cost)) text += "," + csv_number(figure.value);
@@ -148,17 +170,21 @@ std::string csv_table(const Comparison& comparison) {
   return text;
 }
 
-Json json_of(const Comparison& comparison, const CompareOptions& options) {
+Json json_of(const Comparison& comparison, const CompareOptions& options, const studio::Arguments& arguments) {
   Json scenes = Json::array();
   for (const ComparedScene& scene : comparison.scenes) {
     Json techniques = Json::array();
     for (const ComparedTechnique& technique : scene.techniques) techniques.push_back(json_of(technique));
     scenes.push_back({{"scene", scene.path},
+                      {"camera", camera_of(scene)},
+                      {"sun", sun_of(scene.sun)},
                       {"pixels", scene.pixels},
                       {"receivers", scene.receivers},
                       {"techniques", std::move(techniques)}});
   }
   return {{"version", studio::version()},
+          {"commit", bench::commit()},
+          {"command", studio::command_text("penumbra compare", arguments)},
           {"reference",
            {{"technique", comparison.reference_params.get_word("technique")},
             {"changed_params", changed_params(comparison.reference_params)}}},

@@ -4,14 +4,16 @@
 
 #include "app/compare/comparison.h"
 #include "io/report.h"
+#include "studio/command_line.h"
 
 namespace penumbra::app {
 
 // A comparison as text for a terminal, comma-separated values and JSON. They have the same figures; JSON has all of
-// them and the parameters. Only the columns cost_* differ from run to run. Infinite figures (nothing differs) are
-// "inf", also in JSON, as text; figures that could not be measured are empty in CSV and null in JSON.
+// them, the parameters, and what it takes to draw the same again. Only the columns cost_* differ from run to run.
+// Infinite figures (nothing differs) are "inf", also in JSON, as text; figures that could not be measured are empty in
+// CSV and null in JSON.
 std::string terminal_table(const ComparedScene& scene);
 std::string csv_table(const Comparison& comparison);
-io::Json json_of(const Comparison& comparison, const CompareOptions& options);
+io::Json json_of(const Comparison& comparison, const CompareOptions& options, const studio::Arguments& arguments);
 
 }  // namespace penumbra::app
