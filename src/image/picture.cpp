@@ -6,10 +6,10 @@
 
 #include "core/error.h"
 #include "core/names.h"
+#include "core/read_file.h"
 #include "image/memory_input.h"
 #include "image/precheck.h"
 #include "io/output_file.h"
-#include "scene/gltf/container.h"
 
 namespace penumbra::image {
 
@@ -122,7 +122,7 @@ Picture read(std::span<const std::byte> bytes, const std::string& name, const st
 
 Picture read_picture(const std::filesystem::path& path, const std::string& layer, std::size_t max_pixels) {
   try {
-    return read(scene::gltf::read_file(path, most_bytes), path.string(), layer, max_pixels);
+    return read(read_file(path, most_bytes), path.string(), layer, max_pixels);
   } catch (const Error& error) {
     fail("cannot read {}: {}", io::quoted(path), error.what());
   }

@@ -20,9 +20,6 @@ struct Container {
   bool has_binary = false;
 };
 
-// The whole of a regular file of at most `limit` bytes.
-std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t limit);
-
 // Tells GLB from JSON by content. Lengths, nesting and number of values are checked before anything is allocated.
 Container read_container(const std::filesystem::path& path, const ReadLimits& limits);
 

@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "core/error.h"
-#include "scene/gltf/container.h"
+#include "core/read_file.h"
 
 namespace penumbra::scene::gltf {
 namespace {
