@@ -1,9 +1,13 @@
-// What the CPU does before and beside a frame: reading glTF, baking noise, building the tracer's tree, metrics.
+// What the CPU does before and beside a frame: reading glTF, baking noise, building the tracer's tree, tracing,
+// metrics.
 //   bench_cpu --benchmark_filter=read_gltf
 
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
@@ -11,6 +15,7 @@
 #include "metrics/error_figures.h"
 #include "metrics/flip.h"
 #include "metrics/ssim.h"
+#include "render/setup.h"
 #include "scene/gltf.h"
 #include "scene/pose.h"
 #include "scene/posed_geometry.h"
@@ -54,6 +59,58 @@ void build_tree(benchmark::State& state, const char* name) {
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(truth::Tracer(scene, geometry));
 }
 BENCHMARK_CAPTURE(build_tree, courtyard, "courtyard")->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// Points on a triangle, as many as its area asks for: `wanted` is what is left over of a point from triangle to
+// triangle.
+void add_receivers(std::vector<truth::Receiver>& receivers, const std::array<glm::dvec3, 3>& corners, double density,
+                   double& wanted) {
+  const glm::dvec3 u = corners[1] - corners[0], v = corners[2] - corners[0], cross = glm::cross(u, v);
+  const double twice_area = glm::length(cross), reach = glm::length(u) + glm::length(v);
+  for (wanted += density * twice_area / 2; wanted >= 1; wanted -= 1) {
+    // Martin Roberts's sequence R2, folded into the triangle.
+    const auto index = static_cast<double>(receivers.size());
+    glm::dvec2 at = glm::fract(index * glm::dvec2(0.7548776662466927, 0.5698402909980532));
+    if (at.x + at.y > 1) at = 1.0 - at;
+    receivers.push_back(
+        {.position = corners[0] + at.x * u + at.y * v, .normal = cross / twice_area, .there = true, .reach = reach});
+  }
+}
+
+// About `count` of them all over the scene, triangle after triangle.
+std::vector<truth::Receiver> receivers_on(const scene::PosedGeometry& geometry, double count) {
+  const auto each_triangle = [&geometry](const auto& take) {
+    for (const scene::PosedSurface& surface : geometry.surfaces) {
+      const std::vector<std::uint32_t>& indices = surface.primitive->indices;
+      for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        std::array<glm::dvec3, 3> corners;
+        for (std::size_t k = 0; k < 3; ++k)
+          corners[k] = glm::dvec3(surface.world * glm::vec4(surface.positions[indices[i + k]], 1));
+        take(corners);
+      }
+    }
+  };
+  double area = 0, wanted = 0;
+  each_triangle([&area](const auto& c) { area += glm::length(glm::cross(c[1] - c[0], c[2] - c[0])) / 2; });
+  std::vector<truth::Receiver> receivers;
+  each_triangle([&](const auto& corners) { add_receivers(receivers, corners, count / area, wanted); });
+  return receivers;
+}
+
+// All cores; the counter is rays a second.
+void trace_rays(benchmark::State& state, const char* name) {
+  const scene::Scene scene = scene::read_gltf(path_of(name), image::image_decoder());
+  const scene::PosedGeometry geometry = at_rest(scene);
+  const truth::Tracer tracer(scene, geometry);
+  constexpr int row = 256;
+  std::vector<truth::Receiver> receivers = receivers_on(geometry, row * 144);
+  receivers.resize(receivers.size() / row * row);
+  const truth::Sun sun{.to_light = render::choose_setup(scene, scene::rest_pose(scene)).sun.to_light};
+  double rays = 0;
+  for ([[maybe_unused]] auto _ : state)
+    rays += static_cast<double>(tracer.trace(receivers, row, sun, {.samples = 64}).rays);
+  state.counters["rays"] = benchmark::Counter(rays, benchmark::Counter::kIsRate);
+}
+BENCHMARK_CAPTURE(trace_rays, courtyard, "courtyard")->Unit(benchmark::kMillisecond)->UseRealTime();
 
 constexpr int width = 640, height = 360;
 

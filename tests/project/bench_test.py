@@ -23,8 +23,9 @@ class Bench(TestCase):
             raise unittest.SkipTest("built without Google Benchmark")
         text = self.bench("cpu", "--benchmark_format=json", "--benchmark_min_time=0.01",
                           "--benchmark_filter=courtyard|metric|noise/(void_and_cluster/32|blue/16)")
-        parts = {each["name"].split("/")[0] for each in json.loads(text)["benchmarks"]}
-        self.assertEqual(parts, {"read_gltf", "bake_noise", "build_tree", "metric"})
+        parts = {each["name"].split("/")[0]: each for each in json.loads(text)["benchmarks"]}
+        self.assertEqual(set(parts), {"read_gltf", "bake_noise", "build_tree", "trace_rays", "metric"})
+        self.assertGreater(parts["trace_rays"]["rays"], 0)
 
 
 if __name__ == "__main__":
