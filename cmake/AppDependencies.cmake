@@ -33,3 +33,11 @@ penumbra_dependency(openimageio HEADER OpenImageIO/imageio.h LIBRARIES OpenImage
 penumbra_dependency(toml HEADER toml++/toml.h)
 penumbra_dependency(json HEADER nlohmann/json.hpp)
 penumbra_dependency(cli11 HEADER CLI/CLI.hpp)
+
+# The viewer. Debian's ImGui has its GLFW and OpenGL 3 backends built in.
+if(PENUMBRA_VIEWER)
+  penumbra_dependency(glfw HEADER GLFW/glfw3.h LIBRARIES glfw)
+  penumbra_dependency(imgui HEADER imgui/imgui.h LIBRARIES imgui libstb.a)
+  target_include_directories(penumbra::imgui SYSTEM INTERFACE "${PENUMBRA_imgui_INCLUDE}/imgui")
+  target_link_libraries(penumbra::imgui INTERFACE penumbra::glfw)
+endif()

@@ -1,4 +1,5 @@
 # Run by penumbra_embed_commit(): writes the commit that ROOT is at to OUTPUT, where OUTPUT says another.
+cmake_policy(VERSION 3.25)
 set(commit "unknown")
 if(GIT)
   execute_process(COMMAND "${GIT}" -C "${ROOT}" rev-parse --short=12 HEAD

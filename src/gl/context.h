@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+struct GLFWwindow;
+
 namespace penumbra::gl {
 
 using GetProcAddress = void* (*)(const char* name);
@@ -45,6 +47,10 @@ class Context {
 std::unique_ptr<Context> make_egl_context(const ContextOptions& options = {});
 std::unique_ptr<Context> make_osmesa_context(const ContextOptions& options = {});  // loads libOSMesa at run time
 std::unique_ptr<Context> make_window_context(const ContextOptions& options = {});  // GLFW
+
+// The window of a context that make_window_context() made, for the caller to read events from and to swap: null for
+// other backends. It ends with its context.
+GLFWwindow* window_of(const Context& context);
 
 // "auto" tries EGL, then OSMesa; else "egl", "osmesa" or "window". Throws Error listing each backend tried and why
 // it failed.

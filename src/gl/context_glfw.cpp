@@ -68,6 +68,7 @@ class WindowContext final : public ContextBase {
 
   Backend backend() const override { return Backend::window; }
   GetProcAddress get_proc_address() const override { return glfw_proc_address; }
+  GLFWwindow* window() const { return window_; }
 
  private:
   void bind() override {
@@ -86,6 +87,10 @@ std::unique_ptr<Context> make_window_context(const ContextOptions& options) {
   auto context = std::make_unique<WindowContext>(options);
   context->make_current();
   return context;
+}
+
+GLFWwindow* window_of(const Context& context) {
+  return context.backend() == Backend::window ? static_cast<const WindowContext&>(context).window() : nullptr;
 }
 
 }  // namespace penumbra::gl

@@ -122,6 +122,12 @@ const Sampler& Device::sampler(const SamplerDesc& desc) {
   return sampler;
 }
 
+std::vector<Device::NamedTarget> Device::targets() const {
+  std::vector<NamedTarget> all;
+  for (const auto& [name, texture] : impl_->targets) all.push_back({name, &texture});
+  return all;
+}
+
 std::size_t Device::target_bytes(std::string_view prefix) const {
   std::size_t bytes = 0;
   for (const auto& [name, texture] : impl_->targets) {

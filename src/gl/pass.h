@@ -43,6 +43,12 @@ class Device {
   const Sampler& sampler(const SamplerDesc& desc);
   // Gives back the targets and buffers whose name starts with `prefix`; references to them end.
   void drop(std::string_view prefix);
+  // All of them, in the order of their names; the pointers end as the references do.
+  struct NamedTarget {
+    std::string_view name;
+    const Texture* texture = nullptr;
+  };
+  std::vector<NamedTarget> targets() const;
   // Bytes of all targets whose name starts with `prefix`.
   std::size_t target_bytes(std::string_view prefix = "") const;
 

@@ -72,18 +72,47 @@ void set_tight_packing() {
   }
 }
 
-template <class Value>
-std::vector<Value> read_pixels(const Texture& texture, GLenum format, GLenum type, int channels, int level, int layer) {
+// Of a level and layer.
+struct Block {
+  int x = 0, y = 0, width = 1, height = 1;
+  int level = 0, layer = 0;
+};
+
+Block whole(const Texture& texture, int level, int layer) {
   const TextureDesc& desc = texture.desc();
   assert(level >= 0 && level < desc.levels && layer >= 0 && layer < desc.layers);
-  const int width = level_size(desc.width, level);
-  const int height = level_size(desc.height, level);
-  std::vector<Value> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+  return {0, 0, level_size(desc.width, level), level_size(desc.height, level), level, layer};
+}
+
+Block texel([[maybe_unused]] const Texture& texture, int x, int y) {
+  assert(x >= 0 && x < texture.width() && y >= 0 && y < texture.height());
+  return {.x = x, .y = y};
+}
+
+template <class Value>
+std::vector<Value> read_pixels(const Texture& texture, GLenum format, GLenum type, int channels, const Block& block) {
+  std::vector<Value> pixels(static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height) *
                             static_cast<std::size_t>(channels));
   set_tight_packing();
-  glGetTextureSubImage(texture.id(), level, 0, 0, layer, width, height, 1, format, type,
-                       static_cast<GLsizei>(pixels.size() * sizeof(Value)), pixels.data());
+  glGetTextureSubImage(texture.id(), block.level, block.x, block.y, block.layer, block.width, block.height, 1, format,
+                       type, static_cast<GLsizei>(pixels.size() * sizeof(Value)), pixels.data());
   return pixels;
+}
+
+std::vector<float> read_floats(const Texture& texture, int channels, const Block& block) {
+  static constexpr std::array<GLenum, 4> formats{GL_RED, GL_RG, GL_RGB, GL_RGBA};
+  const ChannelKind kind = format_info(texture.desc().format).kind;
+  const bool is_depth = kind == ChannelKind::depth || kind == ChannelKind::depth_stencil;
+  assert(kind == ChannelKind::real || (is_depth && channels == 1));
+  const GLenum format = is_depth ? GL_DEPTH_COMPONENT : formats.at(static_cast<std::size_t>(channels - 1));
+  return read_pixels<float>(texture, format, GL_FLOAT, channels, block);
+}
+
+std::vector<unsigned> read_uints(const Texture& texture, int channels, const Block& block) {
+  static constexpr std::array<GLenum, 4> formats{GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};
+  assert(format_info(texture.desc().format).kind == ChannelKind::unsigned_integer);
+  return read_pixels<unsigned>(texture, formats.at(static_cast<std::size_t>(channels - 1)), GL_UNSIGNED_INT, channels,
+                               block);
 }
 
 }  // namespace
@@ -159,19 +188,19 @@ Sampler::Sampler(std::string_view label, const SamplerDesc& desc) {
 void Sampler::bind(GLuint unit) const { glBindSampler(unit, id()); }
 
 std::vector<float> read_floats(const Texture& texture, int channels, int level, int layer) {
-  static constexpr std::array<GLenum, 4> formats{GL_RED, GL_RG, GL_RGB, GL_RGBA};
-  const ChannelKind kind = format_info(texture.desc().format).kind;
-  const bool is_depth = kind == ChannelKind::depth || kind == ChannelKind::depth_stencil;
-  assert(kind == ChannelKind::real || (is_depth && channels == 1));
-  const GLenum format = is_depth ? GL_DEPTH_COMPONENT : formats.at(static_cast<std::size_t>(channels - 1));
-  return read_pixels<float>(texture, format, GL_FLOAT, channels, level, layer);
+  return read_floats(texture, channels, whole(texture, level, layer));
 }
 
 std::vector<unsigned> read_uints(const Texture& texture, int channels, int level, int layer) {
-  static constexpr std::array<GLenum, 4> formats{GL_RED_INTEGER, GL_RG_INTEGER, GL_RGB_INTEGER, GL_RGBA_INTEGER};
-  assert(format_info(texture.desc().format).kind == ChannelKind::unsigned_integer);
-  return read_pixels<unsigned>(texture, formats.at(static_cast<std::size_t>(channels - 1)), GL_UNSIGNED_INT, channels,
-                               level, layer);
+  return read_uints(texture, channels, whole(texture, level, layer));
+}
+
+std::vector<float> read_float_texel(const Texture& texture, int channels, int x, int y) {
+  return read_floats(texture, channels, texel(texture, x, y));
+}
+
+std::vector<unsigned> read_uint_texel(const Texture& texture, int channels, int x, int y) {
+  return read_uints(texture, channels, texel(texture, x, y));
 }
 
 }  // namespace penumbra::gl

@@ -81,5 +81,8 @@ class Sampler {
 // not for integer formats; read_uints is for unsigned ones. Waits for the GPU.
 std::vector<float> read_floats(const Texture& texture, int channels, int level = 0, int layer = 0);
 std::vector<unsigned> read_uints(const Texture& texture, int channels, int level = 0, int layer = 0);
+// The same of one texel, of level and layer 0; y counts from the bottom.
+std::vector<float> read_float_texel(const Texture& texture, int channels, int x, int y);
+std::vector<unsigned> read_uint_texel(const Texture& texture, int channels, int x, int y);
 
 }  // namespace penumbra::gl

@@ -43,8 +43,25 @@ std::vector<Timers::Row> Timers::rows() {
   if (rows_.empty()) return {};
   std::vector<Row> result(rows_.begin() + 1, rows_.end());
   result.push_back(rows_[frame_row]);
-  for (Row& row : result) row.milliseconds.resize(frame_, 0.0);
+  for (Row& row : result) row.milliseconds.resize(frame_ - first_kept_, 0.0);
   return result;
+}
+
+Timers::Taken Timers::take() {
+  collect(/*wait=*/false);
+  const std::size_t end = pending_.empty() ? frame_ : pending_.front().frame;
+  const auto count = static_cast<std::ptrdiff_t>(end - first_kept_);
+  Taken taken{.first = first_kept_, .rows = {}};
+  if (count == 0) return taken;
+  for (Row& row : rows_) {
+    if (row.milliseconds.size() < end - first_kept_) row.milliseconds.resize(end - first_kept_, 0.0);
+    const auto begin = row.milliseconds.begin();
+    taken.rows.push_back({row.name, {begin, begin + count}});
+    row.milliseconds.erase(begin, begin + count);
+  }
+  std::rotate(taken.rows.begin(), taken.rows.begin() + 1, taken.rows.end());
+  first_kept_ = end;
+  return taken;
 }
 
 Timers::Open Timers::start(std::size_t row) {
@@ -90,14 +107,15 @@ Handle<delete_query> Timers::timestamp() {
 
 void Timers::record(std::size_t row, std::size_t frame, double milliseconds) {
   std::vector<double>& times = rows_[row].milliseconds;
-  if (times.size() <= frame) times.resize(frame + 1, 0.0);
-  times[frame] += milliseconds;
+  const std::size_t index = frame - first_kept_;
+  if (times.size() <= index) times.resize(index + 1, 0.0);
+  times[index] += milliseconds;
 }
 
 void Timers::drop_open_frame() {
   stack_.clear();
   std::erase_if(pending_, [&](const Pending& pending) { return pending.frame == frame_; });
-  for (Row& row : rows_) row.milliseconds.resize(std::min(row.milliseconds.size(), frame_));
+  for (Row& row : rows_) row.milliseconds.resize(std::min(row.milliseconds.size(), frame_ - first_kept_));
 }
 
 void Timers::collect(bool wait) {

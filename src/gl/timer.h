@@ -46,6 +46,15 @@ class Timers {
   // Waits for what is outstanding. Rows in the order of their first appearance; the last row is "frame".
   std::vector<Row> rows();
 
+  // The frames whose times are all in, without waiting, for programs that run on and on: rows() knows them no more.
+  struct Taken {
+    std::size_t first = 0;  // number of the frame that each row begins with
+    std::vector<Row> rows;  // all of one length
+  };
+  Taken take();
+  // The number of the next frame to begin, from 0.
+  std::size_t next_frame() const { return frame_; }
+
  private:
   using Clock = std::chrono::steady_clock;
   struct Open {
@@ -71,6 +80,7 @@ class Timers {
   Mode mode_;
   bool in_frame_ = false;
   std::size_t frame_ = 0;
+  std::size_t first_kept_ = 0;  // of the frames in rows_
   Open open_frame_;
   std::vector<Open> stack_;
   std::deque<Pending> pending_;

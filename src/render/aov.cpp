@@ -1,4 +1,5 @@
 #include <cmath>
+#include <optional>
 
 #include "core/names.h"
 #include "lib/octahedral.glsl"
@@ -18,16 +19,37 @@ struct Picture {
   const float* operator[](std::size_t pixel) const { return &values[pixel * static_cast<std::size_t>(channels)]; }
 };
 
-Picture read(const gl::Texture& texture, int channels, int layer = 0) {
-  const std::vector<float> bottom_up = gl::read_floats(texture, channels, 0, layer);
-  Picture picture{channels, {}};
-  picture.values.reserve(bottom_up.size());
-  const auto row = static_cast<std::size_t>(texture.width()) * static_cast<std::size_t>(channels);
-  for (auto y = static_cast<std::size_t>(texture.height()); y-- > 0;) {
-    const auto begin = bottom_up.begin() + static_cast<std::ptrdiff_t>(y * row);
-    picture.values.insert(picture.values.end(), begin, begin + static_cast<std::ptrdiff_t>(row));
+// A frame, or one pixel of it.
+struct Source {
+  const FrameParts& frame;
+  std::optional<glm::ivec2> pixel = {};  // from the upper left
+
+  Picture read(const gl::Texture& texture, int channels) const;
+  Picture read_bits(const gl::Texture& texture) const;
+};
+
+template <class Value>
+std::vector<float> rows_top_down(const std::vector<Value>& bottom_up, std::size_t row) {
+  std::vector<float> rows;
+  rows.reserve(bottom_up.size());
+  for (std::size_t end = bottom_up.size(); end > 0; end -= row) {
+    const auto begin = bottom_up.begin() + static_cast<std::ptrdiff_t>(end - row);
+    rows.insert(rows.end(), begin, begin + static_cast<std::ptrdiff_t>(row));
   }
-  return picture;
+  return rows;
+}
+
+Picture Source::read(const gl::Texture& texture, int channels) const {
+  if (pixel) return {channels, gl::read_float_texel(texture, channels, pixel->x, texture.height() - 1 - pixel->y)};
+  const auto row = static_cast<std::size_t>(texture.width()) * static_cast<std::size_t>(channels);
+  return {channels, rows_top_down(gl::read_floats(texture, channels), row)};
+}
+
+// Small whole numbers, which floats hold exactly.
+Picture Source::read_bits(const gl::Texture& texture) const {
+  const std::vector<unsigned> bits =
+      pixel ? gl::read_uint_texel(texture, 1, pixel->x, texture.height() - 1 - pixel->y) : gl::read_uints(texture, 1);
+  return {1, rows_top_down(bits, pixel ? 1 : static_cast<std::size_t>(texture.width()))};
 }
 
 // Each pixel of `picture` by a function that appends its values.
@@ -42,98 +64,94 @@ bool is_sky(const Picture& depth, std::size_t pixel) { return depth.values[pixel
 
 void append(std::vector<float>& values, const glm::vec3& v) { values.insert(values.end(), {v.x, v.y, v.z}); }
 
-std::vector<float> color(const FrameParts& frame) {
+std::vector<float> color(const Source& from) {
   float exposure = 1.0f;
-  gl::glGetNamedBufferSubData(frame.exposure->id(), 0, sizeof(exposure), &exposure);
-  return each(read(*frame.lit, 3), [&](std::size_t, const float* p, std::vector<float>& out) {
+  gl::glGetNamedBufferSubData(from.frame.exposure->id(), 0, sizeof(exposure), &exposure);
+  return each(from.read(*from.frame.lit, 3), [&](std::size_t, const float* p, std::vector<float>& out) {
     append(out, exposure * glm::vec3(p[0], p[1], p[2]));
   });
 }
 
-std::vector<float> depth(const FrameParts& frame) {
-  const Camera& camera = frame.camera;
-  return each(read(*frame.gbuffer.depth, 1), [&](std::size_t, const float* p, std::vector<float>& out) {
+std::vector<float> depth(const Source& from) {
+  const Camera& camera = from.frame.camera;
+  return each(from.read(*from.frame.gbuffer.depth, 1), [&](std::size_t, const float* p, std::vector<float>& out) {
     const float metres = camera.orthographic ? camera.far - p[0] * (camera.far - camera.near) : camera.near / p[0];
     out.push_back(p[0] == 0.0f ? 0.0f : metres);
   });
 }
 
-std::vector<float> normals(const FrameParts& frame, const gl::Texture& texture, float scale, float offset) {
-  const Picture sky = read(*frame.gbuffer.depth, 1);
-  return each(read(texture, 2), [&](std::size_t i, const float* p, std::vector<float>& out) {
+std::vector<float> normals(const Source& from, const gl::Texture& texture, float scale, float offset) {
+  const Picture sky = from.read(*from.frame.gbuffer.depth, 1);
+  return each(from.read(texture, 2), [&](std::size_t i, const float* p, std::vector<float>& out) {
     const glm::vec3 normal = glsl::octahedral_decode({p[0] * scale + offset, p[1] * scale + offset});
     append(out, is_sky(sky, i) ? glm::vec3(0.0f) : normal);
   });
 }
 
-std::vector<float> shading_normal(const FrameParts& frame) {
-  return normals(frame, *frame.gbuffer.normal, 2.0f, -1.0f);
-}
-std::vector<float> geometric_normal(const FrameParts& frame) {
-  return normals(frame, *frame.gbuffer.geometric_normal, 1.0f, 0.0f);
+std::vector<float> shading_normal(const Source& from) { return normals(from, *from.frame.gbuffer.normal, 2.0f, -1.0f); }
+std::vector<float> geometric_normal(const Source& from) {
+  return normals(from, *from.frame.gbuffer.geometric_normal, 1.0f, 0.0f);
 }
 
-std::vector<float> albedo(const FrameParts& frame) {
-  return each(read(*frame.gbuffer.albedo, 3), [](std::size_t, const float* p, std::vector<float>& out) {
+std::vector<float> albedo(const Source& from) {
+  return each(from.read(*from.frame.gbuffer.albedo, 3), [](std::size_t, const float* p, std::vector<float>& out) {
     append(out, glm::vec3(p[0] * p[0], p[1] * p[1], p[2] * p[2]));
   });
 }
 
-std::vector<float> material(const FrameParts& frame) { return read(*frame.gbuffer.material, 3).values; }
-std::vector<float> emission(const FrameParts& frame) { return read(*frame.gbuffer.emission, 3).values; }
+std::vector<float> material(const Source& from) { return from.read(*from.frame.gbuffer.material, 3).values; }
+std::vector<float> emission(const Source& from) { return from.read(*from.frame.gbuffer.emission, 3).values; }
 
-std::vector<float> motion(const FrameParts& frame) {
-  const glm::vec2 half(frame.view.viewport.x * 0.5f, frame.view.viewport.y * 0.5f);
-  return each(read(*frame.gbuffer.motion, 2), [&](std::size_t, const float* p, std::vector<float>& out) {
+std::vector<float> motion(const Source& from) {
+  const glm::vec2 half(from.frame.view.viewport.x * 0.5f, from.frame.view.viewport.y * 0.5f);
+  return each(from.read(*from.frame.gbuffer.motion, 2), [&](std::size_t, const float* p, std::vector<float>& out) {
     out.insert(out.end(), {p[0] * half.x, -p[1] * half.y});
   });
 }
 
 template <class Convert>
-std::vector<float> of_mask(const FrameParts& frame, Convert convert) {
-  const Picture sky = read(*frame.gbuffer.depth, 1);
-  return each(read(*frame.mask.texture, 4), [&](std::size_t i, const float* p, std::vector<float>& out) {
+std::vector<float> of_mask(const Source& from, Convert convert) {
+  const Picture sky = from.read(*from.frame.gbuffer.depth, 1);
+  return each(from.read(*from.frame.mask.texture, 4), [&](std::size_t i, const float* p, std::vector<float>& out) {
     out.push_back(convert(p, is_sky(sky, i)));
   });
 }
 
-std::vector<float> visibility(const FrameParts& frame) {
-  return of_mask(frame, [](const float* p, bool) { return p[0]; });
+std::vector<float> visibility(const Source& from) {
+  return of_mask(from, [](const float* p, bool) { return p[0]; });
 }
-std::vector<float> penumbra_width(const FrameParts& frame) {
-  return of_mask(frame, [](const float* p, bool) { return 2.0f * p[1]; });
+std::vector<float> penumbra_width(const Source& from) {
+  return of_mask(from, [](const float* p, bool) { return 2.0f * p[1]; });
 }
-std::vector<float> blocker(const FrameParts& frame) {
-  return of_mask(frame, [](const float* p, bool) { return p[2]; });
+std::vector<float> blocker(const Source& from) {
+  return of_mask(from, [](const float* p, bool) { return p[2]; });
 }
-std::vector<float> cascade(const FrameParts& frame) {
-  return of_mask(frame, [](const float* p, bool sky) { return sky ? -1.0f : std::floor(p[3]); });
+std::vector<float> cascade(const Source& from) {
+  return of_mask(from, [](const float* p, bool sky) { return sky ? -1.0f : std::floor(p[3]); });
 }
-std::vector<float> under_texel(const FrameParts& frame) {
-  return of_mask(frame, [](const float* p, bool) { return p[3] - std::floor(p[3]) >= 0.25f ? 1.0f : 0.0f; });
+std::vector<float> under_texel(const Source& from) {
+  return of_mask(from, [](const float* p, bool) { return p[3] - std::floor(p[3]) >= 0.25f ? 1.0f : 0.0f; });
 }
 
 // Of the sun, whose light is the frame's first.
-std::vector<float> history(const FrameParts& frame) {
-  const Picture sky = read(*frame.gbuffer.depth, 1);
-  const gl::Texture* notes = frame.mask.lights.front().notes;
+std::vector<float> history(const Source& from) {
+  const Picture sky = from.read(*from.frame.gbuffer.depth, 1);
+  const gl::Texture* notes = from.frame.mask.lights.front().notes;
   if (notes == nullptr) {
     return each(sky, [&](std::size_t i, const float*, std::vector<float>& out) {
       out.push_back(is_sky(sky, i) ? -1.0f : static_cast<float>(HISTORY_NONE));
     });
   }
-  const std::vector<unsigned> bits = gl::read_uints(*notes, 1);
-  const auto width = static_cast<std::size_t>(notes->width());
-  const auto height = static_cast<std::size_t>(notes->height());
+  const Picture bits = from.read_bits(*notes);
   return each(sky, [&](std::size_t i, const float*, std::vector<float>& out) {
-    const std::size_t flipped = (height - 1 - i / width) * width + i % width;
-    out.push_back(is_sky(sky, i) ? -1.0f : static_cast<float>(glsl::notes_refusal(bits[flipped])));
+    const auto note = static_cast<unsigned>(bits.values[i]);
+    out.push_back(is_sky(sky, i) ? -1.0f : static_cast<float>(glsl::notes_refusal(note)));
   });
 }
 
 struct Row {
   Aov aov;
-  std::vector<float> (*read)(const FrameParts&);
+  std::vector<float> (*read)(const Source&);
 };
 
 const std::vector<Row>& rows() {
@@ -181,10 +199,10 @@ const std::vector<Aov>& aovs() {
   return all;
 }
 
-std::vector<float> read_aov(const FrameParts& frame, std::string_view name) {
+std::vector<float> read_aov(const FrameParts& frame, std::string_view name, std::optional<glm::ivec2> pixel) {
   std::vector<std::string> names;
   for (const Row& row : rows()) {
-    if (row.aov.name == name) return row.read(frame);
+    if (row.aov.name == name) return row.read({frame, pixel});
     names.push_back(row.aov.name);
   }
   fail_unknown("aov", name, names);

@@ -31,6 +31,7 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                                                       .camera = camera,
                                                       .last_camera = last_camera,
                                                       .view = view,
+                                                      .view_id = inputs.view,
                                                       .time = inputs.time,
                                                       .cut = inputs.cut,
                                                       .sun = sun,

@@ -19,7 +19,7 @@ struct FrameParts {
 FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, scene::GpuScene& scene,
                       const FrameInputs& inputs, const ParamSet& params);
 
-// An AOV of a frame, as Renderer::read_aov().
-std::vector<float> read_aov(const FrameParts& frame, std::string_view name);
+// An AOV of a frame, as Renderer::read_aov(); of one pixel, if one is given.
+std::vector<float> read_aov(const FrameParts& frame, std::string_view name, std::optional<glm::ivec2> pixel = {});
 
 }  // namespace penumbra::render

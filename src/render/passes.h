@@ -53,6 +53,7 @@ struct ShadowMaskInputs {
   const Camera& camera;
   const Camera& last_camera;
   const glsl::ViewBlock& view;
+  int view_id = 0;  // as FrameInputs::view
   double time = 0;
   bool cut = false;  // as FrameInputs::cut
   const Sun& sun;

@@ -48,6 +48,11 @@ std::vector<float> Renderer::read_aov(std::string_view name) const {
   return render::read_aov(state_->parts, name);
 }
 
+std::vector<float> Renderer::read_aov(std::string_view name, const glm::ivec2& pixel) const {
+  assert(state_->parts.display != nullptr);
+  return render::read_aov(state_->parts, name, pixel);
+}
+
 std::vector<std::uint8_t> Renderer::read_display() const {
   const gl::Texture& display = *state_->parts.display;
   const std::vector<float> pixels = gl::read_floats(display, 3);

@@ -20,6 +20,7 @@ namespace penumbra::render {
 // own.
 struct FrameInputs {
   int width = 1280, height = 720;
+  int view = 0;  // tells pictures apart that are drawn in turn: each has maps, a mask and a history of its own
   Camera camera, last_camera;
   Sun sun;
   double time = 0, last_time = 0;  // seconds
@@ -66,6 +67,8 @@ class Renderer {
   const Frame& draw(scene::GpuScene& scene, const FrameInputs& inputs, const ParamSet& params);
   // The last frame's AOV as floats, rows top to bottom, aov.channels.size() a pixel. Throws Error for unknown names.
   std::vector<float> read_aov(std::string_view name) const;
+  // The same of one pixel, counted from the upper left.
+  std::vector<float> read_aov(std::string_view name, const glm::ivec2& pixel) const;
   // The last frame as it is shown: RGB, 8 bits, sRGB, rows top to bottom.
   std::vector<std::uint8_t> read_display() const;
 

@@ -151,7 +151,7 @@ void follow(Setup& setup, const scene::Pose& pose) {
 }
 
 Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const SetupRequest& request) {
-  const scene::Bounds bounds = usable(scene::bounds_of(scene, pose));
+  const scene::Bounds bounds = usable(request.bounds ? *request.bounds : scene::bounds_of(scene, pose));
   const std::vector<PlacedCamera> cameras = placed_cameras(scene, pose);
   Setup setup;
   if (const PlacedCamera* chosen = choose_camera(cameras, pose, bounds, request)) {

@@ -19,7 +19,8 @@ struct SetupRequest {
   // bounds over a tenth of the picture's width or height), else one that frames the scene.
   std::string camera;
   GroundChoice ground = GroundChoice::automatic;
-  float aspect = 16.0f / 9.0f;  // width / height of the picture
+  float aspect = 16.0f / 9.0f;               // width / height of the picture
+  std::optional<scene::Bounds> bounds = {};  // to frame; absent: the scene's
 };
 
 struct Setup {

@@ -43,6 +43,7 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
                                               .projection = projection_of(inputs.camera, aspect),
                                               .last_view = inputs.last_camera.view,
                                               .last_projection = projection_of(inputs.last_camera, aspect),
+                                              .id = inputs.view_id,
                                               .cut = inputs.cut},
                                      .depth = view_of(depth),
                                      .normals = view_of(*inputs.gbuffer.geometric_normal),

@@ -11,7 +11,7 @@ namespace penumbra::studio {
 
 namespace {
 
-void aim(render::Setup& setup, const StageOptions& options, const scene::Bounds& bounds) {
+void place_camera(render::Setup& setup, const StageOptions& options, const scene::Bounds& bounds) {
   render::Camera& camera = setup.camera;
   const float fov = options.fov ? glm::radians(static_cast<float>(*options.fov)) : camera.fov_y;
   if (options.eye) {
@@ -23,20 +23,29 @@ void aim(render::Setup& setup, const StageOptions& options, const scene::Bounds&
   }
 }
 
-}  // namespace
-
-Stage set_up(scene::Scene scene, const StageOptions& options) {
-  Stage stage{.scene = std::move(scene), .setup = {}};
-  const scene::Pose pose = scene::pose_at(stage.scene, options.time);
-  const scene::Bounds bounds = scene::bounds_of(stage.scene, pose);
+void choose(Stage& stage, const StageOptions& options, render::GroundChoice ground) {
   const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
-  stage.setup = render::choose_setup(stage.scene, pose, {options.camera.value_or(""), options.ground, aspect});
-  aim(stage.setup, options, bounds);
+  stage.setup = render::choose_setup(
+      stage.scene, scene::pose_at(stage.scene, options.time),
+      {.camera = options.camera.value_or(""), .ground = ground, .aspect = aspect, .bounds = stage.bounds});
+  place_camera(stage.setup, options, stage.bounds);
   if (options.sun) {
     stage.setup.sun.to_light = render::direction_to(options.sun->azimuth, options.sun->elevation);
     stage.setup.sun_node.reset();
   }
-  if (stage.setup.ground) render::add_ground(stage.scene, bounds);
+}
+
+}  // namespace
+
+void aim(Stage& stage, const StageOptions& options) {
+  choose(stage, options, stage.setup.ground ? render::GroundChoice::on : render::GroundChoice::off);
+}
+
+Stage set_up(scene::Scene scene, const StageOptions& options) {
+  Stage stage{.scene = std::move(scene), .bounds = {}, .setup = {}};
+  stage.bounds = scene::bounds_of(stage.scene, scene::pose_at(stage.scene, options.time));
+  choose(stage, options, options.ground);
+  if (stage.setup.ground) render::add_ground(stage.scene, stage.bounds);
   return stage;
 }
 

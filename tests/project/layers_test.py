@@ -30,7 +30,10 @@ LIBRARIES = {
     "glm/": BELOW.keys(),
     "GL/": {"gl"},
     "EGL/": {"gl"},
-    "GLFW/": {"gl"},
+    "GLFW/": {"gl", "app"},
+    "imgui.h": {"app"},
+    "imgui_stdlib.h": {"app"},
+    "backends/imgui": {"app"},
     "tiny_gltf.h": {"scene"},
     "draco/": {"scene"},
     "meshoptimizer.h": {"scene"},
@@ -54,6 +57,7 @@ GLSL_BELOW = {
     "scene": {"shared", "lib", "scene"},
     "render": {"shared", "lib", "scene", "shadow", "render", "generated"},
     "bench": {"shared", "lib", "shadow", "bench", "generated"},
+    "app": {"shared", "lib", "app"},
 }
 # Those whose shaders the C++ of a layer may name.
 GLSL_NAMED = {"gl": GLSL_BELOW["shared"], "shadow": GLSL_BELOW["shadow"], "scene": GLSL_BELOW["scene"]}

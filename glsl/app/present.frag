@@ -1,0 +1,41 @@
+// What the viewer shows: one of two pictures, both, or how they differ.
+const int comparison_a = 0;
+const int comparison_b = 1;
+const int comparison_wipe = 2;
+const int comparison_side_by_side = 3;
+const int comparison_difference = 4;
+
+layout(binding = 0) uniform sampler2D picture_a;
+layout(binding = 1) uniform sampler2D picture_b;
+
+uniform int comparison;
+uniform float wipe;         // where the second picture begins, 0..1 of the window's width
+uniform float gain;         // of the difference
+uniform float zoom;         // window pixels a picture's pixel
+uniform vec2 center;        // the picture's point in the middle of the window, pixels from its lower left
+uniform vec2 picture_size;  // pixels at full resolution, however large the textures are
+uniform vec2 window_size;   // pixels
+
+layout(location = 0) out vec4 display;
+
+vec3 shown(bool second, vec2 at) {
+  return second ? textureLod(picture_b, at, 0.0).rgb : textureLod(picture_a, at, 0.0).rgb;
+}
+
+void main() {
+  vec2 pixel = gl_FragCoord.xy;
+  vec2 middle = window_size * 0.5;
+  bool second = comparison == comparison_b || (comparison == comparison_wipe && pixel.x >= wipe * window_size.x);
+  if (comparison == comparison_side_by_side) {
+    second = pixel.x >= middle.x;
+    middle.x *= second ? 1.5 : 0.5;
+  }
+  vec2 at = (center + (pixel - middle) / zoom) / picture_size;
+  if (any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, vec2(1.0)))) {
+    display = vec4(vec3(0.07), 1.0);
+  } else if (comparison == comparison_difference) {
+    display = vec4(abs(shown(false, at) - shown(true, at)) * gain, 1.0);
+  } else {
+    display = vec4(shown(second, at), 1.0);
+  }
+}

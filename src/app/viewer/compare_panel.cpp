@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <array>
+#include <cmath>
+
+#include "app/viewer/panels.h"
+
+namespace penumbra::app {
+
+namespace {
+
+struct Way {
+  Comparing how;
+  const char* name;
+  const char* help;
+};
+constexpr std::array ways{
+    Way{Comparing::wipe, "wipe", "A to the left of a line, B to the right; drag the line."},
+    Way{Comparing::side_by_side, "side by side", "The same part of both, next to each other."},
+    Way{Comparing::difference, "difference", "|A - B| times the gain."},
+    Way{Comparing::a, "A", "A alone (X goes to B and back)."},
+    Way{Comparing::b, "B", "B alone (X goes to A and back)."},
+};
+
+void choose_b(const Panel& panel) {
+  Comparison& comparison = panel.state.comparison;
+  const shadow::Registry& registry = panel.facts.techniques;
+  const std::string current = comparison.params.get_word("technique");
+  row("B is", "Its technique; all else was A's when B was made.");
+  const bool open = ImGui::BeginCombo("##b", current.c_str(), ImGuiComboFlags_HeightLarge);
+  panel.widgets.mark("b");
+  if (!open) return;
+  for (const std::string& name : registry.names()) {
+    if (ImGui::Selectable(name.c_str(), name == current)) {
+      comparison.params = panel.state.document.params;
+      registry.select(comparison.params, name);
+    }
+    panel.widgets.mark("b=" + name);
+  }
+  ImGui::EndCombo();
+}
+
+void choose_way(const Panel& panel) {
+  Comparison& comparison = panel.state.comparison;
+  row("shown", "How the two share the window.");
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    if (i % 3 != 0) ImGui::SameLine();
+    if (ImGui::RadioButton(ways.at(i).name, comparison.how == ways.at(i).how)) comparison.how = ways.at(i).how;
+    panel.widgets.mark(std::string("compare=") + ways.at(i).name);
+    tooltip(ways.at(i).help);
+  }
+  if (comparison.how != Comparing::difference) return;
+  row("gain", "What a difference is multiplied by.");
+  ImGui::SliderFloat("##gain", &comparison.gain, 1, 64, "%.0f ×",
+                     ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+  panel.widgets.mark("gain");
+}
+
+void figure(const char* name, const std::string& value, const char* help) {
+  row(name, help);
+  ImGui::TextUnformatted(value.c_str());
+}
+
+std::string decibels(double value) {
+  if (std::isnan(value)) return "no penumbra";
+  return std::isinf(value) ? "equal" : fmt::format("{:.2f} dB", value);
+}
+
+void distance(const Panel& panel) {
+  if (panel.facts.tracing) {
+    ImGui::ProgressBar(static_cast<float>(*panel.facts.tracing), {-1, 0},
+                       fmt::format("tracing, {:.0f} %", *panel.facts.tracing * 100).c_str());
+    return;
+  }
+  if (!panel.facts.distance) {
+    ImGui::TextDisabled("Figures stand here once both pictures are at rest.");
+    return;
+  }
+  const metrics::ErrorFigures& figures = panel.facts.distance->figures;
+  begin_rows("distance");
+  figure("PSNR", decibels(figures.psnr), "Of visibility, over all surfaces, B the reference.");
+  figure("PSNR penumbra", decibels(figures.psnr_penumbra), "The same where B is between 0.02 and 0.98.");
+  figure("RMSE", fmt::format("{:.5f}", figures.rmse), "Root mean square error of visibility.");
+  figure("bias", fmt::format("{:+.5f}", figures.bias), "Mean error: above 0 where A is too bright.");
+  figure("largest", fmt::format("{:.4f}", figures.max), "The greatest error of a pixel.");
+  figure("FLIP", fmt::format("{:.5f}", panel.facts.distance->flip), "How different the two look, 0 to 1.");
+  end_rows();
+}
+
+}  // namespace
+
+void compare_panel(const Panel& panel) {
+  State& state = panel.state;
+  if (ImGui::Checkbox("Compare A with B", &state.comparison.on) && state.comparison.params.rows().empty())
+    state.comparison.params = state.document.params;
+  panel.widgets.mark("compare");
+  if (!state.comparison.on) {
+    ImGui::TextWrapped(
+        "B is a picture of its own: another technique, other values, brute force or the ray-traced truth.");
+    return;
+  }
+  begin_rows("b");
+  choose_b(panel);
+  choose_way(panel);
+  end_rows();
+  if (ImGui::Button("B takes A's values")) state.comparison.params = state.document.params;
+  panel.widgets.mark("b takes a");
+  ImGui::SameLine();
+  if (ImGui::Button("Swap A and B")) std::swap(state.comparison.params, state.document.params);
+  panel.widgets.mark("swap");
+  ImGui::Separator();
+  distance(panel);
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/viewer/panels.h"
+#include "studio/text.h"
+
+namespace penumbra::app {
+
+namespace {
+
+void bars(const Costs& costs) {
+  const double frame = costs.frame();
+  ImGui::BeginTable("passes", 2, ImGuiTableFlags_SizingStretchProp);
+  ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch, 0.45f);
+  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch, 0.55f);
+  for (const Costs::Pass& pass : costs.passes()) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(pass.name.c_str());
+    ImGui::TableNextColumn();
+    const auto share = static_cast<float>(frame > 0 ? pass.median / frame : 0);
+    ImGui::ProgressBar(share, {-1, 0}, fmt::format("{:.2f} ms", pass.median).c_str());
+  }
+  ImGui::EndTable();
+  ImGui::Text("frame %.2f ms (median of the last second)", frame);
+}
+
+void plot(const Costs& costs) {
+  const std::vector<float>& history = costs.history();
+  if (history.empty()) return;
+  const float most = *std::max_element(history.begin(), history.end());
+  ImGui::PlotLines("##history", history.data(), static_cast<int>(history.size()), 0,
+                   fmt::format("frames, 0 to {:.1f} ms", most).c_str(), 0, most * 1.1f,
+                   {-1, 4 * ImGui::GetTextLineHeightWithSpacing()});
+}
+
+void memory(const Panel& panel) {
+  begin_rows("memory");
+  const auto amount = [&](const char* name, std::size_t bytes, const char* help) {
+    row(name, help);
+    ImGui::TextUnformatted(studio::bytes_text(static_cast<double>(bytes)).c_str());
+  };
+  amount("shadow targets", panel.facts.gl.target_bytes("shadow "), "Maps, masks, histories of all pictures.");
+  amount("all targets", panel.facts.gl.target_bytes(), "Every texture that passes draw to.");
+  end_rows();
+}
+
+void machine(const Panel& panel) {
+  const gl::DeviceInfo& device = panel.facts.device;
+  ImGui::TextWrapped("%s", device.renderer.c_str());
+  if (device.software)
+    ImGui::TextWrapped(
+        "A software rasteriser: the CPU draws, and times are those of the CPU. While something moves the "
+        "picture is drawn at a part of its size.");
+}
+
+}  // namespace
+
+void cost_panel(const Panel& panel) {
+  State& state = panel.state;
+  machine(panel);
+  ImGui::Checkbox("Wait for the screen (vsync)", &state.vsync);
+  panel.widgets.mark("vsync");
+  const bool both = state.comparison.on;
+  if (ImGui::CollapsingHeader(both ? "Picture A" : "Passes", ImGuiTreeNodeFlags_DefaultOpen)) {
+    bars(panel.facts.costs_a);
+    plot(panel.facts.costs_a);
+  }
+  if (both && ImGui::CollapsingHeader("Picture B", ImGuiTreeNodeFlags_DefaultOpen)) {
+    ImGui::PushID("b");
+    bars(panel.facts.costs_b);
+    ImGui::PopID();
+  }
+  if (ImGui::CollapsingHeader("Memory", ImGuiTreeNodeFlags_DefaultOpen)) memory(panel);
+}
+
+}  // namespace penumbra::app

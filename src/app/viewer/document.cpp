@@ -1,0 +1,106 @@
+#include "app/viewer/document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
+namespace penumbra::app {
+
+namespace {
+
+// The fewest digits that read back the same.
+std::string text_of(const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
+
+// The fewest decimals of degrees that read back the same radians.
+std::string degrees_text(float radians) {
+  for (int decimals = 0;; ++decimals) {
+    const double scale = std::pow(10.0, decimals);
+    const double degrees = std::round(glm::degrees(static_cast<double>(radians)) * scale) / scale;
+    if (decimals == 12 || static_cast<float>(glm::radians(degrees)) == radians) return fmt::format("{}", degrees);
+  }
+}
+
+// One argument, so that a value may begin with a minus sign.
+void add(std::vector<std::string>& arguments, const std::string& option, const std::string& value) {
+  arguments.push_back(option + "=" + value);
+}
+
+void add_frame(std::vector<std::string>& arguments, const Document& document) {
+  if (document.frame == 0) return;
+  add(arguments, "--frames", fmt::format("{}:{}", document.frame, document.frame));
+  const double fps = document.stage.fps;
+  if (fps != studio::StageOptions{}.fps) add(arguments, "--fps", fmt::format("{}", fps));
+}
+
+void add_params(std::vector<std::string>& arguments, const ParamSet& params) {
+  if (!params.is_default("technique")) add(arguments, "--technique", params.get_word("technique"));
+  for (const Param& row : params.rows()) {
+    if (row.name == "technique" || params.is_default(row.name)) continue;
+    add(arguments, "--set", row.name + "=" + to_text(params.value(row.name)));
+  }
+}
+
+}  // namespace
+
+int warmup_of(const Document& document) {
+  constexpr int settled = 31;
+  return document.params.get_bool("history.reuse") ? settled : 0;
+}
+
+std::vector<std::string> camera_arguments(const studio::StageOptions& stage) {
+  std::vector<std::string> arguments;
+  if (stage.camera) add(arguments, "--camera", *stage.camera);
+  if (stage.eye) {
+    add(arguments, "--eye", text_of(*stage.eye));
+    add(arguments, "--target", text_of(*stage.target));
+  }
+  if (stage.fov) add(arguments, "--fov", fmt::format("{}", *stage.fov));
+  return arguments;
+}
+
+std::vector<std::string> stage_arguments(const studio::StageOptions& stage) {
+  std::vector<std::string> arguments{stage.scene};
+  add(arguments, "--size", fmt::format("{}x{}", stage.size.width, stage.size.height));
+  for (std::string& argument : camera_arguments(stage)) arguments.push_back(std::move(argument));
+  if (stage.sun) {
+    add(arguments, "--sun", fmt::format("{},{}", degrees_text(stage.sun->azimuth), degrees_text(stage.sun->elevation)));
+  }
+  if (stage.ground == render::GroundChoice::on) add(arguments, "--ground", "on");
+  if (stage.ground == render::GroundChoice::off) add(arguments, "--ground", "off");
+  if (stage.time != 0) add(arguments, "--time", fmt::format("{}", stage.time));
+  return arguments;
+}
+
+std::vector<std::string> render_arguments(const Document& document, const std::string& output, int warmup,
+                                          const std::string& glsl) {
+  std::vector<std::string> arguments{"render"};
+  for (std::string& argument : stage_arguments(document.stage)) arguments.push_back(std::move(argument));
+  arguments.insert(arguments.end(), {"-o", output});
+  add_frame(arguments, document);
+  add_params(arguments, document.params);
+  if (warmup > 0) add(arguments, "--warmup", std::to_string(warmup));
+  if (!glsl.empty()) add(arguments, "--glsl", glsl);
+  return arguments;
+}
+
+void place(Document& document, const studio::Stage& stage, const CameraRig& rig) {
+  studio::StageOptions& options = document.stage;
+  // Without a sun of its own, the file's or one that was set, a scene's follows the camera that was chosen first.
+  if (options.camera && !options.sun && !stage.setup.sun_node) place_sun(document, stage.setup.sun.to_light);
+  options.camera.reset();
+  options.eye = rig.eye;
+  options.target = rig.target;
+  options.fov = std::clamp(std::round(glm::degrees(static_cast<double>(rig.fov_y)) * 1e4) / 1e4, 1.0, 179.0);
+}
+
+void place_sun(Document& document, const glm::vec3& to_light) {
+  // In degrees, as --sun takes them: what is shown is what the option says.
+  const auto rounded = [](double radians) { return glm::radians(std::round(glm::degrees(radians) * 1e3) / 1e3); };
+  document.stage.sun =
+      studio::Direction{.azimuth = static_cast<float>(rounded(std::atan2(to_light.x, to_light.z))),
+                        .elevation = static_cast<float>(rounded(std::asin(std::clamp(to_light.y, -1.0f, 1.0f))))};
+}
+
+}  // namespace penumbra::app

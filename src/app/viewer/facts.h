@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/viewer/costs.h"
+#include "app/viewer/inspect.h"
+#include "app/viewer/painter.h"
+#include "gl/context.h"
+#include "metrics/error_figures.h"
+#include "shadow/technique.h"
+
+namespace penumbra::app {
+
+// One value under the cursor.
+struct ProbeRow {
+  std::string name, value;
+};
+
+// How far A is from B, over the surfaces of the picture.
+struct Distance {
+  metrics::ErrorFigures figures;  // of visibility
+  double flip = 0;
+};
+
+// What the panels show and can't change.
+struct Facts {
+  const shadow::Registry& techniques;
+  const gl::DeviceInfo& device;
+  const gl::Device& gl;
+  const LoadedScene* scene = nullptr;  // absent until one is loaded
+  std::string loading;                 // the file that is being read, or empty
+  const Costs& costs_a;
+  const Costs& costs_b;
+  glm::ivec2 drawn_size{0};  // of the last picture, pixels
+  int frames = 0;            // drawn since something changed
+  std::vector<std::string> shader_errors;
+  std::string reloaded;              // "3 programs, 0.4 s"
+  std::optional<double> tracing;     // share of the truth that is traced
+  std::optional<Distance> distance;  // A to B
+  std::optional<glm::ivec2> probed;  // the picture's pixel under the cursor
+  std::vector<ProbeRow> probe;
+  Look look;  // of what is inspected
+  Range range;
+};
+
+}  // namespace penumbra::app

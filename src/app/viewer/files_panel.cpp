@@ -1,0 +1,38 @@
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+
+#include "app/viewer/panels.h"
+
+namespace penumbra::app {
+
+void files_panel(const Panel& panel) {
+  State& state = panel.state;
+  begin_rows("picture");
+  row("file", "A .png, or an .exr with all AOVs as layers. A sequence numbers its files.");
+  ImGui::InputText("##picture", &state.picture_file);
+  panel.widgets.mark("picture file");
+  row("frames", "First and last frame of a sequence.");
+  ImGui::InputInt2("##frames", &state.sequence.first);
+  panel.widgets.mark("frames");
+  end_rows();
+  state.sequence.first = std::clamp(state.sequence.first, 0, 999'999);
+  state.sequence.last = std::clamp(state.sequence.last, state.sequence.first, 999'999);
+  if (ImGui::Button("Write picture")) state.requests.screenshot = state.picture_file;
+  panel.widgets.mark("write picture");
+  tooltip("What penumbra render writes for the command line below (F12)");
+  ImGui::SameLine();
+  if (ImGui::Button("Write sequence")) {
+    state.requests.sequence = state.picture_file;
+    state.requests.frames = state.sequence;
+  }
+  panel.widgets.mark("write sequence");
+  ImGui::Separator();
+  if (ImGui::Button("Copy as command line")) state.requests.copy_command = true;
+  panel.widgets.mark("copy command");
+  tooltip("The line for a shell that draws this very picture");
+}
+
+}  // namespace penumbra::app

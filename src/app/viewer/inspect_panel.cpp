@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/viewer/panels.h"
+
+namespace penumbra::app {
+
+namespace {
+
+void choose(const Panel& panel, const std::string& what, const std::string& label, const std::string& help) {
+  Inspection& inspection = panel.state.inspection;
+  if (ImGui::Selectable(label.c_str(), inspection.what == what)) inspection = Inspection{.what = what};
+  panel.widgets.mark("show=" + (what.empty() ? "picture" : what));
+  if (!help.empty()) tooltip(help);
+}
+
+void list(const Panel& panel) {
+  ImGui::BeginChild("list", {0, ImGui::GetContentRegionAvail().y * 0.42f}, /* border= */ true);
+  choose(panel, "", "picture", "What a camera would see.");
+  for (const render::Aov& aov : render::aovs()) choose(panel, aov.name, aov.name, aov.help);
+  ImGui::Separator();
+  ImGui::TextDisabled("textures that passes draw to");
+  for (const gl::Device::NamedTarget& target : panel.facts.gl.targets()) {
+    if (target.name.starts_with("viewer/")) continue;
+    const gl::TextureDesc& desc = target.texture->desc();
+    choose(panel, "target " + std::string(target.name), std::string(target.name),
+           fmt::format("{} × {}, {} layers, {} levels, {:.1f} MiB", desc.width, desc.height, desc.layers, desc.levels,
+                       static_cast<double>(target.texture->bytes()) / 1048576.0));
+  }
+  ImGui::EndChild();
+}
+
+// Of a target with several.
+void choose_part(const Panel& panel) {
+  Inspection& inspection = panel.state.inspection;
+  for (const gl::Device::NamedTarget& target : panel.facts.gl.targets()) {
+    if (inspection.what != "target " + std::string(target.name)) continue;
+    const gl::TextureDesc& desc = target.texture->desc();
+    if (desc.layers > 1) {
+      row("layer", "Of the texture array.");
+      ImGui::SliderInt("##layer", &inspection.layer, 0, desc.layers - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
+      panel.widgets.mark("layer");
+    }
+    if (desc.levels > 1) {
+      row("level", "Of the pyramid, 0 the finest.");
+      ImGui::SliderInt("##level", &inspection.level, 0, desc.levels - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
+      panel.widgets.mark("level");
+    }
+  }
+}
+
+void range(const Panel& panel) {
+  Inspection& inspection = panel.state.inspection;
+  begin_rows("range");
+  choose_part(panel);
+  row("automatic range", "The range of colours is that of the values.");
+  if (ImGui::Checkbox("##automatic", &inspection.automatic)) {
+    inspection.low = panel.facts.range.low;
+    inspection.high = panel.facts.range.high;
+  }
+  panel.widgets.mark("automatic range");
+  if (!inspection.automatic) {
+    const float span = std::max(panel.facts.range.high - panel.facts.range.low, 1e-4f);
+    row("from", "The value with the first colour.");
+    ImGui::DragFloat("##low", &inspection.low, span * 0.005f, 0, 0, "%.4g");
+    panel.widgets.mark("range low");
+    row("to", "The value with the last colour.");
+    ImGui::DragFloat("##high", &inspection.high, span * 0.005f, 0, 0, "%.4g");
+    panel.widgets.mark("range high");
+  }
+  end_rows();
+}
+
+void probe(const Panel& panel) {
+  ImGui::Checkbox("Values under the cursor", &panel.state.probe);
+  panel.widgets.mark("probe");
+  if (!panel.state.probe) return;
+  if (!panel.facts.probed) {
+    ImGui::TextDisabled("Point at the picture.");
+    return;
+  }
+  ImGui::Text("pixel %d, %d", panel.facts.probed->x, panel.facts.probed->y);
+  ImGui::BeginTable("probe", 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg);
+  for (const ProbeRow& each : panel.facts.probe) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", each.name.c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(each.value.c_str());
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+void inspect_panel(const Panel& panel) {
+  list(panel);
+  if (!panel.state.inspection.what.empty()) range(panel);
+  ImGui::Separator();
+  ImGui::BeginChild("values");
+  probe(panel);
+  ImGui::EndChild();
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,191 @@
+#include "app/viewer/picture_area.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace penumbra::app {
+
+namespace {
+
+constexpr float turn_per_pixel = 0.006f;  // radians
+constexpr float light_per_pixel = 0.004f;
+constexpr float dolly_per_notch = 0.88f;
+constexpr float grip = 6;  // pixels about the line between A and B
+
+CameraRig present_rig(const Panel& panel) {
+  const studio::StageOptions& options = panel.state.document.stage;
+  const studio::Stage& stage = panel.facts.scene->stage;
+  CameraRig rig = rig_of(stage.setup.camera, stage.bounds);
+  if (options.eye) {
+    rig.eye = *options.eye;
+    rig.target = *options.target;
+  }
+  return rig;
+}
+
+void move(const Panel& panel, const CameraRig& rig) { place(panel.state.document, panel.facts.scene->stage, rig); }
+
+void drag_camera(const Panel& panel, const glm::vec2& by, const PictureArea& area) {
+  CameraRig rig = present_rig(panel);
+  const bool pan = ImGui::IsMouseDown(ImGuiMouseButton_Middle) || ImGui::GetIO().KeyShift;
+  if (pan) {
+    rig.pan(glm::vec2(-by.x, by.y) / area.size.y);
+  } else if (panel.state.fly) {
+    rig.look(-by.x * turn_per_pixel, -by.y * turn_per_pixel);
+  } else {
+    rig.orbit(-by.x * turn_per_pixel, by.y * turn_per_pixel);
+  }
+  move(panel, rig);
+}
+
+void drag_sun(const Panel& panel, const glm::vec2& by) {
+  const glm::vec3 to_light = panel.facts.scene->stage.setup.sun.to_light;
+  place_sun(panel.state.document, turned_light(to_light, by.x * light_per_pixel, -by.y * light_per_pixel));
+}
+
+// The picture's point under the cursor stays there.
+void magnify(Zoom& zoom, float notches, const PictureArea& area) {
+  const float before = zoom.factor;
+  zoom.factor = std::clamp(std::exp2(std::round(std::log2(before) + notches)), 0.25f, 32.0f);
+  const glm::vec2 from_middle = (*area.cursor - area.size * 0.5f) / area.size;
+  zoom.center = glm::clamp(zoom.center + from_middle / before - from_middle / zoom.factor, 0.0f, 1.0f);
+  if (zoom.factor <= 1) zoom.center = glm::vec2(0.5f);
+}
+
+void take_wheel(const Panel& panel, const PictureArea& area) {
+  const float notches = ImGui::GetIO().MouseWheel;
+  if (notches == 0 || !area.cursor) return;
+  if (ImGui::GetIO().KeyCtrl) {
+    magnify(panel.state.zoom, notches > 0 ? 1.0f : -1.0f, area);
+  } else if (panel.facts.scene != nullptr) {
+    CameraRig rig = present_rig(panel);
+    rig.dolly(std::pow(dolly_per_notch, notches));
+    move(panel, rig);
+  }
+}
+
+// True while the line has the mouse.
+bool drag_line(const Panel& panel, const PictureArea& area, bool active) {
+  Comparison& comparison = panel.state.comparison;
+  if (!comparison.on || comparison.how != Comparing::wipe) return false;
+  const float line = area.corner.x + comparison.wipe * area.size.x;
+  bool& dragging = panel.state.dragging_line;
+  const float cursor = ImGui::GetIO().MousePos.x;
+  const bool near_line = area.cursor && std::abs(cursor - line) <= grip;
+  if (near_line || dragging) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (ImGui::IsItemClicked() && near_line) dragging = true;
+  if (!active || !ImGui::IsMouseDown(ImGuiMouseButton_Left)) dragging = false;
+  if (dragging) comparison.wipe = std::clamp((cursor - area.corner.x) / area.size.x, 0.0f, 1.0f);
+  return dragging;
+}
+
+void draw_line(const Comparison& comparison, const PictureArea& area) {
+  if (!comparison.on) return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 ink = IM_COL32(255, 255, 255, 200);
+  const float top = area.corner.y, bottom = area.corner.y + area.size.y;
+  float line = -1;
+  if (comparison.how == Comparing::wipe) line = area.corner.x + comparison.wipe * area.size.x;
+  if (comparison.how == Comparing::side_by_side) line = area.corner.x + 0.5f * area.size.x;
+  if (line >= 0) {
+    list.AddLine({line, top}, {line, bottom}, ink, 1.0f);
+    const float gap = ImGui::GetFontSize();
+    list.AddText({line - 1.4f * gap, bottom - 1.6f * gap}, ink, "A");
+    list.AddText({line + 0.7f * gap, bottom - 1.6f * gap}, ink, "B");
+  } else {
+    const char* name = comparison.how == Comparing::a ? "A" : comparison.how == Comparing::b ? "B" : "|A - B|";
+    list.AddText({area.corner.x + 10, bottom - 1.6f * ImGui::GetFontSize()}, ink, name);
+  }
+}
+
+void fly(const Panel& panel, float seconds) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const auto axis = [](int positive, int negative) {
+    return static_cast<float>(ImGui::IsKeyDown(positive)) - static_cast<float>(ImGui::IsKeyDown(negative));
+  };
+  const glm::vec3 way(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_S, GLFW_KEY_W));
+  if (way == glm::vec3(0) || io.KeyCtrl || panel.facts.scene == nullptr) return;
+  CameraRig rig = present_rig(panel);
+  const float speed = 0.25f * std::max(panel.facts.scene->stage.bounds.radius(), 0.1f) * (io.KeyShift ? 4.0f : 1.0f);
+  rig.fly(glm::normalize(way) * speed * std::min(seconds, 0.1f));
+  move(panel, rig);
+}
+
+void take_time_keys(State& state) {
+  if (ImGui::IsKeyPressed(GLFW_KEY_SPACE, false)) state.playback.playing = !state.playback.playing;
+  if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT)) ++state.document.frame;
+  if (ImGui::IsKeyPressed(GLFW_KEY_LEFT)) state.document.frame = std::max(state.document.frame - 1, 0);
+}
+
+void toggle_comparison(State& state) {
+  state.comparison.on = !state.comparison.on;
+  if (state.comparison.params.rows().empty()) state.comparison.params = state.document.params;
+}
+
+}  // namespace
+
+PictureArea picture_area(const Panel& panel, const gl::Texture* seen) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
+  PictureArea area{.corner = {corner.x, corner.y}, .size = {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}};
+  ImGui::InvisibleButton(
+      "picture", {area.size.x, area.size.y},
+      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
+  panel.widgets.mark("picture");
+  const bool active = ImGui::IsItemActive();
+  area.busy = active;
+  const ImGuiIO& io = ImGui::GetIO();
+  if (ImGui::IsItemHovered()) area.cursor = glm::vec2(io.MousePos.x - corner.x, io.MousePos.y - corner.y);
+  const bool line = drag_line(panel, area, active);
+  const glm::vec2 by(io.MouseDelta.x, io.MouseDelta.y);
+  if (active && !line && by != glm::vec2(0) && panel.facts.scene != nullptr) {
+    if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
+      drag_sun(panel, by);
+    } else {
+      drag_camera(panel, by, area);
+    }
+  }
+  take_wheel(panel, area);
+  if (seen != nullptr) {
+    // Textures begin at the bottom, the window at the top.
+    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(seen->id())), corner,
+                                         {corner.x + area.size.x, corner.y + area.size.y}, {0, 1}, {1, 0});
+    draw_line(panel.state.comparison, area);
+  }
+  return area;
+}
+
+void take_keys(const Panel& panel, float seconds) {
+  State& state = panel.state;
+  if (ImGui::GetIO().WantTextInput) return;
+  const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, /* repeat= */ false); };
+  if (pressed(GLFW_KEY_ESCAPE)) {
+    if (state.help) {
+      state.help = false;
+    } else if (!ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) {
+      state.requests.quit = true;
+    }
+  }
+  if (pressed(GLFW_KEY_F1) || pressed(GLFW_KEY_H)) state.help = !state.help;
+  if (pressed(GLFW_KEY_F12)) state.requests.screenshot = state.picture_file;
+  if (pressed(GLFW_KEY_TAB)) state.panel = !state.panel;
+  if (pressed(GLFW_KEY_F)) state.fly = !state.fly;
+  if (pressed(GLFW_KEY_P)) state.probe = !state.probe;
+  if (pressed(GLFW_KEY_HOME)) state.requests.frame_all = true;
+  if (pressed(GLFW_KEY_C)) {
+    if (ImGui::GetIO().KeyCtrl) {
+      state.requests.copy_command = true;
+    } else {
+      toggle_comparison(state);
+    }
+  }
+  if (pressed(GLFW_KEY_X) && state.comparison.on)
+    state.comparison.how = state.comparison.how == Comparing::a ? Comparing::b : Comparing::a;
+  take_time_keys(state);
+  fly(panel, seconds);
+}
+
+}  // namespace penumbra::app

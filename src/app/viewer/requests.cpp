@@ -1,0 +1,67 @@
+// What the interface asked for, done between two frames of it.
+#include <imgui.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "app/techniques.h"
+#include "app/viewer/viewer.h"
+#include "io/presets.h"
+#include "studio/text.h"
+
+namespace penumbra::app {
+
+void Viewer::do_requests() {
+  const Requests wanted = std::exchange(state_.requests, {});
+  guarded([&] {
+    if (wanted.open) open(*wanted.open);
+    if (wanted.open_preset) open_preset(*wanted.open_preset);
+    if (wanted.save_preset) {
+      io::write_preset(*wanted.save_preset, state_.document.params);
+      tell(state_, "wrote " + *wanted.save_preset, ImGui::GetTime());
+    }
+    if (wanted.frame_all && scene_ != nullptr) frame_all();
+    if (wanted.copy_command && scene_ != nullptr) copy_command();
+    if (wanted.copy_camera && scene_ != nullptr) copy_camera();
+  });
+}
+
+void Viewer::open(const std::string& scene) {
+  studio::StageOptions stage;
+  stage.scene = scene;
+  stage.fps = options_.fps;
+  stage.frames = studio::FrameRange{};
+  // Camera, sun and time of the command line are the first scene's.
+  loader_.start(scene_ == nullptr && scene == options_.scene ? state_.document.stage : stage);
+}
+
+void Viewer::open_preset(const std::string& file) {
+  ParamSet params(render::Renderer::params(all_techniques()));
+  io::read_preset(file, params, [](ParamSet& set, std::string_view name) { all_techniques().select(set, name); });
+  state_.document.params = std::move(params);
+  state_.preset_file = file;
+  tell(state_, "took the values of " + file, ImGui::GetTime());
+}
+
+void Viewer::copy_command() {
+  const std::string text = studio::command_text(
+      "penumbra", render_arguments(state_.document, state_.picture_file, warmup_of(state_.document), options_.glsl));
+  ImGui::SetClipboardText(text.c_str());
+  tell(state_, "copied: " + text, ImGui::GetTime());
+}
+
+void Viewer::copy_camera() {
+  const std::string text = studio::command_text("", camera_arguments(state_.document.stage));
+  ImGui::SetClipboardText(text.c_str());
+  tell(state_, text.empty() ? "the camera is the scene's own: nothing to copy" : "copied: " + text, ImGui::GetTime());
+}
+
+void Viewer::frame_all() {
+  const studio::Stage& stage = scene_->stage;
+  CameraRig rig = rig_of(stage.setup.camera, stage.bounds);
+  rig.frame(stage.bounds, static_cast<float>(window_size_.x) / static_cast<float>(window_size_.y));
+  place(state_.document, stage, rig);
+  state_.zoom = {};
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <deque>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/viewer/comparison.h"
+#include "app/viewer/document.h"
+#include "app/viewer/inspect.h"
+
+namespace penumbra::app {
+
+struct Playback {
+  bool playing = false;
+  float speed = 1;     // of the file's time
+  double carried = 0;  // frames that are due, less than one
+};
+
+// One line for the user, over the picture until it has been read.
+struct Message {
+  std::string text;
+  bool is_error = false;
+  double until = 0;  // seconds of the viewer's clock
+};
+
+// What the interface asks for, done between two frames of it.
+struct Requests {
+  std::optional<std::string> open;  // a scene
+  std::optional<std::string> open_preset, save_preset;
+  std::optional<std::string> screenshot;  // a file's name
+  std::optional<std::string> sequence;    // the same, of the frames first to last
+  studio::FrameRange frames;
+  bool frame_all = false;
+  bool copy_command = false, copy_camera = false;
+  bool quit = false;
+};
+
+// All that a hand can change.
+struct State {
+  Document document;  // picture A
+  Comparison comparison;
+  Inspection inspection;
+  Zoom zoom;
+  Playback playback;
+  bool fly = false;            // the left button turns the head, instead of the scene
+  bool dragging_line = false;  // between A and B
+  bool panel = true, help = false, probe = true, vsync = true;
+  std::string search;  // in the parameters
+  std::string preset_file = "preset.toml", picture_file = "penumbra.png", scene_file;
+  studio::FrameRange sequence{0, 47};
+  std::vector<std::string> recent;  // scenes, the last one first
+  std::deque<Message> messages;
+  Requests requests;
+};
+
+}  // namespace penumbra::app

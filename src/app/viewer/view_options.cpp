@@ -1,0 +1,30 @@
+#include "app/viewer/view_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace penumbra::app {
+
+void add_view_command_options(CLI::App& app, ViewOptions& options) {
+  app.add_option("SCENE", options.scene, "glTF file, .gltf or .glb; else the last one that was shown")->type_name("");
+  studio::add_value(app, "--size", "WIDTHxHEIGHT", "The window, pixels (1280x720)",
+                    [&options](const auto& text) { options.size = studio::parse_size("--size", text); });
+  studio::add_view_options(app, options);
+  studio::add_time_options(app, options);
+  studio::add_technique_option(app, options);
+  studio::add_shadow_options(app, options);
+  add_cache_options(app, options);
+  studio::add_device_options(app, options);
+  studio::add_value(app, "--layout", "FILE",
+                    "Writes where each widget stands as JSON, for scripts that drive the window",
+                    [&options](const auto& text) { options.layout = text; });
+}
+
+void check_together(const ViewOptions& options) {
+  studio::check_together(static_cast<const studio::StageOptions&>(options));
+  studio::check_together(static_cast<const studio::DeviceOptions&>(options));
+  if (options.frames) studio::fail_usage("--frames has no meaning for a window, which plays all of them");
+  if (options.backend != "auto" && options.backend != "window")
+    studio::fail_usage("--backend {} has no window", options.backend);
+}
+
+}  // namespace penumbra::app

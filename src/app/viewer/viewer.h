@@ -1,0 +1,95 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/viewer/costs.h"
+#include "app/viewer/facts.h"
+#include "app/viewer/pace.h"
+#include "app/viewer/painter.h"
+#include "app/viewer/picture_area.h"
+#include "app/viewer/scene_loader.h"
+#include "app/viewer/state.h"
+#include "app/viewer/view_options.h"
+#include "app/viewer/widgets.h"
+#include "app/viewer/window.h"
+#include "gl/pass.h"
+#include "render/renderer.h"
+#include "studio/file_watch.h"
+#include "truth/technique.h"
+
+namespace penumbra::app {
+
+// The desktop viewer: a window in which a scene is drawn by the same code as offscreen, and all that tunes it.
+class Viewer {
+ public:
+  // Throws Error where there is no display, or the first values are wrong.
+  explicit Viewer(const ViewOptions& options);
+  ~Viewer();
+
+  // Until the window is closed. Returns the exit code.
+  int run();
+
+ private:
+  // One of the two pictures, what it cost and, where numbers are looked at, these.
+  struct Side {
+    Side(gl::Device& device, render::Renderer& renderer, int view) : painter(device, renderer, view) {}
+    Painter painter;
+    Costs costs;
+    Values values;                      // of what is inspected
+    std::vector<float> visibility;      // where distances are measured
+    const gl::Texture* seen = nullptr;  // its picture, or its values in false colour
+  };
+
+  void frame(float seconds);
+  void take_events();
+  void take_loaded();
+  void take_shaders();
+  void play(float seconds);
+  PictureArea build_interface(float seconds);
+  void side_panel(const Panel& panel);
+  void draw_pictures(const PictureArea& area, double now);
+  bool draw_side(Side& side, const Document& document, int divisor);
+  Document document_b() const;
+  void inspect(Side& side);
+  void color(Side& side, int number);
+  void measure_distance();
+  void probe(const PictureArea& area);
+  void show_pictures();
+  PresentInputs present_inputs(const glm::ivec2& window_size) const;
+  void do_requests();
+  void open(const std::string& scene);
+  void open_preset(const std::string& file);
+  void copy_command();
+  void copy_camera();
+  void frame_all();
+  void aim();
+  // Tells the user of an Error that it throws, and goes on.
+  void guarded(const std::function<void()>& action);
+
+  ViewOptions options_;
+  Window window_;
+  gl::DeviceInfo device_info_;
+  gl::Device device_;
+  truth::TruthTechnique truth_;
+  render::Renderer renderer_;
+  std::unique_ptr<LoadedScene> scene_;
+  SceneLoader loader_;
+  studio::FileWatch watch_;
+  State state_;
+  Side a_, b_;
+  Pace pace_;
+  CostReader cost_reader_;
+  WidgetMap widgets_;
+  Facts facts_;
+  std::string aimed_;  // the options that camera and sun were last chosen for
+  std::string inspected_;
+  std::optional<glm::ivec2> last_probed_;
+  glm::ivec2 window_size_{1};  // of the picture's area, pixels
+  bool vsync_ = true;
+  double last_draw_ = 0;
+};
+
+}  // namespace penumbra::app

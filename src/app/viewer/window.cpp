@@ -1,0 +1,148 @@
+#include "app/viewer/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <utility>
+
+#include "app/viewer/theme.h"
+#include "core/error.h"
+#include "gl/api.h"
+
+namespace penumbra::app {
+
+namespace {
+
+constexpr float text_size = 15.0f;  // pixels, at a scale of 1
+
+// Where distributions put a font that has every letter of a file's name; ImGui's own has Latin ones alone.
+const char* font_file() {
+  static constexpr std::array places{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                     "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                                     "/usr/share/fonts/TTF/DejaVuSans.ttf"};
+  for (const char* place : places) {
+    if (std::filesystem::exists(place)) return place;
+  }
+  return nullptr;
+}
+
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
+gl::ContextOptions context_options(const Window::Options& options) {
+  gl::ContextOptions wanted;
+  wanted.debug = wanted.debug || options.debug;
+  wanted.width = options.width;
+  wanted.height = options.height;
+  return wanted;
+}
+
+}  // namespace
+
+std::string missing_display() {
+  return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY") ? "" : "neither DISPLAY nor WAYLAND_DISPLAY is set";
+}
+
+Window::Window(const Options& options)
+    : context_(gl::make_window_context(context_options(options))), window_(gl::window_of(*context_)) {
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+    auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+    self.dropped_.insert(self.dropped_.end(), paths, paths + count);
+  });
+  set_up_interface();
+}
+
+Window::~Window() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void Window::set_up_interface() {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;  // the viewer keeps its own settings
+  io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+  ImGui_ImplGlfw_InitForOpenGL(window_, /* install_callbacks= */ true);
+  ImGui_ImplOpenGL3_Init("#version 450 core");
+  apply_scale(wanted_scale());
+}
+
+float Window::wanted_scale() const {
+  float x = 1, y = 1;
+  glfwGetWindowContentScale(window_, &x, &y);
+  return std::isfinite(x) && x > 0 ? x : 1.0f;
+}
+
+void Window::apply_scale(float scale) {
+  scale_ = scale;
+  ImGuiIO& io = ImGui::GetIO();
+  io.Fonts->Clear();
+  const float size = std::round(text_size * scale);
+  if (const char* file = font_file()) {
+    static constexpr std::array<ImWchar, 9> ranges{0x20, 0x24f, 0x370, 0x3ff, 0x2000, 0x22ff, 0x25a0, 0x25ff, 0};
+    io.Fonts->AddFontFromFileTTF(file, size, nullptr, ranges.data());
+  } else {
+    ImFontConfig config;
+    config.SizePixels = size;
+    io.Fonts->AddFontDefault(&config);
+  }
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
+  set_theme(scale);
+}
+
+bool Window::poll(double seconds) {
+  if (seconds > 0) {
+    glfwWaitEventsTimeout(seconds);
+  } else {
+    glfwPollEvents();
+  }
+  return glfwWindowShouldClose(window_) == GLFW_FALSE;
+}
+
+void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+
+void Window::begin() {
+  if (const float scale = wanted_scale(); scale != scale_) apply_scale(scale);
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Window::show() {
+  ImGui::Render();
+  const glm::ivec2 size = pixels();
+  gl::glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl::glViewport(0, 0, size.x, size.y);
+  gl::glClearColor(0.07f, 0.07f, 0.07f, 1.0f);
+  gl::glClear(GL_COLOR_BUFFER_BIT);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glfwSwapBuffers(window_);
+}
+
+glm::ivec2 Window::pixels() const {
+  glm::ivec2 size(0);
+  if (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0) return size;
+  glfwGetFramebufferSize(window_, &size.x, &size.y);
+  return size;
+}
+
+void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+
+void Window::set_vsync(bool on) { glfwSwapInterval(on ? 1 : 0); }
+
+std::vector<std::string> Window::dropped() { return std::exchange(dropped_, {}); }
+
+}  // namespace penumbra::app

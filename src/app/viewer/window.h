@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gl/context.h"
+
+struct GLFWwindow;
+
+namespace penumbra::app {
+
+// A window with an OpenGL context and Dear ImGui in it.
+class Window {
+ public:
+  struct Options {
+    int width = 1280, height = 720;  // in the desktop's units, which HiDPI screens divide into pixels
+    bool debug = false;
+  };
+  // Throws Error where there is no display, with the cause.
+  explicit Window(const Options& options);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  // Takes the events that are there; waits for one up to `seconds`, 0: not at all. False: the window is to be closed.
+  bool poll(double seconds);
+  void close();
+
+  // A frame of the user interface begins; show() ends it and puts it on the screen.
+  void begin();
+  void show();
+
+  // Of the framebuffer; 0 while it is minimised.
+  glm::ivec2 pixels() const;
+  // Pixels of a point of text at a scale of 1: 2 on a screen with twice the dots.
+  float scale() const { return scale_; }
+  void set_title(const std::string& title);
+  void set_vsync(bool on);
+  // Files that were dropped on the window since the last call.
+  std::vector<std::string> dropped();
+
+  gl::Context& context() { return *context_; }
+
+ private:
+  void set_up_interface();
+  void apply_scale(float scale);
+  float wanted_scale() const;
+
+  std::unique_ptr<gl::Context> context_;
+  GLFWwindow* window_ = nullptr;
+  float scale_ = 0;
+  std::vector<std::string> dropped_;
+};
+
+// Whether there is a display to open a window on; else what is missing.
+std::string missing_display();
+
+}  // namespace penumbra::app
