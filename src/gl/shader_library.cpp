@@ -13,16 +13,19 @@ const Program& ShaderLibrary::get(const ProgramDesc& desc) {
     return *entries_.emplace(desc, Entry{std::move(program)}).first->second.program;
   }
   Entry& entry = found->second;
-  if (entry.stale) {
-    entry.stale = false;
-    entry.error.clear();
-    try {
-      *entry.program = Program(desc, files_);
-    } catch (const Error& error) {
-      entry.error = error.what();
-    }
-  }
+  if (entry.stale) rebuild(desc, entry);
+  outdated_ |= !entry.error.empty();
   return *entry.program;
+}
+
+void ShaderLibrary::rebuild(const ProgramDesc& desc, Entry& entry) {
+  entry.stale = false;
+  entry.error.clear();
+  try {
+    *entry.program = Program(desc, files_);
+  } catch (const Error& error) {
+    entry.error = error.what();
+  }
 }
 
 void ShaderLibrary::changed(std::string_view file) {
@@ -33,10 +36,21 @@ void ShaderLibrary::changed(std::string_view file) {
   }
 }
 
+ShaderLibrary::Reload ShaderLibrary::reload() {
+  Reload result;
+  for (auto& [desc, entry] : entries_) {
+    if (!entry.stale) continue;
+    rebuild(desc, entry);
+    ++(entry.error.empty() ? result.rebuilt : result.failed);
+  }
+  return result;
+}
+
 std::vector<std::string> ShaderLibrary::errors() const {
   std::vector<std::string> messages;
   for (const auto& [desc, entry] : entries_) {
-    if (!entry.error.empty()) messages.push_back(entry.error);
+    const bool told = std::ranges::find(messages, entry.error) != messages.end();
+    if (!entry.error.empty() && !told) messages.push_back(entry.error);
   }
   return messages;
 }

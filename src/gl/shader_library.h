@@ -11,19 +11,30 @@
 
 namespace penumbra::gl {
 
-// Compiles programs on first use and keeps them. Reload is first load: changed() drops what depends on a file, and the
-// next get() compiles it again by the same path; while that fails the last good program keeps serving.
+// Compiles programs on first use and keeps them. Reload is first load: changed() marks what depends on a file, and
+// reload(), or the next get(), compiles it again by the same path; while that fails the last good program keeps
+// serving.
 class ShaderLibrary {
  public:
   explicit ShaderLibrary(ShaderFiles files) : files_(std::move(files)) {}
 
-  // Throws Error when the program fails to compile and there is no earlier good one.
+  // Throws Error when the program fails to compile and there is no earlier good one; the next call tries again. The
+  // reference stays valid through reloads.
   const Program& get(const ProgramDesc& desc);
 
-  // A file's text changed: programs that include it are rebuilt on their next get().
+  // A file's text changed, or it came or went: programs that include it, and those whose last rebuild failed, are to be
+  // rebuilt. `file` is relative to glsl/.
   void changed(std::string_view file);
-  // Messages of programs whose rebuild failed and that draw with their last good version; empty when all is well.
+  struct Reload {
+    std::size_t rebuilt = 0, failed = 0;
+  };
+  // Rebuilds now what is to be rebuilt.
+  Reload reload();
+  // Messages of programs whose rebuild failed and that draw with their last good version, each once; empty when all is
+  // well.
   std::vector<std::string> errors() const;
+  // Whether any get() since the last call gave a last good version because the rebuild failed.
+  bool take_outdated() { return std::exchange(outdated_, false); }
 
   ShaderFiles& files() { return files_; }
   std::size_t size() const { return entries_.size(); }
@@ -34,8 +45,11 @@ class ShaderLibrary {
     bool stale = false;
     std::string error;
   };
+  void rebuild(const ProgramDesc& desc, Entry& entry);
+
   ShaderFiles files_;
   std::map<ProgramDesc, Entry> entries_;
+  bool outdated_ = false;
 };
 
 }  // namespace penumbra::gl

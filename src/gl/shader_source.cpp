@@ -29,6 +29,10 @@ bool is_inside(std::string_view name) {
   return !name.empty() && !path.is_absolute() && std::ranges::find(path, "..") == path.end();
 }
 
+std::filesystem::path overlaid(const std::string& overlay, std::string_view name) {
+  return std::filesystem::path(overlay) / name;
+}
+
 std::optional<std::string> read_disk(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
@@ -61,24 +65,25 @@ class Loader {
  public:
   Loader(const ShaderFiles& files, ShaderSource& source) : files_(files), source_(source) {}
 
-  // `asked_by` is "glsl/file:line: " of the include, empty for the root.
+  // `asked_by` is "glsl/file:line: " of the include as messages name it, empty for the root.
   void append(std::string_view name, const std::string& asked_by) {
     if (!is_inside(name)) fail("{}shader file '{}' is outside of glsl/", asked_by, name);
     const std::optional<std::string> text = files_.read(name);
     if (!text) fail("{}shader file 'glsl/{}' not found", asked_by, name);
     const std::size_t index = source_.files.size();
     source_.files.emplace_back(name);
+    source_.shown_names.push_back(files_.shown_name(name));
     std::string_view rest = *text;
     if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
     for (int number = 1; !rest.empty(); ++number) {
       const std::size_t end = std::min(rest.find('\n'), rest.size());
-      append_line(rest.substr(0, end), name, number, index);
+      append_line(rest.substr(0, end), number, index);
       rest.remove_prefix(std::min(end + 1, rest.size()));
     }
   }
 
  private:
-  void append_line(std::string_view line, std::string_view file, int number, std::size_t index) {
+  void append_line(std::string_view line, int number, std::size_t index) {
     const Line what = classify(line);
     switch (what.kind) {
       case Line::Kind::text:
@@ -87,16 +92,20 @@ class Loader {
       case Line::Kind::drop:
         break;
       case Line::Kind::malformed:
-        fail("glsl/{}:{}: #include takes a name in quotes", file, number);
+        fail("{}#include takes a name in quotes", place(index, number));
       case Line::Kind::include:
         if (std::ranges::find(source_.files, what.name) == source_.files.end()) {
-          append(what.name, fmt::format("glsl/{}:{}: ", file, number));
+          append(what.name, place(index, number));
           return;
         }
         break;
     }
     source_.text += '\n';
     source_.lines.push_back({index, number});
+  }
+
+  std::string place(std::size_t index, int number) const {
+    return fmt::format("{}:{}: ", source_.shown_names[index], number);
   }
 
   const ShaderFiles& files_;
@@ -140,6 +149,18 @@ std::optional<Message> parse_message(std::string_view rest) {
   return Message{*line, fmt::format("{}{}", severity, trimmed(rest))};
 }
 
+std::string shown_name(const ShaderSource& source, std::size_t file) {
+  return file < source.shown_names.size() ? source.shown_names[file] : "glsl/" + source.files[file];
+}
+
+// A line of the whole text, from 1, to stand below a message; empty where there is nothing to see.
+std::string quoted_line(const ShaderSource& source, std::size_t number) {
+  std::string_view text = source.text;
+  for (; number > 1 && !text.empty(); --number) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  const std::string_view line = trimmed(text.substr(0, text.find('\n')));
+  return line.empty() ? "" : fmt::format("\n    {}", line);
+}
+
 }  // namespace
 
 ShaderFiles::ShaderFiles(std::string overlay_directory) : overlay_(std::move(overlay_directory)) {}
@@ -148,12 +169,19 @@ std::optional<std::string> ShaderFiles::read(std::string_view name) const {
   if (!is_inside(name)) return std::nullopt;
   if (const auto found = generated_.find(name); found != generated_.end()) return found->second;
   if (!overlay_.empty()) {
-    if (auto text = read_disk(std::filesystem::path(overlay_) / name)) return text;
+    if (auto text = read_disk(overlaid(overlay_, name))) return text;
   }
   const auto files = built_in_files();
   const auto found = std::ranges::find(files, name, &BuiltInFile::name);
   if (found == files.end()) return std::nullopt;
   return std::string(found->text);
+}
+
+std::string ShaderFiles::shown_name(std::string_view name) const {
+  std::error_code ignored;
+  const bool from_overlay = !overlay_.empty() && is_inside(name) && !generated_.contains(name) &&
+                            std::filesystem::is_regular_file(overlaid(overlay_, name), ignored);
+  return from_overlay ? overlaid(overlay_, name).string() : fmt::format("glsl/{}", name);
 }
 
 void ShaderFiles::put(std::string name, std::string text) {
@@ -179,23 +207,27 @@ ShaderSource load_shader_source(const ShaderFiles& files, std::string_view root,
 }
 
 std::string translate_log(std::string_view driver_log, const ShaderSource& source) {
-  std::string result;
+  std::string result, last, quote;  // `quote` belongs under the last message
   while (!driver_log.empty()) {
     const std::size_t end = std::min(driver_log.find('\n'), driver_log.size());
     const std::string_view line = trimmed(driver_log.substr(0, end));
     driver_log.remove_prefix(std::min(end + 1, driver_log.size()));
     if (line.empty() || line.front() == '\0') continue;
     const std::optional<Message> message = parse_message(line);
-    if (!result.empty()) result += '\n';
     const bool known = message && message->line >= 1 && message->line <= source.lines.size();
     const ShaderSource::Line place = known ? source.lines[message->line - 1] : ShaderSource::Line();
-    if (place.file != ShaderSource::no_file) {
-      result += fmt::format("glsl/{}:{}: {}", source.files[place.file], place.number, message->text);
-    } else {
-      result += line;
-    }
+    const bool in_file = place.file != ShaderSource::no_file;
+    std::string told = in_file ? fmt::format("{}:{}: {}", shown_name(source, place.file), place.number, message->text)
+                               : std::string(line);
+    if (told == last) continue;
+    std::string next_quote = in_file ? quoted_line(source, message->line) : "";
+    if (next_quote != quote) result += quote;
+    quote = std::move(next_quote);
+    if (!result.empty()) result += '\n';
+    last = std::move(told);
+    result += last;
   }
-  return result;
+  return result + quote;
 }
 
 }  // namespace penumbra::gl

@@ -23,6 +23,8 @@ class ShaderFiles {
   std::optional<std::string> read(std::string_view name) const;
   // Adds or replaces an in-memory file (generated declarations: "generated/registry0/params.glsl").
   void put(std::string name, std::string text);
+  // What messages call a file: where the user can open it if it is the overlay's, else "glsl/lib/kernel.glsl".
+  std::string shown_name(std::string_view name) const;
   const std::string& overlay_directory() const { return overlay_; }
   static std::vector<std::string> built_in_names();
 
@@ -49,15 +51,17 @@ struct ShaderSource {
   static constexpr std::size_t no_file = static_cast<std::size_t>(-1);  // the version and the defines
 
   std::string text;
-  std::vector<std::string> files;  // [0] is the root
-  std::vector<Line> lines;         // where each line of `text` comes from
+  std::vector<std::string> files;             // [0] is the root
+  std::vector<Line> lines;                    // where each line of `text` comes from
+  std::vector<std::string> shown_names = {};  // one a file, for messages; empty: "glsl/" and the name
 };
 
 // Throws Error naming file and line when a file is missing, or an include is malformed. Cycles can't happen: each file
 // is included once.
 ShaderSource load_shader_source(const ShaderFiles& files, std::string_view root, const std::vector<Define>& defines);
 
-// Rewrites "0(56)", "0:56(5)" and "0:56:" of a driver's log into "glsl/lib/kernel.glsl:12:", one message a line.
+// Rewrites "0(56)", "0:56(5)" and "0:56:" of a driver's log into "glsl/lib/kernel.glsl:12:", one message a line, told
+// once where a driver repeats itself. Under the last message about a line stands that line itself, indented.
 std::string translate_log(std::string_view driver_log, const ShaderSource& source);
 
 }  // namespace penumbra::gl

@@ -48,20 +48,26 @@ std::unique_ptr<gl::Context> open_context(const DeviceOptions& options, const St
 Studio::Studio(const StageOptions& options, std::unique_ptr<gl::Context> context, const Stage& stage,
                Equipment equipment)
     : options_(options),
-      stage_(stage),
+      stage_(&stage),
       context_(std::move(context)),
       device_info_(gl::device_info()),
       device_(std::move(equipment.shaders), timing(equipment.timed, device_info_)),
-      scene_(device_, stage.scene),
+      scene_(std::make_unique<scene::GpuScene>(device_, stage.scene)),
       renderer_(device_, std::move(equipment.techniques)) {}
+
+void Studio::show(const Stage& stage) {
+  scene_ = std::make_unique<scene::GpuScene>(device_, stage.scene);
+  stage_ = &stage;
+  cut();
+}
 
 void Studio::draw(int frame, const ParamSet& params) {
   const double time = time_of(options_, frame), last_time = time_of(options_, frame - 1);
   const bool follows = drawn_time_ == last_time;
   render::Camera last_camera = setup_.camera;
-  if (drawn_time_ != time) setup_ = setup_at(stage_, time);
-  if (!follows) last_camera = time == last_time ? setup_.camera : setup_at(stage_, last_time).camera;
-  draw_at(time, last_time, last_camera, !follows || scene::jumps_between(stage_.scene, last_time, time), params);
+  if (drawn_time_ != time) setup_ = setup_at(*stage_, time);
+  if (!follows) last_camera = time == last_time ? setup_.camera : setup_at(*stage_, last_time).camera;
+  draw_at(time, last_time, last_camera, !follows || scene::jumps_between(stage_->scene, last_time, time), params);
 }
 
 void Studio::redraw(const ParamSet& params) {
@@ -71,7 +77,7 @@ void Studio::redraw(const ParamSet& params) {
 void Studio::draw_at(double time, double last_time, const render::Camera& last_camera, bool cut,
                      const ParamSet& params) {
   drawn_time_ = time;
-  renderer_.draw(scene_,
+  renderer_.draw(*scene_,
                  {.width = options_.size.width * options_.supersample,
                   .height = options_.size.height * options_.supersample,
                   .camera = setup_.camera,

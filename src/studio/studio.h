@@ -30,6 +30,12 @@ class Studio {
   // Draws the last frame once more, while time stands still: what a technique with memory costs when it goes on.
   void redraw(const ParamSet& params);
 
+  // The next frame takes up nothing of the last: it is that of a run which starts there. For shaders that changed.
+  void cut() { drawn_time_.reset(); }
+  // Draws another stage from now on, with the same context and programs; a cut. The caller keeps it. Throws Error; then
+  // the old one stays.
+  void show(const Stage& stage);
+
   // Camera and sun of the last frame.
   const render::Setup& setup() const { return setup_; }
   const render::Renderer& renderer() const { return renderer_; }
@@ -41,11 +47,11 @@ class Studio {
   void draw_at(double time, double last_time, const render::Camera& last_camera, bool cut, const ParamSet& params);
 
   const StageOptions& options_;
-  const Stage& stage_;
+  const Stage* stage_;
   std::unique_ptr<gl::Context> context_;
   gl::DeviceInfo device_info_;
   gl::Device device_;
-  scene::GpuScene scene_;
+  std::unique_ptr<scene::GpuScene> scene_;
   render::Renderer renderer_;
   render::Setup setup_;
   std::optional<double> drawn_time_;  // of the last frame

@@ -144,5 +144,24 @@ TEST(TranslateLog, OtherLinesStayAndEmptyOnesGo) {
             "linking failed\n0:1(1): error: version\n0:7(1): error: from nowhere");
 }
 
+TEST(TranslateLog, TheLineStandsUnderItsLastMessageAndRepetitionsGo) {
+  const auto source = load_shader_source(
+      files({{"a.frag", "#include \"lib/b.glsl\"\n  color = one;  \n"}, {"lib/b.glsl", "float two;"}}), "a.frag", {});
+  EXPECT_EQ(translate_log("0:3(1): error: `color'\n0:3(9): error: `one'\n0:3(9): error: `one'\n0:2(1): warning: odd\n",
+                          source),
+            "glsl/a.frag:2: error: `color'\nglsl/a.frag:2: error: `one'\n    color = one;\n"
+            "glsl/lib/b.glsl:1: warning: odd\n    float two;");
+}
+
+TEST(TranslateLog, AnOverlaysFileIsNamedAsTheUserDoes) {
+  const TemporaryFolder folder;
+  folder.write("lib/b.glsl", "\noops");
+  folder.write("a.frag", "#include \"lib/b.glsl\"\n#include \"lib/none.glsl\"\n");
+  const ShaderFiles overlay(folder.path());
+  EXPECT_EQ(translate_log("0:3(1): error: x", load_shader_source(overlay, "lib/b.glsl", {})),
+            folder.path() + "/lib/b.glsl:2: error: x\n    oops");
+  EXPECT_EQ(message(overlay, "a.frag"), folder.path() + "/a.frag:2: shader file 'glsl/lib/none.glsl' not found");
+}
+
 }  // namespace
 }  // namespace penumbra::gl
