@@ -10,6 +10,7 @@
 
 #include "core/log.h"
 #include "core/names.h"
+#include "studio/signals.h"
 #include "studio/text.h"
 #include "studio/usage.h"
 
@@ -65,6 +66,8 @@ std::string one_line(const CLI::ParseError& error) {
   return text;
 }
 
+constexpr const char no_output[] = "cannot write to standard output";
+
 // One line whatever a file's names hold, so that scripts can read it.
 int report(const std::string& message, int code) {
   // Not by fmt::print, which throws where stderr is closed.
@@ -77,9 +80,10 @@ int report(const std::string& message, int code) {
 std::string version() { return "Penumbra " PENUMBRA_VERSION; }
 
 int run_guarded(const std::function<int()>& program) {
+  fail_writes_past_the_limit();
   try {
     const int code = program();
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail("cannot write to standard output");
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail(no_output);
     return code;
   } catch (const UsageError& error) {
     return report(error.what(), 2);
@@ -88,6 +92,8 @@ int run_guarded(const std::function<int()>& program) {
   } catch (const std::bad_alloc&) {
     return report("out of memory", 1);
   } catch (const std::exception& error) {
+    // What fmt::print throws there is no Error.
+    if (std::ferror(stdout) != 0) return report(no_output, 1);
     return report(std::string("internal error: ") + error.what(), 1);
   }
 }

@@ -24,4 +24,10 @@ void clean_up_on_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+void fail_writes_past_the_limit() {
+  struct sigaction action = {};
+  action.sa_handler = SIG_IGN;
+  sigaction(SIGXFSZ, &action, nullptr);
+}
+
 }  // namespace penumbra::studio
