@@ -6,6 +6,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 import zlib
@@ -18,6 +19,17 @@ BUILD = pathlib.Path(os.environ.get("PENUMBRA_BUILD") or ROOT / "build" / "relea
 def run(*arguments, timeout=300, **options):
     """Runs penumbra; the result has returncode, stdout and stderr (text)."""
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, **options)
+
+
+def wait_until_it_catches(number, process):
+    """Until a process that was started has a handler for the signal, however busy the machine is."""
+    while process.poll() is None:
+        status = pathlib.Path(f"/proc/{process.pid}/status").read_text()
+        caught = next(int(line.split()[1], 16) for line in status.splitlines() if line.startswith("SigCgt"))
+        if caught >> (number - 1) & 1:
+            return
+        time.sleep(0.02)
+    raise AssertionError(f"ended by itself with {process.returncode}")
 
 
 def read_png(path):
