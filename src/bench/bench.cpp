@@ -9,6 +9,7 @@
 #include "bench/results.h"
 #include "core/log.h"
 #include "io/output_file.h"
+#include "studio/scene_files.h"
 #include "studio/signals.h"
 #include "studio/studio.h"
 #include "studio/text.h"
@@ -67,7 +68,10 @@ int run(const std::string& name, const studio::Arguments& arguments, const scene
   if (!studio::parse(app, arguments)) return 0;
   check_together(options);
   entries_of(options, shadow::built_in_registry());  // wrong names before a driver starts
-  for (const std::string& output : options.outputs) io::check_writable(output);
+  for (const std::string& output : options.outputs) {
+    studio::check_spared({options.scene}, "-o", output);
+    io::check_writable(output);
+  }
   studio::clean_up_on_signals();
   studio::limit_threads(options);
 

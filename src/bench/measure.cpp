@@ -14,6 +14,7 @@
 #include "scene/pose.h"
 #include "studio/command_line.h"
 #include "studio/progress.h"
+#include "studio/scene_files.h"
 #include "studio/stage.h"
 
 namespace penumbra::bench {
@@ -119,6 +120,7 @@ class Bench {
     if (stage_ && !point.triangles) return;
     contenders_.clear();
     stage_.emplace(stage_at(point));
+    for (const std::string& output : options_.outputs) studio::check_spared(stage_->scene.files, "-o", output);
     results_.scene = options_.scene.empty() ? "generated grid of casters"
                                             : std::filesystem::path(options_.scene).filename().string();
     const auto timing = device_.software ? gl::Timers::Mode::finish : gl::Timers::Mode::query;

@@ -9,7 +9,7 @@ import statistics
 import subprocess
 import time
 
-from support import PROGRAM, ROOT, TestCase, main
+from support import PROGRAM, ROOT, TestCase, main, wait_until_it_catches
 
 SCENE = ROOT / "scenes" / "steps.glb"
 SMALL = ("--size", "64x36", "--set", "cascades.size=64", "--frames", "2", "--warmup", "1")
@@ -136,6 +136,7 @@ class Bench(TestCase):
         for arguments, said in {
             ("--technique", "pcs"): "did you mean 'pcf'",
             ("--technique", "pcss,pcss"): "twice",
+            ("--technique", "pcss,truth"): "penumbra truth tells",
             ("--technique", "pcss,,hard"): "empty",
             ("--technique", "hard", "--sweep", "taps"): "hard.blocker_taps",
             ("--sweep", "tap"): "did you mean 'taps'",
@@ -146,6 +147,16 @@ class Bench(TestCase):
             self.assertIn(said, self.refuse("bench", SCENE, *arguments, code=2), arguments)
         self.assertIn("SCENE", self.refuse("bench", code=2))
 
+    def test_no_output_overwrites_a_file_of_the_scene(self):
+        names = ("s.json", "data.csv")
+        for name in names:
+            (self.folder / name).write_text(json.dumps({"asset": {"version": "2.0"}, "images": [{"uri": "data.csv"}]}))
+        before = (self.folder / "s.json").read_text()
+        for name in names:
+            said = self.refuse("bench", self.folder / "s.json", "-o", self.folder / name, *SMALL, code=2)
+            self.assertIn("overwrite the scene's file", said)
+            self.assertEqual((self.folder / name).read_text(), before)
+
     def test_unwritable_output_is_told_before_anything_is_measured(self):
         blocker = self.folder / "file"
         blocker.write_text("")
@@ -155,8 +166,8 @@ class Bench(TestCase):
     def test_ctrl_c_leaves_nothing(self):
         run = subprocess.Popen([PROGRAM, "bench", SCENE, "--size", "64x36", "--frames", "100000", "-o",
                                 self.folder / "bench.json"], stderr=subprocess.PIPE, stdout=subprocess.PIPE)
-        time.sleep(3)
-        self.assertIsNone(run.poll())
+        wait_until_it_catches(signal.SIGINT, run)
+        time.sleep(2)  # it most often measures by then; nothing must be left in any case
         run.send_signal(signal.SIGINT)
         out, _ = run.communicate(timeout=60)
         self.assertEqual(run.returncode, 130)
