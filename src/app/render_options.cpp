@@ -63,6 +63,7 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
 void check_together(const RenderOptions& o) {
   studio::check_together(static_cast<const studio::StageOptions&>(o));
   studio::check_together(static_cast<const studio::DeviceOptions&>(o));
+  check_together(static_cast<const CacheOptions&>(o));
   if (o.stats_frames > 1 && o.frames)
     studio::fail_usage("--stats measures each frame of a sequence: leave out --stats-frames");
   if (o.stats_frames > 1 && o.stats.empty()) studio::fail_usage("--stats-frames has no meaning without --stats");

@@ -10,10 +10,12 @@
 #include "app/local_light.h"
 #include "app/metadata.h"
 #include "app/output_names.h"
+#include "app/techniques.h"
 #include "image/read.h"
 #include "image/write.h"
 #include "io/output_file.h"
 #include "studio/progress.h"
+#include "studio/scene_files.h"
 #include "studio/signals.h"
 #include "studio/stage.h"
 #include "studio/studio.h"
@@ -51,6 +53,7 @@ void add_truth_options(CLI::App& app, TruthOptions& o) {
             [&o](const auto& text) { o.light = text; });
   add_value(app, "--light-radius", "M", "Radius of that light, metres (0.1): a sphere's, or of a spot light's disc",
             [&o](const auto& text) { o.light_radius = studio::parse_number("--light-radius", text, 0, 1e6); });
+  app.get_option("--light-radius")->needs(app.get_option("--light"));
   studio::add_time_options(app, o);
   studio::add_shadow_options(app, o);
   add_cache_options(app, o);
@@ -128,16 +131,12 @@ std::string summary(const std::filesystem::path& path, const studio::Size& size,
 
 void check_scene_files(const std::vector<std::filesystem::path>& files, const OutputNames& names,
                        const studio::FrameRange& range) {
-  for (const std::filesystem::path& file : files) {
-    for (int frame = range.first; frame <= range.last; ++frame) {
-      if (io::would_replace(names.picture(frame), file))
-        studio::fail_usage("-o would overwrite the scene's file {}", io::quoted(file));
-    }
-  }
+  for (int frame = range.first; frame <= range.last; ++frame) studio::check_spared(files, "-o", names.picture(frame));
 }
 
 void trace_files(const TruthOptions& options) {
   const OutputNames names(options.output, options.frames.has_value());
+  const ParamSet params = params_of(options, all_techniques());
   const studio::FrameRange range = options.frames.value_or(studio::FrameRange{});
   studio::clean_up_on_signals();
   studio::limit_threads(options);
@@ -158,10 +157,8 @@ void trace_files(const TruthOptions& options) {
   }
   if (options.light) how.local_light = local_light(stage.scene, *options.light, options.light_radius);
   const truth::TruthTechnique truth(std::move(how));
-  const shadow::Registry registry = truth.registry();
-  const ParamSet params = params_of(options, registry);
   studio::Studio studio(options, studio::open_context(options, options), stage,
-                        {.shaders = gl::ShaderFiles(options.glsl), .techniques = registry});
+                        {.shaders = gl::ShaderFiles(options.glsl), .techniques = truth.registry()});
   std::string last_line;
   for (int frame = range.first; frame <= range.last; ++frame) {
     studio.draw(frame, params);
@@ -182,6 +179,7 @@ int run_truth(const Arguments& arguments) {
   if (!studio::parse(app, arguments)) return 0;
   studio::check_together(static_cast<const studio::StageOptions&>(options));
   studio::check_together(static_cast<const studio::DeviceOptions&>(options));
+  check_together(static_cast<const CacheOptions&>(options));
   trace_files(options);
   return 0;
 }

@@ -8,7 +8,7 @@ import subprocess
 import time
 
 from pictures import SMALL, read_exr, read_exr_header, read_png, scene
-from support import PROGRAM, TestCase, main
+from support import PROGRAM, TestCase, main, wait_until_it_catches
 
 FENCE = scene("fence")
 LAYERS = {"shadow.V", "standard_error.V", "hard.V", "receiver.V"}
@@ -198,19 +198,43 @@ class Truth(TestCase):
         copy.write_bytes(FENCE.read_bytes())
         self.refuse("truth", copy, "-o", copy, *SMALL, code=2)
 
+    def test_the_command_line_is_checked_before_the_scene(self):
+        for more, said in {
+            ("--spp", "0"): "truth.samples",
+            ("--set", "truth.sample=9"): "did you mean 'truth.samples'",
+            ("--set", "sun.angle=wide"): "sun.angle",
+            ("--set", "technique=truht"): "technique",
+            ("--light-radius", "0.2"): "--light-radius requires --light",
+            ("--cache", "here", "--no-cache"): "--cache and --no-cache exclude each other",
+        }.items():
+            with self.subTest(more):
+                self.assertIn(said, self.refuse("truth", "none.glb", "-o", self.folder / "x.exr", *more, code=2))
+        self.refuse("render", "none.glb", "-o", self.folder / "x.exr", "--cache", "here", "--no-cache", code=2)
+
+    def test_the_picture_overwrites_no_file_that_the_scene_names(self):
+        gltf = {"asset": {"version": "2.0"}, "images": [{"uri": "x_2.png"}]}
+        (self.folder / "s.gltf").write_text(json.dumps(gltf))
+        image = self.folder / "x_2.png"
+        image.write_bytes(b"data")
+        for more in (("-o", image), ("-o", self.folder / "x_#.png", "--frames", "0:4")):
+            error = self.refuse("truth", self.folder / "s.gltf", *SMALL, *more, code=2)
+            self.assertIn("overwrite the scene's file", error)
+        self.assertEqual(image.read_bytes(), b"data")
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["s.gltf", "x_2.png"])
+
     def test_an_interrupt_leaves_nothing(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             command = [PROGRAM, "truth", scene("foliage"), "-o", self.folder / "x.exr", "--spp", "65536", "--cache",
                        self.cache]
             process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-            time.sleep(3)
+            wait_until_it_catches(number, process)
+            time.sleep(2)  # it most often traces by then; nothing must be left in any case
             process.send_signal(number)
             self.assertEqual(process.wait(timeout=60), 128 + number)
             self.assertEqual([path for path in self.folder.rglob("*") if path.is_file()], [])
 
-    def test_a_full_disk_is_an_error_and_leaves_nothing(self):
+    def test_a_limit_of_file_sizes_is_an_error_and_leaves_nothing(self):
         def few_bytes():
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
             resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512))
 
         error = self.refuse("truth", FENCE, "-o", self.folder / "x.exr", *SMALL, "--spp", "8", "--cache", self.cache,
@@ -244,6 +268,15 @@ class Truth(TestCase):
         environment.pop("XDG_CACHE_HOME", None)
         self.succeed("truth", FENCE, "-o", self.folder / "x.exr", *SMALL, "--spp", "8", env=environment)
         self.assertEqual(len(list((home / ".cache/penumbra/truth").iterdir())), 1)
+
+    def test_a_cache_folder_that_is_relative_is_ignored(self):
+        # As the XDG base directory specification says.
+        home = self.folder / "home"
+        environment = {**os.environ, "HOME": str(home), "XDG_CACHE_HOME": "here"}
+        self.succeed("truth", FENCE.resolve(), "-o", self.folder / "x.exr", *SMALL, "--spp", "8", env=environment,
+                     cwd=self.folder)
+        self.assertEqual(len(list((home / ".cache/penumbra/truth").iterdir())), 1)
+        self.assertFalse((self.folder / "here/penumbra").exists())  # the driver may keep its shaders there
 
 
 if __name__ == "__main__":
