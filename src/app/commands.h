@@ -17,6 +17,9 @@ struct Command {
 std::span<const Command> commands();
 
 int run_render(const Arguments& arguments);
+int run_watch(const Arguments& arguments);
+int run_glsl(const Arguments& arguments);
+int run_view(const Arguments& arguments);
 int run_truth(const Arguments& arguments);
 int run_diff(const Arguments& arguments);
 int run_compare(const Arguments& arguments);

@@ -10,6 +10,11 @@ namespace {
 
 constexpr std::array table{
     Command{"render", "Draw a glTF scene into a PNG or EXR file", run_render},
+    Command{"watch", "Draw it again whenever the scene, a preset or a shader is saved", run_watch},
+    Command{"glsl", "Write the built-in shaders to a folder, to change there", run_glsl},
+#ifdef PENUMBRA_VIEWER
+    Command{"view", "Show a scene in a window and tune its shadows", run_view},
+#endif
     Command{"truth", "Ray trace the shadows of a scene, for techniques to be measured against", run_truth},
     Command{"info", "Tell what is in a scene", run_info},
     Command{"list", "List techniques, filters, params, aovs or backends", run_list},

@@ -4,16 +4,13 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/drawing.h"
 #include "app/file_check.h"
 #include "app/frame_files.h"
 #include "app/output_names.h"
 #include "app/render_options.h"
-#include "app/stats.h"
 #include "app/techniques.h"
 #include "image/read.h"
-#include "io/output_file.h"
-#include "io/presets.h"
-#include "studio/progress.h"
 #include "studio/signals.h"
 #include "studio/stage.h"
 #include "studio/studio.h"
@@ -24,25 +21,6 @@ namespace penumbra::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-// Draws a single picture again to measure it; of a sequence it counts what was drawn. The very first draw compiles
-// shaders and never counts.
-std::size_t measure(const RenderOptions& options, studio::Studio& studio, const ParamSet& params,
-                    const studio::FrameRange& range) {
-  if (range.count() > 1) return static_cast<std::size_t>(range.count() - (options.warmup == 0 ? 1 : 0));
-  for (int i = 0; i < options.stats_frames; ++i) studio.redraw(params);
-  return static_cast<std::size_t>(options.stats_frames);
-}
-
-void draw_all(const RenderOptions& options, studio::Studio& studio, const ParamSet& params, const OutputNames& names,
-              const studio::FrameRange& range) {
-  studio::Progress progress("frame", options.warmup + range.count(), !options.quiet);
-  for (int frame = range.first - options.warmup; frame <= range.last; ++frame) {
-    studio.draw(frame, params);
-    if (frame >= range.first) write_frame(studio, options, params, names, frame);
-    progress.step();
-  }
-}
 
 std::string summary(const RenderOptions& options, const ParamSet& params, const OutputNames& names,
                     const studio::FrameRange& range, double seconds) {
@@ -74,12 +52,8 @@ void render_files(const RenderOptions& options) {
       options, std::move(context), stage,
       {.shaders = gl::ShaderFiles(options.glsl), .techniques = truth.registry(), .timed = !options.stats.empty()});
 
-  draw_all(options, studio, params, names, range);
-  if (!options.stats.empty()) {
-    const std::size_t measured = measure(options, studio, params, range);
-    io::write_text(options.stats, io::text_of(stats_of(options, stage, params, studio, measured)));
-  }
-  if (!options.save_preset.empty()) io::write_preset(options.save_preset, params);
+  draw_frames(options, studio, params, range, [&](int frame) { write_frame(studio, options, params, names, frame); });
+  write_reports(options, stage, params, studio, options.stats.empty() ? 0 : measure(options, studio, params, range));
   const std::chrono::duration<double> elapsed = Clock::now() - start;
   if (!options.quiet) fmt::print("{}\n", summary(options, params, names, range, elapsed.count()));
 }

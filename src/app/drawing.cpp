@@ -1,0 +1,34 @@
+#include "app/drawing.h"
+
+#include "app/stats.h"
+#include "io/output_file.h"
+#include "io/presets.h"
+#include "studio/progress.h"
+
+namespace penumbra::app {
+
+void draw_frames(const RenderOptions& options, studio::Studio& studio, const ParamSet& params,
+                 const studio::FrameRange& range, const std::function<void(int frame)>& drawn) {
+  studio::Progress progress("frame", options.warmup + range.count(), !options.quiet);
+  for (int frame = range.first - options.warmup; frame <= range.last; ++frame) {
+    studio.draw(frame, params);
+    if (frame >= range.first) drawn(frame);
+    progress.step();
+  }
+}
+
+std::size_t measure(const RenderOptions& options, studio::Studio& studio, const ParamSet& params,
+                    const studio::FrameRange& range) {
+  if (range.count() > 1) return static_cast<std::size_t>(range.count() - (options.warmup == 0 ? 1 : 0));
+  for (int i = 0; i < options.stats_frames; ++i) studio.redraw(params);
+  return static_cast<std::size_t>(options.stats_frames);
+}
+
+void write_reports(const RenderOptions& options, const studio::Stage& stage, const ParamSet& params,
+                   studio::Studio& studio, std::size_t measured) {
+  if (!options.stats.empty())
+    io::write_text(options.stats, io::text_of(stats_of(options, stage, params, studio, measured)));
+  if (!options.save_preset.empty()) io::write_preset(options.save_preset, params);
+}
+
+}  // namespace penumbra::app

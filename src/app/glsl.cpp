@@ -1,0 +1,50 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "core/error.h"
+#include "gl/shader_source.h"
+#include "io/output_file.h"
+#include "studio/signals.h"
+#include "studio/usage.h"
+
+namespace penumbra::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void refuse_present(const fs::path& folder, const std::vector<std::string>& names) {
+  std::error_code error;
+  for (const std::string& name : names) {
+    if (fs::exists(fs::symlink_status(folder / name, error)))
+      fail("{} exists already: --force overwrites it", io::quoted(folder / name));
+  }
+}
+
+}  // namespace
+
+int run_glsl(const Arguments& arguments) {
+  CLI::App app("Write the built-in shaders to a folder, to change there and draw with by --glsl", "penumbra glsl");
+  std::string output;
+  bool force = false, quiet = false;
+  app.add_option("DIR", output, "Folder to write to; made if it is missing")->required()->type_name("");
+  app.add_flag("--force", force, "Overwrites files of these names")->disable_flag_override();
+  app.add_flag("--quiet,-q", quiet, "No summary")->disable_flag_override();
+  if (!studio::parse(app, arguments)) return 0;
+  if (output.empty()) studio::fail_usage("DIR is a folder's name, not an empty text");
+
+  studio::clean_up_on_signals();
+  const fs::path folder(output);
+  const gl::ShaderFiles built_in;
+  const std::vector<std::string> names = gl::ShaderFiles::built_in_names();
+  if (!force) refuse_present(folder, names);
+  for (const std::string& name : names) io::check_writable(folder / name);
+  for (const std::string& name : names) io::write_text(folder / name, built_in.read(name).value());
+  if (!quiet) fmt::print("wrote {} shader files to {}\n", names.size(), output);
+  return 0;
+}
+
+}  // namespace penumbra::app
