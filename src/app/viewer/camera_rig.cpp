@@ -12,6 +12,8 @@ namespace {
 
 // Straight up and down there is no upright.
 constexpr float steepest = glm::half_pi<float>() - 0.01f;
+// At the zenith a sun has no azimuth to come down by.
+constexpr float highest = glm::half_pi<float>() - 1e-3f;
 
 // As render::direction_to() has them.
 struct Angles {
@@ -50,7 +52,11 @@ void CameraRig::pan(const glm::vec2& heights) {
   fly({heights.x * height, heights.y * height, 0});
 }
 
-void CameraRig::dolly(float factor) { eye = target + (eye - target) * std::max(factor, 1e-3f); }
+void CameraRig::dolly(float factor) {
+  // Nearer, single precision would not tell eye and target apart.
+  const float least = 1e-4f * (1.0f + glm::length(target)), now = distance();
+  eye = target + (eye - target) * (std::max(now * factor, least) / now);
+}
 
 void CameraRig::fly(const glm::vec3& metres) {
   const Axes axes = axes_of(*this);
@@ -84,8 +90,7 @@ CameraRig rig_of(const render::Camera& camera, const scene::Bounds& bounds) {
 
 glm::vec3 turned_light(const glm::vec3& to_light, float azimuth, float elevation) {
   const Angles angles = angles_of(to_light);
-  return render::direction_to(angles.azimuth + azimuth,
-                              std::clamp(angles.elevation + elevation, 0.0f, glm::half_pi<float>()));
+  return render::direction_to(angles.azimuth + azimuth, std::clamp(angles.elevation + elevation, 0.0f, highest));
 }
 
 }  // namespace penumbra::app

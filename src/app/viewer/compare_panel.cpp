@@ -45,7 +45,7 @@ void choose_way(const Panel& panel) {
   Comparison& comparison = panel.state.comparison;
   row("shown", "How the two share the window.");
   for (std::size_t i = 0; i < ways.size(); ++i) {
-    if (i % 3 != 0) ImGui::SameLine();
+    if (i % 2 != 0) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.5f);
     if (ImGui::RadioButton(ways.at(i).name, comparison.how == ways.at(i).how)) comparison.how = ways.at(i).how;
     panel.widgets.mark(std::string("compare=") + ways.at(i).name);
     tooltip(ways.at(i).help);

@@ -18,6 +18,7 @@ void bars(const Costs& costs) {
   for (const Costs::Pass& pass : costs.passes()) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(pass.name.c_str());
     ImGui::TableNextColumn();
     const auto share = static_cast<float>(frame > 0 ? pass.median / frame : 0);
@@ -31,9 +32,9 @@ void plot(const Costs& costs) {
   const std::vector<float>& history = costs.history();
   if (history.empty()) return;
   const float most = *std::max_element(history.begin(), history.end());
-  ImGui::PlotLines("##history", history.data(), static_cast<int>(history.size()), 0,
-                   fmt::format("frames, 0 to {:.1f} ms", most).c_str(), 0, most * 1.1f,
-                   {-1, 4 * ImGui::GetTextLineHeightWithSpacing()});
+  ImGui::PlotHistogram("##history", history.data(), static_cast<int>(history.size()), 0,
+                       fmt::format("frames, 0 to {:.1f} ms", most).c_str(), 0, most * 1.1f,
+                       {ImGui::GetContentRegionAvail().x, 4 * ImGui::GetTextLineHeightWithSpacing()});
 }
 
 void memory(const Panel& panel) {
@@ -60,6 +61,7 @@ void machine(const Panel& panel) {
 
 void cost_panel(const Panel& panel) {
   State& state = panel.state;
+  ImGui::BeginChild("cost");
   machine(panel);
   ImGui::Checkbox("Wait for the screen (vsync)", &state.vsync);
   panel.widgets.mark("vsync");
@@ -74,6 +76,7 @@ void cost_panel(const Panel& panel) {
     ImGui::PopID();
   }
   if (ImGui::CollapsingHeader("Memory", ImGuiTreeNodeFlags_DefaultOpen)) memory(panel);
+  ImGui::EndChild();
 }
 
 }  // namespace penumbra::app

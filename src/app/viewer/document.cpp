@@ -27,10 +27,9 @@ void add(std::vector<std::string>& arguments, const std::string& option, const s
   arguments.push_back(option + "=" + value);
 }
 
-void add_frame(std::vector<std::string>& arguments, const Document& document) {
-  if (document.frame == 0) return;
-  add(arguments, "--frames", fmt::format("{}:{}", document.frame, document.frame));
-  const double fps = document.stage.fps;
+void add_frames(std::vector<std::string>& arguments, const studio::FrameRange& range, double fps) {
+  if (range.last == 0) return;
+  add(arguments, "--frames", fmt::format("{}:{}", range.first, range.last));
   if (fps != studio::StageOptions{}.fps) add(arguments, "--fps", fmt::format("{}", fps));
 }
 
@@ -46,7 +45,8 @@ void add_params(std::vector<std::string>& arguments, const ParamSet& params) {
 
 int warmup_of(const Document& document) {
   constexpr int settled = 31;
-  return document.params.get_bool("history.reuse") ? settled : 0;
+  const bool remembers = document.params.get_bool("history.reuse") && document.params.get_word("technique") != "truth";
+  return remembers ? settled : 0;
 }
 
 std::vector<std::string> camera_arguments(const studio::StageOptions& stage) {
@@ -61,7 +61,8 @@ std::vector<std::string> camera_arguments(const studio::StageOptions& stage) {
 }
 
 std::vector<std::string> stage_arguments(const studio::StageOptions& stage) {
-  std::vector<std::string> arguments{stage.scene};
+  // A name that begins like an option is none.
+  std::vector<std::string> arguments{stage.scene.starts_with('-') ? "./" + stage.scene : stage.scene};
   add(arguments, "--size", fmt::format("{}x{}", stage.size.width, stage.size.height));
   for (std::string& argument : camera_arguments(stage)) arguments.push_back(std::move(argument));
   if (stage.sun) {
@@ -74,11 +75,11 @@ std::vector<std::string> stage_arguments(const studio::StageOptions& stage) {
 }
 
 std::vector<std::string> render_arguments(const Document& document, const std::string& output, int warmup,
-                                          const std::string& glsl) {
+                                          const std::string& glsl, std::optional<studio::FrameRange> range) {
   std::vector<std::string> arguments{"render"};
   for (std::string& argument : stage_arguments(document.stage)) arguments.push_back(std::move(argument));
   arguments.insert(arguments.end(), {"-o", output});
-  add_frame(arguments, document);
+  add_frames(arguments, range.value_or(studio::FrameRange{document.frame, document.frame}), document.stage.fps);
   add_params(arguments, document.params);
   if (warmup > 0) add(arguments, "--warmup", std::to_string(warmup));
   if (!glsl.empty()) add(arguments, "--glsl", glsl);

@@ -28,9 +28,10 @@ int warmup_of(const Document& document);
 std::vector<std::string> stage_arguments(const studio::StageOptions& stage);
 
 // The arguments of `penumbra render` that draw this picture: "render", the scene, …, with all that is not a default.
-// `warmup` frames come before it, for techniques with memory; `glsl` is --glsl's folder, or empty.
+// `warmup` frames come before it, for techniques with memory; `glsl` is --glsl's folder, or empty; `range`: these
+// frames instead of the present one.
 std::vector<std::string> render_arguments(const Document& document, const std::string& output, int warmup,
-                                          const std::string& glsl);
+                                          const std::string& glsl, std::optional<studio::FrameRange> range = {});
 
 // Has the camera stand free where the rig is: the options' --eye, --target and --fov.
 void place(Document& document, const studio::Stage& stage, const CameraRig& rig);

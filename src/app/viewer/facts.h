@@ -35,8 +35,11 @@ struct Facts {
   const Costs& costs_b;
   glm::ivec2 drawn_size{0};  // of the last picture, pixels
   int frames = 0;            // drawn since something changed
+  bool at_rest = false;      // what is seen is what it will stay
   std::vector<std::string> shader_errors;
   std::string reloaded;              // "3 programs, 0.4 s"
+  std::optional<double> writing;     // share of the files that are written
+  std::string command;               // what draws this picture in a shell
   std::optional<double> tracing;     // share of the truth that is traced
   std::optional<Distance> distance;  // A to B
   std::optional<glm::ivec2> probed;  // the picture's pixel under the cursor

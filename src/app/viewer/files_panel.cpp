@@ -20,19 +20,27 @@ void files_panel(const Panel& panel) {
   end_rows();
   state.sequence.first = std::clamp(state.sequence.first, 0, 999'999);
   state.sequence.last = std::clamp(state.sequence.last, state.sequence.first, 999'999);
-  if (ImGui::Button("Write picture")) state.requests.screenshot = state.picture_file;
-  panel.widgets.mark("write picture");
-  tooltip("What penumbra render writes for the command line below (F12)");
-  ImGui::SameLine();
-  if (ImGui::Button("Write sequence")) {
-    state.requests.sequence = state.picture_file;
-    state.requests.frames = state.sequence;
+  ImGui::Checkbox("with every AOV", &state.with_aovs);
+  panel.widgets.mark("with aovs");
+  tooltip("Layers of an EXR, or a PNG each");
+  if (panel.facts.writing) {
+    ImGui::ProgressBar(static_cast<float>(*panel.facts.writing), {-1, 0}, "writing");
+    panel.widgets.mark("writing");
+  } else {
+    if (ImGui::Button("Write picture")) state.requests.write_picture = true;
+    panel.widgets.mark("write picture");
+    tooltip("What penumbra render writes for the command line below (F12)");
+    ImGui::SameLine();
+    if (ImGui::Button("Write sequence")) state.requests.write_sequence = true;
+    panel.widgets.mark("write sequence");
   }
-  panel.widgets.mark("write sequence");
   ImGui::Separator();
   if (ImGui::Button("Copy as command line")) state.requests.copy_command = true;
   panel.widgets.mark("copy command");
-  tooltip("The line for a shell that draws this very picture");
+  tooltip("The line for a shell that draws this very picture (Ctrl + C)");
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextDisabled("%s", panel.facts.command.c_str());
+  ImGui::PopTextWrapPos();
 }
 
 }  // namespace penumbra::app

@@ -27,13 +27,14 @@ constexpr std::array<std::array<std::uint8_t, 3>, 8> label_colors{{{{214, 69, 65
                                                                    {{150, 150, 150}}}};
 
 std::uint8_t to_byte(float value) {
-  return static_cast<std::uint8_t>(std::lround(std::clamp(std::isfinite(value) ? value : 0.0f, 0.0f, 1.0f) * 255.0f));
+  return static_cast<std::uint8_t>(std::lround(std::clamp(std::isnan(value) ? 0.0f : value, 0.0f, 1.0f) * 255.0f));
 }
 
 using Rgb = std::array<std::uint8_t, 3>;
 
 Rgb label_color(float value) {
-  if (!(value >= 0)) return {};
+  constexpr float most = 65536;
+  if (!(value >= 0 && value < most)) return {};
   return label_colors[static_cast<std::size_t>(value) % label_colors.size()];
 }
 
@@ -161,8 +162,9 @@ Range range_of(const Inspection& inspection, const Look& look, const Values& val
     low = std::min(low, v);
     high = std::max(high, v);
   }
-  if (look.scale == ColorScale::vectors) return {0, heat_scale(std::max(high, -low))};
-  return {low < 0 ? -heat_scale(-low) : 0.0f, heat_scale(high)};
+  const auto round_number = [](float largest) { return std::max(heat_scale(largest), largest); };
+  if (look.scale == ColorScale::vectors) return {0, round_number(std::max(high, -low))};
+  return {low < 0 ? -round_number(-low) : 0.0f, round_number(high)};
 }
 
 std::vector<std::uint8_t> colors_of(const Values& values, const Look& look, const Range& range) {

@@ -43,8 +43,8 @@ Look look_of(std::string_view what);
 // Of the last frame that was drawn; throws Error for names that there are none of.
 Values read_values(const Inspection& inspection, const render::Renderer& renderer, const gl::Device& device);
 
-// The range in which values are to be seen: fixed, chosen by hand, or from the least to the largest finite value, a
-// round number.
+// The range in which values are to be seen: fixed, chosen by hand, or round numbers that hold all finite
+// values (beyond 100,000 the largest itself).
 struct Range {
   float low = 0, high = 1;
 };

@@ -17,8 +17,14 @@ constexpr ImGuiWindowFlags overlay_flags = ImGuiWindowFlags_NoDecoration | ImGui
 // The upper left corner of the picture is where the cursor of the window that is being drawn stands.
 bool begin_overlay(const char* name, const ImVec2& place, const ImVec2& pivot) {
   ImGui::SetNextWindowPos(place, ImGuiCond_Always, pivot);
-  ImGui::SetNextWindowBgAlpha(0.85f);
+  ImGui::SetNextWindowBgAlpha(0.92f);
   return ImGui::Begin(name, nullptr, overlay_flags);
+}
+
+void end_overlay(const Panel& panel, const char* name) {
+  const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  panel.widgets.mark(name, low, {low.x + size.x, low.y + size.y});
+  ImGui::End();
 }
 
 ImVec2 inner(const ImVec2& corner, float x, float y) {
@@ -70,7 +76,7 @@ void help_overlay(const Panel& panel) {
     }
     ImGui::EndTable();
   }
-  ImGui::End();
+  end_overlay(panel, "keys");
 }
 
 void messages_overlay(const Panel& panel, const ImVec2& corner, double now) {
@@ -85,7 +91,7 @@ void messages_overlay(const Panel& panel, const ImVec2& corner, double now) {
     }
     ImGui::PopTextWrapPos();
   }
-  ImGui::End();
+  end_overlay(panel, "messages");
 }
 
 void shader_errors_overlay(const Panel& panel, const ImVec2& corner) {
@@ -96,8 +102,7 @@ void shader_errors_overlay(const Panel& panel, const ImVec2& corner) {
     for (const std::string& error : panel.facts.shader_errors) ImGui::TextUnformatted(error.c_str());
     ImGui::PopTextWrapPos();
   }
-  ImGui::End();
-  panel.widgets.mark("shader errors");
+  end_overlay(panel, "shader errors");
 }
 
 namespace {
@@ -157,7 +162,7 @@ void legend_overlay(const Panel& panel, const ImVec2& corner) {
         break;
     }
   }
-  ImGui::End();
+  end_overlay(panel, "legend");
 }
 
 void status_bar(const Panel& panel) {
@@ -169,13 +174,14 @@ void status_bar(const Panel& panel) {
     text += fmt::format("{} × {}", facts.drawn_size.x, facts.drawn_size.y);
     if (facts.drawn_size != full) text += fmt::format(" of {} × {}", full.x, full.y);
     text += fmt::format("   {:.1f} ms   {}", facts.costs_a.frame(), panel.state.document.params.get_word("technique"));
-    text += fmt::format("   frame {} at rest", facts.frames);
+    text += facts.at_rest ? "   at rest" : fmt::format("   frame {}", facts.frames);
   }
   if (facts.tracing) text += fmt::format("   tracing {:.0f} %", *facts.tracing * 100);
   if (facts.device.software) text += "   software rasteriser";
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text.c_str());
   panel.widgets.mark("status");
+  if (facts.at_rest) panel.widgets.mark("at rest");
   const char* help = "F1 keys";
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(help).x);
   ImGui::TextDisabled("%s", help);

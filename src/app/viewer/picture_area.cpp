@@ -83,7 +83,8 @@ bool drag_line(const Panel& panel, const PictureArea& area, bool active) {
   return dragging;
 }
 
-void draw_line(const Comparison& comparison, const PictureArea& area) {
+void draw_line(const Panel& panel, const PictureArea& area) {
+  const Comparison& comparison = panel.state.comparison;
   if (!comparison.on) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 ink = IM_COL32(255, 255, 255, 200);
@@ -93,6 +94,7 @@ void draw_line(const Comparison& comparison, const PictureArea& area) {
   if (comparison.how == Comparing::side_by_side) line = area.corner.x + 0.5f * area.size.x;
   if (line >= 0) {
     list.AddLine({line, top}, {line, bottom}, ink, 1.0f);
+    panel.widgets.mark("line", {line - grip, top}, {line + grip, bottom});
     const float gap = ImGui::GetFontSize();
     list.AddText({line - 1.4f * gap, bottom - 1.6f * gap}, ink, "A");
     list.AddText({line + 0.7f * gap, bottom - 1.6f * gap}, ink, "B");
@@ -153,7 +155,7 @@ PictureArea picture_area(const Panel& panel, const gl::Texture* seen) {
     // Textures begin at the bottom, the window at the top.
     ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(seen->id())), corner,
                                          {corner.x + area.size.x, corner.y + area.size.y}, {0, 1}, {1, 0});
-    draw_line(panel.state.comparison, area);
+    draw_line(panel, area);
   }
   return area;
 }
@@ -170,8 +172,9 @@ void take_keys(const Panel& panel, float seconds) {
     }
   }
   if (pressed(GLFW_KEY_F1) || pressed(GLFW_KEY_H)) state.help = !state.help;
-  if (pressed(GLFW_KEY_F12)) state.requests.screenshot = state.picture_file;
+  if (pressed(GLFW_KEY_F12)) state.requests.write_picture = true;
   if (pressed(GLFW_KEY_TAB)) state.panel = !state.panel;
+  if (pressed(GLFW_KEY_SLASH)) state.panel = state.focus_search = true;
   if (pressed(GLFW_KEY_F)) state.fly = !state.fly;
   if (pressed(GLFW_KEY_P)) state.probe = !state.probe;
   if (pressed(GLFW_KEY_HOME)) state.requests.frame_all = true;

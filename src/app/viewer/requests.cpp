@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/output_names.h"
 #include "app/techniques.h"
 #include "app/viewer/viewer.h"
 #include "io/presets.h"
@@ -20,6 +21,7 @@ void Viewer::do_requests() {
       io::write_preset(*wanted.save_preset, state_.document.params);
       tell(state_, "wrote " + *wanted.save_preset, ImGui::GetTime());
     }
+    if ((wanted.write_picture || wanted.write_sequence) && scene_ != nullptr) write_picture(wanted.write_sequence);
     if (wanted.frame_all && scene_ != nullptr) frame_all();
     if (wanted.copy_command && scene_ != nullptr) copy_command();
     if (wanted.copy_camera && scene_ != nullptr) copy_camera();
@@ -43,11 +45,41 @@ void Viewer::open_preset(const std::string& file) {
   tell(state_, "took the values of " + file, ImGui::GetTime());
 }
 
+std::vector<std::string> Viewer::command() const {
+  return render_arguments(state_.document, state_.picture_file, warmup_of(state_.document), options_.glsl);
+}
+
 void Viewer::copy_command() {
-  const std::string text = studio::command_text(
-      "penumbra", render_arguments(state_.document, state_.picture_file, warmup_of(state_.document), options_.glsl));
+  const std::string text = studio::command_text("penumbra", command());
   ImGui::SetClipboardText(text.c_str());
   tell(state_, "copied: " + text, ImGui::GetTime());
+}
+
+void Viewer::write_picture(bool sequence) {
+  const studio::FrameRange one{state_.document.frame, state_.document.frame};
+  const studio::FrameRange range = sequence ? state_.sequence : one;
+  std::vector<std::string> arguments =
+      render_arguments(state_.document, state_.picture_file, warmup_of(state_.document), options_.glsl, range);
+  if (state_.with_aovs) {
+    for (const render::Aov& aov : render::aovs()) arguments.push_back("--aov=" + aov.name);
+  }
+  const OutputNames names(state_.picture_file, range.last != 0);
+  std::vector<std::filesystem::path> files;
+  for (int frame = range.first; frame <= range.last; ++frame) files.push_back(names.picture(frame));
+  writer_.start(arguments, std::move(files));
+}
+
+// What is being written, and what came of it.
+void Viewer::take_written() {
+  facts_.writing = writer_.runs() ? std::optional(writer_.progress()) : std::nullopt;
+  const std::optional<RenderProcess::Result> result = writer_.finished();
+  if (!result) return;
+  facts_.writing.reset();
+  if (result->good) {
+    tell(state_, result->text, ImGui::GetTime());
+  } else {
+    tell_error(state_, result->text, ImGui::GetTime());
+  }
 }
 
 void Viewer::copy_camera() {

@@ -160,9 +160,11 @@ bool section(const char* title) { return ImGui::CollapsingHeader(title, ImGuiTre
 void scene_panel(const Panel& panel) {
   file(panel);
   if (panel.facts.scene == nullptr) return;
+  ImGui::BeginChild("scene");
   if (section("Camera")) camera(panel);
   if (section("Sun")) sun(panel);
   if (section("Time")) time(panel);
+  ImGui::EndChild();
 }
 
 }  // namespace penumbra::app

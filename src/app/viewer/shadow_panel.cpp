@@ -2,6 +2,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/viewer/panels.h"
 
@@ -113,6 +114,7 @@ void shadow_panel(const Panel& panel) {
   choose_technique(panel, params);
   end_rows();
   ImGui::SetNextItemWidth(-ImGui::CalcTextSize("Reset all").x - 4 * ImGui::GetStyle().FramePadding.x);
+  if (std::exchange(state.focus_search, false)) ImGui::SetKeyboardFocusHere();
   ImGui::InputTextWithHint("##search", "Search parameters", &state.search);
   panel.widgets.mark("search");
   ImGui::SameLine();

@@ -29,9 +29,7 @@ struct Message {
 struct Requests {
   std::optional<std::string> open;  // a scene
   std::optional<std::string> open_preset, save_preset;
-  std::optional<std::string> screenshot;  // a file's name
-  std::optional<std::string> sequence;    // the same, of the frames first to last
-  studio::FrameRange frames;
+  bool write_picture = false, write_sequence = false;  // to the state's file
   bool frame_all = false;
   bool copy_command = false, copy_camera = false;
   bool quit = false;
@@ -47,9 +45,12 @@ struct State {
   bool fly = false;            // the left button turns the head, instead of the scene
   bool dragging_line = false;  // between A and B
   bool panel = true, help = false, probe = true, vsync = true;
-  std::string search;  // in the parameters
+  std::string search;         // in the parameters
+  std::string tab, open_tab;  // to be opened; that is open
+  bool focus_search = false;  // the next frame
   std::string preset_file = "preset.toml", picture_file = "penumbra.png", scene_file;
   studio::FrameRange sequence{0, 47};
+  bool with_aovs = false;           // in what is written
   std::vector<std::string> recent;  // scenes, the last one first
   std::deque<Message> messages;
   Requests requests;

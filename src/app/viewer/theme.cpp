@@ -42,8 +42,9 @@ void set_theme(float scale) {
   colors[ImGuiCol_Tab] = grey(0.16f);
   colors[ImGuiCol_TabHovered] = grey(0.30f);
   colors[ImGuiCol_TabActive] = grey(0.26f);
-  colors[ImGuiCol_SliderGrab] = accent(0.80f);
-  colors[ImGuiCol_SliderGrabActive] = accent(1.0f);
+  // Dark enough for the value's text, which stands over it.
+  colors[ImGuiCol_SliderGrab] = {0.55f, 0.38f, 0.13f, 1};
+  colors[ImGuiCol_SliderGrabActive] = {0.66f, 0.46f, 0.16f, 1};
   colors[ImGuiCol_CheckMark] = accent(1.0f);
   colors[ImGuiCol_PlotHistogram] = accent(0.85f);
   colors[ImGuiCol_PlotLines] = accent(0.85f);

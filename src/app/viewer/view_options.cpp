@@ -5,9 +5,15 @@
 namespace penumbra::app {
 
 void add_view_command_options(CLI::App& app, ViewOptions& options) {
-  app.add_option("SCENE", options.scene, "glTF file, .gltf or .glb; else the last one that was shown")->type_name("");
-  studio::add_value(app, "--size", "WIDTHxHEIGHT", "The window, pixels (1280x720)",
-                    [&options](const auto& text) { options.size = studio::parse_size("--size", text); });
+  app.add_option("SCENE", options.scene,
+                 "glTF file, .gltf or .glb; else the last one that was shown, else one that comes with Penumbra")
+      ->type_name("");
+  studio::add_value(app, "--size", "WIDTHxHEIGHT", "The window, pixels (as it was last; 1280x720)",
+                    [&options](const auto& text) {
+                      options.size = studio::parse_size("--size", text);
+                      options.sized = true;
+                    });
+  app.add_flag("--defaults", options.defaults, "Begins anew, whatever the last run kept")->disable_flag_override();
   studio::add_view_options(app, options);
   studio::add_time_options(app, options);
   studio::add_technique_option(app, options);

@@ -9,7 +9,9 @@ namespace penumbra::app {
 
 // What `penumbra view` was asked for; every value is parsed and in range.
 struct ViewOptions : studio::StageOptions, studio::ShadowOptions, studio::DeviceOptions, CacheOptions {
-  std::string layout;  // a file for scripts: where widgets stand
+  bool sized = false;     // the window's size was given
+  bool defaults = false;  // nothing of the last run is taken up
+  std::string layout;     // a file for scripts: where widgets stand
 };
 
 void add_view_command_options(CLI::App& app, ViewOptions& options);

@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <utility>
 
-#include "app/receivers.h"
 #include "app/techniques.h"
+#include "core/log.h"
 #include "io/presets.h"
-#include "metrics/flip.h"
+
 #include "studio/shader_reload.h"
 #include "studio/text.h"
 
@@ -43,20 +43,45 @@ Document document_of(const ViewOptions& options) {
   return document;
 }
 
-std::string number_text(const std::vector<float>& values) {
-  std::string text;
-  for (const float v : values) text += fmt::format("{}{:.4g}", text.empty() ? "" : "  ", v);
-  return text;
+Window::Options window_options(const ViewOptions& options, const Settings& settings) {
+  const studio::Size size = options.sized ? options.size : settings.window.value_or(options.size);
+  return {.width = size.width, .height = size.height, .debug = options.debug};
+}
+
+// The one that comes with the program, installed or in its sources' folder; empty: there is none.
+std::string own_scene() {
+  std::error_code fault;
+  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", fault).parent_path();
+  for (const char* place : {"../share/penumbra/scenes/courtyard.glb", "../../scenes/courtyard.glb"}) {
+    if (std::filesystem::exists(folder / place, fault)) return (folder / place).lexically_normal().string();
+  }
+  return "";
+}
+
+std::string first_scene(const ViewOptions& options, const Settings& settings) {
+  if (!options.scene.empty()) return options.scene;
+  for (const std::string& recent : settings.recent) {
+    std::error_code fault;
+    if (std::filesystem::exists(recent, fault)) return recent;
+  }
+  return own_scene();
+}
+
+// Values that the command line leaves open are those of the last run.
+bool says_nothing_of_shadows(const studio::ShadowOptions& options) {
+  return options.technique.empty() && options.presets.empty() && options.assignments.empty() &&
+         options.sun_angle.empty() && options.exposure.empty();
 }
 
 }  // namespace
 
-Viewer::Viewer(const ViewOptions& options)
-    : options_(options),
-      window_({.width = options.size.width, .height = options.size.height, .debug = options.debug}),
+Viewer::Viewer(ViewOptions options)
+    : options_(std::move(options)),
+      settings_(options_.defaults ? Settings{} : read_settings(fault_)),
+      window_(window_options(options_, settings_)),
       device_info_(gl::device_info()),
-      device_(gl::ShaderFiles(options.glsl), timing(device_info_)),
-      truth_({.cache = options.folder(), .threads = options.threads.value_or(0), .background = true}),
+      device_(gl::ShaderFiles(options_.glsl), timing(device_info_)),
+      truth_({.cache = options_.folder(), .threads = options_.threads.value_or(0), .background = true}),
       renderer_(device_, truth_.registry()),
       a_(device_, renderer_, 0),
       b_(device_, renderer_, 1),
@@ -66,15 +91,17 @@ Viewer::Viewer(const ViewOptions& options)
              .gl = device_,
              .costs_a = a_.costs,
              .costs_b = b_.costs} {
-  state_.document = document_of(options);
-  if (!options.glsl.empty()) watch_.add_folder(options.glsl);
+  state_.document = document_of(options_);
+  take_settings();
+  if (!options_.glsl.empty()) watch_.add_folder(options_.glsl);
 }
 
 Viewer::~Viewer() { truth_.stop(); }
 
 int Viewer::run() {
   end_on_signals();
-  open(options_.scene);
+  const std::string scene = first_scene(options_, settings_);
+  if (!scene.empty()) open(scene);
   double last = ImGui::GetTime();
   while (caught_signal == 0) {
     const bool still = device_info_.software && ImGui::GetTime() - last_draw_ > 0.5 && loader_.file().empty();
@@ -89,7 +116,30 @@ int Viewer::run() {
     if (state_.requests.quit) break;
     do_requests();
   }
+  keep_settings();
   return caught_signal == 0 ? 0 : 128 + caught_signal;
+}
+
+void Viewer::take_settings() {
+  if (!fault_.empty()) tell_error(state_, fault_ + "; the defaults are taken", 0);
+  state_.recent = settings_.recent;
+  state_.panel = settings_.panel;
+  state_.vsync = settings_.vsync;
+  state_.tab = settings_.tab;
+  if (!settings_.params.rows().empty() && says_nothing_of_shadows(options_)) state_.document.params = settings_.params;
+}
+
+void Viewer::keep_settings() {
+  try {
+    write_settings({.recent = state_.recent,
+                    .window = window_.size(),
+                    .panel = state_.panel,
+                    .vsync = state_.vsync,
+                    .tab = state_.open_tab,
+                    .params = state_.document.params});
+  } catch (const Error& error) {
+    warn("{}", error.what());
+  }
 }
 
 void Viewer::guarded(const std::function<void()>& action) {
@@ -126,6 +176,8 @@ void Viewer::take_events() {
   }
   take_loaded();
   take_shaders();
+  take_written();
+  facts_.command = studio::command_text("penumbra", command());
 }
 
 void Viewer::take_loaded() {
@@ -142,8 +194,7 @@ void Viewer::take_loaded() {
     state_.document.stage.size = size;
     state_.document.frame = 0;
     state_.scene_file = loaded->options.scene;
-    std::erase(state_.recent, loaded->options.scene);
-    state_.recent.insert(state_.recent.begin(), loaded->options.scene);
+    add_recent(state_.recent, loaded->options.scene);
     for (Side* side : {&a_, &b_}) {
       side->painter.cut();
       side->costs.clear();
@@ -232,13 +283,16 @@ void Viewer::side_panel(const Panel& panel) {
                                    Tab{"Cost", cost_panel},       Tab{"Files", files_panel}};
   if (!ImGui::BeginTabBar("tabs")) return;
   for (const Tab& tab : tabs) {
-    const bool open = ImGui::BeginTabItem(tab.name);
+    const bool wanted = state_.focus_search ? tab.draw == shadow_panel : state_.tab == tab.name;
+    const bool open = ImGui::BeginTabItem(tab.name, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0);
     panel.widgets.mark(std::string("tab ") + tab.name);
     if (!open) continue;
+    state_.open_tab = tab.name;
     tab.draw(panel);
     ImGui::EndTabItem();
   }
   ImGui::EndTabBar();
+  state_.tab.clear();
 }
 
 // Camera and sun as `render` would choose them for these options.
@@ -250,121 +304,6 @@ void Viewer::aim() {
   if (wanted == aimed_) return;
   studio::aim(scene_->stage, stage);
   aimed_ = std::move(wanted);
-}
-
-Document Viewer::document_b() const {
-  Document document = state_.document;
-  document.params = state_.comparison.params;
-  return document;
-}
-
-void Viewer::draw_pictures(const PictureArea& area, double now) {
-  if (scene_ == nullptr) return;
-  const Document b = document_b();
-  const bool both = state_.comparison.on && !b.params.rows().empty();
-  const bool traced = facts_.tracing.has_value() && !truth_.pending();
-  if (traced) b_.painter.cut();
-  const bool same_a = a_.painter.shows(state_.document), same_b = !both || b_.painter.shows(b);
-  const bool busy = ImGui::IsAnyItemActive() && !area.busy;
-  const int wanted = std::max(warmup_of(state_.document) + 1, both ? warmup_of(b) + 1 : 1);
-  const int frames = both ? std::min(a_.painter.frames(), b_.painter.frames()) : a_.painter.frames();
-  const Pace::Step step = pace_.next(now, !same_a || !same_b, busy, frames, wanted);
-  const std::string inspected =
-      fmt::format("{} {} {}", state_.inspection.what, state_.inspection.layer, state_.inspection.level);
-  const bool looks = std::exchange(inspected_, inspected) != inspected;
-  if (!step.draw && !looks) return;
-  const int divisor = step.draw ? step.divisor : 1;
-  last_draw_ = now;
-  facts_.distance.reset();
-  double milliseconds = 0;
-  // A comes last: what is read of the renderer is read of A.
-  if (both && draw_side(b_, b, divisor)) milliseconds += b_.painter.milliseconds();
-  facts_.tracing.reset();
-  if (const auto pending = truth_.pending(); both && pending) facts_.tracing = pending->share_done;
-  if (!draw_side(a_, state_.document, divisor)) return;
-  milliseconds += a_.painter.milliseconds();
-  pace_.drew(divisor, milliseconds);
-  facts_.drawn_size = {a_.painter.picture().width(), a_.painter.picture().height()};
-  facts_.frames = a_.painter.frames();
-  if (both && divisor == 1 && frames + 1 >= wanted) measure_distance();
-}
-
-bool Viewer::draw_side(Side& side, const Document& document, int divisor) {
-  bool drawn = false;
-  guarded([&] {
-    cost_reader_.start(device_.timers, side.costs);
-    side.painter.draw(*scene_, document, divisor);
-    inspect(side);
-    if (state_.comparison.on && divisor == 1) side.visibility = renderer_.read_aov("shadow");
-    drawn = true;
-  });
-  return drawn;
-}
-
-void Viewer::inspect(Side& side) {
-  side.seen = &side.painter.picture();
-  if (state_.inspection.what.empty()) return;
-  side.values = read_values(state_.inspection, renderer_, device_);
-}
-
-// Over what faces the sun, and from what is shown at full size.
-void Viewer::measure_distance() {
-  const glm::ivec2 size = facts_.drawn_size;
-  const metrics::Picture a{size.x, size.y, a_.visibility}, b{size.x, size.y, b_.visibility};
-  if (a.pixels.size() != a.pixel_count() || b.pixels.size() != b.pixel_count()) return;
-  const std::vector<std::uint8_t> receivers =
-      receivers_of(renderer_, scene_->stage.setup.sun.to_light, state_.document.params.get_float("sun.angle"));
-  facts_.distance =
-      Distance{.figures = metrics::error_figures(a, b, receivers), .flip = metrics::flip(a, b, receivers).mean};
-}
-
-void Viewer::probe(const PictureArea& area) {
-  std::optional<glm::ivec2> pixel;
-  if (state_.probe && area.cursor && a_.seen != nullptr && facts_.drawn_size.x > 0)
-    pixel = pixel_at(present_inputs(window_size_), *area.cursor * glm::vec2(window_size_) / area.size);
-  facts_.probed = pixel;
-  if (!pixel || (pixel == last_probed_ && last_draw_ < ImGui::GetTime())) return;
-  last_probed_ = pixel;
-  // Pictures in motion are smaller.
-  const glm::ivec2 full(state_.document.stage.size.width, state_.document.stage.size.height);
-  const glm::ivec2 drawn = glm::min(*pixel * facts_.drawn_size / full, facts_.drawn_size - 1);
-  facts_.probe.clear();
-  for (const render::Aov& aov : render::aovs())
-    facts_.probe.push_back({aov.name, number_text(renderer_.read_aov(aov.name, drawn))});
-}
-
-void Viewer::show_pictures() {
-  if (a_.seen == nullptr) return;
-  if (!state_.inspection.what.empty()) {
-    facts_.look = look_of(state_.inspection.what);
-    facts_.range = range_of(state_.inspection, facts_.look, a_.values);
-    color(a_, 0);
-    if (state_.comparison.on && b_.seen != nullptr) color(b_, 1);
-  } else {
-    a_.seen = &a_.painter.picture();
-    if (b_.painter.has_picture()) b_.seen = &b_.painter.picture();
-  }
-  present(device_, present_inputs(window_size_));
-  gl::leave_initial_state();
-}
-
-void Viewer::color(Side& side, int number) {
-  if (side.values.numbers.empty()) return;
-  const std::vector<std::uint8_t> colors = colors_of(side.values, facts_.look, facts_.range);
-  const gl::Texture& texture = device_.target(fmt::format("viewer/colors {}", number),
-                                              {.width = side.values.width, .height = side.values.height});
-  texture.upload(GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(colors)));
-  side.seen = &texture;
-}
-
-PresentInputs Viewer::present_inputs(const glm::ivec2& window_size) const {
-  const studio::Size size = state_.document.stage.size;
-  return {.a = a_.seen,
-          .b = state_.comparison.on ? b_.seen : nullptr,
-          .picture_size = {size.width, size.height},
-          .window_size = window_size,
-          .comparison = state_.comparison,
-          .zoom = state_.zoom};
 }
 
 }  // namespace penumbra::app

@@ -10,7 +10,9 @@
 #include "app/viewer/pace.h"
 #include "app/viewer/painter.h"
 #include "app/viewer/picture_area.h"
+#include "app/viewer/render_process.h"
 #include "app/viewer/scene_loader.h"
+#include "app/viewer/settings.h"
 #include "app/viewer/state.h"
 #include "app/viewer/view_options.h"
 #include "app/viewer/widgets.h"
@@ -26,7 +28,7 @@ namespace penumbra::app {
 class Viewer {
  public:
   // Throws Error where there is no display, or the first values are wrong.
-  explicit Viewer(const ViewOptions& options);
+  explicit Viewer(ViewOptions options);
   ~Viewer();
 
   // Until the window is closed. Returns the exit code.
@@ -54,7 +56,7 @@ class Viewer {
   bool draw_side(Side& side, const Document& document, int divisor);
   Document document_b() const;
   void inspect(Side& side);
-  void color(Side& side, int number);
+  void color(Side& side, const Values& values, int number);
   void measure_distance();
   void probe(const PictureArea& area);
   void show_pictures();
@@ -62,14 +64,21 @@ class Viewer {
   void do_requests();
   void open(const std::string& scene);
   void open_preset(const std::string& file);
+  std::vector<std::string> command() const;
   void copy_command();
+  void write_picture(bool sequence);
+  void take_written();
   void copy_camera();
   void frame_all();
+  void take_settings();
+  void keep_settings();
   void aim();
   // Tells the user of an Error that it throws, and goes on.
   void guarded(const std::function<void()>& action);
 
   ViewOptions options_;
+  std::string fault_;  // of the last run's settings
+  Settings settings_;
   Window window_;
   gl::DeviceInfo device_info_;
   gl::Device device_;
@@ -78,6 +87,7 @@ class Viewer {
   std::unique_ptr<LoadedScene> scene_;
   SceneLoader loader_;
   studio::FileWatch watch_;
+  RenderProcess writer_;
   State state_;
   Side a_, b_;
   Pace pace_;

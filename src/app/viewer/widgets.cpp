@@ -78,8 +78,9 @@ bool edit(const Param& param, ParamValue& value, WidgetMap& widgets) {
 
 void WidgetMap::begin() { boxes_.clear(); }
 
-void WidgetMap::mark(std::string_view name) {
-  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+void WidgetMap::mark(std::string_view name) { mark(name, ImGui::GetItemRectMin(), ImGui::GetItemRectMax()); }
+
+void WidgetMap::mark(std::string_view name, const ImVec2& low, const ImVec2& high) {
   boxes_.insert_or_assign(std::string(name), Box{static_cast<int>(low.x), static_cast<int>(low.y),
                                                  static_cast<int>(high.x), static_cast<int>(high.y)});
 }

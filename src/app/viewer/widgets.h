@@ -1,5 +1,7 @@
 #pragma once
 
+#include <imgui.h>
+
 #include <filesystem>
 #include <map>
 #include <string>
@@ -16,6 +18,7 @@ class WidgetMap {
   void begin();
   // The widget that was drawn last has this name; a second one of a name in a frame counts alone.
   void mark(std::string_view name);
+  void mark(std::string_view name, const ImVec2& low, const ImVec2& high);
   // Writes all of them as JSON if any moved since: {"name": [left, top, right, bottom], …}. Throws Error.
   void write_changes(const std::filesystem::path& file);
 

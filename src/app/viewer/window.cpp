@@ -59,6 +59,10 @@ Window::Window(const Options& options)
     auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
     self.dropped_.insert(self.dropped_.end(), paths, paths + count);
   });
+  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
+    auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+    if (action == GLFW_PRESS && key >= 0) self.taps_.push_back({key, modifiers});
+  });
   set_up_interface();
 }
 
@@ -114,10 +118,27 @@ bool Window::poll(double seconds) {
 
 void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
+void Window::hold_taps() {
+  ImGuiIO& io = ImGui::GetIO();
+  const auto is_down = [this](int key) { return glfwGetKey(window_, key) == GLFW_PRESS; };
+  for (const Tap& tap : held_) io.KeysDown[tap.key] = is_down(tap.key);
+  if (!held_.empty()) {
+    io.KeyCtrl = is_down(GLFW_KEY_LEFT_CONTROL) || is_down(GLFW_KEY_RIGHT_CONTROL);
+    io.KeyShift = is_down(GLFW_KEY_LEFT_SHIFT) || is_down(GLFW_KEY_RIGHT_SHIFT);
+  }
+  held_ = std::exchange(taps_, {});
+  for (const Tap& tap : held_) {
+    io.KeysDown[tap.key] = true;
+    io.KeyCtrl = io.KeyCtrl || (tap.modifiers & GLFW_MOD_CONTROL) != 0;
+    io.KeyShift = io.KeyShift || (tap.modifiers & GLFW_MOD_SHIFT) != 0;
+  }
+}
+
 void Window::begin() {
   if (const float scale = wanted_scale(); scale != scale_) apply_scale(scale);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  hold_taps();
   ImGui::NewFrame();
 }
 
@@ -137,6 +158,13 @@ glm::ivec2 Window::pixels() const {
   if (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0) return size;
   glfwGetFramebufferSize(window_, &size.x, &size.y);
   return size;
+}
+
+studio::Size Window::size() {
+  const bool usual =
+      glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == 0 && glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == 0;
+  if (usual) glfwGetWindowSize(window_, &size_.width, &size_.height);
+  return size_;
 }
 
 void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gl/context.h"
+#include "studio/usage.h"
 
 struct GLFWwindow;
 
@@ -37,6 +38,8 @@ class Window {
   glm::ivec2 pixels() const;
   // Pixels of a point of text at a scale of 1: 2 on a screen with twice the dots.
   float scale() const { return scale_; }
+  // In the desktop's units, while it is neither minimised nor maximised; else as it was before.
+  studio::Size size();
   void set_title(const std::string& title);
   void set_vsync(bool on);
   // Files that were dropped on the window since the last call.
@@ -45,14 +48,21 @@ class Window {
   gl::Context& context() { return *context_; }
 
  private:
+  // Dear ImGui sees which keys are down between two frames; a tap on a slow machine is over by then.
+  struct Tap {
+    int key = 0, modifiers = 0;
+  };
   void set_up_interface();
+  void hold_taps();
   void apply_scale(float scale);
   float wanted_scale() const;
 
   std::unique_ptr<gl::Context> context_;
   GLFWwindow* window_ = nullptr;
   float scale_ = 0;
+  studio::Size size_;
   std::vector<std::string> dropped_;
+  std::vector<Tap> taps_, held_;  // since the last frame; in that frame
 };
 
 // Whether there is a display to open a window on; else what is missing.
