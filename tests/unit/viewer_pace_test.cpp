@@ -1,0 +1,131 @@
+// When the viewer draws, and how large: at once under a hand, in full at rest, no more than is wanted.
+#include "app/viewer/pace.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace penumbra {
+namespace {
+
+using app::Pace;
+
+// A machine whose full picture takes so many milliseconds, and a viewer on it.
+class Machine {
+ public:
+  explicit Machine(double full_ms, bool software = true) : pace(software), full_ms_(full_ms) {}
+
+  // One turn of the viewer's loop, some of a second after the last.
+  Pace::Step turn(bool changed, int frames = 0, int wanted = 32, bool busy = false) {
+    now_ += 0.02;
+    const Pace::Step step = pace.next(now_, changed, busy, frames, wanted);
+    if (step.draw) pace.drew(step.divisor, took(step.divisor));
+    return step;
+  }
+  double took(int divisor) const { return full_ms_ / divisor / divisor; }
+  void becomes(double full_ms) { full_ms_ = full_ms; }
+
+  // The part of the resolution that a motion of a second ends with.
+  int in_motion() {
+    int divisor = 0;
+    for (int i = 0; i < 50; ++i) divisor = turn(/*changed=*/true).divisor;
+    return divisor;
+  }
+
+  Pace pace;
+
+ private:
+  double full_ms_, now_ = 10;
+};
+
+TEST(ViewerPace, AGpuDrawsEveryFrameInFull) {
+  Machine machine(500, /*software=*/false);
+  for (const bool changed : {true, false, true, false, false}) {
+    const Pace::Step step = machine.turn(changed, /*frames=*/100, /*wanted=*/1, /*busy=*/true);
+    EXPECT_TRUE(step.draw);
+    EXPECT_EQ(step.divisor, 1);
+  }
+}
+
+TEST(ViewerPace, WhatChangesIsDrawnAtOnceAndSmall) {
+  Machine machine(800);
+  EXPECT_GT(machine.turn(true).divisor, 1) << "before anything is known of the machine";
+  for (int i = 0; i < 20; ++i) {
+    const Pace::Step step = machine.turn(true, 0, 1, /*busy=*/true);
+    EXPECT_TRUE(step.draw);
+    EXPECT_GT(step.divisor, 1);
+  }
+}
+
+TEST(ViewerPace, AtRestThePictureIsFullAndDrawnAsOftenAsWanted) {
+  Machine machine(300);
+  machine.turn(true);
+  int waited = 0, frames = 0, drawn = 0;
+  while (!machine.turn(false).draw) ASSERT_LT(++waited, 100);
+  EXPECT_GT(waited, 3) << "a pause of the hand is no rest";
+  for (int i = 0; i < 100; ++i) {
+    const Pace::Step step = machine.turn(false, frames, 31);
+    if (!step.draw) continue;
+    EXPECT_EQ(step.divisor, 1);
+    ++frames;
+    ++drawn;
+  }
+  EXPECT_EQ(drawn, 31);
+}
+
+TEST(ViewerPace, AHandAtThePanelIsNotKeptWaitingForFullPictures) {
+  Machine machine(300);
+  machine.turn(true);
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(machine.turn(false, 0, 31, /*busy=*/true).draw);
+  EXPECT_TRUE(machine.turn(false).draw) << "after the hand has gone";
+}
+
+TEST(ViewerPace, AChangeEndsTheRest) {
+  Machine machine(300);
+  machine.turn(true);
+  for (int i = 0; i < 50; ++i) machine.turn(false);
+  machine.turn(true);
+  EXPECT_FALSE(machine.turn(false).draw);
+}
+
+TEST(ViewerPace, SlowMachinesDrawSmallerAndFastOnesLarger) {
+  int last = 1;
+  for (const double full : {1.0, 30.0, 150.0, 600.0, 3000.0, 100000.0}) {
+    Machine machine(full);
+    const int divisor = machine.in_motion();
+    EXPECT_GE(divisor, last) << full;
+    EXPECT_LE(divisor, 8);
+    last = divisor;
+    if (full < 3000) {
+      EXPECT_LE(machine.took(divisor), 100) << "a hand that is not followed";
+    }
+    if (divisor > 1) {
+      EXPECT_GT(machine.took(divisor / 2), 50) << "smaller than need be";
+    }
+  }
+  EXPECT_EQ(last, 8);
+}
+
+TEST(ViewerPace, TheSizeSettles) {
+  for (double full = 1; full < 20000; full *= 1.1) {
+    Machine machine(full);
+    const int settled = machine.in_motion();
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(machine.turn(true).divisor, settled) << full;
+    // Pictures at rest tell the same of the machine.
+    for (int i = 0; i < 40; ++i) machine.turn(false);
+    EXPECT_EQ(machine.turn(true).divisor, settled) << full;
+  }
+}
+
+TEST(ViewerPace, AnotherSceneOrTechniqueIsAnotherPace) {
+  Machine machine(10);
+  EXPECT_EQ(machine.in_motion(), 1);
+  machine.becomes(5000);
+  EXPECT_EQ(machine.in_motion(), 8);
+  machine.becomes(10);
+  EXPECT_EQ(machine.in_motion(), 1);
+}
+
+}  // namespace
+}  // namespace penumbra
