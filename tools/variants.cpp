@@ -13,6 +13,9 @@
 #include <string>
 #include <vector>
 
+#ifdef PENUMBRA_VIEWER
+#include "app/viewer/present.h"
+#endif
 #include "core/error.h"
 #include "gl/context.h"
 #include "gl/pass.h"
@@ -41,6 +44,9 @@ std::vector<Variant> all_variants(gl::Device& device) {
   render::Renderer renderer(device);
   const ParamSet defaults(render::Renderer::params(renderer.registry()));
   std::vector<gl::ProgramDesc> programs = renderer.all_programs(defaults);
+#ifdef PENUMBRA_VIEWER
+  programs.push_back(app::present_program());
+#endif
   std::sort(programs.begin(), programs.end());
   programs.erase(std::unique(programs.begin(), programs.end()), programs.end());
   std::vector<Variant> variants;

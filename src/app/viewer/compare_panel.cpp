@@ -18,9 +18,9 @@ struct Way {
 constexpr std::array ways{
     Way{Comparing::wipe, "wipe", "A to the left of a line, B to the right; drag the line."},
     Way{Comparing::side_by_side, "side by side", "The same part of both, next to each other."},
-    Way{Comparing::difference, "difference", "|A - B| times the gain."},
     Way{Comparing::a, "A", "A alone (X goes to B and back)."},
     Way{Comparing::b, "B", "B alone (X goes to A and back)."},
+    Way{Comparing::difference, "difference", "|A - B| times the gain."},
 };
 
 void choose_b(const Panel& panel) {

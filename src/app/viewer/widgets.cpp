@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "io/output_file.h"
 #include "io/report.h"
@@ -76,7 +77,7 @@ bool edit(const Param& param, ParamValue& value, WidgetMap& widgets) {
 
 }  // namespace
 
-void WidgetMap::begin() { boxes_.clear(); }
+void WidgetMap::begin() { last_ = std::exchange(boxes_, {}); }
 
 void WidgetMap::mark(std::string_view name) { mark(name, ImGui::GetItemRectMin(), ImGui::GetItemRectMax()); }
 
@@ -86,7 +87,8 @@ void WidgetMap::mark(std::string_view name, const ImVec2& low, const ImVec2& hig
 }
 
 void WidgetMap::write_changes(const std::filesystem::path& file) {
-  if (boxes_ == written_) return;
+  // A list that opens takes a frame to find its size.
+  if (boxes_ != last_ || boxes_ == written_) return;
   io::Json json = io::Json::object();
   for (const auto& [name, box] : boxes_) json[name] = {box.left, box.top, box.right, box.bottom};
   io::write_text(file, io::text_of(json));

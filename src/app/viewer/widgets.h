@@ -19,7 +19,8 @@ class WidgetMap {
   // The widget that was drawn last has this name; a second one of a name in a frame counts alone.
   void mark(std::string_view name);
   void mark(std::string_view name, const ImVec2& low, const ImVec2& high);
-  // Writes all of them as JSON if any moved since: {"name": [left, top, right, bottom], …}. Throws Error.
+  // Writes all of them as JSON if any moved since, and have come to rest: {"name": [left, top, right, bottom], …}.
+  // Throws Error.
   void write_changes(const std::filesystem::path& file);
 
  private:
@@ -27,7 +28,7 @@ class WidgetMap {
     int left = 0, top = 0, right = 0, bottom = 0;
     bool operator==(const Box&) const = default;
   };
-  std::map<std::string, Box, std::less<>> boxes_, written_;
+  std::map<std::string, Box, std::less<>> boxes_, last_, written_;
 };
 
 // A label in the left column and room for a widget in the right one, until end_rows().
