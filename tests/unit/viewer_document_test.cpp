@@ -1,0 +1,258 @@
+// What the viewer shows is what `penumbra render` draws from the command line that it gives.
+#include "app/viewer/document.h"
+
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <random>
+
+#include "app/render_options.h"
+#include "app/techniques.h"
+#include "render/renderer.h"
+#include "studio/command_line.h"
+
+namespace penumbra {
+namespace {
+
+using app::Document;
+using Arguments = std::vector<std::string>;
+
+ParamSet defaults() { return ParamSet(render::Renderer::params(app::all_techniques())); }
+
+// A scene as the viewer opens it; a document of the viewer is one of a sequence, whose first frame is shown.
+Document plain() {
+  Document document{.stage = {}, .params = defaults()};
+  document.stage.scene = "a.glb";
+  document.stage.frames = studio::FrameRange{};
+  return document;
+}
+
+// What render makes of the arguments.
+struct Rendered {
+  app::RenderOptions options;
+  ParamSet params;
+};
+
+Rendered rendered(const Arguments& arguments) {
+  EXPECT_EQ(arguments.front(), "render");
+  CLI::App app;
+  Rendered result;
+  app::add_render_options(app, result.options);
+  EXPECT_TRUE(studio::parse(app, {arguments.begin() + 1, arguments.end()}));
+  app::check_together(result.options);
+  result.params = studio::resolve_params(result.options, app::all_techniques());
+  return result;
+}
+
+void expect_same(const Document& document, const Rendered& render) {
+  const studio::StageOptions &shown = document.stage, &drawn = render.options;
+  EXPECT_EQ(drawn.scene, shown.scene);
+  EXPECT_EQ(drawn.size.width, shown.size.width);
+  EXPECT_EQ(drawn.size.height, shown.size.height);
+  EXPECT_EQ(drawn.camera, shown.camera);
+  EXPECT_EQ(drawn.eye, shown.eye);
+  EXPECT_EQ(drawn.target, shown.target);
+  EXPECT_EQ(drawn.fov, shown.fov);
+  ASSERT_EQ(drawn.sun.has_value(), shown.sun.has_value());
+  if (shown.sun) {
+    EXPECT_EQ(drawn.sun->azimuth, shown.sun->azimuth);
+    EXPECT_EQ(drawn.sun->elevation, shown.sun->elevation);
+  }
+  EXPECT_EQ(drawn.ground, shown.ground);
+  const studio::FrameRange frames = drawn.frames.value_or(studio::FrameRange{});
+  EXPECT_EQ(frames.count(), 1);
+  EXPECT_EQ(studio::time_of(drawn, frames.first), document.seconds());
+  for (const Param& row : document.params.rows())
+    EXPECT_EQ(render.params.value(row.name), document.params.value(row.name)) << row.name;
+}
+
+class ViewerDocument : public testing::Test {
+ protected:
+  template <class T>
+  T in(T low, T high) {
+    return std::uniform_real_distribution<T>(low, high)(random_);
+  }
+  int count(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+  bool sometimes() { return count(0, 2) == 0; }
+  glm::vec3 point() {
+    const float far = std::pow(10.0f, in(-3.0f, 8.5f));
+    return {in(-far, far), in(-far, far), in(-far, far)};
+  }
+
+  ParamSet any_params() {
+    while (true) {
+      ParamSet params = defaults();
+      for (const Param& row : params.rows()) {
+        if (sometimes()) params.set(row.name, any_value(row));
+      }
+      const long long size = params.get_int("cascades.size");
+      if (size * size * params.get_int("cascades.count") <= studio::largest_maps) return params;
+    }
+  }
+
+  Document any_document() {
+    Document document = plain();
+    document.params = any_params();
+    if (sometimes()) document.frame = count(1, 999'999);
+    studio::StageOptions& stage = document.stage;
+    stage.scene = sometimes() ? "a folder/it's \"one\".glb" : "scene.gltf";
+    stage.size = {count(1, 2000), count(1, 2000)};
+    stage.ground = static_cast<render::GroundChoice>(count(0, 2));
+    if (sometimes()) stage.time = in(0.0, 1e6);
+    if (sometimes()) stage.fps = in(0.001, 240.0);
+    if (sometimes()) stage.fov = in(1.0, 179.0);
+    if (sometimes()) app::place_sun(document, render::direction_to(in(-9.0f, 9.0f), in(-1.57f, 1.57f)));
+    if (sometimes()) {
+      stage.eye = point();
+      stage.target = point();
+    } else if (sometimes()) {
+      static constexpr const char* names[] = {"-1", "--eye", "Camera 1", "[a,b]", "a=b", "\"q\"", "caf\u00e9", "{}"};
+      stage.camera = names[count(0, 7)];
+    }
+    return document;
+  }
+
+ private:
+  ParamValue any_value(const Param& row) {
+    if (std::holds_alternative<bool>(row.default_value)) return sometimes();
+    if (std::holds_alternative<int>(row.default_value))
+      return count(static_cast<int>(row.min), static_cast<int>(row.max));
+    if (std::holds_alternative<float>(row.default_value))
+      return in(static_cast<float>(row.min), static_cast<float>(row.max));
+    return row.choices[static_cast<std::size_t>(count(0, static_cast<int>(row.choices.size()) - 1))];
+  }
+
+  std::mt19937 random_{11};
+};
+
+TEST_F(ViewerDocument, RenderDrawsWhatIsShown) {
+  for (int i = 0; i < 300; ++i) {
+    const Document document = any_document();
+    const Arguments arguments = render_arguments(document, "out.png", 0, "");
+    SCOPED_TRACE(testing::PrintToString(arguments));
+    const Rendered render = rendered(arguments);
+    expect_same(document, render);
+    EXPECT_EQ(render.options.output, "out.png");
+    EXPECT_EQ(render.options.warmup, 0);
+    EXPECT_EQ(render.options.glsl, "");
+    if (HasFailure()) return;
+  }
+}
+
+TEST_F(ViewerDocument, DefaultsAreNotSpelledOut) {
+  Document document = plain();
+  EXPECT_EQ(render_arguments(document, "out.png", 0, ""),
+            (Arguments{"render", "a.glb", "--size=1280x720", "-o", "out.png"}));
+}
+
+TEST_F(ViewerDocument, OutputWarmUpAndShadersAreSaid) {
+  Document document = plain();
+  document.stage.scene = "-a.glb";
+  const std::string glsl = PENUMBRA_ROOT "/glsl";
+  const Rendered render = rendered(render_arguments(document, "my pictures/a.exr", 31, glsl));
+  EXPECT_EQ(render.options.scene, "./-a.glb");
+  EXPECT_EQ(render.options.output, "my pictures/a.exr");
+  EXPECT_EQ(render.options.warmup, 31);
+  EXPECT_EQ(render.options.glsl, glsl);
+}
+
+TEST_F(ViewerDocument, ASequenceHasItsFramesAtTheViewersSpeed) {
+  for (const int now : {0, 17}) {
+    Document document = plain();
+    document.frame = now;
+    document.stage.fps = 60;
+    document.stage.time = 1.5;
+    const Rendered render = rendered(render_arguments(document, "out.png", 0, "", studio::FrameRange{0, 9}));
+    ASSERT_TRUE(render.options.frames);
+    EXPECT_EQ(render.options.frames->first, 0);
+    EXPECT_EQ(render.options.frames->last, 9);
+    EXPECT_EQ(studio::time_of(render.options, 9), studio::time_of(document.stage, 9));
+  }
+}
+
+TEST_F(ViewerDocument, EveryDirectionThatCanBeTypedIsGivenBack) {
+  for (int i = 0; i < 3000; ++i) {
+    const int decimals = count(0, 9);
+    const double scale = std::pow(10.0, decimals);
+    const std::string typed = fmt::format("{:.{}f},{:.{}f}", std::floor(in(-360.0, 360.0) * scale) / scale, decimals,
+                                          std::floor(in(-90.0, 90.0) * scale) / scale, decimals);
+    Document document = plain();
+    document.stage.sun = studio::parse_direction("--sun", typed);
+    const Arguments arguments = render_arguments(document, "out.png", 0, "");
+    ASSERT_EQ(arguments[3].substr(0, 6), "--sun=");
+    const studio::Direction again = studio::parse_direction("--sun", arguments[3].substr(6));
+    ASSERT_EQ(again.azimuth, document.stage.sun->azimuth) << typed << " and " << arguments[3];
+    ASSERT_EQ(again.elevation, document.stage.sun->elevation) << typed << " and " << arguments[3];
+  }
+}
+
+TEST_F(ViewerDocument, ASunThatWasPlacedStandsThereInShortDegrees) {
+  Document document = plain();
+  for (int i = 0; i < 300; ++i) {
+    const glm::vec3 to_light = render::direction_to(in(-3.1f, 3.1f), in(0.0f, 1.57f));
+    app::place_sun(document, to_light);
+    const glm::vec3 placed = render::direction_to(document.stage.sun->azimuth, document.stage.sun->elevation);
+    EXPECT_NEAR(glm::distance(placed, to_light), 0, 3e-5f);
+    const Arguments arguments = render_arguments(document, "out.png", 0, "");
+    EXPECT_LE(arguments[3].size(), std::string("--sun=-123.456,12.345").size()) << arguments[3];
+  }
+}
+
+TEST_F(ViewerDocument, AFreeCameraTakesThePlaceOfTheFiles) {
+  Document document = plain();
+  document.stage.camera = "Camera";
+  studio::Stage stage;
+  stage.setup.sun.to_light = render::direction_to(1.0f, 0.5f);
+  const app::CameraRig rig{.eye = {1, 2, 3}, .target = {4, 5, 6}, .fov_y = 0.7f};
+  place(document, stage, rig);
+  EXPECT_FALSE(document.stage.camera);
+  EXPECT_EQ(document.stage.eye, rig.eye);
+  EXPECT_EQ(document.stage.target, rig.target);
+  EXPECT_NEAR(*document.stage.fov, glm::degrees(0.7), 1e-4);
+  ASSERT_TRUE(document.stage.sun) << "the sun would follow another camera";
+  EXPECT_NEAR(document.stage.sun->azimuth, 1.0f, 1e-4f);
+  EXPECT_NEAR(document.stage.sun->elevation, 0.5f, 1e-4f);
+}
+
+TEST_F(ViewerDocument, TheFilesOwnSunAndOneThatWasSetStay) {
+  const app::CameraRig rig;
+  studio::Stage stage;
+  stage.setup.sun_node = 3;
+  Document document = plain();
+  document.stage.camera = "Camera";
+  place(document, stage, rig);
+  EXPECT_FALSE(document.stage.sun);
+  stage.setup.sun_node.reset();
+  document.stage.camera = "Camera";
+  document.stage.sun = studio::Direction{.azimuth = 0.25f, .elevation = 0.5f};
+  place(document, stage, rig);
+  EXPECT_EQ(document.stage.sun->azimuth, 0.25f);
+}
+
+TEST_F(ViewerDocument, CameraNumbersAreThoseOfRender) {
+  studio::StageOptions stage;
+  EXPECT_TRUE(app::camera_arguments(stage).empty());
+  stage.camera = "2";
+  EXPECT_EQ(app::camera_arguments(stage), (Arguments{"--camera=2"}));
+  stage = {};
+  stage.eye = {1, -2.5f, 0.1f};
+  stage.target = {0, 0, 0};
+  stage.fov = 40;
+  EXPECT_EQ(app::camera_arguments(stage), (Arguments{"--eye=1,-2.5,0.1", "--target=0,0,0", "--fov=40"}));
+}
+
+TEST_F(ViewerDocument, OnlyTechniquesThatRememberAreWarmedUp) {
+  Document document = plain();
+  document.params.set("history.reuse", true);
+  const double oldest = std::pow(1.0 - document.params.get_float("history.alpha"), app::warmup_of(document));
+  EXPECT_LT(oldest, 0.05) << "what was there before weighs on the picture";
+  document.params.set("history.reuse", false);
+  EXPECT_EQ(app::warmup_of(document), 0);
+  document.params.set("history.reuse", true);
+  document.params.set_text("technique", "truth");
+  EXPECT_EQ(app::warmup_of(document), 0);
+}
+
+}  // namespace
+}  // namespace penumbra
