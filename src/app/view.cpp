@@ -1,8 +1,10 @@
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 #include "app/commands.h"
 #include "app/viewer/view_options.h"
 #include "app/viewer/viewer.h"
+#include "io/output_file.h"
 #include "studio/studio.h"
 
 namespace penumbra::app {
@@ -16,6 +18,8 @@ int run_view(const Arguments& arguments) {
   if (const std::string missing = missing_display(); !missing.empty())
     fail("no window can be opened: {}; penumbra render draws into a file, penumbra watch does so at every change",
          missing);
+  if (!options.scene.empty() && !std::filesystem::exists(options.scene))
+    fail("cannot read {}: no such file", io::quoted(options.scene));
   studio::limit_threads(options);
   return Viewer(options).run();
 }

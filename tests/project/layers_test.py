@@ -46,7 +46,7 @@ LIBRARIES = {
 }
 
 # The operating system's headers, which the portable layers core and shadow leave alone.
-SYSTEM = re.compile(r"(sys/\w+|dlfcn|fcntl|poll|signal|termios|unistd)\.h")
+SYSTEM = re.compile(r"(sys/\w+|dlfcn|fcntl|poll|signal|spawn|termios|unistd)\.h")
 USES_SYSTEM = {"gl", "scene", "io", "studio", "app"}
 
 # Folders of glsl that the files of one may include.

@@ -153,8 +153,10 @@ PictureArea picture_area(const Panel& panel, const gl::Texture* seen) {
   take_wheel(panel, area);
   if (seen != nullptr) {
     // Textures begin at the bottom, the window at the top.
-    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(seen->id())), corner,
-                                         {corner.x + area.size.x, corner.y + area.size.y}, {0, 1}, {1, 0});
+    // ImGui's textures are pointers, OpenGL's are numbers. NOLINTNEXTLINE(performance-no-int-to-ptr)
+    const auto texture = reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(seen->id()));
+    const ImVec2 end(corner.x + area.size.x, corner.y + area.size.y);
+    ImGui::GetWindowDrawList()->AddImage(texture, corner, end, {0, 1}, {1, 0});
     draw_line(panel, area);
   }
   return area;
