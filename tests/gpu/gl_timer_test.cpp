@@ -71,6 +71,82 @@ TEST_F(GlTimers, AFrameThatAnExceptionLeftOpenIsDropped) {
 TEST_F(GlTimers, OffRecordsNothing) {
   frames(device, 2);
   EXPECT_TRUE(device.timers.rows().empty());
+  EXPECT_TRUE(device.timers.take().rows.empty());
+}
+
+TEST_F(GlTimers, FramesAreTakenOnceAndInOrder) {
+  for (const gl::Timers::Mode mode : {gl::Timers::Mode::finish, gl::Timers::Mode::query}) {
+    gl::Device timed(test::pass_files(), mode);
+    EXPECT_TRUE(timed.timers.take().rows.empty());
+    std::size_t taken = 0;
+    for (const int count : {1, 3, 2}) {
+      EXPECT_EQ(timed.timers.next_frame(), taken);
+      frames(timed, count);
+      gl::glFinish();  // so that nothing is outstanding
+      const gl::Timers::Taken next = timed.timers.take();
+      EXPECT_EQ(next.first, taken);
+      ASSERT_EQ(next.rows.size(), 5u);
+      EXPECT_EQ(next.rows.front().name, "first");
+      EXPECT_EQ(next.rows.back().name, "frame");
+      for (const auto& row : next.rows) EXPECT_EQ(row.milliseconds.size(), static_cast<std::size_t>(count)) << row.name;
+      EXPECT_GT(sum(next.rows.back().milliseconds), 0.0);
+      taken += static_cast<std::size_t>(count);
+      EXPECT_TRUE(timed.timers.take().rows.empty()) << "taken twice";
+    }
+  }
+}
+
+TEST_F(GlTimers, TakenTimesAreThoseOfTheirFrames) {
+  for (const gl::Timers::Mode mode : {gl::Timers::Mode::finish, gl::Timers::Mode::query}) {
+    gl::Device timed(test::pass_files(), mode);
+    for (const char* name : {"early", "late", "early"}) {
+      timed.timers.begin_frame();
+      const gl::Texture& target = timed.target("t", {.format = GL_RGBA32F, .width = 256, .height = 256});
+      test::clear(timed, {.name = name, .colors = {{.texture = &target, .clear = glm::vec4(1)}}});
+      timed.timers.end_frame();
+    }
+    gl::glFinish();
+    const gl::Timers::Taken taken = timed.timers.take();
+    ASSERT_EQ(taken.rows.size(), 3u);
+    const std::vector<double>&early = taken.rows[0].milliseconds, &late = taken.rows[1].milliseconds;
+    EXPECT_EQ((std::vector{early[0] > 0, early[1] > 0, early[2] > 0}), (std::vector{true, false, true}));
+    EXPECT_EQ((std::vector{late[0] > 0, late[1] > 0, late[2] > 0}), (std::vector{false, true, false}));
+  }
+}
+
+TEST_F(GlTimers, RowsHaveOnlyWhatWasNotTaken) {
+  for (const gl::Timers::Mode mode : {gl::Timers::Mode::finish, gl::Timers::Mode::query}) {
+    gl::Device timed(test::pass_files(), mode);
+    frames(timed, 3);
+    gl::glFinish();
+    EXPECT_EQ(timed.timers.take().rows.front().milliseconds.size(), 3u);
+    for (const auto& row : timed.timers.rows()) EXPECT_TRUE(row.milliseconds.empty()) << row.name;
+    frames(timed, 2);
+    for (const auto& row : timed.timers.rows()) EXPECT_EQ(row.milliseconds.size(), 2u) << row.name;
+    EXPECT_EQ(timed.timers.take().first, 3u) << "rows() takes nothing";
+    EXPECT_EQ(timed.timers.next_frame(), 5u);
+  }
+}
+
+TEST_F(GlTimers, AnOpenFrameIsNotTaken) {
+  for (const gl::Timers::Mode mode : {gl::Timers::Mode::finish, gl::Timers::Mode::query}) {
+    gl::Device timed(test::pass_files(), mode);
+    frames(timed, 1);
+    timed.timers.begin_frame();
+    test::clear(timed, {.name = "first"});
+    gl::glFinish();
+    const gl::Timers::Taken before = timed.timers.take();
+    EXPECT_EQ(before.rows.front().milliseconds.size(), 1u);
+    test::clear(timed, {.name = "second"});
+    timed.timers.end_frame();
+    gl::glFinish();
+    const gl::Timers::Taken open = timed.timers.take();
+    EXPECT_EQ(open.first, 1u);
+    for (const auto& row : open.rows) {
+      ASSERT_EQ(row.milliseconds.size(), 1u) << row.name;
+      EXPECT_EQ(row.milliseconds[0] > 0, row.name.find('/') == std::string::npos) << row.name;
+    }
+  }
 }
 
 }  // namespace
