@@ -181,7 +181,7 @@ void status_bar(const Panel& panel) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text.c_str());
   panel.widgets.mark("status");
-  if (facts.at_rest) panel.widgets.mark("at rest");
+
   const char* help = "F1 keys";
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(help).x);
   ImGui::TextDisabled("%s", help);

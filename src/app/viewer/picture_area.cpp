@@ -169,7 +169,7 @@ void take_keys(const Panel& panel, float seconds) {
   if (pressed(GLFW_KEY_ESCAPE)) {
     if (state.help) {
       state.help = false;
-    } else if (!ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) {
+    } else if (!state.list_open) {
       state.requests.quit = true;
     }
   }

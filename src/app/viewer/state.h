@@ -44,6 +44,7 @@ struct State {
   Playback playback;
   bool fly = false;            // the left button turns the head, instead of the scene
   bool dragging_line = false;  // between A and B
+  bool list_open = false;      // in the last frame: Escape closes it
   bool panel = true, help = false, probe = true, vsync = true;
   std::string search;         // in the parameters
   std::string tab, open_tab;  // to be opened; that is open

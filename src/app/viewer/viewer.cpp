@@ -37,7 +37,8 @@ gl::Timers::Mode timing(const gl::DeviceInfo& device) {
 // The first document: what the command line says.
 Document document_of(const ViewOptions& options) {
   Document document;
-  document.stage = options;
+  const studio::StageOptions& stage = options;
+  document.stage = stage;
   document.stage.frames = studio::FrameRange{};
   document.params = studio::resolve_params(options, all_techniques());
   return document;
@@ -160,6 +161,7 @@ void Viewer::frame(float seconds) {
   draw_pictures(area, ImGui::GetTime());
   probe(area);
   show_pictures();
+  if (facts_.at_rest) widgets_.mark_rest();
   window_.show();
   cost_reader_.read(device_.timers, ImGui::GetTime());
   if (!options_.layout.empty()) guarded([&] { widgets_.write_changes(options_.layout); });
@@ -270,6 +272,7 @@ PictureArea Viewer::build_interface(float seconds) {
   legend_overlay(panel, {corner.x + area.size.x, corner.y});
   messages_overlay(panel, {corner.x, corner.y + area.size.y}, ImGui::GetTime());
   help_overlay(panel);
+  state_.list_open = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   return area;
 }
 

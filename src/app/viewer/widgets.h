@@ -19,6 +19,8 @@ class WidgetMap {
   // The widget that was drawn last has this name; a second one of a name in a frame counts alone.
   void mark(std::string_view name);
   void mark(std::string_view name, const ImVec2& low, const ImVec2& high);
+  // "at rest": what is seen stays as it is.
+  void mark_rest() { mark(rest, {0, 0}, {0, 0}); }
   // Writes all of them as JSON if any moved since, and have come to rest: {"name": [left, top, right, bottom], …}.
   // Throws Error.
   void write_changes(const std::filesystem::path& file);
@@ -28,6 +30,7 @@ class WidgetMap {
     int left = 0, top = 0, right = 0, bottom = 0;
     bool operator==(const Box&) const = default;
   };
+  static constexpr std::string_view rest = "at rest";
   std::map<std::string, Box, std::less<>> boxes_, last_, written_;
 };
 

@@ -1,0 +1,77 @@
+// The viewer runs for hours: what it holds does not grow with frames, scenes or sizes.
+#include <unistd.h>
+
+#include <fstream>
+#include <memory>
+
+#include "app/viewer/painter.h"
+#include "gpu/gpu_test.h"
+#include "image/read.h"
+
+namespace penumbra::test {
+namespace {
+
+// Bytes of this process in memory.
+std::size_t resident() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t whole = 0, pages = 0;
+  file >> whole >> pages;
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+class ViewerMemory : public GpuTest {
+ protected:
+  ViewerMemory() : renderer_(device_), painter_(device_, renderer_, 0) {
+    document_.stage.size = {320, 180};
+    document_.params = ParamSet(render::Renderer::params(renderer_.registry()));
+    renderer_.registry().select(document_.params, "thesis");
+    document_.params.set("cascades.size", 512);
+    document_.params.set("cascades.count", 2);
+  }
+
+  std::unique_ptr<app::LoadedScene> load(const char* name) {
+    document_.stage.scene = std::string(PENUMBRA_ROOT) + "/scenes/" + name;
+    return std::make_unique<app::LoadedScene>(device_, studio::load_stage(document_.stage, image::image_decoder()));
+  }
+
+  void draw(app::LoadedScene& scene, int frames, int divisor = 1) {
+    for (int i = 0; i < frames; ++i) {
+      document_.params.set("sampling.seed", i % 2);  // something changes, as under a hand
+      painter_.draw(scene, document_, divisor);
+      device_.timers.take();
+    }
+  }
+
+  static constexpr std::size_t mebibyte = 1 << 20;
+
+  gl::Device device_{gl::ShaderFiles{}, gl::Timers::Mode::finish};
+  render::Renderer renderer_;
+  app::Painter painter_;
+  app::Document document_;
+};
+
+TEST_F(ViewerMemory, IsFlatOverTwoThousandFramesWithAHistory) {
+  const auto scene = load("steps.glb");
+  draw(*scene, 200);
+  const std::size_t targets = device_.target_bytes(), programs = device_.shaders.size(), before = resident();
+  draw(*scene, 2000);
+  EXPECT_EQ(device_.target_bytes(), targets);
+  EXPECT_EQ(device_.shaders.size(), programs);
+  EXPECT_LT(resident(), before + 4 * mebibyte);
+}
+
+TEST_F(ViewerMemory, IsFlatOverFiftyScenesAndTheirSizes) {
+  const auto show = [&](int number) {
+    const auto scene = load(number % 2 == 0 ? "steps.glb" : "posts.glb");
+    document_.stage.size = {64 + 16 * (number % 3), 48};
+    painter_.cut();
+    draw(*scene, 2, 1 + number % 2);
+  };
+  for (int i = 0; i < 12; ++i) show(i);
+  const std::size_t before = resident();
+  for (int i = 0; i < 50; ++i) show(i);
+  EXPECT_LT(resident(), before + 8 * mebibyte);
+}
+
+}  // namespace
+}  // namespace penumbra::test
