@@ -13,7 +13,6 @@ namespace penumbra {
 namespace {
 
 using app::ColorScale;
-using app::Inspection;
 using app::Look;
 using app::Range;
 using app::Values;
@@ -23,8 +22,8 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr std::array scales{ColorScale::grey, ColorScale::heat, ColorScale::rgb, ColorScale::vectors,
                             ColorScale::labels};
 
-Values values_of(std::vector<float> numbers) {
-  return {.width = static_cast<int>(numbers.size()), .height = 1, .channels = 1, .numbers = std::move(numbers)};
+Values values_of(const std::vector<float>& numbers) {
+  return {.width = static_cast<int>(numbers.size()), .height = 1, .channels = 1, .numbers = numbers};
 }
 
 // 1, 2 or 5 of some power of ten, or 0.

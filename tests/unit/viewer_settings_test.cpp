@@ -227,7 +227,7 @@ TEST_F(ViewerSettings, NewFoldersAreTheUsersAloneAndLinksStayLinks) {
 TEST_F(ViewerSettings, WhatIsWrittenCanAlwaysBeRead) {
   Settings settings = read();
   settings.recent = {"relative.glb", "/no\xffutf8.glb", "/" + std::string(9000, 'x'), "/good.glb"};
-  for (int i = 0; i < 20; ++i) settings.recent.push_back("/more.glb");
+  for (int i = 0; i < 20; ++i) settings.recent.emplace_back("/more.glb");
   settings.window = {0, 1'000'000'000};
   settings.tab = std::string(100, 't');
   app::write_settings(settings);
