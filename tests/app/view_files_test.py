@@ -1,0 +1,82 @@
+"""penumbra view: pictures that it writes, the command line that it copies, and what it keeps until the next time."""
+
+import shlex
+import subprocess
+
+import pictures
+from desktop import LEFT, Desktop, Picture
+from support import PROGRAM, TestCase, main
+from viewer import Viewer
+
+STEPS = pictures.scene("steps")
+
+
+def read(path):
+    width, height, channels, rows = pictures.read_png(path)
+    assert channels == 3
+    return Picture(width, height, rows)
+
+
+class Files(TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.desktop = Desktop()
+        cls.desktop.__enter__()
+        cls.addClassCleanup(cls.desktop.__exit__)
+
+    def view(self, *arguments, **options):
+        return Viewer(self.desktop, *arguments, folder=self.folder, **options)
+
+    def copied(self, viewer):
+        """The picture that the copied command line draws."""
+        viewer.open_tab("Files", "copy command")
+        viewer.click("copy command", lambda: viewer.has("messages"), "a message")
+        command = shlex.split(self.desktop.client.clipboard())
+        self.assertEqual(command[:2], ["penumbra", "render"])
+        output = self.folder / "copied"
+        output.mkdir()
+        subprocess.run([PROGRAM, *command[1:]], cwd=output, check=True, capture_output=True)
+        return read(next(output.iterdir()))
+
+    def written(self, viewer):
+        path = self.folder / "penumbra.png"
+        viewer.press("F12", lambda: viewer.has("writing") or path.exists(), "the picture to be written")
+        viewer.wait_for(lambda: path.exists() and not viewer.has("writing"), "the written picture")
+        return read(path)
+
+    def check_same(self, *options, move):
+        with self.view(STEPS, *options, size=(640, 400)) as viewer:
+            viewer.open_tab("Scene", "eye")
+            if move:
+                before = viewer.rest()
+                eye = viewer.seen("eye")
+                viewer.drag(*viewer.middle("picture"), LEFT, lambda: viewer.seen("eye") != eye, "another eye")
+                viewer.changed(before)
+            shown, copied, written = viewer.rest(), self.copied(viewer), self.written(viewer)
+            self.assertEqual(copied, written)
+            part = written.crop(0, written.height // 3, written.width, written.height * 3 // 4)
+            self.assertEqual(part.differing(shown, by=1), 0)
+            self.assertEqual(viewer.stderr(), "")
+
+    def test_a_picture_that_a_hand_has_turned(self):
+        self.check_same("--technique", "pcf", "--set", "sun.angle=4", move=True)
+
+    def test_a_picture_of_a_technique_with_memory(self):
+        self.check_same("--set", "history.reuse=on", "--set", "sun.angle=4", move=False)
+
+    def test_the_next_run_begins_as_the_last_one_ended(self):
+        home = self.folder / "home"
+        home.mkdir()
+        with self.view(STEPS, home=home) as viewer:
+            before = viewer.rest()
+            viewer.choose("technique", "none")
+            wanted = viewer.changed(before)
+            self.desktop.xdotool("key", "Escape")
+            self.assertEqual(viewer.exit_code(), 0)
+        with self.view(home=home) as viewer:
+            self.assertEqual(viewer.rest(), wanted)
+            self.assertEqual(viewer.stderr(), "")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,129 @@
+"""penumbra view --glsl: shaders that are edited while the window is open."""
+
+import os
+import random
+import time
+
+import pictures
+from desktop import Desktop, wait_for
+from support import ROOT, TestCase, main
+from viewer import Viewer
+
+STEPS = pictures.scene("steps")
+INCLUDE = "lib/tone_map.glsl"
+FILES = (INCLUDE, "render/sky.glsl", "render/tone_map.frag", "shadow/techniques/pcss.glsl", "shadow/search.glsl")
+MOST_GROWTH = 48  # MiB, of the second half of the saves
+
+
+def in_place(path, text):
+    path.write_text(text)
+
+
+def by_rename(path, text):
+    path.with_suffix(".new").write_text(text)
+    os.replace(path.with_suffix(".new"), path)
+
+
+class Reload(TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.desktop = Desktop()
+        cls.desktop.__enter__()
+        cls.addClassCleanup(cls.desktop.__exit__)
+
+    def setUp(self):
+        super().setUp()
+        self.texts = {name: (ROOT / "glsl" / name).read_text() for name in FILES}
+        self.glsl = self.folder / "glsl"
+        for name, text in self.texts.items():
+            (self.glsl / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.glsl / name).write_text(text)
+
+    def view(self, **options):
+        return Viewer(self.desktop, STEPS, "--glsl", self.glsl, **options)
+
+    def redder(self):
+        old = "return clamp(d, 0.0f, 1.0f);"
+        self.assertIn(old, self.texts[INCLUDE])
+        return self.texts[INCLUDE].replace(old, "return clamp(vec3(1.0f, d.y, d.z), 0.0f, 1.0f);")
+
+    def test_an_include_changes_the_picture_however_it_is_saved(self):
+        with self.view() as viewer:
+            before = viewer.rest()
+            for save in (in_place, by_rename):
+                with self.subTest(save=save.__name__):
+                    save(self.glsl / INCLUDE, self.redder())
+                    red = viewer.changed(before)
+                    self.assertEqual({pixel[0] for pixel in red.colors()}, {255})
+                    save(self.glsl / INCLUDE, self.texts[INCLUDE])
+                    self.assertEqual(viewer.changed(red), before)
+            self.assertEqual(viewer.stderr(), "")
+
+    def test_a_fault_is_told_and_the_last_picture_stays_until_the_fix(self):
+        with self.view() as viewer:
+            before = viewer.rest()
+            for save in (in_place, by_rename):
+                with self.subTest(save=save.__name__):
+                    save(self.glsl / INCLUDE, self.texts[INCLUDE].replace("vec3 c =", "vec3 c = =", 1))
+                    viewer.wait_for(lambda: viewer.has("shader errors"), "the faults")
+                    left, top, right, bottom = viewer.box("shader errors")
+                    self.assertGreater(min(right - left, bottom - top), 20)
+                    self.assertEqual(self.below(viewer.rest(), viewer), self.below(before, viewer))
+                    save(self.glsl / INCLUDE, self.texts[INCLUDE])
+                    viewer.wait_for(lambda: not viewer.has("shader errors"), "no faults")
+                    viewer.wait_for(lambda: viewer.rest() == before, "the picture as it was")
+            self.assertEqual(viewer.stderr(), "")
+
+    def below(self, picture, viewer):
+        """What the list of faults does not cover."""
+        top = viewer.box("picture")[3] // 3
+        covered = viewer.box("shader errors")[3] - top if viewer.has("shader errors") else 0
+        self.assertLess(covered, picture.height - 20)
+        return picture.crop(0, covered, picture.width, picture.height)
+
+    def test_a_scene_is_opened_while_a_shader_is_broken(self):
+        in_place(self.glsl / INCLUDE, "broken")
+        with self.view(rests=False) as viewer:
+            viewer.wait_for(lambda: viewer.has("shader errors") or viewer.has("messages"), "the fault")
+            in_place(self.glsl / INCLUDE, self.texts[INCLUDE])
+            self.assertGreater(len(viewer.rest().colors()), 30)
+            self.assertEqual(viewer.stderr(), "")
+
+    def test_two_hundred_saves(self):
+        seed = random.randrange(1 << 32)
+        dice = random.Random(seed)
+        with self.subTest(seed=seed), self.view() as viewer:
+            before = viewer.rest()
+            halfway = 0
+            for count in range(200):
+                self.save_something(dice)
+                time.sleep(dice.choice((0, 0, 0.05, 0.2, 0.5, 1)))
+                self.assertIsNone(viewer.process.poll(), viewer.stderr())
+                halfway = viewer.memory() if count == 100 else halfway
+            for name, text in self.texts.items():
+                in_place(self.glsl / name, text)
+            wait_for(lambda: not viewer.has("shader errors"), "no faults")
+            viewer.wait_for(lambda: viewer.rest() == before, "the picture as it was")
+            self.assertLess(viewer.memory() - halfway, MOST_GROWTH)
+            self.assertEqual(viewer.stderr(), "")
+
+    def save_something(self, dice):
+        name = dice.choice(FILES)
+        text = self.texts[name]
+        kind = dice.choice(("same", "comment", "comment", "fault", "cut", "delete", "red"))
+        if kind == "comment":
+            text += f"// {dice.random()}\n"
+        elif kind == "fault":
+            text += "no shader = at all;\n"
+        elif kind == "cut":
+            text = text[:dice.randrange(len(text))]
+        elif kind == "red":
+            name, text = INCLUDE, self.redder()
+        if kind == "delete":
+            (self.glsl / name).unlink(missing_ok=True)
+        else:
+            dice.choice((in_place, by_rename))(self.glsl / name, text)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,184 @@
+"""penumbra view in a real window: what the mouse and the keys do to the picture, and how it ends."""
+
+import os
+import signal
+
+import pictures  # sets PENUMBRA_DEBUG: an OpenGL error ends the program
+from desktop import LEFT, MIDDLE, RIGHT, WHEEL_DOWN, WHEEL_UP, Desktop
+from support import TestCase, main
+from viewer import Viewer
+
+STEPS = pictures.scene("steps")
+
+
+class View(TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.desktop = Desktop()
+        cls.desktop.__enter__()
+        cls.addClassCleanup(cls.desktop.__exit__)
+
+    def view(self, *arguments, **options):
+        return Viewer(self.desktop, *arguments, **options)
+
+    def place(self, viewer):
+        """What the panel says of the camera and of the sun."""
+        return viewer.seen("eye"), viewer.seen("azimuth")
+
+
+class Picture(View):
+    def test_a_technique_and_a_parameter_change_the_picture(self):
+        with self.view(STEPS) as viewer:
+            pcss = viewer.rest()
+            self.assertGreater(len(pcss.colors()), 30)
+            viewer.choose("technique", "none")
+            none = viewer.changed(pcss)
+            self.assertGreater(none.differing(pcss, by=16), 0.01)  # no shadows
+            viewer.choose("technique", "pcss")
+            self.assertEqual(viewer.changed(none), pcss)
+            viewer.find("sun.angle")
+            viewer.fill_in("sun.angle", "8", lambda: viewer.has("sun.angle reset"), "another angle")
+            wide = viewer.changed(pcss)
+            self.assertGreater(wide.differing(pcss, by=16), 0.001)
+            viewer.click("sun.angle reset", lambda: not viewer.has("sun.angle reset"), "the default")
+            self.assertEqual(viewer.changed(wide), pcss)
+            self.assertEqual(viewer.stderr(), "")
+
+    def test_a_word_is_chosen_from_a_list(self):
+        with self.view(STEPS, "--set", "sun.angle=8") as viewer:
+            disc = viewer.rest()
+            viewer.find("sun.shape")
+            viewer.choose("sun.shape", "square")
+            self.assertGreater(viewer.changed(disc).differing(disc), 0)
+
+    def test_it_is_the_picture_that_render_writes(self):
+        options = ("--technique", "pcf", "--sun", "40,35", "--set", "sun.angle=3")
+        with self.view(STEPS, *options) as viewer:
+            shown = viewer.rest()
+            left, top, right, bottom = viewer.box("picture")
+        self.succeed("render", STEPS, *options, "--size", f"{right - left}x{bottom - top}", "-o",
+                     self.folder / "written.png", "--quiet")
+        _, height, channels, rows = pictures.read_png(self.folder / "written.png")
+        self.assertEqual(channels, 3)
+        written = type(shown)(right - left, height, rows).crop(0, height // 3, right - left, height * 3 // 4)
+        self.assertEqual(written.differing(shown, by=1), 0)
+
+
+class Hand(View):
+    def test_the_left_button_turns_the_camera_about_the_scene(self):
+        self.check_drag(LEFT, moves_camera=True)
+
+    def test_the_middle_button_shifts_the_camera(self):
+        self.check_drag(MIDDLE, moves_camera=True)
+
+    def test_the_right_button_moves_the_sun(self):
+        self.check_drag(RIGHT, moves_camera=False)
+
+    def check_drag(self, button, moves_camera):
+        with self.view(STEPS) as viewer:
+            viewer.open_tab("Scene", "eye")
+            before, place = viewer.rest(), self.place(viewer)
+            viewer.drag(*viewer.middle("picture"), button, lambda: self.place(viewer) != place, "other numbers")
+            after = viewer.changed(before)
+            self.assertGreater(after.differing(before, by=16), 0.005)
+            self.assertEqual([now != then for now, then in zip(self.place(viewer), place)],
+                             [moves_camera, not moves_camera])
+
+    def test_the_wheel_goes_nearer_and_back(self):
+        with self.view(STEPS) as viewer:
+            viewer.open_tab("Scene", "eye")
+            start, eye = viewer.rest(), viewer.seen("eye")
+            viewer.wheel(WHEEL_UP, lambda: viewer.seen("eye") != eye, "a nearer eye")
+            near = viewer.changed(start)
+            self.assertGreater(near.differing(start, by=16), 0.005)
+            viewer.wheel(WHEEL_DOWN, lambda: viewer.seen("eye") == eye, "the eye as it was")
+
+
+class Keys(View):
+    def test_tab_hides_the_panel(self):
+        with self.view(STEPS) as viewer:
+            viewer.press("Tab", lambda: viewer.box("picture")[0] == 0, "the picture alone")
+            self.assertFalse(viewer.has("technique"))
+            viewer.press("Tab", lambda: viewer.has("technique"), "the panel")
+            self.assertGreater(viewer.box("picture")[0], 0)
+
+    def test_a_key_that_is_tapped_counts_once(self):
+        with self.view(STEPS) as viewer:
+            for hidden in (True, False, True, False):
+                viewer.tap("Tab")
+                viewer.wait_for(lambda hidden=hidden: viewer.has("technique") != hidden, "the tap of a key")
+
+    def test_f1_shows_the_keys(self):
+        with self.view(STEPS) as viewer:
+            before = viewer.rest()
+            viewer.press("F1", lambda: viewer.has("keys"), "the list of keys")
+            viewer.changed(before)
+            viewer.press("F1", lambda: not viewer.has("keys"), "no list")
+            self.assertEqual(viewer.rest(), before)
+
+    def test_c_compares_and_x_takes_turns(self):
+        with self.view(STEPS) as viewer:
+            a = viewer.rest()
+            viewer.press("c", lambda: viewer.has("line"), "the line")
+            line = viewer.changed(a)
+            left, _, right, _ = viewer.box("line")
+            at = (left + right) // 2 - viewer.box("picture")[0]
+            self.assertLess(line.differing(a), 4 / line.width)  # B begins as A
+            self.assertGreater(line.crop(at - 2, 0, at + 3, line.height).differing(
+                a.crop(at - 2, 0, at + 3, a.height)), 0.1)
+            viewer.open_tab("Compare", "b")
+            viewer.choose("b", "none")
+            both = viewer.changed(line)
+            half = both.width // 2 - 4
+            self.assertEqual(both.crop(0, 0, half, both.height), a.crop(0, 0, half, a.height))
+            viewer.press("x", lambda: not viewer.has("line"), "A alone")
+            self.assertEqual(viewer.changed(both), a)
+            viewer.press("x", lambda: viewer.picture() != a, "B alone")
+            b = viewer.changed(a)
+            self.assertEqual(both.crop(half + 8, 0, both.width, both.height), b.crop(half + 8, 0, b.width, b.height))
+
+    def test_the_mouse_drags_the_line(self):
+        with self.view(STEPS, "--technique", "none") as viewer:
+            viewer.press("c", lambda: viewer.has("line"), "the line")
+            viewer.rest()
+            before = viewer.box("line")
+            viewer.open_tab("Scene", "eye")
+            eye = viewer.seen("eye")
+            viewer.drag(*viewer.middle("line"), LEFT, lambda: viewer.box("line")[0] > before[0] + 20,
+                        "the line to move")
+            viewer.rest()
+            self.assertEqual(viewer.seen("eye"), eye)
+
+
+class End(View):
+    def test_escape_and_the_windows_own_button(self):
+        for key in ("Escape", "alt+F4"):
+            with self.subTest(key=key), self.view(STEPS) as viewer:
+                self.desktop.xdotool("key", key)
+                self.assertEqual(viewer.exit_code(), 0)
+                self.assertEqual(viewer.stderr(), "")
+
+    def test_escape_closes_a_list_first(self):
+        with self.view(STEPS) as viewer:
+            viewer.press("F1", lambda: viewer.has("keys"), "the list of keys")
+            viewer.press("Escape", lambda: not viewer.has("keys"), "no list")
+            viewer.click("technique", lambda: viewer.has("technique=pcf"), "the techniques")
+            viewer.press("Escape", lambda: not viewer.has("technique=pcf"), "no techniques")
+            viewer.rest()
+
+    def test_signals(self):
+        for number in (signal.SIGTERM, signal.SIGINT):
+            with self.subTest(number=number), self.view(STEPS) as viewer:
+                self.assertEqual(viewer.signal(number), 128 + number)
+                self.assertEqual(viewer.stderr(), "")
+
+    def test_there_is_no_display(self):
+        environment = {key: value for key, value in os.environ.items() if "DISPLAY" not in key}
+        line = self.refuse("view", STEPS, env=environment)
+        self.assertIn("penumbra render", line)
+        self.assertIn("penumbra watch", line)
+        self.refuse("view", STEPS, env={**environment, "DISPLAY": ":31999"})
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,167 @@
+"""A desktop of a test's own, without a screen: an X server, a window manager, a hand, and the viewer on it."""
+
+import ctypes
+import dataclasses
+import os
+import pathlib
+import shutil
+import signal
+import struct
+import subprocess
+import tempfile
+import time
+import zlib
+
+from x11 import PATIENCE, Connection
+
+LEFT, MIDDLE, RIGHT, WHEEL_UP, WHEEL_DOWN = 1, 2, 3, 4, 5
+_libc = ctypes.CDLL(None)
+
+
+def wait_for(condition, what):
+    """What the condition returns once it is true; fails after a long time."""
+    deadline = time.monotonic() + PATIENCE
+    while time.monotonic() < deadline:
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.03)
+    raise AssertionError(f"waited in vain for {what() if callable(what) else what}")
+
+
+def start(command, **options):
+    """A process of its own group that does not outlive the test, however that ends."""
+    prctl_death_signal = 1
+    return subprocess.Popen(list(map(str, command)), start_new_session=True,
+                            preexec_fn=lambda: _libc.prctl(prctl_death_signal, signal.SIGKILL), **options)
+
+
+def end(process):
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+    process.wait()
+
+
+@dataclasses.dataclass
+class Picture:
+    """8-bit RGB, rows from the top."""
+
+    width: int
+    height: int
+    rows: list
+
+    def crop(self, left, top, right, bottom):
+        left, top, right, bottom = max(left, 0), max(top, 0), min(right, self.width), min(bottom, self.height)
+        return Picture(right - left, bottom - top, [row[3 * left:3 * right] for row in self.rows[top:bottom]])
+
+    def colors(self):
+        return {row[i:i + 3] for row in self.rows for i in range(0, len(row), 3)}
+
+    def differing(self, other, by=0):
+        """The share of pixels with a channel that differs by more than so many levels."""
+        assert (self.width, self.height) == (other.width, other.height), "pictures of different sizes"
+        count = 0
+        for a, b in zip(self.rows, other.rows):
+            if a != b:
+                count += sum(any(abs(a[i + c] - b[i + c]) > by for c in range(3)) for i in range(0, len(a), 3))
+        return count / (self.width * self.height)
+
+    def save_png(self, path):
+        def chunk(kind, body):
+            return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+        path = pathlib.Path(path)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        head = struct.pack(">IIBBBBB", self.width, self.height, 8, 2, 0, 0, 0)
+        lines = b"".join(b"\0" + row for row in self.rows)
+        path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(lines, 1)) +
+                         chunk(b"IEND", b""))
+
+
+class Desktop:
+    """To be used in a with statement. Xvfb, openbox and xdotool are needed: without one of them tests fail."""
+
+    def __init__(self, width=1280, height=720, resources=""):
+        self._size, self._resources = (width, height), resources
+        self.corner = width - 1, height - 1
+
+    def __enter__(self):
+        for program in ("Xvfb", "openbox", "xdotool"):
+            assert shutil.which(program), f"there is no {program}: scripts/packages.txt lists what tests need"
+        self._folder = tempfile.TemporaryDirectory(prefix="penumbra-desktop-", ignore_cleanup_errors=True)
+        self._processes = []
+        try:
+            self._start_server()
+            self.client = Connection(self.name)
+            if self._resources:
+                self.client.set_resources(self._resources)
+            self._start_manager()
+        except BaseException:
+            self._stop()
+            raise
+        return self
+
+    def __exit__(self, *_):
+        self.client.close()
+        self._stop()
+
+    def _stop(self):
+        for process in reversed(self._processes):
+            end(process)
+        self._folder.cleanup()
+
+    def _start_server(self):
+        readable, writable = os.pipe()
+        width, height = self._size
+        # -noreset: the first client that leaves would end the display's resources.
+        self._processes.append(start(
+            ["Xvfb", "-displayfd", writable, "-screen", "0", f"{width}x{height}x24", "-fbdir", self._folder.name,
+             "-nolisten", "tcp", "-noreset"], pass_fds=(writable,), stderr=subprocess.DEVNULL))
+        os.close(writable)
+        with os.fdopen(readable) as pipe:
+            number = pipe.readline().strip()
+        assert number, "Xvfb did not start"
+        self.name = f":{number}"
+
+    def _start_manager(self):
+        self._processes.append(start(["openbox"], env=self.environment(), stdout=subprocess.DEVNULL,
+                                      stderr=subprocess.DEVNULL))
+        wait_for(lambda: self._xdotool("get_num_desktops", check=False).returncode == 0, "openbox")
+
+    def environment(self):
+        variables = {key: value for key, value in os.environ.items() if key != "WAYLAND_DISPLAY"}
+        return {**variables, "DISPLAY": self.name, "XDG_CONFIG_HOME": f"{self._folder.name}/config"}
+
+    def _xdotool(self, *arguments, check=True):
+        result = subprocess.run(["xdotool", *map(str, arguments)], capture_output=True, text=True,
+                                env=self.environment(), timeout=PATIENCE)
+        assert not check or result.returncode == 0, f"xdotool {arguments}: {result.stderr}"
+        return result
+
+    def xdotool(self, *arguments):
+        return self._xdotool(*arguments).stdout.strip()
+
+    def find_window(self, process):
+        found = self._xdotool("search", "--onlyvisible", "--pid", process, check=False).stdout.split()
+        return int(found[-1]) if found else None
+
+    def move(self, x, y):
+        self.xdotool("mousemove", x, y)
+
+    def screenshot(self):
+        """All of the screen, as it is now."""
+        data = pathlib.Path(self._folder.name, "Xvfb_screen0").read_bytes()
+        head = struct.unpack_from(">25I", data)  # XWDFileHeader
+        width, height, stride, colors = head[4], head[5], head[12], head[19]
+        start = head[0] + 12 * colors
+        return Picture(width, height, [_rgb(data[start + y * stride:start + y * stride + 4 * width])
+                                       for y in range(height)])
+
+
+def _rgb(row):
+    """From blue, green, red, nothing."""
+    pixels = bytearray(len(row) // 4 * 3)
+    pixels[0::3], pixels[1::3], pixels[2::3] = row[2::4], row[1::4], row[0::4]
+    return bytes(pixels)

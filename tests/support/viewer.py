@@ -1,0 +1,201 @@
+"""penumbra view on a desktop: its window, its widgets by name, and the hand that uses them."""
+
+import itertools
+import json
+import pathlib
+import tempfile
+
+from desktop import LEFT, PATIENCE, end, start, wait_for
+from support import PROGRAM
+
+
+class Viewer:
+    """To be used in a with statement. Widgets are named as in the file of --layout."""
+
+    def __init__(self, desktop, *arguments, size=(800, 600), rests=True, folder=None, home=None):
+        """`folder` is the one that it is started in; settings are kept in `home`, if it is to outlive this."""
+        self._desktop, self._arguments, self._rests = desktop, arguments, rests
+        self._size = ("--size", f"{size[0]}x{size[1]}") if size else ()
+        self._start_folder, self._home = folder, home
+
+    def __enter__(self):
+        self._folder = tempfile.TemporaryDirectory(prefix="penumbra-viewer-")
+        self._layout = pathlib.Path(self._folder.name, "layout.json")
+        self._errors = open(f"{self._folder.name}/stderr", "w+", encoding="utf-8")
+        home = self._home or self._folder.name
+        environment = {**self._desktop.environment(), "XDG_CONFIG_HOME": f"{home}/config",
+                       "XDG_CACHE_HOME": f"{home}/cache"}
+        self.process = start([PROGRAM, "view", *self._arguments, *self._size, "--layout", self._layout],
+                             stderr=self._errors, env=environment, cwd=self._start_folder)
+        try:
+            self.window = self.wait_for(lambda: self._desktop.find_window(self.process.pid), "its window")
+            self.wait_for(self._layout.exists, "its layout")
+            if self._rests:
+                self.rest()
+        except BaseException:
+            self.__exit__()
+            raise
+        return self
+
+    def __exit__(self, *_):
+        end(self.process)
+        self._errors.close()
+        self._folder.cleanup()
+
+    def wait_for(self, condition, what):
+        """As that of the desktop, while the viewer lives."""
+        def met():
+            assert self.process.poll() is None, f"ended with {self.process.returncode}: {self.stderr()}"
+            return condition()
+        return wait_for(met, what)
+
+    # What is seen.
+
+    def layout(self):
+        return json.loads(self._layout.read_text())
+
+    def has(self, widget):
+        return widget in self.layout()
+
+    def box(self, widget):
+        """Left, top, right, bottom in pixels of the window, once it is there."""
+        self.wait_for(lambda: self.has(widget), f"the widget {widget}")
+        return self.layout()[widget]
+
+    def middle(self, widget):
+        left, top, right, bottom = self.box(widget)
+        return (left + right) // 2, (top + bottom) // 2
+
+    def seen(self, widget):
+        """The pixels of a widget, or of the whole picture for "picture"."""
+        left, top, right, bottom = self.box(widget)
+        x, y = self._desktop.client.position(self.window)
+        return self._desktop.screenshot().crop(x + left, y + top, x + right, y + bottom)
+
+    def picture(self):
+        """The middle of the picture, where no message lies over it."""
+        whole = self.seen("picture")
+        return whole.crop(0, whole.height // 3, whole.width, whole.height * 3 // 4)
+
+    def rest(self):
+        """The picture once it is drawn in full; the pointer is out of it."""
+        self.leave()
+        seen = []
+
+        def rests():
+            # Some times the same: the server may still be putting it on the screen.
+            seen.append(self.picture() if self.has("at rest") else None)
+            return len(seen) > 3 and seen[-1] and seen[-4:].count(seen[-1]) == 4
+
+        self.wait_for(rests, "a picture at rest")
+        return seen[-1]
+
+    def changed(self, before):
+        """The picture at rest once it is another."""
+        self.leave()
+        self.wait_for(lambda: self.picture() != before, "another picture")
+        return self.rest()
+
+    # The hand.
+
+    def move(self, x, y):
+        """The pointer to a pixel of the window."""
+        self._desktop.xdotool("mousemove", "--window", self.window, x, y)
+
+    def leave(self):
+        self._desktop.move(*self._desktop.corner)
+
+    def click(self, widget, until, what):
+        """And waits until the condition holds."""
+        self.move(*self.middle(widget))
+        self._desktop.xdotool("click", LEFT)
+        self.wait_for(until, what)
+
+    def drag(self, x, y, button, until, what):
+        """From a pixel of the window, to and fro with rests and the button down until the condition holds."""
+        self.move(x, y)
+        self._desktop.xdotool("mousedown", button)
+        way = itertools.cycle([*range(1, 21), *[20] * 20, *range(19, 9, -1), *[10] * 20, *range(9, -1, -1)])
+
+        def moved():
+            step = next(way)
+            self.move(x + 4 * step, y + 2 * step)
+            return step >= 10 and until()  # far enough to be told from a click
+
+        try:
+            self.wait_for(moved, what)
+        finally:
+            self._desktop.xdotool("mouseup", button)
+
+    def wheel(self, button, until, what):
+        def turned():
+            self._desktop.xdotool("click", button)
+            return until()
+        self.move(*self.middle("picture"))
+        self.wait_for(turned, what)
+
+    def press(self, key, until, what):
+        """Holds a key down until the condition holds."""
+        self._desktop.xdotool("keydown", key)
+        try:
+            self.wait_for(until, what)
+        finally:
+            self._desktop.xdotool("keyup", key)
+
+    def tap(self, key):
+        """A key that is down for a moment, shorter than a picture takes."""
+        self._desktop.xdotool("key", key)
+
+    def type(self, text):
+        self._desktop.xdotool("type", text)
+
+    def open_tab(self, name, widget):
+        self.click(f"tab {name}", lambda: self.has(widget), f"the tab {name}")
+
+    def choose(self, widget, word):
+        """From a list that opens."""
+        item = f"{widget}={word}"
+        self.click(widget, lambda: self.has(item), f"the list of {widget}")
+        self.click(item, lambda: not self.has(item), f"{item} to be chosen")
+
+    def find(self, param):
+        """Has the panel show the parameter alone, or nearly."""
+        self._focus("search")
+        self._desktop.xdotool("key", "ctrl+a")
+        self.type(param)
+        self.wait_for(lambda: "group general" not in self.layout() and self.has(param), param)
+
+    def _focus(self, widget):
+        """Clicks on a field; it takes text once it is seen to change."""
+        self.move(*self.middle(widget))
+        before = self.seen(widget)
+        self._desktop.xdotool("click", LEFT)
+        self.wait_for(lambda: self.seen(widget) != before, f"{widget} to take text")
+
+    def fill_in(self, param, text, until, what):
+        """Ctrl + click on a slider, a number, Enter."""
+        self.move(*self.middle(param))
+        resting = self.seen(param)
+        self._desktop.xdotool("keydown", "ctrl", "click", LEFT)
+        self.wait_for(lambda: self.seen(param) != resting, f"{param} to take text")
+        self._desktop.xdotool("keyup", "ctrl")
+        self.type(text)
+        self.press("Return", until, what)
+
+    # Its end.
+
+    def signal(self, number):
+        self.process.send_signal(number)
+        return self.exit_code()
+
+    def exit_code(self):
+        return self.process.wait(timeout=PATIENCE)
+
+    def stderr(self):
+        self._errors.seek(0)
+        return self._errors.read()
+
+    def memory(self):
+        """Resident, MiB."""
+        status = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
+        return next(int(line.split()[1]) for line in status.splitlines() if line.startswith("VmRSS")) / 1024
