@@ -230,11 +230,14 @@ TEST_F(ViewerSettings, WhatIsWrittenCanAlwaysBeRead) {
   for (int i = 0; i < 20; ++i) settings.recent.emplace_back("/more.glb");
   settings.window = {0, 1'000'000'000};
   settings.tab = std::string(100, 't');
+  settings.params.set_text("cascades.count", "8");
+  settings.params.set_text("cascades.size", "8192");
   app::write_settings(settings);
   const Settings again = read();
   ASSERT_EQ(again.recent.size(), app::most_recent);
   EXPECT_EQ(again.recent.front(), "/good.glb");
   EXPECT_FALSE(again.window);
+  EXPECT_TRUE(again.params.is_default("cascades.size")) << "more memory than --set would grant";
 }
 
 TEST_F(ViewerSettings, RecentScenesAreTenWithTheNewestInFront) {

@@ -162,6 +162,20 @@ Json recent_of(const Settings& settings) {
   return recent;
 }
 
+Json params_of(const Settings& settings) {
+  Json params = Json::object();
+  for (const Param& row : settings.params.rows()) {
+    if (!settings.params.is_default(row.name)) params[row.name] = io::to_json(settings.params.value(row.name));
+  }
+  try {
+    Settings again = defaults();
+    take_params({{"params", params}}, again);
+  } catch (const Error&) {
+    return Json::object();  // a preset may ask for more memory than the next start would be given
+  }
+  return params;
+}
+
 Json to_json(const Settings& settings) {
   Json json = {{"recent", recent_of(settings)}};
   if (settings.window && is_in_range(*settings.window))
@@ -169,11 +183,7 @@ Json to_json(const Settings& settings) {
   json["panel"] = settings.panel;
   json["vsync"] = settings.vsync;
   if (settings.tab.size() <= longest_tab) json["tab"] = settings.tab;
-  Json params = Json::object();
-  for (const Param& row : settings.params.rows()) {
-    if (!settings.params.is_default(row.name)) params[row.name] = io::to_json(settings.params.value(row.name));
-  }
-  json["params"] = std::move(params);
+  json["params"] = params_of(settings);
   return json;
 }
 
