@@ -164,7 +164,10 @@ void assign(ParamSet& params, const std::string& assignment) {
 ParamSet resolve_params(const ShadowOptions& options, const shadow::Registry& registry) {
   ParamSet params(render::Renderer::params(registry));
   const auto select = [&registry](ParamSet& set, std::string_view name) { registry.select(set, name); };
-  for (const std::string& preset : options.presets) io::read_preset(preset, params, select);
+  for (const std::string& preset : options.presets) {
+    io::read_preset(preset, params, select);
+    check_map_memory(params);
+  }
   try {
     if (!options.technique.empty()) registry.select(params, options.technique);
     if (!options.sun_angle.empty()) params.set_text("sun.angle", options.sun_angle);

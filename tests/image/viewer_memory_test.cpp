@@ -25,8 +25,13 @@ class ViewerMemory : public GpuTest {
     document_.stage.size = {320, 180};
     document_.params = ParamSet(render::Renderer::params(renderer_.registry()));
     renderer_.registry().select(document_.params, "thesis");
-    document_.params.set("cascades.size", 512);
-    document_.params.set("cascades.count", 2);
+    // All of its passes, each as cheap as can be.
+    document_.params.set("cascades.size", 128);
+    document_.params.set("cascades.count", 1);
+    document_.params.set("pcss.blocker_taps", 1);
+    document_.params.set("pcss.filter_taps", 1);
+    document_.params.set("pcss.renewal_taps", 1);
+    document_.params.set("filter.taps", 1);
   }
 
   std::unique_ptr<app::LoadedScene> load(const char* name) {

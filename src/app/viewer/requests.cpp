@@ -38,9 +38,9 @@ void Viewer::open(const std::string& scene) {
 }
 
 void Viewer::open_preset(const std::string& file) {
-  ParamSet params(render::Renderer::params(all_techniques()));
-  io::read_preset(file, params, [](ParamSet& set, std::string_view name) { all_techniques().select(set, name); });
-  state_.document.params = std::move(params);
+  studio::ShadowOptions options;
+  options.presets = {file};
+  state_.document.params = studio::resolve_params(options, all_techniques());
   state_.preset_file = file;
   tell(state_, "took the values of " + file, ImGui::GetTime());
 }

@@ -13,7 +13,8 @@ void add_view_command_options(CLI::App& app, ViewOptions& options) {
                       options.size = studio::parse_size("--size", text);
                       options.sized = true;
                     });
-  app.add_flag("--defaults", options.defaults, "Begins anew, whatever the last run kept")->disable_flag_override();
+  app.add_flag("--defaults", options.defaults, "Begins anew, whatever the last run kept, and keeps nothing")
+      ->disable_flag_override();
   studio::add_view_options(app, options);
   studio::add_time_options(app, options);
   studio::add_technique_option(app, options);

@@ -131,6 +131,8 @@ void Viewer::take_settings() {
 }
 
 void Viewer::keep_settings() {
+  // A file that could not be read may be mended by hand, or be a later version's.
+  if (options_.defaults || !fault_.empty()) return;
   try {
     write_settings({.recent = state_.recent,
                     .window = window_.size(),
