@@ -10,6 +10,7 @@ import re
 import shutil
 import subprocess
 
+import desktop
 import support
 
 BLOCK = re.compile(r"^```sh\n(.*?)^```", re.MULTILINE | re.DOTALL)
@@ -29,7 +30,7 @@ build() { :; }
 
 
 # What goes on until Ctrl-C, which ends it with exit code 130.
-ENDLESS = "./run.sh watch "
+ENDLESS = ("./run.sh watch ", "./run.sh view ")
 
 
 def commands(block):
@@ -52,12 +53,14 @@ class Readme(support.TestCase):
         (tree / "build" / "release").mkdir(parents=True)
         program = pathlib.Path(support.PROGRAM)
         (tree / "build" / "release" / "penumbra").symlink_to(program)
-        environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}"}
-        for block in blocks:
-            with self.subTest(block=block):
-                result = subprocess.run(["bash", "-euo", "pipefail", "-c", commands(block)], cwd=tree, env=environment,
-                                        capture_output=True, text=True, timeout=600)
-                self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        with desktop.Desktop() as screen:
+            environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}", "DISPLAY": screen.name,
+                           "XDG_CONFIG_HOME": str(self.folder / "config")}
+            for block in blocks:
+                with self.subTest(block=block):
+                    result = subprocess.run(["bash", "-euo", "pipefail", "-c", commands(block)], cwd=tree,
+                                            env=environment, capture_output=True, text=True, timeout=600)
+                    self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
 
 if __name__ == "__main__":
