@@ -55,8 +55,7 @@ double ssim(const Picture& test, const Picture& reference, Receivers receivers) 
     const float w = weight.pixels[i], dx = x.pixels[i] / w, dy = y.pixels[i] / w;
     const float mx = dx + middle, my = dy + middle;
     // Within what they can be: rounding must not leave two pictures that are more than the same.
-    const float variances =
-        std::max(xx.pixels[i] / w - dx * dx, 0.0f) + std::max(yy.pixels[i] / w - dy * dy, 0.0f);
+    const float variances = std::max(xx.pixels[i] / w - dx * dx, 0.0f) + std::max(yy.pixels[i] / w - dy * dy, 0.0f);
     const float covariance = std::clamp(xy.pixels[i] / w - dx * dy, -variances / 2, variances / 2);
     const float index = (2 * mx * my + c1) * (2 * covariance + c2) / ((mx * mx + my * my + c1) * (variances + c2));
     sum += std::min(index, 1.0f);
