@@ -12,7 +12,7 @@ from viewer import Viewer
 STEPS = pictures.scene("steps")
 INCLUDE = "lib/tone_map.glsl"
 FILES = (INCLUDE, "render/sky.glsl", "render/tone_map.frag", "shadow/techniques/pcss.glsl", "shadow/search.glsl")
-MOST_GROWTH = 48  # MiB, of the second half of the saves
+MOST_GROWTH = 16  # MiB, of the second half of the saves
 
 
 def in_place(path, text):
