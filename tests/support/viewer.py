@@ -4,6 +4,7 @@ import itertools
 import json
 import pathlib
 import tempfile
+import time
 
 from desktop import LEFT, PATIENCE, end, start, wait_for
 from support import PROGRAM
@@ -128,9 +129,18 @@ class Viewer:
             self._desktop.xdotool("mouseup", button)
 
     def wheel(self, button, until, what):
+        """A notch, and another only if nothing came of it for long: notches would pile up while a frame is drawn."""
+        notch_seconds = 20
+        turned_at = -notch_seconds
+
         def turned():
-            self._desktop.xdotool("click", button)
-            return until()
+            nonlocal turned_at
+            if until():
+                return True
+            if time.monotonic() - turned_at >= notch_seconds:
+                self._desktop.xdotool("click", button)
+                turned_at = time.monotonic()
+            return False
         self.move(*self.middle("picture"))
         self.wait_for(turned, what)
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "app/heat_map.h"
 #include "core/names.h"
 #include "gl/texture_format.h"
+#include "lib/packed_texel.glsl"
 #include "lib/tone_map.glsl"
 #include "metrics/heat_color.h"
 
@@ -104,7 +106,12 @@ Values read_target(const Inspection& inspection, const gl::Device& device) {
                   .numbers = {}};
     if (gl::format_info(desc.format).kind == gl::ChannelKind::unsigned_integer) {
       const std::vector<unsigned> bits = gl::read_uints(*target.texture, values.channels, level, layer);
-      values.numbers.assign(bits.begin(), bits.end());
+      // 32 bits are a packed texel of a mask on its way through history and filters: its visibility is what is looked
+      // at.
+      const bool packed = desc.format == GL_R32UI;
+      std::transform(bits.begin(), bits.end(), std::back_inserter(values.numbers), [packed](unsigned texel) {
+        return packed ? glsl::texel_visibility(texel) : static_cast<float>(texel);
+      });
     } else {
       values.numbers = gl::read_floats(*target.texture, values.channels, level, layer);
     }

@@ -55,6 +55,10 @@ void range(const Panel& panel) {
   Inspection& inspection = panel.state.inspection;
   begin_rows("range");
   choose_part(panel);
+  if (panel.facts.look.scale == ColorScale::labels) {
+    end_rows();
+    return;
+  }
   row("automatic range", "The range of colours is that of the values.");
   if (ImGui::Checkbox("##automatic", &inspection.automatic)) {
     inspection.low = panel.facts.range.low;

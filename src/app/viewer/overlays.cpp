@@ -127,8 +127,12 @@ void color_bar(const Panel& panel) {
   ImGui::TextUnformatted(high.c_str());
 }
 
-void label_list(const Look& look) {
-  for (std::size_t i = 0; i < look.labels.size(); ++i) {
+void label_list(const Panel& panel) {
+  const Look& look = panel.facts.look;
+  std::size_t count = look.labels.size();
+  if (panel.state.inspection.what == "cascade")
+    count = std::min(count, static_cast<std::size_t>(panel.state.document.params.get_int("cascades.count")));
+  for (std::size_t i = 0; i < count; ++i) {
     const glm::vec3 color = color_at(look.scale, static_cast<float>(i));
     ImGui::ColorButton(look.labels[i].c_str(), {color.r, color.g, color.b, 1},
                        ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
@@ -147,7 +151,7 @@ void legend_overlay(const Panel& panel, const ImVec2& corner) {
     ImGui::TextUnformatted(what.c_str());
     switch (panel.facts.look.scale) {
       case ColorScale::labels:
-        label_list(panel.facts.look);
+        label_list(panel);
         break;
       case ColorScale::grey:
       case ColorScale::heat:
@@ -183,7 +187,9 @@ void status_bar(const Panel& panel) {
   panel.widgets.mark("status");
 
   const char* help = "F1 keys";
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(help).x);
+  const float place = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(help).x;
+  if (place < ImGui::GetStyle().WindowPadding.x + ImGui::CalcTextSize((text + "  ").c_str()).x) return;
+  ImGui::SameLine(place);
   ImGui::TextDisabled("%s", help);
 }
 

@@ -83,24 +83,31 @@ bool drag_line(const Panel& panel, const PictureArea& area, bool active) {
   return dragging;
 }
 
+// On a plate of its own, for light floors and dark ones.
+void letter(const glm::vec2& at, const char* text) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  const float gap = ImGui::GetStyle().FramePadding.y;
+  list.AddRectFilled({at.x - gap, at.y - gap}, {at.x + size.x + gap, at.y + size.y + gap}, IM_COL32(20, 20, 20, 190),
+                     gap);
+  list.AddText({at.x, at.y}, IM_COL32(255, 255, 255, 255), text);
+}
+
 void draw_line(const Panel& panel, const PictureArea& area) {
   const Comparison& comparison = panel.state.comparison;
   if (!comparison.on) return;
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImU32 ink = IM_COL32(255, 255, 255, 200);
-  const float top = area.corner.y, bottom = area.corner.y + area.size.y;
+  const float top = area.corner.y, bottom = area.corner.y + area.size.y, gap = ImGui::GetFontSize();
   float line = -1;
   if (comparison.how == Comparing::wipe) line = area.corner.x + comparison.wipe * area.size.x;
   if (comparison.how == Comparing::side_by_side) line = area.corner.x + 0.5f * area.size.x;
   if (line >= 0) {
-    list.AddLine({line, top}, {line, bottom}, ink, 1.0f);
+    ImGui::GetWindowDrawList()->AddLine({line, top}, {line, bottom}, IM_COL32(255, 255, 255, 200), 1.0f);
     panel.widgets.mark("line", {line - grip, top}, {line + grip, bottom});
-    const float gap = ImGui::GetFontSize();
-    list.AddText({line - 1.4f * gap, bottom - 1.6f * gap}, ink, "A");
-    list.AddText({line + 0.7f * gap, bottom - 1.6f * gap}, ink, "B");
+    letter({line - 1.6f * gap, bottom - 2 * gap}, "A");
+    letter({line + 1.0f * gap, bottom - 2 * gap}, "B");
   } else {
     const char* name = comparison.how == Comparing::a ? "A" : comparison.how == Comparing::b ? "B" : "|A - B|";
-    list.AddText({area.corner.x + 10, bottom - 1.6f * ImGui::GetFontSize()}, ink, name);
+    letter({area.corner.x + gap, bottom - 2 * gap}, name);
   }
 }
 

@@ -64,6 +64,7 @@ void camera(const Panel& panel) {
   State& state = panel.state;
   const studio::Stage& stage = panel.facts.scene->stage;
   CameraRig rig = rig_of(stage.setup.camera, stage.bounds);
+  rig.eye += 0.0f;  // no minus before a zero
   if (state.document.stage.eye) {
     rig.eye = *state.document.stage.eye;
     rig.target = *state.document.stage.target;

@@ -36,7 +36,7 @@ void set_theme(float scale) {
   colors[ImGuiCol_Button] = grey(0.24f);
   colors[ImGuiCol_ButtonHovered] = grey(0.31f);
   colors[ImGuiCol_ButtonActive] = grey(0.37f);
-  colors[ImGuiCol_Header] = grey(0.20f);
+  colors[ImGuiCol_Header] = grey(0.24f);
   colors[ImGuiCol_HeaderHovered] = grey(0.27f);
   colors[ImGuiCol_HeaderActive] = grey(0.31f);
   colors[ImGuiCol_Tab] = grey(0.16f);

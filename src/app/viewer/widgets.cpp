@@ -35,6 +35,11 @@ std::string tooltip_of(const Param& param) {
 // Ranges over several powers of ten are for a slider that has as much room for each.
 bool is_wide(const Param& param) { return param.min >= 0 && param.max >= 100 * std::max(param.min, 1.0); }
 
+std::string unit_after(const Param& param) {
+  if (param.unit.empty()) return "";
+  return param.unit == "deg" ? "°" : " " + param.unit;
+}
+
 ImGuiSliderFlags flags_of(const Param& param) {
   return ImGuiSliderFlags_AlwaysClamp | (is_wide(param) ? ImGuiSliderFlags_Logarithmic : 0);
 }
@@ -61,11 +66,11 @@ bool edit(const Param& param, ParamValue& value, WidgetMap& widgets) {
   if (bool* on = std::get_if<bool>(&value)) {
     changed = ImGui::Checkbox("##value", on);
   } else if (int* count = std::get_if<int>(&value)) {
-    const std::string format = param.unit.empty() ? "%d" : "%d " + param.unit;
+    const std::string format = "%d" + unit_after(param);
     changed = ImGui::SliderInt("##value", count, static_cast<int>(param.min), static_cast<int>(param.max),
                                format.c_str(), flags_of(param));
   } else if (float* quantity = std::get_if<float>(&value)) {
-    const std::string format = param.unit.empty() ? "%.3g" : "%.3g " + param.unit;
+    const std::string format = "%.3g" + unit_after(param);
     changed = ImGui::SliderFloat("##value", quantity, static_cast<float>(param.min), static_cast<float>(param.max),
                                  format.c_str(), flags_of(param) | ImGuiSliderFlags_NoRoundToFormat);
   } else {

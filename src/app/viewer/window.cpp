@@ -6,6 +6,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -120,18 +121,24 @@ void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
 void Window::hold_taps() {
   ImGuiIO& io = ImGui::GetIO();
+  const auto holds = [](const std::vector<Tap>& taps, int key) {
+    return std::any_of(taps.begin(), taps.end(), [key](const Tap& tap) { return tap.key == key; });
+  };
   const auto is_down = [this](int key) { return glfwGetKey(window_, key) == GLFW_PRESS; };
-  for (const Tap& tap : held_) io.KeysDown[tap.key] = is_down(tap.key);
+  std::vector<Tap> now, later;  // a second tap of a key comes a frame after the first one's end
+  for (const Tap& tap : taps_) (holds(held_, tap.key) || holds(now, tap.key) ? later : now).push_back(tap);
+  for (const Tap& tap : held_) io.KeysDown[tap.key] = is_down(tap.key) && !holds(later, tap.key);
   if (!held_.empty()) {
     io.KeyCtrl = is_down(GLFW_KEY_LEFT_CONTROL) || is_down(GLFW_KEY_RIGHT_CONTROL);
     io.KeyShift = is_down(GLFW_KEY_LEFT_SHIFT) || is_down(GLFW_KEY_RIGHT_SHIFT);
   }
-  held_ = std::exchange(taps_, {});
-  for (const Tap& tap : held_) {
+  for (const Tap& tap : now) {
     io.KeysDown[tap.key] = true;
     io.KeyCtrl = io.KeyCtrl || (tap.modifiers & GLFW_MOD_CONTROL) != 0;
     io.KeyShift = io.KeyShift || (tap.modifiers & GLFW_MOD_SHIFT) != 0;
   }
+  held_ = std::move(now);
+  taps_ = std::move(later);
 }
 
 void Window::begin() {
