@@ -1,4 +1,4 @@
-"""penumbra view --glsl: shaders that are edited while the window is open."""
+"""penumbra view: shaders and scenes that are saved while the window is open."""
 
 import os
 import random
@@ -123,6 +123,19 @@ class Reload(TestCase):
             (self.glsl / name).unlink(missing_ok=True)
         else:
             dice.choice((in_place, by_rename))(self.glsl / name, text)
+
+
+class Scene(TestCase):
+    def test_a_scene_that_is_saved_again_is_shown(self):
+        file = self.folder / "scene.glb"
+        file.write_bytes(STEPS.read_bytes())
+        with Desktop() as desktop, Viewer(desktop, file) as viewer:
+            steps = viewer.rest()
+            file.write_bytes(STEPS.read_bytes()[:1000])
+            viewer.wait_for(lambda: viewer.has("messages"), "a message")
+            self.assertEqual(viewer.rest(), steps)
+            file.write_bytes(pictures.scene("knife_edge").read_bytes())
+            viewer.changed(steps)
 
 
 if __name__ == "__main__":

@@ -179,7 +179,7 @@ void Viewer::take_events() {
     }
   }
   take_loaded();
-  take_shaders();
+  take_saved();
   take_written();
   facts_.command = studio::command_text("penumbra", command());
 }
@@ -193,10 +193,11 @@ void Viewer::take_loaded() {
     auto scene = std::make_unique<LoadedScene>(device_, std::move(loaded->stage));
     scene_ = std::move(scene);
     facts_.scene = scene_.get();
+    watch_.set_files(scene_->stage.scene.files);
     const studio::Size size = state_.document.stage.size;
+    if (state_.document.stage.scene != loaded->options.scene) state_.document.frame = 0;
     state_.document.stage = loaded->options;
     state_.document.stage.size = size;
-    state_.document.frame = 0;
     state_.scene_file = loaded->options.scene;
     add_recent(state_.recent, loaded->options.scene);
     for (Side* side : {&a_, &b_}) {
@@ -208,21 +209,30 @@ void Viewer::take_loaded() {
   });
 }
 
-void Viewer::take_shaders() {
-  if (options_.glsl.empty()) return;
+// Files of the scene and shaders, as they are saved.
+void Viewer::take_saved() {
   guarded([&] {
     const std::vector<std::filesystem::path> changed = watch_.poll();
-    if (changed.empty()) return;
-    const studio::ShaderReload reload = studio::reload_shaders(device_.shaders, changed);
-    facts_.shader_errors = reload.errors;
-    if (!reload.redraws()) return;
-    a_.painter.cut();
-    b_.painter.cut();
-    tell(state_,
-         fmt::format("{} programs compiled in {:.2f} s; what techniques remember begins anew", reload.rebuilt,
-                     reload.seconds),
-         ImGui::GetTime());
+    const auto of_scene = [this](const std::filesystem::path& file) {
+      const std::vector<std::filesystem::path>& files = scene_->stage.scene.files;
+      return std::find(files.begin(), files.end(), file) != files.end();
+    };
+    if (scene_ != nullptr && std::any_of(changed.begin(), changed.end(), of_scene))
+      loader_.start(state_.document.stage);
+    if (!changed.empty() && !options_.glsl.empty()) take_shaders(changed);
   });
+}
+
+void Viewer::take_shaders(std::span<const std::filesystem::path> changed) {
+  const studio::ShaderReload reload = studio::reload_shaders(device_.shaders, changed);
+  facts_.shader_errors = reload.errors;
+  if (!reload.redraws()) return;
+  a_.painter.cut();
+  b_.painter.cut();
+  tell(state_,
+       fmt::format("{} programs compiled in {:.2f} s; what techniques remember begins anew", reload.rebuilt,
+                   reload.seconds),
+       ImGui::GetTime());
 }
 
 void Viewer::play(float seconds) {

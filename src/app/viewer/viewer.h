@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "app/viewer/costs.h"
@@ -48,7 +49,8 @@ class Viewer {
   void frame(float seconds);
   void take_events();
   void take_loaded();
-  void take_shaders();
+  void take_saved();
+  void take_shaders(std::span<const std::filesystem::path> changed);
   void play(float seconds);
   PictureArea build_interface(float seconds);
   void side_panel(const Panel& panel);
