@@ -1,10 +1,10 @@
 #include "render/renderer.h"
 
-#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
+#include "core/error.h"
 #include "render/frame.h"
 
 namespace penumbra::render {
@@ -15,6 +15,11 @@ struct Renderer::State {
   FrameParts parts;
   Frame frame;
   std::uint64_t last_scene = 0;  // its id; 0: there is none
+
+  const FrameParts& drawn() const {
+    if (parts.display == nullptr) fail("no frame was drawn that could be read");
+    return parts;
+  }
 };
 
 Renderer::Renderer(gl::Device& device, shadow::Registry registry)
@@ -34,6 +39,8 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   const std::uint64_t last_scene = std::exchange(state_->last_scene, 0);
   FrameInputs placed = inputs;
   placed.cut = inputs.cut || last_scene != scene.id();
+  // What a frame that throws has dropped must not be read.
+  state_->parts = {};
   device.timers.begin_frame();
   state_->parts = draw_frame(device, state_->soft_shadows, scene, placed, params);
   device.timers.end_frame();
@@ -43,18 +50,14 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   return state_->frame;
 }
 
-std::vector<float> Renderer::read_aov(std::string_view name) const {
-  assert(state_->parts.display != nullptr);
-  return render::read_aov(state_->parts, name);
-}
+std::vector<float> Renderer::read_aov(std::string_view name) const { return render::read_aov(state_->drawn(), name); }
 
 std::vector<float> Renderer::read_aov(std::string_view name, const glm::ivec2& pixel) const {
-  assert(state_->parts.display != nullptr);
-  return render::read_aov(state_->parts, name, pixel);
+  return render::read_aov(state_->drawn(), name, pixel);
 }
 
 std::vector<std::uint8_t> Renderer::read_display() const {
-  const gl::Texture& display = *state_->parts.display;
+  const gl::Texture& display = *state_->drawn().display;
   const std::vector<float> pixels = gl::read_floats(display, 3);
   const auto row = static_cast<std::size_t>(display.width()) * 3;
   std::vector<std::uint8_t> bytes;

@@ -133,6 +133,12 @@ scene::Bounds usable(scene::Bounds bounds) {
 
 }  // namespace
 
+std::vector<std::string> camera_names(const scene::Scene& scene) {
+  std::vector<std::string> names;
+  for (const PlacedCamera& camera : placed_cameras(scene, scene::rest_pose(scene))) names.push_back(camera.name);
+  return names;
+}
+
 glm::vec3 direction_to(float azimuth, float elevation) {
   return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation), std::cos(azimuth) * std::cos(elevation)};
 }

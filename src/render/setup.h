@@ -31,6 +31,9 @@ struct Setup {
   std::optional<std::size_t> camera_node, sun_node;
 };
 
+// The cameras that stand in a scene, in the order of SetupRequest's indices; none has an empty name.
+std::vector<std::string> camera_names(const scene::Scene& scene);
+
 // Throws Error, listing near names, for a camera that the file lacks.
 Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const SetupRequest& request = {});
 

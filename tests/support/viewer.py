@@ -169,11 +169,16 @@ class Viewer:
         self.click(item, lambda: not self.has(item), f"{item} to be chosen")
 
     def find(self, param):
-        """Has the panel show the parameter alone, or nearly."""
+        """Has the panel show the parameter alone."""
         self._focus("search")
         self._desktop.xdotool("key", "ctrl+a")
         self.type(param)
-        self.wait_for(lambda: "group general" not in self.layout() and self.has(param), param)
+
+        def alone():
+            # Rows move up while the last letters come in.
+            rows = {name.split("=")[0].split(" ")[0] for name in self.layout() if "." in name.split("=")[0]}
+            return rows == {param}
+        self.wait_for(alone, f"{param} alone")
 
     def _focus(self, widget):
         """Clicks on a field; it takes text once it is seen to change."""

@@ -20,7 +20,7 @@ class Costs {
 
   // Adds a frame's times by name, "frame" among them, measured at `now`, seconds. Passes within others count there.
   void add(double now, std::map<std::string, double> passes);
-  // Another size, technique or scene: what was measured says nothing of it.
+  // Another scene: medians of the last second say nothing of it.
   void clear();
 
   // Medians over the last second, at least of the last frame; the dearest first.

@@ -86,6 +86,22 @@ std::vector<std::string> render_arguments(const Document& document, const std::s
   return arguments;
 }
 
+CameraRig present_rig(const Document& document, const studio::Stage& stage) {
+  CameraRig rig = rig_of(studio::setup_at(stage, document.seconds()).camera, stage.bounds);
+  if (document.stage.eye) {
+    rig.eye = *document.stage.eye;
+    rig.target = *document.stage.target;
+    rig.orbit(0, 0);  // off the poles
+  }
+  return rig;
+}
+
+studio::Direction present_sun(const Document& document, const studio::Stage& stage) {
+  if (document.stage.sun) return *document.stage.sun;
+  const glm::vec3 to_light = studio::setup_at(stage, document.seconds()).sun.to_light;
+  return {.azimuth = std::atan2(to_light.x, to_light.z), .elevation = std::asin(std::clamp(to_light.y, -1.0f, 1.0f))};
+}
+
 void place(Document& document, const studio::Stage& stage, const CameraRig& rig) {
   studio::StageOptions& options = document.stage;
   // Without a sun of its own, the file's or one that was set, a scene's follows the camera that was chosen first.

@@ -33,6 +33,10 @@ std::vector<std::string> stage_arguments(const studio::StageOptions& stage);
 std::vector<std::string> render_arguments(const Document& document, const std::string& output, int warmup,
                                           const std::string& glsl, std::optional<studio::FrameRange> range = {});
 
+// Where the camera and the sun stand in the present frame, as a hand takes them up.
+CameraRig present_rig(const Document& document, const studio::Stage& stage);
+studio::Direction present_sun(const Document& document, const studio::Stage& stage);
+
 // Has the camera stand free where the rig is: the options' --eye, --target and --fov.
 void place(Document& document, const studio::Stage& stage, const CameraRig& rig);
 // Has the sun stand at a direction: the options' --sun.

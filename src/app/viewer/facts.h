@@ -37,7 +37,6 @@ struct Facts {
   int frames = 0;            // drawn since something changed
   bool at_rest = false;      // what is seen is what it will stay
   std::vector<std::string> shader_errors;
-  std::string reloaded;              // "3 programs, 0.4 s"
   std::optional<double> writing;     // share of the files that are written
   std::string command;               // what draws this picture in a shell
   std::optional<double> tracing;     // share of the truth that is traced

@@ -11,7 +11,9 @@ namespace {
 
 void choose(const Panel& panel, const std::string& what, const std::string& label, const std::string& help) {
   Inspection& inspection = panel.state.inspection;
+  ImGui::PushID(what.c_str());  // a texture may be called as an AOV is
   if (ImGui::Selectable(label.c_str(), inspection.what == what)) inspection = Inspection{.what = what};
+  ImGui::PopID();
   panel.widgets.mark("show=" + (what.empty() ? "picture" : what));
   if (!help.empty()) tooltip(help);
 }
@@ -23,7 +25,7 @@ void list(const Panel& panel) {
   ImGui::Separator();
   ImGui::TextDisabled("textures that passes draw to");
   for (const gl::Device::NamedTarget& target : panel.facts.gl.targets()) {
-    if (target.name.starts_with("viewer/")) continue;
+    if (target.name.starts_with("viewer/") || target.name.find("/view 1/") != std::string_view::npos) continue;
     const gl::TextureDesc& desc = target.texture->desc();
     choose(panel, "target " + std::string(target.name), std::string(target.name),
            fmt::format("{} × {}, {} layers, {} levels, {:.1f} MiB", desc.width, desc.height, desc.layers, desc.levels,

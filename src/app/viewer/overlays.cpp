@@ -14,7 +14,6 @@ constexpr ImGuiWindowFlags overlay_flags = ImGuiWindowFlags_NoDecoration | ImGui
                                            ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
                                            ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 
-// The upper left corner of the picture is where the cursor of the window that is being drawn stands.
 bool begin_overlay(const char* name, const ImVec2& place, const ImVec2& pivot) {
   ImGui::SetNextWindowPos(place, ImGuiCond_Always, pivot);
   ImGui::SetNextWindowBgAlpha(0.92f);

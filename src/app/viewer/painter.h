@@ -18,6 +18,7 @@ struct LoadedScene {
 
   studio::Stage stage;
   scene::GpuScene gpu;
+  std::vector<std::string> cameras = render::camera_names(stage.scene);
 };
 
 // One of the pictures that are compared, and what was drawn last of it.
@@ -32,6 +33,8 @@ class Painter {
   void draw(LoadedScene& scene, const Document& document, int divisor);
   // The next picture takes up nothing of the last: another scene, other shaders.
   void cut() { cut_ = true; }
+  // The present picture is to be drawn once more: what it shows was not ready.
+  void again() { frames_ = 0; }
 
   // Pictures of the present state at full size, drawn since it changed.
   int frames() const { return divisor_ == 1 ? frames_ : 0; }

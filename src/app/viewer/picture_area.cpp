@@ -16,21 +16,10 @@ constexpr float light_per_pixel = 0.004f;
 constexpr float dolly_per_notch = 0.88f;
 constexpr float grip = 6;  // pixels about the line between A and B
 
-CameraRig present_rig(const Panel& panel) {
-  const studio::StageOptions& options = panel.state.document.stage;
-  const studio::Stage& stage = panel.facts.scene->stage;
-  CameraRig rig = rig_of(stage.setup.camera, stage.bounds);
-  if (options.eye) {
-    rig.eye = *options.eye;
-    rig.target = *options.target;
-  }
-  return rig;
-}
-
 void move(const Panel& panel, const CameraRig& rig) { place(panel.state.document, panel.facts.scene->stage, rig); }
 
 void drag_camera(const Panel& panel, const glm::vec2& by, const PictureArea& area) {
-  CameraRig rig = present_rig(panel);
+  CameraRig rig = present_rig(panel.state.document, panel.facts.scene->stage);
   const bool pan = ImGui::IsMouseDown(ImGuiMouseButton_Middle) || ImGui::GetIO().KeyShift;
   if (pan) {
     rig.pan(glm::vec2(-by.x, by.y) / area.size.y);
@@ -43,15 +32,18 @@ void drag_camera(const Panel& panel, const glm::vec2& by, const PictureArea& are
 }
 
 void drag_sun(const Panel& panel, const glm::vec2& by) {
-  const glm::vec3 to_light = panel.facts.scene->stage.setup.sun.to_light;
+  const studio::Direction sun = present_sun(panel.state.document, panel.facts.scene->stage);
+  const glm::vec3 to_light = render::direction_to(sun.azimuth, sun.elevation);
   place_sun(panel.state.document, turned_light(to_light, by.x * light_per_pixel, -by.y * light_per_pixel));
 }
 
 // The picture's point under the cursor stays there.
-void magnify(Zoom& zoom, float notches, const PictureArea& area) {
+void magnify(Zoom& zoom, float notches, const PictureArea& area, bool halves) {
   const float before = zoom.factor;
+  glm::vec2 middle = area.size * 0.5f;
+  if (halves) middle.x *= area.cursor->x >= middle.x ? 1.5f : 0.5f;
   zoom.factor = std::clamp(std::exp2(std::round(std::log2(before) + notches)), 0.25f, 32.0f);
-  const glm::vec2 from_middle = (*area.cursor - area.size * 0.5f) / area.size;
+  const glm::vec2 from_middle = (*area.cursor - middle) / area.size;
   zoom.center = glm::clamp(zoom.center + from_middle / before - from_middle / zoom.factor, 0.0f, 1.0f);
   if (zoom.factor <= 1) zoom.center = glm::vec2(0.5f);
 }
@@ -60,9 +52,11 @@ void take_wheel(const Panel& panel, const PictureArea& area) {
   const float notches = ImGui::GetIO().MouseWheel;
   if (notches == 0 || !area.cursor) return;
   if (ImGui::GetIO().KeyCtrl) {
-    magnify(panel.state.zoom, notches > 0 ? 1.0f : -1.0f, area);
+    const Comparison& comparison = panel.state.comparison;
+    const bool halves = comparison.on && comparison.how == Comparing::side_by_side;
+    magnify(panel.state.zoom, notches > 0 ? 1.0f : -1.0f, area, halves);
   } else if (panel.facts.scene != nullptr) {
-    CameraRig rig = present_rig(panel);
+    CameraRig rig = present_rig(panel.state.document, panel.facts.scene->stage);
     rig.dolly(std::pow(dolly_per_notch, notches));
     move(panel, rig);
   }
@@ -118,13 +112,17 @@ void fly(const Panel& panel, float seconds) {
   };
   const glm::vec3 way(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_S, GLFW_KEY_W));
   if (way == glm::vec3(0) || io.KeyCtrl || panel.facts.scene == nullptr) return;
-  CameraRig rig = present_rig(panel);
+  CameraRig rig = present_rig(panel.state.document, panel.facts.scene->stage);
   const float speed = 0.25f * std::max(panel.facts.scene->stage.bounds.radius(), 0.1f) * (io.KeyShift ? 4.0f : 1.0f);
   rig.fly(glm::normalize(way) * speed * std::min(seconds, 0.1f));
   move(panel, rig);
 }
 
-void take_time_keys(State& state) {
+void take_time_keys(const Panel& panel) {
+  State& state = panel.state;
+  const bool moves = panel.facts.scene != nullptr && !panel.facts.scene->stage.scene.animations.empty();
+  // The same keys walk from widget to widget.
+  if (!moves || ImGui::GetIO().NavVisible) return;
   if (ImGui::IsKeyPressed(GLFW_KEY_SPACE, false)) state.playback.playing = !state.playback.playing;
   if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT)) ++state.document.frame;
   if (ImGui::IsKeyPressed(GLFW_KEY_LEFT)) state.document.frame = std::max(state.document.frame - 1, 0);
@@ -196,7 +194,7 @@ void take_keys(const Panel& panel, float seconds) {
   }
   if (pressed(GLFW_KEY_X) && state.comparison.on)
     state.comparison.how = state.comparison.how == Comparing::a ? Comparing::b : Comparing::a;
-  take_time_keys(state);
+  take_time_keys(panel);
   fly(panel, seconds);
 }
 

@@ -37,8 +37,11 @@ void Viewer::draw_pictures(const PictureArea& area, double now) {
   const Document b = document_b();
   const bool both = state_.comparison.on && !b.params.rows().empty();
   const std::optional<truth::TruthTechnique::Pending> pending = truth_.pending();
-  if (facts_.tracing && !pending) b_.painter.cut();  // its picture is there now
-  facts_.tracing = both && pending ? std::optional(pending->share_done) : std::nullopt;
+  if (facts_.tracing && !pending) {  // the picture is there now
+    a_.painter.again();
+    b_.painter.again();
+  }
+  facts_.tracing = pending ? std::optional(pending->share_done) : std::nullopt;
 
   const bool traced = both && b.params.get_word("technique") == "truth";
   const bool same_a = a_.painter.shows(state_.document), same_b = !both || b_.painter.shows(b);
@@ -81,7 +84,11 @@ bool Viewer::draw_side(Side& side, const Document& document, int divisor) {
 void Viewer::inspect(Side& side) {
   side.seen = &side.painter.picture();
   if (state_.inspection.what.empty()) return;
-  side.values = read_values(state_.inspection, renderer_, device_);
+  Inspection inspection = state_.inspection;
+  // The list names A's textures; B has its own.
+  const std::size_t view = inspection.what.find("/view 0/");
+  if (&side == &b_ && view != std::string::npos) inspection.what.replace(view, 8, "/view 1/");
+  side.values = read_values(inspection, renderer_, device_);
 }
 
 // Over what faces the sun, and from what is shown at full size.
@@ -90,7 +97,8 @@ void Viewer::measure_distance() {
   const metrics::Picture a{size.x, size.y, a_.visibility}, b{size.x, size.y, b_.visibility};
   if (a.pixels.size() != a.pixel_count() || b.pixels.size() != b.pixel_count()) return;
   const std::vector<std::uint8_t> receivers =
-      receivers_of(renderer_, scene_->stage.setup.sun.to_light, state_.document.params.get_float("sun.angle"));
+      receivers_of(renderer_, studio::setup_at(scene_->stage, state_.document.seconds()).sun.to_light,
+                   state_.document.params.get_float("sun.angle"));
   facts_.distance =
       Distance{.figures = metrics::error_figures(a, b, receivers), .flip = metrics::flip(a, b, receivers).mean};
 }
@@ -132,7 +140,6 @@ void Viewer::show_pictures() {
   PresentInputs inputs = present_inputs(window_size_);
   if (differ) inputs.b = nullptr;
   present(device_, inputs);
-  gl::leave_initial_state();
 }
 
 void Viewer::color(Side& side, const Values& values, int number) {

@@ -6,7 +6,7 @@ namespace penumbra::app {
 
 namespace {
 
-// The part of the window that shows one picture: its middle, and the picture's point there, both in pixels.
+// The picture's point in the middle of its part of the window, pixels.
 glm::vec2 center_of(const PresentInputs& inputs) { return inputs.zoom.center * glm::vec2(inputs.picture_size); }
 
 Comparing how_of(const PresentInputs& inputs) {

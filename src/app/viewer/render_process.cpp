@@ -5,7 +5,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstring>
@@ -69,16 +68,18 @@ void RenderProcess::start(const std::vector<std::string>& arguments, std::vector
   output_ = ends[0];
   text_.clear();
   files_ = std::move(files);
+  written_ = 0;
   started_ = std::filesystem::file_time_type::clock::now();
 }
 
-double RenderProcess::progress() const {
-  const auto written = std::count_if(files_.begin(), files_.end(), [this](const std::filesystem::path& file) {
+double RenderProcess::progress() {
+  const auto is_written = [this](const std::filesystem::path& file) {
     std::error_code missing;
     const auto time = std::filesystem::last_write_time(file, missing);
     return !missing && time >= started_;
-  });
-  return files_.empty() ? 0.0 : static_cast<double>(written) / static_cast<double>(files_.size());
+  };
+  while (written_ < files_.size() && is_written(files_[written_])) ++written_;
+  return files_.empty() ? 0.0 : static_cast<double>(written_) / static_cast<double>(files_.size());
 }
 
 void RenderProcess::read_output() {
@@ -93,11 +94,13 @@ std::optional<RenderProcess::Result> RenderProcess::finished() {
   if (!runs()) return {};
   read_output();
   int status = 0;
-  if (waitpid(process_, &status, WNOHANG) != process_) return {};
+  if (waitpid(process_, &status, WNOHANG) == 0) return {};
   read_output();
   close(std::exchange(output_, -1));
   process_ = -1;
-  return Result{.good = WIFEXITED(status) && WEXITSTATUS(status) == 0, .text = last_line(text_)};
+  if (WIFSIGNALED(status))
+    return Result{.good = false, .text = fmt::format("penumbra render: signal {}", WTERMSIG(status))};
+  return Result{.good = WEXITSTATUS(status) == 0, .text = last_line(text_)};
 }
 
 }  // namespace penumbra::app

@@ -21,7 +21,7 @@ class RenderProcess {
   void start(const std::vector<std::string>& arguments, std::vector<std::filesystem::path> files);
   bool runs() const { return process_ > 0; }
   // The share of the files that are written.
-  double progress() const;
+  double progress();
 
   struct Result {
     bool good = false;
@@ -36,6 +36,7 @@ class RenderProcess {
   int process_ = -1, output_ = -1;
   std::string text_;
   std::vector<std::filesystem::path> files_;
+  std::size_t written_ = 0;  // of them, in order
   std::filesystem::file_time_type started_;
 };
 

@@ -33,11 +33,6 @@ void file(const Panel& panel) {
   end_rows();
 }
 
-std::string camera_name(const Panel& panel, std::size_t index) {
-  const std::string& name = panel.facts.scene->stage.scene.cameras[index].name;
-  return name.empty() ? fmt::format("camera {}", index) : fmt::format("{}  {}", index, name);
-}
-
 void choose_camera(const Panel& panel) {
   studio::StageOptions& options = panel.state.document.stage;
   row("look through", "A camera of the file, the one that penumbra render would choose, or one of your own.");
@@ -53,8 +48,9 @@ void choose_camera(const Panel& panel) {
   };
   if (ImGui::Selectable("automatic", !options.eye && !options.camera)) look_through({});
   panel.widgets.mark("camera=automatic");
-  for (std::size_t i = 0; i < panel.facts.scene->stage.scene.cameras.size(); ++i) {
-    if (ImGui::Selectable(camera_name(panel, i).c_str())) look_through(std::to_string(i));
+  const std::vector<std::string>& cameras = panel.facts.scene->cameras;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (ImGui::Selectable(fmt::format("{}  {}", i, cameras[i]).c_str())) look_through(std::to_string(i));
     panel.widgets.mark(fmt::format("camera={}", i));
   }
   ImGui::EndCombo();
@@ -63,12 +59,8 @@ void choose_camera(const Panel& panel) {
 void camera(const Panel& panel) {
   State& state = panel.state;
   const studio::Stage& stage = panel.facts.scene->stage;
-  CameraRig rig = rig_of(stage.setup.camera, stage.bounds);
+  CameraRig rig = present_rig(state.document, stage);
   rig.eye += 0.0f;  // no minus before a zero
-  if (state.document.stage.eye) {
-    rig.eye = *state.document.stage.eye;
-    rig.target = *state.document.stage.target;
-  }
   begin_rows("camera");
   choose_camera(panel);
   bool moved = false;
@@ -101,9 +93,8 @@ void camera(const Panel& panel) {
 
 void sun(const Panel& panel) {
   State& state = panel.state;
-  const glm::vec3 to_light = panel.facts.scene->stage.setup.sun.to_light;
-  float azimuth = glm::degrees(std::atan2(to_light.x, to_light.z));
-  float elevation = glm::degrees(std::asin(std::clamp(to_light.y, -1.0f, 1.0f)));
+  const studio::Direction sun = present_sun(state.document, panel.facts.scene->stage);
+  float azimuth = glm::degrees(sun.azimuth), elevation = glm::degrees(sun.elevation);
   begin_rows("sun");
   row("azimuth", "From +Z towards +X. The right mouse button drags the sun.");
   bool moved = ImGui::SliderFloat("##azimuth", &azimuth, -180, 180, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
@@ -114,7 +105,7 @@ void sun(const Panel& panel) {
   std::string fault;
   param_row(state.document.params, state.document.params.row("sun.angle"), panel.widgets, fault);
   end_rows();
-  if (moved) place_sun(state.document, render::direction_to(glm::radians(azimuth), glm::radians(elevation)));
+  if (moved) state.document.stage.sun = studio::Direction{glm::radians(azimuth), glm::radians(elevation)};
 }
 
 double longest_animation(const scene::Scene& scene) {
@@ -144,7 +135,7 @@ void time(const Panel& panel) {
   ImGui::Text("%.3f s", document.seconds());
   begin_rows("time");
   row("frame", "Of the animation, at so many frames a second.");
-  const int last = std::max(1, static_cast<int>(std::ceil(duration * document.stage.fps)));
+  const int last = static_cast<int>(std::clamp(std::ceil(duration * document.stage.fps), 1.0, 999'999.0));
   ImGui::SliderInt("##frame", &document.frame, 0, std::max(last, document.frame), "%d", ImGuiSliderFlags_AlwaysClamp);
   panel.widgets.mark("frame");
   row("speed", "Of the playback.");

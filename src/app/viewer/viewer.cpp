@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "app/techniques.h"
-#include "core/log.h"
 #include "io/presets.h"
 
 #include "studio/shader_reload.h"
@@ -68,12 +67,6 @@ std::string first_scene(const ViewOptions& options, const Settings& settings) {
   return own_scene();
 }
 
-// Values that the command line leaves open are those of the last run.
-bool says_nothing_of_shadows(const studio::ShadowOptions& options) {
-  return options.technique.empty() && options.presets.empty() && options.assignments.empty() &&
-         options.sun_angle.empty() && options.exposure.empty();
-}
-
 }  // namespace
 
 Viewer::Viewer(ViewOptions options)
@@ -102,6 +95,7 @@ Viewer::~Viewer() { truth_.stop(); }
 int Viewer::run() {
   end_on_signals();
   const std::string scene = first_scene(options_, settings_);
+  state_.document.stage.scene = options_.scene = scene;
   if (!scene.empty()) open(scene);
   double last = ImGui::GetTime();
   while (caught_signal == 0) {
@@ -121,34 +115,10 @@ int Viewer::run() {
   return caught_signal == 0 ? 0 : 128 + caught_signal;
 }
 
-void Viewer::take_settings() {
-  if (!fault_.empty()) tell_error(state_, fault_ + "; the defaults are taken", 0);
-  state_.recent = settings_.recent;
-  state_.panel = settings_.panel;
-  state_.vsync = settings_.vsync;
-  state_.tab = settings_.tab;
-  if (!settings_.params.rows().empty() && says_nothing_of_shadows(options_)) state_.document.params = settings_.params;
-}
-
-void Viewer::keep_settings() {
-  // A file that could not be read may be mended by hand, or be a later version's.
-  if (options_.defaults || !fault_.empty()) return;
-  try {
-    write_settings({.recent = state_.recent,
-                    .window = window_.size(),
-                    .panel = state_.panel,
-                    .vsync = state_.vsync,
-                    .tab = state_.open_tab,
-                    .params = state_.document.params});
-  } catch (const Error& error) {
-    warn("{}", error.what());
-  }
-}
-
 void Viewer::guarded(const std::function<void()>& action) {
   try {
     action();
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     tell_error(state_, error.what(), ImGui::GetTime());
   }
 }
@@ -160,9 +130,10 @@ void Viewer::frame(float seconds) {
   play(seconds);
   const PictureArea area = build_interface(seconds);
   guarded([&] { aim(); });
-  draw_pictures(area, ImGui::GetTime());
-  probe(area);
-  show_pictures();
+  guarded([&] { draw_pictures(area, ImGui::GetTime()); });
+  guarded([&] { probe(area); });
+  guarded([&] { show_pictures(); });
+  gl::leave_initial_state();
   if (facts_.at_rest) widgets_.mark_rest();
   window_.show();
   cost_reader_.read(device_.timers, ImGui::GetTime());
@@ -193,11 +164,13 @@ void Viewer::take_loaded() {
     auto scene = std::make_unique<LoadedScene>(device_, std::move(loaded->stage));
     scene_ = std::move(scene);
     facts_.scene = scene_.get();
-    watch_.set_files(scene_->stage.scene.files);
     const studio::Size size = state_.document.stage.size;
-    if (state_.document.stage.scene != loaded->options.scene) state_.document.frame = 0;
-    state_.document.stage = loaded->options;
-    state_.document.stage.size = size;
+    // A scene that was saved again is seen as it was: what was changed meanwhile stays.
+    if (state_.document.stage.scene != loaded->options.scene) {
+      state_.document.stage = loaded->options;
+      state_.document.stage.size = size;
+      state_.document.frame = 0;
+    }
     state_.scene_file = loaded->options.scene;
     add_recent(state_.recent, loaded->options.scene);
     for (Side* side : {&a_, &b_}) {
@@ -206,6 +179,7 @@ void Viewer::take_loaded() {
     }
     aimed_.clear();
     window_.set_title(std::filesystem::path(loaded->options.scene).filename().string() + " - Penumbra");
+    watch_.set_files(scene_->stage.scene.files);
   });
 }
 
@@ -225,19 +199,20 @@ void Viewer::take_saved() {
 
 void Viewer::take_shaders(std::span<const std::filesystem::path> changed) {
   const studio::ShaderReload reload = studio::reload_shaders(device_.shaders, changed);
+  if (reload.files.empty()) return;
   facts_.shader_errors = reload.errors;
   if (!reload.redraws()) return;
   a_.painter.cut();
   b_.painter.cut();
   tell(state_,
-       fmt::format("{} programs compiled in {:.2f} s; what techniques remember begins anew", reload.rebuilt,
+       fmt::format("programs compiled: {}, in {:.2f} s; what techniques remember begins anew", reload.rebuilt,
                    reload.seconds),
        ImGui::GetTime());
 }
 
 void Viewer::play(float seconds) {
   Playback& playback = state_.playback;
-  if (!playback.playing || scene_ == nullptr) return;
+  if (!playback.playing || scene_ == nullptr || scene_->stage.scene.animations.empty()) return;
   playback.carried += std::min(seconds, 0.25f) * playback.speed * state_.document.stage.fps;
   const double whole = std::floor(playback.carried);
   playback.carried -= whole;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -67,8 +68,9 @@ bool edit(const Param& param, ParamValue& value, WidgetMap& widgets) {
     changed = ImGui::Checkbox("##value", on);
   } else if (int* count = std::get_if<int>(&value)) {
     const std::string format = "%d" + unit_after(param);
-    changed = ImGui::SliderInt("##value", count, static_cast<int>(param.min), static_cast<int>(param.max),
-                               format.c_str(), flags_of(param));
+    // Sliders end at half of what an int holds.
+    const int most = static_cast<int>(std::min(param.max, 1073741822.0));
+    changed = ImGui::SliderInt("##value", count, static_cast<int>(param.min), most, format.c_str(), flags_of(param));
   } else if (float* quantity = std::get_if<float>(&value)) {
     const std::string format = "%.3g" + unit_after(param);
     changed = ImGui::SliderFloat("##value", quantity, static_cast<float>(param.min), static_cast<float>(param.max),

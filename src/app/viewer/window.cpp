@@ -103,8 +103,7 @@ void Window::apply_scale(float scale) {
     config.SizePixels = size;
     io.Fonts->AddFontDefault(&config);
   }
-  ImGui_ImplOpenGL3_DestroyFontsTexture();
-  ImGui_ImplOpenGL3_CreateFontsTexture();
+  ImGui_ImplOpenGL3_DestroyDeviceObjects();  // the next frame makes them again, with these letters
   set_theme(scale);
 }
 
