@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "app/label_color.h"
 #include "lib/tone_map.glsl"
 
 namespace penumbra::app {
@@ -66,19 +67,9 @@ Bytes relative_bytes(int channels, const std::vector<float>& pixels, bool is_sig
 }
 
 Bytes label_bytes(int channels, const std::vector<float>& pixels) {
-  static constexpr std::array<std::array<std::uint8_t, 3>, 8> colors{{{{214, 69, 65}},
-                                                                      {{84, 160, 72}},
-                                                                      {{66, 110, 196}},
-                                                                      {{222, 180, 60}},
-                                                                      {{150, 84, 170}},
-                                                                      {{60, 176, 180}},
-                                                                      {{226, 128, 52}},
-                                                                      {{150, 150, 150}}}};
   Bytes bytes{3, {}};
   for (std::size_t i = 0; i < pixels.size(); i += static_cast<std::size_t>(channels)) {
-    const bool none = !(pixels[i] >= 0);
-    const auto color =
-        none ? std::array<std::uint8_t, 3>{} : colors[static_cast<std::size_t>(pixels[i]) % colors.size()];
+    const std::array<std::uint8_t, 3> color = label_color(pixels[i]);
     bytes.pixels.insert(bytes.pixels.end(), color.begin(), color.end());
   }
   return bytes;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "app/heat_map.h"
+#include "app/label_color.h"
 #include "core/names.h"
 #include "gl/texture_format.h"
 #include "lib/packed_texel.glsl"
@@ -19,26 +20,11 @@ namespace {
 
 constexpr std::string_view target_prefix = "target ";
 
-constexpr std::array<std::array<std::uint8_t, 3>, 8> label_colors{{{{214, 69, 65}},
-                                                                   {{84, 160, 72}},
-                                                                   {{66, 110, 196}},
-                                                                   {{222, 180, 60}},
-                                                                   {{150, 84, 170}},
-                                                                   {{60, 176, 180}},
-                                                                   {{226, 128, 52}},
-                                                                   {{150, 150, 150}}}};
-
 std::uint8_t to_byte(float value) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(std::isnan(value) ? 0.0f : value, 0.0f, 1.0f) * 255.0f));
 }
 
 using Rgb = std::array<std::uint8_t, 3>;
-
-Rgb label_color(float value) {
-  constexpr float most = 65536;
-  if (!(value >= 0 && value < most)) return {};
-  return label_colors[static_cast<std::size_t>(value) % label_colors.size()];
-}
 
 float channel(const Values& values, const float* pixel, int index) {
   return pixel[std::min(index, values.channels - 1)];
