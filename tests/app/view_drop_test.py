@@ -1,32 +1,18 @@
 """penumbra view: files that are dropped on its window."""
 
-import pictures
-from desktop import Desktop
-from support import TestCase, main
-from viewer import Viewer
-
-STEPS = pictures.scene("steps")
+from support import main
+from window import KNIFE_EDGE, STEPS, WindowTest
 
 
-class Drop(TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.desktop = Desktop()
-        cls.desktop.__enter__()
-        cls.addClassCleanup(cls.desktop.__exit__)
-
-    def view(self, *arguments):
-        return Viewer(self.desktop, *arguments)
-
+class Drop(WindowTest):
     def drop(self, viewer, *paths):
         self.desktop.client.drop(viewer.window, *viewer.middle("picture"), *paths)
 
     def test_a_scene_takes_the_place_of_the_last(self):
-        with self.view(pictures.scene("knife_edge")) as viewer:
-            wanted = viewer.rest()
+        wanted = self.picture_of(KNIFE_EDGE)
         with self.view(STEPS) as viewer:
             before = viewer.rest()
-            self.drop(viewer, pictures.scene("knife_edge"))
+            self.drop(viewer, KNIFE_EDGE)
             self.assertEqual(viewer.changed(before), wanted)
             self.drop(viewer, STEPS)
             self.assertEqual(viewer.changed(wanted), before)
@@ -34,7 +20,7 @@ class Drop(TestCase):
 
     def test_a_name_may_have_any_letters(self):
         path = self.folder / "Stufen & Kanten 100% ü.glb"
-        path.write_bytes(pictures.scene("knife_edge").read_bytes())
+        path.write_bytes(KNIFE_EDGE.read_bytes())
         with self.view(STEPS) as viewer:
             before = viewer.rest()
             self.drop(viewer, path)
@@ -62,8 +48,7 @@ class Drop(TestCase):
             self.assertEqual(viewer.stderr(), "")
 
     def test_a_preset_sets_the_values(self):
-        with self.view(STEPS, "--technique", "none") as viewer:
-            wanted = viewer.rest()
+        wanted = self.picture_of(STEPS, "--technique", "none")
         preset = self.folder / "mine.toml"
         preset.write_text('technique = "none"\n')
         with self.view(STEPS) as viewer:

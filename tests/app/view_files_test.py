@@ -3,30 +3,12 @@
 import shlex
 import subprocess
 
-import pictures
-from desktop import LEFT, Desktop, Picture
-from support import PROGRAM, TestCase, main
-from viewer import Viewer
-
-STEPS = pictures.scene("steps")
+from desktop import LEFT
+from support import PROGRAM, main
+from window import STEPS, WindowTest, read
 
 
-def read(path):
-    width, height, channels, rows = pictures.read_png(path)
-    assert channels == 3
-    return Picture(width, height, rows)
-
-
-class Files(TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.desktop = Desktop()
-        cls.desktop.__enter__()
-        cls.addClassCleanup(cls.desktop.__exit__)
-
-    def view(self, *arguments, **options):
-        return Viewer(self.desktop, *arguments, folder=self.folder, **options)
-
+class Files(WindowTest):
     def copied(self, viewer):
         """The picture that the copied command line draws."""
         viewer.open_tab("Files", "copy command")

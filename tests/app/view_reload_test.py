@@ -4,12 +4,10 @@ import os
 import random
 import time
 
-import pictures
-from desktop import Desktop, wait_for
-from support import ROOT, TestCase, main
-from viewer import Viewer
+from desktop import wait_for
+from support import ROOT, main
+from window import KNIFE_EDGE, STEPS, WindowTest
 
-STEPS = pictures.scene("steps")
 INCLUDE = "lib/tone_map.glsl"
 FILES = (INCLUDE, "render/sky.glsl", "render/tone_map.frag", "shadow/techniques/pcss.glsl", "shadow/search.glsl")
 MOST_GROWTH = 16  # MiB, of the second half of the saves
@@ -24,13 +22,7 @@ def by_rename(path, text):
     os.replace(path.with_suffix(".new"), path)
 
 
-class Reload(TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.desktop = Desktop()
-        cls.desktop.__enter__()
-        cls.addClassCleanup(cls.desktop.__exit__)
-
+class Reload(WindowTest):
     def setUp(self):
         super().setUp()
         self.texts = {name: (ROOT / "glsl" / name).read_text() for name in FILES}
@@ -40,7 +32,7 @@ class Reload(TestCase):
             (self.glsl / name).write_text(text)
 
     def view(self, **options):
-        return Viewer(self.desktop, STEPS, "--glsl", self.glsl, **options)
+        return super().view(STEPS, "--glsl", self.glsl, **options)
 
     def redder(self):
         old = "return clamp(d, 0.0f, 1.0f);"
@@ -125,16 +117,16 @@ class Reload(TestCase):
             dice.choice((in_place, by_rename))(self.glsl / name, text)
 
 
-class Scene(TestCase):
+class Scene(WindowTest):
     def test_a_scene_that_is_saved_again_is_shown(self):
         file = self.folder / "scene.glb"
         file.write_bytes(STEPS.read_bytes())
-        with Desktop() as desktop, Viewer(desktop, file) as viewer:
+        with self.view(file) as viewer:
             steps = viewer.rest()
             file.write_bytes(STEPS.read_bytes()[:1000])
             viewer.wait_for(lambda: viewer.has("messages"), "a message")
             self.assertEqual(viewer.rest(), steps)
-            file.write_bytes(pictures.scene("knife_edge").read_bytes())
+            file.write_bytes(KNIFE_EDGE.read_bytes())
             viewer.changed(steps)
 
 

@@ -3,30 +3,12 @@
 import os
 import signal
 
-import pictures  # sets PENUMBRA_DEBUG: an OpenGL error ends the program
-from desktop import LEFT, MIDDLE, RIGHT, WHEEL_DOWN, WHEEL_UP, Desktop
-from support import TestCase, main
-from viewer import Viewer
-
-STEPS = pictures.scene("steps")
+from desktop import LEFT, MIDDLE, RIGHT, WHEEL_DOWN, WHEEL_UP
+from support import main
+from window import STEPS, WindowTest, read
 
 
-class View(TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.desktop = Desktop()
-        cls.desktop.__enter__()
-        cls.addClassCleanup(cls.desktop.__exit__)
-
-    def view(self, *arguments, **options):
-        return Viewer(self.desktop, *arguments, **options)
-
-    def place(self, viewer):
-        """What the panel says of the camera and of the sun."""
-        return viewer.seen("eye"), viewer.seen("azimuth")
-
-
-class Picture(View):
+class Picture(WindowTest):
     def test_a_technique_and_a_parameter_change_the_picture(self):
         with self.view(STEPS) as viewer:
             pcss = viewer.rest()
@@ -58,13 +40,16 @@ class Picture(View):
             left, top, right, bottom = viewer.box("picture")
         self.succeed("render", STEPS, *options, "--size", f"{right - left}x{bottom - top}", "-o",
                      self.folder / "written.png", "--quiet")
-        _, height, channels, rows = pictures.read_png(self.folder / "written.png")
-        self.assertEqual(channels, 3)
-        written = type(shown)(right - left, height, rows).crop(0, height // 3, right - left, height * 3 // 4)
+        written = read(self.folder / "written.png")
+        written = written.crop(0, written.height // 3, written.width, written.height * 3 // 4)
         self.assertEqual(written.differing(shown, by=1), 0)
 
 
-class Hand(View):
+class Hand(WindowTest):
+    def place(self, viewer):
+        """What the panel says of the camera and of the sun."""
+        return viewer.seen("eye"), viewer.seen("azimuth")
+
     def test_the_left_button_turns_the_camera_about_the_scene(self):
         self.check_drag(LEFT, moves_camera=True)
 
@@ -94,7 +79,7 @@ class Hand(View):
             viewer.wheel(WHEEL_DOWN, lambda: viewer.seen("eye") == eye, "the eye as it was")
 
 
-class Keys(View):
+class Keys(WindowTest):
     def test_tab_hides_the_panel(self):
         with self.view(STEPS) as viewer:
             viewer.press("Tab", lambda: viewer.box("picture")[0] == 0, "the picture alone")
@@ -150,7 +135,7 @@ class Keys(View):
             self.assertEqual(viewer.seen("eye"), eye)
 
 
-class End(View):
+class End(WindowTest):
     def test_escape_and_the_windows_own_button(self):
         for key in ("Escape", "alt+F4"):
             with self.subTest(key=key), self.view(STEPS) as viewer:

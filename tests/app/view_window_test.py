@@ -1,11 +1,9 @@
 """penumbra view and its window: sizes, minimising, screens with twice the dots."""
 
-import pictures
 from desktop import Desktop
 from support import TestCase, main
 from viewer import Viewer
-
-STEPS = pictures.scene("steps")
+from window import STEPS, WindowTest
 
 
 def width(box):
@@ -16,18 +14,12 @@ def height(box):
     return box[3] - box[1]
 
 
-class Size(TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.desktop = Desktop()
-        cls.desktop.__enter__()
-        cls.addClassCleanup(cls.desktop.__exit__)
-
+class Size(WindowTest):
     def resize(self, viewer, *size):
         self.desktop.xdotool("windowsize", viewer.window, *size)
 
     def test_the_picture_follows_the_window(self):
-        with Viewer(self.desktop, STEPS) as viewer:
+        with self.view(STEPS) as viewer:
             before = viewer.rest()
             room = 800 - width(viewer.box("picture"))
             for size in ((1000, 500), (700, 640), (800, 600)):
@@ -40,7 +32,7 @@ class Size(TestCase):
             self.assertEqual(viewer.stderr(), "")
 
     def test_windows_too_small_for_anything(self):
-        with Viewer(self.desktop, STEPS) as viewer:
+        with self.view(STEPS) as viewer:
             before = viewer.rest()
             for size in ((300, 200), (60, 40), (1, 1), (1200, 3), (3, 700)):
                 self.resize(viewer, *size)
@@ -51,7 +43,7 @@ class Size(TestCase):
             self.assertEqual(viewer.stderr(), "")
 
     def test_it_is_minimised_and_comes_back(self):
-        with Viewer(self.desktop, STEPS) as viewer:
+        with self.view(STEPS) as viewer:
             before = viewer.rest()
             self.desktop.xdotool("windowminimize", viewer.window)
             viewer.wait_for(lambda: self.desktop.find_window(viewer.process.pid) is None, "an icon")
@@ -63,7 +55,7 @@ class Size(TestCase):
             self.assertEqual(viewer.stderr(), "")
 
     def test_it_ends_while_it_is_minimised(self):
-        with Viewer(self.desktop, STEPS) as viewer:
+        with self.view(STEPS) as viewer:
             self.desktop.xdotool("windowminimize", viewer.window)
             viewer.wait_for(lambda: self.desktop.find_window(viewer.process.pid) is None, "an icon")
             self.assertEqual(viewer.signal(15), 143)

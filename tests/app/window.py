@@ -1,0 +1,33 @@
+"""What the tests of penumbra view share: scenes, a desktop for each class, and viewers on it."""
+
+import pictures  # sets PENUMBRA_DEBUG: an OpenGL error ends the program
+from desktop import Desktop, Picture
+from support import TestCase
+from viewer import Viewer
+
+STEPS, KNIFE_EDGE = pictures.scene("steps"), pictures.scene("knife_edge")
+
+
+class WindowTest(TestCase):
+    """A test with a desktop, which the tests of its class share."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.desktop = cls.enterClassContext(Desktop())
+
+    def view(self, *arguments, **options):
+        """A viewer that is started in the test's folder."""
+        return Viewer(self.desktop, *arguments, folder=self.folder, **options)
+
+    def picture_of(self, *arguments, **options):
+        """What a viewer of its own shows at rest."""
+        with self.view(*arguments, **options) as viewer:
+            return viewer.rest()
+
+
+def read(path):
+    """A picture that the program has written."""
+    width, height, channels, rows = pictures.read_png(path)
+    assert channels == 3, f"{path} has {channels} channels"
+    return Picture(width, height, rows)
