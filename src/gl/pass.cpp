@@ -145,6 +145,7 @@ void Pass::draw_full_screen() {
   assert(program_ != nullptr);
   glBindVertexArray(device_.empty_vertex_array());
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  count_draws(1, 1);
   check();
 }
 
@@ -159,6 +160,7 @@ void Pass::dispatch(int width, int height, int layers) {
   const glm::ivec3 size(width, height, layers);
   const glm::uvec3 groups((size + program_->group_size() - 1) / program_->group_size());
   glDispatchCompute(groups.x, groups.y, groups.z);
+  device_.timers.count({0, 0, 1});
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
                   GL_UNIFORM_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT |
                   GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |

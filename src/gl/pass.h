@@ -94,6 +94,8 @@ class Pass {
   // Groups of the current compute program that cover width × height × layers invocations; then a barrier for all that
   // later commands may read: textures, images, storage, vertices, commands, read-backs.
   void dispatch(int width, int height, int layers = 1);
+  // Says of the caller's own draw calls what the timers are to count.
+  void count_draws(std::size_t draws, std::size_t triangles) { device_.timers.count({draws, triangles, 0}); }
 
  private:
   void check() const;

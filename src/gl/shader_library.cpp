@@ -10,12 +10,25 @@ const Program& ShaderLibrary::get(const ProgramDesc& desc) {
   const auto found = entries_.find(desc);
   if (found == entries_.end()) {
     auto program = std::make_unique<Program>(desc, files_);
-    return *entries_.emplace(desc, Entry{std::move(program)}).first->second.program;
+    return *entries_.emplace(desc, Entry{.program = std::move(program), .used = frame_}).first->second.program;
   }
   Entry& entry = found->second;
+  entry.used = frame_;
   if (entry.stale) rebuild(desc, entry);
   outdated_ |= !entry.error.empty();
   return *entry.program;
+}
+
+void ShaderLibrary::next_frame() {
+  ++frame_;
+  std::vector<std::map<ProgramDesc, Entry>::iterator> idle;
+  for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
+    if (is_idle(entry->second)) idle.push_back(entry);
+  }
+  if (idle.size() <= most_idle) return;
+  std::ranges::sort(idle, {}, [](const auto& entry) { return entry->second.used; });
+  idle.resize(idle.size() - most_idle);
+  for (const auto& entry : idle) entries_.erase(entry);
 }
 
 void ShaderLibrary::rebuild(const ProgramDesc& desc, Entry& entry) {
@@ -34,6 +47,7 @@ void ShaderLibrary::changed(std::string_view file) {
     const bool depends = std::ranges::find(entry.program->files(), file) != entry.program->files().end();
     if (depends || !entry.error.empty()) entry.stale = true;
   }
+  std::erase_if(entries_, [&](const auto& each) { return each.second.stale && is_idle(each.second); });
 }
 
 ShaderLibrary::Reload ShaderLibrary::reload() {

@@ -13,6 +13,7 @@ void Timers::begin_frame() {
   if (in_frame_) drop_open_frame();
   if (rows_.empty()) rows_.push_back({"frame", {}});
   in_frame_ = true;
+  open_work_.clear();
   open_frame_ = start(frame_row);
 }
 
@@ -34,8 +35,21 @@ void Timers::end_frame() {
   assert(stack_.empty());
   finish(std::move(open_frame_));
   in_frame_ = false;
+  work_ = std::exchange(open_work_, {});
   ++frame_;
   collect(/*wait=*/false);
+}
+
+void Timers::count(const Work& work) {
+  if (!in_frame_) return;
+  const auto add = [&](std::size_t row) {
+    Work& sum = open_work_[rows_[row].name];
+    sum.draws += work.draws;
+    sum.triangles += work.triangles;
+    sum.dispatches += work.dispatches;
+  };
+  add(frame_row);
+  for (const Open& open : stack_) add(open.row);
 }
 
 std::vector<Timers::Row> Timers::rows() {

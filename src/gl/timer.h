@@ -39,6 +39,17 @@ class Timers {
     Timers& timers_;
   };
 
+  // What a pass hands to OpenGL.
+  struct Work {
+    std::size_t draws = 0;       // draw commands, those within one call of an indirect draw each counted
+    std::size_t triangles = 0;   // of all their instances, before anything is culled
+    std::size_t dispatches = 0;  // of compute
+  };
+  // Adds to the passes that are open, and to the frame.
+  void count(const Work& work);
+  // Of the last frame that ended, by pass as in rows(); "frame" has all of it. Passes without any are left out.
+  const std::map<std::string, Work>& work() const { return work_; }
+
   struct Row {
     std::string name;
     std::vector<double> milliseconds;  // one a frame, oldest first; a pass drawn twice in a frame is summed
@@ -87,6 +98,7 @@ class Timers {
   std::vector<Handle<delete_query>> free_queries_;
   std::vector<Row> rows_;  // [frame_row] is the frame
   std::map<std::string, std::size_t, std::less<>> row_indices_;
+  std::map<std::string, Work> open_work_, work_;  // of the frame that is open, of the one before
 };
 
 }  // namespace penumbra::gl

@@ -41,6 +41,7 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   placed.cut = inputs.cut || last_scene != scene.id();
   // What a frame that throws has dropped must not be read.
   state_->parts = {};
+  device.shaders.next_frame();
   device.timers.begin_frame();
   state_->parts = draw_frame(device, state_->soft_shadows, scene, placed, params);
   device.timers.end_frame();

@@ -45,6 +45,13 @@ Batch shaded_batch(const Instance& instance) {
           .material = instance.material};
 }
 
+std::size_t triangles_of(const DrawList& list, const Batch& batch) {
+  std::size_t triangles = 0;
+  for (std::size_t i = batch.first; i < batch.first + batch.count; ++i)
+    triangles += std::size_t{list.commands[i].count} / 3 * list.commands[i].instance_count;
+  return triangles;
+}
+
 }  // namespace
 
 bool Batch::same_state(const Batch& other) const {
@@ -86,6 +93,7 @@ void GpuScene::State::draw(gl::Device& device, gl::Pass& pass, const DrawList& l
     const auto* offset = reinterpret_cast<const void*>(batch.first * sizeof(DrawCommand));  // NOLINT: GL's way
     gl::glMultiDrawElementsIndirect(mode_of(batch.topology), GL_UNSIGNED_INT, offset, static_cast<GLsizei>(batch.count),
                                     0);
+    pass.count_draws(batch.count, batch.topology == Topology::triangles ? triangles_of(list, batch) : 0);
   }
 }
 

@@ -128,6 +128,39 @@ TEST_F(GlTimers, RowsHaveOnlyWhatWasNotTaken) {
   }
 }
 
+TEST_F(GlTimers, WorkIsThatOfTheLastFrameByPass) {
+  gl::Device timed(test::pass_files(), gl::Timers::Mode::query);
+  const gl::Texture& drawn = timed.target("c", {.format = GL_RGBA32F, .width = 4, .height = 4});
+  const gl::Texture& filled =
+      timed.target("f", {.target = GL_TEXTURE_2D_ARRAY, .format = GL_R32F, .width = 8, .height = 8, .layers = 2});
+  const auto frame = [&](int draws, int dispatches) {
+    timed.timers.begin_frame();
+    {
+      gl::Pass outer(timed, {.name = "outer", .colors = {{.texture = &drawn}}});
+      outer.use(test::color_program).set("value", glm::vec4(1));
+      for (int i = 0; i < draws; ++i) outer.draw_full_screen();
+      outer.count_draws(3, 500);
+      gl::Pass inner(timed, {.name = "inner"});
+      inner.use(test::fill_program);
+      gl::glBindImageTexture(0, filled.id(), 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32F);
+      for (int i = 0; i < dispatches; ++i) inner.dispatch(8, 8, 2);
+    }
+    test::clear(timed, {.name = "idle"});
+    timed.timers.end_frame();
+  };
+  frame(7, 7);
+  frame(2, 1);
+  const auto& work = timed.timers.work();
+  ASSERT_EQ(work.size(), 3u);
+  EXPECT_EQ(work.at("outer").draws, 5u);
+  EXPECT_EQ(work.at("outer").triangles, 502u);
+  EXPECT_EQ(work.at("outer").dispatches, 1u) << "of what lies within";
+  EXPECT_EQ(work.at("outer/inner").draws, 0u);
+  EXPECT_EQ(work.at("outer/inner").dispatches, 1u);
+  EXPECT_EQ(work.at("frame").draws, 5u);
+  EXPECT_EQ(work.at("frame").dispatches, 1u);
+}
+
 TEST_F(GlTimers, AnOpenFrameIsNotTaken) {
   for (const gl::Timers::Mode mode : {gl::Timers::Mode::finish, gl::Timers::Mode::query}) {
     gl::Device timed(test::pass_files(), mode);

@@ -1,0 +1,59 @@
+// Programs of values that a slider has passed are neither kept for ever nor compiled again with each save.
+#include "gl/shader_library.h"
+
+#include "gl/api.h"
+#include "gpu_test.h"
+
+namespace penumbra {
+namespace {
+
+class ShaderIdleTest : public test::GpuTest {
+ protected:
+  static gl::ProgramDesc with_taps(int taps) {
+    return {.name = "taps", .compute = "taps.comp", .defines = {{"TAPS", std::to_string(taps)}}};
+  }
+  void frames(int count, int taps) {
+    for (int i = 0; i < count; ++i) {
+      library.next_frame();
+      library.get(with_taps(taps));
+    }
+  }
+
+  static constexpr int most = static_cast<int>(gl::ShaderLibrary::most_idle);
+  static constexpr int long_enough = static_cast<int>(gl::ShaderLibrary::idle_after) + 1;
+
+  gl::ShaderLibrary library{test::shader_files({{"taps.comp", "layout(local_size_x = TAPS) in;\nvoid main() {}\n"}})};
+};
+
+TEST_F(ShaderIdleTest, OnlyTheLatestOfManyValuesStay) {
+  const gl::Program& in_use = library.get(with_taps(1));
+  const GLuint id = in_use.id();
+  for (int taps = 2; taps < 2 * most; ++taps) {
+    library.next_frame();
+    library.get(with_taps(1));
+    library.get(with_taps(taps));
+    ASSERT_LE(library.size(), static_cast<std::size_t>(most + long_enough + 1));
+  }
+  EXPECT_EQ(library.get(with_taps(1)).id(), id) << "what every frame uses was compiled again";
+  EXPECT_EQ(in_use.id(), id);
+}
+
+TEST_F(ShaderIdleTest, ASaveCompilesWhatFramesUse) {
+  for (int taps = 1; taps <= 20; ++taps) frames(1, taps);
+  frames(long_enough, 21);
+  library.changed("taps.comp");
+  const gl::ShaderLibrary::Reload reload = library.reload();
+  EXPECT_EQ(reload.rebuilt, 1u);
+  EXPECT_EQ(library.size(), 1u);
+  EXPECT_EQ(library.get(with_taps(3)).group_size().x, 3) << "a value that comes back";
+}
+
+TEST_F(ShaderIdleTest, WhereNoFramesAreCountedAllStay) {
+  for (int taps = 1; taps <= 2 * most; ++taps) library.get(with_taps(taps));
+  EXPECT_EQ(library.size(), static_cast<std::size_t>(2 * most));
+  library.changed("taps.comp");
+  EXPECT_EQ(library.reload().rebuilt, static_cast<std::size_t>(2 * most));
+}
+
+}  // namespace
+}  // namespace penumbra
