@@ -7,11 +7,28 @@
 
 namespace penumbra::app {
 
+namespace {
+
+// A frame of a scene at rest: the first one finds what it is, the others are the same again.
+void draw_still(studio::Studio& studio, int frame, const ParamSet& params, bool first) {
+  if (first) {
+    studio.draw(frame, params);
+  } else {
+    studio.redraw(params);
+  }
+}
+
+}  // namespace
+
 void draw_frames(const RenderOptions& options, studio::Studio& studio, const ParamSet& params,
                  const studio::FrameRange& range, const std::function<void(int frame)>& drawn) {
   studio::Progress progress("frame", options.warmup + range.count(), !options.quiet);
   for (int frame = range.first - options.warmup; frame <= range.last; ++frame) {
-    studio.draw(frame, params);
+    if (options.warmup_still && frame <= range.first) {
+      draw_still(studio, range.first, params, frame == range.first - options.warmup);
+    } else {
+      studio.draw(frame, params);
+    }
     if (frame >= range.first) drawn(frame);
     progress.step();
   }

@@ -42,6 +42,9 @@ void add_output_options(CLI::App& app, RenderOptions& o) {
             [&o](const auto& text) { o.save_preset = text; });
   add_value(app, "--warmup", "N", "Frames drawn and not written before the first, for techniques with memory (0)",
             [&o](const auto& text) { o.warmup = studio::parse_count("--warmup", text, 0, 10000); });
+  app.add_flag("--warmup-still", o.warmup_still,
+               "Those frames are all of the first one's time: a scene at rest, not one that comes to that point")
+      ->disable_flag_override();
   app.add_flag("--quiet,-q", o.quiet, "No progress and no summary")->disable_flag_override();
 }
 
@@ -64,6 +67,7 @@ void check_together(const RenderOptions& o) {
   studio::check_together(static_cast<const studio::StageOptions&>(o));
   studio::check_together(static_cast<const studio::DeviceOptions&>(o));
   check_together(static_cast<const CacheOptions&>(o));
+  if (o.warmup_still && o.warmup == 0) studio::fail_usage("--warmup-still has no meaning without --warmup");
   if (o.stats_frames > 1 && o.frames)
     studio::fail_usage("--stats measures each frame of a sequence: leave out --stats-frames");
   if (o.stats_frames > 1 && o.stats.empty()) studio::fail_usage("--stats-frames has no meaning without --stats");

@@ -12,6 +12,7 @@ namespace penumbra::app {
 struct RenderOptions : studio::StageOptions, studio::ShadowOptions, studio::DeviceOptions, CacheOptions {
   std::string output;
   int warmup = 0;
+  bool warmup_still = false;  // at the time of the first frame, all of them
   std::string save_preset;
   std::vector<std::string> aovs;
   std::string stats;

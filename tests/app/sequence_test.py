@@ -55,6 +55,15 @@ class Sequence(TestCase):
             pictures = [(self.folder / f"{name}_0003{suffix}.png").read_bytes() for name in "abc"]
             self.assertEqual(len(set(pictures)), 1, suffix)
 
+    def test_frames_before_a_part_come_to_it_or_stand_still_at_it(self):
+        remembers = ("--technique", "thesis", "--fps", "4", "--warmup", "6")
+        self.draw("moves.png", "--frames", "3:3", *remembers)
+        self.draw("still.png", "--frames", "3:3", *remembers, "--warmup-still")
+        self.draw("moment.png", "--time", "0.75", *remembers)
+        moves, still = ((self.folder / f"{name}_0003.png").read_bytes() for name in ("moves", "still"))
+        self.assertNotEqual(moves, still)
+        self.assertEqual(still, (self.folder / "moment.png").read_bytes())
+
     def test_frames_move_and_stills_do_not(self):
         self.draw("x.png", "--frames", "5:5", "--aov", "motion")
         self.draw("still.png", "--time", "0.3", "--aov", "motion")

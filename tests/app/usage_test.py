@@ -88,6 +88,7 @@ class Usage(TestCase):
             ["--eye=1,2,3", "--target=0,0,0", "--camera", "0"],
             ["--egl-device", "0", "--backend", "osmesa"],
             ["--stats-frames", "3"],
+            ["--warmup-still"],
             ["--size", "16384x16384"],
             ["--size", "9000x100", "--supersample", "2"],
         ):
