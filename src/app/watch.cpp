@@ -143,7 +143,13 @@ void Watch::run() {
   if (!options_.glsl.empty()) watched.emplace_back(options_.glsl);
   if (!options_.quiet) print_line(fmt::format("watching {}; Ctrl-C ends", names_of(watched)));
   update({});
-  while (true) take(files_.poll(std::chrono::hours(1)));
+  while (true) {
+    try {
+      take(files_.poll(std::chrono::hours(1)));
+    } catch (const Error& error) {  // of the system's limits of what is watched: what was watched before still is
+      print_error(error.what());
+    }
+  }
 }
 
 void Watch::take(const Paths& changed) {

@@ -79,8 +79,8 @@ const std::vector<glm::vec2>& Samples::points(const Key& key) {
 }
 
 const gl::Texture& Samples::noise(const std::string& kind) {
-  const auto [entry, added] = noise_.try_emplace(kind);
-  if (!added) return entry->second;
+  const auto made = noise_.find(kind);
+  if (made != noise_.end()) return *made->second;
   std::vector<std::uint16_t> texels(2, 0);
   int size = 1;
   if (kind != "none") {
@@ -91,10 +91,11 @@ const gl::Texture& Samples::noise(const std::string& kind) {
       texels.push_back(static_cast<std::uint16_t>((2 * rank + 1) * 65535 / (2 * tile.count())));
     }
   }
-  gl::Texture texture(kind + " noise", {.format = GL_RG16, .width = size, .height = size});
+  const gl::Texture& texture =
+      device_.target(prefix_ + "noise/" + kind, {.format = GL_RG16, .width = size, .height = size});
   texture.upload(GL_RG, GL_UNSIGNED_SHORT, std::as_bytes(std::span(texels)));
-  entry->second = std::move(texture);
-  return entry->second;
+  noise_[kind] = &texture;
+  return texture;
 }
 
 }  // namespace penumbra::shadow

@@ -5,9 +5,10 @@
 #include <map>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
-#include "../gl/texture.h"
+#include "../gl/pass.h"
 #include "sampling.h"
 #include "shared/shadow_block.h"
 #include "technique.h"
@@ -29,6 +30,9 @@ glm::vec4 noise_shift(const ParamSet& params, int frame);
 // What sample points come from: sets by pattern, and tiles of noise. Keeps what it made.
 class Samples {
  public:
+  // `prefix`: of its targets' names.
+  Samples(gl::Device& device, std::string prefix) : device_(device), prefix_(std::move(prefix)) {}
+
   // The points of both steps in a frame.
   glsl::SampleBlock block(const Technique& technique, const ParamSet& params, int frame);
   // RG16, 64 × 64; none: one texel, 0.
@@ -38,8 +42,10 @@ class Samples {
   using Key = std::tuple<std::string, int, bool, std::uint64_t>;  // pattern, count, on the disc, seed
   const std::vector<glm::vec2>& points(const Key& key);
 
+  gl::Device& device_;
+  std::string prefix_;
   std::map<Key, std::vector<glm::vec2>> points_;
-  std::map<std::string, gl::Texture> noise_;
+  std::map<std::string, const gl::Texture*> noise_;  // by its kind
 };
 
 }  // namespace penumbra::shadow

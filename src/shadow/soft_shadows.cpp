@@ -34,7 +34,8 @@ int next_number() {
 }  // namespace
 
 struct SoftShadows::State {
-  explicit State(Programs of_registry) : programs(std::move(of_registry)) {}
+  State(gl::Device& device, const Registry& registry)
+      : programs(device, registry), samples(device, fmt::format("shadow {}/", number)) {}
 
   const int number = next_number();  // tells the facades of a device apart
   Programs programs;
@@ -43,7 +44,7 @@ struct SoftShadows::State {
 };
 
 SoftShadows::SoftShadows(gl::Device& device, Registry registry)
-    : device_(device), registry_(std::move(registry)), state_(std::make_unique<State>(Programs(device, registry_))) {}
+    : device_(device), registry_(std::move(registry)), state_(std::make_unique<State>(device, registry_)) {}
 
 SoftShadows::~SoftShadows() { device_.drop(fmt::format("shadow {}/", state_->number)); }
 

@@ -11,10 +11,7 @@
 
 namespace penumbra::studio {
 
-namespace {
-
-gl::Timers::Mode timing(bool timed, const gl::DeviceInfo& device) {
-  if (!timed) return gl::Timers::Mode::off;
+gl::Timers::Mode timing_of(const gl::DeviceInfo& device) {
   return device.software ? gl::Timers::Mode::finish : gl::Timers::Mode::query;
 }
 
@@ -22,8 +19,6 @@ bool debug_wanted(const DeviceOptions& options) {
   const char* value = std::getenv("PENUMBRA_DEBUG");
   return options.debug || (value != nullptr && std::string_view(value) == "1");
 }
-
-}  // namespace
 
 void limit_threads(const DeviceOptions& options) {
   // Mesa reads it when the rasteriser starts.
@@ -51,7 +46,7 @@ Studio::Studio(const StageOptions& options, std::unique_ptr<gl::Context> context
       stage_(&stage),
       context_(std::move(context)),
       device_info_(gl::device_info()),
-      device_(std::move(equipment.shaders), timing(equipment.timed, device_info_)),
+      device_(std::move(equipment.shaders), equipment.timed ? timing_of(device_info_) : gl::Timers::Mode::off),
       scene_(std::make_unique<scene::GpuScene>(device_, stage.scene)),
       renderer_(device_, std::move(equipment.techniques)) {}
 

@@ -57,6 +57,12 @@ class Studio {
   std::optional<double> drawn_time_;  // of the last frame
 };
 
+// Whether every step is checked for GL errors: --debug, or PENUMBRA_DEBUG=1.
+bool debug_wanted(const DeviceOptions& options);
+
+// How passes are timed there.
+gl::Timers::Mode timing_of(const gl::DeviceInfo& device);
+
 // Holds the software rasteriser of contexts opened later to --threads. It sets the environment, which other threads may
 // be reading: call it before there are any.
 void limit_threads(const DeviceOptions& options);

@@ -146,6 +146,14 @@ TEST_F(ViewerDocument, DefaultsAreNotSpelledOut) {
             (Arguments{"render", "a.glb", "--size=1280x720", "-o", "out.png"}));
 }
 
+TEST_F(ViewerDocument, APictureAtRestIsOfOneMomentAndASequenceComesToItsFirst) {
+  Document document = plain();
+  document.frame = 7;
+  EXPECT_TRUE(rendered(render_arguments(document, "out.png", 31, "")).options.warmup_still);
+  EXPECT_FALSE(rendered(render_arguments(document, "out.png", 0, "")).options.warmup_still);
+  EXPECT_FALSE(rendered(render_arguments(document, "out.png", 31, "", studio::FrameRange{7, 9})).options.warmup_still);
+}
+
 TEST_F(ViewerDocument, OutputWarmUpAndShadersAreSaid) {
   Document document = plain();
   document.stage.scene = "-a.glb";

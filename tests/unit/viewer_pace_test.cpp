@@ -74,6 +74,35 @@ TEST(ViewerPace, AtRestThePictureIsFullAndDrawnAsOftenAsWanted) {
   EXPECT_EQ(drawn, 31);
 }
 
+TEST(ViewerPace, APictureAtRestBeginsAnewOnceWhateverTheSizeInMotion) {
+  for (const double full : {1.0, 300.0}) {
+    Machine machine(full);
+    machine.in_motion();
+    std::vector<bool> anew;
+    for (int i = 0; i < 100; ++i) {
+      const Pace::Step step = machine.turn(false, static_cast<int>(anew.size()), 31);
+      if (step.draw) anew.push_back(step.anew);
+    }
+    ASSERT_EQ(anew.size(), 31u) << full;
+    EXPECT_TRUE(anew.front());
+    EXPECT_EQ(std::count(anew.begin(), anew.end(), true), 1);
+    EXPECT_FALSE(machine.turn(true).anew);
+  }
+}
+
+TEST(ViewerPace, AGpuGoesOnWhenMotionEndsAndSaysWhenItRests) {
+  Machine machine(1, /*software=*/false);
+  int turns = 0;
+  EXPECT_FALSE(machine.turn(true).rests);
+  for (Pace::Step step; !step.rests; ++turns) {
+    step = machine.turn(false);
+    EXPECT_FALSE(step.anew);
+    ASSERT_LT(turns, 100);
+  }
+  EXPECT_GT(turns, 3);
+  EXPECT_FALSE(machine.turn(true).rests);
+}
+
 TEST(ViewerPace, AHandAtThePanelIsNotKeptWaitingForFullPictures) {
   Machine machine(300);
   machine.turn(true);

@@ -68,6 +68,10 @@ std::string decibels(double value) {
 }
 
 void distance(const Panel& panel) {
+  if (panel.facts.both_traced) {
+    ImGui::TextWrapped("A is traced too, and only one can be: choose another technique for A or B.");
+    return;
+  }
   if (panel.facts.tracing) {
     ImGui::ProgressBar(static_cast<float>(*panel.facts.tracing), {-1, 0},
                        fmt::format("tracing, {:.0f} %", *panel.facts.tracing * 100).c_str());
@@ -92,8 +96,8 @@ void distance(const Panel& panel) {
 
 void compare_panel(const Panel& panel) {
   State& state = panel.state;
-  if (ImGui::Checkbox("Compare A with B", &state.comparison.on) && state.comparison.params.rows().empty())
-    state.comparison.params = state.document.params;
+  bool on = state.comparison.on;
+  if (ImGui::Checkbox("Compare A with B", &on)) state.compare(on);
   panel.widgets.mark("compare");
   if (!state.comparison.on) {
     ImGui::TextWrapped(

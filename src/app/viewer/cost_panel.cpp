@@ -10,11 +10,29 @@ namespace penumbra::app {
 
 namespace {
 
+// "7 draws, 1 dispatch"
+std::string commands_text(const gl::Timers::Work& work) {
+  const auto counted = [](std::size_t count, const char* one, const char* many) {
+    return fmt::format("{} {}", count, count == 1 ? one : many);
+  };
+  std::string text = work.draws > 0 ? counted(work.draws, "draw", "draws") : "";
+  if (work.dispatches > 0) text += (text.empty() ? "" : ", ") + counted(work.dispatches, "dispatch", "dispatches");
+  return text;
+}
+
+// "12.3 k"
+std::string count_text(std::size_t count) {
+  const auto number = static_cast<double>(count);
+  if (number >= 1e6) return fmt::format("{:.2f} M", number / 1e6);
+  return number >= 1e4 ? fmt::format("{:.1f} k", number / 1e3) : fmt::format("{}", count);
+}
+
 void bars(const Costs& costs) {
   const double frame = costs.frame();
-  ImGui::BeginTable("passes", 2, ImGuiTableFlags_SizingStretchProp);
-  ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch, 0.45f);
-  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch, 0.55f);
+  ImGui::BeginTable("passes", 3, ImGuiTableFlags_SizingStretchProp);
+  ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch, 0.34f);
+  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch, 0.4f);
+  ImGui::TableSetupColumn("commands", ImGuiTableColumnFlags_WidthStretch, 0.26f);
   for (const Costs::Pass& pass : costs.passes()) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -23,9 +41,15 @@ void bars(const Costs& costs) {
     ImGui::TableNextColumn();
     const auto share = static_cast<float>(frame > 0 ? pass.median / frame : 0);
     ImGui::ProgressBar(share, {-1, 0}, fmt::format("{:.2f} ms", pass.median).c_str());
+    ImGui::TableNextColumn();
+    const gl::Timers::Work work = costs.work(pass.name);
+    ImGui::TextDisabled("%s", commands_text(work).c_str());
+    if (work.triangles > 0) tooltip(count_text(work.triangles) + " triangles");
   }
   ImGui::EndTable();
+  const gl::Timers::Work all = costs.work("frame");
   ImGui::Text("frame %.2f ms (median of the last second)", frame);
+  ImGui::Text("%s, %s triangles", commands_text(all).c_str(), count_text(all.triangles).c_str());
 }
 
 void plot(const Costs& costs) {

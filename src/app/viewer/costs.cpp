@@ -22,6 +22,11 @@ void Costs::add(double now, std::map<std::string, double> passes) {
 
 void Costs::clear() { frames_.clear(); }
 
+gl::Timers::Work Costs::work(const std::string& pass) const {
+  const auto found = work_.find(pass);
+  return found == work_.end() ? gl::Timers::Work{} : found->second;
+}
+
 double Costs::median_of(const std::string& name) const {
   std::vector<double> times;
   for (const Frame& frame : frames_) {

@@ -82,6 +82,8 @@ std::vector<std::string> render_arguments(const Document& document, const std::s
   add_frames(arguments, range.value_or(studio::FrameRange{document.frame, document.frame}), document.stage.fps);
   add_params(arguments, document.params);
   if (warmup > 0) add(arguments, "--warmup", std::to_string(warmup));
+  // The picture at rest is of one moment; a sequence comes to its first frame.
+  if (warmup > 0 && !range && document.frame > 0) arguments.emplace_back("--warmup-still");
   if (!glsl.empty()) add(arguments, "--glsl", glsl);
   return arguments;
 }

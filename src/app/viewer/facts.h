@@ -40,7 +40,8 @@ struct Facts {
   std::optional<double> writing;     // share of the files that are written
   std::string command;               // what draws this picture in a shell
   std::optional<double> tracing;     // share of the truth that is traced
-  std::optional<Distance> distance;  // A to B
+  bool both_traced = false;          // A and B: B is not drawn
+  std::optional<Distance> distance;  // A to B, both at rest
   std::optional<glm::ivec2> probed;  // the picture's pixel under the cursor
   std::vector<ProbeRow> probe;
   Look look;  // of what is inspected

@@ -3,22 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 #include "app/heat_map.h"
 #include "app/label_color.h"
-#include "core/names.h"
-#include "gl/texture_format.h"
-#include "lib/packed_texel.glsl"
+#include "app/viewer/targets.h"
 #include "lib/tone_map.glsl"
 #include "metrics/heat_color.h"
 
 namespace penumbra::app {
 
 namespace {
-
-constexpr std::string_view target_prefix = "target ";
 
 std::uint8_t to_byte(float value) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(std::isnan(value) ? 0.0f : value, 0.0f, 1.0f) * 255.0f));
@@ -56,56 +51,6 @@ Rgb color_of(const Values& values, const float* pixel, const Look& look, const R
   return {};
 }
 
-Values flipped(Values values) {
-  const auto row = static_cast<std::size_t>(values.width) * static_cast<std::size_t>(values.channels);
-  for (std::size_t y = 0; y < static_cast<std::size_t>(values.height) / 2; ++y) {
-    const auto low = values.numbers.begin() + static_cast<std::ptrdiff_t>(y * row);
-    const auto high = values.numbers.end() - static_cast<std::ptrdiff_t>((y + 1) * row);
-    std::swap_ranges(low, low + static_cast<std::ptrdiff_t>(row), high);
-  }
-  return values;
-}
-
-// Those that can be seen: alpha is none of them.
-int channels_of(const gl::Texture& texture) {
-  int count = 0;
-  for (const GLenum part : {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE}) {
-    GLint bits = 0;
-    gl::glGetTextureLevelParameteriv(texture.id(), 0, part, &bits);
-    count += bits > 0 ? 1 : 0;
-  }
-  return std::max(count, 1);
-}
-
-Values read_target(const Inspection& inspection, const gl::Device& device) {
-  const std::string name = inspection.what.substr(target_prefix.size());
-  std::vector<std::string> names;
-  for (const gl::Device::NamedTarget& target : device.targets()) {
-    names.emplace_back(target.name);
-    if (target.name != name) continue;
-    const gl::TextureDesc& desc = target.texture->desc();
-    const int level = std::clamp(inspection.level, 0, desc.levels - 1);
-    const int layer = std::clamp(inspection.layer, 0, desc.layers - 1);
-    Values values{.width = std::max(desc.width >> level, 1),
-                  .height = std::max(desc.height >> level, 1),
-                  .channels = channels_of(*target.texture),
-                  .numbers = {}};
-    if (gl::format_info(desc.format).kind == gl::ChannelKind::unsigned_integer) {
-      const std::vector<unsigned> bits = gl::read_uints(*target.texture, values.channels, level, layer);
-      // 32 bits are a packed texel of a mask on its way through history and filters: its visibility is what is looked
-      // at.
-      const bool packed = desc.format == GL_R32UI;
-      std::transform(bits.begin(), bits.end(), std::back_inserter(values.numbers), [packed](unsigned texel) {
-        return packed ? glsl::texel_visibility(texel) : static_cast<float>(texel);
-      });
-    } else {
-      values.numbers = gl::read_floats(*target.texture, values.channels, level, layer);
-    }
-    return flipped(std::move(values));
-  }
-  fail_unknown("target", name, names);
-}
-
 Values read_aov(const std::string& name, const render::Renderer& renderer, const gl::Device& device) {
   const std::vector<render::Aov>& all = render::aovs();
   const auto aov = std::find_if(all.begin(), all.end(), [&](const render::Aov& each) { return each.name == name; });
@@ -126,23 +71,30 @@ const float* Values::at(int x, int y) const {
   return &numbers[index * static_cast<std::size_t>(channels)];
 }
 
-Look look_of(std::string_view what) {
+Look look_of(std::string_view aov) {
   using enum ColorScale;
   static const std::vector<std::string> refusals{"kept", "none there", "off screen", "another surface", "caster moved"};
-  if (what == "shadow") return {.scale = grey, .fixed = true};
-  if (what == "under_texel") return {.scale = labels, .labels = {"wider than a texel", "narrower"}};
-  if (what == "cascade") return {.scale = labels, .labels = {"0 (finest)", "1", "2", "3", "4", "5", "6", "7"}};
-  if (what == "history") return {.scale = labels, .labels = refusals};
-  if (what == "color" || what == "albedo" || what == "material") return {.scale = rgb, .fixed = true};
-  if (what == "emission") return {.scale = rgb};
-  if (what == "normal" || what == "geometric_normal") return {.scale = vectors, .fixed = true};
-  if (what == "motion") return {.scale = vectors, .unit = "px"};
-  if (what == "depth" || what == "blocker" || what == "penumbra") return {.scale = heat, .unit = "m"};
+  if (aov == "shadow") return {.scale = grey, .fixed = true};
+  if (aov == "under_texel") return {.scale = labels, .labels = {"wider than a texel", "narrower"}};
+  if (aov == "cascade") return {.scale = labels, .labels = {"0 (finest)", "1", "2", "3", "4", "5", "6", "7"}};
+  if (aov == "history") return {.scale = labels, .labels = refusals};
+  if (aov == "color" || aov == "albedo" || aov == "material") return {.scale = rgb, .fixed = true};
+  if (aov == "emission") return {.scale = rgb};
+  if (aov == "normal" || aov == "geometric_normal") return {.scale = vectors, .fixed = true};
+  if (aov == "motion") return {.scale = vectors, .unit = "px"};
+  if (aov == "depth" || aov == "blocker" || aov == "penumbra") return {.scale = heat, .unit = "m"};
   return {.scale = heat};
 }
 
+Look look_of(const Inspection& inspection, const gl::Device& device) {
+  const std::optional<gl::Device::NamedTarget> target = inspected_target(inspection, device);
+  if (!target) return look_of(inspection.what);
+  const std::vector<TargetPart> parts = parts_of(*target);
+  return parts[static_cast<std::size_t>(std::clamp(inspection.part, 0, static_cast<int>(parts.size()) - 1))].look;
+}
+
 Values read_values(const Inspection& inspection, const render::Renderer& renderer, const gl::Device& device) {
-  if (inspection.what.starts_with(target_prefix)) return read_target(inspection, device);
+  if (inspection.what.starts_with("target ")) return read_target(inspection, device);
   return read_aov(inspection.what, renderer, device);
 }
 

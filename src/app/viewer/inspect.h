@@ -16,7 +16,7 @@ struct Inspection {
   std::string what;       // empty: the picture
   bool automatic = true;  // the range is that of the values
   float low = 0, high = 1;
-  int layer = 0, level = 0;  // of a target
+  int layer = 0, level = 0, part = 0;  // of a target; parts_of() has the last
 };
 
 // Numbers of a picture, rows top to bottom.
@@ -37,8 +37,10 @@ struct Look {
   float low = 0, high = 1;
   std::vector<std::string> labels;  // names of 0, 1, …
 };
-// How what has this name is to be looked at.
-Look look_of(std::string_view what);
+// How an AOV of this name is to be looked at.
+Look look_of(std::string_view aov);
+// And all else that there is.
+Look look_of(const Inspection& inspection, const gl::Device& device);
 
 // Of the last frame that was drawn; throws Error for names that there are none of.
 Values read_values(const Inspection& inspection, const render::Renderer& renderer, const gl::Device& device);

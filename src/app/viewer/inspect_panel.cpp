@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/viewer/panels.h"
+#include "app/viewer/targets.h"
 
 namespace penumbra::app {
 
@@ -27,9 +28,11 @@ void list(const Panel& panel) {
   for (const gl::Device::NamedTarget& target : panel.facts.gl.targets()) {
     if (target.name.starts_with("viewer/") || target.name.find("/view 1/") != std::string_view::npos) continue;
     const gl::TextureDesc& desc = target.texture->desc();
-    choose(panel, "target " + std::string(target.name), std::string(target.name),
-           fmt::format("{} × {}, {} layers, {} levels, {:.1f} MiB", desc.width, desc.height, desc.layers, desc.levels,
-                       static_cast<double>(target.texture->bytes()) / 1048576.0));
+    const std::string about = about_target(target.name);
+    choose(
+        panel, "target " + std::string(target.name), std::string(target.name),
+        fmt::format("{}{}{} × {}, {} layers, {} levels, {:.1f} MiB", about, about.empty() ? "" : "\n", desc.width,
+                    desc.height, desc.layers, desc.levels, static_cast<double>(target.texture->bytes()) / 1048576.0));
   }
   ImGui::EndChild();
 }
@@ -37,19 +40,32 @@ void list(const Panel& panel) {
 // Of a target with several.
 void choose_part(const Panel& panel) {
   Inspection& inspection = panel.state.inspection;
-  for (const gl::Device::NamedTarget& target : panel.facts.gl.targets()) {
-    if (inspection.what != "target " + std::string(target.name)) continue;
-    const gl::TextureDesc& desc = target.texture->desc();
-    if (desc.layers > 1) {
-      row("layer", "Of the texture array.");
-      ImGui::SliderInt("##layer", &inspection.layer, 0, desc.layers - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
-      panel.widgets.mark("layer");
+  const std::optional<gl::Device::NamedTarget> target = inspected_target(inspection, panel.facts.gl);
+  if (!target) return;
+  const std::vector<TargetPart> parts = parts_of(*target);
+  if (parts.size() > 1) {
+    row("part", "Of what a texel says.");
+    const auto current = std::min(static_cast<std::size_t>(inspection.part), parts.size() - 1);
+    const bool open = ImGui::BeginCombo("##part", parts[current].name.c_str());
+    panel.widgets.mark("part");
+    if (open) {
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (ImGui::Selectable(parts[i].name.c_str(), i == current)) inspection.part = static_cast<int>(i);
+        panel.widgets.mark("part=" + parts[i].name);
+      }
+      ImGui::EndCombo();
     }
-    if (desc.levels > 1) {
-      row("level", "Of the pyramid, 0 the finest.");
-      ImGui::SliderInt("##level", &inspection.level, 0, desc.levels - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
-      panel.widgets.mark("level");
-    }
+  }
+  const gl::TextureDesc& desc = target->texture->desc();
+  if (desc.layers > 1) {
+    row("layer", "Of the texture array.");
+    ImGui::SliderInt("##layer", &inspection.layer, 0, desc.layers - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
+    panel.widgets.mark("layer");
+  }
+  if (desc.levels > 1) {
+    row("level", "Of the pyramid, 0 the finest.");
+    ImGui::SliderInt("##level", &inspection.level, 0, desc.levels - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
+    panel.widgets.mark("level");
   }
 }
 
@@ -87,7 +103,7 @@ void probe(const Panel& panel) {
     ImGui::TextDisabled("Point at the picture.");
     return;
   }
-  ImGui::Text("pixel %d, %d", panel.facts.probed->x, panel.facts.probed->y);
+  ImGui::Text("pixel %d, %d%s", panel.facts.probed->x, panel.facts.probed->y, panel.state.comparison.on ? " of A" : "");
   ImGui::BeginTable("probe", 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg);
   for (const ProbeRow& each : panel.facts.probe) {
     ImGui::TableNextRow();

@@ -52,6 +52,7 @@ constexpr std::array keys{
     Key{"Tab", "panel on and off"},
     Key{"/", "search parameters"},
     Key{"Ctrl + C", "copy as command line"},
+    Key{"Ctrl + O", "open a scene or a preset"},
     Key{"F12", "write the picture"},
     Key{"F1, H", "this list"},
     Key{"Escape", "close a list or field; else the window"},

@@ -1,17 +1,20 @@
 #include "app/viewer/pace.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace penumbra::app {
 
 Pace::Step Pace::next(double now, bool changed, bool busy, int frames, int wanted) {
-  if (!software_) return {.draw = true, .divisor = 1};
   if (changed) {
     last_change_ = now;
-    return {.draw = true, .divisor = divisor_};
+    begun_ = false;
+    return {.draw = true, .divisor = software_ ? divisor_ : 1};
   }
   const bool rests = now - last_change_ >= rest_seconds;
-  return {.draw = rests && !busy && frames < wanted, .divisor = 1};
+  if (!software_) return {.draw = true, .rests = rests};
+  const bool draw = rests && !busy && frames < wanted;
+  return {.draw = draw, .rests = rests, .anew = draw && !std::exchange(begun_, begun_ || draw)};
 }
 
 void Pace::drew(int divisor, double milliseconds) {

@@ -31,8 +31,11 @@ class Painter {
   bool shows(const Document& document) const;
   // Draws the document's picture, its sides divided by `divisor`, with the motion since the last one. Throws Error.
   void draw(LoadedScene& scene, const Document& document, int divisor);
-  // The next picture takes up nothing of the last: another scene, other shaders.
-  void cut() { cut_ = true; }
+  // The next picture takes up nothing of the last: another scene, other shaders, the first of a picture at rest.
+  void cut() {
+    cut_ = true;
+    frames_ = 0;
+  }
   // The present picture is to be drawn once more: what it shows was not ready.
   void again() { frames_ = 0; }
 

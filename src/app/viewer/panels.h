@@ -23,6 +23,9 @@ void compare_panel(const Panel& panel);  // picture B
 void cost_panel(const Panel& panel);     // passes, memory, the machine
 void files_panel(const Panel& panel);    // pictures, sequences, the command line
 
+// Within the scene's panel, over the window: a file to open from a folder's list, once State::files asks for it.
+void file_browser(const Panel& panel);
+
 // Over the picture; corners of the picture in pixels of the window.
 void help_overlay(const Panel& panel);
 void messages_overlay(const Panel& panel, const ImVec2& lower_left, double now);

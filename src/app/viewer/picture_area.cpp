@@ -128,11 +128,6 @@ void take_time_keys(const Panel& panel) {
   if (ImGui::IsKeyPressed(GLFW_KEY_LEFT)) state.document.frame = std::max(state.document.frame - 1, 0);
 }
 
-void toggle_comparison(State& state) {
-  state.comparison.on = !state.comparison.on;
-  if (state.comparison.params.rows().empty()) state.comparison.params = state.document.params;
-}
-
 }  // namespace
 
 PictureArea picture_area(const Panel& panel, const gl::Texture* seen) {
@@ -189,11 +184,15 @@ void take_keys(const Panel& panel, float seconds) {
     if (ImGui::GetIO().KeyCtrl) {
       state.requests.copy_command = true;
     } else {
-      toggle_comparison(state);
+      state.compare(!state.comparison.on);
     }
   }
   if (pressed(GLFW_KEY_X) && state.comparison.on)
     state.comparison.how = state.comparison.how == Comparing::a ? Comparing::b : Comparing::a;
+  if (pressed(GLFW_KEY_O) && ImGui::GetIO().KeyCtrl) {
+    state.panel = state.files.wanted = true;
+    state.tab = "Scene";
+  }
   take_time_keys(panel);
   fly(panel, seconds);
 }

@@ -24,6 +24,10 @@ int missing_frames(const Painter& painter, const Document& document) {
   return painter.shows(document) ? std::max(wanted - painter.frames(), 0) : wanted;
 }
 
+bool is_traced(const Document& document) {
+  return !document.params.rows().empty() && document.params.get_word("technique") == "truth";
+}
+
 }  // namespace
 
 Document Viewer::document_b() const {
@@ -35,7 +39,10 @@ Document Viewer::document_b() const {
 void Viewer::draw_pictures(const PictureArea& area, double now) {
   if (scene_ == nullptr) return;
   const Document b = document_b();
-  const bool both = state_.comparison.on && !b.params.rows().empty();
+  const bool traced_a = is_traced(state_.document), traced = is_traced(b);
+  // Of two pictures that are traced in turn none is ever finished.
+  facts_.both_traced = state_.comparison.on && traced_a && traced;
+  const bool both = state_.comparison.on && !b.params.rows().empty() && !facts_.both_traced;
   const std::optional<truth::TruthTechnique::Pending> pending = truth_.pending();
   if (facts_.tracing && !pending) {  // the picture is there now
     a_.painter.again();
@@ -43,39 +50,45 @@ void Viewer::draw_pictures(const PictureArea& area, double now) {
   }
   facts_.tracing = pending ? std::optional(pending->share_done) : std::nullopt;
 
-  const bool traced = both && b.params.get_word("technique") == "truth";
   const bool same_a = a_.painter.shows(state_.document), same_b = !both || b_.painter.shows(b);
   const int wanted = std::max(warmup_of(state_.document), both ? warmup_of(b) : 0) + 1;
   const int missing = std::max(missing_frames(a_.painter, state_.document), both ? missing_frames(b_.painter, b) : 0);
   const bool busy = ImGui::IsAnyItemActive() && !area.busy;
-  // The truth is traced where things rest.
   const Pace::Step step = pace_.next(now, !same_a || (!same_b && !traced), busy, wanted - missing, wanted);
   facts_.at_rest = missing == 0 && !pending && facts_.loading.empty();
-  const std::string inspected =
-      fmt::format("{} {} {}", state_.inspection.what, state_.inspection.layer, state_.inspection.level);
+  const std::string inspected = fmt::format("{} {} {} {}", state_.inspection.what, state_.inspection.layer,
+                                            state_.inspection.level, state_.inspection.part);
   const bool looks = std::exchange(inspected_, inspected) != inspected;
-  if (!step.draw && !looks) return;
+  if (missing > 0) facts_.distance.reset();
+  const bool measures = both && step.rests && missing <= 1 && !pending && !facts_.distance;
+  if (!step.draw && !looks && !measures) return;
+  if (step.anew) {
+    a_.painter.cut();
+    b_.painter.cut();
+  }
   const int divisor = step.draw ? step.divisor : 1;
   last_draw_ = now;
-  if (missing > 0) facts_.distance.reset();
   double milliseconds = 0;
+  // The truth is traced where things rest, and does not change there.
+  const bool draws_b = both && (!traced || (step.rests && (!same_b || b_.painter.frames() == 0 || looks || measures)));
   // A comes last: what is read of the renderer is read of A.
-  if (both && !(traced && divisor != 1) && draw_side(b_, b, divisor)) milliseconds += b_.painter.milliseconds();
-  if (!draw_side(a_, state_.document, divisor)) return;
+  if (draws_b && draw_side(b_, b, divisor, measures)) milliseconds += b_.painter.milliseconds();
+  if (!draw_side(a_, state_.document, divisor, measures)) return;
   milliseconds += a_.painter.milliseconds();
   pace_.drew(divisor, milliseconds);
   facts_.drawn_size = {a_.painter.picture().width(), a_.painter.picture().height()};
   facts_.frames = a_.painter.frames();
-  if (both && divisor == 1 && missing == 1 && !truth_.pending()) measure_distance();
+  if (measures && !truth_.pending()) measure_distance();
 }
 
-bool Viewer::draw_side(Side& side, const Document& document, int divisor) {
+bool Viewer::draw_side(Side& side, const Document& document, int divisor, bool measures) {
   bool drawn = false;
   guarded([&] {
     cost_reader_.start(device_.timers, side.costs);
     side.painter.draw(*scene_, document, divisor);
     inspect(side);
-    if (state_.comparison.on && divisor == 1) side.visibility = renderer_.read_aov("shadow");
+    side.costs.set_work(device_.timers.work());
+    if (measures) side.visibility = renderer_.read_aov("shadow");
     drawn = true;
   });
   return drawn;
@@ -116,6 +129,10 @@ void Viewer::probe(const PictureArea& area) {
   facts_.probe.clear();
   for (const render::Aov& aov : render::aovs())
     facts_.probe.push_back({aov.name, number_text(renderer_.read_aov(aov.name, drawn), look_of(aov.name).unit)});
+  if (!facts_.distance) return;
+  const auto index =
+      static_cast<std::size_t>(pixel->y) * static_cast<std::size_t>(full.x) + static_cast<std::size_t>(pixel->x);
+  facts_.probe.push_back({"shadow of B", number_text({b_.visibility[index]}, "")});
 }
 
 void Viewer::show_pictures() {
@@ -123,7 +140,7 @@ void Viewer::show_pictures() {
   const bool differ = state_.comparison.on && state_.comparison.how == Comparing::difference &&
                       !state_.inspection.what.empty() && a_.values.numbers.size() == b_.values.numbers.size();
   if (!state_.inspection.what.empty()) {
-    facts_.look = look_of(state_.inspection.what);
+    facts_.look = look_of(state_.inspection, device_);
     facts_.range = range_of(state_.inspection, facts_.look, a_.values);
     if (differ) {
       facts_.look = {.scale = ColorScale::heat, .unit = facts_.look.unit, .labels = {}};

@@ -56,10 +56,11 @@ void Viewer::copy_command() {
 }
 
 void Viewer::write_picture(bool sequence) {
+  std::vector<std::string> arguments =
+      render_arguments(state_.document, state_.picture_file, warmup_of(state_.document), options_.glsl,
+                       sequence ? std::optional(state_.sequence) : std::nullopt);
   const studio::FrameRange one{state_.document.frame, state_.document.frame};
   const studio::FrameRange range = sequence ? state_.sequence : one;
-  std::vector<std::string> arguments =
-      render_arguments(state_.document, state_.picture_file, warmup_of(state_.document), options_.glsl, range);
   if (state_.with_aovs) {
     for (const render::Aov& aov : render::aovs()) arguments.push_back("--aov=" + aov.name);
   }

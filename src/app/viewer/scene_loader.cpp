@@ -3,19 +3,43 @@
 #include <chrono>
 #include <utility>
 
+#include "core/error.h"
 #include "image/read.h"
 
 namespace penumbra::app {
 
+namespace {
+
+// Most of the time goes into images: there a scene that nobody wants any more is given up.
+scene::ImageDecoder decoder_until(std::stop_token dropped) {
+  return [dropped = std::move(dropped), decode = image::image_decoder()](std::span<const std::byte> encoded,
+                                                                         const std::string& name) {
+    if (dropped.stop_requested()) fail("{}: not read to the end", name);
+    return decode(encoded, name);
+  };
+}
+
+bool is_ready(const std::future<studio::Stage>& loading) {
+  return loading.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+}  // namespace
+
+SceneLoader::~SceneLoader() { dropped_.request_stop(); }
+
 void SceneLoader::start(studio::StageOptions options) {
+  dropped_.request_stop();
+  std::erase_if(ending_, is_ready);
+  if (loading_.valid()) ending_.push_back(std::move(loading_));
   options_ = std::move(options);
-  // Waits for the one before: a file that is read can't be let go half-way.
-  loading_ = std::async(std::launch::async,
-                        [options = options_] { return studio::load_stage(options, image::image_decoder()); });
+  dropped_ = {};
+  loading_ = std::async(std::launch::async, [options = options_, dropped = dropped_.get_token()] {
+    return studio::load_stage(options, decoder_until(dropped));
+  });
 }
 
 std::optional<SceneLoader::Loaded> SceneLoader::finished() {
-  if (!loading_.valid() || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
+  if (!loading_.valid() || !is_ready(loading_)) return {};
   const studio::StageOptions options = std::exchange(options_, {});
   return Loaded{options, loading_.get()};
 }

@@ -2,16 +2,24 @@
 
 #include <future>
 #include <optional>
+#include <stop_token>
 #include <string>
+#include <vector>
 
 #include "studio/stage.h"
 
 namespace penumbra::app {
 
-// Reads scenes on a thread of its own, so that the window lives on.
+// Reads scenes on threads of their own, so that the window lives on.
 class SceneLoader {
  public:
-  // Begins to read; one that is being read is dropped.
+  SceneLoader() = default;
+  // Waits for what is being read, which ends at its next image.
+  ~SceneLoader();
+  SceneLoader(const SceneLoader&) = delete;
+  SceneLoader& operator=(const SceneLoader&) = delete;
+
+  // Begins to read; one that is being read is dropped. Waits for nothing.
   void start(studio::StageOptions options);
   // The scene once it is there, with the options that it was read with. Throws Error for one that can't be read.
   struct Loaded {
@@ -24,7 +32,9 @@ class SceneLoader {
 
  private:
   studio::StageOptions options_;
+  std::stop_source dropped_;  // of what is being read
   std::future<studio::Stage> loading_;
+  std::vector<std::future<studio::Stage>> ending_;  // dropped, and not at their next image yet
 };
 
 }  // namespace penumbra::app

@@ -16,7 +16,7 @@ namespace {
 void file(const Panel& panel) {
   State& state = panel.state;
   begin_rows("file");
-  row("file", "A .gltf or .glb file: type its name and press Enter, or drop it on the window.");
+  row("file", "A .gltf or .glb file: type its name and press Enter, choose it from a list, or drop it on the window.");
   if (ImGui::InputText("##scene", &state.scene_file, ImGuiInputTextFlags_EnterReturnsTrue))
     state.requests.open = state.scene_file;
   panel.widgets.mark("scene file");
@@ -31,6 +31,10 @@ void file(const Panel& panel) {
     panel.widgets.mark("recent");
   }
   end_rows();
+  if (ImGui::Button("Open...")) state.files.wanted = true;
+  panel.widgets.mark("open");
+  tooltip("A scene or a preset from a list (Ctrl + O)");
+  file_browser(panel);
 }
 
 void choose_camera(const Panel& panel) {

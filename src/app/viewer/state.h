@@ -8,6 +8,7 @@
 
 #include "app/viewer/comparison.h"
 #include "app/viewer/document.h"
+#include "app/viewer/file_list.h"
 #include "app/viewer/inspect.h"
 
 namespace penumbra::app {
@@ -49,12 +50,19 @@ struct State {
   std::string search;         // in the parameters
   std::string tab, open_tab;  // to be opened; that is open
   bool focus_search = false;  // the next frame
+  FileList files;             // to open one
   std::string preset_file = "preset.toml", picture_file = "penumbra.png", scene_file;
   studio::FrameRange sequence{0, 47};
   bool with_aovs = false;           // in what is written
   std::vector<std::string> recent;  // scenes, the last one first
   std::deque<Message> messages;
   Requests requests;
+
+  // Whether A stands beside B; at first B is A.
+  void compare(bool on) {
+    comparison.on = on;
+    if (on && comparison.params.rows().empty()) comparison.params = document.params;
+  }
 };
 
 }  // namespace penumbra::app

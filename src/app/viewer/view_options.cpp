@@ -24,12 +24,15 @@ void add_view_command_options(CLI::App& app, ViewOptions& options) {
   studio::add_value(app, "--layout", "FILE",
                     "Writes where each widget stands as JSON, for scripts that drive the window",
                     [&options](const auto& text) { options.layout = text; });
+  // A window has one device, and plays all frames: what is said to those that know them from `render`, not in --help.
+  for (const char* name : {"--frames", "--backend", "--egl-device"}) app.get_option(name)->group("");
 }
 
 void check_together(const ViewOptions& options) {
   studio::check_together(static_cast<const studio::StageOptions&>(options));
   studio::check_together(static_cast<const studio::DeviceOptions&>(options));
   if (options.frames) studio::fail_usage("--frames has no meaning for a window, which plays all of them");
+  if (options.egl_device) studio::fail_usage("--egl-device has no window: the desktop's driver draws");
   if (options.backend != "auto" && options.backend != "window")
     studio::fail_usage("--backend {} has no window", options.backend);
 }

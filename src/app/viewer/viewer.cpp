@@ -10,8 +10,8 @@
 
 #include "app/techniques.h"
 #include "io/presets.h"
-
 #include "studio/shader_reload.h"
+#include "studio/studio.h"
 #include "studio/text.h"
 
 namespace penumbra::app {
@@ -29,10 +29,6 @@ void end_on_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-gl::Timers::Mode timing(const gl::DeviceInfo& device) {
-  return device.software ? gl::Timers::Mode::finish : gl::Timers::Mode::query;
-}
-
 // The first document: what the command line says.
 Document document_of(const ViewOptions& options) {
   Document document;
@@ -45,7 +41,7 @@ Document document_of(const ViewOptions& options) {
 
 Window::Options window_options(const ViewOptions& options, const Settings& settings) {
   const studio::Size size = options.sized ? options.size : settings.window.value_or(options.size);
-  return {.width = size.width, .height = size.height, .debug = options.debug};
+  return {.width = size.width, .height = size.height, .debug = studio::debug_wanted(options)};
 }
 
 // The one that comes with the program, installed or in its sources' folder; empty: there is none.
@@ -74,7 +70,7 @@ Viewer::Viewer(ViewOptions options)
       settings_(options_.defaults ? Settings{} : read_settings(fault_)),
       window_(window_options(options_, settings_)),
       device_info_(gl::device_info()),
-      device_(gl::ShaderFiles(options_.glsl), timing(device_info_)),
+      device_(gl::ShaderFiles(options_.glsl), studio::timing_of(device_info_)),
       truth_({.cache = options_.folder(), .threads = options_.threads.value_or(0), .background = true}),
       renderer_(device_, truth_.registry()),
       a_(device_, renderer_, 0),
@@ -87,7 +83,10 @@ Viewer::Viewer(ViewOptions options)
              .costs_b = b_.costs} {
   state_.document = document_of(options_);
   take_settings();
-  if (!options_.glsl.empty()) watch_.add_folder(options_.glsl);
+  guarded([&] {
+    watch_.emplace();
+    if (!options_.glsl.empty()) watch_->add_folder(options_.glsl);
+  });
 }
 
 Viewer::~Viewer() { truth_.stop(); }
@@ -97,6 +96,17 @@ int Viewer::run() {
   const std::string scene = first_scene(options_, settings_);
   state_.document.stage.scene = options_.scene = scene;
   if (!scene.empty()) open(scene);
+  try {
+    show_frames();
+  } catch (...) {
+    keep_settings();
+    throw;
+  }
+  keep_settings();
+  return caught_signal == 0 ? 0 : 128 + caught_signal;
+}
+
+void Viewer::show_frames() {
   double last = ImGui::GetTime();
   while (caught_signal == 0) {
     const bool still = device_info_.software && ImGui::GetTime() - last_draw_ > 0.5 && loader_.file().empty();
@@ -111,8 +121,6 @@ int Viewer::run() {
     if (state_.requests.quit) break;
     do_requests();
   }
-  keep_settings();
-  return caught_signal == 0 ? 0 : 128 + caught_signal;
 }
 
 void Viewer::guarded(const std::function<void()>& action) {
@@ -179,14 +187,15 @@ void Viewer::take_loaded() {
     }
     aimed_.clear();
     window_.set_title(std::filesystem::path(loaded->options.scene).filename().string() + " - Penumbra");
-    watch_.set_files(scene_->stage.scene.files);
+    if (watch_) watch_->set_files(scene_->stage.scene.files);
   });
 }
 
 // Files of the scene and shaders, as they are saved.
 void Viewer::take_saved() {
+  if (!watch_) return;
   guarded([&] {
-    const std::vector<std::filesystem::path> changed = watch_.poll();
+    const std::vector<std::filesystem::path> changed = watch_->poll();
     const auto of_scene = [this](const std::filesystem::path& file) {
       const std::vector<std::filesystem::path>& files = scene_->stage.scene.files;
       return std::find(files.begin(), files.end(), file) != files.end();

@@ -42,10 +42,11 @@ class Viewer {
     Painter painter;
     Costs costs;
     Values values;                      // of what is inspected
-    std::vector<float> visibility;      // where distances are measured
+    std::vector<float> visibility;      // when the distance was measured
     const gl::Texture* seen = nullptr;  // its picture, or its values in false colour
   };
 
+  void show_frames();
   void frame(float seconds);
   void take_events();
   void take_loaded();
@@ -55,7 +56,7 @@ class Viewer {
   PictureArea build_interface(float seconds);
   void side_panel(const Panel& panel);
   void draw_pictures(const PictureArea& area, double now);
-  bool draw_side(Side& side, const Document& document, int divisor);
+  bool draw_side(Side& side, const Document& document, int divisor, bool measures);
   Document document_b() const;
   void inspect(Side& side);
   void color(Side& side, const Values& values, int number);
@@ -88,7 +89,7 @@ class Viewer {
   render::Renderer renderer_;
   std::unique_ptr<LoadedScene> scene_;
   SceneLoader loader_;
-  studio::FileWatch watch_;
+  std::optional<studio::FileWatch> watch_;  // absent: the system has none left
   RenderProcess writer_;
   State state_;
   Side a_, b_;

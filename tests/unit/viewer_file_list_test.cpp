@@ -1,0 +1,66 @@
+// What the viewer lists of a folder, to open.
+#include "app/viewer/file_list.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace penumbra {
+namespace {
+
+namespace fs = std::filesystem;
+using app::FileList;
+
+class ViewerFileList : public testing::Test {
+ protected:
+  ViewerFileList() {
+    std::string pattern = (fs::temp_directory_path() / "penumbra-files-XXXXXX").string();
+    root_ = mkdtemp(pattern.data());
+  }
+  ~ViewerFileList() override { fs::remove_all(root_); }
+
+  void put(const std::string& name) const { std::ofstream(root_ / name) << "text"; }
+  // Folders with a slash.
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const FileList::Entry& entry : app::list_folder(root_).entries)
+      names.push_back(entry.name + (entry.is_folder ? "/" : ""));
+    return names;
+  }
+
+  fs::path root_;
+};
+
+TEST_F(ViewerFileList, HasWhatCanBeOpenedFoldersFirst) {
+  for (const char* name : {"b.glb", "a.GLTF", "p.toml", "a.bin", "glb", "picture.png", ".hidden.glb"}) put(name);
+  for (const char* name : {"z", "a.glb", ".git"}) fs::create_directory(root_ / name);
+  fs::create_symlink("nowhere.glb", root_ / "broken.glb");
+  fs::create_directory_symlink("z", root_ / "link");
+  EXPECT_EQ(names(), (std::vector<std::string>{"a.glb/", "link/", "z/", "a.GLTF", "b.glb", "p.toml"}));
+  EXPECT_EQ(app::list_folder(root_).note, "");
+}
+
+TEST_F(ViewerFileList, SaysWhatItCannotList) {
+  EXPECT_NE(app::list_folder(root_ / "none").note, "");
+  EXPECT_TRUE(app::list_folder(root_ / "none").entries.empty());
+  for (std::size_t i = 0; i <= app::most_listed; ++i) put(std::to_string(i) + ".glb");
+  const FileList list = app::list_folder(root_);
+  EXPECT_EQ(list.entries.size(), app::most_listed);
+  EXPECT_NE(list.note, "");
+}
+
+TEST_F(ViewerFileList, BeginsWhereTheSceneLies) {
+  put("a.glb");
+  EXPECT_EQ(app::folder_of((root_ / "a.glb").string()), root_);
+  EXPECT_EQ(app::folder_of((root_ / "gone/b.glb").string()), root_);
+  EXPECT_EQ(app::folder_of(root_.string()), root_);
+  EXPECT_TRUE(fs::equivalent(app::folder_of(""), fs::current_path()));
+  EXPECT_TRUE(fs::equivalent(app::folder_of("b.glb"), fs::current_path()));
+}
+
+}  // namespace
+}  // namespace penumbra
