@@ -18,14 +18,14 @@ LEFT, MIDDLE, RIGHT, WHEEL_UP, WHEEL_DOWN = 1, 2, 3, 4, 5
 _libc = ctypes.CDLL(None)
 
 
-def wait_for(condition, what):
+def wait_for(condition, what, pause=0.03):
     """What the condition returns once it is true; fails after a long time."""
     deadline = time.monotonic() + PATIENCE
     while time.monotonic() < deadline:
         value = condition()
         if value:
             return value
-        time.sleep(0.03)
+        time.sleep(pause)
     raise AssertionError(f"waited in vain for {what() if callable(what) else what}")
 
 

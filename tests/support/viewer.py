@@ -3,11 +3,16 @@
 import itertools
 import json
 import pathlib
+import shlex
 import tempfile
-import time
 
 from desktop import LEFT, PATIENCE, end, start, wait_for
 from support import PROGRAM
+
+FEWEST_COLORS = 5  # of a picture that shows a scene, even without shadows
+# A click is down in one frame and up in the next, what it opens takes one to find its size, and the layout is written
+# after a second one that is the same.
+FRAMES_OF_A_CLICK = 5
 
 
 class Viewer:
@@ -18,6 +23,7 @@ class Viewer:
         self._desktop, self._arguments, self._rests = desktop, arguments, rests
         self._size = ("--size", f"{size[0]}x{size[1]}") if size else ()
         self._start_folder, self._home = folder, home
+        self._ended = False  # as the test wished
 
     def __enter__(self):
         self._folder = tempfile.TemporaryDirectory(prefix="penumbra-viewer-")
@@ -32,23 +38,34 @@ class Viewer:
             self.window = self.wait_for(lambda: self._desktop.find_window(self.process.pid), "its window")
             self.wait_for(self._layout.exists, "its layout")
             if self._rests:
-                self.rest()
-        except BaseException:
-            self.__exit__()
+                assert len(self.rest().colors()) > FEWEST_COLORS, "an empty picture"
+        except BaseException as fault:
+            self.__exit__(type(fault))
             raise
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, fault=None, *_):
+        lives, told = self.process.poll() is None, self.stderr()
         end(self.process)
         self._errors.close()
         self._folder.cleanup()
+        if fault is None:
+            assert lives or self._ended, f"ended by itself with {self.process.returncode}: {told}"
+            assert told == "", f"it told on stderr: {told}"
 
-    def wait_for(self, condition, what):
+    def wait_for(self, condition, what, **options):
         """As that of the desktop, while the viewer lives."""
         def met():
             assert self.process.poll() is None, f"ended with {self.process.returncode}: {self.stderr()}"
             return condition()
-        return wait_for(met, what)
+        return wait_for(met, what, **options)
+
+    def follow(self):
+        """Until it has taken what the hand did before, has shown what came of it and has written the layout."""
+        # It takes events, and so answers, once a frame.
+        for _ in range(FRAMES_OF_A_CLICK + 1):
+            self._desktop.client.ping(self.window)
+            self.wait_for(self._desktop.client.answered, "an answer of the window", pause=0.005)
 
     # What is seen.
 
@@ -60,8 +77,7 @@ class Viewer:
 
     def box(self, widget):
         """Left, top, right, bottom in pixels of the window, once it is there."""
-        self.wait_for(lambda: self.has(widget), f"the widget {widget}")
-        return self.layout()[widget]
+        return self.wait_for(lambda: self.layout().get(widget), f"the widget {widget}")
 
     def middle(self, widget):
         left, top, right, bottom = self.box(widget)
@@ -81,21 +97,25 @@ class Viewer:
     def rest(self):
         """The picture once it is drawn in full; the pointer is out of it."""
         self.leave()
-        seen = []
+        seen = None
 
         def rests():
-            # Some times the same: the server may still be putting it on the screen.
-            seen.append(self.picture() if self.has("at rest") else None)
-            return len(seen) > 3 and seen[-1] and seen[-4:].count(seen[-1]) == 4
+            nonlocal seen
+            self.follow()
+            last, seen = seen, self.picture() if self.has("at rest") else None
+            return seen if seen == last else None
 
-        self.wait_for(rests, "a picture at rest")
-        return seen[-1]
+        return self.wait_for(rests, "a picture at rest")
 
     def changed(self, before):
         """The picture at rest once it is another."""
         self.leave()
-        self.wait_for(lambda: self.picture() != before, "another picture")
-        return self.rest()
+
+        def other():
+            now = self.rest() if self.picture() != before else before
+            return now if now != before else None
+
+        return self.wait_for(other, "another picture")
 
     # The hand.
 
@@ -106,9 +126,17 @@ class Viewer:
     def leave(self):
         self._desktop.move(*self._desktop.corner)
 
+    def point_at(self, widget):
+        """The pointer to its middle, where it comes to stand."""
+        place = None
+        while place != self.middle(widget):
+            place = self.middle(widget)
+            self.move(*place)
+            self.follow()
+
     def click(self, widget, until, what):
         """And waits until the condition holds."""
-        self.move(*self.middle(widget))
+        self.point_at(widget)
         self._desktop.xdotool("click", LEFT)
         self.wait_for(until, what)
 
@@ -116,6 +144,7 @@ class Viewer:
         """From a pixel of the window, to and fro with rests and the button down until the condition holds."""
         self.move(x, y)
         self._desktop.xdotool("mousedown", button)
+        self.follow()  # else it would be down where the hand is by then
         way = itertools.cycle([*range(1, 21), *[20] * 20, *range(19, 9, -1), *[10] * 20, *range(9, -1, -1)])
 
         def moved():
@@ -129,20 +158,10 @@ class Viewer:
             self._desktop.xdotool("mouseup", button)
 
     def wheel(self, button, until, what):
-        """A notch, and another only if nothing came of it for long: notches would pile up while a frame is drawn."""
-        notch_seconds = 20
-        turned_at = -notch_seconds
-
-        def turned():
-            nonlocal turned_at
-            if until():
-                return True
-            if time.monotonic() - turned_at >= notch_seconds:
-                self._desktop.xdotool("click", button)
-                turned_at = time.monotonic()
-            return False
-        self.move(*self.middle("picture"))
-        self.wait_for(turned, what)
+        """A notch over the picture."""
+        self.point_at("picture")
+        self._desktop.xdotool("click", button)
+        self.wait_for(until, what)
 
     def press(self, key, until, what):
         """Holds a key down until the condition holds."""
@@ -155,6 +174,12 @@ class Viewer:
     def tap(self, key):
         """A key that is down for a moment, shorter than a picture takes."""
         self._desktop.xdotool("key", key)
+
+    def copied(self, button):
+        """The words that a button copies for a shell."""
+        self.click(button, lambda: self.has("messages"), "a message")
+        self.follow()
+        return shlex.split(self._desktop.client.clipboard())
 
     def type(self, text):
         self._desktop.xdotool("type", text)
@@ -182,14 +207,14 @@ class Viewer:
 
     def _focus(self, widget):
         """Clicks on a field; it takes text once it is seen to change."""
-        self.move(*self.middle(widget))
+        self.point_at(widget)  # which changes its colour
         before = self.seen(widget)
         self._desktop.xdotool("click", LEFT)
         self.wait_for(lambda: self.seen(widget) != before, f"{widget} to take text")
 
     def fill_in(self, param, text, until, what):
         """Ctrl + click on a slider, a number, Enter."""
-        self.move(*self.middle(param))
+        self.point_at(param)
         resting = self.seen(param)
         self._desktop.xdotool("keydown", "ctrl", "click", LEFT)
         self.wait_for(lambda: self.seen(param) != resting, f"{param} to take text")
@@ -204,6 +229,7 @@ class Viewer:
         return self.exit_code()
 
     def exit_code(self):
+        self._ended = True
         return self.process.wait(timeout=PATIENCE)
 
     def stderr(self):

@@ -1,11 +1,12 @@
-"""What xdotool can't do on an X display: resources, the clipboard, and dropping files (XDND 5), by libX11 itself."""
+"""What xdotool can't do on an X display, by libX11 itself: resources, pings, the clipboard, dropping files (XDND 5)."""
 
 import ctypes
 import time
 
 PATIENCE = 120  # seconds: for a busy machine
 CLIENT_MESSAGE, SELECTION_NOTIFY, SELECTION_REQUEST = 33, 31, 30
-XA_ATOM, XA_STRING = 4, 31
+XA_STRING = 31
+SUBSTRUCTURE_NOTIFY = 1 << 19
 XDND_VERSION = 5
 
 _x = ctypes.CDLL("libX11.so.6")
@@ -62,6 +63,7 @@ _declare("XTranslateCoordinates", _int, _pointer, _ulong, _ulong, _int, _int, _i
 _declare("XGetGeometry", _int, _pointer, _ulong, _ulongs, _ints, _ints, _uints, _uints, _uints, _uints)
 _declare("XSetSelectionOwner", _int, _pointer, _ulong, _ulong, _ulong)
 _declare("XConvertSelection", _int, _pointer, _ulong, _ulong, _ulong, _ulong, _ulong)
+_declare("XSelectInput", _int, _pointer, _ulong, ctypes.c_long)
 _declare("XSendEvent", _int, _pointer, _ulong, _int, ctypes.c_long, ctypes.POINTER(_Event))
 _declare("XPending", _int, _pointer)
 _declare("XNextEvent", _int, _pointer, ctypes.POINTER(_Event))
@@ -86,6 +88,8 @@ class Connection:
         assert self._display, f"no display {display}"
         self._root = _x.XDefaultRootWindow(self._display)
         self._window = _x.XCreateSimpleWindow(self._display, self._root, 0, 0, 1, 1, 0, 0, 0)
+        _x.XSelectInput(self._display, self._root, SUBSTRUCTURE_NOTIFY)  # answers to pings go there
+        self._pings = 0
         self._sync()
 
     def close(self):
@@ -118,26 +122,36 @@ class Connection:
         _x.XGetGeometry(self._display, window, root, x, y, width, height, border, depth)
         return width.value, height.value
 
-    def _next(self, kind):
-        """The next event of a kind; requests for a selection are answered in passing."""
-        deadline = time.monotonic() + PATIENCE
-        event = _Event()
-        while time.monotonic() < deadline:
-            if not _x.XPending(self._display):
-                time.sleep(0.01)
-                continue
+    def _events(self):
+        """Those that have come; requests for a selection are answered in passing."""
+        while _x.XPending(self._display):
+            event = _Event()
             _x.XNextEvent(self._display, event)
             if event.type == SELECTION_REQUEST:
                 self._answer(event.request)
-            if event.type == kind:
-                return event
-        raise AssertionError(f"no event {kind}")
+            yield event
+
+    def _wait_for(self, wanted, what):
+        """The first event that is wanted."""
+        deadline = time.monotonic() + PATIENCE
+        while time.monotonic() < deadline:
+            for event in self._events():
+                if wanted(event):
+                    return event
+            time.sleep(0.01)
+        raise AssertionError(f"no {what} came")
+
+    def _message(self, name):
+        """The data of the next message of a name to this client."""
+        kind = self._atom(name)
+        return self._wait_for(lambda event: event.type == CLIENT_MESSAGE and event.client.window == self._window and
+                              event.client.message_type == kind, name).client.data
 
     def _send(self, window, name, *data):
         event = _Event()
         event.client.type, event.client.window, event.client.format = CLIENT_MESSAGE, window, 32
         event.client.message_type = self._atom(name)
-        for i, value in enumerate((self._window, *data)):
+        for i, value in enumerate(data):
             event.client.data[i] = value
         _x.XSendEvent(self._display, window, 0, 0, event)
         self._sync()
@@ -154,25 +168,36 @@ class Connection:
         _x.XSendEvent(self._display, request.requestor, 0, 0, event)
         self._sync()
 
+    def ping(self, window):
+        """Has the window's program answer when it takes its events: see answered()."""
+        self._pings += 1
+        self._send(window, "WM_PROTOCOLS", self._atom("_NET_WM_PING"), self._pings, window)
+
+    def answered(self):
+        """Whether an answer to the last ping has come."""
+        wanted = self._atom("_NET_WM_PING"), self._pings
+        return any(event.type == CLIENT_MESSAGE and tuple(event.client.data[:2]) == wanted
+                   for event in self._events())
+
     def drop(self, window, x, y, *paths):
         """Drops files on a point of a window; returns once it has taken them."""
         self._offer = "".join(f"{path.resolve().as_uri()}\r\n" for path in paths).encode()
         selection, left, top = self._atom("XdndSelection"), *self.position(window)
         _x.XSetSelectionOwner(self._display, selection, self._window, 0)
-        self._send(window, "XdndEnter", XDND_VERSION << 24, self._atom("text/uri-list"))
-        self._send(window, "XdndPosition", 0, (left + x) << 16 | (top + y), 0, self._atom("XdndActionCopy"))
-        status = self._next(CLIENT_MESSAGE).client
-        assert status.message_type == self._atom("XdndStatus") and status.data[1] & 1, "the window takes no files"
-        self._send(window, "XdndDrop", 0, 0)
-        finished = self._next(CLIENT_MESSAGE).client
-        assert finished.message_type == self._atom("XdndFinished"), "the window did not take the files"
+        source = self._window
+        self._send(window, "XdndEnter", source, XDND_VERSION << 24, self._atom("text/uri-list"))
+        self._send(window, "XdndPosition", source, 0, (left + x) << 16 | (top + y), 0, self._atom("XdndActionCopy"))
+        assert self._message("XdndStatus")[1] & 1, "the window takes no files"
+        self._send(window, "XdndDrop", source, 0, 0)
+        self._message("XdndFinished")
 
     def clipboard(self):
         """The text that a program has copied, or None."""
         name = self._atom("PENUMBRA_TEST")
         _x.XConvertSelection(self._display, self._atom("CLIPBOARD"), self._atom("UTF8_STRING"), name, self._window, 0)
         self._sync()
-        if not self._next(SELECTION_NOTIFY).notify.property:
+        answer = self._wait_for(lambda event: event.type == SELECTION_NOTIFY, "clipboard")
+        if not answer.notify.property:
             return None
         kind, bits, count, left, data = _ulong(), _int(), _ulong(), _ulong(), ctypes.c_void_p()
         _x.XGetWindowProperty(self._display, self._window, name, 0, 1 << 20, 1, 0, kind, bits, count, left, data)
