@@ -90,7 +90,7 @@ Look look_of(const Inspection& inspection, const gl::Device& device) {
   const std::optional<gl::Device::NamedTarget> target = inspected_target(inspection, device);
   if (!target) return look_of(inspection.what);
   const std::vector<TargetPart> parts = parts_of(*target);
-  return parts[static_cast<std::size_t>(std::clamp(inspection.part, 0, static_cast<int>(parts.size()) - 1))].look;
+  return parts[part_index(parts, inspection)].look;
 }
 
 Values read_values(const Inspection& inspection, const render::Renderer& renderer, const gl::Device& device) {

@@ -5,6 +5,7 @@
 
 #include "app/viewer/panels.h"
 #include "app/viewer/targets.h"
+#include "studio/text.h"
 
 namespace penumbra::app {
 
@@ -29,10 +30,11 @@ void list(const Panel& panel) {
     if (target.name.starts_with("viewer/") || target.name.find("/view 1/") != std::string_view::npos) continue;
     const gl::TextureDesc& desc = target.texture->desc();
     const std::string about = about_target(target.name);
-    choose(
-        panel, "target " + std::string(target.name), std::string(target.name),
-        fmt::format("{}{}{} × {}, {} layers, {} levels, {:.1f} MiB", about, about.empty() ? "" : "\n", desc.width,
-                    desc.height, desc.layers, desc.levels, static_cast<double>(target.texture->bytes()) / 1048576.0));
+    const std::string layers = desc.layers > 1 ? fmt::format(", {} layers", desc.layers) : "";
+    const std::string levels = desc.levels > 1 ? fmt::format(", {} levels", desc.levels) : "";
+    choose(panel, "target " + std::string(target.name), target_label(target.name),
+           fmt::format("{}{}{} × {}{}{}, {}", about, about.empty() ? "" : "\n", desc.width, desc.height, layers, levels,
+                       studio::bytes_text(static_cast<double>(target.texture->bytes()))));
   }
   ImGui::EndChild();
 }
@@ -45,7 +47,7 @@ void choose_part(const Panel& panel) {
   const std::vector<TargetPart> parts = parts_of(*target);
   if (parts.size() > 1) {
     row("part", "Of what a texel says.");
-    const auto current = std::min(static_cast<std::size_t>(inspection.part), parts.size() - 1);
+    const std::size_t current = part_index(parts, inspection);
     const bool open = ImGui::BeginCombo("##part", parts[current].name.c_str());
     panel.widgets.mark("part");
     if (open) {

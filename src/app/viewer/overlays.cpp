@@ -5,6 +5,7 @@
 #include <array>
 
 #include "app/viewer/panels.h"
+#include "app/viewer/targets.h"
 
 namespace penumbra::app {
 
@@ -145,10 +146,9 @@ void label_list(const Panel& panel) {
 }  // namespace
 
 void legend_overlay(const Panel& panel, const ImVec2& corner) {
-  const std::string& what = panel.state.inspection.what;
-  if (what.empty()) return;
+  if (panel.state.inspection.what.empty()) return;
   if (begin_overlay("legend", inner(corner, -1, 1), {1, 0})) {
-    ImGui::TextUnformatted(what.c_str());
+    ImGui::TextUnformatted(title_of(panel.state.inspection, panel.facts.gl).c_str());
     switch (panel.facts.look.scale) {
       case ColorScale::labels:
         label_list(panel);

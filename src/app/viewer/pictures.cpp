@@ -175,7 +175,8 @@ PresentInputs Viewer::present_inputs(const glm::ivec2& window_size) const {
           .picture_size = {size.width, size.height},
           .window_size = window_size,
           .comparison = state_.comparison,
-          .zoom = state_.zoom};
+          .zoom = state_.zoom,
+          .values = !state_.inspection.what.empty()};
 }
 
 }  // namespace penumbra::app

@@ -16,7 +16,7 @@ Comparing how_of(const PresentInputs& inputs) {
 // Magnified pixels are to be counted; a picture of less than full size is to be looked at.
 gl::SamplerDesc sampler_for(const PresentInputs& inputs, const gl::Texture& texture) {
   const bool full = texture.width() == inputs.picture_size.x && texture.height() == inputs.picture_size.y;
-  const GLenum magnify = full ? GL_NEAREST : GL_LINEAR;
+  const GLenum magnify = full || inputs.values ? GL_NEAREST : GL_LINEAR;
   const GLenum minify = inputs.zoom.factor < 1.0f ? GL_LINEAR : magnify;
   return {.min_filter = minify, .mag_filter = magnify};
 }

@@ -16,6 +16,7 @@ struct PresentInputs {
   glm::ivec2 window_size{1};
   Comparison comparison;
   Zoom zoom;
+  bool values = false;  // in false colour: each stands for itself, whatever the texture's size
 };
 
 // RGBA8, the size of the window: what is seen.

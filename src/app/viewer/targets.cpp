@@ -101,6 +101,18 @@ std::vector<TargetPart> parts_of(const gl::Device::NamedTarget& target) {
   return parts;
 }
 
+std::size_t part_index(const std::vector<TargetPart>& parts, const Inspection& inspection) {
+  return std::min(static_cast<std::size_t>(std::max(inspection.part, 0)), parts.size() - 1);
+}
+
+std::string target_label(std::string_view name) {
+  std::string label(name);
+  for (const std::string_view once : {"shadow 1/", "view 0/", "light 0/"}) {
+    if (label.starts_with(once)) label.erase(0, once.size());
+  }
+  return label;
+}
+
 std::string about_target(std::string_view name) {
   struct About {
     std::string_view in_name;
@@ -130,6 +142,14 @@ std::optional<gl::Device::NamedTarget> inspected_target(const Inspection& inspec
   return {};
 }
 
+std::string title_of(const Inspection& inspection, const gl::Device& device) {
+  const std::optional<gl::Device::NamedTarget> target = inspected_target(inspection, device);
+  if (!target) return inspection.what;
+  const std::vector<TargetPart> parts = parts_of(*target);
+  const std::string label = target_label(target->name);
+  return parts.size() == 1 ? label : label + ": " + parts[part_index(parts, inspection)].name;
+}
+
 Values read_target(const Inspection& inspection, const gl::Device& device) {
   const std::optional<gl::Device::NamedTarget> target = inspected_target(inspection, device);
   if (!target) {
@@ -140,7 +160,7 @@ Values read_target(const Inspection& inspection, const gl::Device& device) {
   const gl::TextureDesc& desc = target->texture->desc();
   const int level = std::clamp(inspection.level, 0, desc.levels - 1);
   const int layer = std::clamp(inspection.layer, 0, desc.layers - 1);
-  const int part = std::clamp(inspection.part, 0, static_cast<int>(parts_of(*target).size()) - 1);
+  const auto part = static_cast<int>(part_index(parts_of(*target), inspection));
   Values values{.width = std::max(desc.width >> level, 1),
                 .height = std::max(desc.height >> level, 1),
                 .channels = channels_of(*target->texture),

@@ -19,11 +19,19 @@ struct TargetPart {
 };
 std::vector<TargetPart> parts_of(const gl::Device::NamedTarget& target);
 
+// Its name as it is listed: without the library's own numbers of what is there once.
+std::string target_label(std::string_view name);
+// The one that is looked at.
+std::size_t part_index(const std::vector<TargetPart>& parts, const Inspection& inspection);
+
 // What a texture of the shadow library holds, in a sentence; empty for others, whose name says it.
 std::string about_target(std::string_view name);
 
 // The one that Inspection::what names, if there is one.
 std::optional<gl::Device::NamedTarget> inspected_target(const Inspection& inspection, const gl::Device& device);
+
+// What is inspected, for a legend: "depth", "denoise/texels: visibility".
+std::string title_of(const Inspection& inspection, const gl::Device& device);
 
 // Throws Error for names that there are none of.
 Values read_target(const Inspection& inspection, const gl::Device& device);
