@@ -26,10 +26,11 @@ class Drop(WindowTest):
     def test_a_name_may_have_any_letters(self):
         path = self.folder / "Stufen & Kanten 100% ü.glb"
         path.write_bytes(KNIFE_EDGE.read_bytes())
+        wanted = self.picture_of(KNIFE_EDGE)
         with self.view(STEPS) as viewer:
             before = viewer.rest()
             self.drop(viewer, path)
-            viewer.changed(before)
+            self.assertEqual(viewer.changed(before), wanted)
             self.assertFalse(viewer.has("messages"))
 
     def test_a_file_that_is_no_scene_is_told_and_the_last_one_stays(self):

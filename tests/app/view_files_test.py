@@ -1,5 +1,7 @@
 """penumbra view: pictures that it writes, the command line that it copies, and what it keeps until the next time."""
 
+import shlex
+import signal
 import subprocess
 
 from desktop import LEFT
@@ -11,7 +13,9 @@ class Files(WindowTest):
     def copied(self, viewer):
         """The picture that the copied command line draws."""
         viewer.open_tab("Files", "copy command")
-        command = viewer.copied("copy command")
+        viewer.click("copy command", lambda: viewer.has("messages"), "a message")
+        viewer.follow()
+        command = shlex.split(self.desktop.client.clipboard())
         self.assertEqual(command[:2], ["penumbra", "render"])
         output = self.folder / "copied"
         output.mkdir()
@@ -46,13 +50,20 @@ class Files(WindowTest):
     def test_the_next_run_begins_as_the_last_one_ended(self):
         home = self.folder / "home"
         home.mkdir()
-        with self.view(STEPS, home=home) as viewer:
+        size = (700, 500)
+        with self.view(STEPS, home=home, size=size) as viewer:
             before = viewer.rest()
             viewer.choose("technique", "none")
             wanted = viewer.changed(before)
-            self.desktop.xdotool("key", "Escape")
+            viewer.open_tab("Scene", "eye")
+            viewer.tap("Escape")
             self.assertEqual(viewer.exit_code(), 0)
-        with self.view(home=home) as viewer:
+        with self.view(home=home, size=None) as viewer:
+            self.assertEqual(self.desktop.client.size(viewer.window), size)
+            self.assertTrue(viewer.has("eye"))
+            self.assertEqual(viewer.rest(), wanted)
+            self.assertEqual(viewer.signal(signal.SIGTERM), 128 + signal.SIGTERM)
+        with self.view(home=home, size=None) as viewer:
             self.assertEqual(viewer.rest(), wanted)
 
 

@@ -170,14 +170,15 @@ class Viewer:
             self.wait_for(until, what)
         finally:
             self._desktop.xdotool("keyup", key)
+        self.follow()  # the next press is another one
 
     def tap(self, key):
         """A key that is down for a moment, shorter than a picture takes."""
         self._desktop.xdotool("key", key)
 
-    def copied(self, button):
-        """The words that a button copies for a shell."""
-        self.click(button, lambda: self.has("messages"), "a message")
+    def copied(self):
+        """The words of the command line that Ctrl + C copies."""
+        self.tap("ctrl+c")
         self.follow()
         return shlex.split(self._desktop.client.clipboard())
 
