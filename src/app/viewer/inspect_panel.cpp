@@ -37,6 +37,7 @@ void list(const Panel& panel) {
                        studio::bytes_text(static_cast<double>(target.texture->bytes()))));
   }
   ImGui::EndChild();
+  panel.widgets.mark("shown list");
 }
 
 // Of a target with several.

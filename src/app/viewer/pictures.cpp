@@ -61,7 +61,10 @@ void Viewer::draw_pictures(const PictureArea& area, double now) {
   const bool looks = std::exchange(inspected_, inspected) != inspected;
   if (missing > 0) facts_.distance.reset();
   const bool measures = both && step.rests && missing <= 1 && !pending && !facts_.distance;
-  if (!step.draw && !looks && !measures) return;
+  if (!step.draw && !measures && !(looks && both)) {
+    if (looks && a_.painter.has_picture()) guarded([&] { inspect(a_); });  // the renderer's last frame is A's
+    return;
+  }
   if (step.anew) {
     a_.painter.cut();
     b_.painter.cut();

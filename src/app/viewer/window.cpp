@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <utility>
 
 #include "app/viewer/theme.h"
@@ -64,6 +65,14 @@ Window::Window(const Options& options)
     auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
     if (action == GLFW_PRESS && key >= 0) self.taps_.push_back({key, modifiers});
   });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+    static_cast<Window*>(glfwGetWindowUserPointer(window))->pointer_ = {x, y};
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
+    auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+    if (button < 0 || button >= static_cast<int>(self.buttons_.size())) return;
+    self.clicks_.push_back({.button = button, .down = action == GLFW_PRESS, .at = self.pointer_});
+  });
   set_up_interface();
 }
 
@@ -108,7 +117,7 @@ void Window::apply_scale(float scale) {
 }
 
 bool Window::poll(double seconds) {
-  if (seconds > 0) {
+  if (seconds > 0 && clicks_.empty()) {
     glfwWaitEventsTimeout(seconds);
   } else {
     glfwPollEvents();
@@ -140,11 +149,23 @@ void Window::hold_taps() {
   taps_ = std::move(later);
 }
 
+void Window::play_click() {
+  ImGuiIO& io = ImGui::GetIO();
+  if (!clicks_.empty()) {
+    const Click& click = clicks_.front();
+    buttons_.at(static_cast<std::size_t>(click.button)) = click.down;
+    io.MousePos = {click.at.x, click.at.y};
+    clicks_.pop_front();
+  }
+  std::copy(buttons_.begin(), buttons_.end(), std::begin(io.MouseDown));
+}
+
 void Window::begin() {
   if (const float scale = wanted_scale(); scale != scale_) apply_scale(scale);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   hold_taps();
+  play_click();
   ImGui::NewFrame();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <functional>
+#include <array>
+#include <deque>
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
@@ -52,8 +53,16 @@ class Window {
   struct Tap {
     int key = 0, modifiers = 0;
   };
+  // It sees as well where the pointer is by then, not where a button went down or up: such a change has a frame to
+  // itself.
+  struct Click {
+    int button = 0;
+    bool down = false;
+    glm::vec2 at{0};
+  };
   void set_up_interface();
   void hold_taps();
+  void play_click();
   void apply_scale(float scale);
   float wanted_scale() const;
 
@@ -62,7 +71,10 @@ class Window {
   float scale_ = 0;
   studio::Size size_;
   std::vector<std::string> dropped_;
-  std::vector<Tap> taps_, held_;  // since the last frame; in that frame
+  std::vector<Tap> taps_, held_;   // since the last frame; in that frame
+  glm::vec2 pointer_{0};           // as of the events so far, not of this moment
+  std::deque<Click> clicks_;       // to come
+  std::array<bool, 5> buttons_{};  // that are down, of those played; as many as Dear ImGui knows
 };
 
 // Whether there is a display to open a window on; else what is missing.

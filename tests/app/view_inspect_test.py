@@ -1,0 +1,130 @@
+"""penumbra view: AOVs and textures to look at, A against B, files from a list, an animation that stands still."""
+
+import subprocess
+
+import pictures
+from desktop import LEFT, WHEEL_DOWN
+from support import PROGRAM, main
+from window import STEPS, WindowTest, read
+
+MOVING, POSTS = pictures.scene("moving"), pictures.scene("posts")
+THESIS = ("--technique", "thesis", "--set", "sun.angle=4")
+LIGHT = "target shadow 1/view 0/light 0/"
+
+
+def is_grey(picture):
+    return all(red == green == blue for red, green, blue in picture.colors())
+
+
+class Inspect(WindowTest):
+    def look_at(self, viewer, what):
+        """From the list, which is longer than its place."""
+        before, item = viewer.rest(), f"show={what}"
+        viewer.point_at("shown list")
+
+        def is_seen():
+            _, top, _, bottom = viewer.box("shown list")
+            viewer.follow()
+            if top <= viewer.box(item)[1] and viewer.box(item)[3] <= bottom:
+                return True
+            self.desktop.xdotool("click", WHEEL_DOWN)
+            return False
+
+        viewer.wait_for(is_seen, item)
+        viewer.click(item, lambda: viewer.has("legend"), "a legend")
+        return viewer.changed(before)
+
+    def test_steps_of_the_mask_are_looked_at_part_by_part(self):
+        with self.view(STEPS, *THESIS) as viewer:
+            colored = viewer.rest()
+            self.assertFalse(is_grey(colored))
+            viewer.open_tab("Inspect", "show=picture")
+            raw = self.look_at(viewer, f"{LIGHT}denoise/texels")
+            self.assertTrue(is_grey(raw))
+            self.assertGreater(len(raw.colors()), 30)
+            viewer.choose("part", "mean blocker distance")
+            distance = viewer.changed(raw)
+            self.assertFalse(is_grey(distance))
+            self.assertGreater(len(distance.colors()), 30)
+            viewer.choose("part", "visibility")
+            self.assertEqual(viewer.changed(distance), raw)
+            mask = self.look_at(viewer, "target shadow 1/view 0/mask")
+            self.assertTrue(is_grey(mask))
+            self.assertGreater(mask.differing(raw), 0)  # the filters' work
+
+    def test_noise_is_shown_texel_by_texel(self):
+        with self.view(STEPS, *THESIS) as viewer:
+            viewer.open_tab("Inspect", "show=picture")
+            noise = self.look_at(viewer, "target shadow 1/noise/blue")
+            self.assertTrue(is_grey(noise))
+            rows = [bytes(row) for row in noise.rows]
+            left, top, right, bottom = viewer.box("picture")
+            self.assertLessEqual(len(set(rows)), 64)
+            self.assertGreater(len(set(rows)), 20)
+            self.assertGreater((right - left) * (bottom - top), 64 * 64)
+
+
+class Compare(WindowTest):
+    def test_two_truths_are_not_traced_against_each_other(self):
+        small = {"size": (640, 300)}
+        with self.view(STEPS, "--technique", "truth", "--set", "truth.samples=8", **small) as viewer:
+            truth = viewer.rest()
+            self.assertGreater(len(truth.colors()), 8)  # lit, dark, and between
+            viewer.open_tab("Compare", "compare")
+            viewer.click("compare", lambda: viewer.has("b"), "the choice of B")
+            both = viewer.rest()
+            viewer.choose("b", "none")
+            self.assertGreater(viewer.changed(both).differing(both, by=16), 0.001)
+
+
+class Click(WindowTest):
+    def test_it_hits_where_it_was_though_the_pointer_is_gone_by_then(self):
+        with self.view(STEPS) as viewer:
+            viewer.open_tab("Compare", "compare")
+            viewer.point_at("compare")
+            self.desktop.xdotool("click", LEFT, "mousemove", *self.desktop.corner)
+            viewer.wait_for(lambda: viewer.has("b"), "the choice of B")
+
+
+class Open(WindowTest):
+    def test_a_scene_is_chosen_from_a_list(self):
+        (self.folder / "inner").mkdir()
+        for name, scene in (("a.glb", STEPS), ("inner/b.glb", POSTS)):
+            (self.folder / name).write_bytes(scene.read_bytes())
+        wanted = self.picture_of(POSTS)
+        with self.view("a.glb") as viewer:
+            before = viewer.rest()
+            viewer.press("ctrl+o", lambda: viewer.has("open=inner/"), "the list of files")
+            self.assertTrue(viewer.has("open=a.glb"))
+            viewer.click("open=inner/", lambda: viewer.has("open=b.glb"), "the inner folder")
+            self.assertFalse(viewer.has("open=a.glb"))
+            viewer.click("open=b.glb", lambda: not viewer.has("open=b.glb"), "the list to close")
+            self.assertEqual(viewer.changed(before), wanted)
+
+    def test_escape_closes_the_list_and_not_the_window(self):
+        with self.view(STEPS) as viewer:
+            before = viewer.rest()
+            viewer.press("ctrl+o", lambda: viewer.has("open up"), "the list of files")
+            viewer.press("Escape", lambda: not viewer.has("open up"), "the list to close")
+            self.assertEqual(viewer.rest(), before)
+
+
+class Animation(WindowTest):
+    def test_a_moment_that_was_stepped_to_is_the_copied_commands(self):
+        with self.view(MOVING, *THESIS, size=(640, 600)) as viewer:
+            shown = viewer.rest()
+            viewer.open_tab("Scene", "step")
+            for _ in range(3):
+                before = viewer.seen("frame")
+                viewer.click("step", lambda before=before: viewer.seen("frame") != before, "the next frame")
+                shown = viewer.changed(shown)
+            command = viewer.copied()
+            self.assertIn("--warmup-still", command)
+            subprocess.run([PROGRAM, *command[1:]], cwd=self.folder, check=True, capture_output=True)
+        written = read(next(self.folder.glob("*.png")))
+        part = written.crop(0, written.height // 3, written.width, written.height * 3 // 4)
+        self.assertEqual(part.differing(shown, by=1), 0)
+
+
+if __name__ == "__main__":
+    main()
