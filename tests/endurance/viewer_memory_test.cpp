@@ -11,6 +11,13 @@
 namespace penumbra::test {
 namespace {
 
+// A sanitizer keeps freed memory for a while, and finds at the end what nobody can reach any more.
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool holds_freed_memory = true;
+#else
+constexpr bool holds_freed_memory = false;
+#endif
+
 // Bytes of this process in memory.
 std::size_t resident() {
   std::ifstream file("/proc/self/statm");
@@ -62,7 +69,7 @@ TEST_F(ViewerMemory, IsFlatOverTwoThousandFramesWithAHistory) {
   draw(*scene, 2000);
   EXPECT_EQ(device_.target_bytes(), targets);
   EXPECT_EQ(device_.shaders.size(), programs);
-  EXPECT_LT(resident(), before + 4 * mebibyte);
+  if (!holds_freed_memory) EXPECT_LT(resident(), before + 4 * mebibyte);
 }
 
 TEST_F(ViewerMemory, IsFlatOverFiftyScenesAndTheirSizes) {
@@ -75,7 +82,7 @@ TEST_F(ViewerMemory, IsFlatOverFiftyScenesAndTheirSizes) {
   for (int i = 0; i < 12; ++i) show(i);
   const std::size_t before = resident();
   for (int i = 0; i < 50; ++i) show(i);
-  EXPECT_LT(resident(), before + 8 * mebibyte);
+  if (!holds_freed_memory) EXPECT_LT(resident(), before + 8 * mebibyte);
 }
 
 }  // namespace
