@@ -86,6 +86,16 @@ class Click(WindowTest):
             viewer.wait_for(lambda: viewer.has("b"), "the choice of B")
 
 
+class Key(WindowTest):
+    def test_one_that_goes_up_and_down_again_within_a_frame_is_pressed_twice(self):
+        with self.view(STEPS) as viewer:
+            self.assertTrue(viewer.has("technique"))
+            self.desktop.xdotool("keydown", "Tab")
+            viewer.wait_for(lambda: not viewer.has("technique"), "the panel to go")
+            self.desktop.xdotool("keyup", "Tab", "keydown", "Tab", "keyup", "Tab")
+            viewer.wait_for(lambda: viewer.has("technique"), "the panel to come back")
+
+
 class Open(WindowTest):
     def test_a_scene_is_chosen_from_a_list(self):
         (self.folder / "inner").mkdir()

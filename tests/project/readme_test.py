@@ -37,7 +37,7 @@ def commands(block):
     lines = []
     for line in block.splitlines():
         if line.startswith(ENDLESS):
-            line = f"timeout --preserve-status --signal=INT 20 {line} || test $? = 130"
+            line = f"code=0; timeout --preserve-status --signal=INT 20 {line} || code=$?; test $code = 130"
         if not line.startswith(LEFT_OUT):
             lines.append(line + "\n")
     return "".join(lines)

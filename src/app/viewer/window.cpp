@@ -61,18 +61,7 @@ Window::Window(const Options& options)
     auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
     self.dropped_.insert(self.dropped_.end(), paths, paths + count);
   });
-  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
-    auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
-    if (action == GLFW_PRESS && key >= 0) self.taps_.push_back({key, modifiers});
-  });
-  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
-    static_cast<Window*>(glfwGetWindowUserPointer(window))->pointer_ = {x, y};
-  });
-  glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
-    auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
-    if (button < 0 || button >= static_cast<int>(self.buttons_.size())) return;
-    self.clicks_.push_back({.button = button, .down = action == GLFW_PRESS, .at = self.pointer_});
-  });
+  record_input();
   set_up_interface();
 }
 
@@ -80,6 +69,22 @@ Window::~Window() {
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
+}
+
+void Window::record_input() {
+  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
+    auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+    if (key < 0 || key >= static_cast<int>(self.keys_.size()) || action == GLFW_REPEAT) return;
+    self.changes_.push_back({.is_button = false, .code = key, .down = action == GLFW_PRESS});
+  });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+    static_cast<Window*>(glfwGetWindowUserPointer(window))->pointer_ = {x, y};
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
+    auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+    if (button < 0 || button >= static_cast<int>(self.buttons_.size())) return;
+    self.changes_.push_back({.is_button = true, .code = button, .down = action == GLFW_PRESS, .at = self.pointer_});
+  });
 }
 
 void Window::set_up_interface() {
@@ -117,7 +122,7 @@ void Window::apply_scale(float scale) {
 }
 
 bool Window::poll(double seconds) {
-  if (seconds > 0 && clicks_.empty()) {
+  if (seconds > 0 && changes_.empty()) {
     glfwWaitEventsTimeout(seconds);
   } else {
     glfwPollEvents();
@@ -127,45 +132,34 @@ bool Window::poll(double seconds) {
 
 void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
-void Window::hold_taps() {
+// In the order of the events. What goes down together has a frame, then what goes up, so that nothing is both in one,
+// and a key goes down with its modifiers. A button ends its frame: the pointer is in one place.
+void Window::play_input() {
   ImGuiIO& io = ImGui::GetIO();
-  const auto holds = [](const std::vector<Tap>& taps, int key) {
-    return std::any_of(taps.begin(), taps.end(), [key](const Tap& tap) { return tap.key == key; });
-  };
-  const auto is_down = [this](int key) { return glfwGetKey(window_, key) == GLFW_PRESS; };
-  std::vector<Tap> now, later;  // a second tap of a key comes a frame after the first one's end
-  for (const Tap& tap : taps_) (holds(held_, tap.key) || holds(now, tap.key) ? later : now).push_back(tap);
-  for (const Tap& tap : held_) io.KeysDown[tap.key] = is_down(tap.key) && !holds(later, tap.key);
-  if (!held_.empty()) {
-    io.KeyCtrl = is_down(GLFW_KEY_LEFT_CONTROL) || is_down(GLFW_KEY_RIGHT_CONTROL);
-    io.KeyShift = is_down(GLFW_KEY_LEFT_SHIFT) || is_down(GLFW_KEY_RIGHT_SHIFT);
-  }
-  for (const Tap& tap : now) {
-    io.KeysDown[tap.key] = true;
-    io.KeyCtrl = io.KeyCtrl || (tap.modifiers & GLFW_MOD_CONTROL) != 0;
-    io.KeyShift = io.KeyShift || (tap.modifiers & GLFW_MOD_SHIFT) != 0;
-  }
-  held_ = std::move(now);
-  taps_ = std::move(later);
-}
-
-void Window::play_click() {
-  ImGuiIO& io = ImGui::GetIO();
-  if (!clicks_.empty()) {
-    const Click& click = clicks_.front();
-    buttons_.at(static_cast<std::size_t>(click.button)) = click.down;
-    io.MousePos = {click.at.x, click.at.y};
-    clicks_.pop_front();
+  const bool down = !changes_.empty() && changes_.front().down;
+  for (bool clicked = false; !clicked && !changes_.empty() && changes_.front().down == down;) {
+    const Change change = changes_.front();
+    changes_.pop_front();
+    clicked = change.is_button;
+    if (clicked) {
+      buttons_.at(static_cast<std::size_t>(change.code)) = change.down;
+      io.MousePos = {change.at.x, change.at.y};
+    } else {
+      keys_.at(static_cast<std::size_t>(change.code)) = change.down;
+    }
   }
   std::copy(buttons_.begin(), buttons_.end(), std::begin(io.MouseDown));
+  std::copy(keys_.begin(), keys_.end(), std::begin(io.KeysDown));
+  io.KeyCtrl = keys_[GLFW_KEY_LEFT_CONTROL] || keys_[GLFW_KEY_RIGHT_CONTROL];
+  io.KeyShift = keys_[GLFW_KEY_LEFT_SHIFT] || keys_[GLFW_KEY_RIGHT_SHIFT];
+  io.KeyAlt = keys_[GLFW_KEY_LEFT_ALT] || keys_[GLFW_KEY_RIGHT_ALT];
 }
 
 void Window::begin() {
   if (const float scale = wanted_scale(); scale != scale_) apply_scale(scale);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
-  hold_taps();
-  play_click();
+  play_input();
   ImGui::NewFrame();
 }
 

@@ -49,20 +49,17 @@ class Window {
   gl::Context& context() { return *context_; }
 
  private:
-  // Dear ImGui sees which keys are down between two frames; a tap on a slow machine is over by then.
-  struct Tap {
-    int key = 0, modifiers = 0;
-  };
-  // It sees as well where the pointer is by then, not where a button went down or up: such a change has a frame to
-  // itself.
-  struct Click {
-    int button = 0;
+  // Dear ImGui sees which keys and buttons are down between two frames, and where the pointer is by then. On a slow
+  // machine a tap or a click is over by that time, and the hand elsewhere: each change is played where it was.
+  struct Change {
+    bool is_button = false;
+    int code = 0;  // GLFW's
     bool down = false;
-    glm::vec2 at{0};
+    glm::vec2 at{0};  // the pointer
   };
+  void record_input();
   void set_up_interface();
-  void hold_taps();
-  void play_click();
+  void play_input();
   void apply_scale(float scale);
   float wanted_scale() const;
 
@@ -71,10 +68,10 @@ class Window {
   float scale_ = 0;
   studio::Size size_;
   std::vector<std::string> dropped_;
-  std::vector<Tap> taps_, held_;   // since the last frame; in that frame
-  glm::vec2 pointer_{0};           // as of the events so far, not of this moment
-  std::deque<Click> clicks_;       // to come
-  std::array<bool, 5> buttons_{};  // that are down, of those played; as many as Dear ImGui knows
+  glm::vec2 pointer_{0};          // as of the events so far, not of this moment
+  std::deque<Change> changes_;    // to come
+  std::array<bool, 512> keys_{};  // that are down, of those played; as many as Dear ImGui knows
+  std::array<bool, 5> buttons_{};
 };
 
 // Whether there is a display to open a window on; else what is missing.
