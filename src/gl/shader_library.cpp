@@ -47,13 +47,16 @@ void ShaderLibrary::changed(std::string_view file) {
     const bool depends = std::ranges::find(entry.program->files(), file) != entry.program->files().end();
     if (depends || !entry.error.empty()) entry.stale = true;
   }
-  std::erase_if(entries_, [&](const auto& each) { return each.second.stale && is_idle(each.second); });
 }
 
 ShaderLibrary::Reload ShaderLibrary::reload() {
   Reload result;
   for (auto& [desc, entry] : entries_) {
     if (!entry.stale) continue;
+    if (is_idle(entry)) {  // whether it still fails is not known
+      entry.error.clear();
+      continue;
+    }
     rebuild(desc, entry);
     ++(entry.error.empty() ? result.rebuilt : result.failed);
   }

@@ -15,7 +15,8 @@ namespace penumbra::gl {
 // Compiles programs on first use and keeps them. Reload is first load: changed() marks what depends on a file, and
 // reload(), or the next get(), compiles it again by the same path; while that fails the last good program keeps
 // serving. A parameter that is compiled in makes a program of each of its values: where frames are counted, those that
-// no frame uses any more are let go, past `most_idle` of them or when one of their files changes.
+// no frame uses any more are idle. A save compiles them no more, but their next get() does; past `most_idle` of them
+// the oldest are let go.
 class ShaderLibrary {
  public:
   static constexpr std::size_t most_idle = 64;
@@ -35,10 +36,10 @@ class ShaderLibrary {
   struct Reload {
     std::size_t rebuilt = 0, failed = 0;
   };
-  // Rebuilds now what is to be rebuilt.
+  // Rebuilds now what is to be rebuilt, but for idle programs.
   Reload reload();
   // Messages of programs whose rebuild failed and that draw with their last good version, each once; empty when all is
-  // well.
+  // well. An idle program's fault is told from its next get() on.
   std::vector<std::string> errors() const;
   // Whether any get() since the last call gave a last good version because the rebuild failed.
   bool take_outdated() { return std::exchange(outdated_, false); }
