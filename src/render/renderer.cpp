@@ -82,6 +82,8 @@ std::vector<gl::ProgramDesc> Renderer::all_programs(const ParamSet& defaults) {
   return all;
 }
 
+void Renderer::forget_view(int id) { state_->soft_shadows.forget_view(id); }
+
 const shadow::Registry& Renderer::registry() const { return state_->soft_shadows.registry(); }
 
 }  // namespace penumbra::render

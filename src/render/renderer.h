@@ -72,6 +72,9 @@ class Renderer {
   // The last frame as it is shown: RGB, 8 bits, sRGB, rows top to bottom.
   std::vector<std::uint8_t> read_display() const;
 
+  // Gives back what is kept for FrameInputs::view; its next frame is a cut. Not while its frame is the last one drawn.
+  void forget_view(int id);
+
   // Every program that any parameters can build (variants tool, tests).
   std::vector<gl::ProgramDesc> all_programs(const ParamSet& defaults);
 

@@ -108,6 +108,7 @@ LightFrame SoftShadows::render_light(const Inputs& inputs, const Light& light, P
   const LibraryFrame work({device_, state_->programs, technique, inputs, light, mask, frame, state, prefix});
   if (technique.prepare) technique.prepare(work);
   if (technique.resolve) {
+    device_.drop(prefix + "denoise/");
     technique.resolve(work);
   } else if (is_denoised(state.params)) {
     frame.notes = &draw_denoised(work, registry_);

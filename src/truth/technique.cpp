@@ -233,6 +233,11 @@ std::optional<TruthTechnique::Pending> TruthTechnique::pending() const {
   return share ? std::optional(Pending{*share}) : std::nullopt;
 }
 
+void TruthTechnique::cancel() {
+  state_->worker.cancel();
+  state_->awaited.reset();
+}
+
 void TruthTechnique::stop() { state_->stop(); }
 
 const TruthTechnique::Last& TruthTechnique::last() const { return state_->last; }

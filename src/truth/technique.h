@@ -46,6 +46,8 @@ class TruthTechnique {
   // next frame has it.
   std::optional<Pending> pending() const;
 
+  // Nobody waits for what is traced in the background; returns at once, while the scene is read for a moment more.
+  void cancel();
   // Stops what is traced in the background, and returns when nothing refers to the scene any more: to be called before
   // the GpuScene of the last frames, or its scene::Scene, goes. The next frame begins anew.
   void stop();

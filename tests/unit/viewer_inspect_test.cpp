@@ -169,13 +169,13 @@ TEST(ViewerInspect, EveryAovHasALookThatFitsIt) {
   }
 }
 
-TEST(ViewerInspect, TheDifferenceHasNoSign) {
+TEST(ViewerInspect, TheDifferenceIsThatOfTheFarthestChannelWithoutASign) {
   const Values a{.width = 1, .height = 2, .channels = 2, .numbers = {1, 2, 3, 4}};
   const Values b{.width = 1, .height = 2, .channels = 2, .numbers = {4, 2, 1, 4.5f}};
   for (const Values& values : {difference(a, b), difference(b, a)}) {
-    EXPECT_EQ(values.numbers, (std::vector<float>{3, 0, 2, 0.5f}));
+    EXPECT_EQ(values.numbers, (std::vector<float>{3, 2}));
     EXPECT_EQ(values.height, 2);
-    EXPECT_EQ(values.channels, 2);
+    EXPECT_EQ(values.channels, 1);
   }
 }
 

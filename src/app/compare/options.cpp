@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "app/reference.h"
 #include "app/techniques.h"
 #include "io/text.h"
 
@@ -12,8 +13,6 @@ namespace {
 
 using studio::add_value;
 using studio::fail_usage;
-
-constexpr int seeds = 65536, seed_shift = seeds / 2;  // of sampling.seed, for a sampled reference
 
 // Of all reference pictures, which are kept until the last technique is drawn.
 constexpr long long largest_reference = 2LL << 30;
@@ -134,10 +133,8 @@ ParamSet params_of(const CompareOptions& options, const Contender& contender, co
 ParamSet reference_params(const CompareOptions& options, const shadow::Registry& registry) {
   ParamSet params =
       params_of(options, {.label = options.reference, .name = options.reference, .assignments = {}}, registry);
-  // What approximates is no reference, whatever the contenders do.
-  for (const char* name : {"history.reuse", "filter.penumbra", "filter.visibility"}) params.reset(name);
+  make_reference(params);
   if (options.samples) params.set("truth.samples", *options.samples);
-  if (options.reference != "truth") params.set("sampling.seed", (params.get_int("sampling.seed") + seed_shift) % seeds);
   return params;
 }
 

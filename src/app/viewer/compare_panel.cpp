@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/reference.h"
 #include "app/viewer/panels.h"
 
 namespace penumbra::app {
@@ -27,7 +28,9 @@ void choose_b(const Panel& panel) {
   Comparison& comparison = panel.state.comparison;
   const shadow::Registry& registry = panel.facts.techniques;
   const std::string current = comparison.params.get_word("technique");
-  row("B is", "Its technique; all else was A's when B was made.");
+  row("B is",
+      "Its technique; sun, exposure and surroundings are A's, all else was when B was made. The truth and brute force "
+      "have neither history nor filters.");
   const bool open = ImGui::BeginCombo("##b", current.c_str(), ImGuiComboFlags_HeightLarge);
   panel.widgets.mark("b");
   if (!open) return;
@@ -35,6 +38,7 @@ void choose_b(const Panel& panel) {
     if (ImGui::Selectable(name.c_str(), name == current)) {
       comparison.params = panel.state.document.params;
       registry.select(comparison.params, name);
+      if (is_reference(name)) make_reference(comparison.params);
     }
     panel.widgets.mark("b=" + name);
   }

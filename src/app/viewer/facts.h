@@ -41,11 +41,13 @@ struct Facts {
   std::string command;               // what draws this picture in a shell
   std::optional<double> tracing;     // share of the truth that is traced
   bool both_traced = false;          // A and B: B is not drawn
+  bool b_waits = false;              // what is seen of B is older than A
   std::optional<Distance> distance;  // A to B, both at rest
   std::optional<glm::ivec2> probed;  // the picture's pixel under the cursor
   std::vector<ProbeRow> probe;
-  Look look;  // of what is inspected
-  Range range;
+  Look look;     // of what is inspected
+  Range range;   // of the colours
+  Range values;  // of A's values; the same but for differences
 };
 
 }  // namespace penumbra::app

@@ -94,7 +94,7 @@ Look look_of(const Inspection& inspection, const gl::Device& device) {
 }
 
 Values read_values(const Inspection& inspection, const render::Renderer& renderer, const gl::Device& device) {
-  if (inspection.what.starts_with("target ")) return read_target(inspection, device);
+  if (is_target(inspection.what)) return read_target(inspection, device);
   return read_aov(inspection.what, renderer, device);
 }
 
@@ -132,9 +132,13 @@ glm::vec3 color_at(ColorScale scale, float value) {
 }
 
 Values difference(const Values& a, const Values& b) {
-  Values result = a;
-  std::transform(a.numbers.begin(), a.numbers.end(), b.numbers.begin(), result.numbers.begin(),
-                 [](float x, float y) { return std::abs(x - y); });
+  Values result{.width = a.width, .height = a.height, .channels = 1, .numbers = {}};
+  const auto channels = static_cast<std::size_t>(a.channels);
+  for (std::size_t i = 0; i < a.numbers.size(); i += channels) {
+    float largest = 0;
+    for (std::size_t c = i; c < i + channels; ++c) largest = std::max(largest, std::abs(a.numbers[c] - b.numbers[c]));
+    result.numbers.push_back(largest);
+  }
   return result;
 }
 

@@ -57,7 +57,7 @@ std::vector<std::uint8_t> colors_of(const Values& values, const Look& look, cons
 // The colour of one value, 0..1 of a range or a label's index, for legends.
 glm::vec3 color_at(ColorScale scale, float value);
 
-// |a - b|, channel by channel. Both are equally large.
+// |a - b|, of the channel where it is largest. Both are equally large.
 Values difference(const Values& a, const Values& b);
 
 }  // namespace penumbra::app

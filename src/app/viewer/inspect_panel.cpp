@@ -82,12 +82,12 @@ void range(const Panel& panel) {
   }
   row("automatic range", "The range of colours is that of the values.");
   if (ImGui::Checkbox("##automatic", &inspection.automatic)) {
-    inspection.low = panel.facts.range.low;
-    inspection.high = panel.facts.range.high;
+    inspection.low = panel.facts.values.low;
+    inspection.high = panel.facts.values.high;
   }
   panel.widgets.mark("automatic range");
   if (!inspection.automatic) {
-    const float span = std::max(panel.facts.range.high - panel.facts.range.low, 1e-4f);
+    const float span = std::max(panel.facts.values.high - panel.facts.values.low, 1e-4f);
     row("from", "The value with the first colour.");
     ImGui::DragFloat("##low", &inspection.low, span * 0.005f, 0, 0, "%.4g");
     panel.widgets.mark("range low");

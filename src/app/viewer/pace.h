@@ -19,6 +19,8 @@ class Pace {
   // full size; `wanted`: enough of them. `busy`: a hand is at the panel, so that only what has changed is drawn.
   Step next(double now, bool changed, bool busy, int frames, int wanted);
 
+  bool software() const { return software_; }
+
   // A frame was drawn.
   void drew(int divisor, double milliseconds);
 

@@ -62,6 +62,13 @@ void Painter::draw(LoadedScene& scene, const Document& document, int divisor) {
   milliseconds_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+void Painter::forget() {
+  device_.drop(fmt::format("viewer/picture {}", view_));
+  picture_ = nullptr;
+  drawn_.clear();
+  cut();
+}
+
 void Painter::keep(const gl::Texture& display) {
   picture_ = &device_.target(fmt::format("viewer/picture {}", view_), display.desc());
   gl::glCopyImageSubData(display.id(), GL_TEXTURE_2D, 0, 0, 0, 0, picture_->id(), GL_TEXTURE_2D, 0, 0, 0, 0,

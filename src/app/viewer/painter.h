@@ -39,6 +39,9 @@ class Painter {
   // The present picture is to be drawn once more: what it shows was not ready.
   void again() { frames_ = 0; }
 
+  // There is no picture.
+  void forget();
+
   // Pictures of the present state at full size, drawn since it changed.
   int frames() const { return divisor_ == 1 ? frames_ : 0; }
   double milliseconds() const { return milliseconds_; }

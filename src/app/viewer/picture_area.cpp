@@ -98,7 +98,7 @@ void draw_line(const Panel& panel, const PictureArea& area) {
     ImGui::GetWindowDrawList()->AddLine({line, top}, {line, bottom}, IM_COL32(255, 255, 255, 200), 1.0f);
     panel.widgets.mark("line", {line - grip, top}, {line + grip, bottom});
     letter({line - 1.6f * gap, bottom - 2 * gap}, "A");
-    letter({line + 1.0f * gap, bottom - 2 * gap}, "B");
+    letter({line + 1.0f * gap, bottom - 2 * gap}, panel.facts.b_waits ? "B before the change" : "B");
   } else {
     const char* name = comparison.how == Comparing::a ? "A" : comparison.how == Comparing::b ? "B" : "|A - B|";
     letter({area.corner.x + gap, bottom - 2 * gap}, name);
@@ -124,8 +124,8 @@ void take_time_keys(const Panel& panel) {
   // The same keys walk from widget to widget.
   if (!moves || ImGui::GetIO().NavVisible) return;
   if (ImGui::IsKeyPressed(GLFW_KEY_SPACE, false)) state.playback.playing = !state.playback.playing;
-  if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT)) ++state.document.frame;
-  if (ImGui::IsKeyPressed(GLFW_KEY_LEFT)) state.document.frame = std::max(state.document.frame - 1, 0);
+  if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT)) state.document.step(1);
+  if (ImGui::IsKeyPressed(GLFW_KEY_LEFT)) state.document.step(-1);
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 #include "app/viewer/targets.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <utility>
 
 #include "core/names.h"
 #include "gl/texture_format.h"
@@ -87,6 +90,16 @@ void keep_channel(Values& values, int channel) {
 
 }  // namespace
 
+bool is_target(std::string_view what) { return what.starts_with(target_prefix); }
+
+std::string target_of_view(std::string_view what, int view) {
+  std::string name(what);
+  constexpr std::string_view first = "/view 0/";
+  const std::size_t at = is_target(what) ? name.find(first) : name.npos;
+  if (at != name.npos) name.replace(at, first.size(), fmt::format("/view {}/", view));
+  return name;
+}
+
 std::vector<TargetPart> parts_of(const gl::Device::NamedTarget& target) {
   std::vector<TargetPart> parts;
   if (const std::array<Field, 3>* fields = fields_of(*target.texture)) {
@@ -125,7 +138,8 @@ std::string about_target(std::string_view name) {
       About{"/history texels",
             "The packed mask that the next frame takes up; the last frame's and this one's in turn."},
       About{"/history surfaces", "Depth and normal by which the next frame knows its surfaces."},
-      About{"/movement map", "How much of what a texel's kernel may see has moved: 0 none, 1 all."},
+      About{"/movement map",
+            "How much of what a texel's kernel may see has moved: 0 none, 1 all. Of the last frame with motion."},
       About{"/shadow map", "Depth from the light, 0 to 1, a layer each cascade."},
       About{"/depth pyramid", "The nearest and the farthest depth from the light below a texel of each level."},
       About{"/noise/", "The tile that turns or shifts each pixel's sample points."},

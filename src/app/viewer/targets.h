@@ -12,6 +12,11 @@ namespace penumbra::app {
 
 // The textures that passes draw to, as they can be looked at: what lies between two steps of a frame.
 
+// Whether Inspection::what names one.
+bool is_target(std::string_view what);
+// The list names textures of the first view: that of another one which is the same there.
+std::string target_of_view(std::string_view what, int view);
+
 // What a texel says, of which one is looked at: fields of a packed one, or channels.
 struct TargetPart {
   std::string name;

@@ -11,6 +11,7 @@
 #include "app/viewer/pace.h"
 #include "app/viewer/painter.h"
 #include "app/viewer/picture_area.h"
+#include "app/viewer/plan.h"
 #include "app/viewer/render_process.h"
 #include "app/viewer/scene_loader.h"
 #include "app/viewer/settings.h"
@@ -41,8 +42,11 @@ class Viewer {
     Side(gl::Device& device, render::Renderer& renderer, int view) : painter(device, renderer, view) {}
     Painter painter;
     Costs costs;
+    int divisor = 1;                    // of the last frame
     Values values;                      // of what is inspected
-    std::vector<float> visibility;      // when the distance was measured
+    int reads = 0;                      // of them, so far
+    std::vector<float> visibility;      // if measured
+    bool measured = false;              // at rest, as it is seen
     const gl::Texture* seen = nullptr;  // its picture, or its values in false colour
   };
 
@@ -56,11 +60,18 @@ class Viewer {
   PictureArea build_interface(float seconds);
   void side_panel(const Panel& panel);
   void draw_pictures(const PictureArea& area, double now);
+  Situation situation_of(const Document& b, const PictureArea& area, double now);
+  void take_traced(const Document& b);
+  void draw_sides(const Plan& plan, const Document& b, double now);
+  void measure(Side& side);
+  void forget_b();
   bool draw_side(Side& side, const Document& document, int divisor, bool measures);
   Document document_b() const;
   void inspect(Side& side);
+  void color_values(bool differ);
   void color(Side& side, const Values& values, int number);
   void measure_distance();
+  bool probes(const PictureArea& area) const;
   void probe(const PictureArea& area);
   void show_pictures();
   PresentInputs present_inputs(const glm::ivec2& window_size) const;
@@ -97,8 +108,10 @@ class Viewer {
   CostReader cost_reader_;
   WidgetMap widgets_;
   Facts facts_;
-  std::string aimed_;  // the options that camera and sun were last chosen for
-  std::string inspected_;
+  std::string aimed_;                // the options that camera and sun were last chosen for
+  std::string inspected_, colored_;  // what values were last read of, and coloured
+  bool readable_ = false;            // the renderer's last frame; it is
+  bool last_is_b_ = false;           // B's
   std::optional<glm::ivec2> last_probed_;
   glm::ivec2 window_size_{1};  // of the picture's area, pixels
   bool vsync_ = true;
