@@ -1,10 +1,10 @@
 #include "app/output_names.h"
 
 #include <algorithm>
-#include <cctype>
 #include <regex>
 #include <vector>
 
+#include "core/names.h"
 #include "studio/usage.h"
 
 namespace penumbra::app {
@@ -30,16 +30,11 @@ std::vector<Place> places_in(const std::string& stem) {
   return places;
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 }  // namespace
 
 OutputNames::OutputNames(const std::string& output, bool sequence) {
   const std::filesystem::path path(output);
-  extension_ = lower(path.extension().string());
+  extension_ = lower_case(path.extension().string());
   if (extension_ != ".png" && extension_ != ".exr")
     studio::fail_usage("'{}' is not a kind of picture that can be written: use .png or .exr", output);
   const std::string stem = path.stem().string();

@@ -12,12 +12,6 @@
 namespace penumbra {
 namespace {
 
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  std::ranges::transform(result, result.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
 // Edits that turn a into b, where an edit inserts, removes or replaces a character or swaps two neighbours.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last, last(b.size() + 1), now(b.size() + 1);
@@ -51,6 +45,12 @@ std::string quoted_list(std::span<const std::string> names) {
 }
 
 }  // namespace
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  std::ranges::transform(result, result.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
 
 std::vector<std::string> near_names(std::string_view name, std::span<const std::string> candidates) {
   const std::string wanted = lower_case(name);

@@ -7,6 +7,9 @@
 
 namespace penumbra {
 
+// `text` with the letters A to Z as a to z.
+std::string lower_case(std::string_view text);
+
 // The candidates nearest to `name` by edit distance, best first, at most three; empty when nothing is near.
 std::vector<std::string> near_names(std::string_view name, std::span<const std::string> candidates);
 

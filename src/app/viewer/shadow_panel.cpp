@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/viewer/panels.h"
+#include "core/names.h"
 
 namespace penumbra::app {
 
@@ -22,13 +23,10 @@ bool is_technique(const shadow::Registry& registry, const std::string& group) {
 
 // Words of a search, each somewhere in the name or the sentence.
 bool found(const Param& param, const std::string& search) {
-  const std::string text = param.name + " " + param.help;
-  const auto same = [](char a, char b) { return std::tolower(a) == std::tolower(b); };
-  for (std::size_t begin = 0; begin < search.size();) {
-    const std::size_t end = std::min(search.find(' ', begin), search.size());
-    const auto hit = std::search(text.begin(), text.end(), search.begin() + static_cast<std::ptrdiff_t>(begin),
-                                 search.begin() + static_cast<std::ptrdiff_t>(end), same);
-    if (hit == text.end() && end > begin) return false;
+  const std::string text = lower_case(param.name + " " + param.help), words = lower_case(search);
+  for (std::size_t begin = 0; begin < words.size();) {
+    const std::size_t end = std::min(words.find(' ', begin), words.size());
+    if (text.find(words.substr(begin, end - begin)) == std::string::npos) return false;
     begin = end + 1;
   }
   return true;
