@@ -176,12 +176,14 @@ void FileWatch::refresh() {
 
 std::vector<fs::path> FileWatch::poll(std::chrono::milliseconds timeout) {
   const Clock::time_point end = Clock::now() + timeout;
+  tell_fault();
   while (true) {
     Clock::time_point now = Clock::now();
     read_events(now);
     const Clock::time_point due = std::min(last_event_ + rest, first_event_ + longest_unrest);
     if (pending_ && now >= due) {
       if (std::vector<fs::path> changes = take_changes(); !changes.empty()) return changes;
+      tell_fault();
       now = Clock::now();
     }
     if (now >= end) return {};
@@ -189,6 +191,10 @@ std::vector<fs::path> FileWatch::poll(std::chrono::milliseconds timeout) {
     pollfd wait = {.fd = inotify_, .events = POLLIN, .revents = 0};
     ::poll(&wait, 1, static_cast<int>(left.count()));
   }
+}
+
+void FileWatch::tell_fault() {
+  if (fault_) std::rethrow_exception(std::exchange(fault_, nullptr));
 }
 
 void FileWatch::read_events(Clock::time_point now) {
@@ -234,7 +240,11 @@ std::vector<fs::path> FileWatch::take_changes() {
   const bool all = std::exchange(lost_, false);
   const std::set<fs::path> touched = std::exchange(touched_, {});
   const std::map<fs::path, Stamp> before = known_.files;
-  refresh();
+  try {
+    refresh();
+  } catch (...) {
+    fault_ = std::current_exception();
+  }
   std::set<fs::path> changes;
   for (const auto& [file, stamp] : before) {
     const auto now = known_.files.find(file);

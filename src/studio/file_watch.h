@@ -3,6 +3,7 @@
 #include <chrono>
 #include <compare>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -38,7 +39,7 @@ class FileWatch {
   // The files that were written, made, renamed or deleted, each once, sorted, under the names that they were added by
   // (a folder's: folder / "lib/a.glsl"). Waits at most `timeout`; without one it never waits, which is cheap enough for
   // every frame. After an overflow of the system's queue all files are told. Throws Error as add_folder() does, when a
-  // new sub-folder can't be watched any more.
+  // new sub-folder can't be watched any more; changes that were found with it are told first.
   std::vector<std::filesystem::path> poll(std::chrono::milliseconds timeout = std::chrono::milliseconds(0));
 
  private:
@@ -66,6 +67,7 @@ class FileWatch {
   Survey survey() const;
   bool watch_places();
   void refresh();
+  void tell_fault();
 
   void read_events(Clock::time_point now);
   void note(int descriptor, std::uint32_t mask, const char* name);
@@ -80,6 +82,7 @@ class FileWatch {
   bool lost_ = false;  // the queue overflowed
   Clock::time_point first_event_, last_event_;
   std::set<std::filesystem::path> touched_;
+  std::exception_ptr fault_;  // not told yet
 };
 
 }  // namespace penumbra::studio
