@@ -29,7 +29,6 @@ SceneLoader::~SceneLoader() { dropped_.request_stop(); }
 
 void SceneLoader::start(studio::StageOptions options) {
   dropped_.request_stop();
-  std::erase_if(ending_, is_ready);
   if (loading_.valid()) ending_.push_back(std::move(loading_));
   options_ = std::move(options);
   dropped_ = {};
@@ -39,6 +38,7 @@ void SceneLoader::start(studio::StageOptions options) {
 }
 
 std::optional<SceneLoader::Loaded> SceneLoader::finished() {
+  std::erase_if(ending_, is_ready);
   if (!loading_.valid() || !is_ready(loading_)) return {};
   const studio::StageOptions options = std::exchange(options_, {});
   return Loaded{options, loading_.get()};
