@@ -44,6 +44,22 @@ TEST_F(ViewerFileList, HasWhatCanBeOpenedFoldersFirst) {
   EXPECT_EQ(app::list_folder(root_).note, "");
 }
 
+TEST_F(ViewerFileList, KnowsAPresetInLettersOfEitherCase) {
+  EXPECT_TRUE(app::is_preset("a/b.toml"));
+  EXPECT_TRUE(app::is_preset("b.Toml"));
+  EXPECT_FALSE(app::is_preset("b.glb"));
+  EXPECT_FALSE(app::is_preset("toml"));
+}
+
+TEST_F(ViewerFileList, HasTheFolderAboveHoweverItsNameIsWritten) {
+  fs::create_directory(root_ / "in");
+  for (const char* name : {"in", "in/", "in/.", "./in/../in//"}) {
+    EXPECT_EQ(app::list_folder(root_ / name).folder, root_ / "in") << name;
+    EXPECT_EQ(app::list_folder(root_ / name).folder.parent_path(), root_) << name;
+  }
+  EXPECT_EQ(app::list_folder("/").folder, "/");
+}
+
 TEST_F(ViewerFileList, SaysWhatItCannotList) {
   EXPECT_NE(app::list_folder(root_ / "none").note, "");
   EXPECT_TRUE(app::list_folder(root_ / "none").entries.empty());
@@ -58,6 +74,8 @@ TEST_F(ViewerFileList, BeginsWhereTheSceneLies) {
   EXPECT_EQ(app::folder_of((root_ / "a.glb").string()), root_);
   EXPECT_EQ(app::folder_of((root_ / "gone/b.glb").string()), root_);
   EXPECT_EQ(app::folder_of(root_.string()), root_);
+  EXPECT_EQ(app::folder_of((root_ / "./a.glb").string()), root_);
+  EXPECT_EQ(app::folder_of("./b.glb"), fs::current_path());
   EXPECT_TRUE(fs::equivalent(app::folder_of(""), fs::current_path()));
   EXPECT_TRUE(fs::equivalent(app::folder_of("b.glb"), fs::current_path()));
 }

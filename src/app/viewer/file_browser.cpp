@@ -31,7 +31,7 @@ std::filesystem::path list(const Panel& panel, const FileList& files) {
     if (entry.is_folder) {
       wanted = path;
     } else {
-      (path.extension() == ".toml" ? panel.state.requests.open_preset : panel.state.requests.open) = path.string();
+      (is_preset(path) ? panel.state.requests.open_preset : panel.state.requests.open) = path.string();
       ImGui::CloseCurrentPopup();
     }
   }

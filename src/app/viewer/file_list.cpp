@@ -1,9 +1,9 @@
 #include "app/viewer/file_list.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <system_error>
+
+#include "core/names.h"
 
 namespace penumbra::app {
 
@@ -11,18 +11,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string extension_of(const fs::path& file) { return lower_case(file.extension().string()); }
+
 bool can_be_opened(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array known{".gltf", ".glb", ".toml"};
-  return std::find(known.begin(), known.end(), extension) != known.end();
+  const std::string extension = extension_of(file);
+  return extension == ".gltf" || extension == ".glb" || is_preset(file);
+}
+
+fs::path normal(const fs::path& folder) {
+  const fs::path path = folder.lexically_normal();
+  return path.has_filename() || !path.has_relative_path() ? path : path.parent_path();
 }
 
 }  // namespace
 
+bool is_preset(const fs::path& file) { return extension_of(file) == ".toml"; }
+
 FileList list_folder(const fs::path& folder) {
-  FileList list{.folder = folder.lexically_normal(), .entries = {}, .note = {}};
+  FileList list{.folder = normal(folder), .entries = {}, .note = {}};
   std::error_code fault;
   for (fs::directory_iterator entry(folder, fault), end; !fault && entry != end; entry.increment(fault)) {
     const std::string name = entry->path().filename().string();
@@ -46,7 +52,7 @@ fs::path folder_of(const std::string& file) {
   std::error_code fault;
   fs::path folder = fs::absolute(file.empty() ? "." : file, fault);
   while (!fs::is_directory(folder, fault) && folder.has_relative_path()) folder = folder.parent_path();
-  return folder;
+  return normal(folder);
 }
 
 }  // namespace penumbra::app

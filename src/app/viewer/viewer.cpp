@@ -151,11 +151,7 @@ void Viewer::frame(float seconds) {
 
 void Viewer::take_events() {
   for (const std::string& path : window_.dropped()) {
-    if (std::filesystem::path(path).extension() == ".toml") {
-      state_.requests.open_preset = path;
-    } else {
-      state_.requests.open = path;
-    }
+    (is_preset(path) ? state_.requests.open_preset : state_.requests.open) = path;
   }
   take_loaded();
   take_saved();
