@@ -9,8 +9,10 @@
 
 #include "app/render_options.h"
 #include "app/techniques.h"
+#include "core/error.h"
 #include "render/renderer.h"
 #include "studio/command_line.h"
+#include "studio/usage.h"
 
 namespace penumbra {
 namespace {
@@ -125,6 +127,18 @@ class ViewerDocument : public testing::Test {
 
   std::mt19937 random_{11};
 };
+
+TEST(ViewerDocumentFrame, StepsToWhatRenderTakes) {
+  Document document;
+  document.step(-1);
+  EXPECT_EQ(document.frame, 0);
+  document.step(app::last_frame);
+  EXPECT_EQ(document.frame, app::last_frame);
+  EXPECT_NO_THROW(studio::parse_frames("--frames", fmt::format("0:{}", document.frame)));
+  EXPECT_THROW(studio::parse_frames("--frames", fmt::format("0:{}", document.frame + 1)), Error);
+  document.step(3);
+  EXPECT_EQ(document.frame, 2);
+}
 
 TEST_F(ViewerDocument, RenderDrawsWhatIsShown) {
   for (int i = 0; i < 300; ++i) {

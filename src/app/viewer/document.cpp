@@ -43,6 +43,8 @@ void add_params(std::vector<std::string>& arguments, const ParamSet& params) {
 
 }  // namespace
 
+void Document::step(int frames) { frame = std::max(frame + frames, 0) % (last_frame + 1); }
+
 int warmup_of(const Document& document) {
   constexpr int settled = 31;
   const bool remembers = document.params.get_bool("history.reuse") && document.params.get_word("technique") != "truth";

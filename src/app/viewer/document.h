@@ -11,6 +11,9 @@
 
 namespace penumbra::app {
 
+// The last one that --frames takes.
+constexpr int last_frame = 999'999;
+
 // What is shown, in the terms of `penumbra render`: its options and the values of the parameters. Time is that of frame
 // `frame`, counted from --time at --fps.
 struct Document {
@@ -18,6 +21,8 @@ struct Document {
   ParamSet params;
   int frame = 0;
 
+  // So many frames on: past the last that render takes it begins anew, before the first there is none.
+  void step(int frames);
   double seconds() const { return studio::time_of(stage, frame); }
 };
 

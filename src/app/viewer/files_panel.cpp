@@ -18,8 +18,8 @@ void files_panel(const Panel& panel) {
   ImGui::InputInt2("##frames", &state.sequence.first);
   panel.widgets.mark("frames");
   end_rows();
-  state.sequence.first = std::clamp(state.sequence.first, 0, 999'999);
-  state.sequence.last = std::clamp(state.sequence.last, state.sequence.first, 999'999);
+  state.sequence.first = std::clamp(state.sequence.first, 0, last_frame);
+  state.sequence.last = std::clamp(state.sequence.last, state.sequence.first, last_frame);
   ImGui::Checkbox("with every AOV", &state.with_aovs);
   panel.widgets.mark("with aovs");
   tooltip("Layers of an EXR, or a PNG each");

@@ -221,7 +221,7 @@ void Viewer::play(float seconds) {
   playback.carried += std::min(seconds, 0.25f) * playback.speed * state_.document.stage.fps;
   const double whole = std::floor(playback.carried);
   playback.carried -= whole;
-  state_.document.frame += static_cast<int>(whole);
+  state_.document.step(static_cast<int>(whole));
 }
 
 PictureArea Viewer::build_interface(float seconds) {
