@@ -142,6 +142,9 @@ void Viewer::frame(float seconds) {
   guarded([&] { probe(area); });
   guarded([&] { show_pictures(); });
   gl::leave_initial_state();
+  // Also what a program that was idle at the save tells only now.
+  if (device_.shaders.take_outdated() || !facts_.shader_errors.empty())
+    facts_.shader_errors = studio::shader_faults(device_.shaders);
   if (facts_.at_rest) widgets_.mark_rest();
   window_.show();
   cost_reader_.read(device_.timers, ImGui::GetTime());
