@@ -120,6 +120,26 @@ class Reload(WindowTest):
 
 
 class Scene(WindowTest):
+    def test_a_scene_that_could_not_be_read_is_shown_once_it_is_mended(self):
+        file = self.folder / "scene.glb"
+        file.write_bytes(STEPS.read_bytes()[:1000])
+        wanted = self.picture_of(STEPS)
+        with self.view(file, rests=False) as viewer:
+            viewer.wait_for(lambda: viewer.has("messages"), "a message")
+            file.write_bytes(STEPS.read_bytes())
+            viewer.wait_for(lambda: viewer.rest() == wanted, "the scene")
+
+    def test_a_scene_that_could_not_take_the_place_of_the_last_does_so_once_it_is_mended(self):
+        file = self.folder / "scene.glb"
+        file.write_bytes(KNIFE_EDGE.read_bytes()[:1000])
+        wanted = self.picture_of(KNIFE_EDGE)
+        with self.view(STEPS) as viewer:
+            before = viewer.rest()
+            self.desktop.client.drop(viewer.window, *viewer.middle("picture"), file)
+            viewer.wait_for(lambda: viewer.has("messages"), "a message")
+            file.write_bytes(KNIFE_EDGE.read_bytes())
+            self.assertEqual(viewer.changed(before), wanted)
+
     def test_a_scene_that_is_saved_again_is_shown(self):
         file = self.folder / "scene.glb"
         file.write_bytes(STEPS.read_bytes())

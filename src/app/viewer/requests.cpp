@@ -29,12 +29,19 @@ void Viewer::do_requests() {
 }
 
 void Viewer::open(const std::string& scene) {
+  // Before it is read: one that fails is tried again when it is saved.
+  guarded([&] {
+    std::vector<std::filesystem::path> files{scene};
+    if (scene_ != nullptr)
+      files.insert(files.end(), scene_->stage.scene.files.begin(), scene_->stage.scene.files.end());
+    if (watch_) watch_->set_files(std::move(files));
+  });
   studio::StageOptions stage;
   stage.scene = scene;
   stage.fps = options_.fps;
   stage.frames = studio::FrameRange{};
-  // Camera, sun and time of the command line are the first scene's.
-  loader_.start(scene_ == nullptr && scene == options_.scene ? state_.document.stage : stage);
+  // Camera, sun, ground and time are those of one scene: of the shown one, the command line's of the first.
+  loader_.start(scene == state_.document.stage.scene ? state_.document.stage : stage);
 }
 
 void Viewer::open_preset(const std::string& file) {

@@ -40,8 +40,7 @@ void SceneLoader::start(studio::StageOptions options) {
 std::optional<SceneLoader::Loaded> SceneLoader::finished() {
   std::erase_if(ending_, is_ready);
   if (!loading_.valid() || !is_ready(loading_)) return {};
-  const studio::StageOptions options = std::exchange(options_, {});
-  return Loaded{options, loading_.get()};
+  return Loaded{options_, loading_.get()};
 }
 
 }  // namespace penumbra::app

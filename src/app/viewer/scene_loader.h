@@ -27,8 +27,10 @@ class SceneLoader {
     studio::Stage stage;
   };
   std::optional<Loaded> finished();
+  // What was started last, whatever came of it.
+  const studio::StageOptions& asked() const { return options_; }
   // The file that is being read; empty: none.
-  const std::string& file() const { return options_.scene; }
+  std::string file() const { return loading_.valid() ? options_.scene : ""; }
 
  private:
   studio::StageOptions options_;

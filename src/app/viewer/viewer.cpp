@@ -195,12 +195,19 @@ void Viewer::take_saved() {
   if (!watch_) return;
   guarded([&] {
     const std::vector<std::filesystem::path> changed = watch_->poll();
-    const auto of_scene = [this](const std::filesystem::path& file) {
-      const std::vector<std::filesystem::path>& files = scene_->stage.scene.files;
-      return std::find(files.begin(), files.end(), file) != files.end();
+    const auto is_saved = [&](const std::filesystem::path& file) {
+      return std::find(changed.begin(), changed.end(), file) != changed.end();
     };
-    if (scene_ != nullptr && std::any_of(changed.begin(), changed.end(), of_scene))
-      loader_.start(state_.document.stage);
+    const studio::StageOptions& shown = state_.document.stage;
+    const studio::StageOptions& asked = loader_.asked();
+    // One that is being read, or that could not be.
+    const bool is_other = scene_ == nullptr || asked.scene != shown.scene;
+    if (is_other && is_saved(asked.scene)) {
+      loader_.start(asked);
+    } else if (scene_ != nullptr && (!is_other || loader_.file().empty())) {
+      const std::vector<std::filesystem::path>& files = scene_->stage.scene.files;
+      if (std::any_of(files.begin(), files.end(), is_saved)) loader_.start(shown);
+    }
     if (!changed.empty() && !options_.glsl.empty()) take_shaders(changed);
   });
 }
