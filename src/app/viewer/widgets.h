@@ -43,7 +43,7 @@ void end_rows();
 // program can't take (maps over the limit of memory) leaves it and is told in `fault`.
 bool param_row(ParamSet& params, const Param& param, WidgetMap& widgets, std::string& fault);
 
-// Text that appears over the last widget after a moment.
+// Text that appears while the pointer is over the last widget.
 void tooltip(const std::string& text);
 
 }  // namespace penumbra::app

@@ -29,7 +29,6 @@ class Window {
 
   // Takes the events that are there; waits for one up to `seconds`, 0: not at all. False: the window is to be closed.
   bool poll(double seconds);
-  void close();
 
   // A frame of the user interface begins; show() ends it and puts it on the screen.
   void begin();
@@ -45,8 +44,6 @@ class Window {
   void set_vsync(bool on);
   // Files that were dropped on the window since the last call.
   std::vector<std::string> dropped();
-
-  gl::Context& context() { return *context_; }
 
  private:
   // Dear ImGui sees which keys and buttons are down between two frames, and where the pointer is by then. On a slow
