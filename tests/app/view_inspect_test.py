@@ -77,6 +77,24 @@ class Compare(WindowTest):
             self.assertGreater(viewer.changed(both).differing(both, by=16), 0.001)
 
 
+    def test_the_truth_is_traced_at_rest_and_measured(self):
+        with self.view(STEPS, "--technique", "thesis", "--set", "truth.samples=8") as viewer:
+            viewer.open_tab("Compare", "compare")
+            viewer.click("compare", lambda: viewer.has("b"), "the choice of B")
+            viewer.choose("b", "truth")
+            viewer.wait_for(lambda: viewer.has("distance"), "the figures")
+            wiped = viewer.rest()
+            viewer.click("compare=B", lambda: not viewer.has("line"), "B alone")
+            truth = viewer.changed(wiped)
+            viewer.click("compare=A", lambda: True, "A alone")
+            self.assertGreater(viewer.changed(truth).differing(truth, by=8), 0.001)
+            figures = viewer.seen("distance")
+            viewer.drag(*viewer.middle("picture"), LEFT, lambda: not viewer.has("distance"), "the figures to go")
+            viewer.wait_for(lambda: viewer.has("distance"), "new figures")
+            viewer.rest()
+            self.assertGreater(viewer.seen("distance").differing(figures), 0)
+
+
 class Click(WindowTest):
     def test_it_hits_where_it_was_though_the_pointer_is_gone_by_then(self):
         with self.view(STEPS) as viewer:

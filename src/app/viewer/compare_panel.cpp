@@ -94,6 +94,7 @@ void distance(const Panel& panel) {
   figure("largest", fmt::format("{:.4f}", figures.max), "The greatest error of a pixel.");
   figure("FLIP", fmt::format("{:.5f}", panel.facts.distance->flip), "How different the two look, 0 to 1.");
   end_rows();
+  panel.widgets.mark("distance");
 }
 
 }  // namespace
