@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <system_error>
 
 #include "app/commands.h"
 #include "app/viewer/view_options.h"
@@ -18,8 +19,9 @@ int run_view(const Arguments& arguments) {
   if (const std::string missing = missing_display(); !missing.empty())
     fail("no window can be opened: {}; penumbra render draws into a file, penumbra watch does so at every change",
          missing);
-  if (!options.scene.empty() && !std::filesystem::exists(options.scene))
-    fail("cannot read {}: no such file", io::quoted(options.scene));
+  std::error_code fault;
+  if (!options.scene.empty() && !std::filesystem::exists(options.scene, fault))
+    fail("cannot read {}: {}", io::quoted(options.scene), fault ? fault.message() : "no such file");
   studio::limit_threads(options);
   return Viewer(options).run();
 }

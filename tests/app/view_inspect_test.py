@@ -95,6 +95,21 @@ class Compare(WindowTest):
             self.assertGreater(viewer.seen("distance").differing(figures), 0)
 
 
+class Preset(WindowTest):
+    def test_it_takes_the_place_of_no_other_file(self):
+        scene = self.folder / "mine.glb"
+        scene.write_bytes(STEPS.read_bytes())
+        with self.view("mine.glb") as viewer:
+            viewer.point_at("preset file")
+            self.desktop.xdotool("click", LEFT)
+            viewer.follow()
+            self.desktop.xdotool("key", "ctrl+a", "type", "mine.glb")
+            viewer.tap("Return")
+            viewer.follow()
+            viewer.click("save preset", lambda: viewer.has("messages"), "a message")
+            self.assertEqual(scene.read_bytes(), STEPS.read_bytes())
+
+
 class Click(WindowTest):
     def test_it_hits_where_it_was_though_the_pointer_is_gone_by_then(self):
         with self.view(STEPS) as viewer:
@@ -112,6 +127,23 @@ class Key(WindowTest):
             viewer.wait_for(lambda: not viewer.has("technique"), "the panel to go")
             self.desktop.xdotool("keyup", "Tab", "keydown", "Tab", "keyup", "Tab")
             viewer.wait_for(lambda: viewer.has("technique"), "the panel to come back")
+
+
+    def test_a_name_that_is_typed_quickly_comes_as_it_was_typed(self):
+        (self.folder / "hatch.glb").write_bytes(POSTS.read_bytes())
+        wanted = self.picture_of(POSTS)
+        with self.view(STEPS) as viewer:
+            before = viewer.rest()
+            viewer.open_tab("Scene", "scene file")
+            viewer.point_at("scene file")
+            self.desktop.xdotool("click", LEFT)
+            viewer.follow()
+            # Each letter of it would be a shortcut.
+            self.desktop.xdotool("key", "ctrl+a", "type", "--delay", "1", f"{self.folder}/hx")
+            self.desktop.xdotool("key", "BackSpace", "type", "--delay", "1", "atch.glb")
+            self.desktop.xdotool("key", "Return")
+            self.assertEqual(viewer.changed(before), wanted)
+            self.assertTrue(viewer.has("scene file"))
 
 
 class Open(WindowTest):

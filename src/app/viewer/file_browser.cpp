@@ -20,12 +20,8 @@ std::filesystem::path list(const Panel& panel, const FileList& files) {
   ImGui::BeginChild("files", {0, -ImGui::GetFrameHeightWithSpacing()}, /* border= */ true);
   for (const FileList::Entry& entry : files.entries) {
     const std::string label = entry.is_folder ? entry.name + "/" : entry.name;
-    ImGui::PushID(label.c_str());
-    const bool chosen = ImGui::Selectable("##entry", false, ImGuiSelectableFlags_DontClosePopups);
+    const bool chosen = choice(label, false, ImGuiSelectableFlags_DontClosePopups);
     panel.widgets.mark("open=" + label);
-    ImGui::SameLine(0, 0);
-    ImGui::TextUnformatted(label.c_str());
-    ImGui::PopID();
     if (!chosen) continue;
     const std::filesystem::path path = files.folder / entry.name;
     if (entry.is_folder) {

@@ -32,6 +32,12 @@ ImVec2 inner(const ImVec2& corner, float x, float y) {
   return {corner.x + x * gap, corner.y + y * gap};
 }
 
+// So many letters' heights, and no more than the picture that begins at this corner is wide.
+float room_for_text(const ImVec2& corner, float most) {
+  const float gaps = 4 * ImGui::GetStyle().WindowPadding.x;
+  return std::clamp(ImGui::GetIO().DisplaySize.x - corner.x - gaps, 1.0f, ImGui::GetFontSize() * most);
+}
+
 struct Key {
   const char* keys;
   const char* what;
@@ -67,13 +73,17 @@ void help_overlay(const Panel& panel) {
   if (begin_overlay("keys", {size.x * 0.5f, size.y * 0.5f}, {0.5f, 0.5f})) {
     ImGui::TextUnformatted("Mouse and keys");
     ImGui::Separator();
-    ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit);
-    for (const Key& key : keys) {
-      ImGui::TableNextRow();
+    // Side by side where they would not fit below each other.
+    const bool fits = static_cast<float>(keys.size() + 3) * ImGui::GetTextLineHeightWithSpacing() < size.y;
+    const std::size_t columns = fits ? 1 : 2, rows = (keys.size() + columns - 1) / columns;
+    ImGui::BeginTable("keys", static_cast<int>(2 * columns), ImGuiTableFlags_SizingFixedFit);
+    for (std::size_t i = 0; i < rows * columns; ++i) {
+      const std::size_t place = i % columns * rows + i / columns;
       ImGui::TableNextColumn();
-      ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", key.keys);
+      if (place < keys.size())
+        ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", keys.at(place).keys);
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(key.what);
+      if (place < keys.size()) ImGui::TextUnformatted(keys.at(place).what);
     }
     ImGui::EndTable();
   }
@@ -85,7 +95,7 @@ void messages_overlay(const Panel& panel, const ImVec2& corner, double now) {
   std::erase_if(messages, [now](const Message& message) { return message.until < now; });
   if (messages.empty()) return;
   if (begin_overlay("messages", inner(corner, 1, -1), {0, 1})) {
-    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 40.0f);
+    ImGui::PushTextWrapPos(room_for_text(corner, 40.0f));
     for (const Message& message : messages) {
       const ImVec4 color = message.is_error ? ImVec4(1.0f, 0.45f, 0.38f, 1) : ImGui::GetStyleColorVec4(ImGuiCol_Text);
       ImGui::TextColored(color, "%s", message.text.c_str());
@@ -99,7 +109,7 @@ void shader_errors_overlay(const Panel& panel, const ImVec2& corner) {
   if (panel.facts.shader_errors.empty()) return;
   if (begin_overlay("shader errors", inner(corner, 1, 1), {0, 0})) {
     ImGui::TextColored({1.0f, 0.45f, 0.38f, 1}, "A shader does not compile: the last good one draws.");
-    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 44.0f);
+    ImGui::PushTextWrapPos(room_for_text(corner, 44.0f));
     for (const std::string& error : panel.facts.shader_errors) ImGui::TextUnformatted(error.c_str());
     ImGui::PopTextWrapPos();
   }
@@ -173,14 +183,14 @@ void status_bar(const Panel& panel) {
   const Facts& facts = panel.facts;
   std::string text;
   if (!facts.loading.empty()) text += fmt::format("loading {}   ", facts.loading);
+  if (facts.tracing) text += fmt::format("tracing {:.0f} %   ", *facts.tracing * 100);
   if (facts.scene != nullptr) {
     const glm::ivec2 full(panel.state.document.stage.size.width, panel.state.document.stage.size.height);
     text += fmt::format("{} × {}", facts.drawn_size.x, facts.drawn_size.y);
     if (facts.drawn_size != full) text += fmt::format(" of {} × {}", full.x, full.y);
     text += fmt::format("   {:.1f} ms   {}", facts.costs_a.frame(), panel.state.document.params.get_word("technique"));
-    text += facts.at_rest ? "   at rest" : fmt::format("   frame {}", facts.frames);
+    text += facts.at_rest ? "   at rest" : fmt::format("   {} drawn", facts.frames);
   }
-  if (facts.tracing) text += fmt::format("   tracing {:.0f} %", *facts.tracing * 100);
   if (facts.device.software) text += "   software rasteriser";
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text.c_str());
@@ -195,6 +205,13 @@ void status_bar(const Panel& panel) {
 
 namespace {
 
+// Both ends of what would hide the picture.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t most = 600;
+  if (text.size() <= most) return text;
+  return text.substr(0, most / 2) + " ... " + text.substr(text.size() - most / 2);
+}
+
 void add(State& state, Message message) {
   constexpr std::size_t most = 6;
   const auto same = [&](const Message& other) { return other.text == message.text; };
@@ -205,8 +222,8 @@ void add(State& state, Message message) {
 
 }  // namespace
 
-void tell(State& state, const std::string& text, double now) { add(state, {text, false, now + 6}); }
+void tell(State& state, const std::string& text, double now) { add(state, {shortened(text), false, now + 6}); }
 
-void tell_error(State& state, const std::string& text, double now) { add(state, {text, true, now + 20}); }
+void tell_error(State& state, const std::string& text, double now) { add(state, {shortened(text), true, now + 20}); }
 
 }  // namespace penumbra::app

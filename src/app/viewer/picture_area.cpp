@@ -2,6 +2,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -100,7 +101,8 @@ void draw_line(const Panel& panel, const PictureArea& area) {
     letter({line - 1.6f * gap, bottom - 2 * gap}, "A");
     letter({line + 1.0f * gap, bottom - 2 * gap}, panel.facts.b_waits ? "B before the change" : "B");
   } else {
-    const char* name = comparison.how == Comparing::a ? "A" : comparison.how == Comparing::b ? "B" : "|A - B|";
+    const std::string difference = fmt::format("|A - B| × {:.0f}", comparison.gain);
+    const char* name = comparison.how == Comparing::a ? "A" : comparison.how == Comparing::b ? "B" : difference.c_str();
     letter({area.corner.x + gap, bottom - 2 * gap}, name);
   }
 }

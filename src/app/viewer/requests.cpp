@@ -2,11 +2,14 @@
 #include <imgui.h>
 
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "app/output_names.h"
 #include "app/techniques.h"
 #include "app/viewer/viewer.h"
+#include "core/error.h"
+#include "io/output_file.h"
 #include "io/presets.h"
 #include "studio/text.h"
 
@@ -17,10 +20,7 @@ void Viewer::do_requests() {
   guarded([&] {
     if (wanted.open) open(*wanted.open);
     if (wanted.open_preset) open_preset(*wanted.open_preset);
-    if (wanted.save_preset) {
-      io::write_preset(*wanted.save_preset, state_.document.params);
-      tell(state_, "wrote " + *wanted.save_preset, ImGui::GetTime());
-    }
+    if (wanted.save_preset) save_preset(*wanted.save_preset);
     if ((wanted.write_picture || wanted.write_sequence) && scene_ != nullptr) write_picture(wanted.write_sequence);
     if (wanted.frame_all && scene_ != nullptr) frame_all();
     if (wanted.copy_command && scene_ != nullptr) copy_command();
@@ -45,11 +45,25 @@ void Viewer::open(const std::string& scene) {
 }
 
 void Viewer::open_preset(const std::string& file) {
+  if (std::error_code unread; std::filesystem::is_fifo(file, unread))
+    fail("cannot read {}: a pipe, for which a window would wait", io::quoted(file));
   studio::ShadowOptions options;
   options.presets = {file};
   state_.document.params = studio::resolve_params(options, all_techniques());
   state_.preset_file = file;
   tell(state_, "took the values of " + file, ImGui::GetTime());
+}
+
+// In the place of nothing but another preset.
+void Viewer::save_preset(const std::string& file) {
+  if (!is_preset(file)) fail("cannot write {}: a preset's name ends in .toml", io::quoted(file));
+  if (scene_ != nullptr) {
+    for (const std::filesystem::path& read : scene_->stage.scene.files) {
+      if (io::would_replace(file, read)) fail("cannot write {}: the scene is made of it", io::quoted(file));
+    }
+  }
+  io::write_preset(file, state_.document.params);
+  tell(state_, "wrote " + file, ImGui::GetTime());
 }
 
 std::vector<std::string> Viewer::command() const {

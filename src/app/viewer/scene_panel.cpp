@@ -23,7 +23,7 @@ void file(const Panel& panel) {
   row("recent", "Scenes that were opened before.");
   if (ImGui::BeginCombo("##recent", state.recent.empty() ? "none" : "…")) {
     for (const std::string& path : state.recent) {
-      if (ImGui::Selectable(path.c_str())) state.requests.open = path;
+      if (choice(path)) state.requests.open = path;
       panel.widgets.mark("recent=" + path);
     }
     ImGui::EndCombo();
@@ -54,7 +54,7 @@ void choose_camera(const Panel& panel) {
   panel.widgets.mark("camera=automatic");
   const std::vector<std::string>& cameras = panel.facts.scene->cameras;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    if (ImGui::Selectable(fmt::format("{}  {}", i, cameras[i]).c_str())) look_through(std::to_string(i));
+    if (choice(fmt::format("{}  {}", i, cameras[i]))) look_through(std::to_string(i));
     panel.widgets.mark(fmt::format("camera={}", i));
   }
   ImGui::EndCombo();

@@ -78,6 +78,7 @@ class Viewer {
   void do_requests();
   void open(const std::string& scene);
   void open_preset(const std::string& file);
+  void save_preset(const std::string& file);
   std::vector<std::string> command() const;
   void copy_command();
   void write_picture(bool sequence);

@@ -155,6 +155,16 @@ bool param_row(ParamSet& params, const Param& param, WidgetMap& widgets, std::st
   }
 }
 
+bool choice(const std::string& text, bool chosen, ImGuiSelectableFlags flags) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::PushID(text.c_str());
+  const float width = std::max(ImGui::CalcTextSize(text.c_str()).x, ImGui::GetContentRegionAvail().x);
+  const bool taken = ImGui::Selectable("##choice", chosen, flags, {width, 0});
+  ImGui::PopID();
+  ImGui::GetWindowDrawList()->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  return taken;
+}
+
 void tooltip(const std::string& text) {
   if (!ImGui::IsItemHovered()) return;
   ImGui::BeginTooltip();

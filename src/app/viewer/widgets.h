@@ -46,4 +46,7 @@ bool param_row(ParamSet& params, const Param& param, WidgetMap& widgets, std::st
 // Text that appears while the pointer is over the last widget.
 void tooltip(const std::string& text);
 
+// A line of a list, whatever is in its text: ImGui ends a label at "##". True: it was chosen.
+bool choice(const std::string& text, bool chosen = false, ImGuiSelectableFlags flags = 0);
+
 }  // namespace penumbra::app

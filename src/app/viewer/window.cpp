@@ -75,7 +75,7 @@ void Window::record_input() {
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
     auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
     if (key < 0 || key >= static_cast<int>(self.keys_.size()) || action == GLFW_REPEAT) return;
-    self.changes_.push_back({.is_button = false, .code = key, .down = action == GLFW_PRESS});
+    self.changes_.push_back({.of = Change::Of::key, .code = key, .down = action == GLFW_PRESS});
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
     static_cast<Window*>(glfwGetWindowUserPointer(window))->pointer_ = {x, y};
@@ -83,7 +83,8 @@ void Window::record_input() {
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
     auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
     if (button < 0 || button >= static_cast<int>(self.buttons_.size())) return;
-    self.changes_.push_back({.is_button = true, .code = button, .down = action == GLFW_PRESS, .at = self.pointer_});
+    self.changes_.push_back(
+        {.of = Change::Of::button, .code = button, .down = action == GLFW_PRESS, .at = self.pointer_});
   });
 }
 
@@ -94,6 +95,11 @@ void Window::set_up_interface() {
   io.IniFilename = nullptr;  // the viewer keeps its own settings
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   ImGui_ImplGlfw_InitForOpenGL(window_, /* install_callbacks= */ true);
+  // In the place of the interface's own, which would take characters before the keys that came first.
+  glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
+    static_cast<Window*>(glfwGetWindowUserPointer(window))
+        ->changes_.push_back({.of = Change::Of::text, .code = static_cast<int>(character)});
+  });
   ImGui_ImplOpenGL3_Init("#version 450 core");
   apply_scale(wanted_scale());
 }
@@ -135,21 +141,65 @@ bool Window::poll(double seconds) {
   return glfwWindowShouldClose(window_) == GLFW_FALSE;
 }
 
-// In the order of the events. What goes down together has a frame, then what goes up, so that nothing is both in one,
-// and a key goes down with its modifiers. A button ends its frame: the pointer is in one place.
-void Window::play_input() {
+void Window::apply(const Change& change) {
   ImGuiIO& io = ImGui::GetIO();
-  const bool down = !changes_.empty() && changes_.front().down;
-  for (bool clicked = false; !clicked && !changes_.empty() && changes_.front().down == down;) {
-    const Change change = changes_.front();
-    changes_.pop_front();
-    clicked = change.is_button;
-    if (clicked) {
+  switch (change.of) {
+    case Change::Of::key:
+      keys_.at(static_cast<std::size_t>(change.code)) = change.down;
+      break;
+    case Change::Of::button:
       buttons_.at(static_cast<std::size_t>(change.code)) = change.down;
       io.MousePos = {change.at.x, change.at.y};
-    } else {
-      keys_.at(static_cast<std::size_t>(change.code)) = change.down;
-    }
+      break;
+    case Change::Of::text:
+      io.AddInputCharacter(static_cast<unsigned>(change.code));
+      break;
+  }
+}
+
+// What goes down together has a frame, then what goes up, so that nothing is both in one, and a key goes down with its
+// modifiers. A button ends its frame: the pointer is in one place.
+void Window::play_keys() {
+  const auto changes_state = [](const Change& change) { return change.of != Change::Of::text; };
+  const auto first = std::find_if(changes_.begin(), changes_.end(), changes_state);
+  const bool down = first != changes_.end() && first->down;
+  for (bool clicked = false; !clicked && !changes_.empty();) {
+    const Change change = changes_.front();
+    if (changes_state(change) && change.down != down) break;
+    changes_.pop_front();
+    apply(change);
+    clicked = change.of == Change::Of::button;
+  }
+}
+
+// Letters come as characters, as many as there are. A key that edits, or one with Ctrl, has a frame to itself after the
+// characters before it: a field takes characters first, and none with Ctrl.
+void Window::play_text() {
+  const auto is_letter = [&](const Change& change) {
+    const bool modified = keys_[GLFW_KEY_LEFT_CONTROL] || keys_[GLFW_KEY_RIGHT_CONTROL];
+    constexpr int first_special = GLFW_KEY_ESCAPE;
+    const bool shift = change.code == GLFW_KEY_LEFT_SHIFT || change.code == GLFW_KEY_RIGHT_SHIFT;
+    return change.of == Change::Of::text || shift ||
+           (change.of == Change::Of::key && change.code < first_special && !modified);
+  };
+  bool any = false;
+  while (!changes_.empty()) {
+    const Change change = changes_.front();
+    const bool letter = is_letter(change);
+    if (any && !letter) break;
+    changes_.pop_front();
+    apply(change);
+    if (!letter) break;
+    any = true;
+  }
+}
+
+void Window::play_input() {
+  ImGuiIO& io = ImGui::GetIO();
+  if (io.WantTextInput) {
+    play_text();
+  } else {
+    play_keys();
   }
   std::copy(buttons_.begin(), buttons_.end(), std::begin(io.MouseDown));
   std::copy(keys_.begin(), keys_.end(), std::begin(io.KeysDown));

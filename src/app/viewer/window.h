@@ -49,14 +49,18 @@ class Window {
   // Dear ImGui sees which keys and buttons are down between two frames, and where the pointer is by then. On a slow
   // machine a tap or a click is over by that time, and the hand elsewhere: each change is played where it was.
   struct Change {
-    bool is_button = false;
-    int code = 0;  // GLFW's
+    enum class Of { key, button, text };
+    Of of = Of::key;
+    int code = 0;  // GLFW's, or a character
     bool down = false;
-    glm::vec2 at{0};  // the pointer
+    glm::vec2 at{0};  // the pointer, for a button
   };
   void record_input();
   void set_up_interface();
   void play_input();
+  void play_text();
+  void play_keys();
+  void apply(const Change& change);
   void apply_scale(float scale);
   float wanted_scale() const;
 
