@@ -72,9 +72,12 @@ fs::path make_temporary(const fs::path& path, const fs::path& folder) {
   return name.data();
 }
 
-void refuse_folders(const fs::path& path) {
+// What is there is replaced as a whole: a device or a pipe would be one no more.
+void refuse_all_but_files(const fs::path& path) {
   std::error_code error;
-  if (!path.has_filename() || fs::is_directory(path, error)) fail_write(path, "it is a folder");
+  const fs::file_status there = fs::status(path, error);
+  if (!path.has_filename() || fs::is_directory(there)) fail_write(path, "it is a folder");
+  if (fs::exists(there) && !fs::is_regular_file(there)) fail_write(path, "it is a device or a pipe");
 }
 
 }  // namespace
@@ -82,7 +85,7 @@ void refuse_folders(const fs::path& path) {
 std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
 
 OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
-  refuse_folders(path_);
+  refuse_all_but_files(path_);
   const fs::path folder = folder_of(path_);
   std::error_code error;
   fs::create_directories(folder, error);
@@ -102,7 +105,7 @@ void OutputFile::commit() {
 }
 
 void check_writable(const fs::path& path) {
-  refuse_folders(path);
+  refuse_all_but_files(path);
   fs::path folder = folder_of(path);
   std::error_code error;
   while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder_of(folder);

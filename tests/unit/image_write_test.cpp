@@ -104,6 +104,18 @@ TEST_F(ImageWrite, AnUncommittedFileLeavesNothingAndTheOldOneStands) {
   EXPECT_EQ(bytes_of(folder_ / "x.txt"), "old");
 }
 
+TEST_F(ImageWrite, DevicesAndPipesStayWhatTheyAre) {
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  fs::create_symlink("pipe", folder_ / "link");
+  for (const char* name : {"pipe", "link"}) {
+    EXPECT_THROW(penumbra::io::check_writable(folder_ / name), Error);
+    EXPECT_THROW(penumbra::io::write_text(folder_ / name, "text"), Error);
+  }
+  EXPECT_THROW(penumbra::io::check_writable("/dev/null"), Error);
+  EXPECT_TRUE(fs::is_fifo(folder_ / "link"));
+  EXPECT_EQ(files().size(), 2u);
+}
+
 TEST_F(ImageWrite, TemporariesCanBeRemovedFromASignalHandler) {
   const penumbra::io::OutputFile file(folder_ / "x.txt");
   EXPECT_EQ(files().size(), 1u);

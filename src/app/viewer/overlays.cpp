@@ -213,7 +213,7 @@ std::string shortened(const std::string& text) {
 }
 
 void add(State& state, Message message) {
-  constexpr std::size_t most = 6;
+  constexpr std::size_t most = 4;
   const auto same = [&](const Message& other) { return other.text == message.text; };
   std::erase_if(state.messages, same);
   state.messages.push_back(std::move(message));

@@ -219,6 +219,8 @@ void Viewer::take_shaders(std::span<const std::filesystem::path> changed) {
   if (!reload.redraws()) return;
   a_.painter.cut();
   b_.painter.cut();
+  // One of a kind: editors save often.
+  std::erase_if(state_.messages, [](const Message& message) { return message.text.starts_with("programs compiled"); });
   tell(state_,
        fmt::format("programs compiled: {}, in {:.2f} s; what techniques remember begins anew", reload.rebuilt,
                    reload.seconds),

@@ -107,11 +107,6 @@ void Window::set_up_interface() {
 float Window::wanted_scale() const {
   float x = 1, y = 1;
   glfwGetWindowContentScale(window_, &x, &y);
-  // Where the desktop divides its units into pixels, as Wayland does, text in units is as large as it should be.
-  int units = 0, pixels = 0, unused = 0;
-  glfwGetWindowSize(window_, &units, &unused);
-  glfwGetFramebufferSize(window_, &pixels, &unused);
-  if (units > 0 && pixels > 0) x *= static_cast<float>(units) / static_cast<float>(pixels);
   return std::isfinite(x) && x > 0 ? x : 1.0f;
 }
 
