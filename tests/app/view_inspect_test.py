@@ -96,6 +96,21 @@ class Compare(WindowTest):
 
 
 class Preset(WindowTest):
+    def test_one_that_is_saved_draws_the_same_picture_by_render(self):
+        preset = self.folder / "preset.toml"
+        with self.view(STEPS, "--technique", "pcf", "--set", "sun.angle=6", size=(640, 400)) as viewer:
+            viewer.find("pcf.filter_taps")
+            viewer.fill_in("pcf.filter_taps", "7", lambda: viewer.has("pcf.filter_taps reset"), "other taps")
+            shown = viewer.rest()
+            viewer.click("save preset", preset.exists, "the preset")
+            left, top, right, bottom = viewer.box("picture")
+        self.assertIn("7", preset.read_text())
+        self.succeed("render", STEPS, "--preset", preset, "--size", f"{right - left}x{bottom - top}", "-o",
+                     self.folder / "written.png", "--quiet")
+        written = read(self.folder / "written.png")
+        part = written.crop(0, written.height // 3, written.width, written.height * 3 // 4)
+        self.assertEqual(part.differing(shown, by=1), 0)
+
     def test_it_takes_the_place_of_no_other_file(self):
         scene = self.folder / "mine.glb"
         scene.write_bytes(STEPS.read_bytes())
