@@ -72,7 +72,8 @@ class Renderer {
   // The last frame as it is shown: RGB, 8 bits, sRGB, rows top to bottom.
   std::vector<std::uint8_t> read_display() const;
 
-  // Gives back what is kept for FrameInputs::view; its next frame is a cut. Not while its frame is the last one drawn.
+  // Gives back what is kept for FrameInputs::view; its next frame is a cut. Nothing is to be read of its last one any
+  // more.
   void forget_view(int id);
 
   // Every program that any parameters can build (variants tool, tests).
