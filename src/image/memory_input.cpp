@@ -1,15 +1,11 @@
 #include "image/memory_input.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "core/error.h"
+#include "image/precheck.h"
 
 namespace penumbra::image {
-
-bool starts_with(std::span<const std::byte> bytes, std::string_view signature) {
-  return bytes.size() >= signature.size() && std::memcmp(bytes.data(), signature.data(), signature.size()) == 0;
-}
 
 std::string cause(std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
@@ -24,8 +20,7 @@ MemoryInput::MemoryInput(const char* format, std::span<const std::byte> bytes, c
   request.attribute("oiio:UnassociatedAlpha", 1);  // the library would multiply alpha into the colour
   if (!input_->set_ioproxy(&memory_) || !input_->open(name, spec_, request)) fail("{}", cause(input_->geterror()));
   if (spec_.width <= 0 || spec_.height <= 0 || spec_.depth > 1 || spec_.nchannels < 1) fail("an image without pixels");
-  const auto width = static_cast<std::size_t>(spec_.width), height = static_cast<std::size_t>(spec_.height);
-  if (height > max_pixels / width) fail("{} x {} pixels, over the limit of {}", width, height, max_pixels);
+  check_pixels(spec_.width, spec_.height, max_pixels);
 }
 
 std::size_t MemoryInput::pixels() const {

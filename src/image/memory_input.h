@@ -7,14 +7,9 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace penumbra::image {
-
-bool starts_with(std::span<const std::byte> bytes, std::string_view signature);
-
-constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
 
 // The library's cause, which may be several lines, as one.
 std::string cause(std::string message);

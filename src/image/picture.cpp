@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/names.h"
 #include "core/read_file.h"
+#include "image/bytes.h"
 #include "image/memory_input.h"
 #include "image/precheck.h"
 #include "io/output_file.h"
@@ -17,7 +18,6 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-constexpr std::string_view exr_signature = "\x76\x2f\x31\x01";
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
 // "a.b.R" is channel R of layer a.b.

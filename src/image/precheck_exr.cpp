@@ -96,8 +96,8 @@ void check_exr_header(std::span<const std::byte> encoded, std::size_t max_pixels
   if (((version & tiled) != 0) != header.has_tiles) fail("EXR contradicts itself about tiles");
   if (header.width > largest_side || header.height > largest_side)
     fail("{} x {} pixels, over the limit of {} a side", header.width, header.height, largest_side);
+  check_pixels(header.width, header.height, max_pixels);
   const auto width = static_cast<std::size_t>(header.width), height = static_cast<std::size_t>(header.height);
-  if (height > max_pixels / width) fail("{} x {} pixels, over the limit of {}", width, height, max_pixels);
   if (header.channels > line_values / width)
     fail("lines of {} pixels with {} channels, over the limit of {} values", width, header.channels, line_values);
   if (header.channels > values_per_pixel * max_pixels / (width * height))

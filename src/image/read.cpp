@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "core/error.h"
+#include "image/bytes.h"
 #include "image/memory_input.h"
 #include "image/precheck.h"
+#include "image/probe.h"
 
 namespace penumbra::image {
 namespace {
@@ -30,14 +32,12 @@ std::vector<uint8_t> to_rgba(std::vector<uint8_t> pixels, std::size_t channels) 
 scene::Image read_image(std::span<const std::byte> encoded, const std::string& name, std::size_t max_pixels) {
   // Only the formats that glTF knows: others that the library could read would only be more code to attack.
   const bool png = starts_with(encoded, png_signature);
-  if (!png && !starts_with(encoded, "\xff\xd8\xff")) fail("neither PNG nor JPEG");
-  std::vector<std::byte> cleaned;
-  if (png)
-    cleaned = pixel_chunks_of_png(encoded);
-  else
-    check_jpeg_scans(encoded);
+  if (!png && !starts_with(encoded, jpeg_signature)) fail("neither PNG nor JPEG");
+  const std::vector<std::byte> cleaned = png ? pixel_chunks_of_png(encoded) : pixel_segments_of_jpeg(encoded);
+  const scene::ImageHeader header = probe(cleaned);
+  check_pixels(header.width, header.height, max_pixels);
 
-  MemoryInput input(png ? "png" : "jpeg", png ? cleaned : encoded, name, max_pixels);
+  MemoryInput input(png ? "png" : "jpeg", cleaned, name, max_pixels);
   const int channels = std::min(input.spec().nchannels, 4);
   std::vector<uint8_t> pixels(input.pixels() * static_cast<std::size_t>(channels));
   input.read(0, channels, OIIO::TypeDesc::UINT8, pixels.data());

@@ -1,7 +1,9 @@
-// Decoding of PNGs from memory, every pixel kind, and what is refused. (JPEGs come with the public scenes.)
+// Decoding of PNGs and JPEGs from memory, every pixel kind, and what is refused; sizes from headers alone.
 
 #include <gtest/gtest.h>
 
+#include "image/precheck.h"
+#include "image/probe.h"
 #include "image/read.h"
 #include "scene/gltf/resources.h"
 #include "support/gltf_files.h"
@@ -73,6 +75,85 @@ TEST(ImageRead, RefusesDamage) {
     flipped[i] ^= std::byte{0x10};
     EXPECT_THROW(decode(flipped), Error) << i;
   }
+}
+
+// A JPEG of 8 x 8 grey pixels, made of flat blocks, with `segments` behind its first marker.
+std::string jpeg_8x8(const std::string& segments = {}) {
+  const auto segment = [](int marker, const std::string& payload) {
+    const std::size_t size = payload.size() + 2;
+    return std::string{'\xff', static_cast<char>(marker), static_cast<char>(size >> 8), static_cast<char>(size)} +
+           payload;
+  };
+  using namespace std::string_literals;
+  const std::string table = "\1"s + std::string(15, '\0') + '\0';  // one code, of one bit, for the symbol 0
+  return "\xff\xd8"s + segments + segment(0xDB, '\0' + std::string(64, '\1')) +
+         segment(0xC0, "\x08\0\x08\0\x08\1\1\x11\0"s) + segment(0xC4, '\0' + table) + segment(0xC4, '\x10' + table) +
+         segment(0xDA, "\1\1\0\0\x3f\0"s) + "\x3f\xff\xd9"s;
+}
+
+std::vector<std::byte> bytes_of(const std::string& text) {
+  const auto view = std::as_bytes(std::span(text));
+  return {view.begin(), view.end()};
+}
+
+TEST(ImageRead, ReadsJpegs) {
+  const scene::Image image = decode(bytes_of(jpeg_8x8()));
+  EXPECT_EQ(image.width, 8);
+  EXPECT_EQ(image.height, 8);
+  Rgba grey;
+  for (int i = 0; i < 64; ++i) grey.insert(grey.end(), {128, 128, 128, 255});
+  EXPECT_EQ(image.rgba, grey);
+}
+
+TEST(ImageRead, ReadsNoMetadataOfAJpeg) {
+  using namespace std::string_literals;
+  // Photoshop's resource 0x0404, IPTC, whose record says that it holds 64 KiB where the segment ends: parsers of IPTC
+  // read beyond it (seen by the address sanitizer).
+  const std::string record = "\x1c\x02\x78\x7f\xff"s;
+  const std::string payload = "Photoshop 3.0\0008BIM\x04\x04\0\0\0\0\0\x05"s + record;
+  const std::string hostile = "\xff\xed\0"s + static_cast<char>(payload.size() + 2) + payload;
+  const auto whole = bytes_of(jpeg_8x8());
+  const std::string comment = "\xff\xfe\0\x06text"s, exif =
+                                                         "\xff\xe1\0\x0a"
+                                                         "Exif\0\0MM"s;
+  EXPECT_EQ(image::pixel_segments_of_jpeg(bytes_of(jpeg_8x8(hostile + comment + exif) + hostile)), whole);
+  EXPECT_EQ(image::pixel_segments_of_jpeg(whole), whole);
+  EXPECT_EQ(decode(bytes_of(jpeg_8x8(hostile))).rgba, decode(whole).rgba);
+}
+
+TEST(ImageRead, RefusesTooManyScans) {
+  std::string many = jpeg_8x8();
+  const std::size_t scan = many.find("\xff\xda");
+  const std::string one = many.substr(scan, many.size() - 2 - scan);
+  for (int i = 0; i < 100; ++i) many.insert(scan, one);
+  EXPECT_EQ(error_of([&] { decode(bytes_of(many)); }), "JPEG of more than 100 scans");
+}
+
+TEST(ImageProbe, TellsSizesWithoutDecoding) {
+  const auto probed = [](std::vector<std::byte> bytes, std::size_t size) {
+    bytes.resize(size);  // the header alone
+    const scene::ImageHeader header = image::probe(bytes);
+    return std::vector<std::size_t>{static_cast<std::size_t>(header.width), static_cast<std::size_t>(header.height),
+                                    static_cast<std::size_t>(header.channels), header.decoded_bytes};
+  };
+  EXPECT_EQ(probed(scene::gltf::base64_decoded(rgba_1x2), 33), (std::vector<std::size_t>{1, 2, 4, 8}));
+  EXPECT_EQ(probed(scene::gltf::base64_decoded(grey_alpha), 33), (std::vector<std::size_t>{1, 1, 2, 4}));
+  EXPECT_EQ(probed(scene::gltf::base64_decoded(palette_2x1), 33), (std::vector<std::size_t>{2, 1, 3, 8}));
+  const std::string jpeg = jpeg_8x8();
+  EXPECT_EQ(probed(bytes_of(jpeg), jpeg.find("\xff\xc4")), (std::vector<std::size_t>{8, 8, 1, 256}));
+}
+
+TEST(ImageProbe, RefusesWhatHasNoSize) {
+  const auto png = scene::gltf::base64_decoded(rgba_1x2), jpeg = bytes_of(jpeg_8x8());
+  const auto header_end = static_cast<std::ptrdiff_t>(jpeg_8x8().find("\xff\xc4"));
+  for (std::ptrdiff_t size = 0; size < 33; ++size)
+    EXPECT_THROW(image::probe(std::vector<std::byte>(png.begin(), png.begin() + size)), Error) << size;
+  for (std::ptrdiff_t size = 0; size < header_end; ++size)
+    EXPECT_THROW(image::probe(std::vector<std::byte>(jpeg.begin(), jpeg.begin() + size)), Error) << size;
+  auto flat = png;
+  flat[19] = std::byte{0};
+  EXPECT_EQ(error_of([&] { image::probe(flat); }), "an image without pixels");
+  EXPECT_EQ(error_of([] { image::probe(bytes_of("GIF89a, and so on")); }), "neither PNG nor JPEG");
 }
 
 TEST(ImageRead, RefusesOtherFormats) {

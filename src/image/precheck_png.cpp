@@ -7,12 +7,12 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "image/bytes.h"
 
 namespace penumbra::image {
 namespace {
 
-constexpr std::size_t png_signature = 8, chunk_frame = 12;  // length and type before the data, checksum after
-constexpr std::size_t most_scans = 100;
+constexpr std::size_t chunk_frame = 12;  // length and type before the data, checksum after
 
 constexpr std::array<uint32_t, 256> crc_table = [] {
   std::array<uint32_t, 256> table{};
@@ -30,12 +30,6 @@ uint32_t crc32(std::span<const std::byte> bytes) {
   return ~crc;
 }
 
-uint32_t big_endian_32(std::span<const std::byte> bytes, std::size_t offset) {
-  uint32_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) value = value << 8 | std::to_integer<uint32_t>(bytes[offset + i]);
-  return value;
-}
-
 bool carries_pixels(std::string_view type) {
   constexpr std::array<std::string_view, 5> types = {"IHDR", "PLTE", "tRNS", "IDAT", "IEND"};
   return std::find(types.begin(), types.end(), type) != types.end();
@@ -44,19 +38,19 @@ bool carries_pixels(std::string_view type) {
 }  // namespace
 
 std::vector<std::byte> pixel_chunks_of_png(std::span<const std::byte> encoded) {
-  std::vector<std::byte> kept(encoded.begin(), encoded.begin() + png_signature);
-  for (std::size_t at = png_signature; at < encoded.size();) {
+  std::vector<std::byte> kept(encoded.begin(), encoded.begin() + png_signature.size());
+  for (std::size_t at = png_signature.size(); at < encoded.size();) {
     if (encoded.size() - at < chunk_frame) fail("PNG ends inside a chunk");
-    const std::size_t length = big_endian_32(encoded, at);
+    const std::size_t length = big_endian(encoded, at, 4);
     if (length > encoded.size() - at - chunk_frame) fail("PNG ends inside a chunk");
     const auto chunk = encoded.subspan(at, length + chunk_frame);
     std::array<char, 4> type{};
     std::memcpy(type.data(), chunk.data() + 4, type.size());
     const std::string_view name(type.data(), type.size());
-    if ((at == png_signature) != (name == "IHDR")) fail("PNG does not begin with its header");
+    if ((at == png_signature.size()) != (name == "IHDR")) fail("PNG does not begin with its header");
     const bool optional = name[0] >= 'a' && name[0] <= 'z';  // PNG's rule: others must be understood
     if (carries_pixels(name) || !optional) {
-      if (crc32(chunk.subspan(4, length + 4)) != big_endian_32(chunk, length + 8))
+      if (crc32(chunk.subspan(4, length + 4)) != big_endian(chunk, length + 8, 4))
         fail("PNG chunk {} is damaged", name);
       kept.insert(kept.end(), chunk.begin(), chunk.end());
     }
@@ -64,13 +58,6 @@ std::vector<std::byte> pixel_chunks_of_png(std::span<const std::byte> encoded) {
     at += chunk.size();
   }
   fail("PNG has no end");
-}
-
-void check_jpeg_scans(std::span<const std::byte> encoded) {
-  std::size_t scans = 0;
-  for (std::size_t i = 0; i + 1 < encoded.size(); ++i)
-    if (encoded[i] == std::byte{0xFF} && encoded[i + 1] == std::byte{0xDA}) ++scans;
-  if (scans > most_scans) fail("JPEG of {} scans, over the limit of {}", scans, most_scans);
 }
 
 }  // namespace penumbra::image

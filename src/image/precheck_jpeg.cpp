@@ -1,0 +1,52 @@
+#include <cstdint>
+
+#include "core/error.h"
+#include "image/bytes.h"
+#include "image/jpeg_segments.h"
+#include "image/precheck.h"
+
+namespace penumbra::image {
+namespace {
+
+constexpr std::size_t most_scans = 100;
+
+// Tables, frame headers and scans; and of the application segments those two that say how colours are stored, JFIF's
+// and Adobe's. What else an application writes is metadata: EXIF, IPTC, profiles, thumbnails, comments.
+bool carries_pixels(const JpegSegment& segment) {
+  switch (segment.marker) {
+    case jpeg::start_of_image:
+    case jpeg::end_of_image:
+    case jpeg::start_of_scan:
+    case jpeg::quantization:
+    case jpeg::huffman:
+    case jpeg::arithmetic:
+    case jpeg::restart_interval:
+      return true;
+    case jpeg::app0:
+      return starts_with(segment.payload, "JFIF");
+    case jpeg::app14:
+      return starts_with(segment.payload, "Adobe");
+    default:
+      return jpeg::is_frame_header(segment.marker);
+  }
+}
+
+}  // namespace
+
+std::vector<std::byte> pixel_segments_of_jpeg(std::span<const std::byte> encoded) {
+  std::vector<std::byte> kept;
+  kept.reserve(encoded.size());
+  JpegSegments segments(encoded);
+  std::size_t scans = 0;
+  for (JpegSegment segment = segments.next(); !segment.bytes.empty(); segment = segments.next()) {
+    if (carries_pixels(segment)) kept.insert(kept.end(), segment.bytes.begin(), segment.bytes.end());
+    if (segment.marker == jpeg::end_of_image) break;
+    if (segment.marker != jpeg::start_of_scan) continue;
+    if (++scans > most_scans) fail("JPEG of more than {} scans", most_scans);
+    const std::span<const std::byte> data = segments.scan_data();
+    kept.insert(kept.end(), data.begin(), data.end());
+  }
+  return kept;
+}
+
+}  // namespace penumbra::image
