@@ -3,20 +3,19 @@
 
 layout(binding = 5) uniform sampler2DArray kernels;  // a mask of the technique's: G is the filter's radius
 
-float reach(Receiver receiver, Light light) {
-  return fetch_floor_radius > 0.0 ? fetch_floor_radius : search_reach(receiver, light);
+float read_radius(Receiver receiver, Light light) {
+  return fetch_floor_radius > 0.0 ? fetch_floor_radius : search_radius(receiver, light);
 }
 
 vec4 fetch(Receiver receiver, vec2 offset, Light light) {
-  vec4 map = shadow.cascades[light.cascade].map;
-  vec2 at = (receiver.position.xy + offset - map.xy) * map.z + 0.5;
-  return textureGather(shadow_depth, vec3(at, float(light.cascade)));
+  vec2 at = map_place(vec3(receiver.position.xy + offset, receiver.position.z), light.layer) / shadow.map_size;
+  return textureGather(shadow_depth, vec3(at, float(light.layer)));
 }
 
 Visibility visibility(Receiver receiver, Light light) {
   vec4 sum = vec4(0.0);
 #if fetch_floor_blocker_taps > 0
-  float search = narrow_search(receiver, light, light.cascade, light.reach).radius;
+  float search = narrow_search(receiver, light, light.layer, light.read_radius).radius;
   Scramble turned = scramble_of(receiver, blocker_step);
   for (int i = 0; i < fetch_floor_blocker_taps; ++i) {
     sum += fetch(receiver, search * blocker_point(i, turned, light), light);

@@ -6,9 +6,9 @@
 GLSL_BEGIN
 
 // Radius of the penumbra at a receiver, metres, of a directional light (Fernando 2005, "Percentage-closer soft
-// shadows", with the light moved to infinity): depths in metres along the light.
-GLSL_FUNCTION float penumbra_radius(float tan_half_angle, float receiver_depth, float blocker_depth) {
-  return tan_half_angle * max(receiver_depth - blocker_depth, 0.0f);
+// shadows", with the light moved to infinity) and a blocker that lies so many metres before it along the light.
+GLSL_FUNCTION float sun_penumbra_radius(float tan_half_angle, float blocker_distance) {
+  return tan_half_angle * max(blocker_distance, 0.0f);
 }
 
 // How light-space depth changes along x and y over the plane with that normal (light space, z away from the light), as
@@ -28,19 +28,17 @@ struct Corner {
 };
 
 // Depths before which four texels block: the nearest of the receiver, its plane and the faces beside it at the texels'
-// centres, less the bias.
-GLSL_FUNCTION vec4 blocking_depths(float receiver_depth, vec2 gradient, Corner corner, vec4 x, vec4 y, float bias) {
-  vec4 plane = gradient.x * x + gradient.y * y;
+// centres, less the bias. `plane`: how much deeper than the receiver its plane lies there, metres.
+GLSL_FUNCTION vec4 blocking_depths(float receiver_depth, vec4 plane, Corner corner, vec4 x, vec4 y, float bias) {
   vec4 faces = max(corner.slopes.x * x, -corner.slopes.z * x) + max(corner.slopes.y * y, -corner.slopes.w * y);
   vec4 beside = min(faces, corner.steepest * max(abs(x), abs(y)));
   return receiver_depth + min(plane, -beside) - bias;
 }
 
-// Whether a texel at that offset can hide a part of the light: it lies within the cone that the light spans above the
-// receiver, or within `footprint` of it.
-GLSL_FUNCTION vec4 within_cone(float tan_half_angle, bool square, vec4 x, vec4 y, vec4 height, float footprint) {
-  vec4 reach = tan_half_angle * height + footprint;
-  vec4 beyond = square ? max(abs(x), abs(y)) - reach : x * x + y * y - reach * reach;
+// 1 for each texel that can hide a part of the light, else 0: it is at most `radius` from the receiver, the light's
+// cross section at the texel's depth and what a texel covers.
+GLSL_FUNCTION vec4 within_cone(vec4 radius, bool square, vec4 x, vec4 y) {
+  vec4 beyond = square ? max(abs(x), abs(y)) - radius : x * x + y * y - radius * radius;
   return step(beyond, vec4(0.0f));
 }
 

@@ -29,10 +29,6 @@ GLSL_FUNCTION float texel_distance(uint texel) { return half_value(texel & 0xfff
 GLSL_FUNCTION float texel_visibility(uint texel) { return float((texel >> 16) & 0x7fffu) / 32767.0f; }
 GLSL_FUNCTION bool texel_invalid(uint texel) { return (texel & 0x80000000u) != 0u; }
 
-// Penumbra radius for each metre of the packed distance: the tangent of half the light's angle, or what keeps the radii
-// of a light without extent within the range of a half.
-GLSL_FUNCTION float packed_slope(float tan_half_angle) { return max(tan_half_angle, 1e-4f); }
-
 // Eight bits beside it: bits 0 to 3 cascade; 4 the kernel is smaller than a texel of the map; 5 to 7 what became of the
 // history.
 #define HISTORY_KEPT 0u

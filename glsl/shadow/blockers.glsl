@@ -6,21 +6,23 @@ struct Blockers {
   float weight;     // share of the texels read that block
 };
 
-// Texels about a receiver that may cover it though their centres lie outside of the light's cone.
-float footprint_reach(Light light) { return 1.5 * texel_size(light); }
+// Texels that are so near to the receiver, metres, may cover it though their centres lie outside of the light's cone.
+float footprint_margin(Receiver receiver, Light light) { return 1.5 * texel_size(receiver, light); }
 
-// Above this slope a surface beside the receiver lies within the light's cone.
-float cone_slope(Light light) { return 1.0 / max(light.tan_half_angle, 1.0 / max_plane_slope); }
+// Which texels lie within the cone that the light spans above the receiver: what is outside of it can't hide the light,
+// however wide the search.
+vec4 in_light_cone(Receiver receiver, Offsets at, vec4 blocker_distances, Light light) {
+  vec4 radii = penumbra_radii(receiver, blocker_distances, light) + footprint_margin(receiver, light);
+  return within_cone(radii, light.square, at.x, at.y);
+}
 
 // Adds the four texels about a point. A texel blocks when it lies before the receiver and its plane, and within the
-// cone that the light spans above the receiver: what is outside it can't hide the light, however wide the search.
+// light's cone.
 void add_blockers(inout Blockers blockers, Receiver receiver, vec2 offset, float bias, Light light) {
-  Footprint footprint = fetch_footprint(receiver.position, offset, light);
-  Offsets offsets = texel_offsets(footprint, texel_size(light));
+  Footprint footprint = fetch_footprint(receiver, offset, light);
   vec4 distance_to = receiver.position.z - footprint.depths;
-  vec4 inside = within_cone(light.tan_half_angle, light.square, offsets.x, offsets.y, distance_to,
-                            footprint_reach(light));
-  vec4 blocks = inside * blocking_texels(receiver, footprint, bias, light);
+  vec4 inside = in_light_cone(receiver, footprint.offsets, distance_to, light);
+  vec4 blocks = inside * blocking_texels(receiver, footprint, bias);
   blockers.weight += bilinear(blocks, footprint.weight);
   blockers.depth_sum += bilinear(blocks * distance_to, footprint.weight);
 }
@@ -38,30 +40,31 @@ Blockers find_blockers(Receiver receiver, float radius, int taps, float bias, Li
 
 float mean_distance(Blockers blockers) { return max(blockers.depth_sum / blockers.weight, 0.0); }
 
-// The filter's taps: how many, and whether of the set for refused histories.
-struct Taps {
+// The filter's points: how many, and whether of the set for refused histories.
+struct FilterPoints {
   int count;
   bool renewal;
 };
 
-vec2 tap_point(Taps taps, int index, Scramble scramble, Light light) {
-  return taps.renewal ? renewal_point(index, scramble, light) : filter_point(index, scramble, light);
+vec2 point_of(FilterPoints points, int index, Scramble scramble, Light light) {
+  return points.renewal ? renewal_point(index, scramble, light) : filter_point(index, scramble, light);
 }
 
 // Share of light that passes a disc (or square) of that radius about the receiver.
-float filtered_share(Receiver receiver, float radius, Taps taps, float bias, Light light) {
+float filtered_share(Receiver receiver, float radius, FilterPoints points, float bias, Light light) {
   Scramble scramble = scramble_of(receiver, filter_step);
   float lit = 0.0;
-  for (int i = 0; i < taps.count; ++i) {
-    lit += lit_share(receiver, radius * tap_point(taps, i, scramble, light), bias, light);
+  for (int i = 0; i < points.count; ++i) {
+    lit += lit_share(receiver, radius * point_of(points, i, scramble, light), bias, light);
   }
-  return lit / float(taps.count);
+  return lit / float(points.count);
 }
 
 // The second step.
-Visibility filtered(Receiver receiver, float mean, Taps taps, float bias, Light light) {
-  float radius = light.tan_half_angle * mean;
-  return Visibility(filtered_share(receiver, radius, taps, bias, light), radius, mean, radius < texel_size(light));
+Visibility filtered(Receiver receiver, float mean, FilterPoints points, float bias, Light light) {
+  float radius = penumbra_radius(receiver, mean, light);
+  return Visibility(filtered_share(receiver, radius, points, bias, light), radius, mean,
+                    radius < texel_size(receiver, light));
 }
 
 // Both steps with so many taps each, and so many where the history is refused; neither where depth bounds, if asked,
@@ -69,12 +72,12 @@ Visibility filtered(Receiver receiver, float mean, Taps taps, float bias, Light 
 Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, int filter_taps, int renewal_taps,
                        bool early_exits) {
   float bias = depth_bias(receiver, light);
-  Search search = narrow_search(receiver, light, light.cascade, light.reach);
+  Search search = narrow_search(receiver, light, light.layer, light.read_radius);
   if (early_exits && search.nearest >= receiver.position.z - bias) return fully_lit();
-  receiver = receiver_in_corner(receiver, bias, cone_slope(light), light);
+  receiver = receiver_in_corner(receiver, bias, cone_slope(receiver, light), light);
   Blockers blockers = find_blockers(receiver, search.radius, blocker_taps, bias, light);
   if (blockers.weight == 0.0) return fully_lit();
   float mean = mean_distance(blockers);
-  if (receiver.renewed) return filtered(receiver, mean, Taps(renewal_taps, true), bias, light);
-  return filtered(receiver, mean, Taps(filter_taps, false), bias, light);
+  if (receiver.renewed) return filtered(receiver, mean, FilterPoints(renewal_taps, true), bias, light);
+  return filtered(receiver, mean, FilterPoints(filter_taps, false), bias, light);
 }

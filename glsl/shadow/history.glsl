@@ -24,8 +24,6 @@ uvec2 surface_bits(ivec2 pixel, Receiver receiver) {
                packSnorm2x16(octahedral_encode(receiver.normal)));
 }
 
-vec3 receiver_view_position(Receiver receiver) { return receiver.position * mat3(shadow.view_to_light); }
-
 // Of a pixel at that place in view space, metres.
 float pixel_width(vec3 position) {
   return max(shadow.pixel_size.x, shadow.pixel_size.y) * abs(shadow.pixel_size.z * position.z + shadow.pixel_size.w);
@@ -43,7 +41,7 @@ bool is_own(Likeness like, Receiver receiver, ivec2 tap) {
   if (any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(shadow.viewport.zw)))) return false;
   uvec2 stored = texelFetch(last_surface, tap + ivec2(shadow.viewport.xy), 0).xy;
   float depth = uintBitsToFloat(stored.x);
-  if (depth == shadow.depth_to_ndc.z) return false;
+  if (depth == shadow.sky_depth) return false;
   vec4 clip = vec4(ndc_at(vec2(tap) + 0.5, shadow.jitter.zw), depth * shadow.depth_to_ndc.x + shadow.depth_to_ndc.y,
                    1.0);
   vec4 place = shadow.last_clip_to_view * clip;
@@ -64,7 +62,7 @@ LastPlace last_place(ivec2 pixel, vec3 position) {
   last.at_rest = clip.xy / clip.w;
   last.before_camera = clip.w > 0.0;
   vec2 ndc = ndc_at(vec2(pixel) + 0.5 - shadow.viewport.xy, shadow.jitter.xy);
-  last.ndc = shadow.history.y != 0.0 ? ndc - texelFetch(receiver_motion, pixel, 0).xy : last.at_rest;
+  last.ndc = shadow.has_motion != 0 ? ndc - texelFetch(receiver_motion, pixel, 0).xy : last.at_rest;
   return last;
 }
 
@@ -72,13 +70,13 @@ LastPlace last_place(ivec2 pixel, vec3 position) {
 Likeness likeness_of(Receiver receiver, vec3 position, LastPlace last) {
   float width = pixel_width(position);
   float way = length((last.ndc - last.at_rest) * 0.5 * shadow.viewport.zw) * width;
-  return Likeness(position, receiver.normal * mat3(shadow.view_to_light), history_distance * width + way,
+  return Likeness(position, view_direction(receiver.normal), history_distance * width + way,
                   cos(radians(history_turn)));
 }
 
 Reprojection reproject(Receiver receiver, ivec2 pixel) {
-  if (shadow.history.x == 0.0) return refused(HISTORY_NONE);
-  vec3 position = receiver_view_position(receiver);
+  if (shadow.history_valid == 0) return refused(HISTORY_NONE);
+  vec3 position = view_position_of(receiver);
   LastPlace last = last_place(pixel, position);
   vec2 place = ((last.ndc + shadow.jitter.zw) * 0.5 + 0.5) * shadow.viewport.zw;
   bool inside = all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, shadow.viewport.zw));

@@ -1,4 +1,4 @@
-// What the shadow passes know of the view and of one light. Read by C++ and GLSL; std140, so only vec4-sized members.
+// What the shadow passes know of the view and of one light. Read by C++ and GLSL; std140.
 #ifndef PENUMBRA_SHADOW_BLOCK_H
 #define PENUMBRA_SHADOW_BLOCK_H
 
@@ -6,30 +6,43 @@
 
 GLSL_BEGIN
 
-#define SHADOW_MAX_CASCADES 8
+#define SHADOW_MAX_LAYERS 8
 #define SHADOW_MAX_TAPS 256
 
-struct CascadeBlock {
-  vec4 map;    // xy: centre, light space, metres; z: map widths per metre; w: a texel, metres
-  vec4 depth;  // x: near z, metres; y: z range, metres; z: constant bias, metres
+// Where one layer of a light's shadow map lies, and what its depths mean. Only glsl/shadow/light_projection.glsl reads
+// it.
+struct LayerBlock {
+  vec2 center;             // of the map, light space, metres
+  float widths_per_metre;  // map widths
+  float texel;             // width of a texel, metres
+  float near_depth;        // light-space depth that the map stores as 0, metres
+  float depth_range;       // from there to what it stores as 1, metres
+  float rounding;          // bias along the light that covers rounding, metres
+  float pad;
 };
 
 struct ShadowBlock {
   mat4 clip_to_view;
   mat4 view_to_light;      // orthogonal, determinant -1 (light space is left-handed); its origin is the camera
-  mat4 world_to_light;     // its turn alone
+  mat4 world_to_light;     // its rotation alone
   mat4 view_to_last_clip;  // from this frame's view space
   mat4 last_clip_to_view;  // and back
   vec4 viewport;           // xy: its lowest pixel; zw: size, pixels
   vec4 jitter;             // NDC; xy: of this frame; zw: of the last one
-  vec4 depth_to_ndc;       // x: scale; y: offset; z: depth of the sky; w: 1 for octahedral normals, 0 for xyz
   vec4 pixel_size;         // xy: metres that a pixel spans where clip w is 1; zw: clip w is z · view z + w
-  vec4 light;              // x: tan of the half angle; y: 1: square light, 0: disc; z: cascades; w: map size, texels
   vec4 noise_shift;        // on the torus; xy: of the blocker step; zw: of the filter step
-  // 1 or 0, x: the last frame's shadow is valid; y: there are motion vectors; z: casters moved, and the movement map
-  // shows where; w: least depth of what moved, light space, metres.
-  vec4 history;
-  CascadeBlock cascades[SHADOW_MAX_CASCADES];
+  vec2 depth_to_ndc;       // x: scale; y: offset
+  float sky_depth;         // stored depth of pixels that show nothing
+  int octahedral_normals;  // 1: normals are octahedral; 0: xyz
+  float light_extent;      // see Light::extent in light_projection.glsl
+  int light_is_square;     // 1: square; 0: disc
+  int layer_count;         // of the shadow map
+  float map_size;          // side of each layer, texels
+  int history_valid;       // 1: the last frame's shadow may be used
+  int has_motion;          // 1: the caller brings motion vectors
+  int casters_moved;       // 1: casters moved, and the movement map shows where
+  float moved_depth;       // least light-space depth of what moved, metres
+  LayerBlock layers[SHADOW_MAX_LAYERS];
 };
 
 // Sample points, two to a vec4: on the unit disc when rotated by a pixel, on the unit square when shifted.

@@ -4,18 +4,27 @@ namespace penumbra::shadow {
 
 namespace {
 
-static_assert(sizeof(glsl::CascadeBlock) == 32);
+// As std140 lays them out; a test asks the driver too.
+static_assert(sizeof(glsl::LayerBlock) == 32);
 static_assert(offsetof(glsl::ShadowBlock, viewport) == 320);
-static_assert(offsetof(glsl::ShadowBlock, cascades) == 432);
+static_assert(offsetof(glsl::ShadowBlock, depth_to_ndc) == 384);
+static_assert(offsetof(glsl::ShadowBlock, light_extent) == 400);
+static_assert(offsetof(glsl::ShadowBlock, layers) == 432);
+static_assert(SHADOW_MAX_LAYERS == max_cascades);
 
 // `shift`: where the origin of the cascade's light space lies in the view's.
-glsl::CascadeBlock cascade_block(const Cascade& cascade, int size, const glm::dvec3& shift) {
+glsl::LayerBlock layer_block(const Cascade& cascade, int size, const glm::dvec3& shift) {
   const float range = cascade.far_z - cascade.near_z;
   const float texel = 2.0f * cascade.half_extent / static_cast<float>(size);
   // A few units in the last place of what a map stores and a rasteriser interpolates.
   const float rounding = 4e-7f * (range + 2.0f * cascade.half_extent);
-  return {{cascade.center + glm::vec2(shift), 0.5f / cascade.half_extent, texel},
-          {cascade.near_z + static_cast<float>(shift.z), range, rounding, 0.0f}};
+  return {.center = cascade.center + glm::vec2(shift),
+          .widths_per_metre = 0.5f / cascade.half_extent,
+          .texel = texel,
+          .near_depth = cascade.near_z + static_cast<float>(shift.z),
+          .depth_range = range,
+          .rounding = rounding,
+          .pad = 0.0f};
 }
 
 // Of a pixel in the plane of the image, for each unit of clip-space w; and how w follows from view-space z.
@@ -51,17 +60,22 @@ glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, co
   block.last_clip_to_view = glm::mat4(glm::inverse(view_to_last_clip));
   block.viewport = {light.viewport.x, light.viewport.y, light.viewport.width, light.viewport.height};
   block.jitter = {inputs.view.jitter, traits.last_jitter};
-  block.depth_to_ndc = {zero_to_one ? 1.0f : 2.0f, zero_to_one ? 0.0f : -1.0f, conventions.reversed_z ? 0.0f : 1.0f,
-                        conventions.octahedral_normals ? 1.0f : 0.0f};
   block.pixel_size = pixel_size(inputs.view.projection, light.viewport);
-  block.light = {light.tan_half_angle, traits.square ? 1.0f : 0.0f, static_cast<float>(light.cascades.items.size()),
-                 static_cast<float>(light.cascades.size)};
   block.noise_shift = traits.noise_shift;
+  block.depth_to_ndc = zero_to_one ? glm::vec2(1, 0) : glm::vec2(2, -1);
+  block.sky_depth = conventions.reversed_z ? 0.0f : 1.0f;
+  block.octahedral_normals = conventions.octahedral_normals ? 1 : 0;
+  block.light_extent = light.tan_half_angle;
+  block.light_is_square = traits.square ? 1 : 0;
+  block.layer_count = static_cast<int>(light.cascades.items.size());
+  block.map_size = static_cast<float>(light.cascades.size);
   const double nearest = light.cascades.items.empty() ? 0.0 : light.cascades.items.back().near_z + shift.z;
-  block.history = {light.history ? 1.0f : 0.0f, inputs.motion.id != 0 ? 1.0f : 0.0f, light.casters_moved ? 1.0f : 0.0f,
-                   least_moved_depth(inputs, light, eye, nearest)};
+  block.history_valid = light.history ? 1 : 0;
+  block.has_motion = inputs.motion.id != 0 ? 1 : 0;
+  block.casters_moved = light.casters_moved ? 1 : 0;
+  block.moved_depth = least_moved_depth(inputs, light, eye, nearest);
   for (size_t i = 0; i < light.cascades.items.size(); ++i) {
-    block.cascades[i] = cascade_block(light.cascades.items[i], light.cascades.size, shift);
+    block.layers[i] = layer_block(light.cascades.items[i], light.cascades.size, shift);
   }
   return block;
 }

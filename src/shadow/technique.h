@@ -74,7 +74,7 @@ struct LightFrame {
 class TechniqueFrame;
 
 // A technique is a value. Its GLSL file defines
-//   float reach(Receiver receiver, Light light);
+//   float read_radius(Receiver receiver, Light light);
 //   Visibility visibility(Receiver receiver, Light light);
 // and nothing in the drivers knows its name.
 struct Technique {

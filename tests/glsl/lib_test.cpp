@@ -90,8 +90,8 @@ TEST(WhiteNoise, IsUniformAndDiffersByPixelAndSeed) {
 }
 
 TEST(Kernel, PenumbraRadiusFollowsSimilarTriangles) {
-  EXPECT_FLOAT_EQ(penumbra_radius(0.01f, 10, 4), 0.06f);
-  EXPECT_EQ(penumbra_radius(0.01f, 4, 10), 0) << "a surface behind the receiver is no blocker";
+  EXPECT_FLOAT_EQ(sun_penumbra_radius(0.01f, 6), 0.06f);
+  EXPECT_EQ(sun_penumbra_radius(0.01f, -6), 0) << "a surface behind the receiver is no blocker";
 }
 
 TEST(Kernel, PlaneGradientGivesTheDepthOfThePlane) {
@@ -109,17 +109,17 @@ TEST(Kernel, PlaneGradientIsLimitedWhereTheLightGrazes) {
 }
 
 TEST(Kernel, TexelsBlockBeforeTheReceiverItsPlaneAndTheFacesBesideIt) {
-  const vec2 gradient(2, 0);
   const vec4 x(-1, 1, 0, -1);
   const vec4 y(0, 0, -1, 1);
-  const vec4 alone = blocking_depths(10, gradient, Corner{vec4(0), 100}, x, y, 0.1f);
+  const vec4 plane = 2.0f * x;
+  const vec4 alone = blocking_depths(10, plane, Corner{vec4(0), 100}, x, y, 0.1f);
   EXPECT_FLOAT_EQ(alone.x, 7.9f) << "the plane rises to the light";
   EXPECT_FLOAT_EQ(alone.y, 9.9f) << "the plane falls away";
-  const vec4 beside = blocking_depths(10, gradient, Corner{vec4(3, 0, 0, 5), 100}, x, y, 0.1f);
+  const vec4 beside = blocking_depths(10, plane, Corner{vec4(3, 0, 0, 5), 100}, x, y, 0.1f);
   EXPECT_FLOAT_EQ(beside.y, 6.9f) << "a face rises on that side";
   EXPECT_FLOAT_EQ(beside.z, 4.9f) << "and on that";
   EXPECT_FLOAT_EQ(beside.w, 7.9f) << "elsewhere the plane decides";
-  const vec4 capped = blocking_depths(10, gradient, Corner{vec4(3, 0, 0, 5), 4}, x, y, 0.1f);
+  const vec4 capped = blocking_depths(10, plane, Corner{vec4(3, 0, 0, 5), 4}, x, y, 0.1f);
   EXPECT_FLOAT_EQ(capped.y, 6.9f);
   EXPECT_FLOAT_EQ(capped.z, 5.9f) << "no face is steeper than that";
 }
@@ -127,9 +127,9 @@ TEST(Kernel, TexelsBlockBeforeTheReceiverItsPlaneAndTheFacesBesideIt) {
 TEST(Kernel, TheConeHoldsWhatCanHideTheLight) {
   const vec4 x(0.9f, 1.2f, 0.9f, 1.6f);
   const vec4 y(0, 0, 0.9f, 0);
-  EXPECT_EQ(within_cone(0.1f, false, x, y, vec4(10), 0), vec4(1, 0, 0, 0)) << "a disc of radius 1";
-  EXPECT_EQ(within_cone(0.1f, true, x, y, vec4(10), 0), vec4(1, 0, 1, 0)) << "a square";
-  EXPECT_EQ(within_cone(0.1f, false, x, y, vec4(10), 0.5f), vec4(1, 1, 1, 0)) << "and the footprint";
+  EXPECT_EQ(within_cone(vec4(1), false, x, y), vec4(1, 0, 0, 0)) << "a disc of radius 1";
+  EXPECT_EQ(within_cone(vec4(1), true, x, y), vec4(1, 0, 1, 0)) << "a square";
+  EXPECT_EQ(within_cone(vec4(1, 1, 1, 2), false, x, y), vec4(1, 0, 0, 1)) << "each texel has its own";
 }
 
 TEST(Kernel, CoveringLevelHoldsTheDiscInTwoTexels) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* technique_text = R"(
 #include "shadow/light.glsl"
-float reach(Receiver receiver, Light light) { return 0.0; }
+float read_radius(Receiver receiver, Light light) { return 0.0; }
 Visibility visibility(Receiver receiver, Light light) { return Visibility(1.0, 0.0, 0.0, false); }
 )";
 

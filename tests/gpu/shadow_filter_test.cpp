@@ -19,7 +19,7 @@ namespace {
 constexpr const char* pattern_text = R"(
 #include "shadow/light.glsl"
 
-float reach(Receiver receiver, Light light) { return 0.0; }
+float read_radius(Receiver receiver, Light light) { return 0.0; }
 
 bool is_marked(Receiver receiver) {
   ivec2 pixel = ivec2(receiver.pixel);
@@ -33,7 +33,7 @@ bool is_marked(Receiver receiver) {
 Visibility visibility(Receiver receiver, Light light) {
   bool marked = is_marked(receiver);
   float distance_to = marked ? pattern_marked_distance : pattern_distance;
-  return Visibility(marked ? pattern_marked_visibility : pattern_visibility, distance_to * light.tan_half_angle,
+  return Visibility(marked ? pattern_marked_visibility : pattern_visibility, penumbra_radius(receiver, distance_to, light),
                     distance_to, false);
 }
 )";

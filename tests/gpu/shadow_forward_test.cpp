@@ -22,7 +22,7 @@ float bias_constant;
 )";
 
 constexpr const char* engine_after = R"(
-float reach(Receiver receiver, Light light) { return receiver.gloss + light.color.x; }
+float read_radius(Receiver receiver, Light light) { return receiver.gloss + light.color.x; }
 layout(binding = 8) uniform sampler2D engine_depth;
 layout(binding = 9) uniform sampler2D engine_normal;
 uniform mat4 clip_to_view;

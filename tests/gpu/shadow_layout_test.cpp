@@ -73,7 +73,7 @@ class ShadowLayout : public GpuTest {
 TEST_F(ShadowLayout, BlocksLieAsTheDriverReadsThem) {
   TriangleRenderer renderer;
   const GLuint program = program_of(renderer, "pcss");
-  using glsl::CascadeBlock;
+  using glsl::LayerBlock;
   using glsl::SampleBlock;
   using glsl::ShadowBlock;
   const Block light = block_of(program, "ShadowData");
@@ -83,14 +83,27 @@ TEST_F(ShadowLayout, BlocksLieAsTheDriverReadsThem) {
   expect_offset(light, "shadow.world_to_light", offsetof(ShadowBlock, world_to_light));
   expect_offset(light, "shadow.viewport", offsetof(ShadowBlock, viewport));
   expect_offset(light, "shadow.jitter", offsetof(ShadowBlock, jitter));
-  expect_offset(light, "shadow.depth_to_ndc", offsetof(ShadowBlock, depth_to_ndc));
-  expect_offset(light, "shadow.light", offsetof(ShadowBlock, light));
   expect_offset(light, "shadow.noise_shift", offsetof(ShadowBlock, noise_shift));
-  for (std::size_t i : {std::size_t{0}, std::size_t{SHADOW_MAX_CASCADES - 1}}) {
-    const std::string cascade = fmt::format("shadow.cascades[{}].", i);
-    const std::size_t at = offsetof(ShadowBlock, cascades) + i * sizeof(CascadeBlock);
-    expect_offset(light, cascade + "map", at + offsetof(CascadeBlock, map));
-    expect_offset(light, cascade + "depth", at + offsetof(CascadeBlock, depth));
+  expect_offset(light, "shadow.depth_to_ndc", offsetof(ShadowBlock, depth_to_ndc));
+  expect_offset(light, "shadow.sky_depth", offsetof(ShadowBlock, sky_depth));
+  expect_offset(light, "shadow.octahedral_normals", offsetof(ShadowBlock, octahedral_normals));
+  expect_offset(light, "shadow.light_extent", offsetof(ShadowBlock, light_extent));
+  expect_offset(light, "shadow.light_is_square", offsetof(ShadowBlock, light_is_square));
+  expect_offset(light, "shadow.layer_count", offsetof(ShadowBlock, layer_count));
+  expect_offset(light, "shadow.map_size", offsetof(ShadowBlock, map_size));
+  expect_offset(light, "shadow.history_valid", offsetof(ShadowBlock, history_valid));
+  expect_offset(light, "shadow.has_motion", offsetof(ShadowBlock, has_motion));
+  expect_offset(light, "shadow.casters_moved", offsetof(ShadowBlock, casters_moved));
+  expect_offset(light, "shadow.moved_depth", offsetof(ShadowBlock, moved_depth));
+  for (std::size_t i : {std::size_t{0}, std::size_t{SHADOW_MAX_LAYERS - 1}}) {
+    const std::string layer = fmt::format("shadow.layers[{}].", i);
+    const std::size_t at = offsetof(ShadowBlock, layers) + i * sizeof(LayerBlock);
+    expect_offset(light, layer + "center", at + offsetof(LayerBlock, center));
+    expect_offset(light, layer + "widths_per_metre", at + offsetof(LayerBlock, widths_per_metre));
+    expect_offset(light, layer + "texel", at + offsetof(LayerBlock, texel));
+    expect_offset(light, layer + "near_depth", at + offsetof(LayerBlock, near_depth));
+    expect_offset(light, layer + "depth_range", at + offsetof(LayerBlock, depth_range));
+    expect_offset(light, layer + "rounding", at + offsetof(LayerBlock, rounding));
   }
   const Block samples = block_of(program, "SampleData");
   EXPECT_EQ(samples.bytes, static_cast<int>(sizeof(SampleBlock)));

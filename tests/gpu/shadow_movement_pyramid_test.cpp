@@ -135,8 +135,9 @@ class MovementLookUp : public MovementPyramid {
     const auto size = static_cast<float>(map.width());
     device.shaders.files().put("test/look_up.comp", look_up_text);
     glsl::ShadowBlock block{};
-    block.light = {0, 0, 2, size};
-    block.cascades[1].map = {center, 1 / width, width / size};
+    block.layer_count = 2;
+    block.map_size = size;
+    block.layers[1] = {.center = center, .widths_per_metre = 1 / width, .texel = width / size};
     const gl::Buffer uniforms = gl::Buffer("light", sizeof(block));
     gl::write_value(uniforms, block);
     const gl::Buffer storage = gl::Buffer::of("queries", std::span<const Query>(queries));

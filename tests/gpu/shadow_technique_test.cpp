@@ -14,7 +14,7 @@ constexpr const char* technique_text = R"(
 
 layout(binding = 5) uniform sampler2DArray levels;
 
-float reach(Receiver receiver, Light light) { return 0.0; }
+float read_radius(Receiver receiver, Light light) { return 0.0; }
 
 Visibility visibility(Receiver receiver, Light light) {
   return Visibility(counted_scale * texelFetch(levels, ivec3(0), 0).x, 0.0, 0.0, false);

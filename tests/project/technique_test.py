@@ -24,7 +24,7 @@ Technique checker() {
 
 GLSL = """#include "shadow/light.glsl"
 
-float reach(Receiver receiver, Light light) { return 0.0; }
+float read_radius(Receiver receiver, Light light) { return 0.0; }
 
 Visibility visibility(Receiver receiver, Light light) {
   ivec2 square = ivec2(receiver.pixel) / checker_side;

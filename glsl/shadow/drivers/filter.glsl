@@ -14,7 +14,7 @@ const int filter_pass = FILTER_PASS;
 ivec2 lowest_pixel() { return ivec2(shadow.viewport.xy); }
 ivec2 highest_pixel() { return ivec2(shadow.viewport.xy + shadow.viewport.zw) - 1; }
 
-bool is_sky_depth(float depth) { return depth == shadow.depth_to_ndc.z; }
+bool is_sky_depth(float depth) { return depth == shadow.sky_depth; }
 
 // A texel with another visibility.
 uint with_visibility(uint texel, float visibility) {
@@ -23,6 +23,7 @@ uint with_visibility(uint texel, float visibility) {
 
 // The plane of a pixel's receiver, as its neighbours are measured against it.
 struct Surface {
+  vec3 position;    // light space
   float depth;      // as stored
   vec3 above;       // see plane_distance()
   vec3 inverse_w;   // the same
@@ -35,9 +36,7 @@ struct Surface {
 // the first is 0 and the second 1 / clip w at the receiver itself.
 Surface surface_at(ivec2 pixel) {
   vec3 at = view_position_at(pixel);
-  vec4 stored = texelFetch(receiver_normal, pixel, 0);
-  vec3 world_normal = shadow.depth_to_ndc.w != 0.0 ? octahedral_decode(stored.xy) : normalize(stored.xyz);
-  vec3 normal = (mat3(shadow.world_to_light) * world_normal) * mat3(shadow.view_to_light);
+  vec3 normal = view_direction(light_normal_at(pixel));
   float clip_w = shadow.pixel_size.z * at.z + shadow.pixel_size.w;
   vec2 size = abs(shadow.pixel_size.xy * clip_w);
   // The view ray: where the point goes as depth changes.
@@ -45,7 +44,8 @@ Surface surface_at(ivec2 pixel) {
   vec3 step_of = vec3(2.0 / shadow.viewport.zw, shadow.depth_to_ndc.x);
   vec3 above = (vec4(normal, -dot(normal, at)) * shadow.clip_to_view).xyz * step_of;
   vec3 inverse_w = (vec4(0.0, 0.0, 0.0, 1.0) * shadow.clip_to_view).xyz * step_of;
-  return Surface(stored_depth_at(pixel), above / (filter_edge * max(size.x, size.y)), inverse_w, 1.0 / clip_w,
+  return Surface(light_position(at), stored_depth_at(pixel), above / (filter_edge * max(size.x, size.y)), inverse_w,
+                 1.0 / clip_w,
                  vec2(pixels_a_metre(vec3(size.x, 0.0, 0.0), ray, normal),
                       pixels_a_metre(vec3(0.0, size.y, 0.0), ray, normal)));
 }
@@ -63,7 +63,7 @@ float kernel_distance(ivec2 pixel, uint texel) {
   float own = texel_distance(texel);
   float sum = own;
   float found = own > 0.0 ? 1.0 : 0.0;
-  // A count that compilers don't know, so that they leave a loop, which costs nothing where it is not run.
+  // Not a constant, so that compilers keep the loop: unrolled, its reads would cost something where it is not run.
   ivec2 move = ivec2(1, 2);
   int count = own > 0.0 || is_sky_depth(stored_depth_at(pixel)) ? 0 : 8;
   for (int i = 0; i < count; ++i) {
@@ -75,10 +75,10 @@ float kernel_distance(ivec2 pixel, uint texel) {
   return found > 0.0 ? sum / found : 0.0;
 }
 
-// Standard deviation of the kernel along x and y, pixels: filter.width of the penumbra's full width 2 · tan(half angle)
-// · distance, as the receiver's plane is seen.
+// Standard deviation of the kernel along x and y, pixels: filter.width of the penumbra's full width, as the receiver's
+// plane is seen.
 vec2 kernel_sigma(Surface surface, float distance_to) {
-  return min(filter_width * 2.0 * packed_slope(shadow.light.x) * distance_to * surface.pixels, filter_max_sigma);
+  return min(filter_width * 2.0 * packed_radius(surface.position, distance_to) * surface.pixels, filter_max_sigma);
 }
 
 // Kernels below this are narrower than a pixel: a neighbour would weigh under 0.004.
@@ -89,7 +89,7 @@ const float least_sigma = 0.3;
 // number, with 6 to a tenth over both axes, below what blurring itself is off by. What blue noise is better by than
 // white comes only from reading all pixels. Spaced alike for every pixel they would leave their lattice in the picture,
 // so each pixel shifts them.
-struct Taps {
+struct TapLine {
   int first, last;
   float spacing;  // pixels, at least 1
   float shift;    // pixels, less than half the spacing; 0 where none are left out
@@ -102,17 +102,17 @@ float tap_noise(ivec2 pixel, int axis) {
   return fract(52.9829189 * fract(dot(vec2(axis == 0 ? at : at.yx), vec2(0.06711056, 0.00583715))));
 }
 
-Taps taps_along(int axis, ivec2 pixel, float radius) {
+TapLine taps_along(int axis, ivec2 pixel, float radius) {
   float spacing = max(radius / float(filter_taps), 1.0);
   float shift = (tap_noise(pixel, axis) - 0.5) * (spacing - 1.0);
   int side = int(radius / spacing + 0.5);
   int below = int((float(pixel[axis] - lowest_pixel()[axis]) + shift) / spacing);
   int above = int((float(highest_pixel()[axis] - pixel[axis]) - shift) / spacing);
-  return Taps(-min(side, below), min(side, above), spacing, shift, radius);
+  return TapLine(-min(side, below), min(side, above), spacing, shift, radius);
 }
 
 // Within the radius, shifted or not: no more is shared by a group.
-int tap_offset(Taps taps, int index) {
+int tap_offset(TapLine taps, int index) {
   float offset = float(index) * taps.spacing + taps.shift;
   return index == 0 ? 0 : int(roundEven(clamp(offset, -taps.radius, taps.radius)));
 }

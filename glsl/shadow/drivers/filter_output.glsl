@@ -5,6 +5,8 @@ layout(binding = 13) uniform usampler2D source_notes;
 vec4 unpacked(uint texel, ivec2 pixel) {
   uint notes = texelFetch(source_notes, pixel, 0).x;
   float distance_to = texel_distance(texel);
-  return vec4(texel_visibility(texel), packed_slope(shadow.light.x) * distance_to, distance_to,
+  // The sky has distance 0, whatever its position.
+  float radius = distance_to > 0.0 ? packed_radius(light_position(view_position_at(pixel)), distance_to) : 0.0;
+  return vec4(texel_visibility(texel), radius, distance_to,
               float(notes_cascade(notes)) + (notes_under_texel(notes) ? 0.5 : 0.0));
 }

@@ -1,12 +1,12 @@
 // The receivers of the caller's depth and normals: what a pass of a technique's own needs to go on from a pixel.
-#include "shadow/drivers/receiver.glsl"
+#include "shadow/light.glsl"
 #include "lib/octahedral.glsl"
 
 layout(binding = 2) uniform sampler2D receiver_depth;
 layout(binding = 3) uniform sampler2D receiver_normal;
 
 // Whether there is nothing but sky.
-bool is_sky(ivec2 pixel) { return texelFetch(receiver_depth, pixel, 0).x == shadow.depth_to_ndc.z; }
+bool is_sky(ivec2 pixel) { return texelFetch(receiver_depth, pixel, 0).x == shadow.sky_depth; }
 
 // View space (metres) of a pixel that is not sky.
 vec3 view_position_at(ivec2 pixel) {
@@ -16,8 +16,13 @@ vec3 view_position_at(ivec2 pixel) {
   return view.xyz / view.w;
 }
 
-Receiver receiver_at(ivec2 pixel) {
+// Geometric normal of a pixel that is not sky, light space.
+vec3 light_normal_at(ivec2 pixel) {
   vec4 stored = texelFetch(receiver_normal, pixel, 0);
-  vec3 normal = shadow.depth_to_ndc.w != 0.0 ? octahedral_decode(stored.xy) : normalize(stored.xyz);
-  return make_receiver(view_position_at(pixel), mat3(shadow.world_to_light) * normal, vec2(pixel));
+  vec3 normal = shadow.octahedral_normals != 0 ? octahedral_decode(stored.xy) : normalize(stored.xyz);
+  return light_direction(normal);
+}
+
+Receiver receiver_at(ivec2 pixel) {
+  return make_receiver(view_position_at(pixel), light_normal_at(pixel), vec2(pixel));
 }

@@ -40,14 +40,14 @@ float present_weight(Reprojection last, Receiver receiver, float distance_to) {
   vec2 part = vec2(last.weights.y + last.weights.w, last.weights.z + last.weights.w);
   vec2 blur = part * (1.0 - part);
   float variance = max(blur.x, blur.y);
-  float width = 2.0 * packed_slope(shadow.light.x) * distance_to / pixel_width(receiver_view_position(receiver));
+  float width = 2.0 * packed_radius(receiver.position, distance_to) / pixel_width(view_position_of(receiver));
   float sigma = min(filter_width * width, filter_max_sigma);
   return max(history_alpha, variance / max(variance + sigma * sigma, 1e-6));
 }
 
 Kept blend(ivec2 pixel) {
   uint now = texelFetch(texels, pixel, 0).x;
-  if (is_sky(pixel)) return Kept(now, uvec2(floatBitsToUint(shadow.depth_to_ndc.z), 0u));
+  if (is_sky(pixel)) return Kept(now, uvec2(floatBitsToUint(shadow.sky_depth), 0u));
   Receiver receiver = receiver_at(pixel);
   uvec2 surface = surface_bits(pixel, receiver);
   if (texel_invalid(now)) return Kept(now, surface);

@@ -13,7 +13,7 @@ PackedPixel shade_pixel(ivec2 pixel) {
   refusal = refusal_of(receiver, light, pixel);
   receiver.renewed = refusal != HISTORY_KEPT;
 #endif
-  return packed_pixel(shadow_of(receiver, light), refusal);
+  return packed_pixel(shadow_of(receiver, light), receiver, refusal);
 }
 #else
 

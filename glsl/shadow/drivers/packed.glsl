@@ -11,32 +11,33 @@ struct PackedPixel {
   uint notes;
 };
 
-PackedPixel packed_pixel(Shadowed shadowed, uint refusal) {
+PackedPixel packed_pixel(Shadowed shadowed, Receiver receiver, uint refusal) {
   Visibility seen = shadowed.visibility;
   // Kernels take their size from the distance, also those of techniques that give the size alone.
-  float distance_to = seen.penumbra_radius / packed_slope(shadow.light.x);
+  float distance_to = packed_distance(receiver.position, seen.penumbra_radius);
   return PackedPixel(pack_texel(distance_to, seen.visibility, refusal != HISTORY_KEPT),
-                     pack_notes(shadowed.cascade, seen.under_texel, refusal));
+                     pack_notes(shadowed.layer, seen.under_texel, refusal));
 }
 
 #if HISTORY
 
 // In the finest map that holds the disc: what is thinner than a texel of a coarser one may be missing there.
-bool movement_within(vec3 position, float radius, Light light) {
-  int cascade = finest_cascade(light, position, radius);
-  return movement_seen(position, radius + 1.5 * shadow.cascades[cascade].map.w, cascade);
+bool movement_within(Receiver receiver, float radius, Light light) {
+  int layer = finest_layer(receiver, radius, light);
+  return movement_seen(receiver.position, radius + 1.5 * texel_size_at(receiver.position, layer), layer);
 }
 
-// Whether something moved that hides, or hid, a part of the light. The technique's reach follows from the casters of
-// this frame; one that has left may have stood higher.
+// Whether something moved that hides, or hid, a part of the light. The radius that the technique reads follows from the
+// casters of this frame; one that has left may have stood higher.
 bool caster_moved(Receiver receiver, Light light) {
-  float all = max(light.reach, penumbra_radius(light.tan_half_angle, receiver.position.z, shadow.history.w));
-  return movement_within(receiver.position, light.reach, light) || movement_within(receiver.position, all, light);
+  float of_moved = penumbra_radius(receiver, receiver.position.z - shadow.moved_depth, light);
+  return movement_within(receiver, light.read_radius, light) ||
+         movement_within(receiver, max(light.read_radius, of_moved), light);
 }
 
 uint refusal_of(Receiver receiver, Light light, ivec2 pixel) {
   uint refusal = reproject(receiver, pixel).refusal;
-  bool asks = refusal == HISTORY_KEPT && shadow.history.z != 0.0 && faces_light(receiver);
+  bool asks = refusal == HISTORY_KEPT && shadow.casters_moved != 0 && faces_light(receiver);
   return asks && caster_moved(receiver, light) ? HISTORY_CASTER_MOVED : refusal;
 }
 #endif

@@ -10,8 +10,8 @@ uint filtered(ivec2 pixel) {
   vec2 sigma = distance_to > 0.0 ? kernel_sigma(surface, distance_to) : vec2(0.0);
   if (max(sigma.x, sigma.y) < least_sigma) return texel;
   sigma = max(sigma, least_sigma);
-  Taps columns = taps_along(0, pixel, 2.0 * sigma.x);
-  Taps rows = taps_along(1, pixel, 2.0 * sigma.y);
+  TapLine columns = taps_along(0, pixel, 2.0 * sigma.x);
+  TapLine rows = taps_along(1, pixel, 2.0 * sigma.y);
   vec2 falloff = -0.5 / (sigma * sigma);
   float sum = 0.0;
   float weights = 0.0;

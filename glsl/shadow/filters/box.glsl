@@ -8,7 +8,7 @@ uint filtered(ivec2 pixel) {
   float sigma = distance_to > 0.0 ? kernel_sigma(surface_at(pixel), distance_to)[filter_pass] : 0.0;
   if (sigma < least_sigma) return texel;
   float half_width = 1.7320508 * sigma;
-  Taps taps = taps_along(filter_pass, pixel, half_width + 0.5);
+  TapLine taps = taps_along(filter_pass, pixel, half_width + 0.5);
   float sum = 0.0;
   float weights = 0.0;
   for (int i = taps.first; i <= taps.last; ++i) {

@@ -6,7 +6,7 @@ uint filtered(ivec2 pixel) {
   float distance_to = kernel_distance(pixel, texel);
   float sigma = distance_to > 0.0 ? kernel_sigma(surface_at(pixel), distance_to)[filter_pass] : 0.0;
   if (sigma < least_sigma) return texel;
-  Taps taps = taps_along(filter_pass, pixel, 2.0 * sigma);
+  TapLine taps = taps_along(filter_pass, pixel, 2.0 * sigma);
   float falloff = -0.5 / (sigma * sigma);
   float sum = 0.0;
   float weights = 0.0;

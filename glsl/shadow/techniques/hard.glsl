@@ -1,7 +1,7 @@
 // The shadow of the light's centre, filtered over the map's texel.
 #include "shadow/light.glsl"
 
-float reach(Receiver receiver, Light light) { return 0.0; }
+float read_radius(Receiver receiver, Light light) { return 0.0; }
 
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);

@@ -1,7 +1,7 @@
 // Percentage-closer filtering over a disc of constant radius in metres.
 #include "shadow/light.glsl"
 
-float reach(Receiver receiver, Light light) { return pcf_radius; }
+float read_radius(Receiver receiver, Light light) { return pcf_radius; }
 
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
@@ -12,5 +12,5 @@ Visibility visibility(Receiver receiver, Light light) {
     lit += lit_share(receiver, pcf_radius * filter_point(i, scramble, light), bias, light);
   }
   lit /= float(pcf_filter_taps);
-  return Visibility(lit, lit < 1.0 ? pcf_radius : 0.0, 0.0, pcf_radius < texel_size(light));
+  return Visibility(lit, lit < 1.0 ? pcf_radius : 0.0, 0.0, pcf_radius < texel_size(receiver, light));
 }

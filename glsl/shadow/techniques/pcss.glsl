@@ -1,7 +1,7 @@
 // Percentage-closer soft shadows (Fernando 2005), radii in metres.
 #include "shadow/blockers.glsl"
 
-float reach(Receiver receiver, Light light) { return search_reach(receiver, light); }
+float read_radius(Receiver receiver, Light light) { return search_radius(receiver, light); }
 
 Visibility visibility(Receiver receiver, Light light) {
   return soft_shadow(receiver, light, pcss_blocker_taps, pcss_filter_taps, pcss_renewal_taps, pcss_early_exit != 0);
