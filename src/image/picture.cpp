@@ -9,6 +9,7 @@
 #include "core/read_file.h"
 #include "image/bytes.h"
 #include "image/memory_input.h"
+#include "image/png.h"
 #include "image/precheck.h"
 #include "io/output_file.h"
 
@@ -86,36 +87,57 @@ std::vector<float> read_channels(MemoryInput& input, const std::vector<int>& cho
   return pixels;
 }
 
+[[noreturn]] void fail_not_opaque() { fail("it is not opaque: alpha is not 1 everywhere"); }
+
 void check_alpha(MemoryInput& input, const Names& channels, const std::string& layer) {
   const std::string name = layer.empty() ? "A" : layer + ".A";
   const auto found = std::find(channels.begin(), channels.end(), name);
   if (found == channels.end()) return;
   const std::vector<float> alpha = read_channel(input, static_cast<int>(found - channels.begin()));
-  if (std::any_of(alpha.begin(), alpha.end(), [](float a) { return a != 1.0f; }))
-    fail("it is not opaque: alpha is not 1 everywhere");
+  if (std::any_of(alpha.begin(), alpha.end(), [](float a) { return a != 1.0f; })) fail_not_opaque();
 }
 
-Picture read(std::span<const std::byte> bytes, const std::string& name, const std::string& layer,
-             std::size_t max_pixels) {
-  if (bytes.empty()) fail("the file is empty");
-  const bool png = starts_with(bytes, png_signature);
-  if (!png && !starts_with(bytes, exr_signature)) fail("neither PNG nor EXR");
-  if (png && !layer.empty()) fail("a PNG has no layers, so no '{}'", layer);
-  std::vector<std::byte> cleaned;
-  if (png)
-    cleaned = pixel_chunks_of_png(bytes);
-  else
-    check_exr_header(bytes, max_pixels);
+Picture read_png(std::span<const std::byte> bytes, std::size_t max_pixels) {
+  const PngPixels png = decode_png(bytes, max_pixels);
+  const auto stored = static_cast<std::size_t>(png.channels), colors = stored - (stored % 2 == 0 ? 1 : 0);
+  Picture picture{png.width, png.height, /* display= */ true, {}, {}, {}};
+  picture.channels = colors == 1 ? Names{"Y"} : Names{"R", "G", "B"};
+  picture.pixels.reserve(png.count() / stored * colors);
+  for (std::size_t i = 0; i < png.count(); ++i) {
+    if (i % stored < colors)
+      picture.pixels.push_back(png.value(i));
+    else if (png.value(i) != 1.0f)
+      fail_not_opaque();
+  }
+  return picture;
+}
 
-  MemoryInput input(png ? "png" : "openexr", png ? cleaned : bytes, name, max_pixels);
+Picture read_exr(std::span<const std::byte> bytes, const std::string& name, const std::string& layer,
+                 std::size_t max_pixels) {
+  check_exr_header(bytes, max_pixels);
+  MemoryInput input("openexr", bytes, name, max_pixels);
   const Names& channels = input.spec().channelnames;
-  Picture picture{input.spec().width, input.spec().height, png, chosen_layer(layers_of(channels), layer), {}, {}};
+  Picture picture{input.spec().width,
+                  input.spec().height,
+                  /* display= */ false,
+                  chosen_layer(layers_of(channels), layer),
+                  {},
+                  {}};
   const std::vector<int> chosen = chosen_channels(channels, picture.layer);
   check_alpha(input, channels, picture.layer);
   picture.pixels = read_channels(input, chosen);
   for (const int channel : chosen)
     picture.channels.push_back(without_layer(channels[static_cast<std::size_t>(channel)]));
   return picture;
+}
+
+Picture read(std::span<const std::byte> bytes, const std::string& name, const std::string& layer,
+             std::size_t max_pixels) {
+  if (bytes.empty()) fail("the file is empty");
+  if (starts_with(bytes, exr_signature)) return read_exr(bytes, name, layer, max_pixels);
+  if (!starts_with(bytes, png_signature)) fail("neither PNG nor EXR");
+  if (!layer.empty()) fail("a PNG has no layers, so no '{}'", layer);
+  return read_png(bytes, max_pixels);
 }
 
 }  // namespace

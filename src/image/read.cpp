@@ -2,49 +2,60 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "image/bytes.h"
 #include "image/memory_input.h"
+#include "image/png.h"
 #include "image/precheck.h"
 #include "image/probe.h"
 
 namespace penumbra::image {
 namespace {
 
-// One or two channels are grey; a missing alpha is opaque.
-std::vector<uint8_t> to_rgba(std::vector<uint8_t> pixels, std::size_t channels) {
-  if (channels == 4) return pixels;
-  const std::size_t count = pixels.size() / channels;
-  std::vector<uint8_t> rgba(count * 4, 255);
+// One or two channels are grey; a missing alpha is opaque. `value(i)` is value number i of the pixels' channels.
+template <class Values>
+std::vector<std::uint8_t> to_rgba(std::size_t count, std::size_t channels, const Values& value) {
+  std::vector<std::uint8_t> rgba(count * 4, 255);
   for (std::size_t i = 0; i < count; ++i) {
-    const uint8_t* in = &pixels[i * channels];
-    for (std::size_t c = 0; c < 3; ++c) rgba[i * 4 + c] = channels >= 3 ? in[c] : in[0];
-    if (channels == 2) rgba[i * 4 + 3] = in[1];
+    const std::size_t in = i * channels;
+    for (std::size_t c = 0; c < 3; ++c) rgba[i * 4 + c] = value(channels >= 3 ? in + c : in);
+    if (channels % 2 == 0) rgba[i * 4 + 3] = value(in + channels - 1);
   }
   return rgba;
+}
+
+scene::Image read_png(std::span<const std::byte> encoded, const std::string& name, std::size_t max_pixels) {
+  const PngPixels png = decode_png(encoded, max_pixels);
+  const auto channels = static_cast<std::size_t>(png.channels);
+  return {.name = name,
+          .width = png.width,
+          .height = png.height,
+          .rgba = to_rgba(png.count() / channels, channels, [&](std::size_t i) { return png.byte(i); })};
+}
+
+scene::Image read_jpeg(std::span<const std::byte> encoded, const std::string& name, std::size_t max_pixels) {
+  const scene::ImageHeader header = probe(encoded);
+  check_pixels(header.width, header.height, max_pixels);
+  const std::vector<std::byte> cleaned = pixel_segments_of_jpeg(encoded);
+  MemoryInput input("jpeg", cleaned, name, max_pixels);
+  const auto channels = static_cast<std::size_t>(std::min(input.spec().nchannels, 4));
+  std::vector<std::uint8_t> pixels(input.pixels() * channels);
+  input.read(0, static_cast<int>(channels), OIIO::TypeDesc::UINT8, pixels.data());
+  return {.name = name,
+          .width = input.spec().width,
+          .height = input.spec().height,
+          .rgba = to_rgba(input.pixels(), channels, [&](std::size_t i) { return pixels[i]; })};
 }
 
 }  // namespace
 
 scene::Image read_image(std::span<const std::byte> encoded, const std::string& name, std::size_t max_pixels) {
   // Only the formats that glTF knows: others that the library could read would only be more code to attack.
-  const bool png = starts_with(encoded, png_signature);
-  if (!png && !starts_with(encoded, jpeg_signature)) fail("neither PNG nor JPEG");
-  const std::vector<std::byte> cleaned = png ? pixel_chunks_of_png(encoded) : pixel_segments_of_jpeg(encoded);
-  const scene::ImageHeader header = probe(cleaned);
-  check_pixels(header.width, header.height, max_pixels);
-
-  MemoryInput input(png ? "png" : "jpeg", cleaned, name, max_pixels);
-  const int channels = std::min(input.spec().nchannels, 4);
-  std::vector<uint8_t> pixels(input.pixels() * static_cast<std::size_t>(channels));
-  input.read(0, channels, OIIO::TypeDesc::UINT8, pixels.data());
-  return {.name = name,
-          .width = input.spec().width,
-          .height = input.spec().height,
-          .rgba = to_rgba(std::move(pixels), static_cast<std::size_t>(channels))};
+  if (starts_with(encoded, png_signature)) return read_png(encoded, name, max_pixels);
+  if (starts_with(encoded, jpeg_signature)) return read_jpeg(encoded, name, max_pixels);
+  fail("neither PNG nor JPEG");
 }
 
 scene::ImageDecoder image_decoder(const scene::ReadLimits& limits) {

@@ -215,6 +215,18 @@ class Refusals(Diff):
         for size in (4, 9, 100, 300, len(whole) - 60, len(whole) - 1):
             self.broken("cut.exr", whole[:size])
 
+    def test_a_damaged_png_is_one_line(self):
+        # The compressed data is damaged, and the chunk's checksum fits it: libpng finds it, and would print it.
+        whole = self.grey.read_bytes()
+        at = whole.index(b"IDAT")
+        size = struct.unpack(">I", whole[at - 4:at])[0]
+        body = whole[at:at + 4] + bytes(4) + whole[at + 8:at + 4 + size]
+        data = whole[:at] + body + struct.pack(">I", zlib.crc32(body)) + whole[at + 8 + size:]
+        (self.folder / "bad.png").write_bytes(data)
+        result = run("diff", self.grey, self.folder / "bad.png")
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stderr, r"^error: cannot read '\S+bad\.png': [^\n]+\n$")
+
     def test_headers_that_ask_for_much(self):
         huge = struct.pack("<4i", 0, 0, 99_999, 99_999)
         exr(self.folder / "huge.exr", 4, 3, {"V": [0.5] * 12}, window=huge)

@@ -40,6 +40,7 @@ LIBRARIES = {
     "embree3/": {"truth"},
     "xxhash.h": {"truth"},
     "OpenImageIO/": {"image"},
+    "png.h": {"image"},
     "toml++/": {"io"},
     "nlohmann/": {"scene", "io", "report", "studio", "bench", "app"},
     "CLI/": {"studio", "bench", "app"},
