@@ -71,6 +71,9 @@ class Loader {
     const std::optional<std::string> text = files_.read(name);
     if (!text) fail("{}shader file 'glsl/{}' not found", asked_by, name);
     const std::size_t index = source_.files.size();
+    if (index == most_shader_files) {
+      fail("{}shader 'glsl/{}' includes more than {} files", asked_by, source_.files.front(), most_shader_files);
+    }
     source_.files.emplace_back(name);
     source_.shown_names.push_back(files_.shown_name(name));
     std::string_view rest = *text;

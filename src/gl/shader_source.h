@@ -56,8 +56,11 @@ struct ShaderSource {
   std::vector<std::string> shown_names = {};  // one a file, for messages; empty: "glsl/" and the name
 };
 
-// Throws Error naming file and line when a file is missing, or an include is malformed. Cycles can't happen: each file
-// is included once.
+// Files that one stage may be made of, so that a chain of includes ends.
+constexpr std::size_t most_shader_files = 1000;
+
+// Throws Error naming file and line when a file is missing, an include is malformed, or there are more files than that.
+// Cycles can't happen: each file is included once.
 ShaderSource load_shader_source(const ShaderFiles& files, std::string_view root, const std::vector<Define>& defines);
 
 // Rewrites "0(56)", "0:56(5)" and "0:56:" of a driver's log into "glsl/lib/kernel.glsl:12:", one message a line, told

@@ -95,6 +95,23 @@ TEST(ShaderSource, AMalformedIncludeNamesItsLine) {
   }
 }
 
+// A chain of files, each of which includes the next.
+ShaderFiles chain_of(std::size_t count) {
+  ShaderFiles files;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool last = i + 1 == count;
+    files.put(fmt::format("chain/{}.glsl", i),
+              last ? "float end;\n" : fmt::format("#include \"chain/{}.glsl\"\n", i + 1));
+  }
+  return files;
+}
+
+TEST(ShaderSource, AChainOfIncludesEndsAtALimitThatIsNamed) {
+  EXPECT_EQ(load_shader_source(chain_of(most_shader_files), "chain/0.glsl", {}).files.size(), most_shader_files);
+  EXPECT_EQ(message(chain_of(60000), "chain/0.glsl"),
+            "glsl/chain/999.glsl:1: shader 'glsl/chain/0.glsl' includes more than 1000 files");
+}
+
 TEST(ShaderSource, NamesThatLeaveTheFolderAreRefused) {
   const TemporaryFolder folder;
   folder.write("secret", "SECRET");
