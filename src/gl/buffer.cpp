@@ -1,6 +1,7 @@
 #include "buffer.h"
 
 #include <cassert>
+#include <string>
 
 #include "../core/error.h"
 #include "debug.h"
@@ -18,11 +19,10 @@ Handle<delete_buffer> make_storage(std::string_view name, std::size_t bytes, con
   label(GL_BUFFER, id, name);
   // A buffer of no bytes is not valid storage, while an empty list is a valid thing to upload.
   const std::size_t storage = bytes == 0 ? 1 : bytes;
+  const std::string what = fmt::format("buffer '{}'", name);
+  StorageCheck check(what);
   glNamedBufferStorage(id, static_cast<GLsizeiptr>(storage), bytes == 0 ? nullptr : contents, GL_DYNAMIC_STORAGE_BIT);
-  if (glGetError() == GL_OUT_OF_MEMORY) {
-    forget_errors();
-    fail("buffer '{}': out of memory for {} bytes", name, bytes);
-  }
+  if (check.ran_out()) fail("{}: out of memory for {} bytes", what, bytes);
   return handle;
 }
 

@@ -1,7 +1,9 @@
 #include "debug.h"
 
+#include <algorithm>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../core/error.h"
@@ -65,11 +67,24 @@ const char* error_name(GLenum error) {
   }
 }
 
-// Empties the driver's error flags; the first one, or GL_NO_ERROR.
-GLenum take_error_flags() {
-  const GLenum first = glGetError();
-  for (GLenum next = first; next != GL_NO_ERROR && next != GL_CONTEXT_LOST;) next = glGetError();
-  return first;
+// Empties the driver's error flags. A lost context has one without end.
+std::vector<GLenum> take_error_flags() {
+  std::vector<GLenum> flags;
+  for (GLenum flag = glGetError(); flag != GL_NO_ERROR; flag = glGetError()) {
+    flags.push_back(flag);
+    if (flag == GL_CONTEXT_LOST) break;
+  }
+  return flags;
+}
+
+std::string take_message() {
+  const std::lock_guard lock(pending().mutex);
+  return std::exchange(pending().message, {});
+}
+
+void put_message(std::string message) {
+  const std::lock_guard lock(pending().mutex);
+  pending().message = std::move(message);
 }
 
 }  // namespace
@@ -84,7 +99,8 @@ void enable_debug_output() {
   glEnable(GL_DEBUG_OUTPUT);
   glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
   glDebugMessageCallback(on_message, nullptr);
-  forget_errors();
+  take_error_flags();
+  take_message();
 }
 
 bool debug_enabled() {
@@ -94,20 +110,29 @@ bool debug_enabled() {
 }
 
 void check_errors(std::string_view where) {
-  std::string message;
-  {
-    const std::lock_guard lock(pending().mutex);
-    message.swap(pending().message);
-  }
-  const GLenum flag = take_error_flags();
-  if (message.empty() && flag != GL_NO_ERROR) message = located(here(where), error_name(flag));
+  std::string message = take_message();
+  const std::vector<GLenum> flags = take_error_flags();
+  if (message.empty() && !flags.empty()) message = located(here(where), error_name(flags.front()));
   if (!message.empty()) throw Error(message);
 }
 
-void forget_errors() {
-  take_error_flags();
-  const std::lock_guard lock(pending().mutex);
-  pending().message.clear();
+StorageCheck::StorageCheck(std::string_view what) : what_(what) {
+  const std::vector<GLenum> flags = take_error_flags();
+  earlier_ = take_message();
+  if (!earlier_.empty()) return;
+  for (const GLenum flag : flags) warn("OpenGL: {} was there before {} was made", error_name(flag), what_);
+}
+
+bool StorageCheck::ran_out() {
+  const std::vector<GLenum> flags = take_error_flags();
+  const bool out = std::ranges::find(flags, GLenum{GL_OUT_OF_MEMORY}) != flags.end();
+  std::string message = take_message();  // of the call
+  if (message.empty() && !out) {
+    for (const GLenum flag : flags) warn("OpenGL: {} when {} was made", error_name(flag), what_);
+  }
+  const bool told = out || message.empty();  // of memory, the caller tells
+  put_message(!earlier_.empty() || told ? std::move(earlier_) : std::move(message));
+  return out;
 }
 
 DebugGroup::DebugGroup(std::string_view name) {

@@ -6,30 +6,35 @@
 
 namespace penumbra::gl {
 
-// Owns one GL object name; move-only. Deleter is a function that deletes one name.
+// One GL object name; move-only. Owned, so that Deleter, a function that deletes one name, is called in the end; or
+// that of an object of somebody else's, which is left alone.
 template <void (*Deleter)(GLuint)>
 class Handle {
  public:
   Handle() = default;
-  explicit Handle(GLuint id) : id_(id) {}
-  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+  explicit Handle(GLuint id, bool owned = true) : id_(id), owned_(owned) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, 0)), owned_(other.owned_) {}
   Handle& operator=(Handle&& other) noexcept {
     if (this != &other) {
       reset();
       id_ = std::exchange(other.id_, 0);
+      owned_ = other.owned_;
     }
     return *this;
   }
   ~Handle() { reset(); }
 
   GLuint id() const { return id_; }
+  bool is_owned() const { return owned_; }
   explicit operator bool() const { return id_ != 0; }
 
  private:
   void reset() {
-    if (id_ != 0) Deleter(std::exchange(id_, 0));
+    const GLuint id = std::exchange(id_, 0);
+    if (id != 0 && owned_) Deleter(id);
   }
   GLuint id_ = 0;
+  bool owned_ = true;
 };
 
 }  // namespace penumbra::gl

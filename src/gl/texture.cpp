@@ -18,22 +18,22 @@ namespace {
 
 bool is_array(const TextureDesc& desc) { return desc.target == GL_TEXTURE_2D_ARRAY; }
 
-int level_size(int size, int level) { return std::max(1, size >> level); }
-
-int limit(GLenum name) {
+GLint integer(GLenum name) {
   GLint value = 0;
   glGetIntegerv(name, &value);
   return value;
 }
 
+int level_size(int size, int level) { return std::max(1, size >> level); }
+
 void check_size(std::string_view name, const TextureDesc& desc) {
   assert(desc.target == GL_TEXTURE_2D || is_array(desc));
   assert(desc.width > 0 && desc.height > 0 && desc.layers > 0 && desc.levels > 0);
-  const int max_size = limit(GL_MAX_TEXTURE_SIZE);
+  const int max_size = integer(GL_MAX_TEXTURE_SIZE);
   if (desc.width > max_size || desc.height > max_size) {
     fail("texture '{}': {} x {} is over this device's limit of {}", name, desc.width, desc.height, max_size);
   }
-  const int max_layers = limit(GL_MAX_ARRAY_TEXTURE_LAYERS);
+  const int max_layers = integer(GL_MAX_ARRAY_TEXTURE_LAYERS);
   if (desc.layers > max_layers) {
     fail("texture '{}': {} layers are over this device's limit of {}", name, desc.layers, max_layers);
   }
@@ -53,24 +53,44 @@ std::uint64_t next_serial() {
   return ++last;
 }
 
-// Client memory is packed tightly, whatever the state the caller's program left.
-void set_tight_unpacking() {
-  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  for (const GLenum name : {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_IMAGE_HEIGHT,
-                            GL_UNPACK_SKIP_IMAGES}) {
-    glPixelStorei(name, 0);
-  }
-}
+// How client memory is laid out for uploads or for read-backs.
+struct PixelStore {
+  GLenum buffer, binding;        // target of a buffer that stands for client memory, and its query
+  std::array<GLenum, 7> layout;  // the first is the alignment
+};
 
-void set_tight_packing() {
-  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  for (const GLenum name :
-       {GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS, GL_PACK_IMAGE_HEIGHT, GL_PACK_SKIP_IMAGES}) {
-    glPixelStorei(name, 0);
+constexpr PixelStore unpacking{GL_PIXEL_UNPACK_BUFFER,
+                               GL_PIXEL_UNPACK_BUFFER_BINDING,
+                               {GL_UNPACK_ALIGNMENT, GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS,
+                                GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_IMAGES, GL_UNPACK_SWAP_BYTES}};
+constexpr PixelStore packing{GL_PIXEL_PACK_BUFFER,
+                             GL_PIXEL_PACK_BUFFER_BINDING,
+                             {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS,
+                              GL_PACK_IMAGE_HEIGHT, GL_PACK_SKIP_IMAGES, GL_PACK_SWAP_BYTES}};
+
+// Client memory is packed tightly in this scope, and as the caller's program had it afterwards.
+class TightPixels {
+ public:
+  explicit TightPixels(const PixelStore& store)
+      : store_(store), buffer_(static_cast<GLuint>(integer(store.binding))), values_() {
+    glBindBuffer(store_.buffer, 0);
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      values_[i] = integer(store_.layout[i]);
+      glPixelStorei(store_.layout[i], i == 0 ? 1 : 0);
+    }
   }
-}
+  ~TightPixels() {
+    for (std::size_t i = 0; i < values_.size(); ++i) glPixelStorei(store_.layout[i], values_[i]);
+    glBindBuffer(store_.buffer, buffer_);
+  }
+  TightPixels(const TightPixels&) = delete;
+  TightPixels& operator=(const TightPixels&) = delete;
+
+ private:
+  const PixelStore& store_;
+  GLuint buffer_;
+  std::array<GLint, 7> values_;
+};
 
 // Of a level and layer.
 struct Block {
@@ -93,7 +113,7 @@ template <class Value>
 std::vector<Value> read_pixels(const Texture& texture, GLenum format, GLenum type, int channels, const Block& block) {
   std::vector<Value> pixels(static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height) *
                             static_cast<std::size_t>(channels));
-  set_tight_packing();
+  const TightPixels tight(packing);
   glGetTextureSubImage(texture.id(), block.level, block.x, block.y, block.layer, block.width, block.height, 1, format,
                        type, static_cast<GLsizei>(pixels.size() * sizeof(Value)), pixels.data());
   return pixels;
@@ -124,14 +144,15 @@ Texture::Texture(std::string_view label, const TextureDesc& desc) : desc_(desc),
   glCreateTextures(desc.target, 1, &id);
   handle_ = Handle<delete_texture>(id);
   gl::label(GL_TEXTURE, id, label);
+  const std::string what = fmt::format("texture '{}'", label);
+  StorageCheck check(what);
   if (is_array(desc)) {
     glTextureStorage3D(id, desc.levels, desc.format, desc.width, desc.height, desc.layers);
   } else {
     glTextureStorage2D(id, desc.levels, desc.format, desc.width, desc.height);
   }
-  if (glGetError() == GL_OUT_OF_MEMORY) {
-    forget_errors();
-    fail("texture '{}': out of memory for {} x {} x {}, {} bytes a texel", label, desc.width, desc.height, desc.layers,
+  if (check.ran_out()) {
+    fail("{}: out of memory for {} x {} x {}, {} bytes a texel", what, desc.width, desc.height, desc.layers,
          format.bytes);
   }
   const GLenum min_filter = desc.levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST;
@@ -141,13 +162,20 @@ Texture::Texture(std::string_view label, const TextureDesc& desc) : desc_(desc),
   glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
+Texture Texture::wrap(GLuint id, const TextureDesc& desc) {
+  Texture texture;
+  texture.handle_ = Handle<delete_texture>(id, /*owned=*/false);
+  texture.desc_ = desc;
+  return texture;
+}
+
 void Texture::upload(GLenum format, GLenum type, std::span<const std::byte> pixels, int level, int layer) const {
   const int width = level_size(desc_.width, level);
   const int height = level_size(desc_.height, level);
   assert(level >= 0 && level < desc_.levels && layer >= 0 && layer < desc_.layers);
   assert(pixels.size() ==
          static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * pixel_bytes(format, type));
-  set_tight_unpacking();
+  const TightPixels tight(unpacking);
   if (is_array(desc_)) {
     glTextureSubImage3D(id(), level, 0, 0, layer, width, height, 1, format, type, pixels.data());
   } else {
@@ -187,12 +215,46 @@ Sampler::Sampler(std::string_view label, const SamplerDesc& desc) {
 
 void Sampler::bind(GLuint unit) const { glBindSampler(unit, id()); }
 
+TextureDesc describe(std::string_view name, GLuint id) {
+  if (id == 0 || glIsTexture(id) == GL_FALSE) fail("texture '{}': {} is not the name of a texture", name, id);
+  GLint target = 0;
+  glGetTextureParameteriv(id, GL_TEXTURE_TARGET, &target);
+  if (target != GL_TEXTURE_2D && target != GL_TEXTURE_2D_ARRAY) {
+    fail("texture '{}': {} is not a GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY", name, id);
+  }
+  const auto level_parameter = [&](GLenum parameter) {
+    GLint value = 0;
+    glGetTextureLevelParameteriv(id, 0, parameter, &value);
+    return value;
+  };
+  TextureDesc desc{.target = static_cast<GLenum>(target),
+                   .format = static_cast<GLenum>(level_parameter(GL_TEXTURE_INTERNAL_FORMAT)),
+                   .width = level_parameter(GL_TEXTURE_WIDTH),
+                   .height = level_parameter(GL_TEXTURE_HEIGHT),
+                   .layers = level_parameter(GL_TEXTURE_DEPTH)};
+  if (desc.width < 1) fail("texture '{}': {} has no level 0", name, id);
+  try {
+    format_info(desc.format);
+  } catch (const Error& error) {
+    fail("texture '{}': {}", name, error.what());
+  }
+  GLint levels = 0;
+  glGetTextureParameteriv(id, GL_TEXTURE_IMMUTABLE_LEVELS, &levels);
+  desc.levels = std::max(1, levels);
+  return desc;
+}
+
 std::vector<float> read_floats(const Texture& texture, int channels, int level, int layer) {
   return read_floats(texture, channels, whole(texture, level, layer));
 }
 
 std::vector<unsigned> read_uints(const Texture& texture, int channels, int level, int layer) {
   return read_uints(texture, channels, whole(texture, level, layer));
+}
+
+std::vector<std::uint8_t> read_stencil(const Texture& texture, int level, int layer) {
+  assert(format_info(texture.desc().format).kind == ChannelKind::depth_stencil);
+  return read_pixels<std::uint8_t>(texture, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1, whole(texture, level, layer));
 }
 
 std::vector<float> read_float_texel(const Texture& texture, int channels, int x, int y) {

@@ -31,6 +31,9 @@ class Texture {
  public:
   Texture() = default;
   Texture(std::string_view label, const TextureDesc& desc);
+  // A texture that somebody else made and will delete, as `desc` describes it (see describe()): to attach, bind or read
+  // like one of our own. Nothing of it is changed but what passes draw into it.
+  static Texture wrap(GLuint id, const TextureDesc& desc);
 
   // Tightly packed pixels of one level and layer, given in `format`/`type` (GL_RGBA, GL_UNSIGNED_BYTE…).
   // `pixels` must be exactly the level's size.
@@ -40,7 +43,8 @@ class Texture {
   void bind_image(GLuint unit, GLenum access, int level = 0) const;
 
   GLuint id() const { return handle_.id(); }
-  // Differs for every texture ever made, while the driver gives a deleted texture's id out again.
+  bool is_foreign() const { return !handle_.is_owned(); }
+  // Differs for every texture ever made, while the driver gives a deleted texture's id out again; 0 of foreign ones.
   std::uint64_t serial() const { return serial_; }
   const TextureDesc& desc() const { return desc_; }
   int width() const { return desc_.width; }
@@ -77,11 +81,17 @@ class Sampler {
   Handle<delete_sampler> handle_;
 };
 
+// What OpenGL says of a texture that somebody else made. Throws Error when `id` is no texture, or one of a target or
+// format that Penumbra does not use; `name` stands in the message.
+TextureDesc describe(std::string_view name, GLuint id);
+
 // Pixels of a level and layer, rows bottom to top, tightly packed as floats with `channels` (1 to 4) per pixel;
 // not for integer formats; read_uints is for unsigned ones. Waits for the GPU.
 std::vector<float> read_floats(const Texture& texture, int channels, int level = 0, int layer = 0);
 std::vector<unsigned> read_uints(const Texture& texture, int channels, int level = 0, int layer = 0);
-// The same of one texel, of level and layer 0; y counts from the bottom.
+// The stencil values of a format that has some, likewise.
+std::vector<std::uint8_t> read_stencil(const Texture& texture, int level = 0, int layer = 0);
+// The colours or depth of one texel, of level and layer 0; y counts from the bottom.
 std::vector<float> read_float_texel(const Texture& texture, int channels, int x, int y);
 std::vector<unsigned> read_uint_texel(const Texture& texture, int channels, int x, int y);
 
