@@ -12,7 +12,8 @@ install(TARGETS penumbra_core penumbra_gl penumbra_shadow EXPORT penumbra
 # What an engine may include; the other headers are the library's own.
 set(public_headers
   core/error.h core/log.h core/names.h core/params.h
-  gl/buffer.h gl/context.h gl/debug.h gl/handle.h gl/pass.h gl/program.h gl/shader_library.h gl/shader_source.h
+  gl/buffer.h gl/context.h gl/debug.h gl/device.h gl/handle.h gl/pass.h gl/pass_desc.h gl/program.h
+  gl/shader_library.h gl/shader_source.h
   gl/texture.h gl/timer.h
   shadow/cascades.h shadow/inputs.h shadow/soft_shadows.h shadow/technique.h shadow/technique_frame.h)
 foreach(header IN LISTS public_headers)

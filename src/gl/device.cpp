@@ -1,10 +1,14 @@
+#include "device.h"
+
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <tuple>
 #include <utility>
 
 #include "../core/error.h"
-#include "pass.h"
+#include "debug.h"
+#include "pass_state.h"
 
 namespace penumbra::gl {
 namespace {
@@ -12,9 +16,29 @@ namespace {
 void delete_framebuffer(GLuint id) { glDeleteFramebuffers(1, &id); }
 void delete_vertex_array(GLuint id) { glDeleteVertexArrays(1, &id); }
 
-// A texture's serial, level and layer for each attachment, depth first (zeros: none). Serials and not ids: the driver
-// gives the id of a deleted texture out again, and a framebuffer would go on drawing to the dead one.
-using FramebufferKey = std::vector<std::tuple<std::uint64_t, int, int>>;
+// What a framebuffer's attachment is known by; zeros: none. A texture of ours goes by its serial, not by its id: the
+// driver gives the id of a deleted texture out again, and a framebuffer would go on drawing to the dead one. Foreign
+// textures have no serial: they are attached anew for every pass, and only what makes a framebuffer complete counts.
+struct AttachmentKey {
+  std::uint64_t serial = 0;
+  GLenum target = 0, format = 0;
+  int width = 0, height = 0, level = 0, layer = 0;
+  auto operator<=>(const AttachmentKey&) const = default;
+};
+
+// Depth first.
+using FramebufferKey = std::vector<AttachmentKey>;
+
+AttachmentKey key_of(const Attachment& attachment) {
+  const TextureDesc& desc = attachment.texture->desc();
+  return {attachment.texture->serial(),
+          desc.target,
+          desc.format,
+          desc.width,
+          desc.height,
+          attachment.level,
+          attachment.layer};
+}
 
 struct CachedFramebuffer {
   Handle<delete_framebuffer> handle;
@@ -25,7 +49,7 @@ using SamplerKey = std::tuple<GLenum, GLenum, GLenum, GLenum, bool, float>;
 
 void attach(GLuint framebuffer, GLenum point, const Attachment& attachment) {
   const Texture& texture = *attachment.texture;
-  if (texture.desc().target == GL_TEXTURE_2D_ARRAY) {
+  if (texture.desc().target == GL_TEXTURE_2D_ARRAY && attachment.layer != Attachment::all_layers) {
     glNamedFramebufferTextureLayer(framebuffer, point, texture.id(), attachment.level, attachment.layer);
   } else {
     glNamedFramebufferTexture(framebuffer, point, texture.id(), attachment.level);
@@ -44,12 +68,21 @@ Handle<delete_framebuffer> make_framebuffer(std::string_view name, std::span<con
     attach(id, point, color);
     draw_buffers.push_back(point);
   }
-  if (depth != nullptr) attach(id, GL_DEPTH_ATTACHMENT, *depth);
+  if (depth != nullptr) attach(id, depth_attachment_point(*depth->texture), *depth);
   glNamedFramebufferDrawBuffers(id, static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
   const GLenum status = glCheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
     fail("pass '{}': the driver refuses the framebuffer (status {:#x})", name, status);
   return handle;
+}
+
+void attach_foreign(GLuint framebuffer, std::span<const Attachment> colors, const Attachment* depth) {
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    if (colors[i].texture->is_foreign()) attach(framebuffer, GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i), colors[i]);
+  }
+  if (depth != nullptr && depth->texture->is_foreign()) {
+    attach(framebuffer, depth_attachment_point(*depth->texture), *depth);
+  }
 }
 
 }  // namespace
@@ -64,10 +97,11 @@ struct Device::Impl {
 
   // A framebuffer keeps its textures' memory. Those of a target go with it; those of other textures, when they
   // have been out of use for long.
-  void drop_framebuffers_of(std::uint64_t serial) {
+  void drop_framebuffers_of(const Texture& texture) {
+    if (!texture) return;
     std::erase_if(framebuffers, [&](const auto& entry) {
       for (const auto& attachment : entry.first) {
-        if (std::get<0>(attachment) == serial) return true;
+        if (attachment.serial == texture.serial()) return true;
       }
       return false;
     });
@@ -88,7 +122,7 @@ const Texture& Device::target(std::string_view name, const TextureDesc& desc) {
   if (found == impl_->targets.end()) found = impl_->targets.emplace(name, Texture()).first;
   Texture& texture = found->second;
   if (!texture || texture.desc() != desc) {
-    impl_->drop_framebuffers_of(texture.serial());
+    impl_->drop_framebuffers_of(texture);
     texture = Texture();  // give the memory back before asking for more
     texture = Texture(name, desc);
   }
@@ -109,7 +143,7 @@ const Buffer& Device::scratch(std::string_view name, std::size_t bytes) {
 void Device::drop(std::string_view prefix) {
   std::erase_if(impl_->targets, [&](const auto& entry) {
     if (!entry.first.starts_with(prefix)) return false;
-    impl_->drop_framebuffers_of(entry.second.serial());
+    impl_->drop_framebuffers_of(entry.second);
     return true;
   });
   std::erase_if(impl_->buffers, [&](const auto& entry) { return entry.first.starts_with(prefix); });
@@ -137,14 +171,15 @@ std::size_t Device::target_bytes(std::string_view prefix) const {
 }
 
 GLuint Device::framebuffer(std::string_view name, std::span<const Attachment> colors, const Attachment* depth) {
-  const auto key_of = [](const Attachment& a) { return std::tuple(a.texture->serial(), a.level, a.layer); };
-  FramebufferKey key{depth == nullptr ? std::tuple(std::uint64_t{0}, 0, 0) : key_of(*depth)};
+  FramebufferKey key{depth == nullptr ? AttachmentKey() : key_of(*depth)};
   for (const Attachment& color : colors) key.push_back(key_of(color));
   const std::uint64_t use = ++impl_->framebuffer_uses;
   auto found = impl_->framebuffers.find(key);
   if (found == impl_->framebuffers.end()) {
     impl_->drop_unused_framebuffers();
     found = impl_->framebuffers.emplace(std::move(key), CachedFramebuffer{make_framebuffer(name, colors, depth)}).first;
+  } else {
+    attach_foreign(found->second.handle.id(), colors, depth);
   }
   found->second.last_use = use;
   return found->second.handle.id();

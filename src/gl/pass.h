@@ -1,88 +1,44 @@
 #pragma once
 
-#include <glm/glm.hpp>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
-#include "buffer.h"
 #include "debug.h"
-#include "shader_library.h"
-#include "texture.h"
-#include "timer.h"
+#include "device.h"
+#include "pass_desc.h"
 
 namespace penumbra::gl {
 
-struct Attachment {
-  const Texture* texture = nullptr;
-  int level = 0;
-  int layer = 0;
-  std::optional<glm::vec4> clear;  // nullopt: load. For depth, .x is the depth. Integer colour: converted to integers
+// Commands in a buffer, as OpenGL lays them out: written by the CPU or by a shader of an earlier pass.
+struct DrawArraysCommand {
+  std::uint32_t vertex_count = 0, instance_count = 1, first_vertex = 0, base_instance = 0;
+};
+struct DrawElementsCommand {
+  std::uint32_t index_count = 0, instance_count = 1, first_index = 0;
+  std::int32_t base_vertex = 0;
+  std::uint32_t base_instance = 0;
+};
+struct DispatchCommand {
+  std::uint32_t groups_x = 1, groups_y = 1, groups_z = 1;
 };
 
-// What passes draw with: programs, timers, and targets that persist from frame to frame so that nothing is allocated
-// after warm-up. One per context; handed to every pass, never global.
-class Device {
- public:
-  Device(ShaderFiles files, Timers::Mode timing);
-  ~Device();
-  Device(const Device&) = delete;
-  Device& operator=(const Device&) = delete;
-
-  ShaderLibrary shaders;
-  Timers timers;
-
-  // The texture of that name, made again when the description changes. The reference stays valid; contents persist
-  // until then.
-  const Texture& target(std::string_view name, const TextureDesc& desc);
-  // A buffer of at least `bytes`, likewise (grows, never shrinks).
-  const Buffer& scratch(std::string_view name, std::size_t bytes);
-  const Sampler& sampler(const SamplerDesc& desc);
-  // Gives back the targets and buffers whose name starts with `prefix`; references to them end.
-  void drop(std::string_view prefix);
-  // All of them, in the order of their names; the pointers end as the references do.
-  struct NamedTarget {
-    std::string_view name;
-    const Texture* texture = nullptr;
-  };
-  std::vector<NamedTarget> targets() const;
-  // Bytes of all targets whose name starts with `prefix`.
-  std::size_t target_bytes(std::string_view prefix = "") const;
-
- private:
-  friend class Pass;
-  GLuint framebuffer(std::string_view name, std::span<const Attachment> colors, const Attachment* depth);
-  GLuint empty_vertex_array();
-
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
-
-enum class DepthTest { off, less_equal, greater_equal, equal };
-enum class Blend { off, premultiplied_over, min, max, add };
-
-// State that a raster pass sets whole: nothing is inherited, so passes can be reordered.
-struct PassDesc {
-  std::string_view name;  // debug group, timer row and bench row
-  std::vector<Attachment> colors;
-  std::optional<Attachment> depth;
-  DepthTest depth_test = DepthTest::off;
-  bool depth_write = false;
-  Blend blend = Blend::off;
-  bool cull_back = false;  // counter-clockwise is front
-  bool depth_clamp = false;
+// `count` commands, one after the other, from an offset in bytes (a multiple of 4).
+struct IndirectCommands {
+  const Buffer& buffer;
+  std::size_t offset = 0;
+  std::size_t count = 1;
 };
 
 // A pass in a scope. With attachments it binds a framebuffer, the viewport of the first attachment's level, and the
-// state above; without any (compute) it is a debug group and a timer. In a debug context every step throws Error for
-// the GL errors so far; those of the caller's own draws at the end of a scope come with the next step, under this
+// described state; without any (compute) it is a debug group and a timer. In a debug context every step throws Error
+// for the GL errors so far; those of the caller's own draws at the end of a scope come with the next step, under this
 // pass's name.
 class Pass {
  public:
+  // Throws Error when the driver refuses the attachments, or a stencil is described and the depth texture has none.
   Pass(Device& device, const PassDesc& desc);
+  ~Pass();
   Pass(const Pass&) = delete;
   Pass& operator=(const Pass&) = delete;
 
@@ -91,13 +47,25 @@ class Pass {
   void set_cull_back(bool cull);                // double-sided materials
   void set_front_clockwise(bool clockwise);     // mirrored instances
   void set_viewport(int x, int y, int width, int height);
-  // Groups of the current compute program that cover width × height × layers invocations; then a barrier for all that
-  // later commands may read: textures, images, storage, vertices, commands, read-backs.
+
+  // Draws what a buffer of commands asks for, with the vertex array that is bound. `mode`: GL_TRIANGLES…; `index_type`:
+  // GL_UNSIGNED_INT, GL_UNSIGNED_SHORT. The timers count the draws; triangles are for who knows them to count.
+  void draw_arrays_indirect(GLenum mode, const IndirectCommands& draws);
+  void draw_elements_indirect(GLenum mode, GLenum index_type, const IndirectCommands& draws);
+  // Groups of the current compute program that cover width × height × layers invocations; then a barrier().
   void dispatch(int width, int height, int layers = 1);
+  // As many groups as the DispatchCommand at an offset in bytes (a multiple of 4) says; then a barrier().
+  void dispatch_indirect(const Buffer& command, std::size_t offset = 0);
+  // What shaders have written to images and storage buffers is seen by all later commands: texture and image reads,
+  // storage and uniform buffers, vertices and indices, indirect commands, copies and read-backs, attachments. For draws
+  // whose shaders write so; dispatches have it built in.
+  void barrier();
+
   // Says of the caller's own draw calls what the timers are to count.
   void count_draws(std::size_t draws, std::size_t triangles) { device_.timers.count({draws, triangles, 0}); }
 
  private:
+  void bind(const PassDesc& desc);
   void check() const;
 
   Device& device_;
@@ -105,14 +73,16 @@ class Pass {
   Timers::Scope timer_;
   bool debug_;
   const Program* program_ = nullptr;
+  GLuint framebuffer_ = 0;
+  std::vector<GLenum> foreign_;  // attachment points of the framebuffer that hold textures of others
 };
 
 // Frees the first texture units of textures and samplers.
 void unbind_textures(GLuint count);
 
 // For an engine's sake: what passes change goes back to OpenGL's initial values, and nothing stays bound to draw with
-// (program, vertex array, framebuffers, textures and samplers of units 0 to 15, images of units 0 to 7). Viewport,
-// blend function and buffer bindings stay as they are.
+// (program, vertex array, framebuffers, textures and samplers of units 0 to 15, images of units 0 to 7, buffers of
+// indirect commands). Viewport, blend function and other buffer bindings stay as they are.
 void leave_initial_state();
 
 }  // namespace penumbra::gl

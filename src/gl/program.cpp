@@ -63,8 +63,8 @@ Program::Program(const ProgramDesc& desc, const ShaderFiles& files) : handle_(gl
   label(GL_PROGRAM, id(), desc.name);
   std::vector<Handle<delete_shader>> shaders;
   for (const Stage& stage :
-       {Stage{GL_VERTEX_SHADER, "vertex", desc.vertex}, Stage{GL_FRAGMENT_SHADER, "fragment", desc.fragment},
-        Stage{GL_COMPUTE_SHADER, "compute", desc.compute}}) {
+       {Stage{GL_VERTEX_SHADER, "vertex", desc.vertex}, Stage{GL_GEOMETRY_SHADER, "geometry", desc.geometry},
+        Stage{GL_FRAGMENT_SHADER, "fragment", desc.fragment}, Stage{GL_COMPUTE_SHADER, "compute", desc.compute}}) {
     if (stage.file.empty()) continue;
     const ShaderSource source = load_shader_source(files, stage.file, desc.defines);
     files_.insert(files_.end(), source.files.begin(), source.files.end());

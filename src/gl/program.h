@@ -14,10 +14,11 @@ namespace penumbra::gl {
 
 void delete_program(GLuint id);
 
-// What a program is made of: file names under glsl/. Either vertex (and, unless depth only, fragment), or compute.
+// What a program is made of: file names under glsl/. Either vertex with, if wanted, geometry and, unless depth only,
+// fragment; or compute.
 struct ProgramDesc {
   std::string name;  // the object's label and the name in messages
-  std::string vertex, fragment, compute;
+  std::string vertex, geometry, fragment, compute;
   std::vector<Define> defines;
   auto operator<=>(const ProgramDesc&) const = default;
 };

@@ -59,6 +59,8 @@ class Disturbed {
     gl::glScissor(0, 0, 1, 1);
     gl::glViewport(3, 3, 1, 1);
     gl::glStencilFunc(GL_NEVER, 1, 0xff);
+    gl::glStencilOp(GL_INCR, GL_INCR, GL_INCR);
+    gl::glStencilMask(0x0f);
     gl::glBlendFunc(GL_ZERO, GL_ZERO);
     gl::glLogicOp(GL_CLEAR);
     gl::glColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_FALSE);
@@ -97,6 +99,11 @@ void expect_documented_state() {
   }
   EXPECT_EQ(integers(GL_DEPTH_FUNC)[0], GL_LESS);
   EXPECT_EQ(integers(GL_DEPTH_WRITEMASK)[0], GL_TRUE);
+  for (const GLenum function : {GL_STENCIL_FUNC, GL_STENCIL_BACK_FUNC}) EXPECT_EQ(integers(function)[0], GL_ALWAYS);
+  for (const GLenum mask : {GL_STENCIL_WRITEMASK, GL_STENCIL_BACK_WRITEMASK, GL_STENCIL_VALUE_MASK}) {
+    EXPECT_EQ(integers(mask)[0] & 0xff, 0xff);
+  }
+  EXPECT_EQ(integers(GL_STENCIL_PASS_DEPTH_PASS)[0], GL_KEEP);
   EXPECT_EQ(integers<4>(GL_COLOR_WRITEMASK), (std::array<GLint, 4>{1, 1, 1, 1}));
   EXPECT_EQ(integers(GL_FRONT_FACE)[0], GL_CCW);
   EXPECT_EQ(integers(GL_CULL_FACE_MODE)[0], GL_BACK);
@@ -108,7 +115,8 @@ void expect_documented_state() {
   gl::glGetFloatv(GL_DEPTH_RANGE, range.data());
   EXPECT_EQ(range, (std::array<GLfloat, 2>{0, 1}));
   for (const GLenum binding :
-       {GL_CURRENT_PROGRAM, GL_VERTEX_ARRAY_BINDING, GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING}) {
+       {GL_CURRENT_PROGRAM, GL_VERTEX_ARRAY_BINDING, GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING,
+        GL_DRAW_INDIRECT_BUFFER_BINDING, GL_DISPATCH_INDIRECT_BUFFER_BINDING}) {
     EXPECT_EQ(integers(binding)[0], 0) << std::hex << binding;
   }
   for (GLuint unit = 0; unit < 16; ++unit) {
@@ -155,7 +163,7 @@ TEST_F(ShadowState, NothingIsInheritedAndWhatIsLeftIsDocumented) {
       EXPECT_EQ(after.mask, clean.mask);
       expect_documented_state();
       EXPECT_EQ(integers<4>(GL_SCISSOR_BOX), (std::array<GLint, 4>{0, 0, 1, 1})) << "what is not listed stays";
-      EXPECT_EQ(integers(GL_STENCIL_FUNC)[0], GL_NEVER);
+      EXPECT_EQ(integers(GL_LOGIC_OP_MODE)[0], GL_CLEAR);
     }
   }
 }

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "buffer.h"
+#include "pass_desc.h"
+#include "shader_library.h"
+#include "texture.h"
+#include "timer.h"
+
+namespace penumbra::gl {
+
+// What passes draw with: programs, timers, and targets that persist from frame to frame so that nothing is allocated
+// after warm-up. One per context; handed to every pass, never global.
+class Device {
+ public:
+  Device(ShaderFiles files, Timers::Mode timing);
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  ShaderLibrary shaders;
+  Timers timers;
+
+  // The texture of that name, made again when the description changes. The reference stays valid; contents persist
+  // until then.
+  const Texture& target(std::string_view name, const TextureDesc& desc);
+  // A buffer of at least `bytes`, likewise (grows, never shrinks).
+  const Buffer& scratch(std::string_view name, std::size_t bytes);
+  const Sampler& sampler(const SamplerDesc& desc);
+  // Gives back the targets and buffers whose name starts with `prefix`; references to them end.
+  void drop(std::string_view prefix);
+  // All of them, in the order of their names; the pointers end as the references do.
+  struct NamedTarget {
+    std::string_view name;
+    const Texture* texture = nullptr;
+  };
+  std::vector<NamedTarget> targets() const;
+  // Bytes of all targets whose name starts with `prefix`.
+  std::size_t target_bytes(std::string_view prefix = "") const;
+
+ private:
+  friend class Pass;
+  GLuint framebuffer(std::string_view name, std::span<const Attachment> colors, const Attachment* depth);
+  GLuint empty_vertex_array();
+
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace penumbra::gl
