@@ -79,6 +79,10 @@ std::vector<gl::ProgramDesc> Renderer::all_programs(const ParamSet& defaults) {
                    tone_map_programs()}) {
     std::move(programs.begin(), programs.end(), std::back_inserter(all));
   }
+  for (gl::ProgramDesc& program : all) {
+    const bool of_casters = program.vertex.empty() && program.compute.empty();
+    if (of_casters) program = scene::GpuScene::with_caster_vertices(std::move(program));
+  }
   return all;
 }
 

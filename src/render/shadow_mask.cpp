@@ -37,7 +37,11 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
   const FrameScene frame_scene{.scene = inputs.scene, .view = inputs.view, .time = inputs.time};
   const auto draw = [&](const shadow::CasterPass& casters, gl::Pass& pass) {
     const auto reaches = [&](const scene::Bounds& box) { return casters.cull.holds(box_of(box)); };
-    inputs.scene.draw_casters(device, pass, casters_of(casters.kind), casters.world_to_clip, reaches);
+    if (casters.kind == shadow::CasterKind::geometry) {
+      inputs.scene.draw_caster_geometry(device, pass, casters.program, casters.world_to_clip, reaches);
+    } else {
+      inputs.scene.draw_casters(device, pass, casters_of(casters.kind), casters.world_to_clip, reaches);
+    }
   };
   return inputs.soft_shadows.render({.view = {.view = inputs.camera.view,
                                               .projection = projection_of(inputs.camera, aspect),

@@ -48,6 +48,9 @@ class GpuScene {
   // Draws what casts shadows: opaque surfaces, and of the others what their alpha leaves.
   void draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
                     const BoxTest& reaches);
+  // Draws the triangles of opaque and masked casters, the latter whole, with with_caster_vertices(stages).
+  void draw_caster_geometry(gl::Device& device, gl::Pass& pass, const gl::ProgramDesc& stages,
+                            const glm::mat4& world_to_clip, const BoxTest& reaches);
 
   const Scene& scene() const;
   // Unlike that of any other scene of this process, those that are gone included; never 0.
@@ -61,6 +64,9 @@ class GpuScene {
 
   // The present pose's triangles as shaders get them. Refers to the scene; waits for the GPU.
   PosedGeometry posed_geometry() const;
+
+  // A program of geometry and fragment shaders with the vertex shader of casters, which writes gl_Position alone.
+  static gl::ProgramDesc with_caster_vertices(gl::ProgramDesc stages);
 
   // Every program that draw_casters() and pose() use.
   static std::vector<gl::ProgramDesc> programs();

@@ -48,7 +48,7 @@ Batch shaded_batch(const Instance& instance) {
 std::size_t triangles_of(const DrawList& list, const Batch& batch) {
   std::size_t triangles = 0;
   for (std::size_t i = batch.first; i < batch.first + batch.count; ++i)
-    triangles += std::size_t{list.commands[i].count} / 3 * list.commands[i].instance_count;
+    triangles += std::size_t{list.commands[i].index_count} / 3 * list.commands[i].instance_count;
   return triangles;
 }
 
@@ -65,23 +65,24 @@ void DrawList::add(const Instance& instance, std::uint32_t index, Batch batch) {
     batch.first = commands.size();
     batches.push_back(batch);
   }
+  const auto base_vertex = static_cast<std::int32_t>(instance.base_vertex);
   if (!new_batch) {
-    DrawCommand& previous = commands.back();
-    if (previous.first_index == instance.first_index && previous.base_vertex == instance.base_vertex &&
+    gl::DrawElementsCommand& previous = commands.back();
+    if (previous.first_index == instance.first_index && previous.base_vertex == base_vertex &&
         previous.base_instance + previous.instance_count == index) {
       ++previous.instance_count;
       return;
     }
   }
-  commands.push_back({instance.index_count, 1, instance.first_index, instance.base_vertex, index});
+  commands.push_back({instance.index_count, 1, instance.first_index, base_vertex, index});
   ++batches.back().count;
 }
 
 void GpuScene::State::draw(gl::Device& device, gl::Pass& pass, const DrawList& list) const {
   if (list.commands.empty()) return;
-  const gl::Buffer& commands = device.scratch("draw commands", list.commands.size() * sizeof(DrawCommand));
+  constexpr std::size_t command_bytes = sizeof(gl::DrawElementsCommand);
+  const gl::Buffer& commands = device.scratch("draw commands", list.commands.size() * command_bytes);
   commands.write(std::as_bytes(std::span(list.commands)));
-  gl::glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
   instance_blocks.bind_storage(instances_binding);
   indices.bind_storage(indices_binding);
   for (const Batch& batch : list.batches) {
@@ -90,10 +91,9 @@ void GpuScene::State::draw(gl::Device& device, gl::Pass& pass, const DrawList& l
     pass.set_cull_back(!batch.double_sided);
     pass.set_front_clockwise(batch.mirrored);
     if (batch.material >= 0) materials.bind(batch.material);
-    const auto* offset = reinterpret_cast<const void*>(batch.first * sizeof(DrawCommand));  // NOLINT: GL's way
-    gl::glMultiDrawElementsIndirect(mode_of(batch.topology), GL_UNSIGNED_INT, offset, static_cast<GLsizei>(batch.count),
-                                    0);
-    pass.count_draws(batch.count, batch.topology == Topology::triangles ? triangles_of(list, batch) : 0);
+    pass.draw_elements_indirect(mode_of(batch.topology), GL_UNSIGNED_INT,
+                                {commands, batch.first * command_bytes, batch.count});
+    pass.count_draws(0, batch.topology == Topology::triangles ? triangles_of(list, batch) : 0);
   }
 }
 
@@ -167,6 +167,32 @@ void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, Casters casters,
       draw({.moved = true, .marks = true, .last_pose = true});
       break;
   }
+}
+
+void GpuScene::State::draw_caster_geometry(gl::Device& device, gl::Pass& pass, const gl::Program& program,
+                                           const glm::mat4& world_to_clip, const BoxTest& reaches) const {
+  DrawList list;
+  for (std::uint32_t i = 0; i < instances.size(); ++i) {
+    const Instance& instance = instances[i];
+    const bool whole = instance.casts == Casts::always ||
+                       (instance.casts == Casts::by_alpha && instance.alpha_mode == AlphaMode::mask);
+    if (!whole || !reaches(instance.box)) continue;
+    list.add(instance, i, {.deformed = instance.job >= 0, .double_sided = true});
+  }
+  program.set("world_to_clip", world_to_clip);
+  draw(device, pass, list);
+}
+
+void GpuScene::draw_caster_geometry(gl::Device& device, gl::Pass& pass, const gl::ProgramDesc& stages,
+                                    const glm::mat4& world_to_clip, const BoxTest& reaches) {
+  state_->draw_caster_geometry(device, pass, pass.use(with_caster_vertices(stages)), world_to_clip, reaches);
+}
+
+gl::ProgramDesc GpuScene::with_caster_vertices(gl::ProgramDesc stages) {
+  const gl::ProgramDesc caster = caster_program(/*masked=*/false, /*marks_moved=*/false, /*last_pose=*/false);
+  stages.vertex = caster.vertex;
+  stages.defines.insert(stages.defines.end(), caster.defines.begin(), caster.defines.end());
+  return stages;
 }
 
 std::vector<gl::ProgramDesc> GpuScene::programs() {

@@ -34,11 +34,6 @@ struct Instance {
   Bounds box, last_box;
 };
 
-// Layout fixed by GL: what glMultiDrawElementsIndirect reads.
-struct DrawCommand {
-  std::uint32_t count = 0, instance_count = 0, first_index = 0, base_vertex = 0, base_instance = 0;
-};
-
 // Draws that share all state.
 struct Batch {
   bool deformed = false, mirrored = false, double_sided = false;
@@ -50,7 +45,7 @@ struct Batch {
 };
 
 struct DrawList {
-  std::vector<DrawCommand> commands;
+  std::vector<gl::DrawElementsCommand> commands;
   std::vector<Batch> batches;
 
   void add(const Instance& instance, std::uint32_t index, Batch batch);
@@ -97,6 +92,8 @@ struct GpuScene::State {
   void draw(gl::Device& device, gl::Pass& pass, const DrawList& list) const;
   void draw_casters(gl::Device& device, gl::Pass& pass, const CasterDraw& which, const glm::mat4& world_to_clip,
                     const BoxTest& reaches) const;
+  void draw_caster_geometry(gl::Device& device, gl::Pass& pass, const gl::Program& program,
+                            const glm::mat4& world_to_clip, const BoxTest& reaches) const;
 };
 
 }  // namespace penumbra::scene

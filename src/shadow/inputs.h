@@ -53,7 +53,8 @@ enum class CasterKind {
                     // nearest, else 0. Cheap: what stands still first, colour writes off; then what moved, writing 1
   moved_now,        // those that moved, where they are; output 0 is 1
   moved_last,       // those that moved, where they were; output 0 is 1
-  geometry,         // all, for techniques that need triangles; outputs are the technique's own
+  geometry,  // triangles for the technique's own shaders: see CasterPass::program. Opaque casters, and those that
+             // alpha cuts out whole; blended surfaces are left out
 };
 
 // One call to the caller's code: draw these casters with these matrices. The framebuffer, viewport, depth test and
@@ -66,6 +67,12 @@ struct CasterPass {
   int cascade = 0;
   glm::mat4 world_to_clip{1};  // of the present frame, for moved_last too
   CullVolume cull;
+  // Of kind `geometry`: the technique's geometry and fragment shaders and their defines, without a vertex shader. The
+  // callback adds its own, which writes gl_Position = world_to_clip * world position (the identity asks for the world
+  // position itself) and nothing that the stages after it read, and draws each triangle once, as GL_TRIANGLES. It
+  // leaves textures, samplers, uniform buffers and storage buffers from binding 4 on as they are bound. Empty for the
+  // other kinds.
+  gl::ProgramDesc program = {};
 };
 using DrawCasters = std::function<void(const CasterPass&, gl::Pass&)>;
 

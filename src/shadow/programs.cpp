@@ -122,7 +122,8 @@ std::vector<gl::ProgramDesc> Programs::own(const Technique& technique, const Par
   std::vector<gl::ProgramDesc> programs = technique.programs(params);
   for (gl::ProgramDesc& program : programs) {
     program.name = own_name(technique, program.name);
-    for (std::string* file : {&program.vertex, &program.fragment, &program.compute}) *file = with_params(*file);
+    for (std::string* file : {&program.vertex, &program.geometry, &program.fragment, &program.compute})
+      *file = with_params(*file);
     const std::vector<gl::Define> constants = defines(technique, params, rotated);
     program.defines.insert(program.defines.begin(), constants.begin(), constants.end());
   }

@@ -34,10 +34,10 @@ struct ForwardProgram {
 //   - capabilities: depth and stencil test, scissor, blend, logic operation, culling, depth clamp, dithering, colour
 //     encoding (GL_FRAMEBUFFER_SRGB), rasterizer discard, sample mask, coverage, shading and alpha to coverage or one,
 //     line and polygon smoothing, polygon offset, primitive restart, program point size, clip distances 0 to 7;
-//   - depth function, mask and range, colour mask, front face, culled face, polygon mode, clip control, point and line
-//     size;
+//   - depth function, mask and range, stencil function, operations and mask, colour mask, front face, culled face,
+//     polygon mode, clip control, point and line size;
 //   - the program, the vertex array, the draw and read framebuffers, textures and samplers of units 0 to 15, images of
-//     units 0 to 7: nothing is bound.
+//     units 0 to 7, the buffers of indirect draws and dispatches: nothing is bound.
 // It leaves changed: the viewport, the blend function and equation, uniform buffers 0 to 2. All else stays, but for
 // what the caster callback and techniques of the caller's own change. After an Error any of these may be changed.
 //
@@ -74,7 +74,8 @@ class SoftShadows {
   void unbind_forward();
 
   // Every program that render() can build with any parameter, and every form of a technique for forward surfaces, for
-  // validation ahead of time.
+  // validation ahead of time. Those without a vertex shader are for CasterKind::geometry: the caster callback's own is
+  // to be added to them.
   std::vector<gl::ProgramDesc> all_programs(const ParamSet& defaults) const;
   std::vector<ForwardProgram> all_forward_programs(const ParamSet& defaults) const;
 

@@ -95,7 +95,8 @@ struct Technique {
   // function of one receiver. Optional; the library's history and filters do not apply to it.
   std::function<void(const TechniqueFrame&)> resolve = {};
   // The programs that `prepare` and `resolve` use under these parameters, by name. Their files may include all that the
-  // technique's GLSL may, and are compiled with its constants.
+  // technique's GLSL may, and are compiled with its constants. One without vertex and compute shader is for
+  // TechniqueFrame::draw_caster_geometry(): the caster callback brings the vertex shader.
   std::function<std::vector<gl::ProgramDesc>(const ParamSet&)> programs = {};
   // The technique whose `glsl` serves blended surfaces, where this one's does not: with its own needs, `prepare` and
   // sample points.

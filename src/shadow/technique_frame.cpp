@@ -50,14 +50,17 @@ void TechniqueFrame::bind_inputs() const {
   bind_receivers(parts_.device, parts_.inputs);
 }
 
-const gl::Program& TechniqueFrame::use(gl::Pass& pass, std::string_view program) const {
-  for (const gl::ProgramDesc& own : parts_.programs.own(parts_.technique, parts_.state.params, parts_.state.rotated)) {
-    if (own.name != parts_.programs.own_name(parts_.technique, program)) continue;
-    const gl::Program& used = pass.use(own);
-    bind_inputs();
-    return used;
+gl::ProgramDesc TechniqueFrame::own_program(std::string_view name) const {
+  for (gl::ProgramDesc& own : parts_.programs.own(parts_.technique, parts_.state.params, parts_.state.rotated)) {
+    if (own.name == parts_.programs.own_name(parts_.technique, name)) return std::move(own);
   }
-  throw std::logic_error(fmt::format("technique '{}' has no program '{}'", parts_.technique.name, program));
+  throw std::logic_error(fmt::format("technique '{}' has no program '{}'", parts_.technique.name, name));
+}
+
+const gl::Program& TechniqueFrame::use(gl::Pass& pass, std::string_view program) const {
+  const gl::Program& used = pass.use(own_program(program));
+  bind_inputs();
+  return used;
 }
 
 bool TechniqueFrame::uses_compute() const { return params().get_word("driver") == "compute"; }
@@ -86,11 +89,30 @@ void TechniqueFrame::evaluate(const gl::Texture& target, int layer) const {
   cover(pass);
 }
 
-void TechniqueFrame::draw_casters(gl::Pass& pass, CasterKind kind, int cascade) const {
+void TechniqueFrame::check_draws() const {
   if (!parts_.inputs.draw) fail("technique '{}' draws casters, and Inputs::draw is empty", parts_.technique.name);
+}
+
+void TechniqueFrame::draw_casters(gl::Pass& pass, CasterKind kind, int cascade) const {
+  assert(kind != CasterKind::geometry);
+  check_draws();
   const Cascades& cascades = parts_.frame.cascades;
   const glm::mat4 world_to_clip(cascades.items.at(static_cast<size_t>(cascade)).world_to_clip);
   parts_.inputs.draw({kind, cascade, world_to_clip, cull_volume(cascades, cascade)}, pass);
+}
+
+void TechniqueFrame::draw_caster_geometry(gl::Pass& pass, std::string_view program,
+                                          const glm::mat4& world_to_clip) const {
+  check_draws();
+  bind_inputs();
+  const Cascades& cascades = parts_.frame.cascades;
+  const int last = static_cast<int>(cascades.items.size()) - 1;  // which has all receivers
+  parts_.inputs.draw({.kind = CasterKind::geometry,
+                      .cascade = last,
+                      .world_to_clip = world_to_clip,
+                      .cull = cull_volume(cascades, last),
+                      .program = own_program(program)},
+                     pass);
 }
 
 }  // namespace penumbra::shadow

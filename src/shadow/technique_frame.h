@@ -69,11 +69,18 @@ class TechniqueFrame {
   bool uses_compute() const;
   // Draws, or dispatches, over the viewport.
   void cover(gl::Pass& pass) const;
-  // The caller's casters, into a pass that is open on a layer of the cascade's size. Throws Error without Inputs::draw.
+  // The caller's casters, into a pass that is open on a layer of the cascade's size; not for kind `geometry`. Throws
+  // Error without Inputs::draw.
   void draw_casters(gl::Pass& pass, CasterKind kind, int cascade) const;
+  // The triangles of the caller's casters, through the geometry and fragment shaders of a program of
+  // Technique::programs(): gl_in[].gl_Position is world_to_clip times the world position. All that use() binds is
+  // bound. Casters that can't reach a receiver of the view are left out. Throws Error without Inputs::draw.
+  void draw_caster_geometry(gl::Pass& pass, std::string_view program, const glm::mat4& world_to_clip) const;
 
  protected:
   void bind_inputs() const;
+  gl::ProgramDesc own_program(std::string_view name) const;
+  void check_draws() const;
 
   Parts parts_;
 };

@@ -116,7 +116,7 @@ shadow::Technique cleared() {
               [](const shadow::TechniqueFrame& work) {
                 if (work.params().get_float("cleared.value") > 0) return;
                 gl::Pass pass(work.device(), {.name = "casters"});
-                work.draw_casters(pass, shadow::CasterKind::geometry, 0);
+                work.draw_caster_geometry(pass, "volumes", glm::mat4(1));
               },
           .resolve =
               [](const shadow::TechniqueFrame& work) {

@@ -49,9 +49,14 @@ void main() { moved = caster_moved; }
 const gl::ProgramDesc receiver_program{
     .name = "test receivers", .vertex = "test/receiver.vert", .fragment = "test/receiver.frag"};
 
-gl::ProgramDesc caster_program(shadow::CasterKind kind) {
-  const bool depth_only = kind == shadow::CasterKind::depth || kind == shadow::CasterKind::geometry;
-  return {.name = "test casters", .vertex = "test/caster.vert", .fragment = depth_only ? "" : "test/caster.frag"};
+gl::ProgramDesc caster_program(const shadow::CasterPass& casters) {
+  gl::ProgramDesc program{.name = "test casters", .vertex = "test/caster.vert", .fragment = "test/caster.frag"};
+  if (casters.kind == shadow::CasterKind::depth) program.fragment = "";
+  if (casters.kind == shadow::CasterKind::geometry) {
+    program = casters.program;
+    program.vertex = "test/caster.vert";
+  }
+  return program;
 }
 
 struct Vertex {
@@ -138,7 +143,7 @@ void Geometry::draw() const {
 shadow::DrawCasters Geometry::casters() const {
   return [this](const shadow::CasterPass& casters, gl::Pass& pass) {
     using enum shadow::CasterKind;
-    const gl::Program& program = pass.use(caster_program(casters.kind));
+    const gl::Program& program = pass.use(caster_program(casters));
     program.set("world_to_clip", casters.world_to_clip);
     program.set("only_moved", casters.kind == moved_now || casters.kind == moved_last ? 1 : 0);
     program.set("poses_ago", casters.kind == moved_last ? 1.0f : 0.0f);
