@@ -7,11 +7,11 @@
 #include "stb_decoder.h"
 
 int main(int argc, char** argv) {
-  namespace studio = penumbra::studio;
-  const studio::Arguments arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
-  return studio::run_guarded([&] {
+  namespace cli = penumbra::cli;
+  const cli::Arguments arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
+  return cli::run_guarded([&] {
     if (!arguments.empty() && arguments.front() == "--version") {
-      fmt::print("{}, commit {}\n", studio::version(), penumbra::bench::commit());
+      fmt::print("{}, commit {}\n", cli::version(), penumbra::bench::commit());
       return 0;
     }
     return penumbra::bench::run("penumbra-bench", arguments, penumbra::stb_decoder());

@@ -14,7 +14,7 @@
 #include <vector>
 
 #ifdef PENUMBRA_VIEWER
-#include "app/viewer/present.h"
+#include "viewer/present.h"
 #endif
 #include "core/error.h"
 #include "gl/context.h"
@@ -45,7 +45,7 @@ std::vector<Variant> all_variants(gl::Device& device) {
   const ParamSet defaults(render::Renderer::params(renderer.registry()));
   std::vector<gl::ProgramDesc> programs = renderer.all_programs(defaults);
 #ifdef PENUMBRA_VIEWER
-  programs.push_back(app::present_program());
+  programs.push_back(viewer::present_program());
 #endif
   std::sort(programs.begin(), programs.end());
   programs.erase(std::unique(programs.begin(), programs.end()), programs.end());

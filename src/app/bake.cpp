@@ -4,12 +4,12 @@
 #include <string>
 
 #include "app/commands.h"
+#include "cli/progress.h"
+#include "cli/usage.h"
 #include "image/write.h"
 #include "io/output_file.h"
 #include "shadow/noise.h"
 #include "shadow/sampling.h"
-#include "studio/progress.h"
-#include "studio/usage.h"
 
 namespace penumbra::app {
 
@@ -31,13 +31,13 @@ void add_common(CLI::App& app, Common& common, const char* files) {
 std::string format_of(const std::string& output, const std::vector<std::string>& formats) {
   std::string extension = std::filesystem::path(output).extension().string();
   if (std::ranges::find(formats, extension) == formats.end()) {
-    studio::fail_usage("-o {}: the name ends in none of {}", io::quoted(output), fmt::join(formats, ", "));
+    cli::fail_usage("-o {}: the name ends in none of {}", io::quoted(output), fmt::join(formats, ", "));
   }
   return extension;
 }
 
 std::uint64_t parse_seed(const std::string& text) {
-  return static_cast<std::uint64_t>(studio::parse_count("--seed", text, 0, 1 << 30));
+  return static_cast<std::uint64_t>(cli::parse_count("--seed", text, 0, 1 << 30));
 }
 
 // 8-bit, unused channels 0.
@@ -74,9 +74,9 @@ void write_noise_ranks(const std::string& path, const shadow::NoiseTile& tile) {
 }
 
 int parse_noise_size(const std::string& text) {
-  const int size = studio::parse_count("--size", text, shadow::least_noise_size, shadow::largest_noise_size);
+  const int size = cli::parse_count("--size", text, shadow::least_noise_size, shadow::largest_noise_size);
   if (size % shadow::least_noise_size != 0) {
-    studio::fail_usage("--size can't be '{}': it takes a multiple of {}", text, shadow::least_noise_size);
+    cli::fail_usage("--size can't be '{}': it takes a multiple of {}", text, shadow::least_noise_size);
   }
   return size;
 }
@@ -96,15 +96,15 @@ int bake_noise(const Arguments& arguments) {
   app.add_option("--size", size, "Side in pixels, a multiple of 16")->type_name("N")->capture_default_str();
   app.add_option("--channels", channels, "Values a pixel, 1 to 3")->type_name("N")->capture_default_str();
   app.add_option("--threads", threads, "0: one a core; the result is the same")->type_name("N")->capture_default_str();
-  if (!studio::parse(app, arguments)) return 0;
+  if (!cli::parse(app, arguments)) return 0;
   const std::string format = format_of(common.output, {".exr", ".png", ".u16"});
-  studio::one_of("noise", kind, shadow::noise_kinds());
+  cli::one_of("noise", kind, shadow::noise_kinds());
   const int side = parse_noise_size(size);
-  const int values = studio::parse_count("--channels", channels, 1, shadow::most_noise_channels);
+  const int values = cli::parse_count("--channels", channels, 1, shadow::most_noise_channels);
   const std::uint64_t seed = parse_seed(common.seed);
-  const int most_threads = studio::parse_count("--threads", threads, 0, 1024);
+  const int most_threads = cli::parse_count("--threads", threads, 0, 1024);
   io::check_writable(common.output);
-  studio::Progress progress(/* part= */ "", 100, !common.quiet);
+  cli::Progress progress(/* part= */ "", 100, !common.quiet);
   const shadow::NoiseTile tile = shadow::make_noise(kind, side, values, seed, most_threads,
                                                     [&](double done) { progress.reach(static_cast<int>(100 * done)); });
   const auto write = format == ".png" ? write_noise_png : format == ".exr" ? write_noise_exr : write_noise_ranks;
@@ -140,10 +140,10 @@ int bake_points(const Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--count", count, "Points, 1 to 1024")->type_name("N")->capture_default_str();
   app.add_flag("--disc", disc, "On the unit disc; else in the unit square")->disable_flag_override();
-  if (!studio::parse(app, arguments)) return 0;
+  if (!cli::parse(app, arguments)) return 0;
   const std::string format = format_of(common.output, {".csv", ".json"});
-  studio::one_of("pattern", pattern, shadow::pattern_names());
-  const int wanted = studio::parse_count("--count", count, 1, 1024);
+  cli::one_of("pattern", pattern, shadow::pattern_names());
+  const int wanted = cli::parse_count("--count", count, 1, 1024);
   const std::uint64_t seed = parse_seed(common.seed);
   const std::vector<glm::vec2> square = shadow::square_points(pattern, wanted, seed);
   io::write_text(common.output, points_text(disc ? shadow::disc_points(pattern, wanted, seed) : square, format));
@@ -157,7 +157,7 @@ int bake_points(const Arguments& arguments) {
 
 int run_bake(const Arguments& arguments) {
   const std::vector<std::string> kinds{"noise", "points"};
-  if (arguments.empty()) studio::fail_usage("bake what? {}", fmt::join(kinds, " or "));
+  if (arguments.empty()) cli::fail_usage("bake what? {}", fmt::join(kinds, " or "));
   const Arguments rest(arguments.begin() + 1, arguments.end());
   if (arguments.front() == "noise") return bake_noise(rest);
   if (arguments.front() == "points") return bake_points(rest);
@@ -165,7 +165,7 @@ int run_bake(const Arguments& arguments) {
     fmt::print("usage: penumbra bake noise|points [OPTIONS] -o FILE; each has a --help of its own\n");
     return 0;
   }
-  studio::fail_unknown_usage("thing to bake", arguments.front(), kinds);
+  cli::fail_unknown_usage("thing to bake", arguments.front(), kinds);
 }
 
 }  // namespace penumbra::app

@@ -2,11 +2,11 @@
 
 #include <span>
 
-#include "studio/command_line.h"
+#include "cli/command_line.h"
 
 namespace penumbra::app {
 
-using studio::Arguments;  // after the sub-command's name
+using cli::Arguments;  // after the sub-command's name
 
 // A sub-command: main.cpp calls run() by name. Returns the exit code; throws UsageError or Error.
 struct Command {
@@ -19,12 +19,8 @@ std::span<const Command> commands();
 int run_render(const Arguments& arguments);
 int run_watch(const Arguments& arguments);
 int run_glsl(const Arguments& arguments);
-int run_view(const Arguments& arguments);
 int run_truth(const Arguments& arguments);
 int run_diff(const Arguments& arguments);
-int run_compare(const Arguments& arguments);
-int run_bench(const Arguments& arguments);
-int run_reproduce(const Arguments& arguments);
 int run_bake(const Arguments& arguments);
 int run_list(const Arguments& arguments);
 int run_help(const Arguments& arguments);

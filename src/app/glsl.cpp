@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "cli/signals.h"
+#include "cli/usage.h"
 #include "core/error.h"
 #include "gl/shader_source.h"
 #include "io/output_file.h"
-#include "studio/signals.h"
-#include "studio/usage.h"
 
 namespace penumbra::app {
 
@@ -33,10 +33,10 @@ int run_glsl(const Arguments& arguments) {
   app.add_option("DIR", output, "Folder to write to; made if it is missing")->required()->type_name("");
   app.add_flag("--force", force, "Overwrites files of these names")->disable_flag_override();
   app.add_flag("--quiet,-q", quiet, "No summary")->disable_flag_override();
-  if (!studio::parse(app, arguments)) return 0;
-  if (output.empty()) studio::fail_usage("DIR is a folder's name, not an empty text");
+  if (!cli::parse(app, arguments)) return 0;
+  if (output.empty()) cli::fail_usage("DIR is a folder's name, not an empty text");
 
-  studio::clean_up_on_signals();
+  cli::clean_up_on_signals();
   const fs::path folder(output);
   const gl::ShaderFiles built_in;
   const std::vector<std::string> names = gl::ShaderFiles::built_in_names();

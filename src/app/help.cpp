@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/techniques.h"
+#include "cli/usage.h"
 #include "core/names.h"
 #include "render/renderer.h"
-#include "studio/usage.h"
+#include "session/techniques.h"
 
 namespace penumbra::app {
 
@@ -45,7 +45,7 @@ bool explain_command(const std::string& name) {
 }
 
 bool explain_technique(const std::string& name) {
-  const shadow::Registry& registry = all_techniques();
+  const shadow::Registry& registry = session::all_techniques();
   for (const shadow::Alias& alias : registry.aliases()) {
     if (alias.name != name) continue;
     fmt::print("{}: {}\n\n  {} with {}\n", alias.name, alias.summary, alias.technique,
@@ -61,7 +61,7 @@ bool explain_technique(const std::string& name) {
 }
 
 bool explain_param(const std::string& name) {
-  for (const Param& param : render::Renderer::params(all_techniques())) {
+  for (const Param& param : render::Renderer::params(session::all_techniques())) {
     if (param.name != name) continue;
     print_param(param);
     return true;
@@ -70,7 +70,7 @@ bool explain_param(const std::string& name) {
 }
 
 bool explain_filter(const std::string& name) {
-  for (const shadow::Filter& filter : all_techniques().filters()) {
+  for (const shadow::Filter& filter : session::all_techniques().filters()) {
     if (filter.name != name) continue;
     const bool of_penumbra = filter.of == shadow::Filter::Of::penumbra;
     fmt::print("{}: {}\n\n  source  {}\n", filter.name, filter.summary, filter.source);
@@ -105,11 +105,11 @@ bool explain_aov(const std::string& name) {
 }
 
 std::vector<std::string> explained_names() {
-  std::vector<std::string> names = all_techniques().names();
+  std::vector<std::string> names = session::all_techniques().names();
   for (const Command& command : commands()) names.emplace_back(command.name);
-  for (const shadow::Filter& filter : all_techniques().filters()) names.push_back(filter.name);
+  for (const shadow::Filter& filter : session::all_techniques().filters()) names.push_back(filter.name);
   for (const render::Aov& aov : render::aovs()) names.push_back(aov.name);
-  for (const Param& param : render::Renderer::params(all_techniques())) names.push_back(param.name);
+  for (const Param& param : render::Renderer::params(session::all_techniques())) names.push_back(param.name);
   return names;
 }
 
@@ -119,7 +119,7 @@ int run_help(const Arguments& arguments) {
   CLI::App app("Explain a parameter, technique, filter, AOV or sub-command", "penumbra help");
   std::string name;
   app.add_option("NAME", name, "What to explain")->required()->type_name("");
-  if (!studio::parse(app, arguments)) return 0;
+  if (!cli::parse(app, arguments)) return 0;
   // One name may stand for several things: truth is a technique and a command.
   bool found = false;
   for (const auto explain : {explain_technique, explain_filter, explain_param, explain_aov, explain_command})
@@ -127,8 +127,8 @@ int run_help(const Arguments& arguments) {
   if (found) return 0;
   const std::vector<std::string> near = near_names(name, explained_names());
   if (near.empty())
-    studio::fail_usage("nothing is called '{}'; see penumbra list techniques, filters, params or aovs", name);
-  studio::fail_usage("nothing is called '{}'; did you mean '{}'?", name, fmt::join(near, "' or '"));
+    cli::fail_usage("nothing is called '{}'; see penumbra list techniques, filters, params or aovs", name);
+  cli::fail_usage("nothing is called '{}'; did you mean '{}'?", name, fmt::join(near, "' or '"));
 }
 
 }  // namespace penumbra::app

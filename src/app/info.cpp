@@ -2,18 +2,18 @@
 #include <string>
 
 #include "app/commands.h"
+#include "cli/text.h"
 #include "core/error.h"
 #include "image/read.h"
 #include "io/report.h"
 #include "scene/gltf.h"
 #include "scene/scene_info.h"
-#include "studio/text.h"
 
 namespace penumbra::app {
 
 namespace {
 
-std::string name_of(const std::string& name) { return name.empty() ? "(unnamed)" : studio::printable(name); }
+std::string name_of(const std::string& name) { return name.empty() ? "(unnamed)" : cli::printable(name); }
 
 void print_counts(const scene::SceneInfo& info) {
   const auto row = [](const char* what, const std::string& value) { fmt::print("{:<12} {}\n", what, value); };
@@ -25,7 +25,7 @@ void print_counts(const scene::SceneInfo& info) {
                            info.instances));
   row("skins", fmt::format("{} of {} joints", info.skins, info.joints));
   row("textures", fmt::format("{} of {} images, {} decoded", info.textures, info.images,
-                              studio::bytes_text(static_cast<double>(info.image_bytes))));
+                              cli::bytes_text(static_cast<double>(info.image_bytes))));
   if (info.bounds.empty) {
     row("bounds", "nothing drawn");
     return;
@@ -56,7 +56,7 @@ void print_parts(const scene::SceneInfo& info) {
     fmt::print("  {}, {:g} s, {} channels{}\n", name_of(animation.name), animation.duration, animation.channels,
                animation.played ? "" : ", not played: an earlier one moves the same nodes");
   fmt::print("\nextensions   {}\n", info.extensions.size());
-  for (const std::string& extension : info.extensions) fmt::print("  {}\n", studio::printable(extension));
+  for (const std::string& extension : info.extensions) fmt::print("  {}\n", cli::printable(extension));
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ int run_info(const Arguments& arguments) {
   bool json = false;
   app.add_option("SCENE", path, "glTF file, .gltf or .glb")->required()->type_name("");
   app.add_flag("--json", json, "For machines")->disable_flag_override();
-  if (!studio::parse(app, arguments)) return 0;
+  if (!cli::parse(app, arguments)) return 0;
   const scene::SceneInfo info = scene::describe(scene::read_gltf(path, image::image_decoder()));
   if (json) {
     fmt::print("{}", io::text_of(io::to_json(info)));

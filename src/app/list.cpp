@@ -4,11 +4,11 @@
 #include <string>
 
 #include "app/commands.h"
-#include "app/techniques.h"
+#include "cli/usage.h"
 #include "core/names.h"
 #include "io/report.h"
 #include "render/renderer.h"
-#include "studio/usage.h"
+#include "session/techniques.h"
 
 namespace penumbra::app {
 
@@ -25,7 +25,7 @@ struct Listing {
 
 Json technique_rows() {
   Json rows = Json::array();
-  const shadow::Registry& registry = all_techniques();
+  const shadow::Registry& registry = session::all_techniques();
   for (const shadow::Technique& technique : registry.techniques()) {
     Json params = Json::array();
     for (const Param& param : technique.params) params.push_back(param.name);
@@ -41,7 +41,7 @@ Json technique_rows() {
 
 Json filter_rows() {
   Json rows = Json::array();
-  for (const shadow::Filter& filter : all_techniques().filters())
+  for (const shadow::Filter& filter : session::all_techniques().filters())
     rows.push_back({{"name", filter.name},
                     {"help", filter.summary},
                     {"source", filter.source},
@@ -51,7 +51,7 @@ Json filter_rows() {
 
 Json param_rows() {
   Json rows = Json::array();
-  for (const Param& param : render::Renderer::params(all_techniques())) rows.push_back(io::to_json(param));
+  for (const Param& param : render::Renderer::params(session::all_techniques())) rows.push_back(io::to_json(param));
   return rows;
 }
 
@@ -89,7 +89,7 @@ const Listing& find_listing(const std::string& name) {
     if (name == listing.name) return listing;
     names.emplace_back(listing.name);
   }
-  studio::fail_unknown_usage("list", name, names);
+  cli::fail_unknown_usage("list", name, names);
 }
 
 // "0.53 deg, 0 to 20", what a parameter's row shows between its name and its sentence.
@@ -129,7 +129,7 @@ int run_list(const Arguments& arguments) {
   app.add_option("WHAT", what, "techniques, filters, params, aovs or backends; without it, these choices")
       ->type_name("");
   app.add_flag("--json", json, "For machines")->disable_flag_override();
-  if (!studio::parse(app, arguments)) return 0;
+  if (!cli::parse(app, arguments)) return 0;
   const Json rows = app.count("WHAT") == 0 ? listing_rows() : find_listing(what).rows();
   if (json) {
     fmt::print("{}", io::text_of(rows));

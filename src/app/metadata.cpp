@@ -5,8 +5,8 @@
 #include <glm/trigonometric.hpp>
 #include <string>
 
-#include "studio/command_line.h"
-#include "studio/stage.h"
+#include "cli/command_line.h"
+#include "session/prepared_scene.h"
 
 namespace penumbra::app {
 
@@ -16,15 +16,15 @@ std::string text_of(const glm::vec3& v) { return fmt::format("{} {} {}", v.x, v.
 
 }  // namespace
 
-image::Metadata metadata_of(const studio::StageOptions& options, const render::Setup& setup, const ParamSet& params,
+image::Metadata metadata_of(const cli::SceneOptions& options, const render::Setup& setup, const ParamSet& params,
                             int frame) {
   const render::Camera& camera = setup.camera;
   const glm::vec3 forward = -glm::vec3(camera.view[0][2], camera.view[1][2], camera.view[2][2]);
-  image::Metadata metadata{{"Software", studio::version()},
+  image::Metadata metadata{{"Software", cli::version()},
                            {"penumbra:scene", options.scene},
                            {"penumbra:technique", params.get_word("technique")},
                            {"penumbra:frame", std::to_string(frame)},
-                           {"penumbra:time", fmt::format("{}", studio::time_of(options, frame))},
+                           {"penumbra:time", fmt::format("{}", session::time_of(options, frame))},
                            {"penumbra:supersample", std::to_string(options.supersample)},
                            {"penumbra:camera.eye", text_of(render::position_of(camera))},
                            {"penumbra:camera.forward", text_of(forward)},

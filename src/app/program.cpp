@@ -2,26 +2,35 @@
 #include <string>
 
 #include "app/commands.h"
-#include "studio/usage.h"
+#include "bench/bench.h"
+#include "compare/command.h"
+#include "image/read.h"
+#include "reproduce/command.h"
+#ifdef PENUMBRA_VIEWER
+#include "viewer/command.h"
+#endif
+#include "cli/usage.h"
 
 namespace penumbra::app {
 
 namespace {
+
+int run_bench(const Arguments& arguments) { return bench::run("penumbra bench", arguments, image::image_decoder()); }
 
 constexpr std::array table{
     Command{"render", "Draw a glTF scene into a PNG or EXR file", run_render},
     Command{"watch", "Draw it again whenever the scene, a preset or a shader is saved", run_watch},
     Command{"glsl", "Write the built-in shaders to a folder, to change there", run_glsl},
 #ifdef PENUMBRA_VIEWER
-    Command{"view", "Show a scene in a window and tune its shadows", run_view},
+    Command{"view", "Show a scene in a window and tune its shadows", viewer::run},
 #endif
     Command{"truth", "Ray trace the shadows of a scene, for techniques to be measured against", run_truth},
     Command{"info", "Tell what is in a scene", run_info},
     Command{"list", "List techniques, filters, params, aovs or backends", run_list},
     Command{"diff", "Compare two pictures, and fail past a limit", run_diff},
-    Command{"compare", "Compare techniques with the truth: tables and an HTML page", run_compare},
+    Command{"compare", "Compare techniques with the truth: tables and an HTML page", compare::run},
     Command{"bench", "Measure what shadows cost, pass by pass", run_bench},
-    Command{"reproduce", "Make and measure the figures of the thesis anew: an HTML page", run_reproduce},
+    Command{"reproduce", "Make and measure the figures of the thesis anew: an HTML page", reproduce::run},
     Command{"bake", "Make noise tiles and sets of sample points", run_bake},
     Command{"help", "Explain a parameter, technique, AOV or sub-command", run_help},
     Command{"doctor", "Tell which OpenGL backends work here", run_doctor},
@@ -45,15 +54,15 @@ const Command& find_command(const std::string& name) {
     if (name == command.name) return command;
     names.emplace_back(command.name);
   }
-  if (name.starts_with('-')) studio::fail_usage("'{}' comes before a command; see penumbra --help", name);
-  studio::fail_unknown_usage("command", name, names);
+  if (name.starts_with('-')) cli::fail_usage("'{}' comes before a command; see penumbra --help", name);
+  cli::fail_unknown_usage("command", name, names);
 }
 
 int dispatch(const Arguments& arguments) {
-  if (arguments.empty()) studio::fail_usage("no command given; see penumbra --help");
+  if (arguments.empty()) cli::fail_usage("no command given; see penumbra --help");
   const std::string& first = arguments.front();
   if (first == "--version") {
-    fmt::print("{}\n", studio::version());
+    fmt::print("{}\n", cli::version());
     return 0;
   }
   if (first == "--help" || first == "-h" || (first == "help" && arguments.size() == 1)) {
@@ -68,7 +77,7 @@ int dispatch(const Arguments& arguments) {
 std::span<const Command> commands() { return table; }
 
 int run_program(const Arguments& arguments) {
-  return studio::run_guarded([&] { return dispatch(arguments); });
+  return cli::run_guarded([&] { return dispatch(arguments); });
 }
 
 }  // namespace penumbra::app

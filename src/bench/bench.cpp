@@ -7,19 +7,19 @@
 #include "bench/measure.h"
 #include "bench/options.h"
 #include "bench/results.h"
+#include "cli/output_names.h"
+#include "cli/signals.h"
+#include "cli/text.h"
 #include "core/log.h"
 #include "io/output_file.h"
-#include "studio/scene_files.h"
-#include "studio/signals.h"
-#include "studio/studio.h"
-#include "studio/text.h"
+#include "session/render_session.h"
 
 namespace penumbra::bench {
 
 namespace {
 
 // As a reader would type it, with files by their names alone: where they lay is no matter of the measurement.
-std::string command_of(const std::string& name, const studio::Arguments& arguments) {
+std::string command_of(const std::string& name, const cli::Arguments& arguments) {
   std::vector<std::string> shown_arguments;
   for (const std::string& argument : arguments) {
     std::string shown;
@@ -31,7 +31,7 @@ std::string command_of(const std::string& name, const studio::Arguments& argumen
     }
     shown_arguments.push_back(shown);
   }
-  return studio::command_text(name, shown_arguments);
+  return cli::command_text(name, shown_arguments);
 }
 
 // The first device that is no software rasteriser; none where the user chose, or there is none.
@@ -42,7 +42,7 @@ std::unique_ptr<gl::Context> open_hardware(const Options& options) {
     Options one = options;
     one.egl_device = i;
     try {
-      std::unique_ptr<gl::Context> context = studio::open_context(one, one);
+      std::unique_ptr<gl::Context> context = session::open_context(one, one);
       if (!gl::device_info().software) return context;
     } catch (const Error& error) {
       log(LogLevel::debug, error.what());  // a device that can't be opened is no reason not to try the next
@@ -60,23 +60,23 @@ void write(const Results& results, const std::string& output) {
 
 }  // namespace
 
-int run(const std::string& name, const studio::Arguments& arguments, const scene::ImageDecoder& decode) {
+int run(const std::string& name, const cli::Arguments& arguments, const scene::ImageDecoder& decode) {
   CLI::App app("Measure what shadows cost, pass by pass", name);
   Options options;
   options.command = command_of(name, arguments);
   add_options(app, options);
-  if (!studio::parse(app, arguments)) return 0;
+  if (!cli::parse(app, arguments)) return 0;
   check_together(options);
   entries_of(options, shadow::built_in_registry());  // wrong names before a driver starts
   for (const std::string& output : options.outputs) {
-    studio::check_spared({options.scene}, "-o", output);
+    cli::check_spared({options.scene}, "-o", output);
     io::check_writable(output);
   }
-  studio::clean_up_on_signals();
-  studio::limit_threads(options);
+  cli::clean_up_on_signals();
+  session::limit_threads(options);
 
   std::unique_ptr<gl::Context> context = open_hardware(options);
-  if (!context) context = studio::open_context(options, options);
+  if (!context) context = session::open_context(options, options);
   Results results = measure(options, decode);
   results.backend = gl::to_string(context->backend());
   for (const std::string& output : options.outputs) write(results, output);

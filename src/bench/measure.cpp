@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "bench/caster_grid.h"
+#include "cli/command_line.h"
+#include "cli/output_names.h"
+#include "cli/progress.h"
 #include "core/error.h"
 #include "gl/api.h"
 #include "scene/animation.h"
 #include "scene/pose.h"
-#include "studio/command_line.h"
-#include "studio/progress.h"
-#include "studio/scene_files.h"
-#include "studio/stage.h"
+#include "session/prepared_scene.h"
 
 namespace penumbra::bench {
 
@@ -31,29 +31,29 @@ struct Kept {
 // The frames of a visit to a point, one after the other.
 class Clock {
  public:
-  Clock(const Options& options, const studio::Stage& stage, const studio::Size& size)
-      : options_(options), stage_(stage), size_(size) {}
+  Clock(const Options& options, const session::PreparedScene& prepared, const cli::Size& size)
+      : options_(options), prepared_(prepared), size_(size) {}
 
   render::FrameInputs next() {
     constexpr double rate = 60;  // frames a second
     const double last = options_.time + (options_.play ? std::max(frame_ - 1, 0) / rate : 0);
     const double now = options_.time + (options_.play ? frame_ / rate : 0);
-    const render::Setup setup = studio::setup_at(stage_, now);
+    const render::Setup setup = session::setup_at(prepared_, now);
     const bool first = frame_++ == 0;
     return {.width = size_.width,
             .height = size_.height,
             .camera = setup.camera,
-            .last_camera = first ? setup.camera : studio::setup_at(stage_, last).camera,
+            .last_camera = first ? setup.camera : session::setup_at(prepared_, last).camera,
             .sun = setup.sun,
             .time = now,
             .last_time = last,
-            .cut = first || scene::jumps_between(stage_.scene, last, now)};
+            .cut = first || scene::jumps_between(prepared_.scene, last, now)};
   }
 
  private:
   const Options& options_;
-  const studio::Stage& stage_;
-  studio::Size size_;
+  const session::PreparedScene& prepared_;
+  cli::Size size_;
   int frame_ = 0;
 };
 
@@ -76,8 +76,8 @@ class Bench {
     results_.points.resize(results_.sweep.points.size());
     const int visits = visit_count();
     const int points = static_cast<int>(results_.sweep.points.size());
-    studio::Progress progress("frame", points * (results_.frames.measured + visits * results_.frames.warmup),
-                              !options_.quiet);
+    cli::Progress progress("frame", points * (results_.frames.measured + visits * results_.frames.warmup),
+                           !options_.quiet);
     for (int visit = 0; visit < visits; ++visit) {
       for (std::size_t i = 0; i < results_.sweep.points.size(); ++i) {
         const int measured = results_.frames.measured / visits + (visit < results_.frames.measured % visits ? 1 : 0);
@@ -107,7 +107,7 @@ class Bench {
   }
 
   void describe() {
-    results_.version = studio::version();
+    results_.version = cli::version();
     results_.commit = commit();
     results_.command = options_.command;
     results_.machine = machine();
@@ -117,31 +117,32 @@ class Bench {
 
   // Scenes stay loaded from visit to visit, unless each point has its own.
   void prepare(const Point& point) {
-    if (stage_ && !point.triangles) return;
+    if (prepared_ && !point.triangles) return;
     contenders_.clear();
-    stage_.emplace(stage_at(point));
-    for (const std::string& output : options_.outputs) studio::check_spared(stage_->scene.files, "-o", output);
+    prepared_.emplace(scene_at(point));
+    for (const std::string& output : options_.outputs) cli::check_spared(prepared_->scene.files, "-o", output);
     results_.scene = options_.scene.empty() ? "generated grid of casters"
                                             : std::filesystem::path(options_.scene).filename().string();
     const auto timing = device_.software ? gl::Timers::Mode::finish : gl::Timers::Mode::query;
     for (const Entry& entry : results_.entries) {
       contenders_.push_back(
-          std::make_unique<Contender>(entry, stage_->scene, gl::ShaderFiles(options_.glsl), timing, options_.floor));
+          std::make_unique<Contender>(entry, prepared_->scene, gl::ShaderFiles(options_.glsl), timing, options_.floor));
     }
   }
 
-  studio::Stage stage_at(const Point& point) const {
-    if (!point.triangles) return studio::load_stage(options_, decode_);
-    return studio::set_up(model_ ? repeated(*model_, *point.triangles) : caster_grid(*point.triangles), options_);
+  session::PreparedScene scene_at(const Point& point) const {
+    if (!point.triangles) return session::load_scene(options_, decode_);
+    return session::prepare_scene(model_ ? repeated(*model_, *point.triangles) : caster_grid(*point.triangles),
+                                  options_);
   }
 
-  void visit_point(std::size_t index, int measured, studio::Progress& progress) {
+  void visit_point(std::size_t index, int measured, cli::Progress& progress) {
     const Point& point = results_.sweep.points[index];
     prepare(point);
-    const studio::Size size = point.size.value_or(options_.size);
+    const cli::Size size = point.size.value_or(options_.size);
     std::vector<ParamSet> params;
     for (const Entry& entry : results_.entries) params.push_back(params_at(point, entry.params));
-    Clock clock(options_, *stage_, size);
+    Clock clock(options_, *prepared_, size);
     for (int i = 0; i < results_.frames.warmup + measured; ++i) {
       const render::FrameInputs inputs = clock.next();
       for (std::size_t c = 0; c < contenders_.size(); ++c) contenders_[c]->draw(inputs, params[c]);
@@ -154,9 +155,9 @@ class Bench {
     sum_up(index, size);
   }
 
-  void sum_up(std::size_t index, const studio::Size& size) {
+  void sum_up(std::size_t index, const cli::Size& size) {
     Measured& point = results_.points[index];
-    point = {.point = results_.sweep.points[index], .size = size, .triangles = drawn_triangles(stage_->scene)};
+    point = {.point = results_.sweep.points[index], .size = size, .triangles = drawn_triangles(prepared_->scene)};
     for (std::size_t c = 0; c < contenders_.size(); ++c) {
       const Kept& kept = kept_[index][c];
       Cost cost = cost_of(kept.own, kept_[index].front().own);
@@ -187,8 +188,8 @@ class Bench {
   gl::DeviceInfo device_;
   Results results_;
   std::optional<scene::Scene> model_;  // that casters are copies of
-  std::optional<studio::Stage> stage_;
-  Contenders contenders_;                // after the stage that they draw
+  std::optional<session::PreparedScene> prepared_;
+  Contenders contenders_;                // after the prepared that they draw
   std::vector<std::vector<Kept>> kept_;  // by point, by entry
 };
 

@@ -5,16 +5,16 @@
 #include <filesystem>
 
 #include "bench/sweep.h"
+#include "cli/usage.h"
 #include "io/presets.h"
 #include "io/text.h"
-#include "studio/usage.h"
 
 namespace penumbra::bench {
 
 namespace {
 
-using studio::add_value;
-using studio::fail_usage;
+using cli::add_value;
+using cli::fail_usage;
 
 std::vector<std::string> names_of(std::string_view option, const std::string& text) {
   std::vector<std::string> names = io::split(text, ',');
@@ -37,11 +37,11 @@ void add_bench_options(CLI::App& app, Options& o) {
             "Techniques or presets (.toml) to compare, in turn frame by frame; see penumbra list techniques",
             [&o](const auto& text) { o.techniques = names_of("--technique", text); });
   add_value(app, "--frames", "N", "Frames that count, for each technique and point (400; in software 20, of a sweep 4)",
-            [&o](const auto& text) { o.frame_count = studio::parse_count("--frames", text, 1, 100000); });
+            [&o](const auto& text) { o.frame_count = cli::parse_count("--frames", text, 1, 100000); });
   add_value(app, "--warmup", "N", "Frames before them that don't (20; in software 2)",
-            [&o](const auto& text) { o.warmup = studio::parse_count("--warmup", text, 1, 100000); });
+            [&o](const auto& text) { o.warmup = cli::parse_count("--warmup", text, 1, 100000); });
   add_value(app, "--time", "S", "Time of the scene's animation, seconds",
-            [&o](const auto& text) { o.time = studio::parse_number("--time", text, 0, 1e6); });
+            [&o](const auto& text) { o.time = cli::parse_number("--time", text, 0, 1e6); });
   app.add_flag("--play", o.play, "Lets the animation run, 60 frames a second; else it stands still")
       ->disable_flag_override();
   app.add_flag("--floor", o.floor,
@@ -49,7 +49,7 @@ void add_bench_options(CLI::App& app, Options& o) {
       ->disable_flag_override();
   const std::string sweeps = fmt::format("Measures over a range: {}", fmt::join(sweep_names(), ", "));
   add_value(app, "--sweep", "NAME", sweeps.c_str(),
-            [&o](const auto& text) { o.sweep = studio::one_of("sweep", text, sweep_names()); });
+            [&o](const auto& text) { o.sweep = cli::one_of("sweep", text, sweep_names()); });
   app.add_option_function<std::vector<std::string>>(
          "-o,--output",
          [&o](const auto& names) {
@@ -68,15 +68,15 @@ void add_options(CLI::App& app, Options& options) {
       ->type_name("");
   add_bench_options(app, options);
   add_value(app, "--size", "WIDTHxHEIGHT", "Pixels (1280x720)",
-            [&options](const auto& text) { options.size = studio::parse_size("--size", text); });
-  studio::add_view_options(app, options);
-  studio::add_shadow_options(app, options);
-  studio::add_device_options(app, options);
+            [&options](const auto& text) { options.size = cli::parse_size("--size", text); });
+  cli::add_view_options(app, options);
+  cli::add_shadow_options(app, options);
+  cli::add_device_options(app, options);
 }
 
 void check_together(const Options& o) {
-  studio::check_together(static_cast<const studio::StageOptions&>(o));
-  studio::check_together(static_cast<const studio::DeviceOptions&>(o));
+  cli::check_together(static_cast<const cli::SceneOptions&>(o));
+  cli::check_together(static_cast<const cli::DeviceOptions&>(o));
   if (o.scene.empty() && o.sweep != "casters") fail_usage("SCENE is required");
   if (o.quiet && o.outputs.empty()) fail_usage("--quiet without -o would measure for nobody");
 }
@@ -86,14 +86,14 @@ std::vector<Entry> entries_of(const Options& options, const shadow::Registry& re
   if (names.empty()) names.emplace_back();  // what the presets say
   std::vector<Entry> entries;
   for (const std::string& name : names) {
-    studio::ShadowOptions one = static_cast<const studio::ShadowOptions&>(options);
+    cli::ShadowOptions one = static_cast<const cli::ShadowOptions&>(options);
     if (is_preset(name)) {
       one.presets.push_back(name);
     } else {
       if (name == "truth") fail_usage("--technique truth is traced by the CPU: penumbra truth tells its rays a second");
       one.technique = name;
     }
-    Entry entry{.label = name, .params = studio::resolve_params(one, registry)};
+    Entry entry{.label = name, .params = cli::resolve_params(one, registry)};
     if (is_preset(name)) entry.label = std::filesystem::path(name).stem().string();
     if (name.empty()) entry.label = entry.params.get_word("technique");
     for (const Entry& other : entries) {

@@ -17,7 +17,7 @@ namespace penumbra::bench {
 // All contenders at one point of the sweep.
 struct Measured {
   Point point;
-  studio::Size size;
+  cli::Size size;
   long long triangles = 0;  // that the scene draws
   std::vector<Cost> costs;  // in the order of Results::entries
 };

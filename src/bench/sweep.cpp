@@ -37,9 +37,9 @@ Sweep resolution(const SweepLimits& limits) {
   Sweep sweep{.axes = {{"pixels", "million"}}};
   for (const double factor : factors) {
     const auto scaled = [factor](int side) { return std::max(1, static_cast<int>(std::lround(side * factor))); };
-    const studio::Size size{scaled(limits.size.width), scaled(limits.size.height)};
-    const bool too_large = std::max(size.width, size.height) > std::min(limits.max_texture, studio::largest_side) ||
-                           1LL * size.width * size.height > studio::largest_area;
+    const cli::Size size{scaled(limits.size.width), scaled(limits.size.height)};
+    const bool too_large = std::max(size.width, size.height) > std::min(limits.max_texture, cli::largest_side) ||
+                           1LL * size.width * size.height > cli::largest_area;
     if ((limits.software && factor > largest_in_software) || too_large) break;
     Point point = point_of(size.width * static_cast<double>(size.height) / million,
                            fmt::format("{}x{}", size.width, size.height));
@@ -55,7 +55,7 @@ Sweep map_size(const SweepLimits& limits) {
   const int last = std::min(limits.software ? largest_in_software : largest, limits.max_texture);
   for (int side = smallest; side <= last; side *= 2) {
     const double texels = static_cast<double>(side) * side * limits.cascades;
-    if (texels > static_cast<double>(studio::largest_maps)) break;
+    if (texels > static_cast<double>(cli::largest_maps)) break;
     Point point = point_of(texels / million, std::to_string(side));
     point.values = {{"cascades.size", side}};
     sweep.points.push_back(std::move(point));
@@ -122,7 +122,7 @@ ParamSet params_at(const Point& point, const ParamSet& params) {
   for (const auto& [name, value] : point.values) {
     const std::string full = name.starts_with('.') ? params.get_word("technique") + name : name;
     if (!at.contains(full))
-      studio::fail_usage("--sweep taps: technique '{}' has no parameter {}", params.get_word("technique"), full);
+      cli::fail_usage("--sweep taps: technique '{}' has no parameter {}", params.get_word("technique"), full);
     at.set(full, value);
   }
   return at;

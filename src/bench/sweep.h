@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "cli/usage.h"
 #include "core/params.h"
-#include "studio/usage.h"
 
 namespace penumbra::bench {
 
@@ -16,7 +16,7 @@ struct Point {
   std::vector<std::string> names;  // the same as one says it: "1280x720"
   // Values of parameters; a name that begins with '.' is the technique's own.
   std::vector<std::pair<std::string, ParamValue>> values;
-  std::optional<studio::Size> size;
+  std::optional<cli::Size> size;
   std::optional<long long> triangles;  // of the casters
 };
 
@@ -39,7 +39,7 @@ const std::vector<std::string>& sweep_names();
 // What a sweep is held to.
 struct SweepLimits {
   bool software = false;  // ends where patience does
-  studio::Size size;      // that the command line asks for
+  cli::Size size;         // that the command line asks for
   int max_texture = 16384;
   int cascades = 4;             // the most of any entry
   long long own_triangles = 0;  // of the scene that casters are copies of; 0: there is none

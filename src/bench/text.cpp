@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bench/results.h"
-#include "studio/text.h"
+#include "cli/text.h"
 
 namespace penumbra::bench {
 
@@ -14,8 +14,8 @@ std::string pass_lines(const Cost& cost) {
   const auto line = [](const std::string& name, const Summary& ms, double share) {
     return fmt::format("  {:<22}{:>10.3f}{:>10.3f}{:>10.3f}{:>8.1f} %\n", name, ms.median, ms.min, ms.max, 100 * share);
   };
-  std::string text = fmt::format("{:<24}{:>10}{:>10}{:>10}{:>10}\n", studio::printable(cost.label), "median ms", "min",
-                                 "max", "share");
+  std::string text =
+      fmt::format("{:<24}{:>10}{:>10}{:>10}{:>10}\n", cli::printable(cost.label), "median ms", "min", "max", "share");
   for (const PassCost& pass : cost.passes) text += line(pass.name, pass.ms, pass.share);
   text += line("sum of passes", cost.passes_sum, cost.sum_ratio);
   text += line("frame", cost.frame, 1);
@@ -40,8 +40,8 @@ std::string summary_lines(const Measured& point) {
   if (has_floor(point)) text += fmt::format("{:>13}{:>13}{:>13}", "fetches ms", "mask/fetches", "mask copy ms");
   text += "\n";
   for (const Cost& cost : point.costs) {
-    text += fmt::format("{:<24}{:>16.3f}{:>12.3f}{:>12}", studio::printable(cost.label), cost.shadow.median,
-                        cost.of_first, studio::bytes_text(static_cast<double>(cost.target_bytes)));
+    text += fmt::format("{:<24}{:>16.3f}{:>12.3f}{:>12}", cli::printable(cost.label), cost.shadow.median, cost.of_first,
+                        cli::bytes_text(static_cast<double>(cost.target_bytes)));
     if (cost.floor) text += floor_cells(*cost.floor);
     text += "\n";
   }
@@ -52,7 +52,7 @@ std::string summary_lines(const Measured& point) {
 std::string sweep_lines(const Results& results) {
   std::string text;
   for (const Axis& axis : results.sweep.axes) text += fmt::format("{:>14}", axis.name);
-  for (const Entry& entry : results.entries) text += fmt::format("{:>24}", studio::printable(entry.label) + " ms");
+  for (const Entry& entry : results.entries) text += fmt::format("{:>24}", cli::printable(entry.label) + " ms");
   text += "\n";
   for (const Measured& point : results.points) {
     for (const std::string& name : point.point.names) text += fmt::format("{:>14}", name);
@@ -67,9 +67,9 @@ std::string sweep_lines(const Results& results) {
 std::string setting_of(const Results& results) {
   const ParamSet& params = results.entries.front().params;
   const auto swept = [&results](const char* name) { return results.sweep.name == name; };
-  std::string text = studio::printable(results.scene);
+  std::string text = cli::printable(results.scene);
   if (!swept("resolution")) {
-    const studio::Size& size = results.points.front().size;
+    const cli::Size& size = results.points.front().size;
     text += fmt::format(", {}×{}", size.width, size.height);
   }
   if (!swept("cascades") && !swept("map_size")) {
@@ -100,7 +100,7 @@ std::string text_of(const Results& results) {
   }
   text += subject_of(results.sweep) + ", medians\n" + sweep_lines(results);
   for (const Model& model : results.models)
-    text += fmt::format("\n{}: {}, R² {:.4f}\n", studio::printable(model.label), equation_of(model, results.sweep),
+    text += fmt::format("\n{}: {}, R² {:.4f}\n", cli::printable(model.label), equation_of(model, results.sweep),
                         model.fit.r_squared);
   return text;
 }

@@ -4,9 +4,9 @@
 #include <fstream>
 #include <memory>
 
-#include "app/viewer/painter.h"
 #include "gpu/gpu_test.h"
 #include "image/read.h"
+#include "viewer/painter.h"
 
 namespace penumbra::test {
 namespace {
@@ -29,7 +29,7 @@ void expect_no_more_than([[maybe_unused]] std::size_t bytes) {
 class ViewerMemory : public GpuTest {
  protected:
   ViewerMemory() : renderer_(device_), painter_(device_, renderer_, 0) {
-    document_.stage.size = {320, 180};
+    document_.options.size = {320, 180};
     document_.params = ParamSet(render::Renderer::params(renderer_.registry()));
     renderer_.registry().select(document_.params, "thesis");
     // All of its passes, each as cheap as can be.
@@ -41,12 +41,13 @@ class ViewerMemory : public GpuTest {
     document_.params.set("filter.taps", 1);
   }
 
-  std::unique_ptr<app::LoadedScene> load(const char* name) {
-    document_.stage.scene = std::string(PENUMBRA_ROOT) + "/scenes/" + name;
-    return std::make_unique<app::LoadedScene>(device_, studio::load_stage(document_.stage, image::image_decoder()));
+  std::unique_ptr<viewer::LoadedScene> load(const char* name) {
+    document_.options.scene = std::string(PENUMBRA_ROOT) + "/scenes/" + name;
+    return std::make_unique<viewer::LoadedScene>(device_,
+                                                 session::load_scene(document_.options, image::image_decoder()));
   }
 
-  void draw(app::LoadedScene& scene, int frames, int divisor = 1) {
+  void draw(viewer::LoadedScene& scene, int frames, int divisor = 1) {
     for (int i = 0; i < frames; ++i) {
       document_.params.set("sampling.seed", i % 2);  // something changes, as under a hand
       painter_.draw(scene, document_, divisor);
@@ -58,8 +59,8 @@ class ViewerMemory : public GpuTest {
 
   gl::Device device_{gl::ShaderFiles{}, gl::Timers::Mode::finish};
   render::Renderer renderer_;
-  app::Painter painter_;
-  app::Document document_;
+  viewer::Painter painter_;
+  viewer::Document document_;
 };
 
 TEST_F(ViewerMemory, IsFlatOverTwoThousandFramesWithAHistory) {
@@ -75,7 +76,7 @@ TEST_F(ViewerMemory, IsFlatOverTwoThousandFramesWithAHistory) {
 TEST_F(ViewerMemory, IsFlatOverFiftyScenesAndTheirSizes) {
   const auto show = [&](int number) {
     const auto scene = load(number % 2 == 0 ? "steps.glb" : "posts.glb");
-    document_.stage.size = {64 + 16 * (number % 3), 48};
+    document_.options.size = {64 + 16 * (number % 3), 48};
     painter_.cut();
     draw(*scene, 2, 1 + number % 2);
   };

@@ -1,4 +1,4 @@
-#include "studio/shader_reload.h"
+#include "session/shader_reload.h"
 
 #include <unistd.h>
 
@@ -10,7 +10,7 @@
 
 #include "gl/api.h"
 #include "gpu_test.h"
-#include "studio/file_watch.h"
+#include "session/file_watch.h"
 
 namespace penumbra {
 namespace {
@@ -34,8 +34,8 @@ class ShaderReloadTest : public test::GpuTest {
   ~ShaderReloadTest() override { fs::remove_all(folder); }
 
   void save(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
-  studio::ShaderReload reload() { return studio::reload_shaders(library, watch.poll(20s)); }
-  studio::ShaderReload reload(const std::string& name, const std::string& text) {
+  session::ShaderReload reload() { return session::reload_shaders(library, watch.poll(20s)); }
+  session::ShaderReload reload(const std::string& name, const std::string& text) {
     save(name, text);
     return reload();
   }
@@ -48,13 +48,13 @@ class ShaderReloadTest : public test::GpuTest {
 
   fs::path folder = make_folder();
   gl::ShaderLibrary library{gl::ShaderFiles(folder.string())};
-  studio::FileWatch watch;
+  session::FileWatch watch;
   gl::ProgramDesc a{.name = "a", .compute = "a.comp"}, b{.name = "b", .compute = "b.comp"};
 };
 
 TEST_F(ShaderReloadTest, AnIncludeRebuildsWhatDependsOnItAtOnce) {
   const GLuint id = library.get(b).id();
-  const studio::ShaderReload result = reload("size.glsl", "#define SIZE 8\n");
+  const session::ShaderReload result = reload("size.glsl", "#define SIZE 8\n");
   EXPECT_EQ(result.files, std::vector<fs::path>{folder / "size.glsl"});
   EXPECT_EQ(result.rebuilt, 1u);
   EXPECT_EQ(result.failed, 0u);
@@ -65,7 +65,7 @@ TEST_F(ShaderReloadTest, AnIncludeRebuildsWhatDependsOnItAtOnce) {
 }
 
 TEST_F(ShaderReloadTest, ABrokenFileIsToldWithItsLineAndTheLastGoodProgramStays) {
-  const studio::ShaderReload broken = reload("size.glsl", "#define SIZE 8\n\nfloat half_of(float x) { return y; }\n");
+  const session::ShaderReload broken = reload("size.glsl", "#define SIZE 8\n\nfloat half_of(float x) { return y; }\n");
   EXPECT_EQ(broken.failed, 1u);
   EXPECT_FALSE(broken.redraws());
   ASSERT_EQ(broken.errors.size(), 1u);
@@ -79,7 +79,7 @@ TEST_F(ShaderReloadTest, ABrokenFileIsToldWithItsLineAndTheLastGoodProgramStays)
   EXPECT_EQ(size_of(a), 4);
   EXPECT_TRUE(library.take_outdated());
 
-  const studio::ShaderReload fixed = reload("size.glsl", "#define SIZE 16\n");
+  const session::ShaderReload fixed = reload("size.glsl", "#define SIZE 16\n");
   EXPECT_EQ(fixed.rebuilt, 1u);
   EXPECT_TRUE(fixed.errors.empty());
   EXPECT_EQ(size_of(a), 16);
@@ -90,7 +90,7 @@ TEST_F(ShaderReloadTest, ProgramsThatFailForTheSameLinesAreToldOnce) {
   gl::ProgramDesc other = a;
   other.name = "other";
   library.get(other);
-  const studio::ShaderReload broken = reload("size.glsl", "#define SIZE 8\noops\n");
+  const session::ShaderReload broken = reload("size.glsl", "#define SIZE 8\noops\n");
   EXPECT_EQ(broken.failed, 2u);
   EXPECT_EQ(broken.errors.size(), 1u);
 }
@@ -157,12 +157,12 @@ TEST_F(ShaderReloadTest, ManySavesLeaveNoObjectsBehind) {
     if (name == std::string("b.comp")) text += sized;
     save(name, text);
     const std::vector<fs::path> changed{folder / name};
-    studio::reload_shaders(library, changed);
+    session::reload_shaders(library, changed);
     library.get(a).use();
   }
   save("size.glsl", "#define SIZE 3\n");
   save("b.comp", std::string("#define SIZE 5\n") + sized);
-  studio::reload_shaders(library, std::vector<fs::path>{folder / "size.glsl", folder / "b.comp"});
+  session::reload_shaders(library, std::vector<fs::path>{folder / "size.glsl", folder / "b.comp"});
   EXPECT_EQ(size_of(a), 3);
   EXPECT_EQ(size_of(b), 5);
   EXPECT_TRUE(library.errors().empty());

@@ -1,7 +1,7 @@
 // Every frame's times go to the picture it was drawn for, whenever they come in.
-#include "app/viewer/costs.h"
 #include "gl/api.h"
 #include "gl_pass.h"
+#include "viewer/costs.h"
 
 namespace penumbra {
 namespace {
@@ -13,9 +13,9 @@ class ViewerCostReader : public test::GpuTest {
     test::clear(timed, {.name = pass});
     timed.timers.end_frame();
   }
-  static std::vector<std::string> names(const app::Costs& costs) {
+  static std::vector<std::string> names(const viewer::Costs& costs) {
     std::vector<std::string> names;
-    for (const app::Costs::Pass& pass : costs.passes()) names.push_back(pass.name);
+    for (const viewer::Costs::Pass& pass : costs.passes()) names.push_back(pass.name);
     return names;
   }
 };
@@ -23,8 +23,8 @@ class ViewerCostReader : public test::GpuTest {
 TEST_F(ViewerCostReader, FramesGoToTheirOwnPicture) {
   for (const gl::Timers::Mode mode : {gl::Timers::Mode::finish, gl::Timers::Mode::query}) {
     gl::Device timed(test::pass_files(), mode);
-    app::Costs a, b;
-    app::CostReader reader;
+    viewer::Costs a, b;
+    viewer::CostReader reader;
     for (int turn = 0; turn < 6; ++turn) {
       reader.start(timed.timers, b);
       frame(timed, "of b");
@@ -46,8 +46,8 @@ TEST_F(ViewerCostReader, FramesGoToTheirOwnPicture) {
 
 TEST_F(ViewerCostReader, OneStartIsForAllFramesUntilTheNext) {
   gl::Device timed(test::pass_files(), gl::Timers::Mode::finish);
-  app::Costs a, b;
-  app::CostReader reader;
+  viewer::Costs a, b;
+  viewer::CostReader reader;
   frame(timed, "nobody's");
   reader.start(timed.timers, a);
   for (int i = 0; i < 3; ++i) {
@@ -63,8 +63,8 @@ TEST_F(ViewerCostReader, OneStartIsForAllFramesUntilTheNext) {
 
 TEST_F(ViewerCostReader, AFrameThatFailedIsNobodys) {
   gl::Device timed(test::pass_files(), gl::Timers::Mode::finish);
-  app::Costs a, b;
-  app::CostReader reader;
+  viewer::Costs a, b;
+  viewer::CostReader reader;
   reader.start(timed.timers, b);
   timed.timers.begin_frame();  // an exception ends it
   reader.start(timed.timers, a);

@@ -17,10 +17,13 @@ BELOW = {
     "report": {"io", "scene", "gl", "core"},
     "render": {"shadow", "scene", "gl", "core"},
     "truth": {"render", "shadow", "io", "scene", "gl", "core"},
-    "studio": {"render", "shadow", "io", "scene", "gl", "core"},
-    "bench": {"studio", "report", "render", "shadow", "io", "scene", "gl", "core"},
-    "app": {"bench", "studio", "report", "image", "metrics", "render", "shadow", "truth", "io", "scene", "gl", "core"},
+    "cli": {"render", "shadow", "io", "scene", "gl", "core"},
+    "session": {"cli", "truth", "render", "shadow", "io", "scene", "gl", "core"},
+    "bench": {"session", "cli", "report", "render", "shadow", "io", "scene", "gl", "core"},
+    "viewer": {"session", "cli", "truth", "metrics", "image", "render", "shadow", "io", "scene", "gl", "core"},
 }
+BELOW["compare"] = BELOW["reproduce"] = BELOW["bench"] | {"bench", "truth", "image", "metrics"}
+BELOW["app"] = set(BELOW)
 INSTALLED = {"core", "gl", "shadow"}
 GENERATED = "gl/api.h"
 
@@ -30,10 +33,10 @@ LIBRARIES = {
     "glm/": BELOW.keys(),
     "GL/": {"gl"},
     "EGL/": {"gl"},
-    "GLFW/": {"gl", "app"},
-    "imgui.h": {"app"},
-    "imgui_stdlib.h": {"app"},
-    "backends/imgui": {"app"},
+    "GLFW/": {"gl", "viewer"},
+    "imgui.h": {"viewer"},
+    "imgui_stdlib.h": {"viewer"},
+    "backends/imgui": {"viewer"},
     "tiny_gltf.h": {"scene"},
     "draco/": {"scene"},
     "meshoptimizer.h": {"scene"},
@@ -42,13 +45,13 @@ LIBRARIES = {
     "OpenImageIO/": {"image"},
     "png.h": {"image"},
     "toml++/": {"io"},
-    "nlohmann/": {"scene", "io", "report", "studio", "bench", "app"},
-    "CLI/": {"studio", "bench", "app"},
+    "nlohmann/": {"scene", "io", "report", "cli", "bench", "compare", "reproduce", "viewer", "app"},
+    "CLI/": {"cli", "session", "bench", "compare", "reproduce", "viewer", "app"},
 }
 
 # The operating system's headers, which the portable layers core and shadow leave alone.
 SYSTEM = re.compile(r"(sys/\w+|dlfcn|fcntl|poll|signal|spawn|termios|unistd)\.h")
-USES_SYSTEM = {"gl", "scene", "io", "studio", "app"}
+USES_SYSTEM = {"gl", "scene", "io", "cli", "session", "viewer", "app"}
 
 # Folders of glsl that the files of one may include.
 GLSL_BELOW = {
@@ -58,7 +61,7 @@ GLSL_BELOW = {
     "scene": {"shared", "lib", "scene"},
     "render": {"shared", "lib", "scene", "shadow", "render", "generated"},
     "bench": {"shared", "lib", "shadow", "bench", "generated"},
-    "app": {"shared", "lib", "app"},
+    "viewer": {"shared", "lib", "viewer"},
 }
 # Those whose shaders the C++ of a layer may name.
 GLSL_NAMED = {"gl": GLSL_BELOW["shared"], "shadow": GLSL_BELOW["shadow"], "scene": GLSL_BELOW["scene"]}

@@ -36,7 +36,7 @@ TEST(Sweep, SetsTheParametersOfTheTechnique) {
   EXPECT_EQ(last.get_int("brute_force.filter_taps"), 128);
   EXPECT_EQ(last.get_int("pcss.filter_taps"), params.get_int("pcss.filter_taps"));
   registry.select(params, "hard");
-  EXPECT_THROW(bench::params_at(sweep.points.front(), params), studio::UsageError);
+  EXPECT_THROW(bench::params_at(sweep.points.front(), params), cli::UsageError);
 }
 
 TEST(Sweep, EndsWherePatienceDoes) {

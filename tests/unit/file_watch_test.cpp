@@ -1,4 +1,4 @@
-#include "studio/file_watch.h"
+#include "session/file_watch.h"
 
 #include <gtest/gtest.h>
 #include <sys/inotify.h>
@@ -29,7 +29,7 @@ extern "C" int inotify_add_watch(int descriptor, const char* path, std::uint32_t
   return static_cast<int>(syscall(SYS_inotify_add_watch, descriptor, path, mask));
 }
 
-namespace penumbra::studio {
+namespace penumbra::session {
 namespace {
 
 namespace fs = std::filesystem;
@@ -288,4 +288,4 @@ TEST_F(FileWatchTest, TheLimitOfDescriptorsIsOneClearError) {
 #endif
 
 }  // namespace
-}  // namespace penumbra::studio
+}  // namespace penumbra::session

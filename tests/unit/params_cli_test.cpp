@@ -3,57 +3,57 @@
 #include <string>
 #include <vector>
 
-#include "app/output_names.h"
-#include "app/picture.h"
-#include "studio/usage.h"
+#include "cli/output_names.h"
+#include "cli/usage.h"
+#include "render/aov_picture.h"
 
 namespace {
 
-using penumbra::app::OutputNames;
-using penumbra::studio::UsageError;
+using penumbra::cli::OutputNames;
+using penumbra::cli::UsageError;
 
 TEST(Usage, NumbersAreReadWhole) {
-  EXPECT_EQ(penumbra::studio::parse_number("--time", "1.5", 0, 10), 1.5);
-  EXPECT_EQ(penumbra::studio::parse_number("--time", "+2e0", 0, 10), 2.0);
+  EXPECT_EQ(penumbra::cli::parse_number("--time", "1.5", 0, 10), 1.5);
+  EXPECT_EQ(penumbra::cli::parse_number("--time", "+2e0", 0, 10), 2.0);
   for (const char* text :
        {"", " 1", "1 ", "1x", "nan", "inf", "-inf", "1e999", "0x10", "1,5", "--1", "+-1", "11", "-1"})
-    EXPECT_THROW(penumbra::studio::parse_number("--time", text, 0, 10), UsageError) << text;
+    EXPECT_THROW(penumbra::cli::parse_number("--time", text, 0, 10), UsageError) << text;
 }
 
 TEST(Usage, CountsAreWholeAndInRange) {
-  EXPECT_EQ(penumbra::studio::parse_count("--threads", "4", 1, 16), 4);
+  EXPECT_EQ(penumbra::cli::parse_count("--threads", "4", 1, 16), 4);
   for (const char* text : {"", "4.0", "0", "17", "99999999999999999999", "four"})
-    EXPECT_THROW(penumbra::studio::parse_count("--threads", text, 1, 16), UsageError) << text;
+    EXPECT_THROW(penumbra::cli::parse_count("--threads", text, 1, 16), UsageError) << text;
 }
 
 TEST(Usage, SizesHaveTwoSides) {
-  const auto size = penumbra::studio::parse_size("--size", "640x360");
+  const auto size = penumbra::cli::parse_size("--size", "640x360");
   EXPECT_EQ(size.width, 640);
   EXPECT_EQ(size.height, 360);
   for (const char* text : {"640", "640x", "x360", "640x360x1", "-640x360", "0x1", "16385x1", "640X360", "1e3x10"})
-    EXPECT_THROW(penumbra::studio::parse_size("--size", text), UsageError) << text;
+    EXPECT_THROW(penumbra::cli::parse_size("--size", text), UsageError) << text;
 }
 
 TEST(Usage, PointsHaveThreeCoordinates) {
-  EXPECT_EQ(penumbra::studio::parse_point("--eye", "-1,2.5,1e3"), glm::vec3(-1, 2.5, 1000));
+  EXPECT_EQ(penumbra::cli::parse_point("--eye", "-1,2.5,1e3"), glm::vec3(-1, 2.5, 1000));
   for (const char* text : {"1,2", "1,2,3,4", "1,,3", "nan,0,0", "1e10,0,0", "1;2;3"})
-    EXPECT_THROW(penumbra::studio::parse_point("--eye", text), UsageError) << text;
+    EXPECT_THROW(penumbra::cli::parse_point("--eye", text), UsageError) << text;
 }
 
 TEST(Usage, FramesRunForwards) {
-  const auto range = penumbra::studio::parse_frames("--frames", "3:7");
+  const auto range = penumbra::cli::parse_frames("--frames", "3:7");
   EXPECT_EQ(range.first, 3);
   EXPECT_EQ(range.count(), 5);
   for (const char* text : {"7:3", "3", "3:", "-1:2", "1:2:3", "1:1000000"})
-    EXPECT_THROW(penumbra::studio::parse_frames("--frames", text), UsageError) << text;
+    EXPECT_THROW(penumbra::cli::parse_frames("--frames", text), UsageError) << text;
 }
 
 TEST(Usage, DirectionsAreInDegrees) {
-  const auto direction = penumbra::studio::parse_direction("--sun", "90,-45");
+  const auto direction = penumbra::cli::parse_direction("--sun", "90,-45");
   EXPECT_FLOAT_EQ(direction.azimuth, 1.5707964f);
   EXPECT_FLOAT_EQ(direction.elevation, -0.78539819f);
   for (const char* text : {"10", "10,91", "361,10", "a,b"})
-    EXPECT_THROW(penumbra::studio::parse_direction("--sun", text), UsageError) << text;
+    EXPECT_THROW(penumbra::cli::parse_direction("--sun", text), UsageError) << text;
 }
 
 TEST(OutputNames, OnePictureKeepsItsName) {
@@ -82,7 +82,7 @@ TEST(OutputNames, RefuseOtherKindsAndBadPatterns) {
 }
 
 TEST(Picture, ABlockBecomesWhatItsMeaningAsks) {
-  using penumbra::app::reduced;
+  using penumbra::render::reduced;
   using enum penumbra::render::Reduction;
   // Two pixels of 2 × 2 each, side by side.
   const std::vector<float> drawn{0, 1, 4, 4, 2, 3, 4, 8};
@@ -101,25 +101,26 @@ TEST(Picture, DisplayBytesAreAveragedInLinearLight) {
     rgb.insert(rgb.end(), pixel.begin(), pixel.end());
   }
   // Half the light is sRGB 188, not 128.
-  EXPECT_EQ(penumbra::app::display_bytes(rgb, 1, 1, 2).pixels, std::vector<std::uint8_t>(3, 188));
-  EXPECT_EQ(penumbra::app::display_bytes(rgb, 2, 2, 1).pixels, rgb);
+  EXPECT_EQ(penumbra::render::display_bytes(rgb, 1, 1, 2).pixels, std::vector<std::uint8_t>(3, 188));
+  EXPECT_EQ(penumbra::render::display_bytes(rgb, 2, 2, 1).pixels, rgb);
 }
 
 TEST(Picture, EveryByteSurvivesTheAverageOfEquals) {
   for (int v = 0; v < 256; ++v) {
     const std::vector<std::uint8_t> block(12, static_cast<std::uint8_t>(v));
-    EXPECT_EQ(penumbra::app::display_bytes(block, 1, 1, 2).pixels[0], v);
+    EXPECT_EQ(penumbra::render::display_bytes(block, 1, 1, 2).pixels[0], v);
   }
 }
 
 TEST(Picture, AovsAreShownByTheirMeaning) {
-  EXPECT_EQ(penumbra::app::aov_bytes("shadow", 1, {0.0f, 0.5f, 1.0f}).pixels, (std::vector<std::uint8_t>{0, 128, 255}));
-  EXPECT_EQ(penumbra::app::aov_bytes("normal", 3, {0, 1, -1}).pixels, (std::vector<std::uint8_t>{128, 255, 0}));
-  EXPECT_EQ(penumbra::app::aov_bytes("penumbra", 1, {0, 1, 4}).pixels, (std::vector<std::uint8_t>{0, 64, 255}));
-  EXPECT_EQ(penumbra::app::aov_bytes("motion", 2, {0, -2}).pixels, (std::vector<std::uint8_t>{128, 0, 128}));
-  const auto depth = penumbra::app::aov_bytes("depth", 1, {1, 2, 4, 0}).pixels;
+  EXPECT_EQ(penumbra::render::aov_bytes("shadow", 1, {0.0f, 0.5f, 1.0f}).pixels,
+            (std::vector<std::uint8_t>{0, 128, 255}));
+  EXPECT_EQ(penumbra::render::aov_bytes("normal", 3, {0, 1, -1}).pixels, (std::vector<std::uint8_t>{128, 255, 0}));
+  EXPECT_EQ(penumbra::render::aov_bytes("penumbra", 1, {0, 1, 4}).pixels, (std::vector<std::uint8_t>{0, 64, 255}));
+  EXPECT_EQ(penumbra::render::aov_bytes("motion", 2, {0, -2}).pixels, (std::vector<std::uint8_t>{128, 0, 128}));
+  const auto depth = penumbra::render::aov_bytes("depth", 1, {1, 2, 4, 0}).pixels;
   EXPECT_TRUE(depth[0] > depth[1] && depth[1] > depth[2] && depth[3] == 0);
-  EXPECT_EQ(penumbra::app::aov_bytes("cascade", 1, {0, 1}).channels, 3);
+  EXPECT_EQ(penumbra::render::aov_bytes("cascade", 1, {0, 1}).channels, 3);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // What a hand does with the camera and the sun.
-#include "app/viewer/camera_rig.h"
+#include "viewer/camera_rig.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace penumbra {
 namespace {
 
-using app::CameraRig;
+using viewer::CameraRig;
 
 constexpr float pi = 3.14159265f;
 
@@ -170,7 +170,7 @@ TEST_F(ViewerCameraRig, TheRigOfACameraShowsWhatItShows) {
     scene::Bounds about;
     about.add(rig.target - 0.5f);
     about.add(rig.target + 0.5f);
-    const CameraRig same = app::rig_of(camera_of(rig), about);
+    const CameraRig same = viewer::rig_of(camera_of(rig), about);
     const float tolerance = 1e-4f * (20 + rig.distance());
     expect_near(same.eye, rig.eye, tolerance);
     expect_near(same.target, rig.target, tolerance);
@@ -179,7 +179,7 @@ TEST_F(ViewerCameraRig, TheRigOfACameraShowsWhatItShows) {
     scene::Bounds elsewhere;
     elsewhere.add(point(100));
     elsewhere.add(point(100));
-    const CameraRig other = app::rig_of(camera_of(rig), elsewhere);
+    const CameraRig other = viewer::rig_of(camera_of(rig), elsewhere);
     expect_near(other.eye, rig.eye, 1e-4f * (20 + other.distance()));
     expect_near(glm::normalize(other.target - other.eye), glm::normalize(rig.target - rig.eye), 1e-3f);
   }
@@ -189,7 +189,7 @@ TEST_F(ViewerCameraRig, ACameraThatLooksDownGivesARigThatCanBeTurned) {
   scene::Bounds about;
   about.add(glm::vec3(-1));
   about.add(glm::vec3(1));
-  CameraRig rig = app::rig_of(render::look_at({0, 5, 0}, {0, 0, 0}, 0.7f, 0.01f), about);
+  CameraRig rig = viewer::rig_of(render::look_at({0, 5, 0}, {0, 0, 0}, 0.7f, 0.01f), about);
   expect_near(rig.eye, {0, 5, 0}, 0.06f);
   rig.pan({0.1f, 0});
   rig.orbit(0.1f, -0.1f);
@@ -203,7 +203,7 @@ TEST_F(ViewerCameraRig, AnOrthographicCameraKeepsItsHeightAtTheTarget) {
   scene::Bounds about;
   about.add(glm::vec3(-1));
   about.add(glm::vec3(1));
-  const CameraRig rig = app::rig_of(camera, about);
+  const CameraRig rig = viewer::rig_of(camera, about);
   EXPECT_NEAR(rig.distance() * std::tan(rig.fov_y / 2), 3, 1e-4f);
 }
 
@@ -211,8 +211,8 @@ TEST_F(ViewerCameraRig, AHandTurnsTheSunByItsAnglesAndKeepsItOverTheHorizon) {
   for (int i = 0; i < 500; ++i) {
     const float azimuth = in(-3, 3), elevation = in(0.1f, 1.4f), yaw = in(-0.1f, 0.1f), pitch = in(-0.09f, 0.09f);
     const glm::vec3 from = render::direction_to(azimuth, elevation);
-    expect_near(app::turned_light(from, yaw, pitch), render::direction_to(azimuth + yaw, elevation + pitch), 1e-3f);
-    const glm::vec3 far = app::turned_light(from, in(-9, 9), in(-9, 9));
+    expect_near(viewer::turned_light(from, yaw, pitch), render::direction_to(azimuth + yaw, elevation + pitch), 1e-3f);
+    const glm::vec3 far = viewer::turned_light(from, in(-9, 9), in(-9, 9));
     EXPECT_GE(far.y, 0);
     EXPECT_NEAR(glm::length(far), 1, 1e-5f);
   }
@@ -221,9 +221,9 @@ TEST_F(ViewerCameraRig, AHandTurnsTheSunByItsAnglesAndKeepsItOverTheHorizon) {
 TEST_F(ViewerCameraRig, ASunThatWasPushedToTheZenithComesBackOnItsOwnSide) {
   const glm::vec3 from = render::direction_to(0.8f, 1.2f);
   glm::vec3 sun = from;
-  for (int step = 0; step < 10; ++step) sun = app::turned_light(sun, 0, 0.1f);
+  for (int step = 0; step < 10; ++step) sun = viewer::turned_light(sun, 0, 0.1f);
   EXPECT_GT(sun.y, 0.999f);
-  sun = app::turned_light(sun, 0, -0.4f);
+  sun = viewer::turned_light(sun, 0, -0.4f);
   EXPECT_GT(glm::dot(glm::vec2(sun.x, sun.z), glm::vec2(from.x, from.z)), 0);
 }
 

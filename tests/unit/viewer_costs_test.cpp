@@ -1,5 +1,5 @@
 // What the viewer says of costs. tests/gpu/viewer_cost_reader_test.cpp has where the times come from.
-#include "app/viewer/costs.h"
+#include "viewer/costs.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace penumbra {
 namespace {
 
-using app::Costs;
+using viewer::Costs;
 
 double median_of(const Costs& costs, const std::string& name) {
   for (const Costs::Pass& pass : costs.passes()) {

@@ -1,5 +1,5 @@
 // What the viewer shows is what `penumbra render` draws from the command line that it gives.
-#include "app/viewer/document.h"
+#include "viewer/document.h"
 
 #include <gtest/gtest.h>
 
@@ -7,26 +7,26 @@
 #include <cmath>
 #include <random>
 
-#include "app/render_options.h"
-#include "app/techniques.h"
+#include "app/render/options.h"
+#include "cli/command_line.h"
+#include "cli/usage.h"
 #include "core/error.h"
 #include "render/renderer.h"
-#include "studio/command_line.h"
-#include "studio/usage.h"
+#include "session/techniques.h"
 
 namespace penumbra {
 namespace {
 
-using app::Document;
+using viewer::Document;
 using Arguments = std::vector<std::string>;
 
-ParamSet defaults() { return ParamSet(render::Renderer::params(app::all_techniques())); }
+ParamSet defaults() { return ParamSet(render::Renderer::params(session::all_techniques())); }
 
 // A scene as the viewer opens it; a document of the viewer is one of a sequence, whose first frame is shown.
 Document plain() {
-  Document document{.stage = {}, .params = defaults()};
-  document.stage.scene = "a.glb";
-  document.stage.frames = studio::FrameRange{};
+  Document document{.options = {}, .params = defaults()};
+  document.options.scene = "a.glb";
+  document.options.frames = cli::FrameRange{};
   return document;
 }
 
@@ -41,14 +41,14 @@ Rendered rendered(const Arguments& arguments) {
   CLI::App app;
   Rendered result;
   app::add_render_options(app, result.options);
-  EXPECT_TRUE(studio::parse(app, {arguments.begin() + 1, arguments.end()}));
+  EXPECT_TRUE(cli::parse(app, {arguments.begin() + 1, arguments.end()}));
   app::check_together(result.options);
-  result.params = studio::resolve_params(result.options, app::all_techniques());
+  result.params = cli::resolve_params(result.options, session::all_techniques());
   return result;
 }
 
 void expect_same(const Document& document, const Rendered& render) {
-  const studio::StageOptions &shown = document.stage, &drawn = render.options;
+  const cli::SceneOptions &shown = document.options, &drawn = render.options;
   EXPECT_EQ(drawn.scene, shown.scene);
   EXPECT_EQ(drawn.size.width, shown.size.width);
   EXPECT_EQ(drawn.size.height, shown.size.height);
@@ -62,9 +62,9 @@ void expect_same(const Document& document, const Rendered& render) {
     EXPECT_EQ(drawn.sun->elevation, shown.sun->elevation);
   }
   EXPECT_EQ(drawn.ground, shown.ground);
-  const studio::FrameRange frames = drawn.frames.value_or(studio::FrameRange{});
+  const cli::FrameRange frames = drawn.frames.value_or(cli::FrameRange{});
   EXPECT_EQ(frames.count(), 1);
-  EXPECT_EQ(studio::time_of(drawn, frames.first), document.seconds());
+  EXPECT_EQ(session::time_of(drawn, frames.first), document.seconds());
   for (const Param& row : document.params.rows())
     EXPECT_EQ(render.params.value(row.name), document.params.value(row.name)) << row.name;
 }
@@ -89,7 +89,7 @@ class ViewerDocument : public testing::Test {
         if (sometimes()) params.set(row.name, any_value(row));
       }
       const long long size = params.get_int("cascades.size");
-      if (size * size * params.get_int("cascades.count") <= studio::largest_maps) return params;
+      if (size * size * params.get_int("cascades.count") <= cli::largest_maps) return params;
     }
   }
 
@@ -97,20 +97,20 @@ class ViewerDocument : public testing::Test {
     Document document = plain();
     document.params = any_params();
     if (sometimes()) document.frame = count(1, 999'999);
-    studio::StageOptions& stage = document.stage;
-    stage.scene = sometimes() ? "a folder/it's \"one\".glb" : "scene.gltf";
-    stage.size = {count(1, 2000), count(1, 2000)};
-    stage.ground = static_cast<render::GroundChoice>(count(0, 2));
-    if (sometimes()) stage.time = in(0.0, 1e6);
-    if (sometimes()) stage.fps = in(0.001, 240.0);
-    if (sometimes()) stage.fov = in(1.0, 179.0);
-    if (sometimes()) app::place_sun(document, render::direction_to(in(-9.0f, 9.0f), in(-1.57f, 1.57f)));
+    cli::SceneOptions& options = document.options;
+    options.scene = sometimes() ? "a folder/it's \"one\".glb" : "scene.gltf";
+    options.size = {count(1, 2000), count(1, 2000)};
+    options.ground = static_cast<render::GroundChoice>(count(0, 2));
+    if (sometimes()) options.time = in(0.0, 1e6);
+    if (sometimes()) options.fps = in(0.001, 240.0);
+    if (sometimes()) options.fov = in(1.0, 179.0);
+    if (sometimes()) viewer::place_sun(document, render::direction_to(in(-9.0f, 9.0f), in(-1.57f, 1.57f)));
     if (sometimes()) {
-      stage.eye = point();
-      stage.target = point();
+      options.eye = point();
+      options.target = point();
     } else if (sometimes()) {
       static constexpr const char* names[] = {"-1", "--eye", "Camera 1", "[a,b]", "a=b", "\"q\"", "caf\u00e9", "{}"};
-      stage.camera = names[count(0, 7)];
+      options.camera = names[count(0, 7)];
     }
     return document;
   }
@@ -132,10 +132,10 @@ TEST(ViewerDocumentFrame, StepsToWhatRenderTakes) {
   Document document;
   document.step(-1);
   EXPECT_EQ(document.frame, 0);
-  document.step(app::last_frame);
-  EXPECT_EQ(document.frame, app::last_frame);
-  EXPECT_NO_THROW(studio::parse_frames("--frames", fmt::format("0:{}", document.frame)));
-  EXPECT_THROW(studio::parse_frames("--frames", fmt::format("0:{}", document.frame + 1)), Error);
+  document.step(viewer::last_frame);
+  EXPECT_EQ(document.frame, viewer::last_frame);
+  EXPECT_NO_THROW(cli::parse_frames("--frames", fmt::format("0:{}", document.frame)));
+  EXPECT_THROW(cli::parse_frames("--frames", fmt::format("0:{}", document.frame + 1)), Error);
   document.step(3);
   EXPECT_EQ(document.frame, 2);
 }
@@ -165,12 +165,12 @@ TEST_F(ViewerDocument, APictureAtRestIsOfOneMomentAndASequenceComesToItsFirst) {
   document.frame = 7;
   EXPECT_TRUE(rendered(render_arguments(document, "out.png", 31, "")).options.warmup_still);
   EXPECT_FALSE(rendered(render_arguments(document, "out.png", 0, "")).options.warmup_still);
-  EXPECT_FALSE(rendered(render_arguments(document, "out.png", 31, "", studio::FrameRange{7, 9})).options.warmup_still);
+  EXPECT_FALSE(rendered(render_arguments(document, "out.png", 31, "", cli::FrameRange{7, 9})).options.warmup_still);
 }
 
 TEST_F(ViewerDocument, OutputWarmUpAndShadersAreSaid) {
   Document document = plain();
-  document.stage.scene = "-a.glb";
+  document.options.scene = "-a.glb";
   const std::string glsl = PENUMBRA_ROOT "/glsl";
   const Rendered render = rendered(render_arguments(document, "my pictures/a.exr", 31, glsl));
   EXPECT_EQ(render.options.scene, "./-a.glb");
@@ -183,13 +183,13 @@ TEST_F(ViewerDocument, ASequenceHasItsFramesAtTheViewersSpeed) {
   for (const int now : {0, 17}) {
     Document document = plain();
     document.frame = now;
-    document.stage.fps = 60;
-    document.stage.time = 1.5;
-    const Rendered render = rendered(render_arguments(document, "out.png", 0, "", studio::FrameRange{0, 9}));
+    document.options.fps = 60;
+    document.options.time = 1.5;
+    const Rendered render = rendered(render_arguments(document, "out.png", 0, "", cli::FrameRange{0, 9}));
     ASSERT_TRUE(render.options.frames);
     EXPECT_EQ(render.options.frames->first, 0);
     EXPECT_EQ(render.options.frames->last, 9);
-    EXPECT_EQ(studio::time_of(render.options, 9), studio::time_of(document.stage, 9));
+    EXPECT_EQ(session::time_of(render.options, 9), session::time_of(document.options, 9));
   }
 }
 
@@ -200,12 +200,12 @@ TEST_F(ViewerDocument, EveryDirectionThatCanBeTypedIsGivenBack) {
     const std::string typed = fmt::format("{:.{}f},{:.{}f}", std::floor(in(-360.0, 360.0) * scale) / scale, decimals,
                                           std::floor(in(-90.0, 90.0) * scale) / scale, decimals);
     Document document = plain();
-    document.stage.sun = studio::parse_direction("--sun", typed);
+    document.options.sun = cli::parse_direction("--sun", typed);
     const Arguments arguments = render_arguments(document, "out.png", 0, "");
     ASSERT_EQ(arguments[3].substr(0, 6), "--sun=");
-    const studio::Direction again = studio::parse_direction("--sun", arguments[3].substr(6));
-    ASSERT_EQ(again.azimuth, document.stage.sun->azimuth) << typed << " and " << arguments[3];
-    ASSERT_EQ(again.elevation, document.stage.sun->elevation) << typed << " and " << arguments[3];
+    const cli::Direction again = cli::parse_direction("--sun", arguments[3].substr(6));
+    ASSERT_EQ(again.azimuth, document.options.sun->azimuth) << typed << " and " << arguments[3];
+    ASSERT_EQ(again.elevation, document.options.sun->elevation) << typed << " and " << arguments[3];
   }
 }
 
@@ -213,8 +213,8 @@ TEST_F(ViewerDocument, ASunThatWasPlacedStandsThereInShortDegrees) {
   Document document = plain();
   for (int i = 0; i < 300; ++i) {
     const glm::vec3 to_light = render::direction_to(in(-3.1f, 3.1f), in(0.0f, 1.57f));
-    app::place_sun(document, to_light);
-    const glm::vec3 placed = render::direction_to(document.stage.sun->azimuth, document.stage.sun->elevation);
+    viewer::place_sun(document, to_light);
+    const glm::vec3 placed = render::direction_to(document.options.sun->azimuth, document.options.sun->elevation);
     EXPECT_NEAR(glm::distance(placed, to_light), 0, 3e-5f);
     const Arguments arguments = render_arguments(document, "out.png", 0, "");
     EXPECT_LE(arguments[3].size(), std::string("--sun=-123.456,12.345").size()) << arguments[3];
@@ -223,57 +223,57 @@ TEST_F(ViewerDocument, ASunThatWasPlacedStandsThereInShortDegrees) {
 
 TEST_F(ViewerDocument, AFreeCameraTakesThePlaceOfTheFiles) {
   Document document = plain();
-  document.stage.camera = "Camera";
-  studio::Stage stage;
-  stage.setup.sun.to_light = render::direction_to(1.0f, 0.5f);
-  const app::CameraRig rig{.eye = {1, 2, 3}, .target = {4, 5, 6}, .fov_y = 0.7f};
-  place(document, stage, rig);
-  EXPECT_FALSE(document.stage.camera);
-  EXPECT_EQ(document.stage.eye, rig.eye);
-  EXPECT_EQ(document.stage.target, rig.target);
-  EXPECT_NEAR(*document.stage.fov, glm::degrees(0.7), 1e-4);
-  ASSERT_TRUE(document.stage.sun) << "the sun would follow another camera";
-  EXPECT_NEAR(document.stage.sun->azimuth, 1.0f, 1e-4f);
-  EXPECT_NEAR(document.stage.sun->elevation, 0.5f, 1e-4f);
+  document.options.camera = "Camera";
+  session::PreparedScene prepared;
+  prepared.setup.sun.to_light = render::direction_to(1.0f, 0.5f);
+  const viewer::CameraRig rig{.eye = {1, 2, 3}, .target = {4, 5, 6}, .fov_y = 0.7f};
+  place(document, prepared, rig);
+  EXPECT_FALSE(document.options.camera);
+  EXPECT_EQ(document.options.eye, rig.eye);
+  EXPECT_EQ(document.options.target, rig.target);
+  EXPECT_NEAR(*document.options.fov, glm::degrees(0.7), 1e-4);
+  ASSERT_TRUE(document.options.sun) << "the sun would follow another camera";
+  EXPECT_NEAR(document.options.sun->azimuth, 1.0f, 1e-4f);
+  EXPECT_NEAR(document.options.sun->elevation, 0.5f, 1e-4f);
 }
 
 TEST_F(ViewerDocument, TheFilesOwnSunAndOneThatWasSetStay) {
-  const app::CameraRig rig;
-  studio::Stage stage;
-  stage.setup.sun_node = 3;
+  const viewer::CameraRig rig;
+  session::PreparedScene prepared;
+  prepared.setup.sun_node = 3;
   Document document = plain();
-  document.stage.camera = "Camera";
-  place(document, stage, rig);
-  EXPECT_FALSE(document.stage.sun);
-  stage.setup.sun_node.reset();
-  document.stage.camera = "Camera";
-  document.stage.sun = studio::Direction{.azimuth = 0.25f, .elevation = 0.5f};
-  place(document, stage, rig);
-  EXPECT_EQ(document.stage.sun->azimuth, 0.25f);
+  document.options.camera = "Camera";
+  place(document, prepared, rig);
+  EXPECT_FALSE(document.options.sun);
+  prepared.setup.sun_node.reset();
+  document.options.camera = "Camera";
+  document.options.sun = cli::Direction{.azimuth = 0.25f, .elevation = 0.5f};
+  place(document, prepared, rig);
+  EXPECT_EQ(document.options.sun->azimuth, 0.25f);
 }
 
 TEST_F(ViewerDocument, CameraNumbersAreThoseOfRender) {
-  studio::StageOptions stage;
-  EXPECT_TRUE(app::camera_arguments(stage).empty());
-  stage.camera = "2";
-  EXPECT_EQ(app::camera_arguments(stage), (Arguments{"--camera=2"}));
-  stage = {};
-  stage.eye = {1, -2.5f, 0.1f};
-  stage.target = {0, 0, 0};
-  stage.fov = 40;
-  EXPECT_EQ(app::camera_arguments(stage), (Arguments{"--eye=1,-2.5,0.1", "--target=0,0,0", "--fov=40"}));
+  cli::SceneOptions options;
+  EXPECT_TRUE(viewer::camera_arguments(options).empty());
+  options.camera = "2";
+  EXPECT_EQ(viewer::camera_arguments(options), (Arguments{"--camera=2"}));
+  options = {};
+  options.eye = {1, -2.5f, 0.1f};
+  options.target = {0, 0, 0};
+  options.fov = 40;
+  EXPECT_EQ(viewer::camera_arguments(options), (Arguments{"--eye=1,-2.5,0.1", "--target=0,0,0", "--fov=40"}));
 }
 
 TEST_F(ViewerDocument, OnlyTechniquesThatRememberAreWarmedUp) {
   Document document = plain();
   document.params.set("history.reuse", true);
-  const double oldest = std::pow(1.0 - document.params.get_float("history.alpha"), app::warmup_of(document));
+  const double oldest = std::pow(1.0 - document.params.get_float("history.alpha"), viewer::warmup_of(document));
   EXPECT_LT(oldest, 0.05) << "what was there before weighs on the picture";
   document.params.set("history.reuse", false);
-  EXPECT_EQ(app::warmup_of(document), 0);
+  EXPECT_EQ(viewer::warmup_of(document), 0);
   document.params.set("history.reuse", true);
   document.params.set_text("technique", "truth");
-  EXPECT_EQ(app::warmup_of(document), 0);
+  EXPECT_EQ(viewer::warmup_of(document), 0);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // What the viewer lists of a folder, to open.
-#include "app/viewer/file_list.h"
+#include "viewer/file_list.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@ namespace penumbra {
 namespace {
 
 namespace fs = std::filesystem;
-using app::FileList;
+using viewer::FileList;
 
 class ViewerFileList : public testing::Test {
  protected:
@@ -27,7 +27,7 @@ class ViewerFileList : public testing::Test {
   // Folders with a slash.
   std::vector<std::string> names() const {
     std::vector<std::string> names;
-    for (const FileList::Entry& entry : app::list_folder(root_).entries)
+    for (const FileList::Entry& entry : viewer::list_folder(root_).entries)
       names.push_back(entry.name + (entry.is_folder ? "/" : ""));
     return names;
   }
@@ -41,43 +41,43 @@ TEST_F(ViewerFileList, HasWhatCanBeOpenedFoldersFirst) {
   fs::create_symlink("nowhere.glb", root_ / "broken.glb");
   fs::create_directory_symlink("z", root_ / "link");
   EXPECT_EQ(names(), (std::vector<std::string>{"a.glb/", "link/", "z/", "a.GLTF", "b.glb", "p.toml"}));
-  EXPECT_EQ(app::list_folder(root_).note, "");
+  EXPECT_EQ(viewer::list_folder(root_).note, "");
 }
 
 TEST_F(ViewerFileList, KnowsAPresetInLettersOfEitherCase) {
-  EXPECT_TRUE(app::is_preset("a/b.toml"));
-  EXPECT_TRUE(app::is_preset("b.Toml"));
-  EXPECT_FALSE(app::is_preset("b.glb"));
-  EXPECT_FALSE(app::is_preset("toml"));
+  EXPECT_TRUE(viewer::is_preset("a/b.toml"));
+  EXPECT_TRUE(viewer::is_preset("b.Toml"));
+  EXPECT_FALSE(viewer::is_preset("b.glb"));
+  EXPECT_FALSE(viewer::is_preset("toml"));
 }
 
 TEST_F(ViewerFileList, HasTheFolderAboveHoweverItsNameIsWritten) {
   fs::create_directory(root_ / "in");
   for (const char* name : {"in", "in/", "in/.", "./in/../in//"}) {
-    EXPECT_EQ(app::list_folder(root_ / name).folder, root_ / "in") << name;
-    EXPECT_EQ(app::list_folder(root_ / name).folder.parent_path(), root_) << name;
+    EXPECT_EQ(viewer::list_folder(root_ / name).folder, root_ / "in") << name;
+    EXPECT_EQ(viewer::list_folder(root_ / name).folder.parent_path(), root_) << name;
   }
-  EXPECT_EQ(app::list_folder("/").folder, "/");
+  EXPECT_EQ(viewer::list_folder("/").folder, "/");
 }
 
 TEST_F(ViewerFileList, SaysWhatItCannotList) {
-  EXPECT_NE(app::list_folder(root_ / "none").note, "");
-  EXPECT_TRUE(app::list_folder(root_ / "none").entries.empty());
-  for (std::size_t i = 0; i <= app::most_listed; ++i) put(std::to_string(i) + ".glb");
-  const FileList list = app::list_folder(root_);
-  EXPECT_EQ(list.entries.size(), app::most_listed);
+  EXPECT_NE(viewer::list_folder(root_ / "none").note, "");
+  EXPECT_TRUE(viewer::list_folder(root_ / "none").entries.empty());
+  for (std::size_t i = 0; i <= viewer::most_listed; ++i) put(std::to_string(i) + ".glb");
+  const FileList list = viewer::list_folder(root_);
+  EXPECT_EQ(list.entries.size(), viewer::most_listed);
   EXPECT_NE(list.note, "");
 }
 
 TEST_F(ViewerFileList, BeginsWhereTheSceneLies) {
   put("a.glb");
-  EXPECT_EQ(app::folder_of((root_ / "a.glb").string()), root_);
-  EXPECT_EQ(app::folder_of((root_ / "gone/b.glb").string()), root_);
-  EXPECT_EQ(app::folder_of(root_.string()), root_);
-  EXPECT_EQ(app::folder_of((root_ / "./a.glb").string()), root_);
-  EXPECT_EQ(app::folder_of("./b.glb"), fs::current_path());
-  EXPECT_TRUE(fs::equivalent(app::folder_of(""), fs::current_path()));
-  EXPECT_TRUE(fs::equivalent(app::folder_of("b.glb"), fs::current_path()));
+  EXPECT_EQ(viewer::folder_of((root_ / "a.glb").string()), root_);
+  EXPECT_EQ(viewer::folder_of((root_ / "gone/b.glb").string()), root_);
+  EXPECT_EQ(viewer::folder_of(root_.string()), root_);
+  EXPECT_EQ(viewer::folder_of((root_ / "./a.glb").string()), root_);
+  EXPECT_EQ(viewer::folder_of("./b.glb"), fs::current_path());
+  EXPECT_TRUE(fs::equivalent(viewer::folder_of(""), fs::current_path()));
+  EXPECT_TRUE(fs::equivalent(viewer::folder_of("b.glb"), fs::current_path()));
 }
 
 }  // namespace

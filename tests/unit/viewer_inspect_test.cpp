@@ -1,5 +1,5 @@
 // How the viewer makes numbers visible, and which pixel is under the cursor.
-#include "app/viewer/inspect.h"
+#include "viewer/inspect.h"
 
 #include <gtest/gtest.h>
 
@@ -7,15 +7,15 @@
 #include <limits>
 #include <random>
 
-#include "app/viewer/present.h"
+#include "viewer/present.h"
 
 namespace penumbra {
 namespace {
 
-using app::ColorScale;
-using app::Look;
-using app::Range;
-using app::Values;
+using viewer::ColorScale;
+using viewer::Look;
+using viewer::Range;
+using viewer::Values;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -80,7 +80,7 @@ TEST(ViewerInspect, AHandsRangeAndAKnownOneAreKept) {
   const Range by_hand = range_of({.automatic = false, .low = 3, .high = 4}, {.fixed = true}, values);
   EXPECT_EQ(by_hand.low, 3);
   EXPECT_EQ(by_hand.high, 4);
-  const Range fixed = range_of({}, app::look_of("shadow"), values);
+  const Range fixed = range_of({}, viewer::look_of("shadow"), values);
   EXPECT_EQ(fixed.low, 0);
   EXPECT_EQ(fixed.high, 1);
 }
@@ -104,13 +104,13 @@ TEST(ViewerInspect, TheLegendHasTheColorsOfThePicture) {
       const float part = static_cast<float>(i) / 10;
       const Values values = values_of({2 + 3 * part});
       const glm::ivec3 seen = color_in(values, colors_of(values, {.scale = scale}, {2, 5}), 0, 0);
-      EXPECT_LE(glm::distance(glm::vec3(seen) / 255.0f, app::color_at(scale, part)), 0.03f) << part;
+      EXPECT_LE(glm::distance(glm::vec3(seen) / 255.0f, viewer::color_at(scale, part)), 0.03f) << part;
     }
   }
   for (int label = 0; label < 8; ++label) {
     const Values values = values_of({static_cast<float>(label)});
     const glm::ivec3 seen = color_in(values, colors_of(values, {.scale = ColorScale::labels}, {0, 1}), 0, 0);
-    EXPECT_EQ(glm::vec3(seen) / 255.0f, app::color_at(ColorScale::labels, static_cast<float>(label)));
+    EXPECT_EQ(glm::vec3(seen) / 255.0f, viewer::color_at(ColorScale::labels, static_cast<float>(label)));
   }
 }
 
@@ -160,7 +160,7 @@ TEST(ViewerInspect, VectorsLieAboutGrey) {
 
 TEST(ViewerInspect, EveryAovHasALookThatFitsIt) {
   for (const render::Aov& aov : render::aovs()) {
-    const Look look = app::look_of(aov.name);
+    const Look look = viewer::look_of(aov.name);
     const bool is_vector = aov.channels.size() > 1;
     EXPECT_EQ(look.scale == ColorScale::rgb || look.scale == ColorScale::vectors, is_vector) << aov.name;
     EXPECT_EQ(look.scale == ColorScale::labels, !look.labels.empty()) << aov.name;
@@ -181,9 +181,9 @@ TEST(ViewerInspect, TheDifferenceIsThatOfTheFarthestChannelWithoutASign) {
 
 class ViewerCursor : public testing::Test {
  protected:
-  // Where the window shows a point of the picture, from the upper left, as glsl/app/present.frag has it: `part` 0 is
+  // Where the window shows a point of the picture, from the upper left, as glsl/viewer/present.frag has it: `part` 0 is
   // the window or its left half, 1 its right half.
-  static glm::vec2 shown_at(const app::PresentInputs& inputs, const glm::vec2& point, int part, int parts) {
+  static glm::vec2 shown_at(const viewer::PresentInputs& inputs, const glm::vec2& point, int part, int parts) {
     const auto width = static_cast<float>(inputs.window_size.x) / static_cast<float>(parts);
     const glm::vec2 middle(width * (static_cast<float>(part) + 0.5f), static_cast<float>(inputs.window_size.y) * 0.5f);
     return middle + (point - inputs.zoom.center * glm::vec2(inputs.picture_size)) * inputs.zoom.factor;
@@ -193,11 +193,11 @@ class ViewerCursor : public testing::Test {
 };
 
 TEST_F(ViewerCursor, ThePixelUnderTheCursorIsTheOneThatIsShownThere) {
-  for (const app::Comparing how : {app::Comparing::a, app::Comparing::b, app::Comparing::wipe,
-                                   app::Comparing::side_by_side, app::Comparing::difference}) {
-    const int parts = how == app::Comparing::side_by_side ? 2 : 1;
+  for (const viewer::Comparing how : {viewer::Comparing::a, viewer::Comparing::b, viewer::Comparing::wipe,
+                                      viewer::Comparing::side_by_side, viewer::Comparing::difference}) {
+    const int parts = how == viewer::Comparing::side_by_side ? 2 : 1;
     for (const float factor : {1.0f, 0.5f, 3.0f, 16.0f}) {
-      app::PresentInputs inputs{.a = &picture_, .b = &picture_, .picture_size = {40, 30}, .window_size = {321, 200}};
+      viewer::PresentInputs inputs{.a = &picture_, .b = &picture_, .picture_size = {40, 30}, .window_size = {321, 200}};
       inputs.comparison.on = true;
       inputs.comparison.how = how;
       inputs.zoom = {.factor = factor, .center = {0.3f, 0.6f}};
@@ -217,7 +217,7 @@ TEST_F(ViewerCursor, ThePixelUnderTheCursorIsTheOneThatIsShownThere) {
 }
 
 TEST_F(ViewerCursor, BesideThePictureThereIsNone) {
-  app::PresentInputs inputs{.a = &picture_, .picture_size = {40, 30}, .window_size = {100, 100}};
+  viewer::PresentInputs inputs{.a = &picture_, .picture_size = {40, 30}, .window_size = {100, 100}};
   for (const glm::vec2 beside : {glm::vec2(29.5f, 50), {70.5f, 50}, {50, 34.5f}, {50, 65.5f}, {-1e9f, 1e9f}})
     EXPECT_FALSE(pixel_at(inputs, beside)) << beside.x << ", " << beside.y;
   EXPECT_EQ(pixel_at(inputs, {30.5f, 35.5f}), glm::ivec2(0, 0));
@@ -225,8 +225,8 @@ TEST_F(ViewerCursor, BesideThePictureThereIsNone) {
 }
 
 TEST_F(ViewerCursor, WithoutASecondPictureThereIsNoSideBySide) {
-  app::PresentInputs inputs{.a = &picture_, .picture_size = {100, 100}, .window_size = {100, 100}};
-  inputs.comparison.how = app::Comparing::side_by_side;
+  viewer::PresentInputs inputs{.a = &picture_, .picture_size = {100, 100}, .window_size = {100, 100}};
+  inputs.comparison.how = viewer::Comparing::side_by_side;
   inputs.comparison.on = true;
   EXPECT_EQ(pixel_at(inputs, {50.5f, 50.5f}), glm::ivec2(50, 50)) << "B is not drawn yet";
   inputs.b = &picture_;

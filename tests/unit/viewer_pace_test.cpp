@@ -1,5 +1,5 @@
 // When the viewer draws, and how large: at once under a hand, in full at rest, no more than is wanted.
-#include "app/viewer/pace.h"
+#include "viewer/pace.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace penumbra {
 namespace {
 
-using app::Pace;
+using viewer::Pace;
 
 // A machine whose full picture takes so many milliseconds, and a viewer on it.
 class Machine {

@@ -1,5 +1,5 @@
 // What the viewer draws next: the frames that a picture lacks, and no others.
-#include "app/viewer/plan.h"
+#include "viewer/plan.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 namespace penumbra {
 namespace {
 
-using app::PictureState;
-using app::Plan;
-using app::Situation;
+using viewer::PictureState;
+using viewer::Plan;
+using viewer::Situation;
 
 // A viewer at work: two pictures, a truth that takes so many turns, and a clock.
 class Desk {
@@ -76,7 +76,7 @@ class Desk {
     picture.measured |= measure && !(picture.traced && tracing > 0);
   }
 
-  app::Pace pace_;
+  viewer::Pace pace_;
   double now_ = 10;
   bool last_is_b_ = false;
 };

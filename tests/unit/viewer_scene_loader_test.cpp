@@ -1,5 +1,5 @@
 // Scenes are read beside the window: the last one that was asked for comes, whatever was asked before.
-#include "app/viewer/scene_loader.h"
+#include "viewer/scene_loader.h"
 
 #include <gtest/gtest.h>
 
@@ -12,10 +12,10 @@
 namespace penumbra {
 namespace {
 
-using app::SceneLoader;
+using viewer::SceneLoader;
 
-studio::StageOptions options_of(const std::string& scene) {
-  studio::StageOptions options;
+cli::SceneOptions options_of(const std::string& scene) {
+  cli::SceneOptions options;
   options.scene = PENUMBRA_ROOT "/scenes/" + scene;
   return options;
 }
@@ -33,7 +33,7 @@ TEST(ViewerSceneLoader, TheLastSceneThatWasAskedForComesOnce) {
   EXPECT_EQ(loader.file(), options_of("posts.glb").scene);
   const SceneLoader::Loaded loaded = wait(loader);
   EXPECT_EQ(loaded.options.scene, options_of("posts.glb").scene);
-  EXPECT_TRUE(loaded.stage.scene.animations.empty());
+  EXPECT_TRUE(loaded.prepared.scene.animations.empty());
   EXPECT_EQ(loader.file(), "");
   EXPECT_FALSE(loader.finished());
 }

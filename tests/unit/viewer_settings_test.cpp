@@ -8,15 +8,15 @@
 #include <fstream>
 #include <string>
 
-#include "app/viewer/settings.h"
 #include "core/error.h"
 #include "io/output_file.h"
+#include "viewer/settings.h"
 
 namespace penumbra {
 namespace {
 
 namespace fs = std::filesystem;
-using app::Settings;
+using viewer::Settings;
 
 class ViewerSettings : public testing::Test {
  protected:
@@ -34,7 +34,7 @@ class ViewerSettings : public testing::Test {
 
   static Settings read() {
     std::string fault;
-    Settings settings = app::read_settings(fault);
+    Settings settings = viewer::read_settings(fault);
     EXPECT_EQ(fault, "");
     return settings;
   }
@@ -48,7 +48,7 @@ class ViewerSettings : public testing::Test {
   }
   void expect_fault(const std::string& cause) const {
     std::string fault;
-    const Settings settings = app::read_settings(fault);
+    const Settings settings = viewer::read_settings(fault);
     EXPECT_NE(fault.find(file().string()), std::string::npos) << fault;
     EXPECT_NE(fault.find(cause), std::string::npos) << fault << " lacks " << cause;
     EXPECT_EQ(fault.find('\n'), std::string::npos);
@@ -85,7 +85,7 @@ TEST_F(ViewerSettings, WhatWasWrittenIsReadBack) {
     if (!row.choices.empty()) settings.params.set(row.name, row.choices.back());
   }
   settings.params.set_text("cascades.count", "2");
-  app::write_settings(settings);
+  viewer::write_settings(settings);
   const Settings again = read();
   EXPECT_EQ(again.recent, settings.recent);
   EXPECT_EQ(again.window->width, 1234);
@@ -100,7 +100,7 @@ TEST_F(ViewerSettings, WhatWasWrittenIsReadBack) {
 TEST_F(ViewerSettings, OnlyChangedValuesAreKeptSoThatNewDefaultsReachTheUser) {
   Settings settings = read();
   settings.params.set_text("sun.angle", "2");
-  app::write_settings(settings);
+  viewer::write_settings(settings);
   std::ifstream stream(file());
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   EXPECT_NE(text.find("\"sun.angle\": 2"), std::string::npos) << text;
@@ -185,25 +185,25 @@ TEST_F(ViewerSettings, FoldersThatAreNotAbsoluteCountForNothing) {
   const fs::path home = root_ / "home/.config/penumbra/viewer.json";
   for (const char* relative : {"", "config", "./config", "../config"}) {
     setenv("XDG_CONFIG_HOME", relative, 1);
-    EXPECT_EQ(app::settings_file(), home) << relative;
+    EXPECT_EQ(viewer::settings_file(), home) << relative;
   }
   unsetenv("XDG_CONFIG_HOME");
-  EXPECT_EQ(app::settings_file(), home);
-  app::write_settings(read());
+  EXPECT_EQ(viewer::settings_file(), home);
+  viewer::write_settings(read());
   EXPECT_TRUE(fs::exists(home));
   setenv("HOME", "home", 1);
-  EXPECT_EQ(app::settings_file(), "");
+  EXPECT_EQ(viewer::settings_file(), "");
   read();
-  EXPECT_THROW(app::write_settings({}), Error);
+  EXPECT_THROW(viewer::write_settings({}), Error);
   unsetenv("HOME");
-  EXPECT_EQ(app::settings_file(), "");
+  EXPECT_EQ(viewer::settings_file(), "");
 }
 
 TEST_F(ViewerSettings, AFolderThatCannotBeWrittenIsOneErrorAndHarmsNothing) {
   io::write_text(root_ / "config", "a file where the folder should be");
   const Settings settings = read();
   try {
-    app::write_settings(settings);
+    viewer::write_settings(settings);
     ADD_FAILURE() << "written into a file";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find(file().string()), std::string::npos) << error.what();
@@ -213,13 +213,13 @@ TEST_F(ViewerSettings, AFolderThatCannotBeWrittenIsOneErrorAndHarmsNothing) {
 
 TEST_F(ViewerSettings, NewFoldersAreTheUsersAloneAndLinksStayLinks) {
   Settings settings = read();
-  app::write_settings(settings);
+  viewer::write_settings(settings);
   EXPECT_EQ(fs::status(file().parent_path()).permissions(), fs::perms::owner_all);
   const fs::path elsewhere = root_ / "dotfiles.json";
   fs::rename(file(), elsewhere);
   fs::create_symlink(elsewhere, file());
   settings.panel = false;
-  app::write_settings(settings);
+  viewer::write_settings(settings);
   EXPECT_TRUE(fs::is_symlink(file()));
   EXPECT_FALSE(read().panel);
 }
@@ -232,9 +232,9 @@ TEST_F(ViewerSettings, WhatIsWrittenCanAlwaysBeRead) {
   settings.tab = std::string(100, 't');
   settings.params.set_text("cascades.count", "8");
   settings.params.set_text("cascades.size", "8192");
-  app::write_settings(settings);
+  viewer::write_settings(settings);
   const Settings again = read();
-  ASSERT_EQ(again.recent.size(), app::most_recent);
+  ASSERT_EQ(again.recent.size(), viewer::most_recent);
   EXPECT_EQ(again.recent.front(), "/good.glb");
   EXPECT_FALSE(again.window);
   EXPECT_TRUE(again.params.is_default("cascades.size")) << "more memory than --set would grant";
@@ -242,15 +242,15 @@ TEST_F(ViewerSettings, WhatIsWrittenCanAlwaysBeRead) {
 
 TEST_F(ViewerSettings, RecentScenesAreTenWithTheNewestInFront) {
   std::vector<std::string> recent;
-  for (int i = 0; i < 12; ++i) app::add_recent(recent, "/scenes/" + std::to_string(i) + ".glb");
+  for (int i = 0; i < 12; ++i) viewer::add_recent(recent, "/scenes/" + std::to_string(i) + ".glb");
   ASSERT_EQ(recent.size(), 10u);
   EXPECT_EQ(recent.front(), "/scenes/11.glb");
   EXPECT_EQ(recent.back(), "/scenes/2.glb");
-  app::add_recent(recent, "/scenes/./lights/../5.glb");
+  viewer::add_recent(recent, "/scenes/./lights/../5.glb");
   EXPECT_EQ(recent.size(), 10u);
   EXPECT_EQ(recent[0], "/scenes/5.glb");
   EXPECT_EQ(recent[1], "/scenes/11.glb");
-  app::add_recent(recent, "here.glb");
+  viewer::add_recent(recent, "here.glb");
   EXPECT_EQ(recent.front(), (fs::current_path() / "here.glb").string());
 }
 

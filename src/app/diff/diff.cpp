@@ -1,0 +1,182 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/commands.h"
+#include "app/diff/figures.h"
+#include "cli/options.h"
+#include "cli/usage.h"
+#include "image/picture.h"
+#include "image/write.h"
+#include "io/output_file.h"
+#include "io/report.h"
+#include "metrics/heat_map.h"
+
+namespace penumbra::app {
+
+namespace {
+
+struct DiffOptions {
+  std::string test, reference, layer, mask, heatmap, json;
+  std::string metric = "rmse";
+  std::optional<double> max, min;
+  bool quiet = false;
+};
+
+std::string description() {
+  std::string text =
+      "Tell how far picture A is from picture B, the reference: PNG (display values from 0 to 1) or EXR (its values as "
+      "they are). Exits with 1 past a limit, and with a limit also if A has values that are not finite, each of which "
+      "counts as the error 1.\n\nMetrics:\n";
+  for (const Metric& metric : diff_metrics()) text += fmt::format("  {:<15} {}\n", metric.name, metric.help);
+  return text +
+         "psnr is for references from 0 to 1; ssim and flip for PNGs and single channels from 0 to 1; "
+         "psnr_penumbra and penumbra_width for single channels from 0 to 1.";
+}
+
+void add_options(CLI::App& app, DiffOptions& options) {
+  app.add_option("A", options.test, "Picture to test, .png or .exr")->required()->type_name("");
+  app.add_option("B", options.reference, "Picture to compare with")->required()->type_name("");
+  app.add_option("--metric", options.metric, "What --max, --min and --heatmap are about")
+      ->type_name("METRIC")
+      ->capture_default_str();
+  cli::add_value(app, "--max", "V", "Fail if the metric is greater",
+                 [&](const std::string& text) { options.max = cli::parse_number("--max", text, 0, 1e9); });
+  cli::add_value(app, "--min", "V", "Fail if psnr, psnr_penumbra or ssim is less",
+                 [&](const std::string& text) { options.min = cli::parse_number("--min", text, -1e3, 1e3); });
+  const auto add = [&app](const char* name, const char* type, const char* help, std::string& value) {
+    cli::add_value(app, name, type, help, [&value](const std::string& text) { value = text; });
+  };
+  add("--layer", "NAME", "Layer of both EXRs; else the one without a name, or the only one", options.layer);
+  add("--mask", "NAME", "Layer of B, of one channel: what is 0 or no number there is left out", options.mask);
+  add("--heatmap", "FILE", "Draw where they differ into a PNG: FLIP for that metric, else |error|", options.heatmap);
+  add("--json", "FILE", "Write the figures as JSON; - is standard output, in place of the line", options.json);
+  app.add_flag("--quiet", options.quiet, "Print errors alone")->disable_flag_override();
+}
+
+void check_together(const DiffOptions& options, const Metric& metric) {
+  if (options.max && metric.higher_is_better)
+    cli::fail_usage("--max is no limit for {}, of which more is better: use --min", metric.name);
+  if (options.min && !metric.higher_is_better)
+    cli::fail_usage("--min is no limit for {}, of which less is better: use --max", metric.name);
+  if (!options.heatmap.empty() && std::filesystem::path(options.heatmap).extension() != ".png")
+    cli::fail_usage("--heatmap {}: the name does not end in .png", io::quoted(options.heatmap));
+}
+
+// Empty for all pixels.
+std::vector<std::uint8_t> receivers_of(const DiffOptions& options) {
+  if (options.mask.empty()) return {};
+  const image::Picture mask = image::read_picture(options.reference, options.mask);
+  if (mask.channels.size() != 1)
+    fail("--mask {}: that layer of {} has {} channels, not 1", options.mask, io::quoted(options.reference),
+         mask.channels.size());
+  std::vector<std::uint8_t> receivers(mask.pixels.size());
+  for (std::size_t i = 0; i < receivers.size(); ++i)
+    receivers[i] = mask.pixels[i] == 0 || std::isnan(mask.pixels[i]) ? 0 : 1;
+  if (std::count(receivers.begin(), receivers.end(), 0) == static_cast<std::ptrdiff_t>(receivers.size()))
+    fail("--mask {}: that layer of {} leaves no pixel", options.mask, io::quoted(options.reference));
+  return receivers;
+}
+
+// Before minutes of measuring; and no result takes the place of another or of what is read.
+void check_results(const DiffOptions& options) {
+  const std::string json = options.json == "-" ? "" : options.json;
+  for (const auto& [option, result] : {std::pair("--heatmap", options.heatmap), std::pair("--json", json)}) {
+    if (result.empty()) continue;
+    for (const std::string& input : {options.test, options.reference})
+      if (io::would_replace(result, input))
+        cli::fail_usage("{} would overwrite the picture {}", option, io::quoted(input));
+    io::check_writable(result);
+  }
+  if (!json.empty() && !options.heatmap.empty() && io::would_replace(json, options.heatmap))
+    cli::fail_usage("--heatmap and --json name the same file {}", io::quoted(json));
+}
+
+void write_heatmap(const DiffOptions& options, const Metric& metric, const Difference& difference,
+                   const image::Picture& reference) {
+  const bool flip = std::string_view(metric.name) == "flip";
+  const std::vector<float>& errors = flip ? difference.flip_map : difference.errors;
+  const float scale = flip ? 1.0f : metrics::heat_scale(*std::max_element(errors.begin(), errors.end()));
+  image::write_png(options.heatmap, reference.width, reference.height + metrics::heat_legend_rows, 3,
+                   metrics::heat_map(errors, reference.width, reference.height, scale),
+                   {{"Software", cli::version()}, {"penumbra:full_scale", fmt::format("{:g}", scale)}});
+}
+
+// What the limit says, in one line; empty if all is well.
+std::string verdict(const DiffOptions& options, const Figure& figure, const Difference& difference) {
+  const std::string names = fmt::format("{} against {}", io::quoted(options.test), io::quoted(options.reference));
+  if (!options.max && !options.min) return {};
+  if (difference.not_finite > 0)
+    return fmt::format("{}: {} values of the first are not finite", names, difference.not_finite);
+  if (std::isnan(figure.value) && difference.width_lost > 0)
+    return fmt::format("{}: no penumbra of the first has a width to measure", names);
+  if (std::isnan(figure.value))
+    return fmt::format("{}: there is no penumbra to measure {} of", names, figure.metric->name);
+  const double value = options.max ? std::abs(figure.value) : figure.value;
+  if (options.max && value > *options.max)
+    return fmt::format("{}: {} is {}, over the limit of {:g}", names, figure.metric->name, text_of(figure),
+                       *options.max);
+  if (options.min && value < *options.min)
+    return fmt::format("{}: {} is {}, under the limit of {:g}", names, figure.metric->name, text_of(figure),
+                       *options.min);
+  return {};
+}
+
+void write_json(const DiffOptions& options, const Figure& figure, const Difference& difference,
+                const image::Picture& reference) {
+  io::Json json{{"test", options.test},
+                {"reference", options.reference},
+                {"layer", reference.layer},
+                {"mask", options.mask},
+                {"width", reference.width},
+                {"height", reference.height},
+                {"channels", reference.channels},
+                {"samples", difference.samples},
+                {"penumbra_samples", difference.penumbra_samples},
+                {"not_finite", difference.not_finite},
+                {"figures", to_json(difference)}};
+  if (options.max || options.min) {
+    io::Json& limit = json["limit"] = {{"metric", figure.metric->name}};
+    limit[options.max ? "max" : "min"] = options.max ? *options.max : *options.min;
+    limit["kept"] = verdict(options, figure, difference).empty();
+  }
+  if (options.json == "-")
+    fmt::print("{}", io::text_of(json));
+  else
+    io::write_text(options.json, io::text_of(json));
+}
+
+}  // namespace
+
+int run_diff(const Arguments& arguments) {
+  CLI::App app(description(), "penumbra diff");
+  DiffOptions options;
+  add_options(app, options);
+  if (!cli::parse(app, arguments)) return 0;
+  const Metric& metric = find_diff_metric(options.metric);
+  check_together(options, metric);
+  check_results(options);
+
+  const image::Picture test = image::read_picture(options.test, options.layer);
+  const image::Picture reference = image::read_picture(options.reference, options.layer);
+  const std::vector<std::uint8_t> receivers = receivers_of(options);
+  check_comparable(test, reference, receivers, options.test, options.reference);
+  const Difference difference = difference_of(test, reference, receivers);
+  const Figure& figure = difference.figure(metric);
+  const bool asked = options.max || options.min || !options.heatmap.empty();
+  if (asked && !figure.unfit.empty())
+    fail("{} can't be measured for {}: it {}", metric.name, io::quoted(options.reference), figure.unfit);
+
+  if (!options.heatmap.empty()) write_heatmap(options, metric, difference, reference);
+  if (!options.json.empty()) write_json(options, figure, difference, reference);
+  if (!options.quiet && options.json != "-") fmt::print("{}\n", text_of(difference));
+  const std::string fault = verdict(options, figure, difference);
+  if (!fault.empty()) fail("{}", fault);
+  return 0;
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,51 @@
+#include "app/render/drawing.h"
+
+#include "app/render/stats.h"
+#include "cli/progress.h"
+#include "io/output_file.h"
+#include "io/presets.h"
+
+namespace penumbra::app {
+
+namespace {
+
+// A frame of a scene at rest: the first one finds what it is, the others are the same again.
+void draw_still(session::RenderSession& session, int frame, const ParamSet& params, bool first) {
+  if (first) {
+    session.draw(frame, params);
+  } else {
+    session.redraw(params);
+  }
+}
+
+}  // namespace
+
+void draw_frames(const RenderOptions& options, session::RenderSession& session, const ParamSet& params,
+                 const cli::FrameRange& range, const std::function<void(int frame)>& drawn) {
+  cli::Progress progress("frame", options.warmup + range.count(), !options.quiet);
+  for (int frame = range.first - options.warmup; frame <= range.last; ++frame) {
+    if (options.warmup_still && frame <= range.first) {
+      draw_still(session, range.first, params, frame == range.first - options.warmup);
+    } else {
+      session.draw(frame, params);
+    }
+    if (frame >= range.first) drawn(frame);
+    progress.step();
+  }
+}
+
+std::size_t measure(const RenderOptions& options, session::RenderSession& session, const ParamSet& params,
+                    const cli::FrameRange& range) {
+  if (range.count() > 1) return static_cast<std::size_t>(range.count() - (options.warmup == 0 ? 1 : 0));
+  for (int i = 0; i < options.stats_frames; ++i) session.redraw(params);
+  return static_cast<std::size_t>(options.stats_frames);
+}
+
+void write_reports(const RenderOptions& options, const session::PreparedScene& prepared, const ParamSet& params,
+                   session::RenderSession& session, std::size_t measured) {
+  if (!options.stats.empty())
+    io::write_text(options.stats, io::text_of(stats_of(options, prepared, params, session, measured)));
+  if (!options.save_preset.empty()) io::write_preset(options.save_preset, params);
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,65 @@
+#include "app/render/file_check.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "io/output_file.h"
+
+namespace penumbra::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A picture of any frame.
+bool is_picture(const fs::path& result, const RenderOptions& options, const cli::OutputNames& names) {
+  const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});
+  if (io::place_of(result).parent_path() != io::place_of(names.picture(range.first)).parent_path()) return false;
+  const fs::path name = result.filename();
+  for (int frame = range.first; frame <= range.last; ++frame) {
+    if (name == names.picture(frame).filename()) return true;
+    const auto is_aov = [&](const std::string& aov) { return name == names.aov(frame, aov).filename(); };
+    if (!names.is_exr() && std::any_of(options.aovs.begin(), options.aovs.end(), is_aov)) return true;
+  }
+  return false;
+}
+
+void check_alone(const char* option, const fs::path& result, const RenderOptions& options,
+                 const cli::OutputNames& names) {
+  if (is_picture(result, options, names))
+    cli::fail_usage("{} {} is a picture of this command too", option, io::quoted(result));
+  io::check_writable(result);
+}
+
+}  // namespace
+
+void check_scene_files(const std::vector<fs::path>& files, const RenderOptions& options,
+                       const cli::OutputNames& names) {
+  for (const fs::path& file : files) {
+    const auto refuse = [&](const char* option) {
+      cli::fail_usage("{} would overwrite the scene's file {}", option, io::quoted(file));
+    };
+    std::error_code error;
+    const fs::path target = fs::weakly_canonical(file, error);
+    if (is_picture(file, options, names) || (!error && is_picture(target, options, names))) refuse("-o");
+    if (!options.stats.empty() && io::would_replace(options.stats, file)) refuse("--stats");
+    if (!options.save_preset.empty() && io::would_replace(options.save_preset, file)) refuse("--save-preset");
+  }
+}
+
+void check_files(const RenderOptions& options, const cli::OutputNames& names) {
+  check_scene_files({options.scene}, options, names);
+  io::check_writable(names.picture(options.frames.value_or(cli::FrameRange{}).first));
+  // A preset may be read and saved under one name: that changes it.
+  if (!options.save_preset.empty()) check_alone("--save-preset", options.save_preset, options, names);
+  if (options.stats.empty()) return;
+  check_alone("--stats", options.stats, options, names);
+  if (!options.save_preset.empty() && io::place_of(options.stats) == io::place_of(options.save_preset))
+    cli::fail_usage("--stats and --save-preset name the same file {}", io::quoted(options.stats));
+  for (const std::string& preset : options.presets) {
+    if (io::would_replace(options.stats, preset))
+      cli::fail_usage("--stats {} would overwrite a preset", io::quoted(options.stats));
+  }
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,76 @@
+#include "app/render/options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "render/renderer.h"
+
+namespace penumbra::app {
+
+namespace {
+
+using cli::add_value;
+
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(' '), end = text.find_last_not_of(' ');
+  return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
+}
+
+void add_aovs(std::vector<std::string>& list, const std::string& text) {
+  std::vector<std::string> names;
+  for (const render::Aov& aov : render::aovs()) names.push_back(aov.name);
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string name = cli::one_of("AOV", trimmed(text.substr(begin, end - begin)), names);
+    if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
+    begin = end + 1;
+  }
+}
+
+void add_output_options(CLI::App& app, RenderOptions& o) {
+  app.add_option("-o,--output", o.output,
+                 "Picture to write: .png (8-bit sRGB) or .exr (linear float); missing folders are made")
+      ->required()
+      ->type_name("FILE");
+  add_value(app, "--aov", "NAME,...",
+            "Other pictures of the frame: layers of an EXR, or a PNG each; see penumbra list aovs",
+            [&o](const auto& text) { add_aovs(o.aovs, text); });
+  add_value(app, "--stats", "FILE", "Writes what each pass cost, and all about the frame, as JSON",
+            [&o](const auto& text) { o.stats = text; });
+  add_value(app, "--stats-frames", "N", "Frames measured a picture, after one that is not (1)",
+            [&o](const auto& text) { o.stats_frames = cli::parse_count("--stats-frames", text, 1, 10000); });
+  add_value(app, "--save-preset", "FILE", "Writes the values of this picture as a preset",
+            [&o](const auto& text) { o.save_preset = text; });
+  add_value(app, "--warmup", "N", "Frames drawn and not written before the first, for techniques with memory (0)",
+            [&o](const auto& text) { o.warmup = cli::parse_count("--warmup", text, 0, 10000); });
+  app.add_flag("--warmup-still", o.warmup_still,
+               "Those frames are all of the first one's time: a scene at rest, not one that comes to that point")
+      ->disable_flag_override();
+  app.add_flag("--quiet,-q", o.quiet, "No progress and no summary")->disable_flag_override();
+}
+
+}  // namespace
+
+void add_render_options(CLI::App& app, RenderOptions& options) {
+  cli::add_scene_option(app, options);
+  add_output_options(app, options);
+  cli::add_size_option(app, options);
+  cli::add_supersample_option(app, options);
+  cli::add_view_options(app, options);
+  cli::add_time_options(app, options);
+  cli::add_technique_option(app, options);
+  cli::add_shadow_options(app, options);
+  session::add_cache_options(app, options);
+  cli::add_device_options(app, options);
+}
+
+void check_together(const RenderOptions& o) {
+  cli::check_together(static_cast<const cli::SceneOptions&>(o));
+  cli::check_together(static_cast<const cli::DeviceOptions&>(o));
+  check_together(static_cast<const session::CacheOptions&>(o));
+  if (o.warmup_still && o.warmup == 0) cli::fail_usage("--warmup-still has no meaning without --warmup");
+  if (o.stats_frames > 1 && o.frames)
+    cli::fail_usage("--stats measures each frame of a sequence: leave out --stats-frames");
+  if (o.stats_frames > 1 && o.stats.empty()) cli::fail_usage("--stats-frames has no meaning without --stats");
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,74 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <future>
+#include <string>
+
+#include "app/commands.h"
+#include "app/render/drawing.h"
+#include "app/render/file_check.h"
+#include "app/render/frame_files.h"
+#include "app/render/options.h"
+#include "cli/output_names.h"
+#include "cli/signals.h"
+#include "image/read.h"
+#include "session/prepared_scene.h"
+#include "session/render_session.h"
+#include "session/techniques.h"
+#include "truth/technique.h"
+
+namespace penumbra::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::string summary(const RenderOptions& options, const ParamSet& params, const cli::OutputNames& names,
+                    const cli::FrameRange& range, double seconds) {
+  std::string files = names.picture(range.first).string();
+  if (range.count() > 1) files += " to " + names.picture(range.last).string();
+  if (const std::size_t count = options.aovs.size(); count > 0)
+    files += fmt::format(" with {} AOV{}", count, count == 1 ? "" : "s");
+  return fmt::format("wrote {} ({}×{}, {}, {:.2f} s)", files, options.size.width, options.size.height,
+                     params.get_word("technique"), seconds);
+}
+
+void render_files(const RenderOptions& options) {
+  const Clock::time_point start = Clock::now();
+  const cli::OutputNames names(options.output, options.frames.has_value());
+  const ParamSet params = cli::resolve_params(options, session::all_techniques());
+  const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});
+  cli::clean_up_on_signals();
+  session::limit_threads(options);
+  check_files(options, names);
+
+  // Drivers take as long to start as scenes to load, and there are two cores nearly everywhere.
+  std::future<session::PreparedScene> loading =
+      std::async(std::launch::async, [&options] { return session::load_scene(options, image::image_decoder()); });
+  std::unique_ptr<gl::Context> context = session::open_context(options, options);
+  const session::PreparedScene prepared = loading.get();
+  check_scene_files(prepared.scene.files, options, names);
+  const truth::TruthTechnique truth({.cache = options.folder(), .threads = options.threads.value_or(0)});
+  session::RenderSession session(
+      options, std::move(context), prepared,
+      {.shaders = gl::ShaderFiles(options.glsl), .techniques = truth.registry(), .timed = !options.stats.empty()});
+
+  draw_frames(options, session, params, range, [&](int frame) { write_frame(session, options, params, names, frame); });
+  write_reports(options, prepared, params, session,
+                options.stats.empty() ? 0 : measure(options, session, params, range));
+  const std::chrono::duration<double> elapsed = Clock::now() - start;
+  if (!options.quiet) fmt::print("{}\n", summary(options, params, names, range, elapsed.count()));
+}
+
+}  // namespace
+
+int run_render(const Arguments& arguments) {
+  CLI::App app("Draw a glTF scene into a PNG or EXR file", "penumbra render");
+  RenderOptions options;
+  add_render_options(app, options);
+  if (!cli::parse(app, arguments)) return 0;
+  check_together(options);
+  render_files(options);
+  return 0;
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,59 @@
+#include "app/render/stats.h"
+
+#include <sys/resource.h>
+
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+
+namespace penumbra::app {
+
+namespace {
+
+using io::Json;
+
+Json json_of(const glm::vec3& v) { return {v.x, v.y, v.z}; }
+
+// Kilobytes, the system's count for this process.
+long peak_resident() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+}  // namespace
+
+Json stats_of(const RenderOptions& options, const session::PreparedScene& prepared, const ParamSet& params,
+              session::RenderSession& session, std::size_t measured) {
+  const render::Setup& setup = session.setup();
+  const std::vector<gl::Timers::Row> rows = session.device().timers.rows();
+  Json passes = Json::array(), frame;
+  for (const io::PassCost& cost : io::pass_costs(rows, measured)) {
+    if (cost.name == "frame") {
+      frame = io::to_json(cost);
+    } else {
+      passes.push_back(io::to_json(cost));
+    }
+  }
+  return {{"version", cli::version()},
+          {"scene", options.scene},
+          {"scene_facts", io::to_json(scene::describe(prepared.scene))},
+          {"width", options.size.width},
+          {"height", options.size.height},
+          {"supersample", options.supersample},
+          {"technique", params.get_word("technique")},
+          {"backend", gl::to_string(session.context().backend())},
+          {"device", io::to_json(session.device_info())},
+          {"camera_eye", json_of(render::position_of(setup.camera))},
+          {"sun_to_light", json_of(setup.sun.to_light)},
+          {"params", io::to_json(params)},
+          {"measured_frames", measured},
+          {"timing", session.device().timers.mode() == gl::Timers::Mode::query ? "gpu timestamps" : "finish"},
+          {"frame", frame},
+          {"passes", passes},
+          {"target_bytes", session.device().target_bytes()},
+          {"peak_resident_kilobytes", peak_resident()}};
+}
+
+}  // namespace penumbra::app

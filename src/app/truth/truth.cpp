@@ -1,0 +1,185 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/metadata.h"
+#include "app/truth/local_light.h"
+#include "cli/output_names.h"
+#include "cli/progress.h"
+#include "cli/signals.h"
+#include "image/read.h"
+#include "image/write.h"
+#include "io/output_file.h"
+#include "session/cache_options.h"
+#include "session/prepared_scene.h"
+#include "session/render_session.h"
+#include "session/techniques.h"
+#include "truth/technique.h"
+
+namespace penumbra::app {
+
+namespace {
+
+using cli::add_value;
+
+struct TruthOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions, session::CacheOptions {
+  std::string output;
+  std::optional<std::string> samples, error, seed;
+  std::optional<std::string> light;
+  double light_radius = 0.1;
+  bool quiet = false;
+};
+
+void add_truth_options(CLI::App& app, TruthOptions& o) {
+  cli::add_scene_option(app, o);
+  app.add_option("-o,--output", o.output,
+                 "File to write: .exr (layers shadow, standard_error, hard, receiver) or .png (shadow alone, 8 bits)")
+      ->required()
+      ->type_name("FILE");
+  add_value(app, "--spp", "N", "Rays of each pixel; short for --set truth.samples=N (256)",
+            [&o](const auto& text) { o.samples = text; });
+  add_value(app, "--error", "E", "Standard error to reach in 99.9 % of pixels; short for --set truth.error=E",
+            [&o](const auto& text) { o.error = text; });
+  add_value(app, "--seed", "N", "Another number gives other points; short for --set truth.seed=N",
+            [&o](const auto& text) { o.seed = text; });
+  cli::add_size_option(app, o);
+  cli::add_view_options(app, o);
+  add_value(app, "--light", "NAME|INDEX", "A point or spot light of the scene in the sun's place",
+            [&o](const auto& text) { o.light = text; });
+  add_value(app, "--light-radius", "M", "Radius of that light, metres (0.1): a sphere's, or of a spot light's disc",
+            [&o](const auto& text) { o.light_radius = cli::parse_number("--light-radius", text, 0, 1e6); });
+  app.get_option("--light-radius")->needs(app.get_option("--light"));
+  cli::add_time_options(app, o);
+  cli::add_shadow_options(app, o);
+  session::add_cache_options(app, o);
+  app.add_flag("--quiet,-q", o.quiet, "No progress and no summary")->disable_flag_override();
+  cli::add_device_options(app, o);
+}
+
+// The short options stand before every --set, as --sun-angle does.
+ParamSet params_of(const TruthOptions& options, const shadow::Registry& registry) {
+  auto all = static_cast<const cli::ShadowOptions&>(options);
+  all.technique = "truth";
+  std::vector<std::string> assignments;
+  const auto add = [&](const char* name, const std::optional<std::string>& text) {
+    if (text) assignments.push_back(fmt::format("{}={}", name, *text));
+  };
+  add("truth.samples", options.samples);
+  add("truth.error", options.error);
+  add("truth.seed", options.seed);
+  all.assignments.insert(all.assignments.begin(), assignments.begin(), assignments.end());
+  return cli::resolve_params(all, registry);
+}
+
+// Of rows from the bottom.
+std::vector<float> from_top(const std::vector<float>& rows, int width) {
+  std::vector<float> flipped;
+  flipped.reserve(rows.size());
+  for (auto row = rows.end(); row != rows.begin();) {
+    row -= width;
+    flipped.insert(flipped.end(), row, row + width);
+  }
+  return flipped;
+}
+
+// That 99.9 % of the receivers have no more of.
+float error_of_most(const truth::TruthTechnique::Last& last) {
+  std::vector<float> errors;
+  for (std::size_t i = 0; i < last.receiver.size(); ++i) {
+    if (last.receiver[i] > 0) errors.push_back(last.traced.standard_error[i]);
+  }
+  if (errors.empty()) return 0;
+  const std::size_t rank = errors.size() - 1 - errors.size() / 1000;
+  std::ranges::nth_element(errors, errors.begin() + static_cast<std::ptrdiff_t>(rank));
+  return errors[rank];
+}
+
+void write(const cli::OutputNames& names, int frame, const cli::Size& size, const truth::TruthTechnique::Last& last,
+           const image::Metadata& metadata) {
+  const truth::Traced& traced = last.traced;
+  const std::filesystem::path path = names.picture(frame);
+  const std::vector<float> shadow = from_top(traced.visibility, size.width);
+  if (!names.is_exr()) {
+    std::vector<std::uint8_t> bytes;
+    for (const float v : shadow) bytes.push_back(static_cast<std::uint8_t>(std::lround(v * 255.0f)));
+    image::write_png(path, size.width, size.height, 1, bytes, metadata);
+    return;
+  }
+  const std::vector<image::Layer> layers{{"shadow", {"V"}, shadow},
+                                         {"standard_error", {"V"}, from_top(traced.standard_error, size.width)},
+                                         {"hard", {"V"}, from_top(traced.hard, size.width)},
+                                         {"receiver", {"V"}, from_top(last.receiver, size.width)}};
+  image::write_exr(path, size.width, size.height, layers, metadata);
+}
+
+std::string summary(const std::filesystem::path& path, const cli::Size& size, const truth::TruthTechnique::Last& last) {
+  const truth::Traced& traced = last.traced;
+  const double millions = static_cast<double>(traced.rays) * 1e-6;
+  const std::string cost = last.from_cache
+                               ? "from the cache"
+                               : fmt::format("{:.1f} million rays in {:.2f} s, {:.1f} million a second", millions,
+                                             traced.seconds, millions / std::max(traced.seconds, 1e-9));
+  return fmt::format("wrote {} ({}×{}, {} rays a pixel, {}, standard error up to {:.2g} in 99.9 %)", path.string(),
+                     size.width, size.height, traced.samples, cost, error_of_most(last));
+}
+
+void check_scene_files(const std::vector<std::filesystem::path>& files, const cli::OutputNames& names,
+                       const cli::FrameRange& range) {
+  for (int frame = range.first; frame <= range.last; ++frame) cli::check_spared(files, "-o", names.picture(frame));
+}
+
+void trace_files(const TruthOptions& options) {
+  const cli::OutputNames names(options.output, options.frames.has_value());
+  const ParamSet params = params_of(options, session::all_techniques());
+  const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});
+  cli::clean_up_on_signals();
+  session::limit_threads(options);
+  check_scene_files({options.scene}, names, range);
+  io::check_writable(names.picture(range.first));
+  const session::PreparedScene prepared = session::load_scene(options, image::image_decoder());
+  check_scene_files(prepared.scene.files, names, range);
+
+  constexpr int parts = 1000;  // of a frame
+  std::optional<cli::Progress> progress;
+  progress.emplace(range.count() > 1 ? "frame" : "", range.count() > 1 ? range.count() : parts, !options.quiet);
+  truth::TechniqueOptions how{.cache = options.folder(), .threads = options.threads.value_or(0)};
+  if (range.count() == 1) {
+    how.progress = [&progress](double share) {
+      progress->reach(std::min(static_cast<int>(share * parts), parts - 1));
+      return true;
+    };
+  }
+  if (options.light) how.local_light = local_light(prepared.scene, *options.light, options.light_radius);
+  const truth::TruthTechnique truth(std::move(how));
+  session::RenderSession session(options, session::open_context(options, options), prepared,
+                                 {.shaders = gl::ShaderFiles(options.glsl), .techniques = truth.registry()});
+  std::string last_line;
+  for (int frame = range.first; frame <= range.last; ++frame) {
+    session.draw(frame, params);
+    write(names, frame, options.size, truth.last(), metadata_of(options, session.setup(), params, frame));
+    if (range.count() > 1) progress->step();
+    last_line = summary(names.picture(frame), options.size, truth.last());
+  }
+  progress.reset();
+  if (!options.quiet) fmt::print("{}\n", last_line);
+}
+
+}  // namespace
+
+int run_truth(const Arguments& arguments) {
+  CLI::App app("Ray trace the shadows of a scene, for techniques to be measured against", "penumbra truth");
+  TruthOptions options;
+  add_truth_options(app, options);
+  if (!cli::parse(app, arguments)) return 0;
+  cli::check_together(static_cast<const cli::SceneOptions&>(options));
+  cli::check_together(static_cast<const cli::DeviceOptions&>(options));
+  check_together(static_cast<const session::CacheOptions&>(options));
+  trace_files(options);
+  return 0;
+}
+
+}  // namespace penumbra::app

@@ -1,0 +1,124 @@
+#include "cli/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <new>
+#include <string>
+
+#include "cli/signals.h"
+#include "cli/text.h"
+#include "cli/usage.h"
+#include "core/log.h"
+#include "core/names.h"
+
+namespace penumbra::cli {
+
+namespace {
+
+// "quiet" lies past every level: nothing passes.
+const std::map<std::string, int>& log_levels() {
+  static const std::map<std::string, int> levels{{"debug", static_cast<int>(LogLevel::debug)},
+                                                 {"info", static_cast<int>(LogLevel::info)},
+                                                 {"warning", static_cast<int>(LogLevel::warning)},
+                                                 {"error", static_cast<int>(LogLevel::error)},
+                                                 {"quiet", static_cast<int>(LogLevel::error) + 1}};
+  return levels;
+}
+
+void log_from(const std::string& name) {
+  const auto found = log_levels().find(name);
+  if (found == log_levels().end()) {
+    std::vector<std::string> names;
+    for (const auto& [level, value] : log_levels()) names.push_back(level);
+    fail_unknown("log level", name, names);
+  }
+  set_log_sink([least = found->second](LogLevel level, std::string_view message) {
+    if (static_cast<int>(level) < least) return;
+    static constexpr const char* labels[] = {"debug", "info", "warning", "error"};
+    fmt::print(stderr, "{}: {}\n", labels[static_cast<int>(level)], printable(std::string(message)));
+  });
+}
+
+[[noreturn]] void fail_extra(const CLI::App& options, const std::string& extra) {
+  if (!extra.starts_with('-')) fail_usage("unexpected argument '{}'", extra);
+  std::vector<std::string> names;
+  for (const CLI::Option* option : options.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  const std::string name = extra.substr(0, extra.find('='));
+  const std::vector<std::string> near = near_names(name, names);
+  if (near.empty()) fail_usage("unknown option '{}'; see {} --help", name, options.get_name());
+  fail_unknown("option", name, names);
+}
+
+// CLI11 says "--size: 1 required WIDTHxHEIGHT missing" and "--size: At Most 1 required but received 2".
+std::string one_line(const CLI::ParseError& error) {
+  std::string text = error.what();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  const std::string option = text.substr(0, text.find(':'));
+  if (text.find(" missing") != std::string::npos) return option + " lacks its value";
+  if (const std::size_t end = text.find(" was given a disallowed flag"); end != std::string::npos)
+    return "--" + text.substr(0, end) + " takes no value";
+  if (text.find("At Most 1") != std::string::npos) return option + " is given twice";
+  return text;
+}
+
+constexpr const char no_output[] = "cannot write to standard output";
+
+// One line whatever a file's names hold, so that scripts can read it.
+int report(const std::string& message, int code) {
+  // Not by fmt::print, which throws where stderr is closed.
+  std::fputs(fmt::format("error: {}\n", printable(message)).c_str(), stderr);
+  return code;
+}
+
+}  // namespace
+
+std::string version() { return "Penumbra " PENUMBRA_VERSION; }
+
+int run_guarded(const std::function<int()>& program) {
+  fail_writes_past_the_limit();
+  try {
+    const int code = program();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail(no_output);
+    return code;
+  } catch (const UsageError& error) {
+    return report(error.what(), 2);
+  } catch (const Error& error) {
+    return report(error.what(), 1);
+  } catch (const std::bad_alloc&) {
+    return report("out of memory", 1);
+  } catch (const std::exception& error) {
+    // What fmt::print throws there is no Error.
+    if (std::ferror(stdout) != 0) return report(no_output, 1);
+    return report(std::string("internal error: ") + error.what(), 1);
+  }
+}
+
+bool parse(CLI::App& options, const Arguments& arguments) {
+  std::string level = "warning";
+  options.add_option("--log-level", level, "Least messages to show: debug, info, warning, error or quiet")
+      ->type_name("LEVEL");
+  options.allow_extras();
+  try {
+    options.parse(Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
+  } catch (const CLI::CallForHelp&) {
+    fmt::print("{}", options.help());
+    return false;
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(one_line(error));
+  }
+  try {
+    if (const std::vector<std::string> extras = options.remaining(); !extras.empty())
+      fail_extra(options, extras.front());
+    log_from(level);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+  return true;
+}
+
+}  // namespace penumbra::cli

@@ -1,0 +1,182 @@
+#include "cli/options.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+
+#include "core/names.h"
+#include "io/output_file.h"
+#include "io/presets.h"
+#include "render/renderer.h"
+
+namespace penumbra::cli {
+
+namespace {
+
+void words(CLI::App& app, const char* name, const char* type, const char* help, std::vector<std::string>& list) {
+  app.add_option(name, list, help)->type_name(type)->allow_extra_args(false);
+}
+
+render::GroundChoice ground_choice(const std::string& text) {
+  const std::string word = one_of("ground", text, std::vector<std::string>{"auto", "on", "off"});
+  if (word == "auto") return render::GroundChoice::automatic;
+  return word == "on" ? render::GroundChoice::on : render::GroundChoice::off;
+}
+
+}  // namespace
+
+void add_value(CLI::App& app, const char* name, const char* type, const char* help,
+               const std::function<void(const std::string&)>& set) {
+  const auto set_checked = [name, type, set](const std::string& text) {
+    if (text.empty()) fail_usage("{} takes {}, not an empty text", name, type);
+    set(text);
+  };
+  app.add_option_function<std::string>(name, set_checked, help)->type_name(type);
+}
+
+void add_scene_option(CLI::App& app, SceneOptions& o) {
+  app.add_option("SCENE", o.scene, "glTF file, .gltf or .glb")->required()->type_name("");
+}
+
+void add_size_option(CLI::App& app, SceneOptions& o) {
+  add_value(app, "--size", "WIDTHxHEIGHT", "Pixels (1280x720)",
+            [&o](const auto& text) { o.size = parse_size("--size", text); });
+}
+
+void add_supersample_option(CLI::App& app, SceneOptions& o) {
+  add_value(app, "--supersample", "N", "Draws N times larger each way and averages, in linear light (1)",
+            [&o](const auto& text) { o.supersample = parse_count("--supersample", text, 1, 16); });
+}
+
+void add_view_options(CLI::App& app, SceneOptions& o) {
+  add_value(
+      app, "--camera", "NAME|INDEX",
+      "A camera of the scene; else its first that sees the scene over a tenth of the picture, else one that frames it",
+      [&o](const auto& text) { o.camera = text; });
+  add_value(app, "--eye", "X,Y,Z", "Where the camera is, metres",
+            [&o](const auto& text) { o.eye = parse_point("--eye", text); });
+  add_value(app, "--target", "X,Y,Z", "What it looks at, metres",
+            [&o](const auto& text) { o.target = parse_point("--target", text); });
+  add_value(app, "--fov", "DEG", "Field of view of the picture's height, degrees",
+            [&o](const auto& text) { o.fov = parse_number("--fov", text, 1, 179); });
+  add_value(app, "--sun", "AZIMUTH,ELEVATION",
+            "Direction to the sun, degrees: azimuth from +Z towards +X, elevation over the horizon",
+            [&o](const auto& text) { o.sun = parse_direction("--sun", text); });
+  add_value(app, "--ground", "auto|on|off", "A plane under the scene; auto: where there is nothing to cast on",
+            [&o](const auto& text) { o.ground = ground_choice(text); });
+}
+
+void add_time_options(CLI::App& app, SceneOptions& o) {
+  add_value(app, "--time", "S", "Time of the picture, or of frame 0, seconds",
+            [&o](const auto& text) { o.time = parse_number("--time", text, 0, 1e6); });
+  add_value(app, "--frames", "FIRST:LAST",
+            "A sequence; files are numbered at one #### or %04d in -o, or before its extension",
+            [&o](const auto& text) { o.frames = parse_frames("--frames", text); });
+  add_value(app, "--fps", "N", "Frames a second (24)",
+            [&o](const auto& text) { o.fps = parse_number("--fps", text, 0.001, 10000); });
+}
+
+void add_technique_option(CLI::App& app, ShadowOptions& o) {
+  add_value(app, "--technique", "NAME", "Shadow technique; see penumbra list techniques",
+            [&o](const auto& text) { o.technique = text; });
+}
+
+void add_shadow_options(CLI::App& app, ShadowOptions& o) {
+  add_value(app, "--sun-angle", "DEG", "Full angle of the sun's disc; short for --set sun.angle=DEG",
+            [&o](const auto& text) { o.sun_angle = text; });
+  add_value(app, "--exposure", "EV|auto",
+            "Exposure value at ISO 100; short for --set exposure.auto=off --set exposure.ev=EV",
+            [&o](const auto& text) { o.exposure = text; });
+  words(app, "--set", "NAME=VALUE", "A parameter's value; repeatable; see penumbra list params", o.assignments);
+  words(app, "--preset", "FILE", "Values from a TOML file; repeatable", o.presets);
+}
+
+void add_device_options(CLI::App& app, DeviceOptions& o) {
+  add_value(app, "--backend", "NAME", "auto, egl, osmesa or window (auto)", [&o](const auto& text) {
+    o.backend = one_of("backend", text, std::vector<std::string>{"auto", "egl", "osmesa", "window"});
+  });
+  add_value(app, "--egl-device", "N", "EGL device by index; see penumbra doctor",
+            [&o](const auto& text) { o.egl_device = parse_count("--egl-device", text, 0, 255); });
+  add_value(app, "--threads", "N", "Threads of a software rasteriser and of a ray tracer (all cores)",
+            [&o](const auto& text) { o.threads = parse_count("--threads", text, 1, 1024); });
+  add_value(app, "--glsl", "DIR", "Shaders in this folder replace the built-in ones of the same name",
+            [&o](const auto& text) { o.glsl = text; });
+  app.add_flag("--debug", o.debug, "KHR_debug: an OpenGL error ends the program (also PENUMBRA_DEBUG=1)")
+      ->disable_flag_override();
+}
+
+namespace {
+
+void set_exposure(ParamSet& params, const std::string& text) {
+  params.set("exposure.auto", text == "auto");
+  if (text != "auto") params.set_text("exposure.ev", text);
+}
+
+}  // namespace
+
+void check_together(const SceneOptions& o) {
+  if (o.eye.has_value() != o.target.has_value()) fail_usage("--eye and --target go together");
+  if (o.eye && o.camera) fail_usage("--eye and --camera exclude each other");
+  if (o.eye && *o.eye == *o.target) fail_usage("--eye and --target are the same point");
+  const long long width = 1LL * o.size.width * o.supersample, height = 1LL * o.size.height * o.supersample;
+  if (width > largest_side || height > largest_side || width * height > largest_area)
+    fail_usage("a picture of {}x{} pixels (--size times --supersample) is over the limit of {} a side and {} in all",
+               width, height, largest_side, largest_area);
+}
+
+void check_together(const DeviceOptions& o) {
+  if (!o.glsl.empty() && !std::filesystem::is_directory(o.glsl)) fail("--glsl: {} is not a folder", io::quoted(o.glsl));
+  if (o.egl_device && o.backend != "auto" && o.backend != "egl")
+    fail_usage("--egl-device has no meaning for --backend {}", o.backend);
+}
+
+namespace {
+
+// All names would make a long line.
+void check_known(const ParamSet& params, const std::string& name) {
+  if (!params.contains(name) && near_names(name, params.names()).empty())
+    fail("unknown parameter '{}'; see penumbra list params", name);
+}
+
+// What the maps of a light and their pyramids take is 4.3 bytes a texel.
+void check_map_memory(const ParamSet& params) {
+  const long long size = params.get_int("cascades.size"), count = params.get_int("cascades.count");
+  if (size * size * count > largest_maps)
+    fail("cascades.count={} maps of cascades.size={} are {} texels: the limit is {} (1.1 GiB), as 4 maps of 8192",
+         count, size, size * size * count, largest_maps);
+}
+
+}  // namespace
+
+void assign(ParamSet& params, const std::string& assignment) {
+  try {
+    if (const std::size_t equals = assignment.find('='); equals != std::string::npos)
+      check_known(params, assignment.substr(0, equals));
+    params.assign(assignment);
+    check_map_memory(params);
+  } catch (const UsageError&) {
+    throw;
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
+ParamSet resolve_params(const ShadowOptions& options, const shadow::Registry& registry) {
+  ParamSet params(render::Renderer::params(registry));
+  const auto select = [&registry](ParamSet& set, std::string_view name) { registry.select(set, name); };
+  for (const std::string& preset : options.presets) {
+    io::read_preset(preset, params, select);
+    check_map_memory(params);
+  }
+  try {
+    if (!options.technique.empty()) registry.select(params, options.technique);
+    if (!options.sun_angle.empty()) params.set_text("sun.angle", options.sun_angle);
+    if (!options.exposure.empty()) set_exposure(params, options.exposure);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+  for (const std::string& assignment : options.assignments) assign(params, assignment);
+  return params;
+}
+
+}  // namespace penumbra::cli

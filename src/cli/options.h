@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/cli_fwd.h"
+#include "cli/usage.h"
+#include "core/params.h"
+#include "render/setup.h"
+#include "shadow/technique.h"
+
+namespace penumbra::cli {
+
+// Groups of options that several commands share. Every value is parsed and in range.
+
+// What stands before the camera, when, and how large.
+struct SceneOptions {
+  std::string scene;
+  Size size;
+  int supersample = 1;
+
+  std::optional<std::string> camera;  // name or index in the file
+  std::optional<glm::vec3> eye, target;
+  std::optional<double> fov;  // degrees, of the height
+  std::optional<Direction> sun;
+  render::GroundChoice ground = render::GroundChoice::automatic;
+
+  double time = 0;  // seconds: of the picture, or of frame 0
+  std::optional<FrameRange> frames;
+  double fps = 24;
+};
+
+struct ShadowOptions {
+  std::vector<std::string> presets, assignments;
+  std::string technique, sun_angle, exposure;
+};
+
+struct DeviceOptions {
+  std::string backend = "auto";
+  std::optional<int> egl_device, threads;
+  std::string glsl;
+  bool debug = false;
+};
+
+void add_scene_option(CLI::App& app, SceneOptions& options);
+void add_size_option(CLI::App& app, SceneOptions& options);
+void add_supersample_option(CLI::App& app, SceneOptions& options);
+void add_view_options(CLI::App& app, SceneOptions& options);
+void add_time_options(CLI::App& app, SceneOptions& options);
+void add_technique_option(CLI::App& app, ShadowOptions& options);
+void add_shadow_options(CLI::App& app, ShadowOptions& options);
+void add_device_options(CLI::App& app, DeviceOptions& options);
+
+// Throw UsageError where options that are right alone don't go together, and Error for a --glsl that is no folder.
+void check_together(const SceneOptions& options);
+void check_together(const DeviceOptions& options);
+
+// The values to render with: defaults, then presets, then --technique, --sun-angle and --exposure, then every --set in
+// the order given. Throws UsageError for the command line's faults and Error for a preset's.
+ParamSet resolve_params(const ShadowOptions& options, const shadow::Registry& registry);
+
+// "NAME=VALUE" or UsageError; a name that no parameter is near to is told where to look.
+void assign(ParamSet& params, const std::string& assignment);
+
+// An option whose text `set` parses, so that every fault is worded in one place. None takes an empty text.
+void add_value(CLI::App& app, const char* name, const char* type, const char* help,
+               const std::function<void(const std::string&)>& set);
+
+}  // namespace penumbra::cli

@@ -1,0 +1,81 @@
+#include "cli/output_names.h"
+
+#include <algorithm>
+#include <regex>
+#include <vector>
+
+#include "cli/usage.h"
+#include "core/names.h"
+#include "io/output_file.h"
+
+namespace penumbra::cli {
+
+namespace {
+
+// Where in a file's stem the number goes.
+struct Place {
+  std::size_t begin, end;
+  int digits;
+};
+
+std::vector<Place> places_in(const std::string& stem) {
+  static const std::regex pattern("#+|%(?:0([1-9]))?d");
+  std::vector<Place> places;
+  for (std::sregex_iterator match(stem.begin(), stem.end(), pattern), none; match != none; ++match) {
+    const auto begin = static_cast<std::size_t>(match->position());
+    const auto length = static_cast<std::size_t>(match->length());
+    const bool hashes = stem[begin] == '#';
+    const int digits = hashes ? static_cast<int>(length) : (*match)[1].matched ? stem[begin + 2] - '0' : 1;
+    places.push_back({begin, begin + length, digits});
+  }
+  return places;
+}
+
+}  // namespace
+
+OutputNames::OutputNames(const std::string& output, bool sequence) {
+  const std::filesystem::path path(output);
+  extension_ = lower_case(path.extension().string());
+  if (extension_ != ".png" && extension_ != ".exr")
+    fail_usage("'{}' is not a kind of picture that can be written: use .png or .exr", output);
+  const std::string stem = path.stem().string();
+  const std::string folder = (path.parent_path() / "").string();
+  after_ = path.extension().string();
+  before_ = folder + stem;
+
+  const std::vector<Place> places = places_in(stem);
+  if (!sequence) {
+    if (!places.empty()) fail_usage("-o '{}' has a place for a frame's number: it goes with --frames", output);
+    return;
+  }
+  if (places.empty() && stem.find('%') == std::string::npos) {
+    digits_ = 4;
+    before_ += "_";
+    return;
+  }
+  if (places.size() != 1 || std::ranges::count(stem, '%') > (stem[places[0].begin] == '%' ? 1 : 0))
+    fail_usage("-o '{}' is no file pattern: the frame's number goes to one place, #### or %04d", output);
+  digits_ = places[0].digits;
+  before_ = folder + stem.substr(0, places[0].begin);
+  after_ = stem.substr(places[0].end) + after_;
+}
+
+std::filesystem::path OutputNames::picture(int frame) const {
+  if (digits_ < 0) return before_ + after_;
+  return fmt::format("{}{:0{}}{}", before_, frame, digits_, after_);
+}
+
+std::filesystem::path OutputNames::aov(int frame, std::string_view name) const {
+  std::filesystem::path path = picture(frame);
+  const std::string extension = path.extension().string();
+  return path.replace_extension("." + std::string(name) + extension);
+}
+
+void check_spared(const std::vector<std::filesystem::path>& scene_files, std::string_view option,
+                  const std::filesystem::path& result) {
+  for (const std::filesystem::path& file : scene_files) {
+    if (io::would_replace(result, file)) fail_usage("{} would overwrite the scene's file {}", option, io::quoted(file));
+  }
+}
+
+}  // namespace penumbra::cli

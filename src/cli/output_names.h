@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace penumbra::cli {
+
+// The files of one command, from -o. A sequence numbers them: at "####" or "%04d" in the file's name, else "_0001"
+// before the extension. A single picture has no number, so a name with a place for one is refused.
+class OutputNames {
+ public:
+  // Throws UsageError for an extension other than .png and .exr and for a bad pattern.
+  OutputNames(const std::string& output, bool sequence);
+
+  bool is_exr() const { return extension_ == ".exr"; }
+  std::filesystem::path picture(int frame) const;
+  // "x.shadow.png" beside "x.png".
+  std::filesystem::path aov(int frame, std::string_view name) const;
+
+ private:
+  std::string before_, after_, extension_;  // of the number
+  int digits_ = -1;                         // -1: not numbered
+};
+
+// Throws UsageError if the file `result`, which `option` asks for, would take the place of one of a scene's files.
+void check_spared(const std::vector<std::filesystem::path>& scene_files, std::string_view option,
+                  const std::filesystem::path& result);
+
+}  // namespace penumbra::cli

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace penumbra::cli {
+
+// The command line itself is wrong, whatever the files hold: exit code 2.
+struct UsageError : Error {
+  using Error::Error;
+};
+
+template <class... Args>
+[[noreturn]] void fail_usage(fmt::format_string<Args...> format, Args&&... args) {
+  throw UsageError(fmt::format(format, std::forward<Args>(args)...));
+}
+
+// fail_unknown() (core/names.h) as a UsageError.
+[[noreturn]] void fail_unknown_usage(std::string_view kind, std::string_view name,
+                                     std::span<const std::string> candidates);
+
+struct Size {
+  int width = 1280, height = 720;
+};
+
+// The largest picture, supersampling included. A frame holds about 64 bytes a pixel.
+constexpr int largest_side = 16384;
+constexpr long long largest_area = 1LL << 26;
+
+// Texels of all of a light's shadow maps.
+constexpr long long largest_maps = 1LL << 28;
+
+struct FrameRange {
+  int first = 0, last = 0;  // both drawn
+  int count() const { return last - first + 1; }
+};
+
+// Radians.
+struct Direction {
+  float azimuth = 0;    // from +Z towards +X
+  float elevation = 0;  // over the horizon
+};
+
+// Values of options as the user writes them. All are strict: the whole text is one finite number in range, or
+// UsageError names the option, the text and what it takes.
+double parse_number(std::string_view option, std::string_view text, double min, double max);
+int parse_count(std::string_view option, std::string_view text, int min, int max);
+Size parse_size(std::string_view option, std::string_view text);            // "1280x720"
+glm::vec3 parse_point(std::string_view option, std::string_view text);      // "x,y,z", metres
+FrameRange parse_frames(std::string_view option, std::string_view text);    // "A:B"
+Direction parse_direction(std::string_view option, std::string_view text);  // "azimuth,elevation", degrees
+
+// The text, which is one of the choices, else fail_unknown_usage().
+std::string one_of(std::string_view kind, const std::string& text, std::span<const std::string> choices);
+
+}  // namespace penumbra::cli

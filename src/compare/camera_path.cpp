@@ -1,0 +1,69 @@
+#include "compare/camera_path.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "scene/animation.h"
+#include "scene/pose.h"
+
+namespace penumbra::compare {
+
+namespace {
+
+// What the camera looks at: the point on its axis that is nearest to the scene's centre, in front of it.
+glm::vec3 target_of(const CompareOptions& options, const session::PreparedScene& prepared) {
+  if (options.target) return *options.target;
+  const render::Camera& camera = prepared.setup.camera;
+  const glm::vec3 eye = render::position_of(camera);
+  const glm::vec3 forward = -glm::vec3(camera.view[0][2], camera.view[1][2], camera.view[2][2]);
+  const scene::Bounds bounds = scene::bounds_of(prepared.scene, scene::pose_at(prepared.scene, options.time));
+  const float distance = glm::dot(bounds.center() - eye, forward);
+  return eye + forward * (distance > 0 ? distance : bounds.radius());
+}
+
+// The camera carried about a vertical axis.
+void turn(render::Camera& camera, const glm::vec3& center, double degrees) {
+  glm::mat4 world = glm::translate(glm::mat4(1), center);
+  world = glm::rotate(world, glm::radians(static_cast<float>(degrees)), glm::vec3(0, 1, 0));
+  world = glm::translate(world, -center);
+  camera.view = camera.view * glm::inverse(world);
+}
+
+}  // namespace
+
+CameraPath::CameraPath(const CompareOptions& options, const session::PreparedScene& prepared)
+    : options_(options),
+      prepared_(prepared),
+      range_(options.frames.value_or(cli::FrameRange{})),
+      target_(target_of(options, prepared)) {
+  if (options.orbit && range_.count() > 1) cut_ = options.cut_at.value_or(range_.first + range_.count() / 2);
+}
+
+render::Setup CameraPath::setup_at(int frame) const {
+  render::Setup setup = session::setup_at(prepared_, session::time_of(options_, frame));
+  if (!options_.orbit) return setup;
+  // On both sides of the view that was asked for, which is the first and the last.
+  const bool after_cut = cut_ && frame >= *cut_;
+  turn(setup.camera, target_, *options_.orbit * (frame - (after_cut ? range_.last : range_.first)));
+  return setup;
+}
+
+bool CameraPath::cuts(int frame) const {
+  if (frame == range_.first) return false;
+  return frame == cut_ || scene::jumps_between(prepared_.scene, session::time_of(options_, frame - 1),
+                                               session::time_of(options_, frame));
+}
+
+render::FrameInputs CameraPath::frame(int frame, bool again) const {
+  const bool follows = !again && frame > range_.first && !cuts(frame);
+  const render::Setup setup = setup_at(frame);
+  return {.width = options_.size.width,
+          .height = options_.size.height,
+          .camera = setup.camera,
+          .last_camera = follows ? setup_at(frame - 1).camera : setup.camera,
+          .sun = setup.sun,
+          .time = session::time_of(options_, frame),
+          .last_time = session::time_of(options_, follows ? frame - 1 : frame),
+          .cut = !follows && !again};
+}
+
+}  // namespace penumbra::compare

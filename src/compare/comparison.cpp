@@ -1,0 +1,123 @@
+#include "compare/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <future>
+#include <glm/trigonometric.hpp>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "cli/progress.h"
+#include "compare/draw.h"
+#include "core/log.h"
+#include "image/read.h"
+#include "io/output_file.h"
+#include "render/renderer.h"
+#include "scene/gltf.h"
+#include "session/prepared_scene.h"
+#include "session/render_session.h"
+#include "truth/technique.h"
+
+namespace penumbra::compare {
+
+namespace {
+
+// All that draws, for all scenes. Members are in the order of their making: what is made last goes first.
+struct Machine {
+  std::unique_ptr<gl::Context> context;
+  gl::DeviceInfo info;
+  truth::TruthTechnique truth;
+  shadow::Registry techniques;
+  gl::Device device;
+
+  Machine(const CompareOptions& options, std::unique_ptr<gl::Context> opened)
+      : context(std::move(opened)),
+        info(gl::device_info()),
+        truth({.cache = options.folder(), .threads = options.threads.value_or(0)}),
+        techniques(truth.registry()),
+        device(gl::ShaderFiles(options.glsl), info.software ? gl::Timers::Mode::finish : gl::Timers::Mode::query) {}
+};
+
+// Names the file, which the faults of its cameras don't.
+session::PreparedScene load_scene(const CompareOptions& options, const scene::ImageDecoder& decode) {
+  scene::Scene scene = scene::read_gltf(options.scene, decode);
+  try {
+    return session::prepare_scene(std::move(scene), options);
+  } catch (const Error& error) {
+    fail("{}: {}", io::quoted(options.scene), error.what());
+  }
+}
+
+// Whether a camera is there takes no pictures.
+void check_camera(const CompareOptions& options) {
+  load_scene(options, [](std::span<const std::byte>, const std::string& name) {
+    return scene::Image{.name = name, .width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
+  });
+}
+
+std::size_t receiver_count(const ReferenceFrame& frame) {
+  return std::accumulate(frame.receivers.begin(), frame.receivers.end(), std::size_t{0});
+}
+
+void warn_of_frames_without_receivers(const std::string& scene, const std::vector<ReferenceFrame>& frames) {
+  const auto count = std::ranges::count_if(frames, [](const auto& frame) { return receiver_count(frame) == 0; });
+  if (count == 0) return;
+  const std::string which = frames.size() == 1 ? "the picture" : fmt::format("{} of {} frames", count, frames.size());
+  warn("{}: the sun reaches nothing in {}, so there is nothing to measure", io::quoted(scene), which);
+}
+
+ComparedScene compare_scene(const CompareOptions& options, const session::PreparedScene& prepared, Machine& machine,
+                            const ComparedValues& values, const std::function<void()>& drawn) {
+  scene::GpuScene scene(machine.device, prepared.scene);
+  const CameraPath path(options, prepared);
+  const DrawnScene common{options, machine.device, machine.techniques, scene, path, drawn};
+  const render::FrameInputs first = path.frame(options.frames ? options.frames->first : 0);
+  ComparedScene result{.path = options.scene, .camera = first.camera, .sun = first.sun, .target = path.target()};
+  const std::vector<ReferenceFrame> reference = draw_reference(common, values.reference, result.reference);
+  warn_of_frames_without_receivers(options.scene, reference);
+  result.pixels = reference.back().receivers.size();
+  result.receivers = receiver_count(reference.back());
+  result.techniques = draw_techniques(common, values.contenders, reference);
+  return result;
+}
+
+}  // namespace
+
+Angles angles_of(const glm::vec3& to_light) {
+  const glm::dvec3 v(to_light);
+  return {.azimuth = glm::degrees(std::atan2(v.x, v.z)),
+          .elevation = glm::degrees(std::atan2(v.y, std::hypot(v.x, v.z)))};
+}
+
+Comparison compare(const CompareOptions& options, const ComparedValues& values) {
+  Comparison comparison{.reference_params = values.reference};
+
+  // Drivers take as long to start as scenes to load, and there are two cores nearly everywhere.
+  std::vector<CompareOptions> of_scenes(options.scenes.size(), options);
+  for (std::size_t i = 0; i < of_scenes.size(); ++i) of_scenes[i].scene = options.scenes[i];
+  const auto load = [](const CompareOptions& one) { return load_scene(one, image::image_decoder()); };
+  std::future<session::PreparedScene> loading = std::async(std::launch::async, load, std::cref(of_scenes.front()));
+  std::unique_ptr<gl::Context> context = session::open_context(options, options);
+  Machine machine(options, std::move(context));
+  comparison.device = machine.info;
+  comparison.backend = gl::to_string(machine.context->backend());
+  std::optional<session::PreparedScene> prepared = loading.get();
+  for (std::size_t i = 1; i < of_scenes.size(); ++i) check_camera(of_scenes[i]);  // before minutes of drawing
+
+  const std::size_t drawings = options.scenes.size() * (values.contenders.size() + 1);
+  const int frames = options.frames ? options.frames->count() : 1;
+  cli::Progress progress("picture", static_cast<int>(drawings) * frames, !options.quiet);
+  const std::function<void()> drawn = [&progress] { progress.step(); };
+  for (const CompareOptions& one : of_scenes) {
+    if (!prepared) prepared = load(one);
+    comparison.scenes.push_back(compare_scene(one, *prepared, machine, values, drawn));
+    prepared.reset();
+  }
+  return comparison;
+}
+
+}  // namespace penumbra::compare

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/options.h"
+#include "core/params.h"
+#include "gl/context.h"
+#include "metrics/sequence.h"
+#include "render/view.h"
+
+namespace penumbra::compare {
+
+// What a technique's shadow is off by over all frames, see metrics/. Figures that could not be measured are NaN.
+struct ComparedFigures {
+  double rmse = 0, psnr = 0;                    // all receivers
+  double rmse_penumbra = 0, psnr_penumbra = 0;  // reference in the penumbra
+  double bias = 0, max = 0, p99 = 0;
+  double ssim = 0, flip = 0, width_error = 0;  // means over the frames
+  double width_lost = 0;                       // share of penumbra pixels in which the shadow has no width to measure
+  std::optional<metrics::SequenceFigures> sequence;  // of more than one frame
+};
+
+// Milliseconds that the passes between G-buffer and lighting took in a frame.
+struct ShadowCost {
+  double median = 0, min = 0, max = 0;
+  std::size_t frames = 0;
+};
+
+// The last frame as a picture.
+struct ComparedPictures {
+  std::vector<std::uint8_t> display;  // RGB, sRGB
+  std::vector<float> visibility;
+  std::vector<float> error;  // visibility minus the reference's; NaN where no receiver is
+};
+
+struct ComparedTechnique {
+  std::string label;
+  ParamSet params;
+  ShadowCost cost;
+  std::size_t target_bytes = 0;  // of maps, masks and history
+  ComparedFigures figures;
+  ComparedPictures pictures;
+};
+
+struct ComparedScene {
+  std::string path;
+  std::size_t receivers = 0, pixels = 0;  // of the last frame
+  ComparedPictures reference;             // without an error
+  render::Camera camera;                  // of the first frame
+  render::Sun sun;
+  glm::vec3 target{0};  // what that camera looks at
+  std::vector<ComparedTechnique> techniques;
+};
+
+// A direction as --sun takes it, degrees.
+struct Angles {
+  double azimuth = 0;    // from +Z towards +X
+  double elevation = 0;  // over the horizon
+};
+Angles angles_of(const glm::vec3& to_light);
+
+struct Comparison {
+  gl::DeviceInfo device;
+  std::string backend;
+  ParamSet reference_params;
+  std::vector<ComparedScene> scenes;
+};
+
+// Draws and measures all of it. Throws Error.
+Comparison compare(const CompareOptions& options, const ComparedValues& values);
+
+}  // namespace penumbra::compare

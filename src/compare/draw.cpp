@@ -1,0 +1,156 @@
+#include "compare/draw.h"
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "bench/times.h"
+#include "compare/figures.h"
+#include "render/receivers.h"
+#include "render/renderer.h"
+
+namespace penumbra::compare {
+
+namespace {
+
+constexpr int usual_warmup = 32;  // e^-3 is left of what a history of the usual weight began with
+
+// Nested passes are in the time of the one around them.
+bool is_shadow_row(const std::string& name) {
+  return name != "frame" && name.find('/') == std::string::npos && bench::is_shadow_pass(name);
+}
+
+// Of these frames of the device.
+ShadowCost shadow_cost(gl::Timers& timers, const std::vector<std::size_t>& frames) {
+  std::vector<double> sums(frames.size(), 0.0);
+  for (const gl::Timers::Row& row : timers.rows()) {
+    if (!is_shadow_row(row.name)) continue;
+    for (std::size_t i = 0; i < frames.size(); ++i) sums[i] += row.milliseconds[frames[i]];
+  }
+  const bench::Summary summary = bench::summary_of(std::move(sums));
+  return {summary.median, summary.min, summary.max, summary.count};
+}
+
+cli::FrameRange range_of(const CompareOptions& options) { return options.frames.value_or(cli::FrameRange{}); }
+
+// A single picture of a technique that remembers is the one that it settles on.
+int warmup_of(const CompareOptions& options, const ParamSet& params) {
+  if (options.frames || !params.get_bool("history.reuse")) return 0;
+  return options.warmup.value_or(usual_warmup);
+}
+
+std::vector<float> error_of(const std::vector<float>& visibility, const ReferenceFrame& reference) {
+  std::vector<float> error(visibility.size(), std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t i = 0; i < error.size(); ++i) {
+    if (reference.receivers[i] != 0) error[i] = metrics::signed_error(visibility[i], reference.visibility[i]);
+  }
+  return error;
+}
+
+std::size_t frames_drawn(gl::Timers& timers) {
+  const std::vector<gl::Timers::Row> rows = timers.rows();
+  return rows.empty() ? 0 : rows.back().milliseconds.size();
+}
+
+// One of those that take turns. Its renderer is its own: what another technique left behind has no say.
+struct Turn {
+  Turn(const DrawnScene& scene, const ParamSet& own)
+      : params(own),
+        renderer(scene.device, scene.techniques),
+        sums(scene.options.size.width, scene.options.size.height) {}
+
+  const ParamSet& params;
+  render::Renderer renderer;
+  FigureSums sums;
+  ComparedPictures pictures;
+  std::vector<std::size_t> timed;  // the device's frames that its cost is taken from
+  std::size_t target_bytes = 0;
+};
+
+class Turns {
+ public:
+  Turns(const DrawnScene& scene, const std::vector<ParamSet>& params, const std::vector<ReferenceFrame>& reference)
+      : scene_(scene),
+        reference_(reference),
+        range_(range_of(scene.options)),
+        frames_drawn_(frames_drawn(scene.device.timers)) {
+    for (const ParamSet& own : params) turns_.push_back(std::make_unique<Turn>(scene, own));
+  }
+
+  // A sequence's cost is that of all its frames but the first, which compiles shaders; a single picture is drawn again.
+  std::vector<ComparedTechnique> results() {
+    for (int frame = range_.first; frame <= range_.last; ++frame) {
+      for (const auto& turn : turns_) measure(*turn, frame);
+    }
+    for (int i = 0; range_.count() == 1 && i < scene_.options.cost_frames; ++i) {
+      for (const auto& turn : turns_)
+        draw(*turn, scene_.path.frame(range_.first, /* again= */ true), /* timed= */ true);
+    }
+    std::vector<ComparedTechnique> results;
+    for (std::size_t i = 0; i < turns_.size(); ++i) {
+      Turn& turn = *turns_[i];
+      results.push_back({.label = scene_.options.contenders[i].label,
+                         .params = turn.params,
+                         .cost = shadow_cost(scene_.device.timers, turn.timed),
+                         .target_bytes = turn.target_bytes,
+                         .figures = turn.sums.figures(),
+                         .pictures = std::move(turn.pictures)});
+    }
+    return results;
+  }
+
+ private:
+  void draw(Turn& turn, const render::FrameInputs& inputs, bool timed) {
+    const std::size_t before = scene_.device.target_bytes("shadow ");
+    turn.renderer.draw(scene_.scene, inputs, turn.params);
+    turn.target_bytes += scene_.device.target_bytes("shadow ") - before;
+    if (timed) turn.timed.push_back(frames_drawn_);
+    ++frames_drawn_;
+  }
+
+  void measure(Turn& turn, int frame) {
+    draw(turn, scene_.path.frame(frame), /* timed= */ frame > range_.first);
+    for (int i = warmup_of(scene_.options, turn.params); i > 0; --i)
+      draw(turn, scene_.path.frame(frame, /* again= */ true), /* timed= */ false);
+    std::vector<float> visibility = turn.renderer.read_aov("shadow");
+    const ReferenceFrame& reference = reference_[static_cast<std::size_t>(frame - range_.first)];
+    turn.sums.add(visibility, reference, scene_.path.cuts(frame));
+    if (frame == range_.last) {
+      turn.pictures.display = turn.renderer.read_display();
+      turn.pictures.error = error_of(visibility, reference);
+      turn.pictures.visibility = std::move(visibility);
+    }
+    scene_.drawn();
+  }
+
+  const DrawnScene& scene_;
+  const std::vector<ReferenceFrame>& reference_;
+  cli::FrameRange range_;
+  std::size_t frames_drawn_;  // by the device
+  std::vector<std::unique_ptr<Turn>> turns_;
+};
+
+}  // namespace
+
+std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamSet& params, ComparedPictures& last) {
+  render::Renderer renderer(scene.device, scene.techniques);
+  const cli::FrameRange range = range_of(scene.options);
+  std::vector<ReferenceFrame> frames;
+  for (int frame = range.first; frame <= range.last; ++frame) {
+    const render::FrameInputs inputs = scene.path.frame(frame);
+    renderer.draw(scene.scene, inputs, params);
+    frames.push_back({renderer.read_aov("shadow"),
+                      render::receivers_of(renderer, inputs.sun.to_light, params.get_float("sun.angle"))});
+    scene.drawn();
+  }
+  last = {.display = renderer.read_display(), .visibility = frames.back().visibility, .error = {}};
+  return frames;
+}
+
+std::vector<ComparedTechnique> draw_techniques(const DrawnScene& scene, const std::vector<ParamSet>& params,
+                                               const std::vector<ReferenceFrame>& reference) {
+  return Turns(scene, params, reference).results();
+}
+
+}  // namespace penumbra::compare

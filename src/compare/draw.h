@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "compare/camera_path.h"
+#include "compare/comparison.h"
+#include "gl/pass.h"
+#include "metrics/sequence.h"
+#include "scene/gpu_scene.h"
+
+namespace penumbra::compare {
+
+// What all techniques of a scene have in common.
+struct DrawnScene {
+  const CompareOptions& options;
+  gl::Device& device;
+  const shadow::Registry& techniques;
+  scene::GpuScene& scene;
+  const CameraPath& path;
+  const std::function<void()>& drawn;  // called after each frame of the range
+};
+
+// A frame of the reference.
+struct ReferenceFrame {
+  std::vector<float> visibility;
+  std::vector<std::uint8_t> receivers;  // 1: geometric normal · to light > sin(θ / 2)
+};
+
+// The reference's frames; `last` becomes the last one's pictures.
+std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamSet& params, ComparedPictures& last);
+
+// The contenders drawn over all frames and measured against them, with values of `params` in the same order. They take
+// turns, frame by frame, so that a machine that slows down meanwhile slows all of them.
+std::vector<ComparedTechnique> draw_techniques(const DrawnScene& scene, const std::vector<ParamSet>& params,
+                                               const std::vector<ReferenceFrame>& reference);
+
+}  // namespace penumbra::compare

@@ -1,0 +1,62 @@
+#include "compare/figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace penumbra::compare {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// The mean of squares that metrics::psnr_of() made a figure of.
+double mean_squared(double psnr) { return std::pow(10.0, -psnr / 10.0); }
+
+}  // namespace
+
+void FigureSums::Mean::add(double value, std::size_t weight) {
+  if (std::isnan(value) || weight == 0) return;
+  sum += value * static_cast<double>(weight);
+  count += weight;
+}
+
+double FigureSums::Mean::mean() const { return count == 0 ? none : sum / static_cast<double>(count); }
+
+void FigureSums::add(const std::vector<float>& visibility, const ReferenceFrame& reference, bool cut) {
+  const metrics::Picture test{.width = width_, .height = height_, .pixels = visibility};
+  const metrics::Picture truth{.width = width_, .height = height_, .pixels = reference.visibility};
+  const metrics::Quality quality = metrics::quality_of(test, truth, reference.receivers);
+  const metrics::ErrorFigures& errors = quality.errors;
+  squared_.add(errors.rmse * errors.rmse, errors.samples);
+  squared_penumbra_.add(mean_squared(errors.psnr_penumbra), errors.penumbra_samples);
+  bias_.add(errors.bias, errors.samples);
+  p99_.add(errors.p99);
+  if (!std::isnan(errors.max)) max_ = std::max(max_, errors.max);
+  ssim_.add(quality.ssim);
+  flip_.add(quality.flip);
+  width_error_.add(quality.width.relative);
+  widths_.measured += quality.width.measured;
+  widths_.lost += quality.width.lost;
+  sequence_.add(test, truth, reference.receivers, cut ? metrics::Event::cut : metrics::Event::none);
+  ++frames_;
+}
+
+ComparedFigures FigureSums::figures() const {
+  ComparedFigures figures{.rmse = std::sqrt(squared_.mean()),
+                          .psnr = metrics::psnr_of(squared_.mean()),
+                          .rmse_penumbra = std::sqrt(squared_penumbra_.mean()),
+                          .psnr_penumbra = metrics::psnr_of(squared_penumbra_.mean()),
+                          .bias = bias_.mean(),
+                          .max = squared_.count == 0 ? none : max_,
+                          .p99 = p99_.mean(),
+                          .ssim = ssim_.mean(),
+                          .flip = flip_.mean(),
+                          .width_error = width_error_.mean(),
+                          .width_lost = widths_.lost_share(),
+                          .sequence = {}};
+  if (frames_ > 1) figures.sequence = sequence_.figures();
+  return figures;
+}
+
+}  // namespace penumbra::compare

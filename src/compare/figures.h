@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "compare/comparison.h"
+#include "compare/draw.h"
+#include "metrics/quality.h"
+#include "metrics/sequence.h"
+
+namespace penumbra::compare {
+
+// The figures of a technique, frame by frame: errors over the receivers of all frames together, what is no mean of
+// single pixels (SSIM, FLIP, penumbra widths) as a mean over the frames.
+class FigureSums {
+ public:
+  FigureSums(int width, int height) : width_(width), height_(height) {}
+
+  // `cut`: the frame shows another view or time than the last one leads to.
+  void add(const std::vector<float>& visibility, const ReferenceFrame& reference, bool cut);
+
+  ComparedFigures figures() const;
+
+ private:
+  // Of what may be missing in a frame.
+  struct Mean {
+    double sum = 0;
+    std::size_t count = 0;
+    void add(double value, std::size_t weight = 1);
+    double mean() const;
+  };
+
+  int width_, height_;
+  std::size_t frames_ = 0;
+  Mean squared_, squared_penumbra_, bias_, ssim_, flip_, width_error_, p99_;
+  double max_ = 0;
+  metrics::PenumbraWidth widths_;  // its counts alone, over all frames
+  metrics::SequenceMetrics sequence_;
+};
+
+}  // namespace penumbra::compare

@@ -1,0 +1,179 @@
+#include "compare/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "io/text.h"
+#include "session/techniques.h"
+#include "truth/reference.h"
+
+namespace penumbra::compare {
+
+namespace {
+
+using cli::add_value;
+using cli::fail_usage;
+
+// Of all reference pictures, which are kept until the last technique is drawn.
+constexpr long long largest_reference = 2LL << 30;
+constexpr long long reference_bytes = sizeof(float) + 1;  // a pixel: visibility, and whether it is a receiver
+
+void add_contenders(std::vector<Contender>& list, const std::string& text) {
+  for (Contender& contender : parse_contenders(text)) {
+    const bool twice =
+        std::ranges::any_of(list, [&](const Contender& other) { return other.label == contender.label; });
+    if (twice) fail_usage("--technique names '{}' twice", contender.label);
+    list.push_back(std::move(contender));
+  }
+}
+
+void add_compare_options(CLI::App& app, CompareOptions& o) {
+  app.add_option("SCENE", o.scenes, "glTF files, .gltf or .glb")->required()->type_name("");
+  add_value(app, "-o,--output", "FOLDER", "Folder for index.html, results.csv and results.json",
+            [&o](const auto& text) { o.output = text; });
+  app.get_option("--output")->required();
+  add_value(
+      app, "--technique", "NAME,...",
+      "What is compared; NAME:PARAM=VALUE,PARAM=VALUE is one with values of its own; see penumbra list techniques",
+      [&o](const auto& text) { add_contenders(o.contenders, text); });
+  add_value(app, "--reference", "NAME", "What they are measured against: truth or brute_force (truth)",
+            [&o](const auto& text) {
+              o.reference = cli::one_of("reference", text, std::vector<std::string>{"truth", "brute_force"});
+            });
+  add_value(app, "--spp", "N", "Rays a pixel of the truth; short for --set truth.samples=N (256)",
+            [&o](const auto& text) { o.samples = cli::parse_count("--spp", text, 8, 65536); });
+  cli::add_size_option(app, o);
+  cli::add_view_options(app, o);
+  cli::add_time_options(app, o);
+  app.get_option("--frames")->description("A sequence: figures are of all its frames, pictures of the last");
+  add_value(app, "--orbit", "DEG", "The camera circles its target, so many degrees a frame",
+            [&o](const auto& text) { o.orbit = cli::parse_number("--orbit", text, -180, 180); });
+  add_value(app, "--cut-at", "FRAME",
+            "Frame at which the orbit jumps, to come back to its first view with the last frame (the middle one)",
+            [&o](const auto& text) { o.cut_at = cli::parse_count("--cut-at", text, 0, 1000000); });
+  add_value(app, "--warmup", "N", "Frames drawn before a single picture by techniques with a history (32)",
+            [&o](const auto& text) { o.warmup = cli::parse_count("--warmup", text, 0, 10000); });
+  add_value(app, "--cost-frames", "N", "Frames whose median is the cost of a single picture (3)",
+            [&o](const auto& text) { o.cost_frames = cli::parse_count("--cost-frames", text, 1, 10000); });
+  cli::add_shadow_options(app, o);
+  cli::add_device_options(app, o);
+  session::add_cache_options(app, o);
+  app.add_flag("--quiet,-q", o.quiet, "No progress and no table")->disable_flag_override();
+}
+
+void check_orbit(const CompareOptions& o) {
+  if (o.orbit && !o.frames) fail_usage("--orbit moves the camera from frame to frame: it needs --frames");
+  if (o.cut_at && !o.orbit) fail_usage("--cut-at has no meaning without --orbit");
+  if (o.cut_at && (*o.cut_at <= o.frames->first || *o.cut_at > o.frames->last))
+    fail_usage("--cut-at {} is not after the first of the frames {}:{}", *o.cut_at, o.frames->first, o.frames->last);
+}
+
+void check_together(const CompareOptions& o) {
+  cli::check_together(static_cast<const cli::SceneOptions&>(o));
+  check_together(static_cast<const session::CacheOptions&>(o));
+  if (o.contenders.empty()) fail_usage("--technique is required: what to compare; see penumbra list techniques");
+  if (o.reference == "truth" && std::ranges::any_of(o.contenders, [](const auto& c) { return c.name == "truth"; }))
+    fail_usage("--technique truth is the reference already; see --reference");
+  if (o.samples && o.reference != "truth") fail_usage("--spp has no meaning for --reference {}", o.reference);
+  if (o.warmup && o.frames) fail_usage("--warmup is for single pictures: of --frames each is measured");
+  check_orbit(o);
+  const long long pixels = 1LL * o.size.width * o.size.height, frames = o.frames ? o.frames->count() : 1;
+  if (frames * pixels > largest_reference / reference_bytes)
+    fail_usage("{} reference pictures of {}x{} are over the limit of 2 GiB: fewer --frames or a smaller --size", frames,
+               o.size.width, o.size.height);
+}
+
+// All contenders are of a technique of their own.
+void check_assignment(const std::string& assignment) {
+  if (assignment.starts_with("technique=")) fail_usage("'{}' has no meaning here: see --technique", assignment);
+}
+
+// And all under the reference's sun.
+void check_own_assignment(const std::string& assignment) {
+  check_assignment(assignment);
+  if (assignment.starts_with("sun."))
+    fail_usage("'{}' would give a technique another sun than the reference's: see --set", assignment);
+}
+
+// Each value by itself: together they are right or wrong only with what presets say.
+void check_values(const CompareOptions& options, const shadow::Registry& registry) {
+  auto own = static_cast<const cli::ShadowOptions&>(options);
+  own.presets.clear();
+  own.assignments.clear();
+  bool traced = options.reference == "truth";
+  for (const Contender& contender : options.contenders) {
+    own.technique = contender.name;
+    ParamSet defaults = cli::resolve_params(own, registry);
+    traced = traced || defaults.get_word("technique") == "truth";
+    defaults.set("cascades.count", 1);  // so that maps of any size are within the limit
+    const auto check = [&defaults](const std::string& assignment) {
+      ParamSet params = defaults;
+      cli::assign(params, assignment);
+    };
+    for (const std::string& assignment : options.assignments) {
+      check_assignment(assignment);
+      check(assignment);
+    }
+    for (const std::string& assignment : contender.assignments) {
+      check_own_assignment(assignment);
+      check(assignment);
+    }
+  }
+  if (options.cache && !traced) fail_usage("--cache has no meaning where nothing is ray traced");
+}
+
+ParamSet params_of(const CompareOptions& options, const Contender& contender, const shadow::Registry& registry) {
+  auto own = static_cast<const cli::ShadowOptions&>(options);
+  own.technique = contender.name;
+  ParamSet params = cli::resolve_params(own, registry);
+  for (const std::string& assignment : contender.assignments) cli::assign(params, assignment);
+  return params;
+}
+
+ParamSet reference_params(const CompareOptions& options, const shadow::Registry& registry) {
+  ParamSet params =
+      params_of(options, {.label = options.reference, .name = options.reference, .assignments = {}}, registry);
+  truth::make_reference(params);
+  if (options.samples) params.set("truth.samples", *options.samples);
+  return params;
+}
+
+}  // namespace
+
+std::vector<Contender> parse_contenders(const std::string& text) {
+  std::vector<Contender> list;
+  for (const std::string& part : io::split(text, ',')) {
+    const std::size_t colon = part.find(':');
+    if (colon == std::string::npos && part.find('=') != std::string::npos) {
+      if (list.empty() || list.back().assignments.empty())
+        fail_usage("--technique: '{}' follows no technique with a ':'", part);
+      list.back().label += "," + part;
+      list.back().assignments.push_back(part);
+      continue;
+    }
+    Contender contender{.label = part, .name = part.substr(0, colon), .assignments = {}};
+    if (contender.name.empty()) fail_usage("--technique: a name is missing in '{}'", text);
+    if (colon != std::string::npos) contender.assignments.push_back(part.substr(colon + 1));
+    list.push_back(std::move(contender));
+  }
+  return list;
+}
+
+bool parse_compare(const cli::Arguments& arguments, CompareOptions& options) {
+  CLI::App app("Compare shadow techniques with the truth: tables and an HTML page", "penumbra compare");
+  add_compare_options(app, options);
+  if (!cli::parse(app, arguments)) return false;
+  check_together(options);
+  check_values(options, session::all_techniques());
+  cli::check_together(static_cast<const cli::DeviceOptions&>(options));  // looks for a folder
+  return true;
+}
+
+ComparedValues values_of(const CompareOptions& options, const shadow::Registry& registry) {
+  ComparedValues values{.reference = reference_params(options, registry), .contenders = {}};
+  for (const Contender& contender : options.contenders)
+    values.contenders.push_back(params_of(options, contender, registry));
+  return values;
+}
+
+}  // namespace penumbra::compare

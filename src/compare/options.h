@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/command_line.h"
+#include "cli/options.h"
+#include "session/cache_options.h"
+
+namespace penumbra::compare {
+
+// One of those that are compared: a technique or an alias, and values of its own.
+struct Contender {
+  std::string label;  // as it was asked for: "pcss:pcss.filter_taps=64"
+  std::string name;
+  std::vector<std::string> assignments;  // "pcss.filter_taps=64"
+};
+
+// What `penumbra compare` was asked for; every value is parsed and in range.
+struct CompareOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions, session::CacheOptions {
+  std::vector<std::string> scenes;
+  std::vector<Contender> contenders;
+  std::string reference = "truth";
+  std::optional<int> samples;  // rays a pixel of the truth
+
+  std::optional<double> orbit;  // degrees a frame
+  std::optional<int> cut_at;    // frame at which the orbit jumps
+  std::optional<int> warmup;    // frames of a picture before the one that counts, for techniques with a history
+  int cost_frames = 3;          // of a single picture
+
+  std::string output;  // a folder
+  bool quiet = false;
+};
+
+// Parses the command line; false: --help was asked for. Throws UsageError for all that is wrong whatever presets and
+// scenes hold, before any of them is looked at.
+bool parse_compare(const cli::Arguments& arguments, CompareOptions& options);
+
+// "a,b:p=1,q=2,c" is a, b with two values of its own, and c. Throws UsageError for what has no name.
+std::vector<Contender> parse_contenders(const std::string& text);
+
+// The values that the reference and the contenders are drawn with. A sampled reference has other points than contenders
+// have, lest errors of both agree. Throws UsageError for the command line's faults and Error for a preset's.
+struct ComparedValues {
+  ParamSet reference;
+  std::vector<ParamSet> contenders;
+};
+ComparedValues values_of(const CompareOptions& options, const shadow::Registry& registry);
+
+}  // namespace penumbra::compare

@@ -1,0 +1,229 @@
+#include "compare/page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <glm/trigonometric.hpp>
+
+#include "bench/machine.h"
+#include "cli/text.h"
+#include "compare/pictures.h"
+#include "report/number.h"
+#include "report/plot.h"
+#include "report/table.h"
+#include "report/text_blocks.h"
+
+namespace penumbra::compare {
+
+namespace {
+
+using report::Best;
+using report::Cell;
+using report::Html;
+
+constexpr double mebibyte = 1024.0 * 1024.0;
+
+std::string reference_name(const Comparison& comparison) {
+  const ParamSet& params = comparison.reference_params;
+  if (params.get_word("technique") != "truth") return params.get_word("technique");
+  return fmt::format("the ray-traced truth, {} rays a pixel", params.get_int("truth.samples"));
+}
+
+std::vector<report::Column> columns_of(bool sequence) {
+  std::vector<report::Column> columns{
+      {"Technique", "", "As --technique names it."},
+      {"Cost", "ms", "Median time of all passes between G-buffer and lighting.", Best::lowest},
+      {"Memory", "MiB", "Shadow maps, masks, history and what else the technique keeps on the GPU.", Best::lowest},
+      {"PSNR penumbra", "dB", "Over receivers whose reference is between 0.02 and 0.98.", Best::highest},
+      {"PSNR all", "dB", "Over all receivers.", Best::highest},
+      {"Bias", "visibility", "Mean signed error: above 0 where the shadow is too bright.", Best::nearest_zero},
+      {"99th percentile", "visibility", "99 of 100 receivers are off by no more.", Best::lowest},
+      {"SSIM", "", "Structural similarity, 1 where nothing differs.", Best::highest},
+      {"FLIP", "", "How different the two look to somebody who flips between them, 0 to 1.", Best::lowest},
+      {"Width error", "%", "How much wider or narrower penumbrae are, on average.", Best::lowest},
+      {"Width lost", "%", "Share of penumbra pixels where the shadow has no edge to measure; in no other width.",
+       Best::lowest}};
+  if (sequence) {
+    columns.push_back({"Flicker", "visibility", "Mean change of the error from frame to frame.", Best::lowest});
+    columns.push_back({"Ghost", "visibility", "Mean error where shadow has just gone.", Best::lowest});
+  }
+  return columns;
+}
+
+Cell cell(double value, int decimals) {
+  return report::cell_of(std::isnan(value) ? std::nullopt : std::optional(value), decimals);
+}
+
+std::vector<Cell> row_of(const ComparedTechnique& technique, bool sequence) {
+  const ComparedFigures& f = technique.figures;
+  std::vector<Cell> row{{technique.label},
+                        cell(technique.cost.median, 1),
+                        cell(static_cast<double>(technique.target_bytes) / mebibyte, 1),
+                        cell(f.psnr_penumbra, 2),
+                        cell(f.psnr, 2),
+                        cell(f.bias, 5),
+                        cell(f.p99, 3),
+                        cell(f.ssim, 4),
+                        cell(f.flip, 4),
+                        cell(100 * f.width_error, 1),
+                        cell(100 * f.width_lost, 1)};
+  if (sequence) {
+    row.push_back(cell(f.sequence ? f.sequence->flicker : NAN, 4));
+    row.push_back(cell(f.sequence ? f.sequence->ghost : NAN, 4));
+  }
+  return row;
+}
+
+Html table_of(const ComparedScene& scene, const Comparison& comparison, bool sequence) {
+  report::Table table{.caption = fmt::format("Measured against {} where the sun can shine: {} of {} pixels{}.",
+                                             reference_name(comparison), scene.receivers, scene.pixels,
+                                             sequence ? " of the last frame" : ""),
+                      .columns = columns_of(sequence),
+                      .rows = {}};
+  for (const ComparedTechnique& technique : scene.techniques) table.rows.push_back(row_of(technique, sequence));
+  return report::to_html(table);
+}
+
+Html plot_of(const ComparedScene& scene) {
+  report::ScatterPlot plot{.title = "Cost of the shadow passes against the error in the penumbra, for each technique",
+                           .x = {"Cost of the shadow passes", "ms", /* log= */ true},
+                           .y = {"RMSE in the penumbra", "visibility", /* log= */ true},
+                           .dots = {}};
+  for (const ComparedTechnique& technique : scene.techniques) {
+    plot.dots.push_back({.label = technique.label,
+                         .tooltip = fmt::format("PSNR {} dB", report::fixed(technique.figures.psnr_penumbra, 2)),
+                         .at = {technique.cost.median, technique.figures.rmse_penumbra}});
+  }
+  return report::to_html(plot);
+}
+
+std::string figures_text(const ComparedTechnique& technique) {
+  return fmt::format("{} ms · PSNR in the penumbra {} dB · bias {}", report::fixed(technique.cost.median, 1),
+                     report::fixed(technique.figures.psnr_penumbra, 2), report::fixed(technique.figures.bias, 5));
+}
+
+Html pictures_of(const ComparedScene& scene, const Comparison& comparison, const cli::Size& size) {
+  const std::string& reference = comparison.reference_params.get_word("technique");
+  const report::Picture display = display_picture(scene.reference, size);
+  const report::Picture visibility = visibility_picture(scene.reference, size);
+  const float scale = error_scale(scene);
+  Html html;
+  for (const ComparedTechnique& technique : scene.techniques) {
+    const std::string& label = technique.label;
+    const auto figure = [](const std::string& name, const char* what, const report::Picture& picture) {
+      return report::Figure{.label = name, .alt = fmt::format("{} drawn by {}", what, name), .picture = picture};
+    };
+    html.add(report::heading(label));
+    html.add(report::note(figures_text(technique)));
+    html.add(report::tiles(
+        {{.title = "Picture",
+          .note = "The last frame, tone mapped.",
+          .body = report::picture_slider(figure(label, "The scene", display_picture(technique.pictures, size)),
+                                         figure(reference, "The scene", display))},
+         {.title = "Visibility of the sun",
+          .note = "White: the whole sun is seen. Figures are of this.",
+          .body = report::picture_slider(
+              figure(label, "The share of the sun that is seen", visibility_picture(technique.pictures, size)),
+              figure(reference, "The share of the sun that is seen", visibility))},
+         {.title = "Error",
+          .note = {},
+          .body = report::error_map({.label = {},
+                                     .alt = fmt::format("Where {} is too bright or too dark", label),
+                                     .picture = error_picture(technique.pictures, size, scale)},
+                                    error_legend(scale))}}));
+  }
+  return html;
+}
+
+std::vector<std::pair<std::string, std::string>> changed_params(const ParamSet& params) {
+  std::vector<std::pair<std::string, std::string>> changed;
+  for (const Param& param : params.rows()) {
+    if (params.is_default(param.name)) continue;
+    const std::string unit = param.unit.empty() ? "" : " " + param.unit;
+    changed.emplace_back(param.name, to_text(params.value(param.name)) + unit);
+  }
+  return changed;
+}
+
+Html params_section(const Comparison& comparison) {
+  Html html = report::note("Values that differ from the defaults; penumbra help NAME explains one.");
+  const auto add = [&html](const std::string& title, const ParamSet& params) {
+    const auto changed = changed_params(params);
+    html.add(report::heading(title));
+    html.add(changed.empty() ? report::note("All defaults.") : report::definition_list(changed));
+  };
+  for (const ComparedTechnique& technique : comparison.scenes.front().techniques)
+    add(technique.label, technique.params);
+  add("Reference: " + reference_name(comparison), comparison.reference_params);
+  return html;
+}
+
+std::string scene_name(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+std::string point_text(const glm::vec3& v) { return fmt::format("{:.6g},{:.6g},{:.6g}", v.x, v.y, v.z); }
+
+// In the words of the options, for it to be drawn again should the file's camera or sun change.
+std::string view_text(const ComparedScene& scene) {
+  const render::Camera& camera = scene.camera;
+  const Angles sun = angles_of(scene.sun.to_light);
+  const std::string lens = camera.orthographic ? fmt::format("orthographic, half height {:g} m", camera.half_height)
+                                               : fmt::format("--fov={:.6g}", glm::degrees(camera.fov_y));
+  return fmt::format("--eye={} --target={} {} --sun={:.6g},{:.6g}", point_text(render::position_of(camera)),
+                     point_text(scene.target), lens, sun.azimuth, sun.elevation);
+}
+
+Html command_section(const Comparison& comparison, const cli::Arguments& arguments) {
+  // For a POSIX shell.
+  Html html = report::code_block(cli::command_text("penumbra compare", arguments));
+  std::vector<std::pair<std::string, std::string>> views;
+  for (const ComparedScene& scene : comparison.scenes)
+    views.emplace_back("View and sun of " + scene_name(scene.path), view_text(scene));
+  return html.add(report::definition_list(views));
+}
+
+std::string frames_text(const CompareOptions& options) {
+  if (!options.frames) return "a single picture";
+  std::string text = fmt::format("{} frames, {:g} a second", options.frames->count(), options.fps);
+  if (options.orbit) text += fmt::format(", orbit of {:g}° a frame with a cut", *options.orbit);
+  return text;
+}
+
+std::string count_of(std::size_t count, const char* one, const char* many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+}  // namespace
+
+report::Page comparison_page(const Comparison& comparison, const CompareOptions& options,
+                             const cli::Arguments& arguments) {
+  std::string names;
+  for (const ComparedScene& scene : comparison.scenes) names += (names.empty() ? "" : ", ") + scene_name(scene.path);
+  report::Page page{
+      .title = "Shadow techniques on " + names,
+      .summary = fmt::format("{} measured against {}.", count_of(options.contenders.size(), "technique", "techniques"),
+                             reference_name(comparison)),
+      .facts = {{"Size", fmt::format("{} × {}", options.size.width, options.size.height)},
+                {"Drawn", frames_text(options)},
+                {"Sun", fmt::format("{:g}° {}", comparison.reference_params.get_float("sun.angle"),
+                                    comparison.reference_params.get_word("sun.shape"))},
+                {"Device", comparison.device.renderer}},
+      .sections = {},
+      .footer = fmt::format("{}, commit {}. Costs hold for this device and run; compare them with each other alone.",
+                            cli::version(), bench::commit())};
+  for (const ComparedScene& scene : comparison.scenes) {
+    Html body = table_of(scene, comparison, options.frames.has_value());
+    body.add(report::heading("Cost against error"));
+    body.add(plot_of(scene));
+    body.add(report::note(
+        "Lower and further left is better. The stair joins the techniques that no other betters in both."));
+    body.add(pictures_of(scene, comparison, options.size));
+    page.sections.push_back({.title = scene_name(scene.path), .body = std::move(body)});
+  }
+  page.sections.push_back({.title = "Command", .body = command_section(comparison, arguments)});
+  page.sections.push_back({.title = "Parameters", .body = params_section(comparison)});
+  return page;
+}
+
+}  // namespace penumbra::compare

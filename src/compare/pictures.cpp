@@ -1,0 +1,88 @@
+#include "compare/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "image/write.h"
+#include "render/aov_picture.h"
+
+namespace penumbra::compare {
+
+namespace {
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+constexpr Rgb no_receiver{72, 75, 82};
+// From too dark to too bright by way of white, with lightness falling alike on both sides (ColorBrewer's RdBu, by
+// Cynthia Brewer).
+constexpr std::array<Rgb, 7> ramp{{{33, 102, 172},
+                                   {103, 169, 207},
+                                   {209, 229, 240},
+                                   {247, 247, 247},
+                                   {253, 219, 199},
+                                   {239, 138, 98},
+                                   {178, 24, 43}}};
+
+// `error` in units of the full scale.
+Rgb colour_of(float error) {
+  if (std::isnan(error)) return no_receiver;
+  const float place = (std::clamp(error, -1.0f, 1.0f) + 1.0f) * 0.5f * static_cast<float>(ramp.size() - 1);
+  const auto index = std::min(static_cast<std::size_t>(place), ramp.size() - 2);
+  const float share = place - static_cast<float>(index);
+  Rgb colour{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float mixed = std::lerp(static_cast<float>(ramp[index][i]), static_cast<float>(ramp[index + 1][i]), share);
+    colour[i] = static_cast<std::uint8_t>(std::lround(mixed));
+  }
+  return colour;
+}
+
+report::Picture encoded(const std::vector<std::uint8_t>& pixels, int channels, const cli::Size& size) {
+  return report::make_picture(image::encode_png(size.width, size.height, channels, pixels), size.width, size.height);
+}
+
+}  // namespace
+
+report::Picture display_picture(const ComparedPictures& pictures, const cli::Size& size) {
+  return encoded(pictures.display, 3, size);
+}
+
+report::Picture visibility_picture(const ComparedPictures& pictures, const cli::Size& size) {
+  const render::Bytes bytes = render::aov_bytes("shadow", 1, pictures.visibility);
+  return encoded(bytes.pixels, bytes.channels, size);
+}
+
+float error_scale(const ComparedScene& scene) {
+  double best = 1;
+  for (const ComparedTechnique& technique : scene.techniques) {
+    // One that is the reference itself says nothing of the others' errors.
+    if (technique.figures.p99 > 0) best = std::min(best, technique.figures.p99);
+  }
+  for (const float scale : {0.05f, 0.1f, 0.2f, 0.5f}) {
+    if (best <= scale) return scale;
+  }
+  return 1.0f;
+}
+
+report::Picture error_picture(const ComparedPictures& pictures, const cli::Size& size, float scale) {
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(pictures.error.size() * 3);
+  for (const float error : pictures.error) {
+    const Rgb colour = colour_of(error / scale);
+    pixels.insert(pixels.end(), colour.begin(), colour.end());
+  }
+  return encoded(pixels, 3, size);
+}
+
+report::Legend error_legend(float scale) {
+  std::vector<std::string> colours;
+  for (const Rgb& colour : ramp) colours.push_back(fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]));
+  return {.title = "Visibility minus the reference's; dark grey: not measured",
+          .colours = std::move(colours),
+          .labels = {fmt::format("−{:g} too dark", scale), "0", fmt::format("+{:g} too bright", scale)}};
+}
+
+}  // namespace penumbra::compare

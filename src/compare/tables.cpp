@@ -1,0 +1,199 @@
+#include "compare/tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "bench/machine.h"
+#include "cli/command_line.h"
+#include "cli/text.h"
+#include "io/text.h"
+
+namespace penumbra::compare {
+
+namespace {
+
+using io::Json;
+
+// A figure by name, as CSV and JSON have it.
+struct NamedFigure {
+  const char* name;
+  double value;
+};
+
+double sequence_value(const ComparedFigures& figures, double metrics::SequenceFigures::*member) {
+  return figures.sequence ? (*figures.sequence).*member : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<NamedFigure> figures_of(const ComparedFigures& f) {
+  return {{"psnr_penumbra_db", f.psnr_penumbra},
+          {"psnr_db", f.psnr},
+          {"rmse_penumbra", f.rmse_penumbra},
+          {"rmse", f.rmse},
+          {"bias", f.bias},
+          {"max", f.max},
+          {"p99", f.p99},
+          {"ssim", f.ssim},
+          {"flip", f.flip},
+          {"penumbra_width_error", f.width_error},
+          {"penumbra_width_lost", f.width_lost},
+          {"flicker", sequence_value(f, &metrics::SequenceFigures::flicker)},
+          {"ghost", sequence_value(f, &metrics::SequenceFigures::ghost)}};
+}
+
+std::vector<NamedFigure> costs_of(const ShadowCost& cost) {
+  return {{"cost_median_ms", cost.median}, {"cost_min_ms", cost.min}, {"cost_max_ms", cost.max}};
+}
+
+std::string csv_number(double value) {
+  if (std::isnan(value)) return "";
+  return std::isinf(value) ? (value > 0 ? "inf" : "-inf") : fmt::format("{:.6g}", value);
+}
+
+// Six digits: more say nothing.
+Json rounded(double value) {
+  return io::json_number(std::isfinite(value) ? std::stod(fmt::format("{:.6g}", value)) : value);
+}
+
+std::string fixed(double value, int decimals) {
+  return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
+}
+
+std::vector<std::string> terminal_row(const ComparedTechnique& technique) {
+  const ComparedFigures& figures = technique.figures;
+  return {cli::printable(technique.label),
+          fixed(technique.cost.median, 1),
+          cli::bytes_text(static_cast<double>(technique.target_bytes)),
+          fixed(figures.psnr_penumbra, 2),
+          std::isnan(figures.bias) ? "-" : fmt::format("{:+.4f}", figures.bias),
+          fixed(figures.flip, 4),
+          fixed(100 * figures.width_error, 1),
+          fixed(100 * figures.width_lost, 1),
+          fixed(sequence_value(figures, &metrics::SequenceFigures::flicker), 4)};
+}
+
+Json changed_params(const ParamSet& params) {
+  Json changed = Json::object();
+  for (const Param& param : params.rows()) {
+    if (!params.is_default(param.name)) changed[param.name] = io::to_json(params.value(param.name));
+  }
+  return changed;
+}
+
+Json recoveries(const ComparedFigures& figures) {
+  Json list = Json::array();
+  if (!figures.sequence) return list;
+  for (const metrics::Recovery& recovery : figures.sequence->recoveries) {
+    list.push_back({{"frame", recovery.frame},
+                    {"recovery_frames", recovery.frames ? Json(*recovery.frames) : Json()},
+                    {"static_error", rounded(recovery.static_error)}});
+  }
+  return list;
+}
+
+Json json_of(const ComparedTechnique& technique) {
+  Json figures = Json::object(), cost = Json::object();
+  for (const NamedFigure& figure : figures_of(technique.figures)) figures[figure.name] = rounded(figure.value);
+  figures["recoveries"] = recoveries(technique.figures);
+  for (const NamedFigure& figure : costs_of(technique.cost)) cost[figure.name] = rounded(figure.value);
+  cost["cost_frames"] = technique.cost.frames;
+  return {{"label", technique.label},
+          {"technique", technique.params.get_word("technique")},
+          {"changed_params", changed_params(technique.params)},
+          {"shadow_bytes", technique.target_bytes},
+          {"figures", figures},
+          {"cost", cost}};
+}
+
+Json json_of(const glm::vec3& v) {
+  Json list = Json::array();
+  for (int i = 0; i < 3; ++i) list.push_back(io::to_json(ParamValue(v[i])));
+  return list;
+}
+
+Json camera_of(const ComparedScene& scene) {
+  const render::Camera& camera = scene.camera;
+  Json json = {{"eye", json_of(render::position_of(camera))}, {"target", json_of(scene.target)}};
+  if (camera.orthographic)
+    json["half_height"] = io::to_json(ParamValue(camera.half_height));
+  else
+    json["fov"] = rounded(glm::degrees(static_cast<double>(camera.fov_y)));
+  return json;
+}
+
+Json sun_of(const render::Sun& sun) {
+  const Angles angles = angles_of(sun.to_light);
+  return {{"to_light", json_of(sun.to_light)},
+          {"azimuth", rounded(angles.azimuth)},
+          {"elevation", rounded(angles.elevation)}};
+}
+
+}  // namespace
+
+std::string terminal_table(const ComparedScene& scene) {
+  std::vector<std::vector<std::string>> rows{
+      {"technique", "cost ms", "memory", "PSNR dB", "bias", "FLIP", "width %", "lost %", "flicker"}};
+  for (const ComparedTechnique& technique : scene.techniques) rows.push_back(terminal_row(technique));
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    text += fmt::format("{:<{}}", row[0], widths[0]);
+    for (std::size_t i = 1; i < row.size(); ++i) text += fmt::format("  {:>{}}", row[i], widths[i]);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string csv_table(const Comparison& comparison) {
+  std::string text = "scene,technique,reference,shadow_bytes";
+  const ComparedTechnique empty;
+  for (const NamedFigure& figure : figures_of(empty.figures)) text += fmt::format(",{}", figure.name);
+  for (const NamedFigure& figure : costs_of(empty.cost)) text += fmt::format(",{}", figure.name);
+  text += "\n";
+  for (const ComparedScene& scene : comparison.scenes) {
+    for (const ComparedTechnique& technique : scene.techniques) {
+      text += fmt::format("{},{},{},{}", io::csv_field(scene.path), io::csv_field(technique.label),
+                          comparison.reference_params.get_word("technique"), technique.target_bytes);
+      for (const NamedFigure& figure : figures_of(technique.figures)) text += "," + csv_number(figure.value);
+      for (const NamedFigure& figure : costs_of(technique.cost)) text += "," + csv_number(figure.value);
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+Json json_of(const Comparison& comparison, const CompareOptions& options, const cli::Arguments& arguments) {
+  Json scenes = Json::array();
+  for (const ComparedScene& scene : comparison.scenes) {
+    Json techniques = Json::array();
+    for (const ComparedTechnique& technique : scene.techniques) techniques.push_back(json_of(technique));
+    scenes.push_back({{"scene", scene.path},
+                      {"camera", camera_of(scene)},
+                      {"sun", sun_of(scene.sun)},
+                      {"pixels", scene.pixels},
+                      {"receivers", scene.receivers},
+                      {"techniques", std::move(techniques)}});
+  }
+  return {{"version", cli::version()},
+          {"commit", bench::commit()},
+          {"command", cli::command_text("penumbra compare", arguments)},
+          {"reference",
+           {{"technique", comparison.reference_params.get_word("technique")},
+            {"changed_params", changed_params(comparison.reference_params)}}},
+          {"width", options.size.width},
+          {"height", options.size.height},
+          {"frames", options.frames ? options.frames->count() : 1},
+          {"backend", comparison.backend},
+          {"device", io::to_json(comparison.device)},
+          {"scenes", std::move(scenes)}};
+}
+
+}  // namespace penumbra::compare

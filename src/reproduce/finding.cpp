@@ -1,0 +1,104 @@
+#include "reproduce/finding.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "report/number.h"
+
+namespace penumbra::reproduce {
+
+namespace {
+
+Quantity limit_of(const Quantity& a, double limit) {
+  return {.name = {}, .value = limit, .unit = a.unit, .decimals = a.decimals};
+}
+
+// As far as the digits that are shown tell: a reader sees why a claim holds.
+double shown(const Quantity& quantity) {
+  const double scale = std::pow(10.0, quantity.decimals);
+  return std::round(quantity.value * scale) / scale;
+}
+
+// "the PSNR of the box filter", or "that of the box filter" beside another PSNR.
+std::string name_beside(const Quantity& other, const Quantity& a) {
+  const std::size_t of = a.name.find(" of ");
+  if (of == std::string::npos || other.name.compare(0, of + 4, a.name, 0, of + 4) != 0) return other.name;
+  return "that" + other.name.substr(of);
+}
+
+}  // namespace
+
+std::string Quantity::text() const {
+  const std::string number = report::fixed(value, decimals);
+  return unit.empty() ? number : number + " " + unit;
+}
+
+void Finding::record(const Quantity& quantity) {
+  const bool known = std::ranges::any_of(quantities_, [&](const Quantity& q) { return q.name == quantity.name; });
+  if (!known) quantities_.push_back(quantity);
+}
+
+void Finding::expect(bool holds, const Quantity& a, const std::string& relation) {
+  record(a);
+  checks_.push_back({holds, fmt::format("{} ({}) is {}{}", a.name, a.text(), holds ? "" : "not ", relation)});
+}
+
+void Finding::expect_below(const Quantity& a, const Quantity& b) {
+  expect(shown(a) < shown(b), a, fmt::format("below {} ({})", name_beside(b, a), b.text()));
+  record(b);
+}
+
+void Finding::expect_above(const Quantity& a, const Quantity& b) {
+  expect(shown(a) > shown(b), a, fmt::format("above {} ({})", name_beside(b, a), b.text()));
+  record(b);
+}
+
+void Finding::expect_above_by(double margin, const Quantity& a, const Quantity& b) {
+  constexpr double rounding = 1e-9;
+  expect(shown(a) - shown(b) >= margin - rounding, a,
+         fmt::format("at least {} above {} ({})", limit_of(a, margin).text(), name_beside(b, a), b.text()));
+  record(b);
+}
+
+void Finding::expect_at_least(const Quantity& a, double limit) {
+  expect(shown(a) >= limit, a, "at least " + limit_of(a, limit).text());
+}
+
+void Finding::expect_near(const Quantity& a, const Quantity& b, double tolerance) {
+  const double difference = std::abs(a.value - b.value);
+  expect(difference <= tolerance, a,
+         fmt::format("within {} of {} ({})", limit_of(a, tolerance).text(), b.name, b.text()));
+  record(b);
+}
+
+std::string Finding::verdict() const {
+  assert(!checks_.empty());
+  const auto held = std::ranges::count_if(checks_, [](const Check& check) { return check.holds; });
+  if (held == 0) return "not confirmed";
+  return held == std::ssize(checks_) ? "confirmed" : "confirmed in part";
+}
+
+std::string Finding::joined(bool holding) const {
+  std::vector<std::string> words;
+  for (const Check& check : checks_) {
+    if (check.holds == holding) words.push_back(check.words);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " and " : ", ";
+    text += words[i];
+  }
+  return text;
+}
+
+std::string Finding::sentence() const {
+  const std::string of = verdict(), held = joined(true), failed = joined(false);
+  if (of == "confirmed") return "Ours confirms the thesis: " + held + ".";
+  if (of == "not confirmed") return "Ours does not confirm the thesis: " + failed + ".";
+  return "Ours confirms the thesis in part: " + held + ", but " + failed + ".";
+}
+
+}  // namespace penumbra::reproduce

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "report/html.h"
+
+namespace penumbra::reproduce {
+
+// Something measured, under a name that is its own within a finding.
+struct Quantity {
+  std::string name;
+  double value = 0;
+  std::string unit;
+  int decimals = 2;
+
+  std::string text() const;  // "31.20 dB"
+};
+
+// What the program found about one figure of the thesis. The verdict and its sentence follow from what was measured:
+// nothing else is written into them.
+class Finding {
+ public:
+  std::string id;     // "4.3"
+  std::string title;  // "Uniform sampling"
+  std::string claim;  // what the thesis says of it, in a sentence
+  std::string test;   // what is measured in place of the eye
+  report::Html body;  // our version
+
+  // Each records the quantities and whether the claim holds in this respect. The sentence then says so.
+  void expect_below(const Quantity& a, const Quantity& b);
+  void expect_above(const Quantity& a, const Quantity& b);
+  void expect_above_by(double margin, const Quantity& a, const Quantity& b);  // at least
+  void expect_at_least(const Quantity& a, double limit);
+  void expect_near(const Quantity& a, const Quantity& b, double tolerance);
+
+  // Records a figure. Of one name the first counts.
+  void record(const Quantity& quantity);
+
+  const std::vector<Quantity>& quantities() const { return quantities_; }
+  // "confirmed", "confirmed in part" or "not confirmed".
+  std::string verdict() const;
+  // One sentence, with the figures that the verdict rests on in brackets.
+  std::string sentence() const;
+
+ private:
+  struct Check {
+    bool holds;
+    std::string words;
+  };
+  void expect(bool holds, const Quantity& a, const std::string& relation);
+  std::string joined(bool holding) const;
+
+  std::vector<Quantity> quantities_;
+  std::vector<Check> checks_;
+};
+
+}  // namespace penumbra::reproduce

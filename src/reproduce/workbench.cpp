@@ -1,0 +1,132 @@
+#include "reproduce/workbench.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "bench/times.h"
+#include "image/read.h"
+#include "metrics/convolve.h"
+#include "metrics/flip.h"
+#include "metrics/penumbra_width.h"
+#include "render/receivers.h"
+
+namespace penumbra::reproduce {
+
+namespace {
+
+constexpr double blur_sigma = 1.5;  // pixels
+
+metrics::Plane blurred(const metrics::Plane& plane) {
+  const metrics::Kernel kernel = metrics::gaussian(blur_sigma, static_cast<int>(std::ceil(3 * blur_sigma)));
+  return metrics::convolve(plane, kernel, kernel, metrics::Border::zero);
+}
+
+}  // namespace
+
+std::string Look::key() const { return fmt::format("{} {}", technique, fmt::join(values, " ")); }
+
+Workbench::Workbench(const Options& options, std::function<void()> drawn)
+    : options_(options),
+      drawn_(std::move(drawn)),
+      truth_({.cache = options.folder(), .threads = options.threads.value_or(0)}),
+      techniques_(truth_.registry()),
+      prepared_(session::load_scene(options, image::image_decoder())),
+      session_(options, session::open_context(options, options), prepared_,
+               {.shaders = gl::ShaderFiles(options.glsl), .techniques = techniques_, .timed = true}),
+      device_(session_.device_info()) {
+  truth_picture_ = picture_of(truth_look());
+  receivers_ = render::receivers_of(session_.renderer(), session_.setup().sun.to_light, sun_angle());
+  pcss_picture_ = picture_of(pcss_look());
+  drawings_.emplace(pcss_look().key(), measured(pcss_picture_));
+}
+
+Look Workbench::truth_look() const { return {"truth", {fmt::format("truth.samples={}", options_.truth_samples())}}; }
+
+Look Workbench::pcss_look() { return {"brute_force", {"sampling.seed=4711"}}; }
+
+double Workbench::sun_angle() const { return static_cast<double>(params_of(pcss_look()).get_float("sun.angle")); }
+
+ParamSet Workbench::params_of(const Look& look) const {
+  cli::ShadowOptions shadow;
+  shadow.technique = look.technique;
+  shadow.assignments = look.values;
+  return cli::resolve_params(shadow, techniques_);
+}
+
+std::vector<float> Workbench::picture_of(const Look& look) {
+  session_.draw(0, params_of(look));
+  drawn_();
+  return session_.renderer().read_aov("shadow");
+}
+
+metrics::Picture Workbench::as_picture(const std::vector<float>& pixels) const {
+  return {.width = width(), .height = height(), .pixels = pixels};
+}
+
+const Drawing& Workbench::draw(const Look& look) {
+  const std::string key = look.key();
+  const auto known = drawings_.find(key);
+  return known != drawings_.end() ? known->second : drawings_.emplace(key, measured(picture_of(look))).first->second;
+}
+
+Drawing Workbench::measured(std::vector<float> visibility) const {
+  Drawing drawing{.visibility = std::move(visibility)};
+  const metrics::Picture test = as_picture(drawing.visibility), pcss = as_picture(pcss_picture_);
+  drawing.to_pcss = metrics::error_figures(test, pcss, receivers_);
+  drawing.to_truth = metrics::error_figures(test, as_picture(truth_picture_), receivers_);
+  drawing.psnr_pcss = drawing.to_pcss.psnr_penumbra;
+  drawing.psnr_truth = drawing.to_truth.psnr_penumbra;
+  drawing.psnr_blurred = psnr_blurred(drawing.visibility);
+  drawing.flip = metrics::flip(test, pcss, receivers_).mean;
+  drawing.width_bias = metrics::penumbra_width(test, pcss, receivers_).relative_bias;
+  return drawing;
+}
+
+double Workbench::psnr_blurred(const std::vector<float>& visibility) const {
+  metrics::Plane errors(width(), height()), weights(width(), height());
+  for (std::size_t i = 0; i < visibility.size(); ++i) {
+    if (receivers_[i] == 0) continue;
+    errors.pixels[i] = metrics::signed_error(visibility[i], pcss_picture_[i]);
+    weights.pixels[i] = 1;
+  }
+  const metrics::Plane sums = blurred(errors), shares = blurred(weights);
+  double squared = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < visibility.size(); ++i) {
+    const float reference = pcss_picture_[i];
+    if (receivers_[i] == 0 || reference < metrics::penumbra_low || reference > metrics::penumbra_high) continue;
+    const double error = sums.pixels[i] / shares.pixels[i];
+    squared += error * error;
+    ++count;
+  }
+  return metrics::psnr_of(squared / static_cast<double>(count));
+}
+
+metrics::ErrorFigures Workbench::errors_at(const Drawing& drawing, const std::vector<std::uint8_t>& mask) const {
+  std::vector<std::uint8_t> both(mask.size());
+  for (std::size_t i = 0; i < both.size(); ++i) both[i] = mask[i] != 0 && receivers_[i] != 0 ? 1 : 0;
+  return metrics::error_figures(as_picture(drawing.visibility), as_picture(pcss_picture_), both);
+}
+
+std::vector<double> Workbench::costs(const std::vector<Look>& looks) {
+  std::vector<bench::PassTimes> times(looks.size());
+  for (const Look& look : looks) session_.draw(0, params_of(look));  // compiles
+  for (int frame = 0; frame < options_.cost_frames(); ++frame) {
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+      session_.draw(0, params_of(looks[i]));
+      times[i].append(session_.device().timers.rows(), 1);
+    }
+  }
+  std::vector<double> medians;
+  for (const bench::PassTimes& one : times) medians.push_back(bench::summary_of(one.shadow_sums()).median);
+  return medians;
+}
+
+std::vector<std::uint8_t> Workbench::display(const Look& look) {
+  session_.draw(0, params_of(look));
+  return session_.renderer().read_display();
+}
+
+}  // namespace penumbra::reproduce

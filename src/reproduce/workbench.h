@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cli/options.h"
+#include "gl/context.h"
+#include "metrics/error_figures.h"
+#include "session/cache_options.h"
+#include "session/prepared_scene.h"
+#include "session/render_session.h"
+#include "truth/technique.h"
+
+namespace penumbra::reproduce {
+
+// What `penumbra reproduce` was asked for; every value is parsed and in range.
+struct Options : cli::SceneOptions, cli::DeviceOptions, session::CacheOptions {
+  std::string output;  // a folder
+  bool quick = false, quiet = false;
+
+  int truth_samples() const { return quick ? 64 : 256; }
+  // Frames that a cost is the median of.
+  int cost_frames() const { return quick ? 3 : 5; }
+};
+
+// How something is drawn: a technique or an alias, and values ("pcss.filter_taps=8") that differ from its own.
+struct Look {
+  std::string technique = "pcss";
+  std::vector<std::string> values;
+
+  std::string key() const;
+};
+
+// A visibility picture against both references, over the receivers.
+struct Drawing {
+  std::vector<float> visibility;
+  double psnr_pcss = 0, psnr_truth = 0;  // in the penumbra, dB
+  // The same against converged PCSS where errors are blurred first: what is left for an eye, or a denoiser, that takes
+  // the mean over neighbours. Grain falls away, bands and blotches stay.
+  double psnr_blurred = 0;
+  double flip = 0;        // against converged PCSS
+  double width_bias = 0;  // of penumbra widths, against converged PCSS; a share of the width
+  metrics::ErrorFigures to_pcss, to_truth;
+};
+
+// The scene, and all that is drawn of it in a run: each thing once.
+class Workbench {
+ public:
+  // `drawn` is called after each picture. Opens a context, which stays current. Throws Error.
+  Workbench(const Options& options, std::function<void()> drawn);
+
+  // Valid as long as the workbench.
+  const Drawing& draw(const Look& look);
+  // Median of the passes between G-buffer and lighting, ms. Each look is drawn anew, in turn, so that a machine that
+  // slows down meanwhile slows all of them.
+  std::vector<double> costs(const std::vector<Look>& looks);
+  // RGB, 8 bits.
+  std::vector<std::uint8_t> display(const Look& look);
+  // A picture's errors within some of the receivers, against converged PCSS.
+  metrics::ErrorFigures errors_at(const Drawing& drawing, const std::vector<std::uint8_t>& mask) const;
+
+  const std::vector<float>& truth() const { return truth_picture_; }
+  const std::vector<float>& pcss() const { return pcss_picture_; }
+  const std::vector<std::uint8_t>& receivers() const { return receivers_; }
+  int width() const { return options_.size.width; }
+  int height() const { return options_.size.height; }
+  const Options& options() const { return options_; }
+  const gl::DeviceInfo& device() const { return device_; }
+  double sun_angle() const;  // full angle, degrees
+
+  Look truth_look() const;
+  // Its noise lies elsewhere than that of what is measured against it, lest errors of both agree.
+  static Look pcss_look();
+
+ private:
+  ParamSet params_of(const Look& look) const;
+  std::vector<float> picture_of(const Look& look);
+  Drawing measured(std::vector<float> visibility) const;
+  metrics::Picture as_picture(const std::vector<float>& pixels) const;
+  double psnr_blurred(const std::vector<float>& visibility) const;
+
+  const Options& options_;
+  std::function<void()> drawn_;
+  truth::TruthTechnique truth_;
+  shadow::Registry techniques_;
+  session::PreparedScene prepared_;
+  session::RenderSession session_;
+  gl::DeviceInfo device_;
+  std::vector<float> truth_picture_, pcss_picture_;
+  std::vector<std::uint8_t> receivers_;
+  std::map<std::string, Drawing> drawings_;
+};
+
+}  // namespace penumbra::reproduce

@@ -1,0 +1,26 @@
+#include "session/cache_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "cli/options.h"
+#include "truth/cache.h"
+
+namespace penumbra::session {
+
+std::filesystem::path CacheOptions::folder() const {
+  if (no_cache) return {};
+  return cache ? std::filesystem::path(*cache) : truth::default_cache_folder();
+}
+
+void add_cache_options(CLI::App& app, CacheOptions& options) {
+  cli::add_value(app, "--cache", "DIR", "Where ray-traced shadows are kept ($XDG_CACHE_HOME/penumbra/truth)",
+                 [&options](const auto& text) { options.cache = text; });
+  app.add_flag("--no-cache", options.no_cache, "Ray traced shadows are neither looked up nor kept")
+      ->disable_flag_override();
+}
+
+void check_together(const CacheOptions& options) {
+  if (options.cache && options.no_cache) cli::fail_usage("--cache and --no-cache exclude each other");
+}
+
+}  // namespace penumbra::session

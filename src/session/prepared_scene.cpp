@@ -1,0 +1,67 @@
+#include "session/prepared_scene.h"
+
+#include <algorithm>
+#include <glm/trigonometric.hpp>
+#include <utility>
+
+#include "scene/gltf.h"
+#include "scene/pose.h"
+
+namespace penumbra::session {
+
+namespace {
+
+void place_camera(render::Setup& setup, const cli::SceneOptions& options, const scene::Bounds& bounds) {
+  render::Camera& camera = setup.camera;
+  const float fov = options.fov ? glm::radians(static_cast<float>(*options.fov)) : camera.fov_y;
+  if (options.eye) {
+    camera = render::look_at(*options.eye, *options.target, fov, render::near_plane_for(bounds, *options.eye));
+    setup.camera_node.reset();
+  } else if (options.fov) {
+    if (camera.orthographic) fail("--fov: the camera is orthographic");
+    camera.fov_y = fov;
+  }
+}
+
+void choose(PreparedScene& prepared, const cli::SceneOptions& options, render::GroundChoice ground) {
+  const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
+  prepared.setup = render::choose_setup(
+      prepared.scene, scene::pose_at(prepared.scene, options.time),
+      {.camera = options.camera.value_or(""), .ground = ground, .aspect = aspect, .bounds = prepared.bounds});
+  place_camera(prepared.setup, options, prepared.bounds);
+  if (options.sun) {
+    prepared.setup.sun.to_light = render::direction_to(options.sun->azimuth, options.sun->elevation);
+    prepared.setup.sun_node.reset();
+  }
+}
+
+}  // namespace
+
+void update_view(PreparedScene& prepared, const cli::SceneOptions& options) {
+  choose(prepared, options, prepared.setup.ground ? render::GroundChoice::on : render::GroundChoice::off);
+}
+
+PreparedScene prepare_scene(scene::Scene scene, const cli::SceneOptions& options) {
+  PreparedScene prepared{.scene = std::move(scene), .bounds = {}, .setup = {}};
+  prepared.bounds = scene::bounds_of(prepared.scene, scene::pose_at(prepared.scene, options.time));
+  choose(prepared, options, options.ground);
+  if (prepared.setup.ground) render::add_ground(prepared.scene, prepared.bounds);
+  return prepared;
+}
+
+PreparedScene load_scene(const cli::SceneOptions& options, const scene::ImageDecoder& decode) {
+  return prepare_scene(scene::read_gltf(options.scene, decode), options);
+}
+
+render::Setup setup_at(const PreparedScene& prepared, double seconds) {
+  render::Setup setup = prepared.setup;
+  const bool attached = setup.camera_node || setup.sun_node;
+  if (attached && !prepared.scene.animations.empty()) render::follow(setup, scene::pose_at(prepared.scene, seconds));
+  return setup;
+}
+
+double time_of(const cli::SceneOptions& options, int frame) {
+  return options.time + (options.frames ? std::max(frame, 0) / options.fps : 0.0);
+}
+
+}  // namespace penumbra::session

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "cli/options.h"
+#include "render/setup.h"
+#include "scene/gltf.h"
+#include "scene/scene.h"
+
+namespace penumbra::session {
+
+// A scene ready to be drawn: with its ground, and with the camera and the sun that the options and the file choose.
+struct PreparedScene {
+  scene::Scene scene;
+  scene::Bounds bounds;  // at --time, without the ground
+  render::Setup setup;   // at --time
+};
+
+// Sets a scene up. What is chosen from its bounds is chosen at --time, so that it is the same in all frames of a
+// sequence, wherever one starts. Throws Error.
+PreparedScene prepare_scene(scene::Scene scene, const cli::SceneOptions& options);
+
+// Reads the scene and sets it up. Throws Error.
+PreparedScene load_scene(const cli::SceneOptions& options, const scene::ImageDecoder& decode);
+
+// Chooses camera and sun anew for options that changed. Scene and ground stay. Throws Error.
+void update_view(PreparedScene& prepared, const cli::SceneOptions& options);
+
+// The setup at a moment: a camera and a sun of the file follow its animation.
+render::Setup setup_at(const PreparedScene& prepared, double seconds);
+
+// When a frame is, seconds: frames count from 0 at --time; a single picture is frame 0.
+double time_of(const cli::SceneOptions& options, int frame);
+
+}  // namespace penumbra::session

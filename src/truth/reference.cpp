@@ -1,0 +1,14 @@
+#include "truth/reference.h"
+
+namespace penumbra::truth {
+
+bool is_reference(std::string_view technique) { return technique == "truth" || technique == "brute_force"; }
+
+void make_reference(ParamSet& params) {
+  constexpr int seeds = 65536, shift = seeds / 2;  // of sampling.seed
+  for (const char* name : {"history.reuse", "filter.penumbra", "filter.visibility"}) params.reset(name);
+  if (params.get_word("technique") != "truth")
+    params.set("sampling.seed", (params.get_int("sampling.seed") + shift) % seeds);
+}
+
+}  // namespace penumbra::truth

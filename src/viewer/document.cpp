@@ -1,0 +1,128 @@
+#include "viewer/document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
+namespace penumbra::viewer {
+
+namespace {
+
+// The fewest digits that read back the same.
+std::string text_of(const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
+
+// The fewest decimals of degrees that read back the same radians.
+std::string degrees_text(float radians) {
+  for (int decimals = 0;; ++decimals) {
+    const double scale = std::pow(10.0, decimals);
+    const double degrees = std::round(glm::degrees(static_cast<double>(radians)) * scale) / scale;
+    if (decimals == 12 || static_cast<float>(glm::radians(degrees)) == radians) return fmt::format("{}", degrees);
+  }
+}
+
+// One argument, so that a value may begin with a minus sign.
+void add(std::vector<std::string>& arguments, const std::string& option, const std::string& value) {
+  arguments.push_back(option + "=" + value);
+}
+
+void add_frames(std::vector<std::string>& arguments, const cli::FrameRange& range, double fps) {
+  if (range.last == 0) return;
+  add(arguments, "--frames", fmt::format("{}:{}", range.first, range.last));
+  if (fps != cli::SceneOptions{}.fps) add(arguments, "--fps", fmt::format("{}", fps));
+}
+
+void add_params(std::vector<std::string>& arguments, const ParamSet& params) {
+  if (!params.is_default("technique")) add(arguments, "--technique", params.get_word("technique"));
+  for (const Param& row : params.rows()) {
+    if (row.name == "technique" || params.is_default(row.name)) continue;
+    add(arguments, "--set", row.name + "=" + to_text(params.value(row.name)));
+  }
+}
+
+}  // namespace
+
+void Document::step(int frames) { frame = std::max(frame + frames, 0) % (last_frame + 1); }
+
+int warmup_of(const Document& document) {
+  constexpr int settled = 31;
+  const bool remembers = document.params.get_bool("history.reuse") && document.params.get_word("technique") != "truth";
+  return remembers ? settled : 0;
+}
+
+std::vector<std::string> camera_arguments(const cli::SceneOptions& options) {
+  std::vector<std::string> arguments;
+  if (options.camera) add(arguments, "--camera", *options.camera);
+  if (options.eye) {
+    add(arguments, "--eye", text_of(*options.eye));
+    add(arguments, "--target", text_of(*options.target));
+  }
+  if (options.fov) add(arguments, "--fov", fmt::format("{}", *options.fov));
+  return arguments;
+}
+
+std::vector<std::string> scene_arguments(const cli::SceneOptions& options) {
+  // A name that begins like an option is none.
+  std::vector<std::string> arguments{options.scene.starts_with('-') ? "./" + options.scene : options.scene};
+  add(arguments, "--size", fmt::format("{}x{}", options.size.width, options.size.height));
+  for (std::string& argument : camera_arguments(options)) arguments.push_back(std::move(argument));
+  if (options.sun) {
+    add(arguments, "--sun",
+        fmt::format("{},{}", degrees_text(options.sun->azimuth), degrees_text(options.sun->elevation)));
+  }
+  if (options.ground == render::GroundChoice::on) add(arguments, "--ground", "on");
+  if (options.ground == render::GroundChoice::off) add(arguments, "--ground", "off");
+  if (options.time != 0) add(arguments, "--time", fmt::format("{}", options.time));
+  return arguments;
+}
+
+std::vector<std::string> render_arguments(const Document& document, const std::string& output, int warmup,
+                                          const std::string& glsl, std::optional<cli::FrameRange> range) {
+  std::vector<std::string> arguments{"render"};
+  for (std::string& argument : scene_arguments(document.options)) arguments.push_back(std::move(argument));
+  arguments.insert(arguments.end(), {"-o", output});
+  add_frames(arguments, range.value_or(cli::FrameRange{document.frame, document.frame}), document.options.fps);
+  add_params(arguments, document.params);
+  if (warmup > 0) add(arguments, "--warmup", std::to_string(warmup));
+  // The picture at rest is of one moment; a sequence comes to its first frame.
+  if (warmup > 0 && !range && document.frame > 0) arguments.emplace_back("--warmup-still");
+  if (!glsl.empty()) add(arguments, "--glsl", glsl);
+  return arguments;
+}
+
+CameraRig present_rig(const Document& document, const session::PreparedScene& prepared) {
+  CameraRig rig = rig_of(session::setup_at(prepared, document.seconds()).camera, prepared.bounds);
+  if (document.options.eye) {
+    rig.eye = *document.options.eye;
+    rig.target = *document.options.target;
+    rig.orbit(0, 0);  // off the poles
+  }
+  return rig;
+}
+
+cli::Direction present_sun(const Document& document, const session::PreparedScene& prepared) {
+  if (document.options.sun) return *document.options.sun;
+  const glm::vec3 to_light = session::setup_at(prepared, document.seconds()).sun.to_light;
+  return {.azimuth = std::atan2(to_light.x, to_light.z), .elevation = std::asin(std::clamp(to_light.y, -1.0f, 1.0f))};
+}
+
+void place(Document& document, const session::PreparedScene& prepared, const CameraRig& rig) {
+  cli::SceneOptions& options = document.options;
+  // Without a sun of its own, the file's or one that was set, a scene's follows the camera that was chosen first.
+  if (options.camera && !options.sun && !prepared.setup.sun_node) place_sun(document, prepared.setup.sun.to_light);
+  options.camera.reset();
+  options.eye = rig.eye;
+  options.target = rig.target;
+  options.fov = std::clamp(std::round(glm::degrees(static_cast<double>(rig.fov_y)) * 1e4) / 1e4, 1.0, 179.0);
+}
+
+void place_sun(Document& document, const glm::vec3& to_light) {
+  // In degrees, as --sun takes them: what is shown is what the option says.
+  const auto rounded = [](double radians) { return glm::radians(std::round(glm::degrees(radians) * 1e3) / 1e3); };
+  document.options.sun =
+      cli::Direction{.azimuth = static_cast<float>(rounded(std::atan2(to_light.x, to_light.z))),
+                     .elevation = static_cast<float>(rounded(std::asin(std::clamp(to_light.y, -1.0f, 1.0f))))};
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,61 @@
+#include <imgui.h>
+
+#include <utility>
+
+#include "viewer/panels.h"
+
+namespace penumbra::viewer {
+
+namespace {
+
+constexpr const char* title = "open a file";
+
+void look_into(FileList& files, const std::filesystem::path& folder) {
+  if (!folder.empty()) files = list_folder(folder);
+}
+
+// The folder that was clicked on, if any: the list is made anew after it was drawn.
+std::filesystem::path list(const Panel& panel, const FileList& files) {
+  std::filesystem::path wanted;
+  ImGui::BeginChild("files", {0, -ImGui::GetFrameHeightWithSpacing()}, /* border= */ true);
+  for (const FileList::Entry& entry : files.entries) {
+    const std::string label = entry.is_folder ? entry.name + "/" : entry.name;
+    const bool chosen = choice(label, false, ImGuiSelectableFlags_DontClosePopups);
+    panel.widgets.mark("open=" + label);
+    if (!chosen) continue;
+    const std::filesystem::path path = files.folder / entry.name;
+    if (entry.is_folder) {
+      wanted = path;
+    } else {
+      (is_preset(path) ? panel.state.requests.open_preset : panel.state.requests.open) = path.string();
+      ImGui::CloseCurrentPopup();
+    }
+  }
+  ImGui::EndChild();
+  return wanted;
+}
+
+}  // namespace
+
+void file_browser(const Panel& panel) {
+  FileList& files = panel.state.files;
+  if (std::exchange(files.wanted, false)) {
+    look_into(files, folder_of(panel.state.scene_file));
+    ImGui::OpenPopup(title);
+  }
+  const ImVec2 whole = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({whole.x / 2, whole.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({whole.x * 0.6f, whole.y * 0.7f});
+  if (!ImGui::BeginPopup(title, ImGuiWindowFlags_NoMove)) return;
+  const std::string folder = files.folder.string();
+  const bool up = ImGui::Button("Up");
+  panel.widgets.mark("open up");
+  ImGui::SameLine();
+  ImGui::TextUnformatted(folder.c_str());
+  const std::filesystem::path wanted = list(panel, files);
+  ImGui::TextDisabled("%s", files.note.empty() ? "scenes (.gltf, .glb) and presets (.toml)" : files.note.c_str());
+  ImGui::EndPopup();
+  look_into(files, up ? files.folder.parent_path() : wanted);
+}
+
+}  // namespace penumbra::viewer

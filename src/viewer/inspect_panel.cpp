@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "cli/text.h"
+#include "viewer/panels.h"
+#include "viewer/targets.h"
+
+namespace penumbra::viewer {
+
+namespace {
+
+void choose(const Panel& panel, const std::string& what, const std::string& label, const std::string& help) {
+  Inspection& inspection = panel.state.inspection;
+  ImGui::PushID(what.c_str());  // a texture may be called as an AOV is
+  if (ImGui::Selectable(label.c_str(), inspection.what == what)) inspection = Inspection{.what = what};
+  ImGui::PopID();
+  panel.widgets.mark("show=" + (what.empty() ? "picture" : what));
+  if (!help.empty()) tooltip(help);
+}
+
+void list(const Panel& panel) {
+  ImGui::BeginChild("list", {0, ImGui::GetContentRegionAvail().y * 0.42f}, /* border= */ true);
+  choose(panel, "", "picture", "What a camera would see.");
+  for (const render::Aov& aov : render::aovs()) choose(panel, aov.name, aov.name, aov.help);
+  ImGui::Separator();
+  ImGui::TextDisabled("textures that passes draw to");
+  for (const gl::Device::NamedTarget& target : panel.facts.gl.targets()) {
+    if (target.name.starts_with("viewer/") || target.name.find("/view 1/") != std::string_view::npos) continue;
+    const gl::TextureDesc& desc = target.texture->desc();
+    const std::string about = about_target(target.name);
+    const std::string layers = desc.layers > 1 ? fmt::format(", {} layers", desc.layers) : "";
+    const std::string levels = desc.levels > 1 ? fmt::format(", {} levels", desc.levels) : "";
+    choose(panel, "target " + std::string(target.name), target_label(target.name),
+           fmt::format("{}{}{} × {}{}{}, {}", about, about.empty() ? "" : "\n", desc.width, desc.height, layers, levels,
+                       cli::bytes_text(static_cast<double>(target.texture->bytes()))));
+  }
+  ImGui::EndChild();
+  panel.widgets.mark("shown list");
+}
+
+// Of a target with several.
+void choose_part(const Panel& panel) {
+  Inspection& inspection = panel.state.inspection;
+  const std::optional<gl::Device::NamedTarget> target = inspected_target(inspection, panel.facts.gl);
+  if (!target) return;
+  const std::vector<TargetPart> parts = parts_of(*target);
+  if (parts.size() > 1) {
+    row("part", "Of what a texel says.");
+    const std::size_t current = part_index(parts, inspection);
+    const bool open = ImGui::BeginCombo("##part", parts[current].name.c_str());
+    panel.widgets.mark("part");
+    if (open) {
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (ImGui::Selectable(parts[i].name.c_str(), i == current)) inspection.part = static_cast<int>(i);
+        panel.widgets.mark("part=" + parts[i].name);
+      }
+      ImGui::EndCombo();
+    }
+  }
+  const gl::TextureDesc& desc = target->texture->desc();
+  if (desc.layers > 1) {
+    row("layer", "Of the texture array.");
+    ImGui::SliderInt("##layer", &inspection.layer, 0, desc.layers - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
+    panel.widgets.mark("layer");
+  }
+  if (desc.levels > 1) {
+    row("level", "Of the pyramid, 0 the finest.");
+    ImGui::SliderInt("##level", &inspection.level, 0, desc.levels - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
+    panel.widgets.mark("level");
+  }
+}
+
+void range(const Panel& panel) {
+  Inspection& inspection = panel.state.inspection;
+  begin_rows("range");
+  choose_part(panel);
+  if (panel.facts.look.scale == ColorScale::labels) {
+    end_rows();
+    return;
+  }
+  row("automatic range", "The range of colours is that of the values.");
+  if (ImGui::Checkbox("##automatic", &inspection.automatic)) {
+    inspection.low = panel.facts.values.low;
+    inspection.high = panel.facts.values.high;
+  }
+  panel.widgets.mark("automatic range");
+  if (!inspection.automatic) {
+    const float span = std::max(panel.facts.values.high - panel.facts.values.low, 1e-4f);
+    row("from", "The value with the first colour.");
+    ImGui::DragFloat("##low", &inspection.low, span * 0.005f, 0, 0, "%.4g");
+    panel.widgets.mark("range low");
+    row("to", "The value with the last colour.");
+    ImGui::DragFloat("##high", &inspection.high, span * 0.005f, 0, 0, "%.4g");
+    panel.widgets.mark("range high");
+  }
+  end_rows();
+}
+
+void probe(const Panel& panel) {
+  ImGui::Checkbox("Values under the cursor", &panel.state.probe);
+  panel.widgets.mark("probe");
+  if (!panel.state.probe) return;
+  if (!panel.facts.probed) {
+    ImGui::TextDisabled("Point at the picture.");
+    return;
+  }
+  ImGui::Text("pixel %d, %d%s", panel.facts.probed->x, panel.facts.probed->y, panel.state.comparison.on ? " of A" : "");
+  ImGui::BeginTable("probe", 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg);
+  for (const ProbeRow& each : panel.facts.probe) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", each.name.c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(each.value.c_str());
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+void inspect_panel(const Panel& panel) {
+  list(panel);
+  if (!panel.state.inspection.what.empty()) range(panel);
+  ImGui::Separator();
+  ImGui::BeginChild("values");
+  probe(panel);
+  ImGui::EndChild();
+}
+
+}  // namespace penumbra::viewer

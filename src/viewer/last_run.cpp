@@ -1,0 +1,42 @@
+// What the viewer takes up of its last run, and keeps for the next.
+#include "core/log.h"
+#include "viewer/panels.h"
+#include "viewer/viewer.h"
+
+namespace penumbra::viewer {
+
+namespace {
+
+// Values that the command line leaves open are those of the last run.
+bool says_nothing_of_shadows(const cli::ShadowOptions& options) {
+  return options.technique.empty() && options.presets.empty() && options.assignments.empty() &&
+         options.sun_angle.empty() && options.exposure.empty();
+}
+
+}  // namespace
+
+void Viewer::take_settings() {
+  if (!fault_.empty()) tell_error(state_, fault_ + "; the defaults are taken", 0);
+  state_.recent = settings_.recent;
+  state_.panel = settings_.panel;
+  state_.vsync = settings_.vsync;
+  state_.tab = settings_.tab;
+  if (!settings_.params.rows().empty() && says_nothing_of_shadows(options_)) state_.document.params = settings_.params;
+}
+
+void Viewer::keep_settings() {
+  // A file that could not be read may be mended by hand, or be a later version's.
+  if (options_.defaults || !fault_.empty()) return;
+  try {
+    write_settings({.recent = state_.recent,
+                    .window = window_.size(),
+                    .panel = state_.panel,
+                    .vsync = state_.vsync,
+                    .tab = state_.open_tab.empty() ? state_.tab : state_.open_tab,
+                    .params = state_.document.params});
+  } catch (const Error& error) {
+    warn("{}", error.what());
+  }
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <imgui.h>
+
+#include "viewer/facts.h"
+#include "viewer/state.h"
+#include "viewer/widgets.h"
+
+namespace penumbra::viewer {
+
+// What a panel draws with.
+struct Panel {
+  State& state;
+  const Facts& facts;
+  WidgetMap& widgets;
+};
+
+// The tabs of the side panel, each a file of its name.
+void shadow_panel(const Panel& panel);   // technique, parameters, presets
+void scene_panel(const Panel& panel);    // file, camera, sun, time
+void inspect_panel(const Panel& panel);  // what is shown, its legend, the values under the cursor
+void compare_panel(const Panel& panel);  // picture B
+void cost_panel(const Panel& panel);     // passes, memory, the machine
+void files_panel(const Panel& panel);    // pictures, sequences, the command line
+
+// Within the scene's panel, over the window: a file to open from a folder's list, once State::files asks for it.
+void file_browser(const Panel& panel);
+
+// Over the picture; corners of the picture in pixels of the window.
+void help_overlay(const Panel& panel);
+void messages_overlay(const Panel& panel, const ImVec2& lower_left, double now);
+void shader_errors_overlay(const Panel& panel, const ImVec2& upper_left);
+void legend_overlay(const Panel& panel, const ImVec2& upper_right);
+// At the window's lower edge.
+void status_bar(const Panel& panel);
+
+// A message of so many seconds; errors stay longer.
+void tell(State& state, const std::string& text, double now);
+void tell_error(State& state, const std::string& text, double now);
+
+}  // namespace penumbra::viewer

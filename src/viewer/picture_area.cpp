@@ -1,0 +1,202 @@
+#include "viewer/picture_area.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace penumbra::viewer {
+
+namespace {
+
+constexpr float turn_per_pixel = 0.006f;  // radians
+constexpr float light_per_pixel = 0.004f;
+constexpr float dolly_per_notch = 0.88f;
+constexpr float grip = 6;  // pixels about the line between A and B
+
+void move(const Panel& panel, const CameraRig& rig) { place(panel.state.document, panel.facts.scene->prepared, rig); }
+
+void drag_camera(const Panel& panel, const glm::vec2& by, const PictureArea& area) {
+  CameraRig rig = present_rig(panel.state.document, panel.facts.scene->prepared);
+  const bool pan = ImGui::IsMouseDown(ImGuiMouseButton_Middle) || ImGui::GetIO().KeyShift;
+  if (pan) {
+    rig.pan(glm::vec2(-by.x, by.y) / area.size.y);
+  } else if (panel.state.fly) {
+    rig.look(-by.x * turn_per_pixel, -by.y * turn_per_pixel);
+  } else {
+    rig.orbit(-by.x * turn_per_pixel, by.y * turn_per_pixel);
+  }
+  move(panel, rig);
+}
+
+void drag_sun(const Panel& panel, const glm::vec2& by) {
+  const cli::Direction sun = present_sun(panel.state.document, panel.facts.scene->prepared);
+  const glm::vec3 to_light = render::direction_to(sun.azimuth, sun.elevation);
+  place_sun(panel.state.document, turned_light(to_light, by.x * light_per_pixel, -by.y * light_per_pixel));
+}
+
+// The picture's point under the cursor stays there.
+void magnify(Zoom& zoom, float notches, const PictureArea& area, bool halves) {
+  const float before = zoom.factor;
+  glm::vec2 middle = area.size * 0.5f;
+  if (halves) middle.x *= area.cursor->x >= middle.x ? 1.5f : 0.5f;
+  zoom.factor = std::clamp(std::exp2(std::round(std::log2(before) + notches)), 0.25f, 32.0f);
+  const glm::vec2 from_middle = (*area.cursor - middle) / area.size;
+  zoom.center = glm::clamp(zoom.center + from_middle / before - from_middle / zoom.factor, 0.0f, 1.0f);
+  if (zoom.factor <= 1) zoom.center = glm::vec2(0.5f);
+}
+
+void take_wheel(const Panel& panel, const PictureArea& area) {
+  const float notches = ImGui::GetIO().MouseWheel;
+  if (notches == 0 || !area.cursor) return;
+  if (ImGui::GetIO().KeyCtrl) {
+    const Comparison& comparison = panel.state.comparison;
+    const bool halves = comparison.on && comparison.how == Comparing::side_by_side;
+    magnify(panel.state.zoom, notches > 0 ? 1.0f : -1.0f, area, halves);
+  } else if (panel.facts.scene != nullptr) {
+    CameraRig rig = present_rig(panel.state.document, panel.facts.scene->prepared);
+    rig.dolly(std::pow(dolly_per_notch, notches));
+    move(panel, rig);
+  }
+}
+
+// True while the line has the mouse.
+bool drag_line(const Panel& panel, const PictureArea& area, bool active) {
+  Comparison& comparison = panel.state.comparison;
+  if (!comparison.on || comparison.how != Comparing::wipe) return false;
+  const float line = area.corner.x + comparison.wipe * area.size.x;
+  bool& dragging = panel.state.dragging_line;
+  const float cursor = ImGui::GetIO().MousePos.x;
+  const bool near_line = area.cursor && std::abs(cursor - line) <= grip;
+  if (near_line || dragging) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (ImGui::IsItemClicked() && near_line) dragging = true;
+  if (!active || !ImGui::IsMouseDown(ImGuiMouseButton_Left)) dragging = false;
+  if (dragging) comparison.wipe = std::clamp((cursor - area.corner.x) / area.size.x, 0.0f, 1.0f);
+  return dragging;
+}
+
+// On a plate of its own, for light floors and dark ones.
+void letter(const glm::vec2& at, const char* text) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  const float gap = ImGui::GetStyle().FramePadding.y;
+  list.AddRectFilled({at.x - gap, at.y - gap}, {at.x + size.x + gap, at.y + size.y + gap}, IM_COL32(20, 20, 20, 190),
+                     gap);
+  list.AddText({at.x, at.y}, IM_COL32(255, 255, 255, 255), text);
+}
+
+void draw_line(const Panel& panel, const PictureArea& area) {
+  const Comparison& comparison = panel.state.comparison;
+  if (!comparison.on) return;
+  const float top = area.corner.y, bottom = area.corner.y + area.size.y, gap = ImGui::GetFontSize();
+  float line = -1;
+  if (comparison.how == Comparing::wipe) line = area.corner.x + comparison.wipe * area.size.x;
+  if (comparison.how == Comparing::side_by_side) line = area.corner.x + 0.5f * area.size.x;
+  if (line >= 0) {
+    ImGui::GetWindowDrawList()->AddLine({line, top}, {line, bottom}, IM_COL32(255, 255, 255, 200), 1.0f);
+    panel.widgets.mark("line", {line - grip, top}, {line + grip, bottom});
+    letter({line - 1.6f * gap, bottom - 2 * gap}, "A");
+    letter({line + 1.0f * gap, bottom - 2 * gap}, panel.facts.b_waits ? "B before the change" : "B");
+  } else {
+    const std::string difference = fmt::format("|A - B| × {:.0f}", comparison.gain);
+    const char* name = comparison.how == Comparing::a ? "A" : comparison.how == Comparing::b ? "B" : difference.c_str();
+    letter({area.corner.x + gap, bottom - 2 * gap}, name);
+  }
+}
+
+void fly(const Panel& panel, float seconds) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const auto axis = [](int positive, int negative) {
+    return static_cast<float>(ImGui::IsKeyDown(positive)) - static_cast<float>(ImGui::IsKeyDown(negative));
+  };
+  const glm::vec3 way(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_S, GLFW_KEY_W));
+  if (way == glm::vec3(0) || io.KeyCtrl || panel.facts.scene == nullptr) return;
+  CameraRig rig = present_rig(panel.state.document, panel.facts.scene->prepared);
+  const float speed = 0.25f * std::max(panel.facts.scene->prepared.bounds.radius(), 0.1f) * (io.KeyShift ? 4.0f : 1.0f);
+  rig.fly(glm::normalize(way) * speed * std::min(seconds, 0.1f));
+  move(panel, rig);
+}
+
+void take_time_keys(const Panel& panel) {
+  State& state = panel.state;
+  const bool moves = panel.facts.scene != nullptr && !panel.facts.scene->prepared.scene.animations.empty();
+  // The same keys walk from widget to widget.
+  if (!moves || ImGui::GetIO().NavVisible) return;
+  if (ImGui::IsKeyPressed(GLFW_KEY_SPACE, false)) state.playback.playing = !state.playback.playing;
+  if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT)) state.document.step(1);
+  if (ImGui::IsKeyPressed(GLFW_KEY_LEFT)) state.document.step(-1);
+}
+
+}  // namespace
+
+PictureArea picture_area(const Panel& panel, const gl::Texture* seen) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
+  PictureArea area{.corner = {corner.x, corner.y}, .size = {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}};
+  ImGui::InvisibleButton(
+      "picture", {area.size.x, area.size.y},
+      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
+  panel.widgets.mark("picture");
+  const bool active = ImGui::IsItemActive();
+  area.busy = active;
+  const ImGuiIO& io = ImGui::GetIO();
+  if (ImGui::IsItemHovered()) area.cursor = glm::vec2(io.MousePos.x - corner.x, io.MousePos.y - corner.y);
+  const bool line = drag_line(panel, area, active);
+  const glm::vec2 by(io.MouseDelta.x, io.MouseDelta.y);
+  if (active && !line && by != glm::vec2(0) && panel.facts.scene != nullptr) {
+    if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
+      drag_sun(panel, by);
+    } else {
+      drag_camera(panel, by, area);
+    }
+  }
+  take_wheel(panel, area);
+  if (seen != nullptr) {
+    // Textures begin at the bottom, the window at the top.
+    // ImGui's textures are pointers, OpenGL's are numbers. NOLINTNEXTLINE(performance-no-int-to-ptr)
+    const auto texture = reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(seen->id()));
+    const ImVec2 end(corner.x + area.size.x, corner.y + area.size.y);
+    ImGui::GetWindowDrawList()->AddImage(texture, corner, end, {0, 1}, {1, 0});
+    draw_line(panel, area);
+  }
+  return area;
+}
+
+void take_keys(const Panel& panel, float seconds) {
+  State& state = panel.state;
+  if (ImGui::GetIO().WantTextInput) return;
+  const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, /* repeat= */ false); };
+  if (pressed(GLFW_KEY_ESCAPE)) {
+    if (state.help) {
+      state.help = false;
+    } else if (!state.list_open) {
+      state.requests.quit = true;
+    }
+  }
+  if (pressed(GLFW_KEY_F1) || pressed(GLFW_KEY_H)) state.help = !state.help;
+  if (pressed(GLFW_KEY_F12)) state.requests.write_picture = true;
+  if (pressed(GLFW_KEY_TAB)) state.panel = !state.panel;
+  if (pressed(GLFW_KEY_SLASH)) state.panel = state.focus_search = true;
+  if (pressed(GLFW_KEY_F)) state.fly = !state.fly;
+  if (pressed(GLFW_KEY_P)) state.probe = !state.probe;
+  if (pressed(GLFW_KEY_HOME)) state.requests.frame_all = true;
+  if (pressed(GLFW_KEY_C)) {
+    if (ImGui::GetIO().KeyCtrl) {
+      state.requests.copy_command = true;
+    } else {
+      state.compare(!state.comparison.on);
+    }
+  }
+  if (pressed(GLFW_KEY_X) && state.comparison.on)
+    state.comparison.how = state.comparison.how == Comparing::a ? Comparing::b : Comparing::a;
+  if (pressed(GLFW_KEY_O) && ImGui::GetIO().KeyCtrl) {
+    state.panel = state.files.wanted = true;
+    state.tab = "Scene";
+  }
+  take_time_keys(panel);
+  fly(panel, seconds);
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,65 @@
+#include "viewer/present.h"
+
+#include <cmath>
+
+namespace penumbra::viewer {
+
+namespace {
+
+// The picture's point in the middle of its part of the window, pixels.
+glm::vec2 center_of(const PresentInputs& inputs) { return inputs.zoom.center * glm::vec2(inputs.picture_size); }
+
+Comparing how_of(const PresentInputs& inputs) {
+  return inputs.comparison.on && inputs.b != nullptr ? inputs.comparison.how : Comparing::a;
+}
+
+// Magnified pixels are to be counted; a picture of less than full size is to be looked at.
+gl::SamplerDesc sampler_for(const PresentInputs& inputs, const gl::Texture& texture) {
+  const bool full = texture.width() == inputs.picture_size.x && texture.height() == inputs.picture_size.y;
+  const GLenum magnify = full || inputs.values ? GL_NEAREST : GL_LINEAR;
+  const GLenum minify = inputs.zoom.factor < 1.0f ? GL_LINEAR : magnify;
+  return {.min_filter = minify, .mag_filter = magnify};
+}
+
+void bind(gl::Device& device, const PresentInputs& inputs, const gl::Texture& texture, GLuint unit) {
+  texture.bind(unit);
+  device.sampler(sampler_for(inputs, texture)).bind(unit);
+}
+
+}  // namespace
+
+gl::ProgramDesc present_program() {
+  return {.name = "present", .vertex = "shared/full_screen.vert", .fragment = "viewer/present.frag"};
+}
+
+const gl::Texture& present(gl::Device& device, const PresentInputs& inputs) {
+  const gl::Texture& target =
+      device.target("viewer/window", {.width = inputs.window_size.x, .height = inputs.window_size.y});
+  const glm::vec2 center = center_of(inputs);
+  {
+    gl::Pass pass(device, {.name = "present", .colors = {{.texture = &target}}});
+    const gl::Program& program = pass.use(present_program());
+    bind(device, inputs, *inputs.a, 0);
+    bind(device, inputs, inputs.b != nullptr ? *inputs.b : *inputs.a, 1);
+    program.set("comparison", static_cast<int>(how_of(inputs)));
+    program.set("wipe", inputs.comparison.wipe);
+    program.set("gain", inputs.comparison.gain);
+    program.set("zoom", inputs.zoom.factor);
+    program.set("center", glm::vec2(center.x, static_cast<float>(inputs.picture_size.y) - center.y));
+    program.set("picture_size", glm::vec2(inputs.picture_size));
+    program.set("window_size", glm::vec2(inputs.window_size));
+    pass.draw_full_screen();
+  }
+  return target;
+}
+
+std::optional<glm::ivec2> pixel_at(const PresentInputs& inputs, const glm::vec2& window) {
+  glm::vec2 middle = glm::vec2(inputs.window_size) * 0.5f;
+  if (how_of(inputs) == Comparing::side_by_side) middle.x *= window.x >= middle.x ? 1.5f : 0.5f;
+  const glm::ivec2 pixel(glm::floor(center_of(inputs) + (window - middle) / inputs.zoom.factor));
+  const bool inside =
+      glm::all(glm::greaterThanEqual(pixel, glm::ivec2(0))) && glm::all(glm::lessThan(pixel, inputs.picture_size));
+  return inside ? std::optional(pixel) : std::nullopt;
+}
+
+}  // namespace penumbra::viewer

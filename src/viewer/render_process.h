@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace penumbra::viewer {
+
+// `penumbra render` in a process of its own, so that the window lives on and what it writes is what the same command
+// writes in a shell.
+class RenderProcess {
+ public:
+  RenderProcess() = default;
+  ~RenderProcess();  // ends it; its unfinished files go
+  RenderProcess(const RenderProcess&) = delete;
+  RenderProcess& operator=(const RenderProcess&) = delete;
+
+  // `arguments` begin with "render"; `files` are what it will write, in that order. Throws Error where no process can
+  // be started.
+  void start(const std::vector<std::string>& arguments, std::vector<std::filesystem::path> files);
+  bool runs() const { return process_ > 0; }
+  // The share of the files that are written.
+  double progress();
+
+  struct Result {
+    bool good = false;
+    std::string text;  // what it said last
+  };
+  // Once it has ended; never waits.
+  std::optional<Result> finished();
+
+ private:
+  void read_output();
+
+  int process_ = -1, output_ = -1;
+  std::string text_;
+  std::vector<std::filesystem::path> files_;
+  std::size_t written_ = 0;  // of them, in order
+  std::filesystem::file_time_type started_;
+};
+
+}  // namespace penumbra::viewer

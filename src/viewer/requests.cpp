@@ -1,0 +1,121 @@
+// What the interface asked for, done between two frames of it.
+#include <imgui.h>
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "cli/output_names.h"
+#include "cli/text.h"
+#include "core/error.h"
+#include "io/output_file.h"
+#include "io/presets.h"
+#include "session/techniques.h"
+#include "viewer/viewer.h"
+
+namespace penumbra::viewer {
+
+void Viewer::do_requests() {
+  const Requests wanted = std::exchange(state_.requests, {});
+  guarded([&] {
+    if (wanted.open) open(*wanted.open);
+    if (wanted.open_preset) open_preset(*wanted.open_preset);
+    if (wanted.save_preset) save_preset(*wanted.save_preset);
+    if ((wanted.write_picture || wanted.write_sequence) && scene_ != nullptr) write_picture(wanted.write_sequence);
+    if (wanted.frame_all && scene_ != nullptr) frame_all();
+    if (wanted.copy_command && scene_ != nullptr) copy_command();
+    if (wanted.copy_camera && scene_ != nullptr) copy_camera();
+  });
+}
+
+void Viewer::open(const std::string& scene) {
+  // Before it is read: one that fails is tried again when it is saved.
+  guarded([&] {
+    std::vector<std::filesystem::path> files{scene};
+    if (scene_ != nullptr)
+      files.insert(files.end(), scene_->prepared.scene.files.begin(), scene_->prepared.scene.files.end());
+    if (watch_) watch_->set_files(std::move(files));
+  });
+  cli::SceneOptions options;
+  options.scene = scene;
+  options.fps = options_.fps;
+  options.frames = cli::FrameRange{};
+  // Camera, sun, ground and time are those of one scene: of the shown one, the command line's of the first.
+  loader_.start(scene == state_.document.options.scene ? state_.document.options : options);
+}
+
+void Viewer::open_preset(const std::string& file) {
+  if (std::error_code unread; std::filesystem::is_fifo(file, unread))
+    fail("cannot read {}: a pipe, for which a window would wait", io::quoted(file));
+  cli::ShadowOptions options;
+  options.presets = {file};
+  state_.document.params = cli::resolve_params(options, session::all_techniques());
+  state_.preset_file = file;
+  tell(state_, "took the values of " + file, ImGui::GetTime());
+}
+
+// In the place of nothing but another preset.
+void Viewer::save_preset(const std::string& file) {
+  if (!is_preset(file)) fail("cannot write {}: a preset's name ends in .toml", io::quoted(file));
+  if (scene_ != nullptr) {
+    for (const std::filesystem::path& read : scene_->prepared.scene.files) {
+      if (io::would_replace(file, read)) fail("cannot write {}: the scene is made of it", io::quoted(file));
+    }
+  }
+  io::write_preset(file, state_.document.params);
+  tell(state_, "wrote " + file, ImGui::GetTime());
+}
+
+std::vector<std::string> Viewer::command() const {
+  return render_arguments(state_.document, state_.picture_file, warmup_of(state_.document), options_.glsl);
+}
+
+void Viewer::copy_command() {
+  const std::string text = cli::command_text("penumbra", command());
+  ImGui::SetClipboardText(text.c_str());
+  tell(state_, "copied: " + text, ImGui::GetTime());
+}
+
+void Viewer::write_picture(bool sequence) {
+  std::vector<std::string> arguments =
+      render_arguments(state_.document, state_.picture_file, warmup_of(state_.document), options_.glsl,
+                       sequence ? std::optional(state_.sequence) : std::nullopt);
+  const cli::FrameRange one{state_.document.frame, state_.document.frame};
+  const cli::FrameRange range = sequence ? state_.sequence : one;
+  if (state_.with_aovs) {
+    for (const render::Aov& aov : render::aovs()) arguments.push_back("--aov=" + aov.name);
+  }
+  const cli::OutputNames names(state_.picture_file, range.last != 0);
+  std::vector<std::filesystem::path> files;
+  for (int frame = range.first; frame <= range.last; ++frame) files.push_back(names.picture(frame));
+  writer_.start(arguments, std::move(files));
+}
+
+// What is being written, and what came of it.
+void Viewer::take_written() {
+  facts_.writing = writer_.runs() ? std::optional(writer_.progress()) : std::nullopt;
+  const std::optional<RenderProcess::Result> result = writer_.finished();
+  if (!result) return;
+  facts_.writing.reset();
+  if (result->good) {
+    tell(state_, result->text, ImGui::GetTime());
+  } else {
+    tell_error(state_, result->text, ImGui::GetTime());
+  }
+}
+
+void Viewer::copy_camera() {
+  const std::string text = cli::command_text("", camera_arguments(state_.document.options));
+  ImGui::SetClipboardText(text.c_str());
+  tell(state_, text.empty() ? "the camera is the scene's own: nothing to copy" : "copied: " + text, ImGui::GetTime());
+}
+
+void Viewer::frame_all() {
+  const session::PreparedScene& prepared = scene_->prepared;
+  CameraRig rig = rig_of(prepared.setup.camera, prepared.bounds);
+  rig.frame(prepared.bounds, static_cast<float>(window_size_.x) / static_cast<float>(window_size_.y));
+  place(state_.document, prepared, rig);
+  state_.zoom = {};
+}
+
+}  // namespace penumbra::viewer

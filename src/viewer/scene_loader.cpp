@@ -1,0 +1,46 @@
+#include "viewer/scene_loader.h"
+
+#include <chrono>
+#include <utility>
+
+#include "core/error.h"
+#include "image/read.h"
+
+namespace penumbra::viewer {
+
+namespace {
+
+// Most of the time goes into images: there a scene that nobody wants any more is given up.
+scene::ImageDecoder decoder_until(std::stop_token dropped) {
+  return [dropped = std::move(dropped), decode = image::image_decoder()](std::span<const std::byte> encoded,
+                                                                         const std::string& name) {
+    if (dropped.stop_requested()) fail("{}: not read to the end", name);
+    return decode(encoded, name);
+  };
+}
+
+bool is_ready(const std::future<session::PreparedScene>& loading) {
+  return loading.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+}  // namespace
+
+SceneLoader::~SceneLoader() { dropped_.request_stop(); }
+
+void SceneLoader::start(cli::SceneOptions options) {
+  dropped_.request_stop();
+  if (loading_.valid()) ending_.push_back(std::move(loading_));
+  options_ = std::move(options);
+  dropped_ = {};
+  loading_ = std::async(std::launch::async, [options = options_, dropped = dropped_.get_token()] {
+    return session::load_scene(options, decoder_until(dropped));
+  });
+}
+
+std::optional<SceneLoader::Loaded> SceneLoader::finished() {
+  std::erase_if(ending_, is_ready);
+  if (!loading_.valid() || !is_ready(loading_)) return {};
+  return Loaded{options_, loading_.get()};
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,166 @@
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <glm/trigonometric.hpp>
+
+#include "viewer/panels.h"
+
+namespace penumbra::viewer {
+
+namespace {
+
+void file(const Panel& panel) {
+  State& state = panel.state;
+  begin_rows("file");
+  row("file", "A .gltf or .glb file: type its name and press Enter, choose it from a list, or drop it on the window.");
+  if (ImGui::InputText("##scene", &state.scene_file, ImGuiInputTextFlags_EnterReturnsTrue))
+    state.requests.open = state.scene_file;
+  panel.widgets.mark("scene file");
+  row("recent", "Scenes that were opened before.");
+  if (ImGui::BeginCombo("##recent", state.recent.empty() ? "none" : "…")) {
+    for (const std::string& path : state.recent) {
+      if (choice(path)) state.requests.open = path;
+      panel.widgets.mark("recent=" + path);
+    }
+    ImGui::EndCombo();
+  } else {
+    panel.widgets.mark("recent");
+  }
+  end_rows();
+  if (ImGui::Button("Open...")) state.files.wanted = true;
+  panel.widgets.mark("open");
+  tooltip("A scene or a preset from a list (Ctrl + O)");
+  file_browser(panel);
+}
+
+void choose_camera(const Panel& panel) {
+  cli::SceneOptions& options = panel.state.document.options;
+  row("look through", "A camera of the file, the one that penumbra render would choose, or one of your own.");
+  const std::string current = options.eye ? "free" : options.camera ? *options.camera : "automatic";
+  const bool open = ImGui::BeginCombo("##camera", current.c_str());
+  panel.widgets.mark("camera");
+  if (!open) return;
+  const auto look_through = [&](std::optional<std::string> camera) {
+    options.camera = std::move(camera);
+    options.eye.reset();
+    options.target.reset();
+    options.fov.reset();
+  };
+  if (ImGui::Selectable("automatic", !options.eye && !options.camera)) look_through({});
+  panel.widgets.mark("camera=automatic");
+  const std::vector<std::string>& cameras = panel.facts.scene->cameras;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (choice(fmt::format("{}  {}", i, cameras[i]))) look_through(std::to_string(i));
+    panel.widgets.mark(fmt::format("camera={}", i));
+  }
+  ImGui::EndCombo();
+}
+
+void camera(const Panel& panel) {
+  State& state = panel.state;
+  const session::PreparedScene& prepared = panel.facts.scene->prepared;
+  CameraRig rig = present_rig(state.document, prepared);
+  rig.eye += 0.0f;  // no minus before a zero
+  begin_rows("camera");
+  choose_camera(panel);
+  bool moved = false;
+  row("eye", "Where the camera is, metres.");
+  moved |= ImGui::InputFloat3("##eye", &rig.eye.x, "%.3f");
+  panel.widgets.mark("eye");
+  row("target", "What it looks at, metres.");
+  moved |= ImGui::InputFloat3("##target", &rig.target.x, "%.3f");
+  panel.widgets.mark("target");
+  row("field of view", "Of the picture's height.");
+  float degrees = glm::degrees(rig.fov_y);
+  if (ImGui::SliderFloat("##fov", &degrees, 5, 120, "%.1f°", ImGuiSliderFlags_AlwaysClamp)) {
+    rig.fov_y = glm::radians(degrees);
+    moved = true;
+  }
+  panel.widgets.mark("fov");
+  end_rows();
+  if (moved && rig.eye != rig.target) place(state.document, prepared, rig);
+  if (ImGui::Button("Frame all")) state.requests.frame_all = true;
+  panel.widgets.mark("frame all");
+  ImGui::SameLine();
+  if (ImGui::Button("Copy camera")) state.requests.copy_camera = true;
+  panel.widgets.mark("copy camera");
+  tooltip("As arguments of penumbra render");
+  ImGui::SameLine();
+  ImGui::Checkbox("Fly", &state.fly);
+  panel.widgets.mark("fly");
+  tooltip("The left button turns the head, W A S D Q E move (F)");
+}
+
+void sun(const Panel& panel) {
+  State& state = panel.state;
+  const cli::Direction sun = present_sun(state.document, panel.facts.scene->prepared);
+  float azimuth = glm::degrees(sun.azimuth), elevation = glm::degrees(sun.elevation);
+  begin_rows("sun");
+  row("azimuth", "From +Z towards +X. The right mouse button drags the sun.");
+  bool moved = ImGui::SliderFloat("##azimuth", &azimuth, -180, 180, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
+  panel.widgets.mark("azimuth");
+  row("elevation", "Over the horizon.");
+  moved |= ImGui::SliderFloat("##elevation", &elevation, 0, 90, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
+  panel.widgets.mark("elevation");
+  std::string fault;
+  param_row(state.document.params, state.document.params.row("sun.angle"), panel.widgets, fault);
+  end_rows();
+  if (moved) state.document.options.sun = cli::Direction{glm::radians(azimuth), glm::radians(elevation)};
+}
+
+double longest_animation(const scene::Scene& scene) {
+  double longest = 0;
+  for (const scene::Animation& animation : scene.animations)
+    longest = std::max(longest, static_cast<double>(animation.duration));
+  return longest;
+}
+
+void time(const Panel& panel) {
+  State& state = panel.state;
+  Document& document = state.document;
+  const double duration = longest_animation(panel.facts.scene->prepared.scene);
+  if (duration <= 0) {
+    ImGui::TextDisabled("The scene has no animation.");
+    return;
+  }
+  if (ImGui::Button(state.playback.playing ? "Pause" : "Play ")) state.playback.playing = !state.playback.playing;
+  panel.widgets.mark("play");
+  ImGui::SameLine();
+  if (ImGui::Button("◀")) document.step(-1);
+  panel.widgets.mark("step back");
+  ImGui::SameLine();
+  if (ImGui::Button("▶")) document.step(1);
+  panel.widgets.mark("step");
+  ImGui::SameLine();
+  ImGui::Text("%.3f s", document.seconds());
+  begin_rows("time");
+  row("frame", "Of the animation, at so many frames a second.");
+  const int last = static_cast<int>(std::clamp(std::ceil(duration * document.options.fps), 1.0, double{last_frame}));
+  ImGui::SliderInt("##frame", &document.frame, 0, std::max(last, document.frame), "%d", ImGuiSliderFlags_AlwaysClamp);
+  panel.widgets.mark("frame");
+  row("speed", "Of the playback.");
+  ImGui::SliderFloat("##speed", &state.playback.speed, 0.05f, 4, "%.2f ×",
+                     ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+  panel.widgets.mark("speed");
+  end_rows();
+}
+
+bool section(const char* title) { return ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen); }
+
+}  // namespace
+
+void scene_panel(const Panel& panel) {
+  file(panel);
+  if (panel.facts.scene == nullptr) return;
+  ImGui::BeginChild("scene");
+  if (section("Camera")) camera(panel);
+  if (section("Sun")) sun(panel);
+  if (section("Time")) time(panel);
+  ImGui::EndChild();
+}
+
+}  // namespace penumbra::viewer

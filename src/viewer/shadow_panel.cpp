@@ -1,0 +1,132 @@
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/names.h"
+#include "viewer/panels.h"
+
+namespace penumbra::viewer {
+
+namespace {
+
+std::string group_of(const std::string& name) {
+  const std::size_t dot = name.find('.');
+  return dot == std::string::npos ? "" : name.substr(0, dot);
+}
+
+bool is_technique(const shadow::Registry& registry, const std::string& group) {
+  const auto techniques = registry.techniques();
+  return std::any_of(techniques.begin(), techniques.end(), [&](const auto& each) { return each.name == group; });
+}
+
+// Words of a search, each somewhere in the name or the sentence.
+bool found(const Param& param, const std::string& search) {
+  const std::string text = lower_case(param.name + " " + param.help), words = lower_case(search);
+  for (std::size_t begin = 0; begin < words.size();) {
+    const std::size_t end = std::min(words.find(' ', begin), words.size());
+    if (text.find(words.substr(begin, end - begin)) == std::string::npos) return false;
+    begin = end + 1;
+  }
+  return true;
+}
+
+void choose_technique(const Panel& panel, ParamSet& params) {
+  const shadow::Registry& registry = panel.facts.techniques;
+  const std::string current = params.get_word("technique");
+  const auto item = [&](const std::string& name, const std::string& summary) {
+    if (ImGui::Selectable(name.c_str(), name == current)) registry.select(params, name);
+    panel.widgets.mark("technique=" + name);
+    tooltip(summary);
+  };
+  row("technique", "How shadows are computed.");
+  const bool open = ImGui::BeginCombo("##technique", current.c_str(), ImGuiComboFlags_HeightLarge);
+  panel.widgets.mark("technique");
+  if (!open) return;
+  for (const shadow::Technique& technique : registry.techniques()) item(technique.name, technique.summary);
+  ImGui::Separator();
+  for (const shadow::Alias& alias : registry.aliases()) item(alias.name, alias.summary);
+  ImGui::EndCombo();
+}
+
+void reset_all(ParamSet& params) {
+  const std::string technique = params.get_word("technique");
+  for (const Param& row : params.rows()) params.reset(row.name);
+  params.set("technique", technique);
+}
+
+void group(const Panel& panel, ParamSet& params, const std::string& name, std::string& fault) {
+  const auto shown = [&](const Param& param) {
+    return group_of(param.name) == name && param.name != "technique" && found(param, panel.state.search);
+  };
+  const auto rows = params.rows();
+  if (std::none_of(rows.begin(), rows.end(), shown)) return;
+  const bool own = is_technique(panel.facts.techniques, name);
+  if (own && name != params.get_word("technique") && panel.state.search.empty()) return;
+  const std::string title = name.empty() ? "general" : name;
+  const bool first = own || name.empty() || name == "sun";
+  ImGui::SetNextItemOpen(true, panel.state.search.empty() ? ImGuiCond_Once : ImGuiCond_Always);
+  if (!first && panel.state.search.empty()) ImGui::SetNextItemOpen(false, ImGuiCond_FirstUseEver);
+  const bool open = ImGui::CollapsingHeader(title.c_str());
+  panel.widgets.mark("group " + title);
+  if (!open) return;
+  begin_rows(title.c_str());
+  // Rows may change while they are drawn: their declarations stay.
+  for (const Param& param : rows) {
+    if (shown(param)) param_row(params, param, panel.widgets, fault);
+  }
+  end_rows();
+}
+
+std::vector<std::string> groups_of(const ParamSet& params) {
+  std::vector<std::string> names;
+  for (const Param& param : params.rows()) {
+    const std::string name = group_of(param.name);
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  // The technique's own come first.
+  std::stable_partition(names.begin(), names.end(),
+                        [&](const std::string& name) { return name == params.get_word("technique"); });
+  return names;
+}
+
+void presets(const Panel& panel) {
+  State& state = panel.state;
+  ImGui::SetNextItemWidth(-1);
+  ImGui::InputTextWithHint("##preset", "preset.toml", &state.preset_file);
+  panel.widgets.mark("preset file");
+  if (ImGui::Button("Load preset")) state.requests.open_preset = state.preset_file;
+  panel.widgets.mark("load preset");
+  ImGui::SameLine();
+  if (ImGui::Button("Save preset")) state.requests.save_preset = state.preset_file;
+  panel.widgets.mark("save preset");
+}
+
+}  // namespace
+
+void shadow_panel(const Panel& panel) {
+  State& state = panel.state;
+  ParamSet& params = state.document.params;
+  begin_rows("technique");
+  choose_technique(panel, params);
+  end_rows();
+  ImGui::SetNextItemWidth(-ImGui::CalcTextSize("Reset all").x - 4 * ImGui::GetStyle().FramePadding.x);
+  if (std::exchange(state.focus_search, false)) ImGui::SetKeyboardFocusHere();
+  ImGui::InputTextWithHint("##search", "Search parameters", &state.search);
+  panel.widgets.mark("search");
+  ImGui::SameLine();
+  if (ImGui::Button("Reset all")) reset_all(params);
+  panel.widgets.mark("reset all");
+  tooltip("Every parameter but the technique back to its default");
+  const float footer = 2 * ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().ItemSpacing.y;
+  ImGui::BeginChild("parameters", {0, -footer});
+  std::string fault;
+  for (const std::string& name : groups_of(params)) group(panel, params, name, fault);
+  ImGui::EndChild();
+  if (!fault.empty()) tell_error(state, fault, ImGui::GetTime());
+  ImGui::Separator();
+  presets(panel);
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,196 @@
+#include "viewer/targets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+#include "core/names.h"
+#include "gl/texture_format.h"
+#include "lib/packed_texel.glsl"
+
+namespace penumbra::viewer {
+
+namespace {
+
+constexpr std::string_view target_prefix = "target ";
+
+// Fields of integer texels, in their order in a texel's parts.
+struct Field {
+  const char* name;
+  Look look;
+  float (*of)(unsigned texel);
+};
+
+// A mask on its way through history and filters.
+const std::array<Field, 3>& texel_fields() {
+  static const std::array<Field, 3> fields{
+      Field{"visibility", {.scale = ColorScale::grey, .fixed = true}, glsl::texel_visibility},
+      Field{"mean blocker distance", {.unit = "m"}, glsl::texel_distance},
+      Field{"history invalid", {.scale = ColorScale::labels, .labels = {"kept", "invalid"}}, [](unsigned texel) {
+              return glsl::texel_invalid(texel) ? 1.0f : 0.0f;
+            }}};
+  return fields;
+}
+
+const std::array<Field, 3>& notes_fields() {
+  static const std::array<Field, 3> fields{
+      Field{"cascade", look_of("cascade"),
+            [](unsigned notes) { return static_cast<float>(glsl::notes_cascade(notes)); }},
+      Field{"under a texel", look_of("under_texel"),
+            [](unsigned notes) { return glsl::notes_under_texel(notes) ? 1.0f : 0.0f; }},
+      Field{"history", look_of("history"),
+            [](unsigned notes) { return static_cast<float>(glsl::notes_refusal(notes)); }}};
+  return fields;
+}
+
+const std::array<Field, 3>* fields_of(const gl::Texture& texture) {
+  if (texture.desc().format == GL_R32UI) return &texel_fields();
+  return texture.desc().format == GL_R8UI ? &notes_fields() : nullptr;
+}
+
+// Those that can be seen: alpha is none of them.
+int channels_of(const gl::Texture& texture) {
+  int count = 0;
+  for (const GLenum part : {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE}) {
+    GLint bits = 0;
+    gl::glGetTextureLevelParameteriv(texture.id(), 0, part, &bits);
+    count += bits > 0 ? 1 : 0;
+  }
+  return std::max(count, 1);
+}
+
+// Numbers from 0 to 1.
+bool is_share(std::string_view name) {
+  return name.find("/noise/") != name.npos || name.ends_with("movement map") || name.ends_with("/mask");
+}
+
+Values flipped(Values values) {
+  const auto row = static_cast<std::size_t>(values.width) * static_cast<std::size_t>(values.channels);
+  for (std::size_t y = 0; y < static_cast<std::size_t>(values.height) / 2; ++y) {
+    const auto low = values.numbers.begin() + static_cast<std::ptrdiff_t>(y * row);
+    const auto high = values.numbers.end() - static_cast<std::ptrdiff_t>((y + 1) * row);
+    std::swap_ranges(low, low + static_cast<std::ptrdiff_t>(row), high);
+  }
+  return values;
+}
+
+// One channel of several.
+void keep_channel(Values& values, int channel) {
+  std::vector<float> kept;
+  kept.reserve(values.numbers.size() / static_cast<std::size_t>(values.channels));
+  for (auto i = static_cast<std::size_t>(channel); i < values.numbers.size();
+       i += static_cast<std::size_t>(values.channels))
+    kept.push_back(values.numbers[i]);
+  values.numbers = std::move(kept);
+  values.channels = 1;
+}
+
+}  // namespace
+
+bool is_target(std::string_view what) { return what.starts_with(target_prefix); }
+
+std::string target_of_view(std::string_view what, int view) {
+  std::string name(what);
+  constexpr std::string_view first = "/view 0/";
+  const std::size_t at = is_target(what) ? name.find(first) : name.npos;
+  if (at != name.npos) name.replace(at, first.size(), fmt::format("/view {}/", view));
+  return name;
+}
+
+std::vector<TargetPart> parts_of(const gl::Device::NamedTarget& target) {
+  std::vector<TargetPart> parts;
+  if (const std::array<Field, 3>* fields = fields_of(*target.texture)) {
+    for (const Field& field : *fields) parts.push_back({field.name, field.look});
+    return parts;
+  }
+  constexpr std::array names{"red", "green", "blue"};
+  const Look look = is_share(target.name) ? Look{.scale = ColorScale::grey, .fixed = true} : Look{};
+  const int channels = channels_of(*target.texture);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(channels); ++i) parts.push_back({names.at(i), look});
+  if (channels == 3) parts.push_back({"all as a colour", {.scale = ColorScale::rgb}});
+  return parts;
+}
+
+std::size_t part_index(const std::vector<TargetPart>& parts, const Inspection& inspection) {
+  return std::min(static_cast<std::size_t>(std::max(inspection.part, 0)), parts.size() - 1);
+}
+
+std::string target_label(std::string_view name) {
+  std::string label(name);
+  for (const std::string_view once : {"shadow 1/", "view 0/", "light 0/"}) {
+    if (label.starts_with(once)) label.erase(0, once.size());
+  }
+  return label;
+}
+
+std::string about_target(std::string_view name) {
+  struct About {
+    std::string_view in_name;
+    const char* text;
+  };
+  static constexpr std::array list{
+      About{"/denoise/texels", "The shadow mask with its history, before the first filter: packed texels."},
+      About{"/denoise/notes", "Beside the packed mask: cascade, kernels under a texel, what became of the history."},
+      About{"/denoise/", "The shadow mask after this filter's step: packed texels."},
+      About{"/history texels",
+            "The packed mask that the next frame takes up; the last frame's and this one's in turn."},
+      About{"/history surfaces", "Depth and normal by which the next frame knows its surfaces."},
+      About{"/movement map",
+            "How much of what a texel's kernel may see has moved: 0 none, 1 all. Of the last frame with motion."},
+      About{"/shadow map", "Depth from the light, 0 to 1, a layer each cascade."},
+      About{"/depth pyramid", "The nearest and the farthest depth from the light below a texel of each level."},
+      About{"/noise/", "The tile that turns or shifts each pixel's sample points."},
+      About{"/mask", "What lighting reads: visibility in red."}};
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const About& about) { return name.find(about.in_name) != name.npos; });
+  return found == list.end() || !name.starts_with("shadow ") ? "" : found->text;
+}
+
+std::optional<gl::Device::NamedTarget> inspected_target(const Inspection& inspection, const gl::Device& device) {
+  for (const gl::Device::NamedTarget& target : device.targets()) {
+    if (inspection.what == std::string(target_prefix) + std::string(target.name)) return target;
+  }
+  return {};
+}
+
+std::string title_of(const Inspection& inspection, const gl::Device& device) {
+  const std::optional<gl::Device::NamedTarget> target = inspected_target(inspection, device);
+  if (!target) return inspection.what;
+  const std::vector<TargetPart> parts = parts_of(*target);
+  const std::string label = target_label(target->name);
+  return parts.size() == 1 ? label : label + ": " + parts[part_index(parts, inspection)].name;
+}
+
+Values read_target(const Inspection& inspection, const gl::Device& device) {
+  const std::optional<gl::Device::NamedTarget> target = inspected_target(inspection, device);
+  if (!target) {
+    std::vector<std::string> names;
+    for (const gl::Device::NamedTarget& each : device.targets()) names.emplace_back(each.name);
+    fail_unknown("target", inspection.what.substr(target_prefix.size()), names);
+  }
+  const gl::TextureDesc& desc = target->texture->desc();
+  const int level = std::clamp(inspection.level, 0, desc.levels - 1);
+  const int layer = std::clamp(inspection.layer, 0, desc.layers - 1);
+  const auto part = static_cast<int>(part_index(parts_of(*target), inspection));
+  Values values{.width = std::max(desc.width >> level, 1),
+                .height = std::max(desc.height >> level, 1),
+                .channels = channels_of(*target->texture),
+                .numbers = {}};
+  if (const std::array<Field, 3>* fields = fields_of(*target->texture)) {
+    const std::vector<unsigned> texels = gl::read_uints(*target->texture, 1, level, layer);
+    std::transform(texels.begin(), texels.end(), std::back_inserter(values.numbers),
+                   fields->at(static_cast<std::size_t>(part)).of);
+  } else if (gl::format_info(desc.format).kind == gl::ChannelKind::unsigned_integer) {
+    const std::vector<unsigned> numbers = gl::read_uints(*target->texture, values.channels, level, layer);
+    values.numbers.assign(numbers.begin(), numbers.end());
+  } else {
+    values.numbers = gl::read_floats(*target->texture, values.channels, level, layer);
+  }
+  if (part < values.channels && values.channels > 1) keep_channel(values, part);
+  return flipped(std::move(values));
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,177 @@
+#include "viewer/widgets.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "cli/options.h"
+#include "io/output_file.h"
+#include "io/report.h"
+
+namespace penumbra::viewer {
+
+namespace {
+
+std::string short_name(const std::string& name) {
+  const std::size_t dot = name.find('.');
+  std::string text = dot == std::string::npos ? name : name.substr(dot + 1);
+  for (char& c : text) {
+    if (c == '_') c = ' ';
+  }
+  return text;
+}
+
+std::string tooltip_of(const Param& param) {
+  std::string text = fmt::format("{}\n\n{}\ndefault {}", param.help, param.name, to_text(param.default_value));
+  const bool number =
+      std::holds_alternative<int>(param.default_value) || std::holds_alternative<float>(param.default_value);
+  if (number) text += fmt::format(", {:g} to {:g} {}", param.min, param.max, param.unit);
+  return text;
+}
+
+// Ranges over several powers of ten are for a slider that has as much room for each.
+bool is_wide(const Param& param) { return param.min >= 0 && param.max >= 100 * std::max(param.min, 1.0); }
+
+std::string unit_after(const Param& param) {
+  if (param.unit.empty()) return "";
+  return param.unit == "deg" ? "°" : " " + param.unit;
+}
+
+ImGuiSliderFlags flags_of(const Param& param) {
+  return ImGuiSliderFlags_AlwaysClamp | (is_wide(param) ? ImGuiSliderFlags_Logarithmic : 0);
+}
+
+bool choose_word(const Param& param, std::string& word, WidgetMap& widgets) {
+  bool changed = false;
+  const bool open = ImGui::BeginCombo("##value", word.c_str());
+  widgets.mark(param.name);
+  if (!open) return false;
+  for (const std::string& choice : param.choices) {
+    if (ImGui::Selectable(choice.c_str(), choice == word)) {
+      word = choice;
+      changed = true;
+    }
+    widgets.mark(param.name + "=" + choice);
+  }
+  ImGui::EndCombo();
+  return changed;
+}
+
+// The widget of a value; true if a hand changed it.
+bool edit(const Param& param, ParamValue& value, WidgetMap& widgets) {
+  bool changed = false;
+  if (bool* on = std::get_if<bool>(&value)) {
+    changed = ImGui::Checkbox("##value", on);
+  } else if (int* count = std::get_if<int>(&value)) {
+    const std::string format = "%d" + unit_after(param);
+    // Sliders end at half of what an int holds.
+    const int most = static_cast<int>(std::min(param.max, 1073741822.0));
+    changed = ImGui::SliderInt("##value", count, static_cast<int>(param.min), most, format.c_str(), flags_of(param));
+  } else if (float* quantity = std::get_if<float>(&value)) {
+    const std::string format = "%.3g" + unit_after(param);
+    changed = ImGui::SliderFloat("##value", quantity, static_cast<float>(param.min), static_cast<float>(param.max),
+                                 format.c_str(), flags_of(param) | ImGuiSliderFlags_NoRoundToFormat);
+  } else {
+    return choose_word(param, std::get<std::string>(value), widgets);
+  }
+  widgets.mark(param.name);
+  return changed;
+}
+
+}  // namespace
+
+void WidgetMap::begin() { last_ = std::exchange(boxes_, {}); }
+
+void WidgetMap::mark(std::string_view name) { mark(name, ImGui::GetItemRectMin(), ImGui::GetItemRectMax()); }
+
+void WidgetMap::mark(std::string_view name, const ImVec2& low, const ImVec2& high) {
+  boxes_.insert_or_assign(std::string(name), Box{static_cast<int>(low.x), static_cast<int>(low.y),
+                                                 static_cast<int>(high.x), static_cast<int>(high.y)});
+}
+
+void WidgetMap::write_changes(const std::filesystem::path& file) {
+  // A list that opens takes a frame to find its size; the end of rest is news at once.
+  const bool rest_ends = written_.contains(rest) && !boxes_.contains(rest);
+  if (!rest_ends && (boxes_ != last_ || boxes_ == written_)) return;
+  io::Json json = io::Json::object();
+  for (const auto& [name, box] : boxes_) json[name] = {box.left, box.top, box.right, box.bottom};
+  io::write_text(file, io::text_of(json));
+  written_ = boxes_;
+}
+
+void begin_rows(const char* id) {
+  ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp);
+  ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthStretch, 0.42f);
+  ImGui::TableSetupColumn("widget", ImGuiTableColumnFlags_WidthStretch, 0.58f);
+}
+
+void row(const std::string& label, const std::string& text, bool changed) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::AlignTextToFramePadding();
+  if (changed) {
+    ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", label.c_str());
+  } else {
+    ImGui::TextUnformatted(label.c_str());
+  }
+  if (!text.empty()) tooltip(text);
+  ImGui::TableNextColumn();
+  ImGui::SetNextItemWidth(-1);
+}
+
+void end_rows() { ImGui::EndTable(); }
+
+bool param_row(ParamSet& params, const Param& param, WidgetMap& widgets, std::string& fault) {
+  ImGui::PushID(param.name.c_str());
+  const bool differs = !params.is_default(param.name);
+  row(short_name(param.name), tooltip_of(param), differs);
+  const float reset_width = ImGui::GetFrameHeight();
+  if (differs) ImGui::SetNextItemWidth(-reset_width - ImGui::GetStyle().ItemInnerSpacing.x);
+  ParamValue value = params.value(param.name);
+  bool changed = edit(param, value, widgets);
+  if (differs) {
+    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    if (ImGui::Button("×", {reset_width, 0})) {
+      value = param.default_value;
+      changed = true;
+    }
+    widgets.mark(param.name + " reset");
+    tooltip("Back to " + to_text(param.default_value));
+  }
+  ImGui::PopID();
+  if (!changed) return false;
+  try {
+    ParamSet wanted = params;
+    cli::assign(wanted, param.name + "=" + to_text(value));
+    params = std::move(wanted);
+    return true;
+  } catch (const Error& error) {
+    fault = error.what();
+    return false;
+  }
+}
+
+bool choice(const std::string& text, bool chosen, ImGuiSelectableFlags flags) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::PushID(text.c_str());
+  const float width = std::max(ImGui::CalcTextSize(text.c_str()).x, ImGui::GetContentRegionAvail().x);
+  const bool taken = ImGui::Selectable("##choice", chosen, flags, {width, 0});
+  ImGui::PopID();
+  ImGui::GetWindowDrawList()->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  return taken;
+}
+
+void tooltip(const std::string& text) {
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0f);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,245 @@
+#include "viewer/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <utility>
+
+#include "core/error.h"
+#include "gl/api.h"
+#include "viewer/theme.h"
+
+namespace penumbra::viewer {
+
+namespace {
+
+constexpr float text_size = 15.0f;  // pixels, at a scale of 1
+
+// Where distributions put a font that has every letter of a file's name; ImGui's own has Latin ones alone.
+const char* font_file() {
+  static constexpr std::array places{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                     "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                                     "/usr/share/fonts/TTF/DejaVuSans.ttf"};
+  for (const char* place : places) {
+    if (std::filesystem::exists(place)) return place;
+  }
+  return nullptr;
+}
+
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
+gl::ContextOptions context_options(const Window::Options& options) {
+  gl::ContextOptions wanted;
+  wanted.debug = wanted.debug || options.debug;
+  wanted.width = options.width;
+  wanted.height = options.height;
+  return wanted;
+}
+
+}  // namespace
+
+std::string missing_display() {
+  return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY") ? "" : "neither DISPLAY nor WAYLAND_DISPLAY is set";
+}
+
+Window::Window(const Options& options)
+    : context_(gl::make_window_context(context_options(options))), window_(gl::window_of(*context_)) {
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+    auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+    self.dropped_.insert(self.dropped_.end(), paths, paths + count);
+  });
+  record_input();
+  set_up_interface();
+}
+
+Window::~Window() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void Window::record_input() {
+  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
+    auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+    if (key < 0 || key >= static_cast<int>(self.keys_.size()) || action == GLFW_REPEAT) return;
+    self.changes_.push_back({.of = Change::Of::key, .code = key, .down = action == GLFW_PRESS});
+  });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+    static_cast<Window*>(glfwGetWindowUserPointer(window))->pointer_ = {x, y};
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
+    auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+    if (button < 0 || button >= static_cast<int>(self.buttons_.size())) return;
+    self.changes_.push_back(
+        {.of = Change::Of::button, .code = button, .down = action == GLFW_PRESS, .at = self.pointer_});
+  });
+}
+
+void Window::set_up_interface() {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;  // the viewer keeps its own settings
+  io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+  ImGui_ImplGlfw_InitForOpenGL(window_, /* install_callbacks= */ true);
+  // In the place of the interface's own, which would take characters before the keys that came first.
+  glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
+    static_cast<Window*>(glfwGetWindowUserPointer(window))
+        ->changes_.push_back({.of = Change::Of::text, .code = static_cast<int>(character)});
+  });
+  ImGui_ImplOpenGL3_Init("#version 450 core");
+  apply_scale(wanted_scale());
+}
+
+float Window::wanted_scale() const {
+  float x = 1, y = 1;
+  glfwGetWindowContentScale(window_, &x, &y);
+  return std::isfinite(x) && x > 0 ? x : 1.0f;
+}
+
+void Window::apply_scale(float scale) {
+  scale_ = scale;
+  ImGuiIO& io = ImGui::GetIO();
+  io.Fonts->Clear();
+  const float size = std::round(text_size * scale);
+  if (const char* file = font_file()) {
+    static constexpr std::array<ImWchar, 9> ranges{0x20, 0x24f, 0x370, 0x3ff, 0x2000, 0x22ff, 0x25a0, 0x25ff, 0};
+    io.Fonts->AddFontFromFileTTF(file, size, nullptr, ranges.data());
+  } else {
+    ImFontConfig config;
+    config.SizePixels = size;
+    io.Fonts->AddFontDefault(&config);
+  }
+  ImGui_ImplOpenGL3_DestroyDeviceObjects();  // the next frame makes them again, with these letters
+  set_theme(scale);
+}
+
+bool Window::poll(double seconds) {
+  if (seconds > 0 && changes_.empty()) {
+    glfwWaitEventsTimeout(seconds);
+  } else {
+    glfwPollEvents();
+  }
+  return glfwWindowShouldClose(window_) == GLFW_FALSE;
+}
+
+void Window::apply(const Change& change) {
+  ImGuiIO& io = ImGui::GetIO();
+  switch (change.of) {
+    case Change::Of::key:
+      keys_.at(static_cast<std::size_t>(change.code)) = change.down;
+      break;
+    case Change::Of::button:
+      buttons_.at(static_cast<std::size_t>(change.code)) = change.down;
+      io.MousePos = {change.at.x, change.at.y};
+      break;
+    case Change::Of::text:
+      io.AddInputCharacter(static_cast<unsigned>(change.code));
+      break;
+  }
+}
+
+// What goes down together has a frame, then what goes up, so that nothing is both in one, and a key goes down with its
+// modifiers. A button ends its frame: the pointer is in one place.
+void Window::play_keys() {
+  const auto changes_state = [](const Change& change) { return change.of != Change::Of::text; };
+  const auto first = std::find_if(changes_.begin(), changes_.end(), changes_state);
+  const bool down = first != changes_.end() && first->down;
+  for (bool clicked = false; !clicked && !changes_.empty();) {
+    const Change change = changes_.front();
+    if (changes_state(change) && change.down != down) break;
+    changes_.pop_front();
+    apply(change);
+    clicked = change.of == Change::Of::button;
+  }
+}
+
+// Letters come as characters, as many as there are. A key that edits, or one with Ctrl, has a frame to itself after the
+// characters before it: a field takes characters first, and none with Ctrl.
+void Window::play_text() {
+  const auto is_letter = [&](const Change& change) {
+    const bool modified = keys_[GLFW_KEY_LEFT_CONTROL] || keys_[GLFW_KEY_RIGHT_CONTROL];
+    constexpr int first_special = GLFW_KEY_ESCAPE;
+    const bool shift = change.code == GLFW_KEY_LEFT_SHIFT || change.code == GLFW_KEY_RIGHT_SHIFT;
+    return change.of == Change::Of::text || shift ||
+           (change.of == Change::Of::key && change.code < first_special && !modified);
+  };
+  bool any = false;
+  while (!changes_.empty()) {
+    const Change change = changes_.front();
+    const bool letter = is_letter(change);
+    if (any && !letter) break;
+    changes_.pop_front();
+    apply(change);
+    if (!letter) break;
+    any = true;
+  }
+}
+
+void Window::play_input() {
+  ImGuiIO& io = ImGui::GetIO();
+  if (io.WantTextInput) {
+    play_text();
+  } else {
+    play_keys();
+  }
+  std::copy(buttons_.begin(), buttons_.end(), std::begin(io.MouseDown));
+  std::copy(keys_.begin(), keys_.end(), std::begin(io.KeysDown));
+  io.KeyCtrl = keys_[GLFW_KEY_LEFT_CONTROL] || keys_[GLFW_KEY_RIGHT_CONTROL];
+  io.KeyShift = keys_[GLFW_KEY_LEFT_SHIFT] || keys_[GLFW_KEY_RIGHT_SHIFT];
+  io.KeyAlt = keys_[GLFW_KEY_LEFT_ALT] || keys_[GLFW_KEY_RIGHT_ALT];
+}
+
+void Window::begin() {
+  if (const float scale = wanted_scale(); scale != scale_) apply_scale(scale);
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  play_input();
+  ImGui::NewFrame();
+}
+
+void Window::show() {
+  ImGui::Render();
+  const glm::ivec2 size = pixels();
+  gl::glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl::glViewport(0, 0, size.x, size.y);
+  gl::glClearColor(0.07f, 0.07f, 0.07f, 1.0f);
+  gl::glClear(GL_COLOR_BUFFER_BIT);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glfwSwapBuffers(window_);
+}
+
+glm::ivec2 Window::pixels() const {
+  glm::ivec2 size(0);
+  if (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0) return size;
+  glfwGetFramebufferSize(window_, &size.x, &size.y);
+  return size;
+}
+
+cli::Size Window::size() {
+  const bool usual =
+      glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == 0 && glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == 0;
+  if (usual) glfwGetWindowSize(window_, &size_.width, &size_.height);
+  return size_;
+}
+
+void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+
+void Window::set_vsync(bool on) { glfwSwapInterval(on ? 1 : 0); }
+
+std::vector<std::string> Window::dropped() { return std::exchange(dropped_, {}); }
+
+}  // namespace penumbra::viewer
