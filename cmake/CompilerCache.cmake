@@ -1,7 +1,8 @@
-# Compile through ccache when it is there. CCACHE_BASEDIR makes a second checkout of the same code hit the cache.
+# Compile through ccache when it is there. CCACHE_BASEDIR makes a second checkout of the same code hit the cache; without
+# CCACHE_SLOPPINESS ccache passes by whatever includes a precompiled header.
 find_program(PENUMBRA_CCACHE ccache)
 mark_as_advanced(PENUMBRA_CCACHE)
 if(PENUMBRA_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER
-    env "CCACHE_BASEDIR=${CMAKE_SOURCE_DIR}" "${PENUMBRA_CCACHE}")
+    env "CCACHE_BASEDIR=${CMAKE_SOURCE_DIR}" CCACHE_SLOPPINESS=pch_defines,time_macros "${PENUMBRA_CCACHE}")
 endif()

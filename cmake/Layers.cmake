@@ -1,8 +1,9 @@
-# Warnings, sanitizers and include root, shared by every target of the project. -Wrestrict is off: GCC 12 sees overlaps in
-# "text" + std::string that are not there (GCC bug 105651).
+# Warnings, sanitizers and include root, shared by every target of the project. -Wrestrict and -Wstringop-overflow are off:
+# GCC 12 sees overlaps and overflows in "text" + std::string that are not there (GCC bug 105651).
 add_library(penumbra_options INTERFACE)
 target_compile_options(penumbra_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-  -Woverloaded-virtual -Wno-missing-field-initializers -Wno-restrict $<$<BOOL:${PENUMBRA_WERROR}>:-Werror>)
+  -Woverloaded-virtual -Wno-missing-field-initializers -Wno-restrict -Wno-stringop-overflow
+  $<$<BOOL:${PENUMBRA_WERROR}>:-Werror>)
 # One command gives one picture: no contraction into fused multiply-adds, which differ from machine to machine.
 target_compile_options(penumbra_options INTERFACE -ffp-contract=off)
 # One source gives one program: no path of the building machine in it.
@@ -26,4 +27,5 @@ function(penumbra_layer name)
   target_include_directories(penumbra_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src>
                                                      PRIVATE ${CMAKE_SOURCE_DIR}/glsl)
   target_link_libraries(penumbra_${name} PUBLIC ${arg_LINK} PRIVATE $<BUILD_INTERFACE:penumbra_options> ${arg_PRIVATE})
+  penumbra_precompile(penumbra_${name} library)
 endfunction()
