@@ -24,8 +24,8 @@ void Contender::draw(const render::FrameInputs& inputs, const ParamSet& params) 
 }
 
 void Contender::keep(PassTimes& own, PassTimes& floor, std::size_t count) {
-  own.append(device_.timers.rows(), count);
-  if (floor_) floor.append(floor_->timers().rows(), count);
+  own.append(device_.timers.rows(), device_.timers.cpu_milliseconds(), count);
+  if (floor_) floor.append(floor_->timers().rows(), floor_->timers().cpu_milliseconds(), count);
 }
 
 std::optional<FloorCost> Contender::floor_cost(const PassTimes& own, const PassTimes& floor) const {

@@ -47,6 +47,7 @@ class Writer {
     row(point, entry, "sum of passes", cost.passes_sum, number(cost.sum_ratio), "");
     row(point, entry, "shadow passes", cost.shadow, share(cost.shadow), number(cost.of_first));
     row(point, entry, "frame", cost.frame, share(cost.frame), "");
+    row(point, entry, "CPU", cost.cpu, share(cost.cpu), "");
     if (!cost.floor) return;
     if (cost.floor->fetch) row(point, entry, "floor: fetches", *cost.floor->fetch, share(*cost.floor->fetch), "");
     row(point, entry, "floor: mask copy", cost.floor->copy, share(cost.floor->copy), "");

@@ -21,6 +21,9 @@ using report::Html;
 
 constexpr int decimals = 3;  // of milliseconds
 
+constexpr const char* cpu_help =
+    "Median processor time of the drawing thread in a frame, program and driver, without waiting for the GPU";
+
 Cell milliseconds(double value) { return cell_of(value, decimals); }
 
 std::string megabytes(std::size_t bytes) { return report::fixed(static_cast<double>(bytes) / (1 << 20), 1); }
@@ -33,6 +36,7 @@ report::Table overview(const Measured& point) {
                                   {.title = "shadow passes", .unit = "ms", .help = "Median", .best = Best::lowest},
                                   {.title = "of the first", .help = "Median of the frames' own ratios"},
                                   {.title = "frame", .unit = "ms", .help = "Median"},
+                                  {.title = "CPU", .unit = "ms", .help = cpu_help},
                                   {.title = "memory", .unit = "MiB", .help = "All targets of the frame"}}};
   const bool floor = point.costs.front().floor.has_value();
   if (floor) {
@@ -46,6 +50,7 @@ report::Table overview(const Measured& point) {
                           milliseconds(cost.shadow.median),
                           milliseconds(cost.of_first),
                           milliseconds(cost.frame.median),
+                          milliseconds(cost.cpu.median),
                           {megabytes(cost.target_bytes), static_cast<double>(cost.target_bytes)}};
     if (floor) {
       const auto fetch = cost.floor->fetch ? std::optional(cost.floor->fetch->median) : std::nullopt;
@@ -72,6 +77,7 @@ Html passes(const Cost& cost) {
   for (const PassCost& pass : cost.passes) row(pass.name, pass.ms, pass.share);
   row("sum of passes", cost.passes_sum, cost.sum_ratio);
   row("frame", cost.frame, 1);
+  row("CPU", cost.cpu, cost.frame.median > 0 ? cost.cpu.median / cost.frame.median : 0);
   Html html = to_html(table);
   if (!cost.adds_up()) {
     html.add(report::note(

@@ -38,6 +38,7 @@ Json json_of(const Cost& cost) {
                {"passes_sum_over_frame", rounded(cost.sum_ratio)},
                {"adds_up", cost.adds_up()},
                {"frame", json_of(cost.frame)},
+               {"cpu", json_of(cost.cpu)},
                {"shadow_passes", json_of(cost.shadow)},
                {"swept", json_of(cost.swept)},
                {"shadow_over_first", rounded(cost.of_first)},

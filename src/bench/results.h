@@ -51,8 +51,8 @@ std::string subject_of(const Sweep& sweep);
 std::string setting_of(const Results& results);
 
 std::string json_of(const Results& results);
-// One row a pass of a contender at a point, with all that tells rows of many runs apart; "sum", "shadow" and "frame"
-// are rows too.
+// One row a pass of a contender at a point, with all that tells rows of many runs apart; the sum of passes, the shadow
+// passes, the frame and its CPU time are rows too.
 std::string csv_of(const Results& results);
 std::string html_of(const Results& results);
 // For the terminal.

@@ -19,6 +19,7 @@ std::string pass_lines(const Cost& cost) {
   for (const PassCost& pass : cost.passes) text += line(pass.name, pass.ms, pass.share);
   text += line("sum of passes", cost.passes_sum, cost.sum_ratio);
   text += line("frame", cost.frame, 1);
+  text += line("CPU", cost.cpu, cost.frame.median > 0 ? cost.cpu.median / cost.frame.median : 0);
   if (!cost.adds_up())
     text += fmt::format("  warning: the passes make up {:.0f} % of the frame: a time is missing or counted twice\n",
                         100 * cost.sum_ratio);
@@ -36,12 +37,13 @@ std::string floor_cells(const FloorCost& floor) {
 }
 
 std::string summary_lines(const Measured& point) {
-  std::string text = fmt::format("{:<24}{:>16}{:>12}{:>12}", "shadow passes", "median ms", "of first", "memory");
+  std::string text =
+      fmt::format("{:<24}{:>16}{:>12}{:>12}{:>12}", "shadow passes", "median ms", "of first", "CPU ms", "memory");
   if (has_floor(point)) text += fmt::format("{:>13}{:>13}{:>13}", "fetches ms", "mask/fetches", "mask copy ms");
   text += "\n";
   for (const Cost& cost : point.costs) {
-    text += fmt::format("{:<24}{:>16.3f}{:>12.3f}{:>12}", cli::printable(cost.label), cost.shadow.median, cost.of_first,
-                        cli::bytes_text(static_cast<double>(cost.target_bytes)));
+    text += fmt::format("{:<24}{:>16.3f}{:>12.3f}{:>12.3f}{:>12}", cli::printable(cost.label), cost.shadow.median,
+                        cost.of_first, cost.cpu.median, cli::bytes_text(static_cast<double>(cost.target_bytes)));
     if (cost.floor) text += floor_cells(*cost.floor);
     text += "\n";
   }

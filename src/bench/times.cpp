@@ -29,7 +29,8 @@ std::vector<double>& times_of(PassTimes& times, const std::string& name) {
 
 }  // namespace
 
-void PassTimes::append(const std::vector<gl::Timers::Row>& rows, std::size_t count) {
+void PassTimes::append(const std::vector<gl::Timers::Row>& rows, const std::vector<double>& cpu_times,
+                       std::size_t count) {
   const std::size_t before = frames.size();
   for (const gl::Timers::Row& row : rows) {
     const auto tail = row.milliseconds.end() - static_cast<std::ptrdiff_t>(std::min(count, row.milliseconds.size()));
@@ -39,6 +40,8 @@ void PassTimes::append(const std::vector<gl::Timers::Row>& rows, std::size_t cou
     times.insert(times.end(), tail, row.milliseconds.end());
   }
   for (gl::Timers::Row& pass : passes) pass.milliseconds.resize(frames.size());
+  cpu.insert(cpu.end(), cpu_times.end() - static_cast<std::ptrdiff_t>(std::min(count, cpu_times.size())),
+             cpu_times.end());
 }
 
 std::vector<double> PassTimes::of(std::string_view pass) const {
@@ -63,6 +66,7 @@ Cost cost_of(const PassTimes& times, const PassTimes& first) {
   const std::vector<double> shadow = times.shadow_sums(), sums = times.sums();
   Cost cost;
   cost.frame = summary_of(times.frames);
+  cost.cpu = summary_of(times.cpu);
   cost.passes_sum = summary_of(sums);
   cost.sum_ratio = paired_ratio(sums, times.frames);
   cost.shadow = summary_of(shadow);

@@ -15,9 +15,10 @@ namespace penumbra::bench {
 struct PassTimes {
   std::vector<gl::Timers::Row> passes;  // one entry a frame, 0 where it was not drawn
   std::vector<double> frames;
+  std::vector<double> cpu;  // see gl::Timers::cpu_milliseconds()
 
-  // The last `count` frames of a device's timers.
-  void append(const std::vector<gl::Timers::Row>& rows, std::size_t count);
+  // The last `count` frames of a device's timers: its rows and its times of the CPU.
+  void append(const std::vector<gl::Timers::Row>& rows, const std::vector<double>& cpu_times, std::size_t count);
   // Every frame's time of one pass; zeros where there is none of that name.
   std::vector<double> of(std::string_view pass) const;
   // Every frame's sum of the passes that make the shadow mask, and of all passes. A pass within another is a part of it
@@ -48,6 +49,7 @@ struct Cost {
   std::string label;  // "thesis_8x8"
   std::vector<PassCost> passes;
   Summary frame;
+  Summary cpu;           // that the drawing thread spent on the frame: a part of it, or beside it where a GPU draws
   Summary passes_sum;    // of the sums of each frame
   double sum_ratio = 0;  // of that sum to the frame, paired
   Summary shadow;        // of the sums of the shadow passes

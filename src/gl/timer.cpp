@@ -2,11 +2,25 @@
 
 #include <algorithm>
 #include <cassert>
+#include <ctime>
 #include <utility>
 
 namespace penumbra::gl {
 
 void delete_query(GLuint id) { glDeleteQueries(1, &id); }
+
+namespace {
+
+// Processor time of the calling thread.
+double cpu_now() {
+  constexpr double milliseconds_per_second = 1e3, milliseconds_per_nanosecond = 1e-6;
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * milliseconds_per_second +
+         static_cast<double>(now.tv_nsec) * milliseconds_per_nanosecond;
+}
+
+}  // namespace
 
 void Timers::begin_frame() {
   if (mode_ == Mode::off) return;
@@ -15,6 +29,8 @@ void Timers::begin_frame() {
   in_frame_ = true;
   open_work_.clear();
   open_frame_ = start(frame_row);
+  cpu_waited_ = 0;
+  cpu_started_ = cpu_now();
 }
 
 void Timers::begin(std::string_view name) {
@@ -33,6 +49,7 @@ void Timers::end() {
 void Timers::end_frame() {
   if (!in_frame_) return;
   assert(stack_.empty());
+  cpu_.push_back(cpu_now() - cpu_started_ - cpu_waited_);
   finish(std::move(open_frame_));
   in_frame_ = false;
   work_ = std::exchange(open_work_, {});
@@ -67,6 +84,8 @@ Timers::Taken Timers::take() {
   const auto count = static_cast<std::ptrdiff_t>(end - first_kept_);
   Taken taken{.first = first_kept_, .rows = {}};
   if (count == 0) return taken;
+  taken.cpu.assign(cpu_.begin(), cpu_.begin() + count);
+  cpu_.erase(cpu_.begin(), cpu_.begin() + count);
   for (Row& row : rows_) {
     if (row.milliseconds.size() < end - first_kept_) row.milliseconds.resize(end - first_kept_, 0.0);
     const auto begin = row.milliseconds.begin();
@@ -84,7 +103,7 @@ Timers::Open Timers::start(std::size_t row) {
   if (mode_ == Mode::query) {
     open.query = timestamp();
   } else {
-    glFinish();
+    wait_for_gpu();
     open.started = Clock::now();
   }
   return open;
@@ -94,9 +113,15 @@ void Timers::finish(Open open) {
   if (mode_ == Mode::query) {
     pending_.push_back({open.row, frame_, std::move(open.query), timestamp()});
   } else {
-    glFinish();
+    wait_for_gpu();
     record(open.row, frame_, std::chrono::duration<double, std::milli>(Clock::now() - open.started).count());
   }
+}
+
+void Timers::wait_for_gpu() {
+  const double before = cpu_now();
+  glFinish();
+  cpu_waited_ += cpu_now() - before;
 }
 
 std::size_t Timers::row_index(const std::string& name) {

@@ -14,20 +14,21 @@ namespace penumbra::gl {
 
 void delete_query(GLuint id);
 
-// Time per pass. On a GPU: timer queries read frames later, so that they never stall. On a software rasteriser, which
-// defers work, a finish on both sides of each pass and the CPU's clock. Passes outside of a frame are not recorded.
+// Time per pass. On a GPU: timer queries, read some frames later so that they never stall. On a software rasteriser,
+// which defers work: the CPU's clock, with a glFinish before and after each pass. Passes outside of a frame are not
+// recorded.
 class Timers {
  public:
   enum class Mode { off, query, finish };
   explicit Timers(Mode mode = Mode::off) : mode_(mode) {}
 
   Mode mode() const { return mode_; }
-  void begin_frame();                 // drops a frame that an exception left open
+  void begin_frame();                 // discards a frame that an exception left open
   void begin(std::string_view name);  // passes may nest; a nested one is named "outer/inner"
   void end();
   void end_frame();
 
-  // begin() and end() in a scope.
+  // Calls begin() and end().
   class Scope {
    public:
     Scope(Timers& timers, std::string_view name) : timers_(timers) { timers_.begin(name); }
@@ -39,15 +40,21 @@ class Timers {
     Timers& timers_;
   };
 
-  // What a pass hands to OpenGL.
+  // What a pass submits to OpenGL.
   struct Work {
-    std::size_t draws = 0;       // draw commands, those within one call of an indirect draw each counted
-    std::size_t triangles = 0;   // of all their instances, before anything is culled
+    std::size_t draws = 0;       // draw commands; an indirect draw counts as many as it has commands
+    std::size_t triangles = 0;   // of all instances, before culling
     std::size_t dispatches = 0;  // of compute
   };
-  // Adds to the passes that are open, and to the frame.
+  // Milliseconds of processor time that the drawing thread spent in each frame, between begin_frame() and end_frame(),
+  // as many as a row has. Time spent in the finishes of Mode::finish is left out, so it is what the program and the
+  // driver take to submit the frame. What the driver does in threads of its own is not in it; shaders that a software
+  // rasteriser runs in the calling thread are.
+  const std::vector<double>& cpu_milliseconds() const { return cpu_; }
+  // Adds to the open passes and to the frame.
   void count(const Work& work);
-  // Of the last frame that ended, by pass as in rows(); "frame" has all of it. Passes without any are left out.
+  // The work of the last frame that ended, by the names of rows(); "frame" has all of it. Passes without work are left
+  // out.
   const std::map<std::string, Work>& work() const { return work_; }
 
   struct Row {
@@ -57,10 +64,11 @@ class Timers {
   // Waits for what is outstanding. Rows in the order of their first appearance; the last row is "frame".
   std::vector<Row> rows();
 
-  // The frames whose times are all in, without waiting, for programs that run on and on: rows() knows them no more.
+  // Removes and returns the frames whose times are complete, without waiting: for programs that run for long.
   struct Taken {
-    std::size_t first = 0;  // number of the frame that each row begins with
-    std::vector<Row> rows;  // all of one length
+    std::size_t first = 0;         // number of the frame that each row begins with
+    std::vector<Row> rows;         // all of one length
+    std::vector<double> cpu = {};  // see cpu_milliseconds()
   };
   Taken take();
   // The number of the next frame to begin, from 0.
@@ -82,6 +90,7 @@ class Timers {
   void finish(Open open);
   std::size_t row_index(const std::string& name);
   Handle<delete_query> timestamp();
+  void wait_for_gpu();
   void record(std::size_t row, std::size_t frame, double milliseconds);
   void collect(bool wait);
   void drop_open_frame();
@@ -96,7 +105,9 @@ class Timers {
   std::vector<Open> stack_;
   std::deque<Pending> pending_;
   std::vector<Handle<delete_query>> free_queries_;
-  std::vector<Row> rows_;  // [frame_row] is the frame
+  std::vector<Row> rows_;                    // [frame_row] is the frame
+  double cpu_started_ = 0, cpu_waited_ = 0;  // of the open frame, milliseconds
+  std::vector<double> cpu_;
   std::map<std::string, std::size_t, std::less<>> row_indices_;
   std::map<std::string, Work> open_work_, work_;  // of the frame that is open, of the one before
 };

@@ -116,7 +116,7 @@ std::vector<double> Workbench::costs(const std::vector<Look>& looks) {
   for (int frame = 0; frame < options_.cost_frames(); ++frame) {
     for (std::size_t i = 0; i < looks.size(); ++i) {
       session_.draw(0, params_of(looks[i]));
-      times[i].append(session_.device().timers.rows(), 1);
+      times[i].append(session_.device().timers.rows(), session_.device().timers.cpu_milliseconds(), 1);
     }
   }
   std::vector<double> medians;

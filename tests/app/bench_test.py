@@ -38,6 +38,9 @@ class Bench(TestCase):
             self.assertLessEqual(frame["min_ms"], frame["median_ms"])
             self.assertLessEqual(frame["median_ms"], frame["max_ms"])
             self.assertEqual(frame["frames"], 2)
+            self.assertEqual(cost["cpu"]["frames"], 2)
+            self.assertGreater(cost["cpu"]["min_ms"], 0)
+            self.assertLessEqual(cost["cpu"]["min_ms"], cost["cpu"]["median_ms"])
             # A field tells it: a busy machine is no fault.
             self.assertEqual(cost["adds_up"], 0.9 < cost["passes_sum_over_frame"] < 1.1)
             for each in cost["passes"]:
@@ -65,7 +68,7 @@ class Bench(TestCase):
         rows = {(row["label"], row["pass"]): row for row in self.read_csv()}
         for cost in data["points"][0]["costs"]:
             figures = {each["name"]: each for each in cost["passes"]}
-            figures |= {"frame": cost["frame"], "shadow passes": cost["shadow_passes"],
+            figures |= {"frame": cost["frame"], "CPU": cost["cpu"], "shadow passes": cost["shadow_passes"],
                         "sum of passes": cost["passes_sum"], "floor: fetches": cost["floor"]["fetches"],
                         "floor: mask copy": cost["floor"]["mask_copy"]}
             self.assertEqual({name for label, name in rows if label == cost["label"]}, set(figures))

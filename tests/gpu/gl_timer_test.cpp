@@ -47,6 +47,39 @@ TEST_F(GlTimers, RowsNestInOrderAndPassesFillTheFrameWithoutExceedingIt) {
   }
 }
 
+TEST_F(GlTimers, TheCpusTimeOfAFrameIsThatOfTheThreadAndLeavesOutWaiting) {
+  for (const gl::Timers::Mode mode : {gl::Timers::Mode::finish, gl::Timers::Mode::query}) {
+    gl::Device timed(test::pass_files(), mode);
+    frames(timed, 1);  // compiles the shaders
+    timed.timers.take();
+    static PFNGLFINISHPROC real = nullptr;
+    real = gl::glFinish;
+    gl::glFinish = [] {
+      volatile double waste = 1;
+      for (int i = 0; i < 1000000; ++i) waste = waste * 1.0000001;
+      real();
+    };
+    frames(timed, 3);
+    gl::glFinish = real;
+    const std::vector<double> cpu = timed.timers.cpu_milliseconds();
+    const auto rows = timed.timers.rows();
+    ASSERT_EQ(cpu.size(), 3u);
+    for (const double milliseconds : cpu) EXPECT_GT(milliseconds, 0.0);
+    if (mode != gl::Timers::Mode::finish) continue;
+    // A frame has a dozen finishes, so what they take is most of it.
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(cpu[i], 0.5 * rows.back().milliseconds[i]);
+  }
+}
+
+TEST_F(GlTimers, TakenFramesTakeTheirTimesOfTheCpuAlong) {
+  gl::Device timed(test::pass_files(), gl::Timers::Mode::finish);
+  frames(timed, 3);
+  EXPECT_EQ(timed.timers.take().cpu.size(), 3u);
+  EXPECT_TRUE(timed.timers.cpu_milliseconds().empty());
+  frames(timed, 2);
+  EXPECT_EQ(timed.timers.cpu_milliseconds().size(), 2u);
+}
+
 TEST_F(GlTimers, WhatIsDrawnOutsideOfAFrameIsNotRecorded) {
   gl::Device timed(test::pass_files(), gl::Timers::Mode::finish);
   test::clear(timed, {.name = "warm-up"});
@@ -154,7 +187,7 @@ TEST_F(GlTimers, WorkIsThatOfTheLastFrameByPass) {
   ASSERT_EQ(work.size(), 3u);
   EXPECT_EQ(work.at("outer").draws, 5u);
   EXPECT_EQ(work.at("outer").triangles, 502u);
-  EXPECT_EQ(work.at("outer").dispatches, 1u) << "of what lies within";
+  EXPECT_EQ(work.at("outer").dispatches, 1u) << "work of the pass within it";
   EXPECT_EQ(work.at("outer/inner").draws, 0u);
   EXPECT_EQ(work.at("outer/inner").dispatches, 1u);
   EXPECT_EQ(work.at("frame").draws, 5u);

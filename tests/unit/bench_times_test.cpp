@@ -17,7 +17,7 @@ std::vector<Timers::Row> rows(double mask) {
 
 PassTimes times_of(double mask) {
   PassTimes times;
-  times.append(rows(mask), 2);
+  times.append(rows(mask), {7, 7, 1, 2}, 2);
   return times;
 }
 
@@ -38,9 +38,10 @@ TEST(PassTimes, CountAPassWithinAnotherOnce) {
 // A pass that only one visit drew has zeros for the frames of the others, so that frames stay in step.
 TEST(PassTimes, OfSeveralVisitsStayInStep) {
   PassTimes times = times_of(4);
-  times.append({{"median", {6}}, {"shadow mask", {5}}, {"frame", {12}}}, 1);
-  times.append(rows(4), 2);
+  times.append({{"median", {6}}, {"shadow mask", {5}}, {"frame", {12}}}, {3}, 1);
+  times.append(rows(4), {7, 7, 1, 2}, 2);
   EXPECT_EQ(times.frames.size(), 5U);
+  EXPECT_EQ(times.cpu, (std::vector<double>{1, 2, 3, 1, 2}));
   EXPECT_EQ(times.of("median"), (std::vector<double>{0, 0, 6, 0, 0}));
   EXPECT_EQ(times.of("gbuffer"), (std::vector<double>{2, 2, 0, 2, 2}));
   EXPECT_EQ(times.sums(), (std::vector<double>{7, 9, 11, 7, 9}));
@@ -49,6 +50,7 @@ TEST(PassTimes, OfSeveralVisitsStayInStep) {
 TEST(Cost, ComparesFrameByFrame) {
   const Cost cost = bench::cost_of(times_of(8), times_of(3));
   EXPECT_DOUBLE_EQ(cost.shadow.median, 10);
+  EXPECT_DOUBLE_EQ(cost.cpu.median, 1.5);
   EXPECT_DOUBLE_EQ(cost.of_first, 0.5 * (9.0 / 4 + 11.0 / 6));
   EXPECT_EQ(cost.passes.front().name, "gbuffer");
   EXPECT_FALSE(cost.passes.front().shadow);
