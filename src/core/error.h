@@ -8,7 +8,7 @@
 
 namespace penumbra {
 
-// Bad input, a bad shader or a missing device: something the user can mend. what() is one line that
+// Bad input, a bad shader or a missing device: something that the user can fix. what() is one line that
 // names the thing and the cause. A bug in Penumbra itself is an assertion, never an Error.
 class Error : public std::runtime_error {
  public:

@@ -10,7 +10,7 @@ namespace penumbra {
 
 enum class LogLevel { debug, info, warning, error };
 
-// Receives every message of the library, one line without a newline. May be called from any thread.
+// Receives each message of the library: one line, without a newline. May be called from any thread.
 using LogSink = std::function<void(LogLevel, std::string_view)>;
 
 // Replaces the sink; the default writes warnings and errors to stderr. Call before other threads start.

@@ -182,7 +182,7 @@ std::string glsl_name(const Param& param) {
 namespace {
 
 const char* glsl_type(const Param& param) {
-  return std::holds_alternative<float>(param.default_value) ? "float" : "int";  // bools travel as int
+  return std::holds_alternative<float>(param.default_value) ? "float" : "int";  // bools are passed as int
 }
 
 std::string glsl_literal(const Param& param, const ParamValue& value) {

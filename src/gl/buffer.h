@@ -10,7 +10,8 @@ namespace penumbra::gl {
 
 void delete_buffer(GLuint id);
 
-// A labelled buffer object of fixed size (immutable storage, updatable with write()). Throws Error when memory ends.
+// A labelled buffer object of fixed size (immutable storage, updatable with write()). Throws Error when memory runs
+// out.
 class Buffer {
  public:
   Buffer() = default;

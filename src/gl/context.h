@@ -12,8 +12,8 @@ namespace penumbra::gl {
 
 using GetProcAddress = void* (*)(const char* name);
 
-// Points Penumbra's GL entry points at the driver of the context that is current. The contexts below do it themselves;
-// an engine with a context of its own calls it once before anything else here. Throws Error naming what is missing of
+// Loads Penumbra's OpenGL entry points from the driver of the current context. The contexts below do it themselves; an
+// engine with a context of its own calls it once before anything else here. Throws Error naming what is missing of
 // OpenGL 4.5 core: a function, the version, the core profile, or any context at all.
 void load_api(GetProcAddress get_proc_address);
 
@@ -26,15 +26,15 @@ struct ContextOptions {
   bool debug = debug_by_default();  // KHR_debug on, synchronous: an error throws from the call that made it
   std::optional<int>
       egl_device;  // EGL device platform, by index; without it the surfaceless Mesa platform, then devices
-  int width = 1280, height = 720;  // the window's size in pixels; offscreen contexts have no surface of note
+  int width = 1280, height = 720;  // window only, in pixels
   std::string title = "Penumbra";
   bool visible = true;  // window only
   bool vsync = true;    // window only
 };
 
-// An OpenGL 4.5 core context. Making it current also points Penumbra's GL entry points at its driver. GL objects
-// are destroyed before their context, while it is current. The entry points are the process's: contexts of different
-// backends take turns, on one thread.
+// An OpenGL 4.5 core context. Making it current also loads Penumbra's entry points from its driver. GL objects must be
+// destroyed before their context, while it is current. The entry points are global to the process, so contexts can only
+// be used in turn, on one thread.
 class Context {
  public:
   virtual ~Context() = default;
@@ -48,18 +48,18 @@ std::unique_ptr<Context> make_egl_context(const ContextOptions& options = {});
 std::unique_ptr<Context> make_osmesa_context(const ContextOptions& options = {});  // loads libOSMesa at run time
 std::unique_ptr<Context> make_window_context(const ContextOptions& options = {});  // GLFW
 
-// The window of a context that make_window_context() made, for the caller to read events from and to swap: null for
-// other backends. It ends with its context.
+// The window of a context that make_window_context() made, for the caller to read events from and to swap buffers; null
+// for other backends. It is destroyed with its context.
 GLFWwindow* window_of(const Context& context);
 
 // "auto" tries EGL, then OSMesa; else "egl", "osmesa" or "window". Throws Error listing each backend tried and why
 // it failed.
 std::unique_ptr<Context> make_context(std::string_view backend, const ContextOptions& options = {});
 
-// EGL devices as EGL_EXT_device_enumeration lists them (names for `doctor`); empty when unsupported.
+// The names of the EGL devices that EGL_EXT_device_enumeration lists; empty when unsupported.
 std::vector<std::string> egl_devices();
 
-// What `doctor`, --stats and the bench print of the current context.
+// The driver of the current context and its limits, as `doctor`, --stats and `bench` print them.
 struct DeviceInfo {
   std::string vendor, renderer, version, glsl_version;
   bool software = false;  // llvmpipe, softpipe, swr, SwiftShader

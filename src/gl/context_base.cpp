@@ -7,8 +7,8 @@
 namespace penumbra::gl {
 namespace {
 
-// Each backend library remembers only its own current context; one that another library has displaced would be
-// taken for still current. So a context leaves through its own library before the next one comes.
+// Each backend library remembers only its own current context and would still take it for current after another library
+// has replaced it. So the current context is unbound through its own library before the next one is bound.
 thread_local ContextBase* current = nullptr;
 
 }  // namespace

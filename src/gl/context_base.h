@@ -4,7 +4,7 @@
 
 namespace penumbra::gl {
 
-// What the backends share: taking turns, entry points and debug output.
+// What the backends share: which context is current, entry points and debug output.
 class ContextBase : public Context {
  public:
   void make_current() final;

@@ -122,7 +122,7 @@ Display open_display(const std::string& subject, EGLenum platform, void* native)
   Display result;
   result.display = egl().get_platform_display(platform, native, nullptr);
   if (result.display == EGL_NO_DISPLAY) fail("{}: no display ({})", subject, error_name());
-  // Never terminated: the display is the process's, and may be in use by others.
+  // Never terminated: all users of EGL in the process share the display.
   EGLint major = 0, minor = 0;
   if (egl().initialize(result.display, &major, &minor) == EGL_FALSE) {
     fail("{}: cannot be initialised ({})", subject, error_name());

@@ -47,7 +47,7 @@ void* glfw_proc_address(const char* name) { return reinterpret_cast<void*>(glfw(
 class WindowContext final : public ContextBase {
  public:
   explicit WindowContext(const ContextOptions& options) : ContextBase(options.debug), vsync_(options.vsync) {
-    // Initialised once and left so: another user of GLFW in the process may rely on it.
+    // Never terminated: another user of GLFW in the process may rely on it.
     if (glfw().init() == GLFW_FALSE) glfw().fail_with_cause();
     glfw().window_hint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfw().window_hint(GLFW_CONTEXT_VERSION_MINOR, 5);

@@ -120,7 +120,8 @@ StorageCheck::StorageCheck(std::string_view what) : what_(what) {
   const std::vector<GLenum> flags = take_error_flags();
   earlier_ = take_message();
   if (!earlier_.empty()) return;
-  for (const GLenum flag : flags) warn("OpenGL: {} was there before {} was made", error_name(flag), what_);
+  for (const GLenum flag : flags)
+    warn("OpenGL: an earlier call raised {}, found when {} was made", error_name(flag), what_);
 }
 
 bool StorageCheck::ran_out() {
@@ -128,9 +129,9 @@ bool StorageCheck::ran_out() {
   const bool out = std::ranges::find(flags, GLenum{GL_OUT_OF_MEMORY}) != flags.end();
   std::string message = take_message();  // of the call
   if (message.empty() && !out) {
-    for (const GLenum flag : flags) warn("OpenGL: {} when {} was made", error_name(flag), what_);
+    for (const GLenum flag : flags) warn("OpenGL: making {} raised {}", what_, error_name(flag));
   }
-  const bool told = out || message.empty();  // of memory, the caller tells
+  const bool told = out || message.empty();  // running out of memory is the caller's to report
   put_message(!earlier_.empty() || told ? std::move(earlier_) : std::move(message));
   return out;
 }

@@ -10,8 +10,8 @@ namespace penumbra::gl {
 // Labels an object for RenderDoc, apitrace and driver messages (GL_BUFFER, GL_TEXTURE, GL_PROGRAM, …).
 void label(GLenum kind, GLuint id, std::string_view text);
 
-// Installs the synchronous debug callback in the current context. Nothing can be thrown through the driver, so an error
-// is remembered with the debug group that it happened in, and check_errors() throws it.
+// Installs the synchronous debug callback in the current context. A callback can't throw through the driver, so it
+// stores an error with the debug group that it happened in, and check_errors() throws it.
 void enable_debug_output();
 // Whether the current context has the callback.
 bool debug_enabled();
@@ -19,20 +19,20 @@ bool debug_enabled();
 // Throws Error with the first GL error or debug message of type error since the last call. In a debug context, a Pass
 // calls it after each step; elsewhere the frame's owner may. `where` names the place when no debug group was open.
 void check_errors(std::string_view where);
-// Tells whether a call that makes storage ran out of memory, and whether nothing else is taken for that. OpenGL keeps
-// an error's flag until it is read, whoever raised it, and drivers keep few flags: so those that are there before the
-// call are read first. They are lost to the caller's own glGetError(), and so are logged as warnings, by name; in a
-// debug context check_errors() throws them as ever.
+// Tells whether a call that allocates storage ran out of memory. OpenGL keeps an error flag until it is read, and
+// drivers keep few of them, so a flag of an earlier call, the caller's perhaps, would hide ours. The constructor
+// therefore reads the flags that are there. The caller's own glGetError() will not see those any more, so they are
+// logged as warnings, by name; in a debug context check_errors() throws them as usual.
 class StorageCheck {
  public:
   // `what`: "texture 'mask'"; it must outlive the check.
   explicit StorageCheck(std::string_view what);
-  // Once, after the call: whether it ran out of memory. Other errors of the call are logged or thrown likewise.
+  // To be called once, after the allocation. Its other errors are logged or thrown likewise.
   bool ran_out();
 
  private:
   std::string_view what_;
-  std::string earlier_;  // what check_errors() was to throw
+  std::string earlier_;  // the message that check_errors() is to throw
 };
 
 // A debug group in a scope.

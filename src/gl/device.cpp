@@ -3,6 +3,7 @@
 #include <compare>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -16,9 +17,9 @@ namespace {
 void delete_framebuffer(GLuint id) { glDeleteFramebuffers(1, &id); }
 void delete_vertex_array(GLuint id) { glDeleteVertexArrays(1, &id); }
 
-// What a framebuffer's attachment is known by; zeros: none. A texture of ours goes by its serial, not by its id: the
-// driver gives the id of a deleted texture out again, and a framebuffer would go on drawing to the dead one. Foreign
-// textures have no serial: they are attached anew for every pass, and only what makes a framebuffer complete counts.
+// What identifies a framebuffer's attachment; zeros: none. Penumbra's own textures are identified by serial, as a
+// driver reuses ids and a framebuffer keeps drawing to the deleted texture. Foreign textures have no serial: they are
+// attached for every pass anew, so only what decides about completeness is compared.
 struct AttachmentKey {
   std::uint64_t serial = 0;
   GLenum target = 0, format = 0;
@@ -94,9 +95,10 @@ struct Device::Impl {
   std::map<FramebufferKey, CachedFramebuffer> framebuffers;
   std::uint64_t framebuffer_uses = 0;
   Handle<delete_vertex_array> empty_vertex_array;
+  std::optional<bool> debugged;
 
-  // A framebuffer keeps its textures' memory. Those of a target go with it; those of other textures, when they
-  // have been out of use for long.
+  // A framebuffer keeps its textures' memory. So framebuffers of a target are deleted with it, those of other textures
+  // when they have not been used for long.
   void drop_framebuffers_of(const Texture& texture) {
     if (!texture) return;
     std::erase_if(framebuffers, [&](const auto& entry) {
@@ -123,7 +125,7 @@ const Texture& Device::target(std::string_view name, const TextureDesc& desc) {
   Texture& texture = found->second;
   if (!texture || texture.desc() != desc) {
     impl_->drop_framebuffers_of(texture);
-    texture = Texture();  // give the memory back before asking for more
+    texture = Texture();  // frees memory before more is allocated
     texture = Texture(name, desc);
   }
   return texture;
@@ -140,13 +142,16 @@ const Buffer& Device::scratch(std::string_view name, std::size_t bytes) {
   return buffer;
 }
 
+// Called in every frame, mostly for what is not there: so it visits nothing but what it deletes.
 void Device::drop(std::string_view prefix) {
-  std::erase_if(impl_->targets, [&](const auto& entry) {
-    if (!entry.first.starts_with(prefix)) return false;
-    impl_->drop_framebuffers_of(entry.second);
-    return true;
-  });
-  std::erase_if(impl_->buffers, [&](const auto& entry) { return entry.first.starts_with(prefix); });
+  const auto has_prefix = [prefix](const auto& entry) { return entry->first.starts_with(prefix); };
+  auto target = impl_->targets.lower_bound(prefix);
+  while (target != impl_->targets.end() && has_prefix(target)) {
+    impl_->drop_framebuffers_of(target->second);
+    target = impl_->targets.erase(target);
+  }
+  auto buffer = impl_->buffers.lower_bound(prefix);
+  while (buffer != impl_->buffers.end() && has_prefix(buffer)) buffer = impl_->buffers.erase(buffer);
 }
 
 const Sampler& Device::sampler(const SamplerDesc& desc) {
@@ -183,6 +188,11 @@ GLuint Device::framebuffer(std::string_view name, std::span<const Attachment> co
   }
   found->second.last_use = use;
   return found->second.handle.id();
+}
+
+bool Device::is_debugged() {
+  if (!impl_->debugged) impl_->debugged = debug_enabled();
+  return *impl_->debugged;
 }
 
 GLuint Device::empty_vertex_array() {

@@ -14,8 +14,8 @@
 
 namespace penumbra::gl {
 
-// What passes draw with: programs, timers, and targets that persist from frame to frame so that nothing is allocated
-// after warm-up. One per context; handed to every pass, never global.
+// What passes draw with: programs, timers, and targets (textures and buffers) that persist from frame to frame, so that
+// nothing is allocated once every kind of frame has been drawn. One per context, passed to every function that draws.
 class Device {
  public:
   Device(ShaderFiles files, Timers::Mode timing);
@@ -32,21 +32,23 @@ class Device {
   // A buffer of at least `bytes`, likewise (grows, never shrinks).
   const Buffer& scratch(std::string_view name, std::size_t bytes);
   const Sampler& sampler(const SamplerDesc& desc);
-  // Gives back the targets and buffers whose name starts with `prefix`; references to them end.
+  // Deletes the targets and buffers whose names start with `prefix`; references to them become invalid.
   void drop(std::string_view prefix);
-  // All of them, in the order of their names; the pointers end as the references do.
+  // All textures, in the order of their names; the pointers are valid as long as the references are.
   struct NamedTarget {
     std::string_view name;
     const Texture* texture = nullptr;
   };
   std::vector<NamedTarget> targets() const;
-  // Bytes of all targets whose name starts with `prefix`.
+  // Bytes of the textures whose names start with `prefix`.
   std::size_t target_bytes(std::string_view prefix = "") const;
 
  private:
   friend class Pass;
   GLuint framebuffer(std::string_view name, std::span<const Attachment> colors, const Attachment* depth);
   GLuint empty_vertex_array();
+  // Whether the context has the debug callback; asked of OpenGL once.
+  bool is_debugged();
 
   struct Impl;
   std::unique_ptr<Impl> impl_;

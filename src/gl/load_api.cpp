@@ -12,7 +12,7 @@
 namespace penumbra::gl {
 namespace {
 
-// OSMesa may have the functions of robustness under their extension's names alone.
+// Functions that OSMesa may have only under the names of the extension ARB_robustness.
 bool is_of_robustness(std::string_view name) {
   return name.starts_with("glGetn") || name == "glReadnPixels" || name == "glGetGraphicsResetStatus";
 }
@@ -34,7 +34,7 @@ void load_functions(GetProcAddress get_proc_address) {
   fail("OpenGL 4.5: the driver lacks {}{}", fmt::join(missing, ", "), rest);
 }
 
-// Libraries that stand before the drivers have an address for every name: the context itself has to say what it is.
+// Dispatch libraries such as GLVND return an address for every name, so the context's own version and profile decide.
 void check_context() {
   GLint major = 0, minor = 0, profile = 0;
   glGetIntegerv(GL_MAJOR_VERSION, &major);

@@ -8,7 +8,7 @@
 namespace penumbra::gl {
 namespace {
 
-// Offsets into a buffer of commands travel as pointers.
+// OpenGL takes offsets into the bound buffer of commands as pointers.
 const void* as_pointer(std::size_t offset) { return reinterpret_cast<const void*>(offset); }  // NOLINT: GL's way
 
 template <class Command>
@@ -21,12 +21,12 @@ void bind_commands(GLenum target, const IndirectCommands& commands) {
 }  // namespace
 
 Pass::Pass(Device& device, const PassDesc& desc)
-    : device_(device), group_(desc.name), timer_(device.timers, desc.name), debug_(debug_enabled()) {
+    : device_(device), group_(desc.name), timer_(device.timers, desc.name), debug_(device.is_debugged()) {
   if (!desc.colors.empty() || desc.depth) bind(desc);
   check();
 }
 
-// Nothing keeps a texture of others beyond the pass: its owner's delete frees the memory.
+// No framebuffer keeps a foreign texture beyond the pass, so that its memory is freed when its owner deletes it.
 Pass::~Pass() {
   for (const GLenum point : foreign_) glNamedFramebufferTexture(framebuffer_, point, 0, 0);
 }

@@ -32,8 +32,8 @@ struct IndirectCommands {
 
 // A pass in a scope. With attachments it binds a framebuffer, the viewport of the first attachment's level, and the
 // described state; without any (compute) it is a debug group and a timer. In a debug context every step throws Error
-// for the GL errors so far; those of the caller's own draws at the end of a scope come with the next step, under this
-// pass's name.
+// for the GL errors so far. Those of the caller's own draw calls after the last step are thrown by the first step of
+// the next pass, with this pass's name.
 class Pass {
  public:
   // Throws Error when the driver refuses the attachments, or a stencil is described and the depth texture has none.
@@ -49,19 +49,20 @@ class Pass {
   void set_viewport(int x, int y, int width, int height);
 
   // Draws what a buffer of commands asks for, with the vertex array that is bound. `mode`: GL_TRIANGLES…; `index_type`:
-  // GL_UNSIGNED_INT, GL_UNSIGNED_SHORT. The timers count the draws; triangles are for who knows them to count.
+  // GL_UNSIGNED_INT, GL_UNSIGNED_SHORT. The timers count the draws, but not their triangles, which only the buffer
+  // knows.
   void draw_arrays_indirect(GLenum mode, const IndirectCommands& draws);
   void draw_elements_indirect(GLenum mode, GLenum index_type, const IndirectCommands& draws);
   // Groups of the current compute program that cover width × height × layers invocations; then a barrier().
   void dispatch(int width, int height, int layers = 1);
   // As many groups as the DispatchCommand at an offset in bytes (a multiple of 4) says; then a barrier().
   void dispatch_indirect(const Buffer& command, std::size_t offset = 0);
-  // What shaders have written to images and storage buffers is seen by all later commands: texture and image reads,
-  // storage and uniform buffers, vertices and indices, indirect commands, copies and read-backs, attachments. For draws
-  // whose shaders write so; dispatches have it built in.
+  // Makes what shaders have written to images and storage buffers visible to all later commands: texture and image
+  // reads, storage and uniform buffers, vertices and indices, indirect commands, copies and read-backs, attachments. To
+  // be called after draws whose shaders write to these; dispatches do it themselves.
   void barrier();
 
-  // Says of the caller's own draw calls what the timers are to count.
+  // Adds the caller's own draw calls to what the timers count.
   void count_draws(std::size_t draws, std::size_t triangles) { device_.timers.count({draws, triangles, 0}); }
 
  private:
@@ -74,15 +75,15 @@ class Pass {
   bool debug_;
   const Program* program_ = nullptr;
   GLuint framebuffer_ = 0;
-  std::vector<GLenum> foreign_;  // attachment points of the framebuffer that hold textures of others
+  std::vector<GLenum> foreign_;  // attachment points of the framebuffer that hold foreign textures
 };
 
-// Frees the first texture units of textures and samplers.
+// Unbinds textures and samplers from the first `count` units.
 void unbind_textures(GLuint count);
 
-// For an engine's sake: what passes change goes back to OpenGL's initial values, and nothing stays bound to draw with
-// (program, vertex array, framebuffers, textures and samplers of units 0 to 15, images of units 0 to 7, buffers of
-// indirect commands). Viewport, blend function and other buffer bindings stay as they are.
+// Sets the state that passes change to OpenGL's initial values, for engines that expect them, and unbinds what passes
+// bind: program, vertex array, framebuffers, textures and samplers of units 0 to 15, images of units 0 to 7, buffers of
+// indirect commands. Viewport, blend function and other buffer bindings stay as passes left them.
 void leave_initial_state();
 
 }  // namespace penumbra::gl

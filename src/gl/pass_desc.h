@@ -19,15 +19,16 @@ struct Attachment {
   int layer = 0;  // of an array; all_layers: a geometry shader chooses with gl_Layer, and a clear clears all
   // For depth, .x is the depth. For integer colours it is converted to integers.
   std::optional<glm::vec4> clear;
-  // Contents are undefined at first (glInvalidateNamedFramebufferData): for passes that write every texel, where a GPU
-  // need not read what was there.
+  // Contents become undefined (glInvalidateNamedFramebufferData): for passes that write every texel, so that a GPU need
+  // not load the old ones.
   bool dont_care = false;
 };
 
+// `less` passes where the new depth < the stored one, and so on.
 enum class DepthTest { off, less, less_equal, equal, greater_equal, greater };
 enum class Blend { off, premultiplied_over, min, max, add };
 
-// `less` passes where (reference & read mask) < (stored & read mask), and so on.
+// `less` passes where (reference & read mask) < (stored value & read mask), and so on.
 enum class StencilTest { always, never, less, less_equal, equal, not_equal, greater_equal, greater };
 enum class StencilOp { keep, zero, replace, increment, increment_wrap, decrement, decrement_wrap, invert };
 
@@ -48,7 +49,8 @@ struct Stencil {
   bool dont_care = false;
 };
 
-// State that a raster pass sets whole: nothing is inherited, so passes can be reordered.
+// What a raster pass draws to, and all of its state: nothing is inherited from earlier passes, so they can be
+// reordered.
 struct PassDesc {
   std::string_view name;  // debug group, timer row and bench row
   std::vector<Attachment> colors;

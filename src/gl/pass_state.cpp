@@ -21,7 +21,7 @@ void set_enabled(GLenum capability, bool enabled) {
   }
 }
 
-// What no pass wants, and what an engine around us may have left on. All but dithering are off at first.
+// Capabilities that no pass uses and that an engine may have left on. Initially all but dithering are off.
 constexpr std::array unwanted{GL_SCISSOR_TEST,        GL_DITHER,
                               GL_FRAMEBUFFER_SRGB,  // shaders encode
                               GL_COLOR_LOGIC_OP,      GL_RASTERIZER_DISCARD,
@@ -32,7 +32,7 @@ constexpr std::array unwanted{GL_SCISSOR_TEST,        GL_DITHER,
                               GL_PRIMITIVE_RESTART,   GL_PRIMITIVE_RESTART_FIXED_INDEX,
                               GL_PROGRAM_POINT_SIZE};
 
-// What passes turn on and off as they are described.
+// Capabilities that a PassDesc turns on and off.
 constexpr std::array described{GL_DEPTH_TEST, GL_STENCIL_TEST, GL_DEPTH_CLAMP, GL_BLEND, GL_CULL_FACE};
 
 // State that passes share, at OpenGL's initial values but for the range of clip-space depth.

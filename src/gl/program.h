@@ -30,7 +30,7 @@ class Program {
   // Throws Error: "glsl/lib/kernel.glsl:12: message" lines under one heading that names program and stage.
   Program(const ProgramDesc& desc, const ShaderFiles& files);
 
-  void use() const;  // make it current
+  void use() const;  // makes it current
   void set(std::string_view name, int value) const;
   void set(std::string_view name, float value) const;
   void set(std::string_view name, const glm::ivec2& value) const;

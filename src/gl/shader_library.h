@@ -12,11 +12,11 @@
 
 namespace penumbra::gl {
 
-// Compiles programs on first use and keeps them. Reload is first load: changed() marks what depends on a file, and
-// reload(), or the next get(), compiles it again by the same path; while that fails the last good program keeps
-// serving. A parameter that is compiled in makes a program of each of its values: where frames are counted, those that
-// no frame uses any more are idle. A save compiles them no more, but their next get() does; past `most_idle` of them
-// the oldest are let go.
+// Compiles programs on first use and keeps them. When a file changes, changed() marks the programs that depend on it,
+// and reload(), or the next get(), compiles them again in the same way as the first time. As long as that fails, the
+// last good program is used. Each value of a compiled-in parameter makes a program of its own; where the caller counts
+// frames with next_frame(), programs that were not used for more than `idle_after` of them are idle: reload() leaves
+// them out, their next get() compiles them, and beyond `most_idle` of them the least recently used are deleted.
 class ShaderLibrary {
  public:
   static constexpr std::size_t most_idle = 64;
@@ -27,21 +27,21 @@ class ShaderLibrary {
   // Throws Error when the program fails to compile and there is no earlier good one; the next call tries again. The
   // reference stays valid through reloads, and for this frame and the next where frames are counted.
   const Program& get(const ProgramDesc& desc);
-  // A frame begins: what was not used for some of them is idle.
+  // To be called when a frame begins. Deletes idle programs beyond `most_idle`.
   void next_frame();
 
-  // A file's text changed, or it came or went: programs that include it, and those whose last rebuild failed, are to be
-  // rebuilt. `file` is relative to glsl/.
+  // To be called when a file's text changed or it was added or deleted: marks the programs that include it, and those
+  // whose last rebuild failed, to be rebuilt. `file` is relative to glsl/.
   void changed(std::string_view file);
   struct Reload {
     std::size_t rebuilt = 0, failed = 0;
   };
-  // Rebuilds now what is to be rebuilt, but for idle programs.
+  // Rebuilds the marked programs that are not idle.
   Reload reload();
-  // Messages of programs whose rebuild failed and that draw with their last good version, each once; empty when all is
-  // well. An idle program's fault is told from its next get() on.
+  // The messages, without duplicates, of programs whose last good version is used because their rebuild failed; empty
+  // if there are none. An idle program's message is listed after its next get().
   std::vector<std::string> errors() const;
-  // Whether any get() since the last call gave a last good version because the rebuild failed.
+  // Whether a get() since the last call of this returned a last good version because the rebuild failed.
   bool take_outdated() { return std::exchange(outdated_, false); }
 
   ShaderFiles& files() { return files_; }
@@ -50,7 +50,7 @@ class ShaderLibrary {
  private:
   struct Entry {
     std::unique_ptr<Program> program;
-    std::uint64_t used = 0;  // in this frame, last
+    std::uint64_t used = 0;  // the last frame that used it
     bool stale = false;
     std::string error;
   };

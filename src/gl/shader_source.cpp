@@ -41,7 +41,7 @@ std::optional<std::string> read_disk(const std::filesystem::path& path) {
   return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
-// What a line of a shader file asks of the loader.
+// How the loader treats a line of a shader file.
 struct Line {
   enum class Kind { text, include, drop, malformed };
   Kind kind = Kind::text;
@@ -65,7 +65,7 @@ class Loader {
  public:
   Loader(const ShaderFiles& files, ShaderSource& source) : files_(files), source_(source) {}
 
-  // `asked_by` is "glsl/file:line: " of the include as messages name it, empty for the root.
+  // `asked_by` is the place of the include as messages begin with it, "glsl/file:line: "; empty for the root.
   void append(std::string_view name, const std::string& asked_by) {
     if (!is_inside(name)) fail("{}shader file '{}' is outside of glsl/", asked_by, name);
     const std::optional<std::string> text = files_.read(name);
@@ -156,7 +156,7 @@ std::string shown_name(const ShaderSource& source, std::size_t file) {
   return file < source.shown_names.size() ? source.shown_names[file] : "glsl/" + source.files[file];
 }
 
-// A line of the whole text, from 1, to stand below a message; empty where there is nothing to see.
+// A line of the whole text, counted from 1, as it follows a message; empty if the line is.
 std::string quoted_line(const ShaderSource& source, std::size_t number) {
   std::string_view text = source.text;
   for (; number > 1 && !text.empty(); --number) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
@@ -210,7 +210,7 @@ ShaderSource load_shader_source(const ShaderFiles& files, std::string_view root,
 }
 
 std::string translate_log(std::string_view driver_log, const ShaderSource& source) {
-  std::string result, last, quote;  // `quote` belongs under the last message
+  std::string result, last, quote;  // `quote` is to follow the last message
   while (!driver_log.empty()) {
     const std::size_t end = std::min(driver_log.find('\n'), driver_log.size());
     const std::string_view line = trimmed(driver_log.substr(0, end));

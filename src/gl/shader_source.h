@@ -23,7 +23,8 @@ class ShaderFiles {
   std::optional<std::string> read(std::string_view name) const;
   // Adds or replaces an in-memory file (generated declarations: "generated/registry0/params.glsl").
   void put(std::string name, std::string text);
-  // What messages call a file: where the user can open it if it is the overlay's, else "glsl/lib/kernel.glsl".
+  bool has_generated(std::string_view name) const { return generated_.contains(name); }
+  // A file's name in messages: its path on disk if it is the overlay's, else "glsl/lib/kernel.glsl".
   std::string shown_name(std::string_view name) const;
   const std::string& overlay_directory() const { return overlay_; }
   static std::vector<std::string> built_in_names();
@@ -39,7 +40,7 @@ struct Define {
 };
 
 // One stage's text, ready for the driver: #version 450 core, defines, then the file with every #include "name" resolved
-// once (include-once). Includes are resolved before the preprocessor runs: conditions around them do not count.
+// once (include-once). Includes are resolved before the preprocessor runs: conditions around them have no effect.
 // #include <…> and #pragma once, which C++ needs in shared headers, are dropped. There are no #line directives: Mesa
 // loses the file's number in messages about types.
 struct ShaderSource {
@@ -56,15 +57,15 @@ struct ShaderSource {
   std::vector<std::string> shown_names = {};  // one a file, for messages; empty: "glsl/" and the name
 };
 
-// Files that one stage may be made of, so that a chain of includes ends.
+// The most files that a stage may be made of: a limit for includes that never end.
 constexpr std::size_t most_shader_files = 1000;
 
 // Throws Error naming file and line when a file is missing, an include is malformed, or there are more files than that.
 // Cycles can't happen: each file is included once.
 ShaderSource load_shader_source(const ShaderFiles& files, std::string_view root, const std::vector<Define>& defines);
 
-// Rewrites "0(56)", "0:56(5)" and "0:56:" of a driver's log into "glsl/lib/kernel.glsl:12:", one message a line, told
-// once where a driver repeats itself. Under the last message about a line stands that line itself, indented.
+// Rewrites "0(56)", "0:56(5)" and "0:56:" of a driver's log into "glsl/lib/kernel.glsl:12:", one message a line,
+// without repetitions. After the last message about a source line follows that line itself, indented.
 std::string translate_log(std::string_view driver_log, const ShaderSource& source);
 
 }  // namespace penumbra::gl

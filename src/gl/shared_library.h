@@ -8,11 +8,12 @@
 
 namespace penumbra::gl {
 
-// A library loaded at run time, so that a system without it still runs the rest. It stays loaded: drivers keep
-// threads and thread-local destructors that unloading would pull the code from under.
+// A library loaded at run time, so that a system without it can still run everything else. It is never unloaded:
+// drivers keep threads and thread-local destructors that run its code.
 class SharedLibrary {
  public:
-  // Opens the first of `names` that there is; throws Error with the first one's cause. `subject` begins messages.
+  // Opens the first of `names` that can be loaded, else throws Error with the cause for the first of them. Messages
+  // begin with `subject`.
   SharedLibrary(std::string_view subject, std::initializer_list<const char*> names);
 
   void* find(const char* symbol) const;

@@ -25,14 +25,15 @@ struct TextureDesc {
   bool operator==(const TextureDesc&) const = default;
 };
 
-// A labelled texture with immutable storage. Throws Error when it is larger than the device allows or memory ends.
+// A labelled texture with immutable storage. Throws Error when it is larger than the device allows or memory runs
+// out.
 // Sampled with nearest filtering and clamp-to-edge unless a Sampler says otherwise.
 class Texture {
  public:
   Texture() = default;
   Texture(std::string_view label, const TextureDesc& desc);
-  // A texture that somebody else made and will delete, as `desc` describes it (see describe()): to attach, bind or read
-  // like one of our own. Nothing of it is changed but what passes draw into it.
+  // Refers to a texture that the caller made and will delete, and that `desc` describes (see describe()). It can be
+  // attached, bound and read like Penumbra's own; its sampling parameters stay as they are.
   static Texture wrap(GLuint id, const TextureDesc& desc);
 
   // Tightly packed pixels of one level and layer, given in `format`/`type` (GL_RGBA, GL_UNSIGNED_BYTE…).
@@ -44,7 +45,7 @@ class Texture {
 
   GLuint id() const { return handle_.id(); }
   bool is_foreign() const { return !handle_.is_owned(); }
-  // Differs for every texture ever made, while the driver gives a deleted texture's id out again; 0 of foreign ones.
+  // Unique to each texture that Penumbra makes; ids are not, as drivers reuse those of deleted textures. 0 if foreign.
   std::uint64_t serial() const { return serial_; }
   const TextureDesc& desc() const { return desc_; }
   int width() const { return desc_.width; }
@@ -81,17 +82,17 @@ class Sampler {
   Handle<delete_sampler> handle_;
 };
 
-// What OpenGL says of a texture that somebody else made. Throws Error when `id` is no texture, or one of a target or
-// format that Penumbra does not use; `name` stands in the message.
+// Asks OpenGL for the description of a texture that the caller made. Throws Error, with `name` in its message, when
+// `id` is not a texture, or has a target or format that Penumbra does not use.
 TextureDesc describe(std::string_view name, GLuint id);
 
-// Pixels of a level and layer, rows bottom to top, tightly packed as floats with `channels` (1 to 4) per pixel;
-// not for integer formats; read_uints is for unsigned ones. Waits for the GPU.
+// Reads a level and layer, rows from bottom to top, `channels` (1 to 4) values a pixel. read_floats() is for all
+// formats but those of integers, read_uints() for unsigned integers. They wait for the GPU.
 std::vector<float> read_floats(const Texture& texture, int channels, int level = 0, int layer = 0);
 std::vector<unsigned> read_uints(const Texture& texture, int channels, int level = 0, int layer = 0);
-// The stencil values of a format that has some, likewise.
+// The same for the stencil values of a depth and stencil format.
 std::vector<std::uint8_t> read_stencil(const Texture& texture, int level = 0, int layer = 0);
-// The colours or depth of one texel, of level and layer 0; y counts from the bottom.
+// The same for one texel of level and layer 0; y counts from the bottom.
 std::vector<float> read_float_texel(const Texture& texture, int channels, int x, int y);
 std::vector<unsigned> read_uint_texel(const Texture& texture, int channels, int x, int y);
 

@@ -6,7 +6,7 @@
 
 namespace penumbra::gl {
 
-// How a format's channels are read and cleared. Normalised formats read as real.
+// How a format's channels are read and cleared; `real` has floating-point and normalised formats.
 enum class ChannelKind { real, signed_integer, unsigned_integer, depth, depth_stencil };
 
 struct FormatInfo {

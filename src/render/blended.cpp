@@ -7,7 +7,9 @@ namespace {
 // Shadows of forward surfaces are a technique's function: a generated file puts it before the shading.
 std::string put_fragment_shader(gl::ShaderFiles& files, const std::string& forward_include) {
   std::string name = "generated/blended/" + forward_include;
-  files.put(name, "#include \"" + forward_include + "\"\n#include \"render/blended.glsl\"\n");
+  if (!files.has_generated(name)) {
+    files.put(name, "#include \"" + forward_include + "\"\n#include \"render/blended.glsl\"\n");
+  }
   return name;
 }
 

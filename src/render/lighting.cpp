@@ -46,7 +46,7 @@ const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inpu
       device.target("lit", {.format = GL_RGBA16F, .width = gbuffer.depth->width(), .height = gbuffer.depth->height()});
   const gl::Buffer& block = device.scratch("lighting", sizeof(glsl::LightingBlock));
   gl::write_value(block, lighting_block(inputs));
-  gl::Pass pass(device, {.name = "lighting", .colors = {{.texture = &lit}}});
+  gl::Pass pass(device, {.name = "lighting", .colors = {{.texture = &lit, .dont_care = true}}});
   pass.use(program());
   block.bind_uniform(lighting_binding);
   GLuint unit = first_unit;

@@ -15,7 +15,7 @@ gl::ProgramDesc program() {
 const gl::Texture& tone_map(gl::Device& device, const ToneMapInputs& inputs) {
   const gl::Texture& display =
       device.target("display", {.format = GL_RGBA8, .width = inputs.lit.width(), .height = inputs.lit.height()});
-  gl::Pass pass(device, {.name = "tone map", .colors = {{.texture = &display}}});
+  gl::Pass pass(device, {.name = "tone map", .colors = {{.texture = &display, .dont_care = true}}});
   pass.use(program());
   device.sampler({}).bind(first_unit);
   inputs.lit.bind(first_unit);

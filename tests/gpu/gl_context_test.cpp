@@ -14,7 +14,7 @@ using test::message_of;
 
 std::string gl_version() { return reinterpret_cast<const char*>(gl::glGetString(GL_VERSION)); }
 
-// Colours a 1x1 target through the context that is current, and reads it back.
+// Clears a target of one texel on the current context, and reads it back.
 float drawn_red() {
   gl::Device device({}, gl::Timers::Mode::off);
   const gl::Texture& target = device.target("target", {.format = GL_R32F});
@@ -94,7 +94,7 @@ TEST(GlContext, AWindowWithoutADisplayIsAnErrorThatSaysSo) {
 }
 
 TEST(GlContext, AWindowGivesCoreWhereThereIsADisplay) {
-  if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display: run under xvfb-run to see this";
+  if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display; xvfb-run gives one";
   const auto context = gl::make_window_context({.debug = true, .width = 64, .height = 64, .visible = false});
   EXPECT_EQ(context->backend(), gl::Backend::window);
   expect_core_4_5_that_draws(*context);
@@ -129,7 +129,7 @@ TEST(GlContext, ContextsTakeTurnsAndEachKeepsItsState) {
     EXPECT_EQ(point_size(), 3.0f);
   }
   egl.reset();
-  EXPECT_EQ(point_size(), 3.0f) << "the end of a context that is not current changes nothing";
+  EXPECT_EQ(point_size(), 3.0f) << "destroying a context that is not current changes nothing";
   expect_core_4_5_that_draws(*osmesa);
 }
 
@@ -155,7 +155,7 @@ TEST(GlContext, MissingEntryPointsAreNamed) {
   EXPECT_FLOAT_EQ(drawn_red(), 0.25f);
 }
 
-// A driver whose glGetIntegerv answers one question as it is told.
+// A driver whose glGetIntegerv answers one query with a given value.
 gl::GetProcAddress real_driver = nullptr;
 GLenum question = 0;
 GLint answer = 0;

@@ -1,6 +1,7 @@
 #include "gl/pass.h"
 
 #include "gl/api.h"
+#include "gl_calls.h"
 #include "gl_pass.h"
 
 namespace penumbra {
@@ -10,7 +11,7 @@ using test::fill_program;
 
 class GlDevice : public test::GlPassTest {
  protected:
-  // Names of every kind the driver has given out, up to a bound far above what the tests make.
+  // Objects of every kind, with ids up to a bound far above what the tests make.
   static int live_objects() {
     int live = 0;
     for (GLuint id = 1; id < 2000; ++id) {
@@ -38,18 +39,24 @@ TEST_F(GlDevice, AFrameMakesNoObjectsAfterTheFirst) {
   };
   frame();
   const int live = live_objects();
-  const GLuint id =
-      device
-          .target(
-              "maps",
-              device
-                  .target("maps",
-                          {.target = GL_TEXTURE_2D_ARRAY, .format = GL_R32F, .width = 16, .height = 16, .layers = 4})
-                  .desc())
-          .id();
+  const test::GlCalls creations(test::GlCalls::Kind::creations);
   for (int i = 0; i < 5; ++i) frame();
   EXPECT_EQ(live_objects(), live);
-  EXPECT_TRUE(gl::glIsTexture(id));
+  EXPECT_TRUE(creations.counts().empty()) << creations.counts().begin()->first << ": made and deleted again";
+}
+
+TEST_F(GlDevice, DropTakesWhatBeginsWithThePrefixAndNothingElse) {
+  for (const char* name : {"a", "b", "b/1", "b/1/x", "b/10", "b0", "c"}) {
+    device.target(name, {.format = GL_R8, .width = 4});
+    device.scratch(name, 4);
+  }
+  device.drop("b/1");
+  device.drop("none of that name");
+  std::vector<std::string> left;
+  for (const auto& target : device.targets()) left.emplace_back(target.name);
+  EXPECT_EQ(left, (std::vector<std::string>{"a", "b", "b0", "c", "color", "depth"}));
+  device.drop("");
+  EXPECT_TRUE(device.targets().empty());
 }
 
 TEST_F(GlDevice, ATargetIsMadeAgainWhenItsDescriptionChanges) {
@@ -60,11 +67,11 @@ TEST_F(GlDevice, ATargetIsMadeAgainWhenItsDescriptionChanges) {
     draw({.name = "p", .colors = {{.texture = &target}}}, glm::vec4(static_cast<float>(size)));
     EXPECT_EQ(gl::read_floats(target, 1), std::vector<float>(static_cast<std::size_t>(size * size), size));
   }
-  constexpr int one_of_each = 5;  // texture, framebuffer, vertex array, program; the program's shaders are gone
+  constexpr int one_of_each = 5;  // texture, framebuffer, vertex array, program; the program's shaders are deleted
   EXPECT_LE(live_objects(), live + one_of_each);
 }
 
-TEST_F(GlDevice, AFramebufferIsNotReusedForATextureThatTookADeadOnesName) {
+TEST_F(GlDevice, AFramebufferIsNotReusedForATextureWithADeletedOnesId) {
   for (float value = 1; value < 5; ++value) {
     const gl::Texture own("own", {.format = GL_R32F});
     draw({.name = "p", .colors = {{.texture = &own}}}, glm::vec4(value));

@@ -1,4 +1,4 @@
-// Attachments that the library does not own, and those whose contents a pass does not care for.
+// Attachments that the library does not own, and those whose contents a pass does not need.
 #include "gl/api.h"
 #include "gl/pass.h"
 #include "gl_pass.h"
@@ -23,7 +23,7 @@ class GlForeign : public test::GlPassTest {
   }
 };
 
-TEST_F(GlForeign, ADepthTextureOfTheCallersIsTestedAgainstAtItsLevelAndLayer) {
+TEST_F(GlForeign, TheCallersDepthTextureIsTestedAgainstAtItsLevelAndLayer) {
   const GLuint id = make(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT24, 3);
   const gl::Texture engine = gl::Texture::wrap(id, gl::describe("depth", id));
   EXPECT_EQ(engine.desc().target, GLenum{GL_TEXTURE_2D_ARRAY});
@@ -46,7 +46,7 @@ TEST_F(GlForeign, ADepthTextureOfTheCallersIsTestedAgainstAtItsLevelAndLayer) {
   gl::glDeleteTextures(1, &id);
 }
 
-TEST_F(GlForeign, ItOutlivesItsWrapAndNothingHoldsItAfterThePass) {
+TEST_F(GlForeign, ItOutlivesItsWrapperAndNoFramebufferKeepsIt) {
   const GLuint id = make(GL_TEXTURE_2D, GL_R32F, 1);
   {
     const gl::Texture engine = gl::Texture::wrap(id, gl::describe("engine", id));
@@ -66,7 +66,7 @@ TEST_F(GlForeign, ItOutlivesItsWrapAndNothingHoldsItAfterThePass) {
   gl::glDeleteTextures(1, &id);
 }
 
-TEST_F(GlForeign, AnotherTextureOfTheSameNameIsDrawnTo) {
+TEST_F(GlForeign, ATextureThatReusesTheIdIsDrawnTo) {
   for (float value = 1; value < 4; ++value) {
     const GLuint id = make(GL_TEXTURE_2D, GL_R32F, 1);
     const gl::Texture engine = gl::Texture::wrap(id, gl::describe("engine", id));
@@ -76,7 +76,7 @@ TEST_F(GlForeign, AnotherTextureOfTheSameNameIsDrawnTo) {
   }
 }
 
-TEST_F(GlForeign, AStencilOfTheCallersIsUsed) {
+TEST_F(GlForeign, TheCallersStencilIsUsed) {
   const GLuint id = make(GL_TEXTURE_2D, GL_DEPTH24_STENCIL8, 1);
   const gl::Texture engine = gl::Texture::wrap(id, gl::describe("depth", id));
   draw({.name = "p",
@@ -87,7 +87,7 @@ TEST_F(GlForeign, AStencilOfTheCallersIsUsed) {
   gl::glDeleteTextures(1, &id);
 }
 
-TEST_F(GlForeign, WhatIsNoTextureOfUseIsRefusedByName) {
+TEST_F(GlForeign, UnusableTexturesAreRefusedByName) {
   EXPECT_EQ(message_of([] { gl::describe("depth", 0); }), "texture 'depth': 0 is not the name of a texture");
   EXPECT_EQ(message_of([] { gl::describe("depth", 98765); }), "texture 'depth': 98765 is not the name of a texture");
   GLuint id = 0;
@@ -104,7 +104,7 @@ TEST_F(GlForeign, WhatIsNoTextureOfUseIsRefusedByName) {
   gl::glDeleteTextures(1, &id);
 }
 
-TEST_F(GlForeign, WhatAPassDoesNotCareForIsInvalidatedAndTheRestKept) {
+TEST_F(GlForeign, DontCareContentsAreInvalidatedAndOthersKept) {
   static int invalidated = 0;
   static PFNGLINVALIDATENAMEDFRAMEBUFFERDATAPROC real = nullptr;
   invalidated = 0;

@@ -11,7 +11,7 @@ using test::fill_program;
 
 using GlPass = test::GlPassTest;
 
-// What an engine may leave behind; a pass must not care.
+// State that an engine may leave behind, and that no pass may inherit.
 void disturb_state() {
   gl::glEnable(GL_SCISSOR_TEST);
   gl::glScissor(0, 0, 1, 1);

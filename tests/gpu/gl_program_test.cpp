@@ -36,7 +36,7 @@ TEST_F(GlProgram, AnErrorNamesTheLineOfTheRootFile) {
 }
 
 TEST_F(GlProgram, AnErrorNamesTheLineOfAnInclude) {
-  // An unknown name, a fault of types and one of syntax: drivers find them in different steps.
+  // Unknown names and errors of type and syntax: drivers find them in different stages of compilation.
   for (const std::string fault : {"missing", "vec2(1.0)", "one.x", "1.0 +", "vec4(1.0).nothing"}) {
     const std::string text = "#pragma once\n\nfloat one() {\n  return " + fault + ";\n}\n";
     const auto files = shader_files({{"triangle.vert", triangle},

@@ -116,7 +116,7 @@ TEST_F(GlStencil, DepthAndStencilAreClearedAndKeptEachByItself) {
   EXPECT_EQ(stored(), 4);
 }
 
-TEST_F(GlStencil, APassThatDescribesNoneNeitherTestsNorWrites) {
+TEST_F(GlStencil, APassWithoutStencilNeitherTestsNorWritesIt) {
   draw_with({.front = {.test = StencilTest::never, .fail = StencilOp::increment}, .clear = 1});
   EXPECT_FALSE(drew());
   draw({.name = "plain",
@@ -139,7 +139,7 @@ TEST_F(GlStencil, TwentyFourBitDepthHasItToo) {
   EXPECT_NEAR(gl::read_floats(packed, 1).front(), 0.5f, 1e-6f);
 }
 
-TEST_F(GlStencil, ADepthTextureWithoutIsNamedAsTheCause) {
+TEST_F(GlStencil, ADepthTextureWithoutStencilIsAnError) {
   const auto pass = [&](const gl::PassDesc& desc) { gl::Pass(device, desc); };
   const gl::Stencil stencil;
   EXPECT_EQ(

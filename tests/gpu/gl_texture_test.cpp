@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numeric>
 
+#include "core/log.h"
 #include "gl/api.h"
 #include "gpu_test.h"
 
@@ -37,15 +38,40 @@ TEST_F(GlTexture, EveryLevelAndLayerReadsBackWhatWasUploaded) {
   }
 }
 
-TEST_F(GlTexture, OddRowsArePackedTightlyWhateverTheStateWas) {
-  gl::glPixelStorei(GL_UNPACK_ALIGNMENT, 8);
-  gl::glPixelStorei(GL_UNPACK_ROW_LENGTH, 17);
-  gl::glPixelStorei(GL_PACK_ALIGNMENT, 8);
-  const gl::Texture texture("t", {.format = GL_R8, .width = 3, .height = 3});
-  const std::array<std::uint8_t, 9> pixels{0, 255, 51, 102, 0, 255, 204, 153, 51};
-  texture.upload(GL_RED, GL_UNSIGNED_BYTE, std::as_bytes(std::span(pixels)));
+// Pixel-store state of an engine's, each value another than the initial one and than that of tight packing.
+struct Layout {
+  GLenum name;
+  GLint value, initial;
+};
+constexpr std::array layouts{
+    Layout{GL_UNPACK_ALIGNMENT, 8, 4},   Layout{GL_UNPACK_ROW_LENGTH, 17, 0}, Layout{GL_UNPACK_SKIP_ROWS, 2, 0},
+    Layout{GL_UNPACK_SKIP_PIXELS, 3, 0}, Layout{GL_UNPACK_SKIP_IMAGES, 1, 0}, Layout{GL_UNPACK_IMAGE_HEIGHT, 19, 0},
+    Layout{GL_UNPACK_SWAP_BYTES, 1, 0},  Layout{GL_PACK_ALIGNMENT, 8, 4},     Layout{GL_PACK_ROW_LENGTH, 23, 0},
+    Layout{GL_PACK_SKIP_ROWS, 4, 0},     Layout{GL_PACK_SKIP_PIXELS, 5, 0},   Layout{GL_PACK_SKIP_IMAGES, 6, 0},
+    Layout{GL_PACK_IMAGE_HEIGHT, 29, 0}, Layout{GL_PACK_SWAP_BYTES, 1, 0}};
+
+GLint integer(GLenum name) {
+  GLint value = 0;
+  gl::glGetIntegerv(name, &value);
+  return value;
+}
+
+TEST_F(GlTexture, UploadsAndReadsIgnoreAndKeepPixelStoreState) {
+  const gl::Buffer other("an engine's", 4);
+  for (const Layout& layout : layouts) gl::glPixelStorei(layout.name, layout.value);
+  gl::glBindBuffer(GL_PIXEL_UNPACK_BUFFER, other.id());
+  gl::glBindBuffer(GL_PIXEL_PACK_BUFFER, other.id());
+  const gl::Texture texture("t", {.format = GL_R16, .width = 3, .height = 3});
+  const std::array<std::uint16_t, 9> pixels{0, 65535, 51, 102, 0, 255, 20400, 153, 51};
+  texture.upload(GL_RED, GL_UNSIGNED_SHORT, std::as_bytes(std::span(pixels)));
   const std::vector<float> read = gl::read_floats(texture, 1);
-  for (std::size_t i = 0; i < pixels.size(); ++i) EXPECT_FLOAT_EQ(read[i], static_cast<float>(pixels[i]) / 255.0f);
+  for (std::size_t i = 0; i < pixels.size(); ++i) EXPECT_FLOAT_EQ(read[i], static_cast<float>(pixels[i]) / 65535.0f);
+  EXPECT_EQ(integer(GL_PIXEL_UNPACK_BUFFER_BINDING), static_cast<GLint>(other.id()));
+  EXPECT_EQ(integer(GL_PIXEL_PACK_BUFFER_BINDING), static_cast<GLint>(other.id()));
+  for (const Layout& layout : layouts) {
+    EXPECT_EQ(integer(layout.name), layout.value) << std::hex << layout.name;
+    gl::glPixelStorei(layout.name, layout.initial);
+  }
 }
 
 TEST_F(GlTexture, IntegersAndDepthReadBack) {
@@ -90,6 +116,32 @@ TEST_F(GlTexture, OneThatDoesNotFitIntoMemoryIsNamedOnce) {
   const std::string message = message_of([&] { gl::Texture("mask", huge); });
   EXPECT_NE(message.find("texture 'mask': out of memory"), std::string::npos) << message;
   EXPECT_NO_THROW(gl::check_errors("afterwards"));
+}
+
+// The flag of an earlier call that nobody has read yet.
+TEST_F(GlTexture, AnEarlierErrorNeitherHidesRunningOutOfMemoryNorIsLost) {
+  const gl::TextureDesc huge{
+      .target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA32F, .width = 16384, .height = 16384, .layers = 2048};
+  const auto make_an_error = [] { gl::glEnable(GL_TEXTURE_2D_ARRAY); };
+  make_an_error();
+  EXPECT_NE(message_of([&] { gl::Texture("mask", huge); }).find("texture 'mask': out of memory"), std::string::npos);
+  const std::string kept = message_of([] { gl::check_errors("afterwards"); });
+  EXPECT_NE(kept.find("GL_INVALID_ENUM"), std::string::npos) << kept;
+  EXPECT_NO_THROW(gl::check_errors("afterwards"));
+
+  const auto plain = gl::make_context(test::backend_name(), {.debug = false});
+  std::vector<std::string> warnings;
+  set_log_sink([&](LogLevel level, std::string_view message) {
+    if (level == LogLevel::warning) warnings.emplace_back(message);
+  });
+  make_an_error();
+  EXPECT_NE(message_of([&] { gl::Texture("mask", huge); }).find("texture 'mask': out of memory"), std::string::npos);
+  make_an_error();
+  const gl::Buffer buffer("lists", 16);
+  set_log_sink({});
+  EXPECT_EQ(warnings, (std::vector<std::string>{
+                          "OpenGL: an earlier call raised GL_INVALID_ENUM, found when texture 'mask' was made",
+                          "OpenGL: an earlier call raised GL_INVALID_ENUM, found when buffer 'lists' was made"}));
 }
 
 TEST_F(GlTexture, MovingKeepsOneOwner) {

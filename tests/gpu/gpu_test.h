@@ -15,8 +15,8 @@ namespace penumbra::test {
 // The backend that GPU tests run on: PENUMBRA_TEST_BACKEND, or "egl".
 std::string backend_name();
 
-// A test with a debug context, made once a process; current before the members of a test class are made. It fails on
-// any GL error or debug message of type error.
+// A test with a debug context, which is made once a process and is current before members of test classes are
+// constructed. It fails on any GL error or debug message of type error.
 class GpuTest : public testing::Test {
  protected:
   GpuTest();

@@ -1,4 +1,5 @@
-// Programs of values that a slider has passed are neither kept for ever nor compiled again with each save.
+// Programs of parameter values that are no longer used, as while a slider is dragged, are neither kept for ever nor
+// compiled again with each save.
 #include "gl/shader_library.h"
 
 #include "gl/api.h"

@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 
 constexpr const char* sized = "layout(local_size_x = SIZE) in; void main() {}\n";
 
-// A folder over the built-in files, saved to as by an editor, watched, and taken up.
+// A folder that overlays the built-in files and is watched; files are saved to it as by an editor, and reloaded.
 class ShaderReloadTest : public test::GpuTest {
  protected:
   ShaderReloadTest() {
@@ -135,7 +135,7 @@ TEST_F(ShaderReloadTest, AFirstLoadThatFailsThrowsAndAFixIsFound) {
   EXPECT_TRUE(library.errors().empty());
 }
 
-// Names that OpenGL has given to programs and shaders.
+// Ids of OpenGL's programs and shaders.
 std::set<GLuint> live_names() {
   std::set<GLuint> names;
   for (GLuint id = 1; id < 4096; ++id) {

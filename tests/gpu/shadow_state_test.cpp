@@ -1,7 +1,10 @@
 // The library in an engine: whatever state it comes in, the mask is the same, and what is left is what the header says.
 
+#include <algorithm>
 #include <array>
 #include <glm/gtc/matrix_transform.hpp>
+#include <optional>
+#include <utility>
 
 #include "gpu/gpu_test.h"
 #include "gpu/triangle_scene.h"
@@ -48,7 +51,28 @@ std::array<GLint, count> integers(GLenum name) {
   return result;
 }
 
-// State that no engine has all of at once, and each of which would spoil a pass that inherited it.
+// State that render() leaves alone, and what an engine may have set it to: each value is another than the initial one.
+struct Kept {
+  GLenum name;
+  GLint value;
+};
+constexpr std::array kept_layout{
+    Kept{GL_UNPACK_ALIGNMENT, 8},   Kept{GL_UNPACK_ROW_LENGTH, 17}, Kept{GL_UNPACK_SKIP_ROWS, 2},
+    Kept{GL_UNPACK_SKIP_PIXELS, 3}, Kept{GL_UNPACK_SKIP_IMAGES, 1}, Kept{GL_UNPACK_IMAGE_HEIGHT, 19},
+    Kept{GL_UNPACK_SWAP_BYTES, 1},  Kept{GL_PACK_ALIGNMENT, 2},     Kept{GL_PACK_ROW_LENGTH, 23},
+    Kept{GL_PACK_SKIP_ROWS, 4},     Kept{GL_PACK_SKIP_PIXELS, 5},   Kept{GL_PACK_SKIP_IMAGES, 6},
+    Kept{GL_PACK_IMAGE_HEIGHT, 29}, Kept{GL_PACK_SWAP_BYTES, 1}};
+// Buffers that are bound for others' sake; by target and by query.
+constexpr std::array kept_buffers{std::pair{GL_PIXEL_UNPACK_BUFFER, GL_PIXEL_UNPACK_BUFFER_BINDING},
+                                  std::pair{GL_PIXEL_PACK_BUFFER, GL_PIXEL_PACK_BUFFER_BINDING},
+                                  std::pair{GL_ARRAY_BUFFER, GL_ARRAY_BUFFER_BINDING},
+                                  std::pair{GL_COPY_READ_BUFFER, GL_COPY_READ_BUFFER},
+                                  std::pair{GL_COPY_WRITE_BUFFER, GL_COPY_WRITE_BUFFER},
+                                  std::pair{GL_TEXTURE_BUFFER, GL_TEXTURE_BUFFER_BINDING},
+                                  std::pair{GL_SHADER_STORAGE_BUFFER, GL_SHADER_STORAGE_BUFFER_BINDING},
+                                  std::pair{GL_QUERY_BUFFER, GL_QUERY_BUFFER_BINDING}};
+
+// State that no engine has all of at once: some would spoil a pass that inherited it, the rest is to stay.
 class Disturbed {
  public:
   Disturbed() {
@@ -77,18 +101,56 @@ class Disturbed {
     gl::glMinSampleShading(1.0f);
     gl::glPrimitiveRestartIndex(0);
     gl::glPointSize(5.0f);
+    for (const Kept& kept : kept_layout) gl::glPixelStorei(kept.name, kept.value);
+    for (const auto& [target, query] : kept_buffers) gl::glBindBuffer(target, buffer_.id());
+    gl::glBindBufferBase(GL_UNIFORM_BUFFER, 3, buffer_.id());
+    gl::glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer_.id());
+    gl::glActiveTexture(GL_TEXTURE5);
+    gl::glClearColor(0.25f, 0.5f, 0.75f, 1.0f);
+    gl::glBlendColor(0.25f, 0.5f, 0.75f, 1.0f);
+    gl::glProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
     for (GLuint unit = 0; unit < 16; ++unit) {
       // A comparing, filtering sampler gives other values for every texture.
       sampler_.bind(unit);
       gl::glBindTextureUnit(unit, texture_.id());
     }
   }
-  ~Disturbed() { gl::glDeleteVertexArrays(1, &vertex_array_); }
+  ~Disturbed() {
+    gl::glDeleteVertexArrays(1, &vertex_array_);
+    for (const Kept& kept : kept_layout) {
+      const bool alignment = kept.name == GL_UNPACK_ALIGNMENT || kept.name == GL_PACK_ALIGNMENT;
+      gl::glPixelStorei(kept.name, alignment ? 4 : 0);
+    }
+    gl::glActiveTexture(GL_TEXTURE0);
+    gl::glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
+  }
   Disturbed(const Disturbed&) = delete;
   Disturbed& operator=(const Disturbed&) = delete;
 
+  void expect_kept() const {
+    const auto id = static_cast<GLint>(buffer_.id());
+    for (const Kept& kept : kept_layout) EXPECT_EQ(integers(kept.name)[0], kept.value) << std::hex << kept.name;
+    for (const auto& [target, query] : kept_buffers) EXPECT_EQ(integers(query)[0], id) << std::hex << target;
+    for (const auto& [query, index] :
+         {std::pair{GL_UNIFORM_BUFFER_BINDING, 3}, {GL_SHADER_STORAGE_BUFFER_BINDING, 0}}) {
+      GLint bound = 0;
+      gl::glGetIntegeri_v(static_cast<GLenum>(query), static_cast<GLuint>(index), &bound);
+      EXPECT_EQ(bound, id);
+    }
+    EXPECT_EQ(integers(GL_ACTIVE_TEXTURE)[0], GL_TEXTURE5);
+    EXPECT_EQ(integers(GL_PROVOKING_VERTEX)[0], GL_FIRST_VERTEX_CONVENTION);
+    EXPECT_EQ(integers(GL_LOGIC_OP_MODE)[0], GL_CLEAR);
+    EXPECT_EQ(integers<4>(GL_SCISSOR_BOX), (std::array<GLint, 4>{0, 0, 1, 1}));
+    for (const GLenum color : {GL_COLOR_CLEAR_VALUE, GL_BLEND_COLOR}) {
+      std::array<GLfloat, 4> values{};
+      gl::glGetFloatv(color, values.data());
+      EXPECT_EQ(values, (std::array<GLfloat, 4>{0.25f, 0.5f, 0.75f, 1.0f})) << std::hex << color;
+    }
+  }
+
  private:
   GLuint vertex_array_ = 0;
+  gl::Buffer buffer_{"other", 1024};
   gl::Texture texture_{"other", {.format = GL_DEPTH_COMPONENT32F}};
   gl::Sampler sampler_{"other", {.min_filter = GL_LINEAR, .mag_filter = GL_LINEAR, .compare = true}};
 };
@@ -133,37 +195,98 @@ void expect_documented_state() {
   }
 }
 
+// A wide sun over a box, a corner of which moves where a history is kept.
+TriangleScene small_scene() {
+  TriangleScene scene;
+  scene.add_quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
+  scene.add_box({-1, 0, -1}, {1, 1, 1});
+  scene.move_from(12, {0.1f, 0, 0});
+  scene.view = glm::lookAt(glm::vec3(2, 5, 6), glm::vec3(0), glm::vec3(0, 1, 0));
+  scene.projection = perspective(0.8f, 1, 0.1f);
+  scene.to_light = sun_direction(60, 40);
+  scene.width = scene.height = 16;
+  return scene;
+}
+
+ParamSet small_params(const TriangleRenderer& renderer) {
+  ParamSet params = renderer.params();
+  params.set("sun.angle", 4.0f);
+  params.set("cascades.size", 64);
+  params.set("cascades.count", 2);
+  return params;
+}
+
 class ShadowState : public GpuTest {
  protected:
   void TearDown() override {
     gl::leave_initial_state();
     GpuTest::TearDown();
   }
+
+  // The same frame in a clean state and among what an engine leaves, each on a renderer of its own.
+  void expect_promises(TriangleRenderer& clean, TriangleRenderer& disturbed, const ParamSet& params) {
+    const auto with_memory = [&](shadow::Inputs& inputs) {
+      inputs.view.last_view = scene.view;
+      inputs.view.last_projection = scene.projection;
+    };
+    const Shadowed expected = clean.render(scene, params, with_memory);
+    std::optional<Disturbed> state;
+    const Shadowed drawn = disturbed.render(
+        scene, params,
+        [&](shadow::Inputs& inputs) {
+          with_memory(inputs);
+          state.emplace();
+        },
+        [&] {
+          expect_documented_state();
+          state->expect_kept();
+        });
+    EXPECT_EQ(drawn.mask, expected.mask);
+  }
+
+  const TriangleScene scene = small_scene();
 };
 
-TEST_F(ShadowState, NothingIsInheritedAndWhatIsLeftIsDocumented) {
-  TriangleRenderer renderer;
-  TriangleScene scene;
-  scene.add_quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
-  scene.add_box({-1, 0, -1}, {1, 1, 1});
-  scene.view = glm::lookAt(glm::vec3(2, 5, 6), glm::vec3(0), glm::vec3(0, 1, 0));
-  scene.projection = perspective(0.8f, 1, 0.1f);
-  scene.to_light = sun_direction(60, 40);
-  ParamSet params = renderer.params();
-  params.set("sun.angle", 4.0f);
-  for (const std::string technique : {"none", "pcss"}) {
+TEST_F(ShadowState, AFirstFrameUploadsNoiseAndKeepsWhatIsNotListed) {
+  for (const std::string driver : {"fragment", "compute"}) {
+    SCOPED_TRACE(driver);
+    TriangleRenderer clean, disturbed;
+    ParamSet params = small_params(clean);
+    params.set("technique", std::string("pcss"));
+    params.set("driver", driver);
+    expect_promises(clean, disturbed, params);
+  }
+}
+
+TEST_F(ShadowState, EveryTechniqueInheritsNothingAndLeavesWhatIsDocumented) {
+  TriangleRenderer clean, disturbed;
+  for (const std::string& name : clean.shadows().registry().names()) {
+    SCOPED_TRACE(name);
+    ParamSet params = small_params(clean);
+    clean.shadows().registry().select(params, name);
+    for (int frame = 0; frame < 2; ++frame) expect_promises(clean, disturbed, params);
+  }
+}
+
+// Every switch and every word of the library's own, which between them choose each filter, noise, pattern, map of
+// movement and driver.
+TEST_F(ShadowState, SoDoesEveryChoiceOfTheLibrary) {
+  TriangleRenderer clean, disturbed;
+  const std::vector<std::string> techniques = clean.shadows().registry().names();
+  for (const Param& row : clean.params().rows()) {
+    const bool of_technique = std::ranges::find(techniques, row.name.substr(0, row.name.find('.'))) != techniques.end();
+    const bool is_choice = !row.choices.empty() || std::holds_alternative<bool>(row.default_value);
+    if (of_technique || !is_choice) continue;
     for (const std::string driver : {"fragment", "compute"}) {
-      SCOPED_TRACE(technique);
-      SCOPED_TRACE(driver);
-      params.set("technique", technique);
-      params.set("driver", driver);
-      const Shadowed clean = renderer.render(scene, params);
-      std::optional<Disturbed> disturbed;
-      const Shadowed after = renderer.render(scene, params, [&](shadow::Inputs&) { disturbed.emplace(); });
-      EXPECT_EQ(after.mask, clean.mask);
-      expect_documented_state();
-      EXPECT_EQ(integers<4>(GL_SCISSOR_BOX), (std::array<GLint, 4>{0, 0, 1, 1})) << "what is not listed stays";
-      EXPECT_EQ(integers(GL_LOGIC_OP_MODE)[0], GL_CLEAR);
+      for (const ParamValue& value : representative_values(row)) {
+        SCOPED_TRACE(row.name + "=" + to_text(value) + " " + driver);
+        ParamSet params = small_params(clean);
+        params.set("technique", std::string("pcss"));
+        params.set("history.reuse", true);
+        params.set("driver", driver);
+        params.set(row.name, value);
+        for (int frame = 0; frame < 2; ++frame) expect_promises(clean, disturbed, params);
+      }
     }
   }
 }

@@ -202,7 +202,8 @@ TriangleRenderer::TriangleRenderer(shadow::Registry registry)
   Geometry::put_shaders(device_.shaders.files());
 }
 
-Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& params, const Adjust& adjust) {
+Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& params, const Adjust& adjust,
+                                  const std::function<void()>& after) {
   const Geometry geometry(scene);
   const gl::Texture& depth =
       device_.target("test depth", {.format = GL_DEPTH_COMPONENT32F, .width = scene.width, .height = scene.height});
@@ -228,6 +229,7 @@ Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& pa
                         .draw = geometry.casters()};
   if (adjust) adjust(inputs);
   mask_ = shadows_.render(inputs, params);
+  if (after) after();
   Shadowed result{.width = scene.width,
                   .height = scene.height,
                   .mask = gl::read_floats(*mask_.texture, 4),

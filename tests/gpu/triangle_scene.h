@@ -88,9 +88,10 @@ class TriangleRenderer {
   explicit TriangleRenderer(shadow::Registry registry = shadow::built_in_registry());
   // Parameters at their defaults; change and pass them to render().
   ParamSet params() const { return ParamSet(shadows_.registry().params()); }
-  // `adjust` has the last word on what the library is given.
+  // `adjust` has the last word on what the library is given, `after` is called when the library has just returned.
   using Adjust = std::function<void(shadow::Inputs&)>;
-  Shadowed render(const TriangleScene& scene, const ParamSet& params, const Adjust& adjust = {});
+  Shadowed render(const TriangleScene& scene, const ParamSet& params, const Adjust& adjust = {},
+                  const std::function<void()>& after = {});
   gl::Device& device() { return device_; }
   shadow::SoftShadows& shadows() { return shadows_; }
   const shadow::Mask& mask() const { return mask_; }
