@@ -58,7 +58,7 @@ scene::Casters casters_of(shadow::CasterKind kind) {
 struct Stage {
   gl::Device& device;
   scene::GpuScene& scene;
-  shadow::Cascades cascades;
+  shadow::LightProjection projection;
 };
 
 void draw(Stage& stage, const Way& way) {
@@ -66,24 +66,24 @@ void draw(Stage& stage, const Way& way) {
     stage.scene.draw_casters(stage.device, pass, casters_of(casters.kind), casters.world_to_clip,
                              [&](const scene::Bounds& box) { return casters.cull.holds(box_of(box)); });
   };
-  const int layers = static_cast<int>(stage.cascades.items.size());
+  const int layers = stage.projection.layers();
   const bool average = way.form == shadow::MovementForm::average;
   const gl::Texture* map = way.none ? nullptr
                                     : &shadow::movement_target(stage.device, average ? "average" : "maximum",
-                                                               stage.cascades.size, layers, way.form);
+                                                               stage.projection.size(), layers, way.form);
   std::optional<shadow::Box> moved;
   if (way.bounds) moved = box_of(stage.scene.moved_bounds());
   const gl::Texture& depth = shadow::draw_shadow_map(stage.device, {.name = "shadow map",
-                                                                    .cascades = stage.cascades,
+                                                                    .projection = stage.projection,
                                                                     .draw = draw,
                                                                     .moved = way.second_target ? map : nullptr,
                                                                     .moved_bounds = moved});
   shadow::build_depth_pyramid(
-      stage.device, {.name = "depth pyramid", .depth = depth.id(), .size = stage.cascades.size, .layers = layers});
+      stage.device, {.name = "depth pyramid", .depth = depth.id(), .size = stage.projection.size(), .layers = layers});
   if (map == nullptr) return;
   shadow::draw_movement(stage.device, {.map = *map,
                                        .form = way.form,
-                                       .cascades = stage.cascades,
+                                       .projection = stage.projection,
                                        .draw = draw,
                                        .depth = &depth,
                                        .moved = moved,

@@ -8,8 +8,8 @@ float read_radius(Receiver receiver, Light light) {
 }
 
 vec4 fetch(Receiver receiver, vec2 offset, Light light) {
-  vec2 at = map_place(vec3(receiver.position.xy + offset, receiver.position.z), light.layer) / shadow.map_size;
-  return textureGather(shadow_depth, vec3(at, float(light.layer)));
+  vec3 at = vec3(receiver.position.xy + offset, receiver.position.z);
+  return gather_stored(map_place(at, light.layer), light.layer);
 }
 
 Visibility visibility(Receiver receiver, Light light) {

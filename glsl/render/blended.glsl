@@ -23,7 +23,12 @@ void main() {
   vec3 radiance = s.albedo;
   if (!is_unlit()) {
     vec3 view_position = (world_to_view * vec4(surface.world, 1.0)).xyz;
-    radiance = shade(s, shadow_visibility(view_position, geometric, gl_FragCoord.xy - 0.5));
+    Reflection r = reflection_of(s);
+    radiance = unshadowed_light(s, r);
+    // The forward driver has the maps of the first light.
+    add_light(radiance, s, r, 0, shadow_visibility(view_position, geometric, gl_FragCoord.xy - 0.5));
+    for (int i = 1; i < lighting.light_count; ++i) add_light(radiance, s, r, i, 1.0);
+    radiance = storable(radiance);
   }
   blended = vec4(radiance * alpha, alpha);
 }

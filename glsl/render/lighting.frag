@@ -10,7 +10,7 @@ layout(binding = 9) uniform sampler2D gbuffer_normal;
 layout(binding = 10) uniform sampler2D gbuffer_material;
 layout(binding = 11) uniform sampler2D gbuffer_emission;
 layout(binding = 12) uniform sampler2D gbuffer_depth;
-layout(binding = 13) uniform sampler2DArray shadow_mask;
+layout(binding = 13) uniform sampler2DArray shadow_mask;  // one layer a light
 
 layout(location = 0) out vec4 lit;
 
@@ -32,6 +32,14 @@ void main() {
   s.metallic = material.r;
   s.roughness = material.g;
   s.occlusion = material.b;
-  vec3 color = material.a > 0.5 ? s.albedo : shade(s, texelFetch(shadow_mask, ivec3(pixel, 0), 0).r);
+  vec3 color = s.albedo;
+  if (material.a <= 0.5) {
+    Reflection r = reflection_of(s);
+    vec3 radiance = unshadowed_light(s, r);
+    for (int i = 0; i < lighting.light_count; ++i) {
+      add_light(radiance, s, r, i, texelFetch(shadow_mask, ivec3(pixel, i), 0).r);
+    }
+    color = storable(radiance);
+  }
   lit = vec4(color, 1.0);
 }

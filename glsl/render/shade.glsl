@@ -1,4 +1,4 @@
-// Metallic-roughness shading as glTF 2.0, appendix B: the sun, and light from all around.
+// Metallic-roughness shading as glTF 2.0, appendix B: direct light, and light from all around.
 #include "lib/brdf.glsl"
 #include "render/sky.glsl"
 
@@ -12,33 +12,46 @@ struct Shading {
   float occlusion;
 };
 
-// From the sun, per unit of its visibility.
-vec3 sunlight(Shading s, vec3 diffuse, vec3 reflectance) {
-  float n_dot_l = dot(s.normal, lighting.to_sun.xyz);
-  if (n_dot_l <= 0.0) return vec3(0.0);
-  vec3 half_vector = normalize(lighting.to_sun.xyz + s.to_eye);
-  float n_dot_v = max(dot(s.normal, s.to_eye), 1e-4);
-  // The sun is no point: below this its highlight would be smaller than itself.
-  float alpha = max(s.roughness * s.roughness, 0.005);
-  vec3 fresnel = mix(reflectance, vec3(1.0), schlick_weight(dot(s.to_eye, half_vector)));
-  float lobe = ggx_distribution(clamp(dot(s.normal, half_vector), 0.0, 1.0), alpha) *
-               smith_visibility(n_dot_l, n_dot_v, alpha);
-  vec3 brdf = (1.0 - fresnel) * diffuse / brdf_pi + fresnel * lobe;
-  return lighting.sun.rgb * n_dot_l * brdf;
+// What a surface does with light.
+struct Reflection {
+  vec3 diffuse;    // albedo of what enters it
+  vec3 at_normal;  // reflectance of its surface where the light falls straight onto it
+};
+
+Reflection reflection_of(Shading s) {
+  return Reflection(s.albedo * (1.0 - s.metallic), mix(vec3(0.04), s.albedo, s.metallic));
 }
 
-vec3 skylight(Shading s, vec3 diffuse, vec3 reflectance) {
+// Radiance from a light that nothing hides.
+vec3 direct_light(Shading s, Reflection r, DirectLightBlock light) {
+  float n_dot_l = dot(s.normal, light.to_light);
+  if (n_dot_l <= 0.0) return vec3(0.0);
+  vec3 half_vector = normalize(light.to_light + s.to_eye);
+  float n_dot_v = max(dot(s.normal, s.to_eye), 1e-4);
+  // No light is a point: below this its highlight would be smaller than itself.
+  float alpha = max(s.roughness * s.roughness, 0.005);
+  vec3 fresnel = mix(r.at_normal, vec3(1.0), schlick_weight(dot(s.to_eye, half_vector)));
+  float lobe = ggx_distribution(clamp(dot(s.normal, half_vector), 0.0, 1.0), alpha) *
+               smith_visibility(n_dot_l, n_dot_v, alpha);
+  vec3 brdf = (1.0 - fresnel) * r.diffuse / brdf_pi + fresnel * lobe;
+  return light.illuminance * n_dot_l * brdf;
+}
+
+vec3 skylight(Shading s, Reflection r) {
   float n_dot_v = clamp(dot(s.normal, s.to_eye), 0.0, 1.0);
   vec2 scale_bias = environment_brdf(s.roughness, n_dot_v);
   vec3 all_around = ambient(s.normal);
   vec3 mirrored = mix(surroundings(reflect(-s.to_eye, s.normal), s.roughness), all_around, s.roughness);
-  return s.occlusion * (diffuse * all_around + (reflectance * scale_bias.x + scale_bias.y) * mirrored);
+  return s.occlusion * (r.diffuse * all_around + (r.at_normal * scale_bias.x + scale_bias.y) * mirrored);
 }
 
-vec3 shade(Shading s, float sun_visibility) {
-  vec3 diffuse = s.albedo * (1.0 - s.metallic);
-  vec3 reflectance = mix(vec3(0.04), s.albedo, s.metallic);
-  vec3 radiance = skylight(s, diffuse, reflectance) + s.emission * lighting.to_sun.w;
-  if (sun_visibility > 0.0) radiance += sun_visibility * sunlight(s, diffuse, reflectance);
-  return min(radiance, vec3(65000.0));  // half floats end there
+// What a surface sends to the eye whatever is in shadow.
+vec3 unshadowed_light(Shading s, Reflection r) { return skylight(s, r) + s.emission * lighting.emission; }
+
+// Adds a light of which that share is seen.
+void add_light(inout vec3 radiance, Shading s, Reflection r, int index, float visibility) {
+  if (visibility > 0.0) radiance += visibility * direct_light(s, r, lighting.lights[index]);
 }
+
+// Half floats, which pictures are kept in, end there.
+vec3 storable(vec3 radiance) { return min(radiance, vec3(65000.0)); }

@@ -1,4 +1,4 @@
-// The sky, and the ground around the scene: the light of what is no sun.
+// The sky, and the ground around the scene: light that has no layer of the shadow mask.
 #include "shared/lighting_block.h"
 
 layout(std140, binding = 5) uniform LightingData { LightingBlock lighting; };
@@ -15,16 +15,16 @@ vec3 sky_color(float height) {
   return mix(zenith, horizon, low * low * low * low);
 }
 
-// Endless ground, as the sun and the sky light it.
-vec3 ground_radiance() { return lighting.ground.rgb + lighting.sky.w * lighting.sky.rgb * sky_mean; }
+// Endless ground, as direct light and the sky light it.
+vec3 ground_radiance() { return lighting.ground + lighting.ground_albedo * lighting.sky * sky_mean; }
 
 // What comes from a direction; `blur` softens the horizon.
 vec3 surroundings(vec3 direction, float blur) {
   float above = smoothstep(-0.01 - blur, 0.01 + blur, direction.y);
-  return mix(ground_radiance(), lighting.sky.rgb * sky_color(direction.y), above);
+  return mix(ground_radiance(), lighting.sky * sky_color(direction.y), above);
 }
 
 // Irradiance over pi on a plane from sky and ground. The scene itself hides a part of the ground's light.
 vec3 ambient(vec3 normal) {
-  return mix(lighting.ground.w * ground_radiance(), lighting.sky.rgb * sky_mean, 0.5 + 0.5 * normal.y);
+  return mix(lighting.ground_light * ground_radiance(), lighting.sky * sky_mean, 0.5 + 0.5 * normal.y);
 }

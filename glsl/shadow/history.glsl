@@ -21,7 +21,7 @@ vec2 ndc_at(vec2 place, vec2 jitter) { return place / shadow.viewport.zw * 2.0 -
 
 uvec2 surface_bits(ivec2 pixel, Receiver receiver) {
   return uvec2(floatBitsToUint(texelFetch(receiver_depth, pixel, 0).x),
-               packSnorm2x16(octahedral_encode(receiver.normal)));
+               packSnorm2x16(octahedral_encode(shared_normal_of(receiver))));
 }
 
 // Of a pixel at that place in view space, metres.
@@ -47,7 +47,7 @@ bool is_own(Likeness like, Receiver receiver, ivec2 tap) {
   vec4 place = shadow.last_clip_to_view * clip;
   float off = dot(like.normal, place.xyz / place.w - like.position);
   return abs(off) <= like.distance_to &&
-         dot(octahedral_decode(unpackSnorm2x16(stored.y)), receiver.normal) >= like.cosine;
+         dot(octahedral_decode(unpackSnorm2x16(stored.y)), shared_normal_of(receiver)) >= like.cosine;
 }
 
 // Where motion says that a receiver was, and where it was if only the camera moved.
@@ -70,7 +70,7 @@ LastPlace last_place(ivec2 pixel, vec3 position) {
 Likeness likeness_of(Receiver receiver, vec3 position, LastPlace last) {
   float width = pixel_width(position);
   float way = length((last.ndc - last.at_rest) * 0.5 * shadow.viewport.zw) * width;
-  return Likeness(position, view_direction(receiver.normal), history_distance * width + way,
+  return Likeness(position, view_normal_of(receiver), history_distance * width + way,
                   cos(radians(history_turn)));
 }
 

@@ -44,6 +44,10 @@ vec3 view_direction(vec3 light_space_direction) { return light_space_direction *
 vec3 light_position(vec3 view_position) { return mat3(shadow.view_to_light) * view_position; }
 vec3 view_position_of(Receiver receiver) { return receiver.position * mat3(shadow.view_to_light); }
 
+// A receiver's normal in view space, and in axes that all layers share and that stay while the light does.
+vec3 view_normal_of(Receiver receiver) { return view_direction(receiver.normal); }
+vec3 shared_normal_of(Receiver receiver) { return receiver.normal; }
+
 // A receiver from its position in view space and its normal in light space.
 Receiver make_receiver(vec3 view_position, vec3 light_normal, vec2 pixel) {
   Receiver receiver;
@@ -74,8 +78,9 @@ vec4 penumbra_radii(Receiver receiver, vec4 blocker_distances, Light light) {
 // Slope against the light above which a surface beside the receiver lies within the cone that the light spans there.
 float cone_slope(Receiver receiver, Light light) { return 1.0 / max(light.extent, 1.0 / max_plane_slope); }
 
-// Between a penumbra's radius and the blocker distance that stands for it in a packed texel, for a receiver at that
-// position in light space. A light without extent gets a slope that keeps the distances within a half's range.
+// A packed texel holds a blocker distance, and filters need the penumbra's radius: from one to the other and back, for
+// a receiver at that position in light space. For a light without extent the slope between them is not 0, so that
+// distances stay within the range of a half float.
 const float least_packed_slope = 1e-4;
 
 float packed_radius(vec3 position, float blocker_distance) {
@@ -129,18 +134,22 @@ struct Offsets {
 
 // Four texels about a point of the map, in the order of textureGather: (0,1) (1,1) (1,0) (0,0).
 struct Footprint {
-  vec4 depths;      // metres
+  vec4 depths;  // metres
   Offsets offsets;
-  vec2 weight;      // bilinear, of the texels with the higher coordinate
+  vec2 weight;  // bilinear, of the texels with the higher coordinate
 };
+
+// As stored, of the four texels about a place of the map.
+vec4 gather_stored(vec2 place, int layer) {
+  return textureGather(shadow_depth, vec3(place / shadow.map_size, float(layer)));
+}
 
 Footprint fetch_footprint(Receiver receiver, vec2 offset, Light light) {
   vec2 at = map_place(vec3(receiver.position.xy + offset, receiver.position.z), light.layer) - 0.5;
   vec2 first = floor(at);
-  vec4 stored = textureGather(shadow_depth, vec3((first + 1.0) / shadow.map_size, float(light.layer)));
   float texel = texel_size(receiver, light);
   Footprint footprint;
-  footprint.depths = stored_depths(stored, light.layer);
+  footprint.depths = stored_depths(gather_stored(first + 1.0, light.layer), light.layer);
   footprint.weight = at - first;
   vec2 low = offset - footprint.weight * texel;
   vec2 high = low + texel;

@@ -44,7 +44,7 @@ class Clock {
             .height = size_.height,
             .camera = setup.camera,
             .last_camera = first ? setup.camera : session::setup_at(prepared_, last).camera,
-            .sun = setup.sun,
+            .lights = {setup.sun},
             .time = now,
             .last_time = last,
             .cut = first || scene::jumps_between(prepared_.scene, last, now)};

@@ -60,7 +60,7 @@ render::FrameInputs CameraPath::frame(int frame, bool again) const {
           .height = options_.size.height,
           .camera = setup.camera,
           .last_camera = follows ? setup_at(frame - 1).camera : setup.camera,
-          .sun = setup.sun,
+          .lights = {setup.sun},
           .time = session::time_of(options_, frame),
           .last_time = session::time_of(options_, follows ? frame - 1 : frame),
           .cut = !follows && !again};

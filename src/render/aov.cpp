@@ -24,6 +24,7 @@ struct Source {
   const FrameParts& frame;
   std::optional<glm::ivec2> pixel = {};  // from the upper left
 
+  // Of an array the first layer: of the mask that is the frame's first light.
   Picture read(const gl::Texture& texture, int channels) const;
   Picture read_bits(const gl::Texture& texture) const;
 };
@@ -133,7 +134,6 @@ std::vector<float> under_texel(const Source& from) {
   return of_mask(from, [](const float* p, bool) { return p[3] - std::floor(p[3]) >= 0.25f ? 1.0f : 0.0f; });
 }
 
-// Of the sun, whose light is the frame's first.
 std::vector<float> history(const Source& from) {
   const Picture sky = from.read(*from.frame.gbuffer.depth, 1);
   const gl::Texture* notes = from.frame.mask.lights.front().notes;

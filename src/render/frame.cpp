@@ -18,7 +18,6 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                       const FrameInputs& inputs, const ParamSet& params) {
   const Camera& camera = inputs.camera;
   const Camera& last_camera = inputs.last_camera;
-  const Sun& sun = inputs.sun;
   const glsl::ViewBlock view = view_block(camera, last_camera, inputs.width, inputs.height);
   bind_view(device, view);
 
@@ -34,13 +33,15 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                                                       .view_id = inputs.view,
                                                       .time = inputs.time,
                                                       .cut = inputs.cut,
-                                                      .sun = sun,
+                                                      .lights = inputs.lights,
                                                       .gbuffer = gbuffer,
                                                       .params = params});
 
-  const gl::Texture& lit = light_surfaces(
-      device,
-      {.gbuffer = gbuffer, .mask = mask, .sun = sun, .emission_in_nits = scene.lit_by_file(), .params = params});
+  const gl::Texture& lit = light_surfaces(device, {.gbuffer = gbuffer,
+                                                   .mask = mask,
+                                                   .lights = inputs.lights,
+                                                   .emission_in_nits = scene.lit_by_file(),
+                                                   .params = params});
 
   draw_blended(device, {.soft_shadows = soft_shadows,
                         .scene = scene,

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <glm/gtc/constants.hpp>
 
 #include "render/ground.h"
@@ -9,6 +10,10 @@
 namespace penumbra::render {
 
 namespace {
+
+static_assert(sizeof(glsl::DirectLightBlock) == 32);
+static_assert(offsetof(glsl::LightingBlock, lights) == 48);
+static_assert(LIGHTING_MAX_LIGHTS == max_lights);
 
 float luminance(const glm::vec3& color) { return glm::dot(color, {0.2126f, 0.7152f, 0.0722f}); }
 
@@ -20,18 +25,37 @@ float exposure_factor(const LightingInputs& inputs, float white) {
   return white > 0.0f ? 1.0f / white : 1.0f;
 }
 
+// As shaders read a light, exposed.
+glsl::DirectLightBlock block_of(const Sun& sun, float exposure) {
+  return {.to_light = sun.to_light, .pad_a = 0, .illuminance = sun.illuminance * exposure, .pad_b = 0};
+}
+
+// On a plane that faces the light, and on a level one; lux.
+glm::vec3 illuminance_of(const Sun& sun) { return sun.illuminance; }
+float level_share(const Sun& sun) { return std::max(sun.to_light.y, 0.0f); }
+
 glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
-  const Sun& sun = inputs.sun;
+  glm::vec3 direct(0);
+  for (const Light& light : inputs.lights)
+    direct += std::visit([](const auto& kind) { return illuminance_of(kind); }, light);
   const float sky_share = inputs.params.get_float("render.sky_light");
-  const float white = luminance(sun.illuminance) * (1.0f + sky_share) / glm::pi<float>();
+  const float white = luminance(direct) * (1.0f + sky_share) / glm::pi<float>();
   const float exposure = exposure_factor(inputs, white);
-  const float sky = exposure * sky_share * luminance(sun.illuminance) / glm::pi<float>();
-  const float level_sun = std::max(sun.to_light.y, 0.0f) / glm::pi<float>();
-  const float ground_light = inputs.params.get_float("render.ground_light");
-  return {.to_sun = glm::vec4(sun.to_light, inputs.emission_in_nits ? exposure : exposure * white),
-          .sun = glm::vec4(sun.illuminance * exposure, 0.0f),
-          .sky = glm::vec4(glm::vec3(sky), ground_albedo),
-          .ground = glm::vec4(ground_albedo * sun.illuminance * (exposure * level_sun), ground_light)};
+  glsl::LightingBlock block{};
+  block.sky = glm::vec3(exposure * sky_share * luminance(direct) / glm::pi<float>());
+  block.ground_albedo = ground_albedo;
+  block.ground_light = inputs.params.get_float("render.ground_light");
+  block.emission = inputs.emission_in_nits ? exposure : exposure * white;
+  for (const Light& light : inputs.lights) {
+    std::visit(
+        [&](const auto& kind) {
+          const float level = level_share(kind) / glm::pi<float>();
+          block.ground += ground_albedo * illuminance_of(kind) * (exposure * level);
+          block.lights[block.light_count++] = block_of(kind, exposure);
+        },
+        light);
+  }
+  return block;
 }
 
 gl::ProgramDesc program() {

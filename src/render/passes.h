@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <glm/glm.hpp>
+#include <span>
 
 #include "core/params.h"
 #include "gl/pass.h"
@@ -56,17 +57,18 @@ struct ShadowMaskInputs {
   int view_id = 0;  // as FrameInputs::view
   double time = 0;
   bool cut = false;  // as FrameInputs::cut
-  const Sun& sun;
+  std::span<const Light> lights;
   const GBuffer& gbuffer;
   const ParamSet& params;
 };
+// One layer a light, in their order.
 shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs);
 
 struct LightingInputs {
   const GBuffer& gbuffer;
   const shadow::Mask& mask;
-  const Sun& sun;
-  bool emission_in_nits = true;  // else 1 is white in the sun
+  std::span<const Light> lights;  // of the mask's layers
+  bool emission_in_nits = true;   // else 1 is white in the sun
   const ParamSet& params;
 };
 const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inputs);  // RGBA16F, linear, exposed
@@ -82,7 +84,8 @@ struct BlendedInputs {
   const ParamSet& params;
   const gl::Texture& lit;
 };
-void draw_blended(gl::Device& device, const BlendedInputs& inputs);  // over `lit`
+// Over `lit`. Of several lights the first is shadowed on blended surfaces, the others shine on them unhindered.
+void draw_blended(gl::Device& device, const BlendedInputs& inputs);
 std::vector<gl::ProgramDesc> blended_programs(gl::Device& device, const shadow::SoftShadows& soft_shadows,
                                               const ParamSet& defaults);
 

@@ -34,6 +34,8 @@ std::vector<Param> Renderer::params(const shadow::Registry& registry) {
 }
 
 const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, const ParamSet& params) {
+  if (inputs.lights.empty() || inputs.lights.size() > max_lights)
+    fail("a frame has {} lights; 1 to {} can be drawn", inputs.lights.size(), max_lights);
   gl::Device& device = state_->device;
   // Until the end there is none: a frame that throws is no frame to go on from.
   const std::uint64_t last_scene = std::exchange(state_->last_scene, 0);

@@ -22,8 +22,8 @@ struct FrameInputs {
   int width = 1280, height = 720;
   int view = 0;  // tells pictures apart that are drawn in turn: each has maps, a mask and a history of its own
   Camera camera, last_camera;
-  Sun sun;
-  double time = 0, last_time = 0;  // seconds
+  std::vector<Light> lights{Sun{}};  // 1 to max_lights; each has a layer of the mask, in this order
+  double time = 0, last_time = 0;    // seconds
   // Nothing of the last frame belongs to this one: the view or the time jumps. What a technique remembers is dropped,
   // so that the frame is that of a run which starts here. A scene other than the last frame's is a cut without being
   // told.
@@ -63,7 +63,7 @@ class Renderer {
   // Rows of the shadow library and of the renderer (exposure, sky, …).
   static std::vector<Param> params(const shadow::Registry& registry);
 
-  // `params` holds at least the rows of params().
+  // `params` holds at least the rows of params(). Throws Error for a frame without lights or with too many.
   const Frame& draw(scene::GpuScene& scene, const FrameInputs& inputs, const ParamSet& params);
   // The last frame's AOV as floats, rows top to bottom, aov.channels.size() a pixel. Throws Error for unknown names.
   std::vector<float> read_aov(std::string_view name) const;

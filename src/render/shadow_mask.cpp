@@ -13,6 +13,18 @@ shadow::Box moved_box(const scene::GpuScene& scene) {
   return bounds.empty ? shadow::Box{glm::vec3(1), glm::vec3(-1)} : box_of(bounds);
 }
 
+shadow::LightSource source_of(const Sun& sun) { return shadow::Sun{.to_light = sun.to_light}; }
+
+// Each light's place in the frame's list is its id, by which its maps and history are kept.
+std::vector<shadow::Light> lights_of(std::span<const Light> lights) {
+  std::vector<shadow::Light> all;
+  for (const Light& light : lights) {
+    all.push_back({.id = static_cast<int>(all.size()),
+                   .source = std::visit([](const auto& kind) { return source_of(kind); }, light)});
+  }
+  return all;
+}
+
 scene::Casters casters_of(shadow::CasterKind kind) {
   switch (kind) {
     case shadow::CasterKind::moved_now:
@@ -33,7 +45,7 @@ scene::Casters casters_of(shadow::CasterKind kind) {
 shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs) {
   const gl::Texture& depth = *inputs.gbuffer.depth;
   const float aspect = static_cast<float>(depth.width()) / static_cast<float>(depth.height());
-  const shadow::Light sun{.to_light = inputs.sun.to_light};
+  const std::vector<shadow::Light> lights = lights_of(inputs.lights);
   const FrameScene frame_scene{.scene = inputs.scene, .view = inputs.view, .time = inputs.time};
   const auto draw = [&](const shadow::CasterPass& casters, gl::Pass& pass) {
     const auto reaches = [&](const scene::Bounds& box) { return casters.cull.holds(box_of(box)); };
@@ -52,7 +64,7 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
                                      .depth = view_of(depth),
                                      .normals = view_of(*inputs.gbuffer.geometric_normal),
                                      .motion = view_of(*inputs.gbuffer.motion),
-                                     .lights = std::span(&sun, 1),
+                                     .lights = lights,
                                      .casters = box_of(inputs.scene.casters()),
                                      .receivers = box_of(inputs.scene.receivers()),
                                      .moved = moved_box(inputs.scene),

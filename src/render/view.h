@@ -2,6 +2,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <variant>
 
 #include "scene/pose.h"
 #include "shared/view_block.h"
@@ -26,8 +27,14 @@ glm::vec3 position_of(const Camera& camera);
 
 struct Sun {
   glm::vec3 to_light{0.4f, 0.8f, 0.4f};  // unit
-  glm::vec3 illuminance{100000.0f};      // lux, linear RGB
+  glm::vec3 illuminance{100000.0f};      // lux on a plane that faces it, linear RGB
 };
+
+// The kinds of light that a frame can have.
+using Light = std::variant<Sun>;
+
+// Lights of one frame.
+inline constexpr int max_lights = 16;
 
 // What passes that draw geometry know of the camera.
 glsl::ViewBlock view_block(const Camera& camera, const Camera& last_camera, int width, int height);

@@ -77,7 +77,7 @@ void RenderSession::draw_at(double time, double last_time, const render::Camera&
                   .height = options_.size.height * options_.supersample,
                   .camera = setup_.camera,
                   .last_camera = last_camera,
-                  .sun = setup_.sun,
+                  .lights = {setup_.sun},
                   .time = time,
                   .last_time = last_time,
                   .cut = cut},

@@ -19,15 +19,6 @@ struct Range {
   double min = 0, max = 0;
 };
 
-std::array<glm::dvec3, 8> corners_of(const Box& box) {
-  std::array<glm::dvec3, 8> corners;
-  for (int i = 0; i < 8; ++i) {
-    corners[static_cast<size_t>(i)] = {(i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
-                                       (i & 4) != 0 ? box.max.z : box.min.z};
-  }
-  return corners;
-}
-
 Box joined(const Box& a, const Box& b) { return {glm::min(a.min, b.min), glm::max(a.max, b.max)}; }
 
 Sphere sphere_about(const Box& box) {
@@ -56,7 +47,7 @@ double step_down(double value, double steps_an_octave) {
 // Part of the view's depth, metres before the camera, in which receivers lie.
 Range view_range(const CascadeInputs& in) {
   Range range{1e30, -1e30};
-  for (const glm::dvec3& corner : corners_of(in.receivers)) {
+  for (const glm::dvec3& corner : in.receivers.corners()) {
     const double depth = -(glm::dmat4(in.view) * glm::dvec4(corner, 1)).z;
     range = {std::min(range.min, depth), std::max(range.max, depth)};
   }
@@ -160,7 +151,7 @@ Cascades fit_cascades(const CascadeInputs& in) {
   cascades.anchor = glm::dvec3(glm::inverse(glm::dmat4(in.view))[3]);
   cascades.size = in.size;
 
-  std::array<glm::dvec3, 8> corners = corners_of(joined(in.casters, in.receivers));
+  std::array<glm::dvec3, 8> corners = joined(in.casters, in.receivers).corners();
   for (glm::dvec3& corner : corners) corner = cascades.world_to_light * (corner - cascades.anchor);
   const Range view = view_range(in);
   const Sphere all = sphere_about(in.receivers);
@@ -197,20 +188,16 @@ Cascades fit_cascades(const CascadeInputs& in) {
 }
 
 CullVolume cull_volume(const Cascades& cascades, int index) {
-  const Cascade& cascade = cascades.items[static_cast<size_t>(index)];
-  return {cascades.world_to_light, cascades.anchor, cascade.center, cascade.half_extent, cascade.far_z};
-}
-
-bool CullVolume::holds(const Box& world_box) const {
-  const glm::dvec3 middle = (glm::dvec3(world_box.min) + glm::dvec3(world_box.max)) * 0.5;
-  const glm::dvec3 half = (glm::dvec3(world_box.max) - glm::dvec3(world_box.min)) * 0.5;
-  const glm::dvec3 c = world_to_light * (middle - anchor);
-  glm::dvec3 h{0};
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int k = 0; k < 3; ++k) h[axis] += std::abs(world_to_light[k][axis]) * half[k];
-  }
-  const glm::dvec2 away = glm::max(glm::abs(glm::dvec2(c) - glm::dvec2(center)) - glm::dvec2(h), glm::dvec2(0));
-  return std::max(away.x, away.y) <= half_extent && c.z - h.z <= far_z;
+  const Cascade& cascade = cascades.items.at(static_cast<size_t>(index));
+  const glm::dmat3 axes = glm::transpose(cascades.world_to_light);
+  // Before it: what lies no farther than `limit` from the anchor along a direction.
+  const auto side = [&](const glm::dvec3& direction, double limit) {
+    return glm::dvec4(-direction, glm::dot(direction, cascades.anchor) + limit);
+  };
+  const double half = cascade.half_extent;
+  return {.planes = {side(axes[0], half + cascade.center.x), side(-axes[0], half - cascade.center.x),
+                     side(axes[1], half + cascade.center.y), side(-axes[1], half - cascade.center.y),
+                     side(axes[2], cascade.far_z)}};
 }
 
 }  // namespace penumbra::shadow

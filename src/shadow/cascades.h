@@ -3,6 +3,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "volume.h"
+
 namespace penumbra::shadow {
 
 constexpr int max_cascades = 8;
@@ -33,25 +35,6 @@ struct Cascades {
   }
 };
 
-// An axis-aligned box in world space, metres.
-struct Box {
-  glm::vec3 min{0}, max{0};
-};
-
-// The column over a cascade's map, open towards the light. A receiver whose disc leaves the map reads a coarser
-// cascade, and the last map is fitted to the frustum's part widened by the light's cone, as far up as casters are: it
-// holds the discs of all receivers. So a caster outside the column can't matter.
-struct CullVolume {
-  glm::dmat3 world_to_light{1};
-  glm::dvec3 anchor{0};
-  glm::vec2 center{0};
-  float half_extent = 0;
-  float far_z = 0;  // casters wholly behind it can't reach a receiver
-
-  // False only if nothing in the box can cast on the cascade.
-  bool holds(const Box& world_box) const;
-};
-
 struct CascadeInputs {
   glm::mat4 view{1};            // world to view, right-handed, -Z forward
   glm::mat4 projection{1};      // perspective or orthographic; its depth convention does not matter here
@@ -67,6 +50,9 @@ struct CascadeInputs {
 
 Cascades fit_cascades(const CascadeInputs& inputs);
 
+// The column over a cascade's map, open towards the light. A receiver whose disc leaves the map reads a coarser
+// cascade, and the last map is fitted to the frustum's part widened by the light's cone, as far up as casters are: it
+// holds the discs of all receivers. So a caster outside the column can't matter.
 CullVolume cull_volume(const Cascades& cascades, int index);
 
 }  // namespace penumbra::shadow

@@ -16,13 +16,6 @@ bool all_finite(const float* values, int count) {
   return true;
 }
 
-bool all_finite(const double* values, int count) {
-  for (int i = 0; i < count; ++i) {
-    if (!std::isfinite(values[i])) return false;
-  }
-  return true;
-}
-
 void check_matrix(std::string_view name, const glm::mat4& matrix) {
   if (!all_finite(glm::value_ptr(matrix), 16)) fail("soft shadows: {} is not finite", name);
   if (glm::determinant(glm::dmat4(matrix)) == 0) fail("soft shadows: {} has no inverse", name);
@@ -53,7 +46,7 @@ bool holds_depth(unsigned texture) {
          level_parameter(texture, GL_TEXTURE_RED_TYPE) == GL_FLOAT;
 }
 
-// So many channels of signed numbers: an unsigned format would need a mapping that nobody has told of.
+// So many channels of signed numbers: how the values of an unsigned format stand for signed ones is not known.
 bool holds_signed(unsigned texture, int channels) {
   constexpr GLenum types[] = {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE, GL_TEXTURE_BLUE_TYPE};
   for (int i = 0; i < channels; ++i) {
@@ -87,35 +80,19 @@ void check_receivers(std::string_view name, const TextureView& view, const Textu
   }
 }
 
-void check_cascade(const Cascade& cascade, int index, int light) {
-  const bool finite = all_finite(glm::value_ptr(cascade.center), 2) && std::isfinite(cascade.half_extent) &&
-                      std::isfinite(cascade.near_z) && std::isfinite(cascade.far_z) &&
-                      all_finite(glm::value_ptr(cascade.world_to_clip), 16);
-  if (!finite) fail("soft shadows: light {}: cascade {} is not finite", light, index);
-  if (!(cascade.half_extent > 0) || !(cascade.far_z > cascade.near_z)) {
-    fail("soft shadows: light {}: cascade {} has no extent", light, index);
-  }
-}
-
 void check_maps(const FinishedMaps& maps, int light) {
-  const size_t count = maps.cascades.items.size();
-  if (count < 1 || count > max_cascades)
-    fail("soft shadows: light {} brings {} cascades, 1 to {} fit", light, count, max_cascades);
+  const LightProjection& projection = maps.projection;
+  if (const std::string fault = projection.fault(); !fault.empty()) fail("soft shadows: light {}: {}", light, fault);
   check_texture(fmt::format("maps of light {}", light), maps.depth, GL_TEXTURE_2D_ARRAY);
-  if (maps.depth.width != maps.cascades.size || maps.depth.height != maps.cascades.size) {
-    fail("soft shadows: light {} brings maps of {}×{} and cascades of {}", light, maps.depth.width, maps.depth.height,
-         maps.cascades.size);
+  if (maps.depth.width != projection.size() || maps.depth.height != projection.size()) {
+    fail("soft shadows: light {} brings maps of {}×{} and a projection of {}", light, maps.depth.width,
+         maps.depth.height, projection.size());
   }
   if (!holds_depth(maps.depth.id)) fail("soft shadows: light {} brings maps without depth", light);
   const GLint layers = level_parameter(maps.depth.id, GL_TEXTURE_DEPTH);
-  if (layers < static_cast<GLint>(count)) {
-    fail("soft shadows: light {} brings {} maps for {} cascades", light, layers, count);
+  if (layers < projection.layers()) {
+    fail("soft shadows: light {} brings {} maps for {} layers", light, layers, projection.layers());
   }
-  if (!all_finite(glm::value_ptr(maps.cascades.world_to_light), 9) ||
-      !all_finite(glm::value_ptr(maps.cascades.anchor), 3)) {
-    fail("soft shadows: light {}: the cascades' light space is not finite", light);
-  }
-  for (size_t i = 0; i < count; ++i) check_cascade(maps.cascades.items[i], static_cast<int>(i), light);
 }
 
 void check_lights(const Inputs& inputs) {
@@ -123,8 +100,8 @@ void check_lights(const Inputs& inputs) {
   for (const Light& light : inputs.lights) {
     if (!light.maps && !inputs.draw)
       fail("soft shadows: light {} has no maps and there is no caster callback", light.id);
-    const float length = glm::length(light.to_light);
-    if (!(length > 0.5f) || !std::isfinite(length)) fail("soft shadows: light {} has no direction", light.id);
+    if (const std::string fault = fault_of(light.source); !fault.empty())
+      fail("soft shadows: light {} {}", light.id, fault);
     for (const Light& other : inputs.lights) {
       if (&other != &light && other.id == light.id) fail("soft shadows: two lights have the id {}", light.id);
     }

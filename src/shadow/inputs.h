@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../gl/pass.h"
-#include "cascades.h"
+#include "light_projection.h"
 
 namespace penumbra::shadow {
 
@@ -46,7 +46,8 @@ struct Rect {
 };
 
 // Which casters are drawn, and what their fragments write to output 0, a float, besides depth. What moved has another
-// transform, skin, morph or shape than in the last frame; what is new or gone was, or is, nowhere.
+// transform, skin, morph or shape than in the last frame. What is new has no last position, and what is gone no present
+// one.
 enum class CasterKind {
   depth,            // all casters that the volume holds; no output
   depth_and_moved,  // the same; output 0, clear at first, ends as 1 where one that moved since the last frame is
@@ -64,7 +65,7 @@ enum class CasterKind {
 // something keeps history.
 struct CasterPass {
   CasterKind kind = CasterKind::depth;
-  int cascade = 0;
+  int layer = 0;               // of the light's shadow map; 0 for kind `geometry`
   glm::mat4 world_to_clip{1};  // of the present frame, for moved_last too
   CullVolume cull;
   // Of kind `geometry`: the technique's geometry and fragment shaders and their defines, without a vertex shader. The
@@ -76,18 +77,17 @@ struct CasterPass {
 };
 using DrawCasters = std::function<void(const CasterPass&, gl::Pass&)>;
 
-// Maps that the caller has drawn already: a depth texture array (or R32F) with one layer a cascade, near 0, far 1, and
-// where each lies.
+// Maps that the caller has drawn already: a depth texture array (or R32F) with the layers of a projection, near 0,
+// far 1.
 struct FinishedMaps {
   TextureView depth;
-  Cascades cascades;
+  LightProjection projection;
 };
 
-// A directional light. Angle and shape are the parameters sun.angle and sun.shape, which `overrides` can replace.
 struct Light {
-  int id = 0;                          // each light of a frame has its own; maps and history go by it
-  glm::vec3 to_light{0, 1, 0};         // unit, world
-  std::vector<std::string> overrides;  // "name=value"
+  int id = 0;  // each light of a frame has its own; maps and history go by it
+  LightSource source;
+  std::vector<std::string> overrides;  // "name=value": parameters that are this light's own
   std::optional<FinishedMaps> maps;    // absent: drawn by Inputs::draw
 };
 

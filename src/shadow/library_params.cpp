@@ -1,7 +1,5 @@
 #include "library_params.h"
 
-#include <cmath>
-#include <glm/trigonometric.hpp>
 #include <iterator>
 #include <utility>
 
@@ -119,7 +117,5 @@ std::vector<Param> library_params(std::span<const Filter> filters) {
   append(rows, filter_rows(filters));
   return rows;
 }
-
-float tan_half_angle(const ParamSet& params) { return std::tan(glm::radians(params.get_float("sun.angle")) * 0.5f); }
 
 }  // namespace penumbra::shadow

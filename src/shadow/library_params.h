@@ -11,7 +11,4 @@ namespace penumbra::shadow {
 // The rows that belong to no technique: sun, cascades, bias, sampling, history, filters, driver.
 std::vector<Param> library_params(std::span<const Filter> filters);
 
-// Of half the angle that the sun spans.
-float tan_half_angle(const ParamSet& params);
-
 }  // namespace penumbra::shadow

@@ -7,9 +7,8 @@
 
 namespace penumbra::shadow {
 
-// What a light's parameters and its state say of it in a frame.
+// What a light's state says of a frame.
 struct LightTraits {
-  bool square = false;       // else a disc
   glm::vec4 noise_shift{0};  // see samples.h
   glm::vec2 last_jitter{0};
 };

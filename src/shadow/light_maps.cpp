@@ -1,14 +1,11 @@
 #include "light_maps.h"
 
-#include "library_params.h"
 #include "movement_map.h"
 #include "shadow_map.h"
 
 namespace penumbra::shadow {
 
 namespace {
-
-int layers_of(const LightFrame& frame) { return static_cast<int>(frame.cascades.items.size()); }
 
 // Whether casters may have moved, where the parameters ask, and no map can show which.
 bool moved_unseen(const MapsInputs& maps) {
@@ -26,23 +23,19 @@ const gl::Texture* movement_map(gl::Device& device, const MapsInputs& maps, Move
     device.drop(maps.prefix + "movement map");
     return nullptr;
   }
-  return &movement_target(device, maps.prefix + "movement map", frame.cascades.size, layers_of(frame), form);
+  return &movement_target(device, maps.prefix + "movement map", frame.projection.size(), frame.projection.layers(),
+                          form);
 }
 
 }  // namespace
 
-Cascades cascades_of(const Inputs& inputs, const Light& light, const ParamSet& params) {
-  if (light.maps) return light.maps->cascades;
-  return fit_cascades({.view = inputs.view.view,
-                       .projection = inputs.view.projection,
-                       .to_light = light.to_light,
-                       .tan_half_angle = tan_half_angle(params),
-                       .casters = inputs.casters,
-                       .receivers = inputs.receivers,
-                       .count = params.get_int("cascades.count"),
-                       .size = params.get_int("cascades.size"),
-                       .split_blend = params.get_float("cascades.split"),
-                       .distance = params.get_float("cascades.distance")});
+LightProjection projection_of(const Inputs& inputs, const Light& light, const ParamSet& params) {
+  if (light.maps) return light.maps->projection;
+  return fit_projection(light.source, {.view = inputs.view.view,
+                                       .projection = inputs.view.projection,
+                                       .casters = inputs.casters,
+                                       .receivers = inputs.receivers,
+                                       .params = params});
 }
 
 void make_maps(gl::Device& device, const MapsInputs& maps, LightFrame& frame) {
@@ -63,7 +56,7 @@ void make_maps(gl::Device& device, const MapsInputs& maps, LightFrame& frame) {
   const gl::Texture* depth = nullptr;
   if (!finished) {
     depth = &draw_shadow_map(device, {.name = maps.prefix + "shadow map",
-                                      .cascades = frame.cascades,
+                                      .projection = frame.projection,
                                       .draw = inputs.draw,
                                       .moved = in_one_pass ? frame.movement : nullptr,
                                       .moved_bounds = inputs.moved});
@@ -73,13 +66,13 @@ void make_maps(gl::Device& device, const MapsInputs& maps, LightFrame& frame) {
   if ((maps.needs & needs_depth_pyramid) != 0) {
     frame.pyramid = &build_depth_pyramid(device, {.name = maps.prefix + "depth pyramid",
                                                   .depth = frame.depth,
-                                                  .size = frame.cascades.size,
-                                                  .layers = layers_of(frame)});
+                                                  .size = frame.projection.size(),
+                                                  .layers = frame.projection.layers()});
   }
   if (frame.casters_moved) {
     draw_movement(device, {.map = *frame.movement,
                            .form = form,
-                           .cascades = frame.cascades,
+                           .projection = frame.projection,
                            .draw = inputs.draw,
                            .depth = depth,
                            .moved = inputs.moved,

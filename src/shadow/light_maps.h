@@ -15,10 +15,10 @@ struct MapsInputs {
 };
 
 // Where the light's maps lie: as the caller brings them, or fitted to the view.
-Cascades cascades_of(const Inputs& inputs, const Light& light, const ParamSet& params);
+LightProjection projection_of(const Inputs& inputs, const Light& light, const ParamSet& params);
 
 // Draws or takes a light's maps, and makes what is made of them, as far as `needs` and the history ask: `frame` has the
-// cascades and gets the rest.
+// projection and gets the rest.
 void make_maps(gl::Device& device, const MapsInputs& inputs, LightFrame& frame);
 
 }  // namespace penumbra::shadow

@@ -66,12 +66,12 @@ void begin_frame(ViewState& view, const Inputs& inputs) {
 
 void begin_frame(LightState& state, const Technique& technique, const Light& light, const LightFrame& frame,
                  ParamSet params) {
-  const bool goes_on = state.goes_on && state.to_light == light.to_light &&
-                       state.cascades == frame.cascades.items.size() && same_values(technique, state.params, params);
+  const bool goes_on = state.goes_on && state.source == light.source && state.layers == frame.projection.layers() &&
+                       same_values(technique, state.params, params);
   state.age = goes_on ? state.age + 1 : 0;
   ++state.frames;
-  state.to_light = light.to_light;
-  state.cascades = frame.cascades.items.size();
+  state.source = light.source;
+  state.layers = frame.projection.layers();
   state.params = std::move(params);
 }
 

@@ -20,8 +20,8 @@ struct LightState {
   const gl::Buffer* shadow_block = nullptr;
   const gl::Buffer* sample_block = nullptr;
 
-  glm::vec3 to_light{0};
-  std::size_t cascades = 0;
+  LightSource source;
+  int layers = 0;            // of the shadow map
   bool drawn = false;        // in this frame
   bool goes_on = false;      // the last frame of the view drew it, and is the one before this
   std::uint64_t frames = 0;  // drawn

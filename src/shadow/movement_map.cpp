@@ -12,28 +12,16 @@ namespace {
 
 constexpr int levels_a_step = 2;  // of movement_pyramid.comp
 
-// Lowest and highest texel of a cascade's map between which something can have moved; none when they cross.
+// Lowest and highest texel of a layer between which something can have moved; none when they cross.
 using Region = glm::vec4;
 constexpr Region no_region{1, 1, 0, 0};
 
-Region region_of(const Cascades& cascades, int index, const std::optional<Box>& moved) {
-  const auto last = static_cast<float>(cascades.size - 1);
+Region region_of(const LightProjection& projection, int layer, const std::optional<Box>& moved) {
+  const auto last = static_cast<float>(projection.size() - 1);
   if (!moved) return {0, 0, last, last};
-  if (!may_hold_moved(cull_volume(cascades, index), moved)) return no_region;
-  glm::dvec2 low(1e30);
-  glm::dvec2 high(-1e30);
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec4 world{(corner & 1) != 0 ? moved->max.x : moved->min.x,
-                           (corner & 2) != 0 ? moved->max.y : moved->min.y,
-                           (corner & 4) != 0 ? moved->max.z : moved->min.z, 1};
-    const glm::dvec2 clip(cascades.items[static_cast<size_t>(index)].world_to_clip * world);
-    const glm::dvec2 texel = (clip * 0.5 + 0.5) * static_cast<double>(cascades.size);
-    low = glm::min(low, texel);
-    high = glm::max(high, texel);
-  }
-  // A texel more than what the box covers, for rounding.
-  const glm::vec2 first = glm::clamp(glm::vec2(glm::floor(low)) - 1.0f, 0.0f, last);
-  return {first, glm::clamp(glm::vec2(glm::floor(high)) + 1.0f, 0.0f, last)};
+  if (nothing_moved(moved)) return no_region;
+  const std::optional<TexelRange> range = projection.texels_of(layer, *moved);
+  return range ? Region(range->first, range->last) : no_region;
 }
 
 bool is_none(const Region& region) { return region.z < region.x; }
@@ -42,23 +30,26 @@ void clear_layer(const gl::Texture& map, int layer) {
   gl::glClearTexSubImage(map.id(), 0, 0, 0, layer, map.width(), map.height(), 1, GL_RED, GL_FLOAT, nullptr);
 }
 
-void draw_pose(gl::Device& device, const MovementInputs& inputs, CasterKind kind, int cascade, bool clear) {
+void draw_pose(gl::Device& device, const MovementInputs& inputs, CasterKind kind, int layer, bool clear) {
   const bool last = kind == CasterKind::moved_last;
   gl::PassDesc desc{.name = last ? "movement map, last" : "movement map",
-                    .colors = {{.texture = &inputs.map, .layer = cascade}},
+                    .colors = {{.texture = &inputs.map, .layer = layer}},
                     // Where it was may lie before the present scene, to which the map's range is fitted.
                     .depth_clamp = last};
   if (clear) desc.colors[0].clear = glm::vec4(0);
   if (inputs.depth != nullptr) {
-    desc.depth = gl::Attachment{.texture = inputs.depth, .layer = cascade};
+    desc.depth = gl::Attachment{.texture = inputs.depth, .layer = layer};
     desc.depth_test = gl::DepthTest::less_equal;
   }
   gl::Pass pass(device, desc);
-  const glm::mat4 world_to_clip(inputs.cascades.items[static_cast<size_t>(cascade)].world_to_clip);
-  inputs.draw({kind, cascade, world_to_clip, cull_volume(inputs.cascades, cascade)}, pass);
+  inputs.draw({.kind = kind,
+               .layer = layer,
+               .world_to_clip = inputs.projection.world_to_clip(layer),
+               .cull = inputs.projection.cull_volume(layer)},
+              pass);
 }
 
-void build_pyramid(gl::Device& device, const MovementInputs& inputs, const std::array<Region, max_cascades>& regions) {
+void build_pyramid(gl::Device& device, const MovementInputs& inputs, const std::array<Region, max_layers>& regions) {
   const gl::TextureDesc& desc = inputs.map.desc();
   gl::Pass pass(device, {.name = "movement pyramid"});
   for (int level = 1; level < desc.levels; ++level) {
@@ -100,11 +91,11 @@ void draw_movement(gl::Device& device, const MovementInputs& inputs) {
     }
     return;
   }
-  const int count = static_cast<int>(inputs.cascades.items.size());
-  std::array<Region, max_cascades> regions;
+  const int count = inputs.projection.layers();
+  std::array<Region, max_layers> regions;
   regions.fill(no_region);
   for (int i = 0; i < count; ++i) {
-    Region& region = regions[static_cast<size_t>(i)] = region_of(inputs.cascades, i, inputs.moved);
+    Region& region = regions[static_cast<size_t>(i)] = region_of(inputs.projection, i, inputs.moved);
     if (is_none(region)) {
       clear_layer(inputs.map, i);
       continue;

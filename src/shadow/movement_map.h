@@ -16,15 +16,15 @@ enum class MovementForm {
   maximum,  // GL_R8: 1 where something moved in any texel below, else 0; nothing is lost
 };
 
-// Where casters that moved since the last frame are, or were, the nearest to the light: one layer a cascade, all
-// levels. Texel (x, y) of level l is that of the 2^l texels squared from (x, y)·2^l on; the last ones of a level have
-// the rest of the map too, whose size need not be a power of two.
+// Where casters that moved since the last frame are, or were, the nearest to the light: the layers of
+// the projection, all levels. Texel (x, y) of level l is that of the 2^l texels squared from (x, y)·2^l on; the last
+// ones of a level have the rest of the map too, whose size need not be a power of two.
 const gl::Texture& movement_target(gl::Device& device, std::string_view name, int size, int layers, MovementForm form);
 
 struct MovementInputs {
   const gl::Texture& map;  // of movement_target()
   MovementForm form = MovementForm::maximum;
-  const Cascades& cascades;
+  const LightProjection& projection;
   const DrawCasters& draw;
   // The finished shadow map, of which nothing nearer may hide what moved. Null: it is a name of the caller's, which no
   // pass of ours can test against; then hidden casters count too, which drops more history than need be.

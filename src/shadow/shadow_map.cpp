@@ -7,23 +7,23 @@
 namespace penumbra::shadow {
 
 const gl::Texture& draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs) {
-  const int count = static_cast<int>(inputs.cascades.items.size());
+  const int count = inputs.projection.layers();
   const gl::Texture& depth = device.target(inputs.name, {.target = GL_TEXTURE_2D_ARRAY,
                                                          .format = GL_DEPTH_COMPONENT32F,
-                                                         .width = inputs.cascades.size,
-                                                         .height = inputs.cascades.size,
+                                                         .width = inputs.projection.size(),
+                                                         .height = inputs.projection.size(),
                                                          .layers = count});
   for (int i = 0; i < count; ++i) {
     gl::PassDesc desc{.name = "shadow map",
                       .depth = gl::Attachment{.texture = &depth, .layer = i, .clear = glm::vec4(1)},
                       .depth_test = gl::DepthTest::less_equal,
                       .depth_write = true};
-    const CullVolume cull = cull_volume(inputs.cascades, i);
+    const CullVolume cull = inputs.projection.cull_volume(i);
     const bool marks = inputs.moved != nullptr && may_hold_moved(cull, inputs.moved_bounds);
     if (marks) desc.colors = {{.texture = inputs.moved, .layer = i, .clear = glm::vec4(0)}};
     gl::Pass pass(device, desc);
-    const glm::mat4 world_to_clip(inputs.cascades.items[static_cast<size_t>(i)].world_to_clip);
-    inputs.draw({marks ? CasterKind::depth_and_moved : CasterKind::depth, i, world_to_clip, cull}, pass);
+    const CasterKind kind = marks ? CasterKind::depth_and_moved : CasterKind::depth;
+    inputs.draw({.kind = kind, .layer = i, .world_to_clip = inputs.projection.world_to_clip(i), .cull = cull}, pass);
   }
   return depth;
 }

@@ -7,7 +7,6 @@
 #include "../core/error.h"
 #include "denoise.h"
 #include "forward_source.h"
-#include "library_params.h"
 #include "light_block.h"
 #include "light_maps.h"
 #include "light_state.h"
@@ -60,8 +59,7 @@ void SoftShadows::upload_blocks(const Technique& technique, const Inputs& inputs
   state.shadow_block = &device_.scratch(prefix + "light", sizeof(glsl::ShadowBlock));
   state.sample_block = &device_.scratch(prefix + "samples", sizeof(glsl::SampleBlock));
   state.params_block->write(params);
-  const LightTraits traits{.square = state.params.get_word("sun.shape") == "square",
-                           .noise_shift = noise_shift(state.params, age),
+  const LightTraits traits{.noise_shift = noise_shift(state.params, age),
                            .last_jitter = state_->views[frame.view].last_jitter};
   gl::write_value(*state.shadow_block, shadow_block(inputs, frame, traits));
   gl::write_value(*state.sample_block, state_->samples.block(technique, state.params, age));
@@ -98,8 +96,8 @@ LightFrame SoftShadows::render_light(const Inputs& inputs, const Light& light, P
                    .light = light.id,
                    .layer = layer,
                    .viewport = viewport_of(inputs),
-                   .cascades = cascades_of(inputs, light, params),
-                   .tan_half_angle = tan_half_angle(params)};
+                   .projection = projection_of(inputs, light, params),
+                   .shape = shape_of(light.source, params)};
   begin_frame(state, technique, light, frame, std::move(params));
   const unsigned needs = technique.needs | forward_technique(state.params).needs;
   make_maps(device_, {.inputs = inputs, .light = light, .state = state, .needs = needs, .prefix = prefix}, frame);

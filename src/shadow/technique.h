@@ -8,7 +8,6 @@
 
 #include "../core/params.h"
 #include "../gl/pass.h"
-#include "cascades.h"
 #include "inputs.h"
 
 namespace penumbra::shadow {
@@ -56,9 +55,9 @@ struct LightFrame {
   int view = 0, light = 0;  // ids
   int layer = 0;            // of the mask
   Rect viewport;            // of the receivers' textures and the mask
-  Cascades cascades;
-  float tan_half_angle = 0;
-  unsigned depth = 0;                     // name of the depth array texture, one layer a cascade; 0 when not needed
+  LightProjection projection;
+  LightShape shape;
+  unsigned depth = 0;  // name of the depth array texture, the layers of the projection; 0 when not needed
   const gl::Texture* pyramid = nullptr;   // R32F: minimum; level 0 is a quarter of the map's side
   const gl::Texture* movement = nullptr;  // see movement_map.h; absent unless a history asks for it
   bool casters_moved = false;             // since the last frame: `movement` shows where

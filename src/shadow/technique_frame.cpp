@@ -93,24 +93,25 @@ void TechniqueFrame::check_draws() const {
   if (!parts_.inputs.draw) fail("technique '{}' draws casters, and Inputs::draw is empty", parts_.technique.name);
 }
 
-void TechniqueFrame::draw_casters(gl::Pass& pass, CasterKind kind, int cascade) const {
+void TechniqueFrame::draw_casters(gl::Pass& pass, CasterKind kind, int layer) const {
   assert(kind != CasterKind::geometry);
   check_draws();
-  const Cascades& cascades = parts_.frame.cascades;
-  const glm::mat4 world_to_clip(cascades.items.at(static_cast<size_t>(cascade)).world_to_clip);
-  parts_.inputs.draw({kind, cascade, world_to_clip, cull_volume(cascades, cascade)}, pass);
+  const LightProjection& projection = parts_.frame.projection;
+  parts_.inputs.draw({.kind = kind,
+                      .layer = layer,
+                      .world_to_clip = projection.world_to_clip(layer),
+                      .cull = projection.cull_volume(layer)},
+                     pass);
 }
 
 void TechniqueFrame::draw_caster_geometry(gl::Pass& pass, std::string_view program,
                                           const glm::mat4& world_to_clip) const {
   check_draws();
   bind_inputs();
-  const Cascades& cascades = parts_.frame.cascades;
-  const int last = static_cast<int>(cascades.items.size()) - 1;  // which has all receivers
   parts_.inputs.draw({.kind = CasterKind::geometry,
-                      .cascade = last,
+                      .layer = 0,
                       .world_to_clip = world_to_clip,
-                      .cull = cull_volume(cascades, last),
+                      .cull = parts_.frame.projection.cull_volume_of_all(),
                       .program = own_program(program)},
                      pass);
 }

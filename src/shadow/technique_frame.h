@@ -25,9 +25,9 @@ struct History {
 // Whatever was kept of earlier frames is void, so that age() is 0 and no history is valid,
 //   - in the first frame of a light in a view, and in the first after a frame of the view without it,
 //   - with View::cut, and when View::last_view or last_projection are not the matrices of the view's last frame,
-//   - when the viewport, the size of the textures, the conventions, the light's direction or the number of its cascades
-//     change, or a parameter of the library's or the technique's own (other techniques' do not matter), and after a
-//     frame that ended in an Error.
+//   - when the viewport, the size of the textures, the conventions, the light's source or the number of its map's
+//     layers change, or a parameter of the library's or the technique's own (other techniques' do not matter), and
+//     after a frame that ended in an Error.
 // So the frame after a cut is that of a run that starts there.
 class TechniqueFrame {
  public:
@@ -48,7 +48,7 @@ class TechniqueFrame {
   const Inputs& inputs() const { return parts_.inputs; }  // receivers, motion, cameras, caster callback
   const Light& light() const { return parts_.light; }
   const ParamSet& params() const;                          // the light's own values included
-  LightFrame& frame() const { return parts_.frame; }       // cascades, maps, products
+  LightFrame& frame() const { return parts_.frame; }       // projection, maps, products
   const gl::Texture& mask() const { return parts_.mask; }  // `resolve` fills frame().layer of it, within the viewport
   int age() const;                                         // frames since what is kept began; 0: nothing is kept
 
@@ -69,9 +69,9 @@ class TechniqueFrame {
   bool uses_compute() const;
   // Draws, or dispatches, over the viewport.
   void cover(gl::Pass& pass) const;
-  // The caller's casters, into a pass that is open on a layer of the cascade's size; not for kind `geometry`. Throws
-  // Error without Inputs::draw.
-  void draw_casters(gl::Pass& pass, CasterKind kind, int cascade) const;
+  // The caller's casters, into a pass that is open on a layer of the shadow map's size; not for kind `geometry`.
+  // Throws Error without Inputs::draw.
+  void draw_casters(gl::Pass& pass, CasterKind kind, int layer) const;
   // The triangles of the caller's casters, through the geometry and fragment shaders of a program of
   // Technique::programs(): gl_in[].gl_Position is world_to_clip times the world position. All that use() binds is
   // bound. Casters that can't reach a receiver of the view are left out. Throws Error without Inputs::draw.

@@ -42,7 +42,7 @@ TraceOptions trace_options(const ParamSet& params, const TechniqueOptions& optio
 
 Light light_of(const shadow::TechniqueFrame& frame, const TechniqueOptions& options, double seconds) {
   if (options.local_light) return options.local_light(seconds);
-  return Sun{.to_light = glm::dvec3(frame.light().to_light),
+  return Sun{.to_light = glm::dvec3(std::get<shadow::Sun>(frame.light().source).to_light),
              .angle = glm::radians(static_cast<double>(frame.params().get_float("sun.angle"))),
              .square = frame.params().get_word("sun.shape") == "square"};
 }

@@ -47,7 +47,7 @@ void Painter::draw(LoadedScene& scene, const Document& document, int divisor) {
                                                .view = view_,
                                                .camera = setup.camera,
                                                .last_camera = last_camera,
-                                               .sun = setup.sun,
+                                               .lights = {setup.sun},
                                                .time = time,
                                                .last_time = last_time,
                                                .cut = cut},

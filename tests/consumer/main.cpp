@@ -24,7 +24,7 @@ struct Setting {
 
 shadow::Inputs inputs_of(const Setting& setting, std::span<const shadow::Light> lights) {
   const glm::vec3 ground(engine::floor_half, 0, engine::floor_half);
-  const glm::vec3 reach(engine::caster_half, 0, engine::caster_half);
+  const glm::vec3 caster(engine::caster_half, 0, engine::caster_half);
   shadow::Inputs inputs;
   inputs.view.view = inputs.view.last_view = setting.view;
   inputs.view.projection = inputs.view.last_projection = engine::projection();
@@ -32,7 +32,8 @@ shadow::Inputs inputs_of(const Setting& setting, std::span<const shadow::Light> 
   inputs.depth = {setting.targets.depth, engine::width, engine::height};
   inputs.normals = {setting.targets.normals, engine::width, engine::height};
   inputs.lights = lights;
-  inputs.casters = {glm::min(engine::caster_center - reach, -ground), glm::max(engine::caster_center + reach, ground)};
+  inputs.casters = {glm::min(engine::caster_center - caster, -ground),
+                    glm::max(engine::caster_center + caster, ground)};
   inputs.receivers = inputs.casters;
   inputs.moved = shadow::Box{glm::vec3(1), glm::vec3(-1)};  // nothing moves
   inputs.draw = [&scene = setting.scene](const shadow::CasterPass& pass, gl::Pass&) {
@@ -66,13 +67,13 @@ float mean_difference(const std::vector<float>& a, const std::vector<float>& b) 
   return 4 * sum / static_cast<float>(a.size());
 }
 
-// One matrix a cascade, for maps that the engine draws itself.
-shadow::FinishedMaps draw_own_maps(const Setting& setting, const shadow::Cascades& cascades) {
+// One matrix a layer, for maps that the engine draws itself.
+shadow::FinishedMaps draw_own_maps(const Setting& setting, const shadow::LightProjection& projection) {
   std::vector<glm::mat4> matrices;
-  for (const shadow::Cascade& cascade : cascades.items) matrices.emplace_back(cascade.world_to_clip);
-  const int count = static_cast<int>(matrices.size());
-  const GLuint depth = engine::draw_depth_array(setting.scene, matrices.data(), count, cascades.size);
-  return {{depth, cascades.size, cascades.size}, cascades};
+  for (int layer = 0; layer < projection.layers(); ++layer) matrices.push_back(projection.world_to_clip(layer));
+  const int size = projection.size();
+  const GLuint depth = engine::draw_depth_array(setting.scene, matrices.data(), projection.layers(), size);
+  return {{depth, size, size}, projection};
 }
 
 void run() {
@@ -88,16 +89,16 @@ void run() {
   params.assign("sun.angle=8");
 
   std::vector<shadow::Light> lights(1);
-  lights[0].to_light = setting.to_light;
+  lights[0].source = shadow::Sun{.to_light = setting.to_light};
   const shadow::Mask drawn = shadows.render(inputs_of(setting, lights), params);
   const std::vector<float> mask = gl::read_floats(*drawn.texture, 4);
   check_mask(mask, setting);
 
-  lights[0].maps = draw_own_maps(setting, drawn.lights[0].cascades);
+  lights[0].maps = draw_own_maps(setting, drawn.lights[0].projection);
   const shadow::Mask given = shadows.render(inputs_of(setting, lights), params);
   expect(gl::read_floats(*given.texture, 4) == mask, "maps of the engine's own give another mask than the callback");
 
-  // The maps stay those of the first camera, and their cascades are told relative to it.
+  // The maps stay those of the first camera, and their projection is that of the first camera.
   setting.view = engine::view({1.5f, 4, 5.5f});
   setting.targets = engine::draw_frame(scene, setting.view);
   const std::vector<float> moved = gl::read_floats(*shadows.render(inputs_of(setting, lights), params).texture, 4);

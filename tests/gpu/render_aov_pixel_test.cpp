@@ -20,7 +20,7 @@ class AovPixelTest : public RenderTest {
     add_node(scene_, wall, glm::scale(glm::translate(glm::mat4(1), glm::vec3(0.3f, -1, -1)), glm::vec3(4, 2, 1)));
     add_node(scene_, wall, glm::rotate(glm::scale(glm::mat4(1), glm::vec3(0.5f)), 0.4f, glm::vec3(1, 1, 0)));
     inputs.last_camera = render::look_at({0.1f, 0.05f, 4.2f}, {0, 0, 0}, 1.0f, 0.01f);
-    inputs.sun.to_light = glm::normalize(glm::vec3(0.5f, 0.6f, 1));
+    sun().to_light = glm::normalize(glm::vec3(0.5f, 0.6f, 1));
     params.set_text("technique", "pcss");
     params.set_text("sun.angle", "4");
     params.set_text("cascades.size", "64");  // so coarse that penumbrae get lost

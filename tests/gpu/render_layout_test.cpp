@@ -77,10 +77,19 @@ TEST_F(LayoutTest, DeformProgram) {
 TEST_F(LayoutTest, LightingProgram) {
   const auto found = offsets(device.shaders.get(program_named(renderer, params, "lighting")).id());
   using glsl::LightingBlock;
-  expect_offset(found, "lighting.to_sun", offsetof(LightingBlock, to_sun));
-  expect_offset(found, "lighting.sun", offsetof(LightingBlock, sun));
   expect_offset(found, "lighting.sky", offsetof(LightingBlock, sky));
+  expect_offset(found, "lighting.ground_albedo", offsetof(LightingBlock, ground_albedo));
   expect_offset(found, "lighting.ground", offsetof(LightingBlock, ground));
+  expect_offset(found, "lighting.ground_light", offsetof(LightingBlock, ground_light));
+  expect_offset(found, "lighting.emission", offsetof(LightingBlock, emission));
+  expect_offset(found, "lighting.light_count", offsetof(LightingBlock, light_count));
+  for (std::size_t i : {std::size_t{0}, std::size_t{LIGHTING_MAX_LIGHTS - 1}}) {
+    using glsl::DirectLightBlock;
+    const std::string light = fmt::format("lighting.lights[{}].", i);
+    const std::size_t at = offsetof(LightingBlock, lights) + i * sizeof(DirectLightBlock);
+    expect_offset(found, light + "to_light", at + offsetof(DirectLightBlock, to_light));
+    expect_offset(found, light + "illuminance", at + offsetof(DirectLightBlock, illuminance));
+  }
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ class LightingTest : public RenderTest {
     params.set("render.sky_light", 0.0f);
     params.set("render.ground_light", 0.0f);
     params.set("exposure.auto", false);
-    inputs.sun = {.to_light = {0, 0, 1}, .illuminance = glm::vec3(1000)};
+    sun() = {.to_light = {0, 0, 1}, .illuminance = glm::vec3(1000)};
   }
 
   // EV at which a luminance of 1 stays 1.
@@ -32,7 +32,7 @@ scene::Scene white_square(const scene::Material& material) {
 TEST_F(LightingTest, RoughPlaneFacingTheSunReturnsItsLightOverPi) {
   const scene::Scene scene = white_square({.base_color = {0.8f, 0.4f, 0.2f, 1}, .metallic = 0, .roughness = 1});
   inputs.camera = inputs.last_camera = render::look_at({0, 0, 40}, {0, 0, 0}, 0.08f, 0.01f);
-  inputs.sun.illuminance = glm::vec3(2);
+  sun().illuminance = glm::vec3(2);
   params.set("exposure.ev", unit_ev());
   draw(scene);
   const glm::vec3 seen = pixel3("color", width / 2, height / 2);
@@ -47,10 +47,10 @@ TEST_F(LightingTest, ObliqueSunFallsOffWithItsCosine) {
   const scene::Scene scene = white_square({.metallic = 0, .roughness = 1});
   inputs.camera = inputs.last_camera = render::look_at({0, 0, 40}, {0, 0, 0}, 0.08f, 0.01f);
   params.set("exposure.ev", unit_ev());
-  inputs.sun = {.to_light = {0, 0, 1}, .illuminance = glm::vec3(2)};
+  sun() = {.to_light = {0, 0, 1}, .illuminance = glm::vec3(2)};
   draw(scene);
   const float straight = pixel("color", width / 2, height / 2)[0];
-  inputs.sun.to_light = {std::sqrt(0.75f), 0, 0.5f};
+  sun().to_light = {std::sqrt(0.75f), 0, 0.5f};
   draw(scene);
   EXPECT_NEAR(pixel("color", width / 2, height / 2)[0] / straight, 0.5f, 0.02f);
 }
@@ -61,7 +61,7 @@ TEST_F(LightingTest, ShadowTakesTheSunAndLeavesTheSky) {
   scene::Scene scene = white_square({.metallic = 0, .roughness = 1});
   add_node(scene, square(), glm::translate(glm::scale(glm::mat4(1), glm::vec3(0.5f)), glm::vec3(0, 0, 20)));
   scene.nodes[1].matrix = glm::translate(glm::mat4(1), glm::vec3(1, 0, 6));  // off screen, towards the sun
-  inputs.sun = {.to_light = glm::normalize(glm::vec3(1, 0, 6)), .illuminance = glm::vec3(2)};
+  sun() = {.to_light = glm::normalize(glm::vec3(1, 0, 6)), .illuminance = glm::vec3(2)};
   params.set("exposure.ev", unit_ev());
   draw(scene);
   EXPECT_EQ(pixel("shadow", width / 2, height / 2)[0], 0);
@@ -85,7 +85,7 @@ TEST_F(LightingTest, AutomaticExposureSuitsBrightSunsAndDimOnes) {
   params.reset("render.sky_light");
   std::vector<std::uint8_t> first;
   for (const float lux : {1.0f, 3.0f, 100000.0f}) {
-    inputs.sun.illuminance = glm::vec3(lux);
+    sun().illuminance = glm::vec3(lux);
     draw(scene);
     const std::vector<std::uint8_t> shown = renderer.read_display();
     const int grey = shown[(height / 2 * width + width / 2) * 3 + 1];

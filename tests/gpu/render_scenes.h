@@ -43,6 +43,9 @@ class RenderTest : public GpuTest {
     params.set_text("technique", "none");
   }
 
+  // The frame's light.
+  render::Sun& sun() { return std::get<render::Sun>(inputs.lights.front()); }
+
   const render::Frame& draw(const scene::Scene& scene) {
     gpu_scene.emplace(device, scene);
     return renderer.draw(*gpu_scene, inputs, params);

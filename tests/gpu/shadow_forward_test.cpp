@@ -115,7 +115,7 @@ TEST_F(ShadowForward, ALightsOverridesCount) {
   TriangleRenderer renderer;
   const ParamSet params = renderer.params();
   std::vector<shadow::Light> lights(1);
-  lights[0].to_light = box_on_ground().to_light;
+  lights[0].source = shadow::Sun{box_on_ground().to_light};
   lights[0].overrides = {"technique=hard"};
   const std::vector<float> mask =
       renderer.render(box_on_ground(), params, [&](shadow::Inputs& in) { in.lights = lights; }).visibilities();

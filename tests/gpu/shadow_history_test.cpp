@@ -157,7 +157,7 @@ TEST_F(ShadowHistory, FollowsReceiversByTheirMotion) {
 shadow::FinishedMaps finished(const shadow::LightFrame& light, const gl::Texture& copy) {
   gl::glCopyImageSubData(light.depth, GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, copy.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0,
                          copy.width(), copy.height(), 1);
-  return {{copy.id(), copy.width(), copy.height()}, light.cascades};
+  return {{copy.id(), copy.width(), copy.height()}, light.projection};
 }
 
 TEST_F(ShadowHistory, WithoutCastersToDrawItIsKeptOnlyWhereNothingMoved) {
@@ -169,7 +169,7 @@ TEST_F(ShadowHistory, WithoutCastersToDrawItIsKeptOnlyWhereNothingMoved) {
   renderer_->render(scene, params);
   const gl::Texture copy("copy",
                          {.target = GL_TEXTURE_2D_ARRAY, .format = GL_DEPTH_COMPONENT32F, .width = 256, .height = 256});
-  const shadow::Light light{.to_light = scene.to_light, .maps = finished(renderer_->mask().lights[0], copy)};
+  const shadow::Light light{.source = shadow::Sun{scene.to_light}, .maps = finished(renderer_->mask().lights[0], copy)};
   const shadow::Box nothing{glm::vec3(1), glm::vec3(-1)};
   const shadow::Box all{glm::vec3(-20), glm::vec3(20)};
   const auto refusal = [&](const std::optional<shadow::Box>& moved) {

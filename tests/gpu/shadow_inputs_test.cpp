@@ -89,27 +89,31 @@ TEST_F(ShadowInputs, LightsAreChecked) {
     };
   };
   expect_refusal("two lights have the id 1", with([](auto& all) { all[0].id = 1; }));
-  expect_refusal("light 0 has no direction", with([](auto& all) { all[0].to_light = {0, 0, 0}; }));
-  expect_refusal("light 1 has no direction", with([](auto& all) { all[1].to_light.x = NAN; }));
+  expect_refusal("light 0 has no direction", with([](auto& all) {
+                   all[0].source = shadow::Sun{.to_light = {0, 0, 0}};
+                 }));
+  expect_refusal("light 1 has no direction", with([](auto& all) {
+                   all[1].source = shadow::Sun{.to_light = {NAN, 0, 1}};
+                 }));
   expect_refusal("light 0 has no maps", [](Inputs& in) { in.draw = nullptr; });
 
   const int size = 64;
   const auto maps =
       texture("maps", {.target = GL_TEXTURE_2D_ARRAY, .format = GL_DEPTH_COMPONENT32F, .width = size, .height = size});
-  const shadow::FinishedMaps given{maps, {.size = size, .items = std::vector<shadow::Cascade>(1)}};
   const auto with_maps = [&](const auto& change) {
-    return with([&given, change](auto& all) {
-      all[0].maps = given;
-      change(*all[0].maps);
+    return with([&, change](auto& all) {
+      shadow::Cascades cascades{.size = size, .items = std::vector<shadow::Cascade>(1)};
+      change(cascades);
+      all[0].maps = shadow::FinishedMaps{maps, cascades};
     });
   };
-  expect_refusal("brings 0 cascades", with_maps([](auto& m) { m.cascades.items.clear(); }));
-  expect_refusal("brings 1 maps for 2 cascades", with_maps([](auto& m) { m.cascades.items.resize(2); }));
-  expect_refusal("maps of 64×64 and cascades of 32", with_maps([](auto& m) { m.cascades.size = 32; }));
-  expect_refusal("cascade 0 has no extent", with_maps([](auto& m) { m.cascades.items[0].half_extent = 0; }));
-  expect_refusal("cascade 0 has no extent", with_maps([](auto& m) { m.cascades.items[0].far_z = -1; }));
-  expect_refusal("cascade 0 is not finite", with_maps([](auto& m) { m.cascades.items[0].near_z = NAN; }));
-  expect_refusal("light space is not finite", with_maps([](auto& m) { m.cascades.anchor.x = NAN; }));
+  expect_refusal("light 0: 0 cascades, 1 to 8 fit", with_maps([](auto& c) { c.items.clear(); }));
+  expect_refusal("brings 1 maps for 2 layers", with_maps([](auto& c) { c.items.resize(2); }));
+  expect_refusal("maps of 64×64 and a projection of 32", with_maps([](auto& c) { c.size = 32; }));
+  expect_refusal("cascade 0 has no extent", with_maps([](auto& c) { c.items[0].half_extent = 0; }));
+  expect_refusal("cascade 0 has no extent", with_maps([](auto& c) { c.items[0].far_z = -1; }));
+  expect_refusal("cascade 0 is not finite", with_maps([](auto& c) { c.items[0].near_z = NAN; }));
+  expect_refusal("light space is not finite", with_maps([](auto& c) { c.anchor.x = NAN; }));
 }
 
 TEST_F(ShadowInputs, AViewMayBeAPartOfItsTextures) {

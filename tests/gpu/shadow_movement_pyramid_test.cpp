@@ -20,10 +20,11 @@ class MovementPyramid : public GpuTest {
     for (size_t i = 0; i < layers.size(); ++i) {
       map.upload(GL_RED, GL_FLOAT, std::as_bytes(std::span(layers[i])), 0, static_cast<int>(i));
     }
-    shadow::Cascades cascades{.size = size, .items = std::vector<shadow::Cascade>(layers.size())};
+    const shadow::LightProjection projection =
+        shadow::Cascades{.size = size, .items = std::vector<shadow::Cascade>(layers.size())};
     shadow::draw_movement(device, {.map = map,
                                    .form = form,
-                                   .cascades = cascades,
+                                   .projection = projection,
                                    .draw = [](const shadow::CasterPass&, gl::Pass&) {},
                                    .present_is_drawn = true});
     return map;

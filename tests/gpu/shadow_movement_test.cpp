@@ -69,10 +69,10 @@ class ShadowMovement : public GpuTest {
  protected:
   ShadowMovement() { Geometry::put_shaders(device.shaders.files()); }
 
-  std::vector<float> depth_of(const TriangleScene& scene, const shadow::Cascades& cascades) {
+  std::vector<float> depth_of(const TriangleScene& scene, const shadow::LightProjection& projection) {
     const Geometry geometry(scene);
     const gl::Texture& map =
-        shadow::draw_shadow_map(device, {.name = "reference", .cascades = cascades, .draw = geometry.casters()});
+        shadow::draw_shadow_map(device, {.name = "reference", .projection = projection, .draw = geometry.casters()});
     return level_of(map, 0);
   }
 
@@ -82,27 +82,28 @@ class ShadowMovement : public GpuTest {
     std::optional<shadow::Box> bounds;
     MovementForm form = MovementForm::maximum;
   };
-  const gl::Texture& movement_of(const TriangleScene& scene, const shadow::Cascades& cascades, const How& how) {
+  const gl::Texture& movement_of(const TriangleScene& scene, const shadow::LightProjection& projection,
+                                 const How& how) {
     const Geometry geometry(scene);
     const shadow::DrawCasters draw = [&](const shadow::CasterPass& casters, gl::Pass& pass) {
       drawn.push_back(casters.kind);
       geometry.casters()(casters, pass);
     };
     const gl::Texture& map =
-        shadow::movement_target(device, "movement", cascades.size, static_cast<int>(cascades.items.size()), how.form);
+        shadow::movement_target(device, "movement", projection.size(), projection.layers(), how.form);
     const float rubbish = 1;
     for (int level = 0; level < map.desc().levels; ++level) {
       gl::glClearTexImage(map.id(), level, GL_RED, GL_FLOAT, &rubbish);
     }
     drawn.clear();
     const gl::Texture& depth = shadow::draw_shadow_map(device, {.name = "depth",
-                                                                .cascades = cascades,
+                                                                .projection = projection,
                                                                 .draw = draw,
                                                                 .moved = how.second_target ? &map : nullptr,
                                                                 .moved_bounds = how.bounds});
     shadow::draw_movement(device, {.map = map,
                                    .form = how.form,
-                                   .cascades = cascades,
+                                   .projection = projection,
                                    .draw = draw,
                                    .depth = how.finished_maps ? nullptr : &depth,
                                    .moved = how.bounds,

@@ -140,7 +140,7 @@ class ShadowTechnique : public GpuTest {
     scene.view = glm::lookAt(glm::vec3(0, 5, 0.1f), glm::vec3(0), glm::vec3(0, 1, 0));
     scene.projection = perspective(0.5f, 1, 0.1f);
     scene.width = scene.height = 16;
-    lights[0].to_light = {0, 1, 0};
+    lights[0].source = shadow::Sun{.to_light = {0, 1, 0}};
   }
 
   // The next frame of a view: what the middle of each light's layer says of visibility and of frames seen.
@@ -200,10 +200,8 @@ TEST_F(ShadowTechnique, BlendedSurfacesGetTheProductsOfTheStandIn) {
 
 TEST_F(ShadowTechnique, CastersThatNobodyDrawsAreAnErrorThatNamesTheTechnique) {
   const gl::Texture maps("maps", {.target = GL_TEXTURE_2D_ARRAY, .format = GL_R32F, .width = 16, .height = 16});
-  shadow::FinishedMaps finished{.depth = {maps.id(), 16, 16}, .cascades = {}};
-  finished.cascades.size = 16;
-  finished.cascades.items.resize(1);
-  lights[0].maps = finished;
+  const shadow::Cascades cascades{.size = 16, .items = std::vector<shadow::Cascade>(1)};
+  lights[0].maps = shadow::FinishedMaps{.depth = {maps.id(), 16, 16}, .projection = cascades};
   params.set("technique", "cleared");
   params.set("cleared.value", 0.0f);
   try {
@@ -238,7 +236,7 @@ TEST_F(ShadowTechnique, HistoryBeginsAgainWhenItIsVoid) {
   expect_reset("a last frame that is not the last",
                [](shadow::Inputs& inputs) { inputs.view.last_view[3][0] += 0.1f; });
   count();
-  lights[0].to_light = glm::normalize(glm::vec3(0.1f, 1, 0));
+  lights[0].source = shadow::Sun{glm::normalize(glm::vec3(0.1f, 1, 0))};
   expect_reset("another direction of the light");
   params.set("counted.scale", 0.75f);
   expect_reset("another parameter");

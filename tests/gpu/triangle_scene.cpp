@@ -218,7 +218,7 @@ Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& pa
     pass.use(receiver_program).set("world_to_clip", scene.projection * scene.view);
     geometry.draw();
   }
-  const shadow::Light light{.to_light = scene.to_light};
+  const shadow::Light light{.source = shadow::Sun{scene.to_light}};
   shadow::Inputs inputs{.view = {.view = scene.view, .projection = scene.projection},
                         .depth = {depth.id(), scene.width, scene.height},
                         .normals = {normals.id(), scene.width, scene.height},

@@ -65,7 +65,7 @@ std::vector<Layers> draw(Machine& machine, const scene::Scene& scene, const rend
                             .height = 90,
                             .camera = setup.camera,
                             .last_camera = setup.camera,
-                            .sun = setup.sun,
+                            .lights = {setup.sun},
                             .time = 0.4,
                             .last_time = 0.37},
                            params);

@@ -88,13 +88,13 @@ class Posts : public GpuTest {
     params.set("cascades.size", size);
     const render::Frame& frame = renderer_.draw(
         gpu_scene,
-        {.width = width, .height = height, .camera = setup.camera, .last_camera = setup.camera, .sun = setup.sun},
+        {.width = width, .height = height, .camera = setup.camera, .last_camera = setup.camera, .lights = {setup.sun}},
         params);
     const std::vector<float> cascade = renderer_.read_aov("cascade");
     const int coarsest = static_cast<int>(*std::max_element(cascade.begin(), cascade.end()));
     const float radius = std::tan(glm::radians(sun_angle / 2)) * 3 / std::sin(glm::radians(40.0f));
     return {width_10_90(profile_of(setup.camera, renderer_.read_aov("shadow"))),
-            radius / frame.mask.lights[0].cascades.texel(std::clamp(coarsest, 0, cascades - 1))};
+            radius / frame.mask.lights[0].projection.cascades().texel(std::clamp(coarsest, 0, cascades - 1))};
   }
 
   gl::Device device_;

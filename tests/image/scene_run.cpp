@@ -28,7 +28,7 @@ render::FrameInputs SceneRun::inputs(bool cut) const {
           .height = height_,
           .camera = setup_.camera,
           .last_camera = drawn_ ? last_camera_ : setup_.camera,
-          .sun = setup_.sun,
+          .lights = {setup_.sun},
           .time = time_,
           .last_time = drawn_ ? last_time_ : time_,
           .cut = cut};

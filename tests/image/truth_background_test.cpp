@@ -90,10 +90,13 @@ class Stage {
     params.set("sun.angle", 4.0f);
     renderer.registry().select(params, "truth");
     params.set("truth.samples", rays);
-    renderer.draw(
-        *gpu_scene_,
-        {.width = width, .height = height, .camera = setup_.camera, .last_camera = setup_.camera, .sun = setup_.sun},
-        params);
+    renderer.draw(*gpu_scene_,
+                  {.width = width,
+                   .height = height,
+                   .camera = setup_.camera,
+                   .last_camera = setup_.camera,
+                   .lights = {setup_.sun}},
+                  params);
   }
   void draw_until_there(render::Renderer& renderer, int rays, const truth::TruthTechnique& truth) {
     draw(renderer, rays);

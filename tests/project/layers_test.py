@@ -106,6 +106,30 @@ def shader_faults_of(path, text):
             yield f"src/{path}: the shader \"{name}\" lies above the layer '{layer}'"
 
 
+# What a light's kind and its map's projection decide, and the files that may know it: lamps are then added there alone.
+PROJECTION = re.compile(r"\bshadow\.(layers|layer_count|light_extent|light_is_square|map_size|view_to_light|"
+                        r"world_to_light)\b|\bshadow_depth\b")
+PROJECTION_FILE = "shadow/light_projection.glsl"
+CASCADES = re.compile(r"\b(Cascades?|fit_cascades|get<Sun>)\b")
+CASCADES_FILES = {"shadow/cascades.h", "shadow/cascades.cpp", "shadow/light_projection.h",
+                  "shadow/light_projection.cpp"}
+
+
+def code_of(text):
+    """The text without comments and strings."""
+    return re.sub(r'//[^\n]*|"(\\.|[^"\\\n])*"', "", text)
+
+
+def projection_faults_of(path, text):
+    """Where glsl/<path> or src/<path> knows of a light what only its projection may, one line each."""
+    if path.endswith((".h", ".cpp")):
+        pattern = CASCADES if path.startswith("shadow/") and path not in CASCADES_FILES else None
+    else:
+        pattern = PROJECTION if path != PROJECTION_FILE else None
+    for match in pattern.finditer(code_of(text)) if pattern else []:
+        yield f"{path}: '{match.group()}' is for {PROJECTION_FILE} and src/shadow/light_projection.cpp alone"
+
+
 def glsl_faults_of(path, text):
     """What is wrong with the includes of glsl/<path>, one line each."""
     folder = path.split("/")[0]
@@ -124,6 +148,21 @@ class Layers(unittest.TestCase):
         for path in (support.ROOT / "src").rglob("*.cpp"):
             faults += shader_faults_of(path.relative_to(support.ROOT / "src").as_posix(), path.read_text())
         self.assertFalse(faults, "\n" + "\n".join(faults))
+
+    def test_only_the_projection_knows_what_kind_of_light_there_is(self):
+        faults = []
+        for folder in ("glsl", "src"):
+            for path in (path for path in (support.ROOT / folder).rglob("*.*") if path.is_file()):
+                if path.suffix in (".h", ".cpp", ".glsl", ".frag", ".vert", ".comp"):
+                    faults += projection_faults_of(path.relative_to(support.ROOT / folder).as_posix(), path.read_text())
+        self.assertFalse(faults, "\n" + "\n".join(faults))
+
+    def test_knowledge_of_the_projection_is_found(self):
+        for path, text in {"shadow/techniques/a.glsl": "float x = shadow.layers[0].texel;",
+                           "shadow/drivers/a.frag": "texelFetch(shadow_depth, at, 0)",
+                           "shadow/a.cpp": "const Cascades& cascades = light.cascades();"}.items():
+            self.assertEqual(len(list(projection_faults_of(path, text))), 1, path)
+            self.assertEqual(list(projection_faults_of(path, "// " + text)), [], path)
 
     def test_forbidden_shaders_are_found(self):
         for path, name in {"shadow/a.glsl": "render/sky.glsl", "lib/a.glsl": "shadow/light.glsl",

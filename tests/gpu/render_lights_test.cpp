@@ -1,0 +1,100 @@
+// Several lights in one frame: each has a layer of the mask, and the picture is the sum of what each gives alone.
+#include <cmath>
+
+#include "render_scenes.h"
+
+namespace penumbra::test {
+namespace {
+
+class LightsTest : public RenderTest {
+ protected:
+  LightsTest() {
+    params.set_text("technique", "pcss");
+    params.set_text("sun.angle", "3");
+    params.set("render.sky_light", 0.0f);
+    params.set("render.ground_light", 0.0f);
+    params.set("exposure.auto", false);
+    params.set("exposure.ev", -std::log2(1.2f));  // a luminance of 1 stays 1
+    inputs.camera = inputs.last_camera = render::look_at({0, 0, 8}, {0, 0, 0}, 0.5f, 0.01f);
+    // A square that hides another part of a wall from each of two suns.
+    scene_.materials.push_back({.base_color = {0.8f, 0.4f, 0.2f, 1}, .metallic = 0, .roughness = 1});
+    scene::Primitive quad = square();
+    quad.material = 0;
+    add_node(scene_, quad, glm::scale(glm::mat4(1), glm::vec3(4)));
+    add_node(scene_, quad, glm::translate(glm::scale(glm::mat4(1), glm::vec3(0.4f)), glm::vec3(0, 0, 2)));
+  }
+
+  struct Drawn {
+    std::vector<float> color;
+    std::vector<std::vector<float>> masks;  // visibility by layer
+  };
+
+  Drawn draw_with(std::vector<render::Light> lights) {
+    inputs.lights = std::move(lights);
+    const render::Frame& frame = draw(scene_);
+    Drawn drawn{.color = renderer.read_aov("color"), .masks = {}};
+    for (int layer = 0; layer < frame.mask.texture->desc().layers; ++layer)
+      drawn.masks.push_back(gl::read_floats(*frame.mask.texture, 1, 0, layer));
+    return drawn;
+  }
+
+  scene::Scene scene_;
+  const render::Sun warm_{.to_light = glm::normalize(glm::vec3(0.6f, 0, 1)), .illuminance = {3, 2, 1}};
+  const render::Sun cold_{.to_light = glm::normalize(glm::vec3(-0.5f, 0.3f, 1)), .illuminance = {1, 2, 4}};
+};
+
+TEST_F(LightsTest, TwoSunsGiveTheSumOfEach) {
+  const Drawn a = draw_with({warm_});
+  const Drawn b = draw_with({cold_});
+  const Drawn both = draw_with({warm_, cold_});
+  ASSERT_EQ(both.color.size(), a.color.size());
+  for (std::size_t i = 0; i < both.color.size(); ++i) {
+    const float sum = a.color[i] + b.color[i];
+    // Each of the three was rounded to a half float.
+    ASSERT_NEAR(both.color[i], sum, 1.5f * sum / 1024) << i;
+  }
+}
+
+TEST_F(LightsTest, EachLightHasItsOwnLayerOfTheMask) {
+  const Drawn a = draw_with({warm_});
+  const Drawn b = draw_with({cold_});
+  const Drawn both = draw_with({warm_, cold_});
+  const Drawn turned = draw_with({cold_, warm_});
+  ASSERT_EQ(both.masks.size(), 2u);
+  EXPECT_EQ(both.masks[0], a.masks[0]);
+  EXPECT_EQ(both.masks[1], b.masks[0]);
+  EXPECT_EQ(turned.masks[0], b.masks[0]);
+  EXPECT_EQ(turned.masks[1], a.masks[0]);
+  // Pixels that only one of them reaches, of either kind.
+  int only_a = 0, only_b = 0;
+  for (std::size_t i = 0; i < both.masks[0].size(); ++i) {
+    only_a += both.masks[0][i] == 1 && both.masks[1][i] == 0 ? 1 : 0;
+    only_b += both.masks[0][i] == 0 && both.masks[1][i] == 1 ? 1 : 0;
+  }
+  EXPECT_GT(only_a, 20);
+  EXPECT_GT(only_b, 20);
+}
+
+TEST_F(LightsTest, BlendedSurfacesAreLitByAllAndShadowedFromTheFirst) {
+  scene_.materials[0].alpha_mode = scene::AlphaMode::blend;
+  params.set_text("technique", "none");
+  const Drawn a = draw_with({warm_});
+  const Drawn b = draw_with({cold_});
+  const Drawn both = draw_with({warm_, cold_});
+  // In the middle there is the square before the wall, both of full alpha.
+  const std::size_t middle = 3 * static_cast<std::size_t>(height / 2 * width + width / 2);
+  for (std::size_t i = middle; i < middle + 3; ++i) {
+    const float sum = a.color[i] + b.color[i];
+    EXPECT_GT(sum, 0);
+    EXPECT_NEAR(both.color[i], sum, 2 * sum / 1024) << i;
+  }
+}
+
+TEST_F(LightsTest, AFrameWithoutLightsOrWithTooManyIsRefused) {
+  EXPECT_EQ(message_of([&] { draw_with({}); }), "a frame has 0 lights; 1 to 16 can be drawn");
+  EXPECT_EQ(message_of([&] { draw_with(std::vector<render::Light>(17, warm_)); }),
+            "a frame has 17 lights; 1 to 16 can be drawn");
+}
+
+}  // namespace
+}  // namespace penumbra::test
