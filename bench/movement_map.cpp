@@ -78,8 +78,6 @@ void draw(Stage& stage, const Way& way) {
                                                                     .draw = draw,
                                                                     .moved = way.second_target ? map : nullptr,
                                                                     .moved_bounds = moved});
-  shadow::build_depth_pyramid(
-      stage.device, {.name = "depth pyramid", .depth = depth.id(), .size = stage.projection.size(), .layers = layers});
   if (map == nullptr) return;
   shadow::draw_movement(stage.device, {.map = *map,
                                        .form = way.form,

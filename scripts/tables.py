@@ -25,7 +25,7 @@ def table(head, rows):
 def techniques(program):
     rows = []
     for row in listed(program, "techniques"):
-        means = f"`{row['alias_of']}` with `{' '.join(row['sets'])}`" if "alias_of" in row else row["source"]
+        means = f"`{row['technique']}` with `{' '.join(row['sets'])}`" if "sets" in row else row["source"]
         rows.append([f"`{row['name']}`", row["help"], means])
     return table(["technique", "what it does", "source"], rows)
 
@@ -33,6 +33,16 @@ def techniques(program):
 def filters(program):
     rows = [[f"`{row['name']}`", f"`{row['param']}`", row["help"], row["source"]] for row in listed(program, "filters")]
     return table(["filter", "parameter", "what it does", "source"], rows)
+
+
+def denoisers(program):
+    rows = [[f"`{row['name']}`", row["help"], row["source"]] for row in listed(program, "denoisers")]
+    return table(["denoiser", "what it does", "source"], rows)
+
+
+def products(program):
+    rows = [[f"`{row['name']}`", row["help"], row["source"]] for row in listed(program, "products")]
+    return table(["product", "what it holds", "source"], rows)
 
 
 def value(default):
@@ -54,7 +64,8 @@ def params(program):
 def main():
     program, write = sys.argv[1], "--write" in sys.argv[2:]
     text = made = DOCUMENT.read_text()
-    tables = {"techniques": techniques(program), "filters": filters(program), "parameters": params(program)}
+    tables = {"techniques": techniques(program), "filters": filters(program), "denoisers": denoisers(program),
+              "products": products(program), "parameters": params(program)}
     for name, rows in tables.items():
         made = re.sub(rf"(<!-- {name} -->\n).*?(<!-- end -->)", lambda m: m[1] + rows + "\n" + m[2], made, flags=re.DOTALL)
     if write:

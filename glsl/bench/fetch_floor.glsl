@@ -1,7 +1,9 @@
 // Only the fetches of a technique that searches for blockers and filters: as many, from the same discs of the same map.
+#include "shadow/sampling.glsl"
 #include "shadow/search.glsl"
 
-layout(binding = 5) uniform sampler2DArray kernels;  // a mask of the technique's: G is the filter's radius
+// A mask of the technique's: G is the filter's radius.
+layout(binding = UNIT_kernel_radii) uniform sampler2DArray kernels;
 
 float read_radius(Receiver receiver, Light light) {
   return fetch_floor_radius > 0.0 ? fetch_floor_radius : search_radius(receiver, light);
@@ -16,14 +18,14 @@ Visibility visibility(Receiver receiver, Light light) {
   vec4 sum = vec4(0.0);
 #if fetch_floor_blocker_taps > 0
   float search = narrow_search(receiver, light, light.layer, light.read_radius).radius;
-  Scramble turned = scramble_of(receiver, blocker_step);
+  Scramble searching = blocker_scramble(receiver);
   for (int i = 0; i < fetch_floor_blocker_taps; ++i) {
-    sum += fetch(receiver, search * blocker_point(i, turned, light), light);
+    sum += fetch(receiver, search * blocker_point(i, searching, light), light);
   }
 #endif
   float radius = fetch_floor_radius > 0.0 ? fetch_floor_radius : texelFetch(kernels, ivec3(receiver.pixel, 0), 0).y;
   if (radius > 0.0) {
-    Scramble scramble = scramble_of(receiver, filter_step);
+    Scramble scramble = filter_scramble(receiver);
     for (int i = 0; i < fetch_floor_filter_taps; ++i) {
       sum += fetch(receiver, radius * filter_point(i, scramble, light), light);
     }

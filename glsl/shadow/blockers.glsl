@@ -1,5 +1,7 @@
-// Percentage-closer soft shadows in parts (Fernando 2005): mean blocker depth, kernel, filter.
+// Percentage-closer soft shadows in parts (Fernando 2005): mean blocker depth, kernel, filter. For techniques that need
+// the "least_depth_pyramid" and have the sample sets "blocker", "filter" and "disocclusion".
 #include "shadow/search.glsl"
+#include "shadow/sampling.glsl"
 
 struct Blockers {
   float depth_sum;  // metres, relative to the receiver
@@ -28,7 +30,7 @@ void add_blockers(inout Blockers blockers, Receiver receiver, vec2 offset, float
 }
 
 Blockers find_blockers(Receiver receiver, float radius, int taps, float bias, Light light) {
-  Scramble scramble = scramble_of(receiver, blocker_step);
+  Scramble scramble = blocker_scramble(receiver);
   Blockers blockers = Blockers(0.0, 0.0);
   for (int i = 0; i < taps; ++i) {
     add_blockers(blockers, receiver, radius * blocker_point(i, scramble, light), bias, light);
@@ -43,16 +45,16 @@ float mean_distance(Blockers blockers) { return max(blockers.depth_sum / blocker
 // The filter's points: how many, and whether of the set for refused histories.
 struct FilterPoints {
   int count;
-  bool renewal;
+  bool disocclusion;
 };
 
 vec2 point_of(FilterPoints points, int index, Scramble scramble, Light light) {
-  return points.renewal ? renewal_point(index, scramble, light) : filter_point(index, scramble, light);
+  return points.disocclusion ? disocclusion_point(index, scramble, light) : filter_point(index, scramble, light);
 }
 
 // Share of light that passes a disc (or square) of that radius about the receiver.
 float filtered_share(Receiver receiver, float radius, FilterPoints points, float bias, Light light) {
-  Scramble scramble = scramble_of(receiver, filter_step);
+  Scramble scramble = filter_scramble(receiver);
   float lit = 0.0;
   for (int i = 0; i < points.count; ++i) {
     lit += lit_share(receiver, radius * point_of(points, i, scramble, light), bias, light);
@@ -69,7 +71,7 @@ Visibility filtered(Receiver receiver, float mean, FilterPoints points, float bi
 
 // Both steps with so many taps each, and so many where the history is refused; neither where depth bounds, if asked,
 // rule blockers out.
-Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, int filter_taps, int renewal_taps,
+Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, int filter_taps, int disocclusion_taps,
                        bool early_exits) {
   float bias = depth_bias(receiver, light);
   Search search = narrow_search(receiver, light, light.layer, light.read_radius);
@@ -78,6 +80,6 @@ Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, int fil
   Blockers blockers = find_blockers(receiver, search.radius, blocker_taps, bias, light);
   if (blockers.weight == 0.0) return fully_lit();
   float mean = mean_distance(blockers);
-  if (receiver.renewed) return filtered(receiver, mean, FilterPoints(renewal_taps, true), bias, light);
+  if (receiver.history_refused) return filtered(receiver, mean, FilterPoints(disocclusion_taps, true), bias, light);
   return filtered(receiver, mean, FilterPoints(filter_taps, false), bias, light);
 }

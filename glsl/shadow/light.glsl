@@ -1,11 +1,7 @@
-// What every technique does with a light's map: compare texels with a receiver, take sample points.
+// What every technique does with a light's map: compare texels with a receiver.
 #include "shadow/light_projection.glsl"
 #include "lib/hash.glsl"
 #include "lib/disc.glsl"
-
-layout(std140, binding = 2) uniform SampleData { SampleBlock samples; };
-
-layout(binding = 4) uniform sampler2D sample_noise;  // two values a pixel; repeats; a power of two wide and high
 
 struct Visibility {
   float visibility;        // 1 lit, 0 in shadow
@@ -81,51 +77,4 @@ float bilinear(vec4 texels, vec2 weight) {
 float lit_share(Receiver receiver, vec2 offset, float bias, Light light) {
   Footprint footprint = fetch_footprint(receiver, offset, light);
   return 1.0 - bilinear(blocking_texels(receiver, footprint, bias), footprint.weight);
-}
-
-// Points of the light's shape, -1..1, from the tables. A disc's points are rotated, or like a square's shifted on the
-// torus and then mapped.
-struct Scramble {
-  vec2 value;  // rotation: cosine, sine; shift: of the unit square
-};
-
-vec2 shape_point(vec4 table, int index, Scramble scramble, Light light) {
-  vec2 point = (index & 1) == 0 ? table.xy : table.zw;
-#if SAMPLE_ROTATE
-  return vec2(point.x * scramble.value.x - point.y * scramble.value.y,
-              point.x * scramble.value.y + point.y * scramble.value.x);
-#else
-  vec2 shifted = toroidal_shift(point, scramble.value);
-  return light.square ? 2.0 * shifted - 1.0 : concentric_disc(shifted);
-#endif
-}
-
-const int blocker_step = 0;
-const int filter_step = 1;
-
-// By the tile of noise, each step from another part of it.
-Scramble scramble_of(Receiver receiver, int step) {
-  ivec2 mask = textureSize(sample_noise, 0) - 1;
-  ivec2 at = ivec2(receiver.pixel) + (mask + 1) / 2 * step;
-  vec2 noise = toroidal_shift(texelFetch(sample_noise, at & mask, 0).xy,
-                              step == blocker_step ? shadow.noise_shift.xy : shadow.noise_shift.zw);
-#if SAMPLE_ROTATE
-  float angle = 6.2831853 * noise.x;
-  return Scramble(vec2(cos(angle), sin(angle)));
-#else
-  return Scramble(noise);
-#endif
-}
-
-vec2 blocker_point(int index, Scramble scramble, Light light) {
-  return shape_point(samples.blocker[index >> 1], index, scramble, light);
-}
-
-vec2 filter_point(int index, Scramble scramble, Light light) {
-  return shape_point(samples.filter_points[index >> 1], index, scramble, light);
-}
-
-// Instead of those, where the history is refused.
-vec2 renewal_point(int index, Scramble scramble, Light light) {
-  return shape_point(samples.renewal_points[index >> 1], index, scramble, light);
 }

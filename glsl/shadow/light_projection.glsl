@@ -9,8 +9,7 @@
 
 layout(std140, binding = 1) uniform ShadowData { ShadowBlock shadow; };
 
-layout(binding = 0) uniform sampler2DArray shadow_depth;    // as stored, one layer a layer of the light
-layout(binding = 1) uniform sampler2DArray shadow_pyramid;  // minimum over 4 · 2^level texels squared
+layout(binding = 0) uniform sampler2DArray shadow_depth;  // as stored, one layer a layer of the light
 
 // A point to be shaded, in light space.
 struct Receiver {
@@ -19,7 +18,7 @@ struct Receiver {
   vec2 gradient;  // of its plane: change of depth per metre across the light
   Corner corner;  // the faces beside it
   vec2 pixel;     // seeds the noise
-  bool renewed;   // there is a history, and it was refused here: more taps are worth it
+  bool history_refused;  // there is a history, and it does not hold here: more taps are worth it
 };
 
 struct Light {
@@ -56,7 +55,7 @@ Receiver make_receiver(vec3 view_position, vec3 light_normal, vec2 pixel) {
   receiver.gradient = plane_gradient(light_normal, max_plane_slope);
   receiver.corner = Corner(vec4(0.0), 0.0);
   receiver.pixel = pixel;
-  receiver.renewed = false;
+  receiver.history_refused = false;
   return receiver;
 }
 

@@ -2,12 +2,7 @@
 // technique, which defines
 //   float read_radius(Receiver, Light)      radius in metres of the disc that visibility() will read
 //   Visibility visibility(Receiver, Light)  with light.layer chosen
-struct Shadowed {
-  Visibility visibility;
-  int layer;
-};
-
-bool faces_light(Receiver receiver) { return light_cosine(receiver) > 0.0; }
+#include "shadow/shadowed.glsl"
 
 // The light of the frame, with what the technique will read of it for a receiver.
 Light light_for(Receiver receiver) {

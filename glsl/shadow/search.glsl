@@ -1,6 +1,9 @@
 // How far blockers can be: the least depth over a disc, from the pyramid.
 #include "shadow/light.glsl"
 
+// Minimum over 4 · 2^level texels squared: the product of that name.
+layout(binding = UNIT_least_depth_pyramid) uniform sampler2DArray shadow_pyramid;
+
 // Least depth, metres, of what a layer of the map holds within `radius` of a position (and a little beyond: 2 × 2
 // texels of the finest level that covers the disc).
 float nearest_depth(vec3 position, float radius, int layer) {

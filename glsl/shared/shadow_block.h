@@ -7,7 +7,6 @@
 GLSL_BEGIN
 
 #define SHADOW_MAX_LAYERS 8
-#define SHADOW_MAX_TAPS 256
 
 // Where one layer of a light's shadow map lies, and what its depths mean. Only glsl/shadow/light_projection.glsl reads
 // it.
@@ -43,13 +42,6 @@ struct ShadowBlock {
   int casters_moved;       // 1: casters moved, and the movement map shows where
   float moved_depth;       // least light-space depth of what moved, metres
   LayerBlock layers[SHADOW_MAX_LAYERS];
-};
-
-// Sample points, two to a vec4: on the unit disc when rotated by a pixel, on the unit square when shifted.
-struct SampleBlock {
-  vec4 blocker[SHADOW_MAX_TAPS / 2];
-  vec4 filter_points[SHADOW_MAX_TAPS / 2];
-  vec4 renewal_points[SHADOW_MAX_TAPS / 2];  // the filter's, where the history is refused
 };
 
 GLSL_END

@@ -46,10 +46,10 @@ bool explain_command(const std::string& name) {
 
 bool explain_technique(const std::string& name) {
   const shadow::Registry& registry = session::all_techniques();
-  for (const shadow::Alias& alias : registry.aliases()) {
-    if (alias.name != name) continue;
-    fmt::print("{}: {}\n\n  {} with {}\n", alias.name, alias.summary, alias.technique,
-               fmt::join(alias.assignments, ", "));
+  for (const shadow::Preset& preset : registry.presets()) {
+    if (preset.name != name) continue;
+    fmt::print("{}: {}\n\n  {} with {}\n", preset.name, preset.summary, preset.technique,
+               fmt::join(preset.assignments, ", "));
     return true;
   }
   for (const shadow::Technique& technique : registry.techniques()) {

@@ -32,9 +32,11 @@ Json technique_rows() {
     rows.push_back(
         {{"name", technique.name}, {"help", technique.summary}, {"source", technique.source}, {"params", params}});
   }
-  for (const shadow::Alias& alias : registry.aliases()) {
-    rows.push_back(
-        {{"name", alias.name}, {"help", alias.summary}, {"alias_of", alias.technique}, {"sets", alias.assignments}});
+  for (const shadow::Preset& preset : registry.presets()) {
+    rows.push_back({{"name", preset.name},
+                    {"help", preset.summary},
+                    {"technique", preset.technique},
+                    {"sets", preset.assignments}});
   }
   return rows;
 }
@@ -46,6 +48,24 @@ Json filter_rows() {
                     {"help", filter.summary},
                     {"source", filter.source},
                     {"param", filter.of == shadow::Filter::Of::penumbra ? "filter.penumbra" : "filter.visibility"}});
+  return rows;
+}
+
+Json denoiser_rows() {
+  Json rows = Json::array();
+  for (const shadow::Denoiser& denoiser : session::all_techniques().denoisers()) {
+    Json params = Json::array();
+    for (const Param& param : denoiser.params) params.push_back(param.name);
+    rows.push_back(
+        {{"name", denoiser.name}, {"help", denoiser.summary}, {"source", denoiser.source}, {"params", params}});
+  }
+  return rows;
+}
+
+Json product_rows() {
+  Json rows = Json::array();
+  for (const shadow::Recipe& recipe : session::all_techniques().recipes())
+    rows.push_back({{"name", recipe.name}, {"help", recipe.summary}, {"source", recipe.source}});
   return rows;
 }
 
@@ -73,6 +93,8 @@ Json backend_rows() {
 constexpr std::array listings{
     Listing{"techniques", "Ways to draw shadows, for --technique.", technique_rows},
     Listing{"filters", "Filters of the shadow mask, for filter.penumbra and filter.visibility.", filter_rows},
+    Listing{"denoisers", "What follows a technique, for the parameter denoiser.", denoiser_rows},
+    Listing{"products", "What is made of a light's maps for those techniques that ask for it.", product_rows},
     Listing{"params", "Parameters, for --set and presets.", param_rows},
     Listing{"aovs", "Pictures of a frame, for --aov.", aov_rows},
     Listing{"backends", "Ways to an OpenGL context, for --backend.", backend_rows}};
@@ -126,7 +148,8 @@ int run_list(const Arguments& arguments) {
   CLI::App app("List what penumbra knows by name", "penumbra list");
   std::string what;
   bool json = false;
-  app.add_option("WHAT", what, "techniques, filters, params, aovs or backends; without it, these choices")
+  app.add_option("WHAT", what,
+                 "techniques, filters, denoisers, products, params, aovs or backends; without it, these choices")
       ->type_name("");
   app.add_flag("--json", json, "For machines")->disable_flag_override();
   if (!cli::parse(app, arguments)) return 0;

@@ -26,7 +26,7 @@ constexpr std::array table{
 #endif
     Command{"truth", "Ray trace the shadows of a scene, for techniques to be measured against", run_truth},
     Command{"info", "Tell what is in a scene", run_info},
-    Command{"list", "List techniques, filters, params, aovs or backends", run_list},
+    Command{"list", "List techniques, filters, denoisers, products, params, aovs or backends", run_list},
     Command{"diff", "Compare two pictures, and fail past a limit", run_diff},
     Command{"compare", "Compare techniques with the truth: tables and an HTML page", compare::run},
     Command{"bench", "Measure what shadows cost, pass by pass", run_bench},

@@ -12,11 +12,11 @@ namespace {
 constexpr const char* floor_name = "fetch_floor";
 constexpr unsigned unit_source = shadow::first_pass_unit;
 
-void copy_mask(const shadow::TechniqueFrame& work, const gl::Texture& mask) {
-  const gl::Texture& target = work.target("mask copy", mask.desc());
-  gl::Pass pass(work.device(), {.name = "mask copy", .colors = {{.texture = &target}}});
-  work.use(pass, "copy mask");
-  work.device().sampler({}).bind(unit_source);
+void copy_mask(const shadow::PassContext& context, const gl::Texture& mask) {
+  const gl::Texture& target = context.target("mask copy", mask.desc());
+  gl::Pass pass(context.device(), {.name = "mask copy", .colors = {{.texture = &target}}});
+  context.use(pass, "copy mask");
+  context.device().sampler({}).bind(unit_source);
   mask.bind(unit_source);
   pass.draw_full_screen();
 }
@@ -30,24 +30,39 @@ std::vector<Param> floor_rows() {
   };
 }
 
+// The mask whose G is the radius of the technique's filter; copies it once besides.
+shadow::Recipe kernel_radii(const gl::Texture& kernels) {
+  return {.name = "kernel_radii",
+          .summary = "A mask of the technique that is measured.",
+          .source = "none",
+          .needs = {},
+          .build = [&kernels](const shadow::PassContext& context) -> const gl::Texture& {
+            copy_mask(context, kernels);
+            return kernels;
+          },
+          .programs =
+              [](const ParamSet&) {
+                return std::vector<gl::ProgramDesc>{
+                    {.name = "copy mask", .vertex = "shared/full_screen.vert", .fragment = "bench/copy_mask.frag"}};
+              }};
+}
+
 shadow::Registry floor_registry(const shadow::Technique& of, const gl::Texture& kernels) {
-  shadow::Technique floor{.name = floor_name,
-                          .summary = "Only the fetches of another technique.",
-                          .source = "none",
-                          .glsl = "bench/fetch_floor.glsl",
-                          .needs = shadow::needs_shadow_map | shadow::needs_depth_pyramid,
-                          .params = floor_rows(),
-                          .pattern = of.pattern,
-                          .scramble = of.scramble};
-  floor.prepare = [&kernels](const shadow::TechniqueFrame& work) {
-    work.frame().products.push_back({.unit = shadow::first_product_unit, .texture = &kernels});
-    copy_mask(work, kernels);
-  };
-  floor.programs = [](const ParamSet&) {
-    return std::vector<gl::ProgramDesc>{
-        {.name = "copy mask", .vertex = "shared/full_screen.vert", .fragment = "bench/copy_mask.frag"}};
-  };
-  return shadow::Registry({std::move(floor)}, {});
+  using Step = shadow::SampleSet::Step;
+  shadow::Registry::Contents contents{
+      .techniques = {
+          {.name = floor_name,
+           .summary = "Only the fetches of another technique.",
+           .source = "none",
+           .glsl = "bench/fetch_floor.glsl",
+           .needs = {"shadow_map", "least_depth_pyramid", "kernel_radii"},
+           .params = floor_rows(),
+           .samples = {{.name = "blocker", .count_parameter = "fetch_floor.blocker_taps", .step = Step::blocker},
+                       {.name = "filter", .count_parameter = "fetch_floor.filter_taps"}},
+           .pattern = of.pattern,
+           .scramble = of.scramble}}};
+  contents.recipes.push_back(kernel_radii(kernels));
+  return shadow::Registry(std::move(contents));
 }
 
 bool has_row(const shadow::Technique& technique, const char* row) {
@@ -73,7 +88,7 @@ void Floor::take_kernels(const gl::Texture& mask) {
                          desc.height, desc.layers);
 }
 
-// The technique's values, without the history and the filters that come after its fetches.
+// The technique's values, without the denoiser that comes after its fetches.
 ParamSet Floor::params_for(const ParamSet& params) const {
   ParamSet own(render::Renderer::params(renderer_.registry()));
   for (const Param& row : own.rows()) {
@@ -81,9 +96,7 @@ ParamSet Floor::params_for(const ParamSet& params) const {
     const std::string& source = row.name.starts_with(floor_name) ? technique_.name + "." + part : row.name;
     if (row.name != "technique" && params.contains(source)) own.set(row.name, params.value(source));
   }
-  own.set("history.reuse", false);
-  own.set("filter.penumbra", std::string("none"));
-  own.set("filter.visibility", std::string("none"));
+  own.set("denoiser", std::string("none"));
   return own;
 }
 

@@ -6,7 +6,8 @@
 #include "gl/pass.h"
 #include "render/renderer.h"
 #include "scene/gpu_scene.h"
-#include "shadow/technique.h"
+#include "shadow/pass_context.h"
+#include "shadow/registry.h"
 
 namespace penumbra::bench {
 

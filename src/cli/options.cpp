@@ -134,7 +134,8 @@ namespace {
 
 // All names would make a long line.
 void check_known(const ParamSet& params, const std::string& name) {
-  if (!params.contains(name) && near_names(name, params.names()).empty())
+  const bool known = params.contains(name) || params.renamed_from(name) != nullptr;
+  if (!known && near_names(name, params.names()).empty())
     fail("unknown parameter '{}'; see penumbra list params", name);
 }
 

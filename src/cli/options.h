@@ -10,7 +10,7 @@
 #include "cli/usage.h"
 #include "core/params.h"
 #include "render/setup.h"
-#include "shadow/technique.h"
+#include "shadow/registry.h"
 
 namespace penumbra::cli {
 

@@ -9,7 +9,7 @@
 
 namespace penumbra::compare {
 
-// One of those that are compared: a technique or an alias, and values of its own.
+// One of those that are compared: a technique or a preset, and values of its own.
 struct Contender {
   std::string label;  // as it was asked for: "pcss:pcss.filter_taps=64"
   std::string name;

@@ -116,30 +116,56 @@ std::vector<ParamValue> representative_values(const Param& param) {
   return {param.choices.begin(), param.choices.end()};
 }
 
-ParamSet::ParamSet(std::vector<Param> rows) : rows_(std::move(rows)) {
-  for (size_t i = 0; i < rows_.size(); ++i) {
-    const Param& param = rows_[i];
+ParamSet::ParamSet(std::vector<Param> rows) {
+  auto declared = std::make_shared<Declared>();
+  declared->rows = std::move(rows);
+  for (size_t i = 0; i < declared->rows.size(); ++i) {
+    const Param& param = declared->rows[i];
     if (!well_formed_name(param.name)) throw std::logic_error("parameter name '" + param.name + "'");
-    if (!index_.emplace(param.name, i).second) throw std::logic_error("parameter '" + param.name + "' declared twice");
+    if (!declared->index.emplace(param.name, i).second) {
+      throw std::logic_error("parameter '" + param.name + "' declared twice");
+    }
     values_.push_back(checked_value(param, param.default_value));
   }
+  for (const Param& param : declared->rows) {
+    for (const std::string& former : param.former_names) {
+      if (declared->index.contains(former)) {
+        throw std::logic_error("parameter '" + former + "' is also a former name of '" + param.name + "'");
+      }
+    }
+  }
+  declared_ = std::move(declared);
+}
+
+std::span<const Param> ParamSet::rows() const {
+  return declared_ ? std::span<const Param>(declared_->rows) : std::span<const Param>();
 }
 
 std::vector<std::string> ParamSet::names() const {
   std::vector<std::string> names;
-  for (const Param& param : rows_) names.push_back(param.name);
+  for (const Param& param : rows()) names.push_back(param.name);
   return names;
 }
 
-bool ParamSet::contains(std::string_view name) const { return index_.find(name) != index_.end(); }
+bool ParamSet::contains(std::string_view name) const { return declared_ && declared_->index.contains(name); }
 
-size_t ParamSet::index_of(std::string_view name) const {
-  const auto found = index_.find(name);
-  if (found == index_.end()) fail_unknown("parameter", name, names());
-  return found->second;
+const Param* ParamSet::renamed_from(std::string_view former_name) const {
+  for (const Param& param : rows()) {
+    if (std::ranges::find(param.former_names, former_name) != param.former_names.end()) return &param;
+  }
+  return nullptr;
 }
 
-const Param& ParamSet::row(std::string_view name) const { return rows_[index_of(name)]; }
+size_t ParamSet::index_of(std::string_view name) const {
+  if (declared_) {
+    const auto found = declared_->index.find(name);
+    if (found != declared_->index.end()) return found->second;
+  }
+  if (const Param* present = renamed_from(name)) fail("parameter '{}' is now called '{}'", name, present->name);
+  fail_unknown("parameter", name, names());
+}
+
+const Param& ParamSet::row(std::string_view name) const { return rows()[index_of(name)]; }
 const ParamValue& ParamSet::value(std::string_view name) const { return values_[index_of(name)]; }
 
 bool ParamSet::get_bool(std::string_view name) const { return value_as<bool>(*this, name); }
@@ -149,12 +175,12 @@ const std::string& ParamSet::get_word(std::string_view name) const { return valu
 
 void ParamSet::set(std::string_view name, const ParamValue& value) {
   const size_t index = index_of(name);
-  values_[index] = checked_value(rows_[index], value);
+  values_[index] = checked_value(declared_->rows[index], value);
 }
 
 void ParamSet::set_text(std::string_view name, std::string_view text) {
   const size_t index = index_of(name);
-  values_[index] = parse_value(rows_[index], text);
+  values_[index] = parse_value(declared_->rows[index], text);
 }
 
 void ParamSet::assign(std::string_view assignment) {
@@ -165,12 +191,17 @@ void ParamSet::assign(std::string_view assignment) {
 
 void ParamSet::reset(std::string_view name) {
   const size_t index = index_of(name);
-  values_[index] = rows_[index].default_value;
+  values_[index] = declared_->rows[index].default_value;
 }
 
 bool ParamSet::is_default(std::string_view name) const {
   const size_t index = index_of(name);
-  return values_[index] == rows_[index].default_value;
+  return values_[index] == declared_->rows[index].default_value;
+}
+
+bool ParamSet::operator==(const ParamSet& other) const {
+  if (values_ != other.values_) return false;
+  return declared_ == other.declared_ || std::ranges::equal(rows(), other.rows(), {}, &Param::name, &Param::name);
 }
 
 std::string glsl_name(const Param& param) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +30,8 @@ struct Param {
   std::string help;  // one sentence
   ParamBinding binding = ParamBinding::uniform;
   std::vector<std::string> choices;  // the allowed words when default_value is a string
+  // Names that it had in earlier versions: whoever still uses one is told the present name.
+  std::vector<std::string> former_names = {};
 };
 
 // "bool", "int", "float" or "a|b|c".
@@ -44,17 +47,19 @@ ParamValue checked_value(const Param& param, const ParamValue& value);
 // number's default.
 std::vector<ParamValue> representative_values(const Param& param);
 
-// The declared rows and their present values. Copyable: a preset is a copy with changes.
+// The declared rows and their present values. Copyable: a preset is a copy with changes; copies share the rows.
 class ParamSet {
  public:
   ParamSet() = default;
   // Throws std::logic_error on a duplicate or ill-formed row: that is a bug.
   explicit ParamSet(std::vector<Param> rows);
 
-  std::span<const Param> rows() const { return rows_; }
+  std::span<const Param> rows() const;
   std::vector<std::string> names() const;
   bool contains(std::string_view name) const;
-  // Both throw Error with near names when the name is unknown.
+  // The row that had this name in an earlier version; null: none had.
+  const Param* renamed_from(std::string_view former_name) const;
+  // Both throw Error when the name is unknown: with the present name for a former one, else with near names.
   const Param& row(std::string_view name) const;
   const ParamValue& value(std::string_view name) const;
 
@@ -70,12 +75,18 @@ class ParamSet {
   void reset(std::string_view name);
   bool is_default(std::string_view name) const;
 
+  // Whether both have the same names, in the same order, with the same values. Quick for copies of one set.
+  bool operator==(const ParamSet& other) const;
+
  private:
+  struct Declared {
+    std::vector<Param> rows;
+    std::map<std::string, size_t, std::less<>> index;
+  };
   size_t index_of(std::string_view name) const;
 
-  std::vector<Param> rows_;
+  std::shared_ptr<const Declared> declared_;
   std::vector<ParamValue> values_;
-  std::map<std::string, size_t, std::less<>> index_;
 };
 
 // A parameter's identifier in GLSL: its name with '.' replaced by '_'.

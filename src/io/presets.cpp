@@ -95,7 +95,8 @@ ParamValue value_of(const Param& param, const toml::node& node) {
 void apply(const Entry& entry, ParamSet& params, const SelectTechnique& select) {
   if (entry.name != technique_key) {
     // All names would make a long line.
-    if (!params.contains(entry.name) && near_names(entry.name, params.names()).empty())
+    const bool known = params.contains(entry.name) || params.renamed_from(entry.name) != nullptr;
+    if (!known && near_names(entry.name, params.names()).empty())
       fail("unknown parameter '{}'; see penumbra list params", entry.name);
     params.set(entry.name, value_of(params.row(entry.name), *entry.node));
     return;

@@ -27,7 +27,7 @@ struct Options : cli::SceneOptions, cli::DeviceOptions, session::CacheOptions {
   int cost_frames() const { return quick ? 3 : 5; }
 };
 
-// How something is drawn: a technique or an alias, and values ("pcss.filter_taps=8") that differ from its own.
+// How something is drawn: a technique or a preset, and values ("pcss.filter_taps=8") that differ from its own.
 struct Look {
   std::string technique = "pcss";
   std::vector<std::string> values;

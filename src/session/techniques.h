@@ -1,6 +1,6 @@
 #pragma once
 
-#include "shadow/technique.h"
+#include "shadow/registry.h"
 
 namespace penumbra::session {
 

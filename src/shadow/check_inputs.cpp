@@ -1,3 +1,6 @@
+#include "check_inputs.h"
+
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 #include <string_view>
@@ -46,7 +49,7 @@ bool holds_depth(unsigned texture) {
          level_parameter(texture, GL_TEXTURE_RED_TYPE) == GL_FLOAT;
 }
 
-// So many channels of signed numbers: how the values of an unsigned format stand for signed ones is not known.
+// So many channels of signed numbers: nothing says how an unsigned format's values would map to -1..1.
 bool holds_signed(unsigned texture, int channels) {
   constexpr GLenum types[] = {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE, GL_TEXTURE_BLUE_TYPE};
   for (int i = 0; i < channels; ++i) {
@@ -55,8 +58,11 @@ bool holds_signed(unsigned texture, int channels) {
   return true;
 }
 
-void check_texture(std::string_view name, const TextureView& view, GLenum target) {
+void check_given(std::string_view name, const TextureView& view) {
   if (view.id == 0 || view.width < 1 || view.height < 1) fail("soft shadows: no {} texture", name);
+}
+
+void check_texture(std::string_view name, const TextureView& view, GLenum target) {
   if (gl::glIsTexture(view.id) == GL_FALSE) fail("soft shadows: {}: {} is not the name of a texture", name, view.id);
   GLint is = 0;
   gl::glGetTextureParameteriv(view.id, GL_TEXTURE_TARGET, &is);
@@ -71,31 +77,65 @@ void check_texture(std::string_view name, const TextureView& view, GLenum target
   }
 }
 
-void check_receivers(std::string_view name, const TextureView& view, const TextureView& depth, int channels) {
-  if (view.width != depth.width || view.height != depth.height) {
-    fail("soft shadows: {} are {}×{}, depth is {}×{}", name, view.width, view.height, depth.width, depth.height);
+void check_depth(const TextureView& view, TextureChecks& checks) {
+  check_given("depth", view);
+  const TextureChecks::Key key{.id = view.id, .width = view.width, .height = view.height};
+  if (!checks.knows(key)) {
+    check_texture("depth", view, GL_TEXTURE_2D);
+    if (!holds_depth(view.id)) fail("soft shadows: depth: texture {} holds no depth", view.id);
   }
-  if (!holds_signed(view.id, channels)) {
-    fail("soft shadows: {}: texture {} has not {} channels of a float or SNORM format", name, view.id, channels);
-  }
+  checks.add(key);
 }
 
-void check_maps(const FinishedMaps& maps, int light) {
+// A texture of signed numbers for each receiver; `texels`: what messages call them.
+struct ReceiverTexture {
+  std::string_view name, texels;
+  const TextureView& view;
+  int channels = 0;
+};
+
+void check_receivers(const ReceiverTexture& texture, const TextureView& depth, TextureChecks& checks) {
+  const TextureView& view = texture.view;
+  check_given(texture.name, view);
+  const TextureChecks::Key key{.id = view.id, .width = view.width, .height = view.height, .channels = texture.channels};
+  const bool known = checks.knows(key);
+  if (!known) check_texture(texture.name, view, GL_TEXTURE_2D);
+  if (view.width != depth.width || view.height != depth.height) {
+    fail("soft shadows: {} are {}×{}, depth is {}×{}", texture.texels, view.width, view.height, depth.width,
+         depth.height);
+  }
+  if (!known && !holds_signed(view.id, texture.channels)) {
+    fail("soft shadows: {}: texture {} has not {} channels of a float or SNORM format", texture.texels, view.id,
+         texture.channels);
+  }
+  checks.add(key);
+}
+
+void check_map_texture(const TextureView& depth, GLint count, int light) {
+  if (!holds_depth(depth.id)) fail("soft shadows: light {} brings maps without depth", light);
+  const GLint layers = level_parameter(depth.id, GL_TEXTURE_DEPTH);
+  if (layers < count) fail("soft shadows: light {} brings {} maps for {} layers", light, layers, count);
+}
+
+void check_maps(const FinishedMaps& maps, int light, TextureChecks& checks) {
   const LightProjection& projection = maps.projection;
   if (const std::string fault = projection.fault(); !fault.empty()) fail("soft shadows: light {}: {}", light, fault);
-  check_texture(fmt::format("maps of light {}", light), maps.depth, GL_TEXTURE_2D_ARRAY);
-  if (maps.depth.width != projection.size() || maps.depth.height != projection.size()) {
-    fail("soft shadows: light {} brings maps of {}×{} and a projection of {}", light, maps.depth.width,
-         maps.depth.height, projection.size());
+  const std::string name = fmt::format("maps of light {}", light);
+  const TextureView& depth = maps.depth;
+  check_given(name, depth);
+  const TextureChecks::Key key{
+      .id = depth.id, .width = depth.width, .height = depth.height, .layers = projection.layers()};
+  const bool known = checks.knows(key);
+  if (!known) check_texture(name, depth, GL_TEXTURE_2D_ARRAY);
+  if (depth.width != projection.size() || depth.height != projection.size()) {
+    fail("soft shadows: light {} brings maps of {}×{} and a projection of {}", light, depth.width, depth.height,
+         projection.size());
   }
-  if (!holds_depth(maps.depth.id)) fail("soft shadows: light {} brings maps without depth", light);
-  const GLint layers = level_parameter(maps.depth.id, GL_TEXTURE_DEPTH);
-  if (layers < projection.layers()) {
-    fail("soft shadows: light {} brings {} maps for {} layers", light, layers, projection.layers());
-  }
+  if (!known) check_map_texture(depth, projection.layers(), light);
+  checks.add(key);
 }
 
-void check_lights(const Inputs& inputs) {
+void check_lights(const Inputs& inputs, TextureChecks& checks) {
   bool draws = false;
   for (const Light& light : inputs.lights) {
     if (!light.maps && !inputs.draw)
@@ -105,7 +145,7 @@ void check_lights(const Inputs& inputs) {
     for (const Light& other : inputs.lights) {
       if (&other != &light && other.id == light.id) fail("soft shadows: two lights have the id {}", light.id);
     }
-    if (light.maps) check_maps(*light.maps, light.id);
+    if (light.maps) check_maps(*light.maps, light.id, checks);
     draws = draws || !light.maps;
   }
   if (!draws) return;
@@ -126,21 +166,27 @@ void check_viewport(const Rect& rect, const TextureView& depth) {
 }  // namespace
 
 void check(const Inputs& inputs) {
+  TextureChecks nothing_known;
+  check(inputs, nothing_known);
+}
+
+void check(const Inputs& inputs, TextureChecks& checks) {
+  checks.begin();
   check_matrix("the view matrix", inputs.view.view);
   check_matrix("the projection matrix", inputs.view.projection);
   if (!all_finite(glm::value_ptr(inputs.view.jitter), 2)) fail("soft shadows: the jitter is not finite");
-  check_texture("depth", inputs.depth, GL_TEXTURE_2D);
-  if (!holds_depth(inputs.depth.id)) fail("soft shadows: depth: texture {} holds no depth", inputs.depth.id);
-  check_texture("normals", inputs.normals, GL_TEXTURE_2D);
-  check_receivers("normals", inputs.normals, inputs.depth, inputs.conventions.octahedral_normals ? 2 : 3);
+  check_depth(inputs.depth, checks);
+  const int normal_channels = inputs.conventions.octahedral_normals ? 2 : 3;
+  check_receivers({.name = "normals", .texels = "normals", .view = inputs.normals, .channels = normal_channels},
+                  inputs.depth, checks);
   if (inputs.motion.id != 0) {
-    check_texture("motion", inputs.motion, GL_TEXTURE_2D);
-    check_receivers("motion vectors", inputs.motion, inputs.depth, 2);
+    check_receivers({.name = "motion", .texels = "motion vectors", .view = inputs.motion, .channels = 2}, inputs.depth,
+                    checks);
   }
   check_viewport(inputs.viewport, inputs.depth);
   const bool none_moved = inputs.moved && glm::all(glm::greaterThan(inputs.moved->min, inputs.moved->max));
   if (inputs.moved && !none_moved) check_finite("moved casters", *inputs.moved);
-  check_lights(inputs);
+  check_lights(inputs, checks);
 }
 
 Rect viewport_of(const Inputs& inputs) {

@@ -4,21 +4,11 @@
 
 #include <array>
 
-#include "../core/error.h"
-
 namespace penumbra::shadow {
 
 namespace {
 
-// What "none" is where texels have to become a mask all the same.
-const Filter& unfiltered() {
-  static const Filter filter{.name = "unpack",
-                             .summary = "Leaves visibility as it is.",
-                             .source = {},
-                             .glsl = "shadow/filters/none.glsl",
-                             .reach = {{0, 0}}};
-  return filter;
-}
+constexpr std::string_view unpack_name = "unpack";
 
 struct Step {
   const Filter& filter;
@@ -61,7 +51,6 @@ LibraryProgram program_of(const Step& step) {
   };
   define("FILTER_PASS", step.pass);
   define("TO_MASK", step.to_mask ? 1 : 0);
-  define("SAMPLE_ROTATE", 1);  // light.glsl asks for one or the other
   if (step.compute) {
     const glm::ivec2 reach = step.filter.reach.at(static_cast<size_t>(step.pass));
     const Group group = group_for(reach);
@@ -77,29 +66,23 @@ LibraryProgram program_of(const Step& step) {
   return program;
 }
 
-const Filter& filter_named(const Registry& registry, const std::string& name) {
-  if (name == "none") return unfiltered();
-  for (const Filter& filter : registry.filters()) {
-    if (filter.name == name) return filter;
-  }
-  fail("there is no filter '{}'", name);
-}
-
 // A row of timings; all visibility filters share one, so that they can be compared.
 std::string_view pass_name(const Filter& filter) {
-  const bool filters = filter.of == Filter::Of::visibility && &filter != &unfiltered();
+  const bool filters = filter.of == Filter::Of::visibility && filter.name != unpack_name;
   return filters ? std::string_view("filter") : filter.name;
 }
 
 // One pass, from texels to `target`: texels, or a layer of the mask. Notes are for the latter alone.
-void run(const LibraryFrame& work, const Step& step, const PackedMask& source, const gl::Texture& target) {
-  const LightFrame& frame = work.frame();
+void run_pass(const LightWork& work, const Step& step, const FilterInputs& source, const gl::Texture& texels,
+              const gl::Texture& target) {
+  const LightFrame& frame = work.frame;
   gl::PassDesc desc{.name = pass_name(step.filter)};
   if (!step.compute) desc.colors = {{.texture = &target, .layer = step.to_mask ? frame.layer : 0}};
-  gl::Pass pass(work.device(), desc);
-  const gl::Program& program = work.use_library(pass, program_of(step));
-  for (const GLuint unit : {unit_texels, unit_notes}) work.device().sampler({}).bind(unit);
-  source.texels.bind(unit_texels);
+  gl::Pass pass(work.device, desc);
+  const gl::Program& program = pass.use(work.programs.ready(program_of(step)));
+  bind_inputs(work, owner_of(*work.denoiser));
+  for (const GLuint unit : {unit_texels, unit_notes}) work.device.sampler({}).bind(unit);
+  texels.bind(unit_texels);
   source.notes.bind(unit_notes);
   if (step.compute) {
     if (step.to_mask) program.set("mask_layer", frame.layer);
@@ -111,46 +94,46 @@ void run(const LibraryFrame& work, const Step& step, const PackedMask& source, c
   }
 }
 
-// All passes of a filter. `to_mask`: the last one fills the mask, which is returned; else texels.
-const gl::Texture& run_all(const LibraryFrame& work, const Filter& filter, const PackedMask& source, bool to_mask) {
-  const bool compute = work.uses_compute() && has_compute_form(filter);
-  const gl::Texture* texels = &source.texels;
+}  // namespace
+
+// What "none" is where texels have to become a mask all the same.
+const Filter& unfiltered() {
+  static const Filter filter{.name = std::string(unpack_name),
+                             .summary = "Leaves visibility as it is.",
+                             .source = {},
+                             .glsl = "shadow/filters/none.glsl",
+                             .reach = {{0, 0}}};
+  return filter;
+}
+
+const gl::Texture& run_filter(const LightWork& work, const FilterInputs& inputs) {
+  const Filter& filter = inputs.filter;
+  const bool compute = work.params().get_word("driver") == "compute" && has_compute_form(filter);
+  const gl::TextureDesc packed{.format = GL_R32UI, .width = work.mask.width(), .height = work.mask.height()};
+  const gl::Texture* texels = &inputs.texels;
   for (int i = 0; i < filter.passes; ++i) {
-    const Step step{filter, i, compute, to_mask && i + 1 == filter.passes};
+    const bool to_mask = inputs.to_mask && i + 1 == filter.passes;
     const gl::Texture& target =
-        step.to_mask ? work.mask()
-                     : work.target(fmt::format("denoise/{} {}", filter.name, i),
-                                   {.format = GL_R32UI, .width = work.mask().width(), .height = work.mask().height()});
-    run(work, step, {*texels, source.notes}, target);
+        to_mask ? work.mask : work.device.target(fmt::format("{}{} {}", inputs.prefix, filter.name, i), packed);
+    run_pass(work, {.filter = filter, .pass = i, .compute = compute, .to_mask = to_mask}, inputs, *texels, target);
     texels = &target;
   }
   return *texels;
 }
 
-}  // namespace
-
-const gl::Texture& filter_penumbra(const LibraryFrame& work, const Registry& registry, const gl::Texture& source) {
-  const std::string& name = work.params().get_word("filter.penumbra");
-  if (name == "none") return source;
-  // No pass of it reads notes.
-  return run_all(work, filter_named(registry, name), {source, source}, /*to_mask=*/false);
-}
-
-void filter_visibility(const LibraryFrame& work, const Registry& registry, const PackedMask& packed) {
-  run_all(work, filter_named(registry, work.params().get_word("filter.visibility")), packed, /*to_mask=*/true);
-}
-
 std::vector<LibraryProgram> filter_programs(std::span<const Filter> filters) {
   std::vector<LibraryProgram> programs;
-  const auto add = [&](const Filter& filter) {
-    for (int i = 0; i < filter.passes; ++i) {
-      const bool to_mask = filter.of == Filter::Of::visibility && i + 1 == filter.passes;
-      programs.push_back(program_of({filter, i, /*compute=*/false, to_mask}));
-      if (has_compute_form(filter)) programs.push_back(program_of({filter, i, /*compute=*/true, to_mask}));
-    }
+  const auto add = [&](const Step& step) {
+    programs.push_back(program_of(step));
+    Step compute = step;
+    compute.compute = true;
+    if (has_compute_form(step.filter)) programs.push_back(program_of(compute));
   };
-  add(unfiltered());
-  for (const Filter& filter : filters) add(filter);
+  add({.filter = unfiltered(), .to_mask = true});
+  for (const Filter& filter : filters) {
+    for (int i = 0; i < filter.passes; ++i) add({.filter = filter, .pass = i, .to_mask = false});
+    add({.filter = filter, .pass = filter.passes - 1, .to_mask = true});
+  }
   return programs;
 }
 

@@ -1,19 +1,26 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
-#include "library_frame.h"
+#include "light_work.h"
 
 namespace penumbra::shadow {
 
-// The penumbra filter of the parameters over packed texels: R32UI, the size of the mask. `source` itself if it is
-// "none".
-const gl::Texture& filter_penumbra(const LibraryFrame& work, const Registry& registry, const gl::Texture& source);
+// What "none" is where texels have to become a mask all the same.
+const Filter& unfiltered();
 
-// Fills the mask's layer (see Mask) from packed texels, by the visibility filter of the parameters, or as they are if
-// it is "none".
-void filter_visibility(const LibraryFrame& work, const Registry& registry, const PackedMask& packed);
+struct FilterInputs {
+  const Filter& filter;
+  const gl::Texture& texels;  // packed, see PackedMask
+  const gl::Texture& notes;   // read where the mask is filled
+  std::string prefix;         // of the names of its targets
+  bool to_mask = false;       // the last pass fills the mask's layer; else packed texels
+};
+
+// All passes of a filter; returns what the last one filled.
+const gl::Texture& run_filter(const LightWork& work, const FilterInputs& inputs);
 
 // All programs of these filters, under both drivers, and that which only unpacks.
 std::vector<LibraryProgram> filter_programs(std::span<const Filter> filters);

@@ -23,7 +23,7 @@ struct Conventions {
 struct View {
   glm::mat4 view{1}, projection{1};
   // Optional: techniques with memory reproject with them. They are those of the last render() of this view, else its
-  // history is dropped (see History in technique_frame.h).
+  // history is dropped (see PassContext).
   glm::mat4 last_view{1}, last_projection{1};
   glm::vec2 jitter{0};
   int id = 0;        // tells several views apart: each has maps, a mask and a history of its own

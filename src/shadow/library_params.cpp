@@ -13,7 +13,8 @@ namespace {
 Param word(const char* name, std::vector<std::string> choices, const char* help,
            ParamBinding binding = ParamBinding::host) {
   std::string first = choices.front();
-  return {name, std::move(first), 0, 0, "", help, binding, std::move(choices)};
+  return {
+      .name = name, .default_value = std::move(first), .help = help, .binding = binding, .choices = std::move(choices)};
 }
 
 Param with_default(Param row, const char* value) {
@@ -64,25 +65,8 @@ std::vector<Param> sampling_rows() {
       word("sampling.blocker_sequence", sequences,
            "From frame to frame the blocker step's points stay, shift, or change."),
       word("sampling.filter_sequence", sequences, "The same for the filter's points."),
-      {"sampling.seed", 0, 0, 65535, "", "Shifts the noise: another number turns all points another way.",
+      {"sampling.seed", 0, 0, 65535, "", "Shifts the noise: another number rotates or shifts all points differently.",
        ParamBinding::host},
-  };
-}
-
-std::vector<Param> history_rows() {
-  using enum ParamBinding;
-  return {
-      {"history.reuse", false, 0, 1, "", "Blends each frame with the last ones where they show the same surface."},
-      {"history.alpha", 0.1f, 0.01, 1, "", "Weight of the present frame in the blend."},
-      {"history.distance", 1.0f, 0, 100, "px",
-       "How far before or behind a receiver's plane, in widths of a pixel, the last frame's surface may lie."},
-      {"history.turn", 30.0f, 0, 180, "deg", "How far their normals may turn from each other."},
-      with_default(word("movement.map", {"none", "average", "maximum"},
-                        "Pyramid over what moved in the shadow map: where it shows in a receiver's kernel, the history "
-                        "is refused."),
-                   "maximum"),
-      word("movement.present", {"own_pass", "shadow_pass"},
-           "What moved is drawn, where it is, in a pass of its own or as a second target of the shadow map's."),
   };
 }
 
@@ -94,7 +78,9 @@ std::vector<std::string> names_of(std::span<const Filter> filters, Filter::Of of
   return names;
 }
 
-std::vector<Param> filter_rows(std::span<const Filter> filters) {
+}  // namespace
+
+std::vector<Param> filter_params(std::span<const Filter> filters) {
   return {
       word("filter.penumbra", names_of(filters, Filter::Of::penumbra),
            "Filter of the blocker distances, before penumbrae get their width from them."),
@@ -107,15 +93,29 @@ std::vector<Param> filter_rows(std::span<const Filter> filters) {
   };
 }
 
-}  // namespace
-
-std::vector<Param> library_params(std::span<const Filter> filters) {
+std::vector<Param> library_params() {
   std::vector<Param> rows = light_rows();
   append(rows, map_rows());
   append(rows, sampling_rows());
-  append(rows, history_rows());
-  append(rows, filter_rows(filters));
   return rows;
+}
+
+Param denoiser_param(std::span<const Denoiser> denoisers) {
+  std::vector<std::string> choices;
+  for (const Denoiser& denoiser : denoisers) choices.push_back(denoiser.name);
+  choices.emplace_back("none");
+  return word("denoiser", std::move(choices), "What follows the technique: filters, and blends with earlier frames.");
+}
+
+std::vector<Param> movement_params() {
+  return {
+      with_default(word("movement.map", {"none", "average", "maximum"},
+                        "Pyramid over what moved in the shadow map: where it shows in a receiver's kernel, the history "
+                        "is refused."),
+                   "maximum"),
+      word("movement.present", {"own_pass", "shadow_pass"},
+           "What moved is drawn, where it is, in a pass of its own or as a second target of the shadow map's."),
+  };
 }
 
 }  // namespace penumbra::shadow

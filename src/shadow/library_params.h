@@ -4,11 +4,18 @@
 #include <vector>
 
 #include "../core/params.h"
-#include "technique.h"
+#include "denoiser.h"
+#include "filter.h"
 
 namespace penumbra::shadow {
 
-// The rows that belong to no technique: sun, cascades, bias, sampling, history, filters, driver.
-std::vector<Param> library_params(std::span<const Filter> filters);
+// The rows that belong to no technique, denoiser or filter: driver, sun, cascades, bias, sampling.
+std::vector<Param> library_params();
+// Which denoiser is used.
+Param denoiser_param(std::span<const Denoiser> denoisers);
+// Of the movement map, which denoisers ask for.
+std::vector<Param> movement_params();
+// Which filters are used, and what all of them have.
+std::vector<Param> filter_params(std::span<const Filter> filters);
 
 }  // namespace penumbra::shadow

@@ -2,8 +2,8 @@
 
 #include <glm/glm.hpp>
 
+#include "light_frame.h"
 #include "shared/shadow_block.h"
-#include "technique.h"
 
 namespace penumbra::shadow {
 

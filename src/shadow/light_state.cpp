@@ -22,14 +22,19 @@ bool same_matrix(const glm::mat4& a, const glm::mat4& b) {
   return true;
 }
 
-// Whether all that a technique can see is the same: its choice, the library's rows and its own.
-bool same_values(const Technique& technique, const ParamSet& a, const ParamSet& b) {
+// Whether the parameter belongs to a choice that was not made: another technique's, or another denoiser's.
+bool is_of_other(const std::string& name, const ParamSet& params, const char* choice) {
+  const std::string owner = name.substr(0, name.find('.'));
+  const std::vector<std::string>& choices = params.row(choice).choices;
+  return owner != params.get_word(choice) && std::ranges::find(choices, owner) != choices.end();
+}
+
+// Whether all that the technique and the denoiser can see is the same.
+bool same_values(const ParamSet& a, const ParamSet& b) {
   if (!a.contains("technique")) return false;
-  const std::vector<std::string>& techniques = b.row("technique").choices;
   return std::ranges::all_of(b.rows(), [&](const Param& row) {
-    const std::string owner = row.name.substr(0, row.name.find('.'));
-    const bool of_another = owner != technique.name && std::ranges::find(techniques, owner) != techniques.end();
-    return of_another || a.value(row.name) == b.value(row.name);
+    return a.value(row.name) == b.value(row.name) || is_of_other(row.name, b, "technique") ||
+           is_of_other(row.name, b, "denoiser");
   });
 }
 
@@ -48,9 +53,9 @@ bool continues(const ViewState& last, const Inputs& inputs) {
 }  // namespace
 
 void begin_frame(ViewState& view, const Inputs& inputs) {
-  const bool goes_on = continues(view, inputs);
+  const bool uninterrupted = continues(view, inputs);
   for (auto& [id, light] : view.lights) {
-    light.goes_on = goes_on && light.drawn;
+    light.uninterrupted = uninterrupted && light.drawn;
     light.drawn = false;
   }
   view.last_jitter = view.jitter;
@@ -61,45 +66,35 @@ void begin_frame(ViewState& view, const Inputs& inputs) {
   view.width = inputs.depth.width;
   view.height = inputs.depth.height;
   view.viewport = viewport_of(inputs);
-  view.drawn = false;  // until the end: a frame that throws leaves nothing to go on from
+  view.drawn = false;  // until the end: after a frame that throws nothing is kept
 }
 
-void begin_frame(LightState& state, const Technique& technique, const Light& light, const LightFrame& frame,
-                 ParamSet params) {
-  const bool goes_on = state.goes_on && state.source == light.source && state.layers == frame.projection.layers() &&
-                       same_values(technique, state.params, params);
-  state.age = goes_on ? state.age + 1 : 0;
+bool take_params(LightState& state, const ParamSet& defaults, const ParamSet& given, const Light& light) {
+  const bool first = !state.params.contains("technique");
+  if (!first && state.given == given && state.overrides == light.overrides) return true;
+  ParamSet own = defaults;
+  for (const Param& row : own.rows()) own.set(row.name, given.value(row.name));
+  for (const std::string& assignment : light.overrides) own.assign(assignment);
+  const bool same = same_values(state.params, own);
+  state.given = given;
+  state.overrides = light.overrides;
+  state.params = std::move(own);
+  state.programs.clear();
+  state.samples.clear();
+  state.uploaded = false;
+  return same;
+}
+
+void begin_frame(LightState& state, const Light& light, int layers, bool same_params) {
+  const bool holds = state.uninterrupted && same_params && state.source == light.source && state.layers == layers;
+  state.age = holds ? state.age + 1 : 0;
   ++state.frames;
   state.source = light.source;
-  state.layers = frame.projection.layers();
-  state.params = std::move(params);
+  state.layers = layers;
 }
 
-std::string ring_prefix(std::string_view name) { return fmt::format("history {}/", name); }
+std::string kept_prefix(std::string_view name) { return fmt::format("history {}/", name); }
 
-void drop_unused_rings(LightState& state, gl::Device& device, const std::string& prefix) {
-  std::erase_if(state.rings, [&](const auto& entry) {
-    const bool unused = entry.second.filled != state.frames;
-    if (unused) device.drop(prefix + ring_prefix(entry.first));
-    return unused;
-  });
-}
-
-void bind_light(gl::Device& device, const LightFrame& frame, const LightState& state) {
-  state.params_block->bind_uniform(block_params);
-  state.shadow_block->bind_uniform(block_shadow);
-  state.sample_block->bind_uniform(block_samples);
-  // Beyond a map there is nothing, which is at depth 1.
-  device.sampler({.wrap_s = GL_CLAMP_TO_BORDER, .wrap_t = GL_CLAMP_TO_BORDER}).bind(unit_shadow_map);
-  gl::glBindTextureUnit(unit_shadow_map, frame.depth);
-  device.sampler({}).bind(unit_depth_pyramid);
-  gl::glBindTextureUnit(unit_depth_pyramid, frame.pyramid != nullptr ? frame.pyramid->id() : 0);
-  device.sampler({}).bind(unit_noise);
-  state.noise->bind(unit_noise);
-  for (const Product& product : frame.products) {
-    device.sampler(product.sampler).bind(product.unit);
-    product.texture->bind(product.unit);
-  }
-}
+std::string product_prefix(std::string_view recipe) { return fmt::format("products/{}/", recipe); }
 
 }  // namespace penumbra::shadow

@@ -2,64 +2,82 @@
 
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "../gl/pass.h"
-#include "soft_shadows.h"
+#include "check_inputs.h"
+#include "inputs.h"
+#include "light_frame.h"
+#include "technique.h"
 
 namespace penumbra::shadow {
 
-// What outlives a frame of one light in one view, for one technique.
+// What outlives a frame of one light in one view.
 struct LightState {
-  ParamSet params;
-  bool rotated = true;  // see turns_samples()
+  std::string prefix;  // of the names of its targets and buffers
+
+  // The parameters of the last frame, as given and with the light's own values; made anew only when either changes.
+  ParamSet given, params;
+  std::vector<std::string> overrides;
+  // The programs of techniques, recipes and denoisers under these parameters, by owner.
+  std::map<std::string, std::vector<gl::ProgramDesc>, std::less<>> programs;
+
+  // The sample points that a technique's programs read.
+  struct SampleTables {
+    const gl::Buffer* buffer = nullptr;
+    int set = 0;  // see set_number()
+  };
+  std::map<std::string, SampleTables, std::less<>> samples;  // by technique: the light's, and its stand-in
+  bool uploaded = false;                                     // `params_block` and `samples` hold what `params` says
   const gl::Texture* noise = nullptr;
   const gl::Buffer* params_block = nullptr;
   const gl::Buffer* shadow_block = nullptr;
-  const gl::Buffer* sample_block = nullptr;
 
   LightSource source;
-  int layers = 0;            // of the shadow map
-  bool drawn = false;        // in this frame
-  bool goes_on = false;      // the last frame of the view drew it, and is the one before this
-  std::uint64_t frames = 0;  // drawn
-  std::uint64_t age = 0;     // of them, since what is kept began
+  int layers = 0;              // of the shadow map
+  bool drawn = false;          // in this frame
+  bool uninterrupted = false;  // the last frame of the view drew it, and is the one before this
+  std::uint64_t frames = 0;    // drawn
+  std::uint64_t age = 0;       // of them, since what is kept began
 
-  // Two textures in turn.
-  struct Ring {
+  // Two textures that take turns.
+  struct KeptTexture {
     gl::TextureDesc desc;
     int now = 0;
     std::uint64_t filled = 0;  // the last of `frames` that did
   };
-  std::map<std::string, Ring, std::less<>> rings;
-
-  std::unique_ptr<LightState> stand_in;  // of the technique that serves forward surfaces, if it is another
+  std::map<std::string, KeptTexture, std::less<>> kept;
+  // What the last frame made, so that what this one does not make is given back.
+  std::vector<std::string> products;
+  bool had_movement_map = false, was_denoised = false;
 };
 
 // What outlives a frame of a view.
 struct ViewState {
+  std::string prefix;  // of the names of its targets and buffers
   glm::mat4 view{1}, projection{1};
   glm::vec2 jitter{0}, last_jitter{0};
   Conventions conventions;
   int width = 0, height = 0;  // of the receivers' textures
   Rect viewport;
   bool drawn = false;  // to its end
+  TextureChecks checked;
   std::map<int, LightState> lights;
 };
 
 // Decides whether what is kept of the view's last frame holds in this one.
 void begin_frame(ViewState& view, const Inputs& inputs);
-// The same for a light, under the technique and the parameters of this frame, which it takes.
-void begin_frame(LightState& state, const Technique& technique, const Light& light, const LightFrame& frame,
-                 ParamSet params);
-// Gives back the rings that this frame has not filled, with the targets whose names begin with `prefix` and theirs.
-void drop_unused_rings(LightState& state, gl::Device& device, const std::string& prefix);
-// What the names of a ring's textures begin with.
-std::string ring_prefix(std::string_view name);
+// Takes the parameters of this frame: the caller's values of the library's rows, and the light's own. Returns whether
+// all that the chosen technique and denoiser can see are those of the last frame.
+bool take_params(LightState& state, const ParamSet& defaults, const ParamSet& given, const Light& light);
+// Decides whether what is kept of the light's last frame holds in this one.
+void begin_frame(LightState& state, const Light& light, int layers, bool same_params);
 
-// Binds what every evaluation of a technique reads: blocks, maps, products.
-void bind_light(gl::Device& device, const LightFrame& frame, const LightState& state);
+// What the names of targets begin with after those of the light: of a kept texture, a product, a denoiser's.
+std::string kept_prefix(std::string_view name);
+std::string product_prefix(std::string_view recipe);
+constexpr std::string_view denoise_prefix = "denoise/";
 
 }  // namespace penumbra::shadow

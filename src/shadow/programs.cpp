@@ -2,19 +2,19 @@
 
 #include <fmt/format.h>
 
-#include "denoise.h"
+#include "filters.h"
+#include "light_work.h"
 #include "movement_map.h"
-#include "shadow_map.h"
 
 namespace penumbra::shadow {
 
 namespace {
 
-// Parameters that between them build every variant of a technique's programs.
-std::vector<ParamSet> compiled_variants(const Technique& technique, const ParamSet& defaults) {
+// Parameters that between them build every variant of the programs of a technique, recipe or denoiser.
+std::vector<ParamSet> compiled_variants(const std::string& owner, const ParamSet& defaults) {
   std::vector<ParamSet> variants{defaults};
   for (const Param& param : defaults.rows()) {
-    if (param.binding != ParamBinding::compiled || !param.name.starts_with(technique.name + ".")) continue;
+    if (param.binding != ParamBinding::compiled || !param.name.starts_with(owner + ".")) continue;
     std::vector<ParamSet> grown;
     for (const ParamSet& variant : variants) {
       for (const ParamValue& value : representative_values(param)) {
@@ -30,25 +30,52 @@ std::vector<ParamSet> compiled_variants(const Technique& technique, const ParamS
 std::vector<Programs::MaskForm> mask_forms(bool rotated) {
   std::vector<Programs::MaskForm> forms;
   for (const bool compute : {false, true}) {
-    forms.push_back({rotated, compute, /*packed=*/false, /*history=*/false});
-    forms.push_back({rotated, compute, /*packed=*/true, /*history=*/false});
-    forms.push_back({rotated, compute, /*packed=*/true, /*history=*/true});
+    forms.push_back({.rotated = rotated, .compute = compute, .packed = false, .history = false});
+    forms.push_back({.rotated = rotated, .compute = compute, .packed = true, .history = false});
+    forms.push_back({.rotated = rotated, .compute = compute, .packed = true, .history = true});
   }
   return forms;
 }
 
-// What the generated files of a registry are made from.
-std::string declarations(const Registry& registry) {
+std::string unit_defines(const std::vector<std::string>& needs) {
   std::string text;
-  for (const Technique& technique : registry.techniques()) text += fmt::format("// {}\n", technique.glsl);
-  return text + glsl_declarations(ParamSet(registry.params()), block_params);
+  unsigned unit = first_product_unit;
+  for (const std::string& need : needs) {
+    if (!is_base_map(need)) text += fmt::format("#define UNIT_{} {}\n", need, unit++);
+  }
+  return text;
+}
+
+// What the generated files of a registry are made from: registries that differ in none of it share them.
+std::string declarations(const Registry& registry, const ParamSet& params) {
+  std::string text;
+  for (const Technique& technique : registry.techniques()) {
+    text += fmt::format("// {}: {}\n", technique.glsl, fmt::join(technique.needs, ", "));
+    for (const SampleSet& set : technique.samples) text += fmt::format("//   {}: {}\n", set.name, set.count_parameter);
+  }
+  for (const Denoiser& denoiser : registry.denoisers()) {
+    text += fmt::format("// {}: {}\n", denoiser.name, fmt::join(denoiser.needs, ", "));
+  }
+  for (const Recipe& recipe : registry.recipes()) {
+    text += fmt::format("// {}: {}\n", recipe.name, fmt::join(recipe.needs, ", "));
+  }
+  return text + glsl_declarations(params, block_params);
+}
+
+std::vector<gl::Define> compiled_defines(const std::string& owner, const ParamSet& params) {
+  std::vector<gl::Define> defines;
+  for (GlslConstant& constant : compiled_constants(params, owner + ".")) {
+    defines.push_back({std::move(constant.name), std::move(constant.value)});
+  }
+  return defines;
 }
 
 }  // namespace
 
 Programs::Programs(gl::Device& device, const Registry& registry) : device_(device), registry_(registry) {
   gl::ShaderFiles& files = device_.shaders.files();
-  const std::string text = declarations(registry);
+  const ParamSet params(registry.params());
+  const std::string text = declarations(registry, params);
   for (int number = 0;; ++number) {
     folder_ = fmt::format("generated/registry{}", number);
     const std::string file = folder_ + "/params.glsl";
@@ -57,37 +84,55 @@ Programs::Programs(gl::Device& device, const Registry& registry) : device_(devic
     files.put(file, text);
     break;
   }
-  // Drivers know no technique: a generated file puts a technique's function before each.
   for (const Technique& technique : registry_.techniques()) {
+    put_preamble(owner_of(technique), params);
     if (technique.glsl.empty()) continue;
+    // Drivers know no technique: a generated file puts a technique's function before each.
     for (const char* driver : {"mask.frag", "mask.comp", "forward.glsl"}) {
       files.put(driver_file(technique, driver),
-                fmt::format("#include \"{}/params.glsl\"\n#include \"{}\"\n#include \"shadow/drivers/{}\"\n", folder_,
-                            technique.glsl, driver));
+                fmt::format("#include \"{}/preamble.glsl\"\n#include \"{}\"\n#include \"shadow/drivers/{}\"\n",
+                            folder_of(owner_of(technique)), technique.glsl, driver));
     }
   }
+  for (const Recipe& recipe : registry_.recipes()) put_preamble(owner_of(recipe), params);
+  for (const Denoiser& denoiser : registry_.denoisers()) put_preamble(owner_of(denoiser), params);
+}
+
+std::string Programs::folder_of(const PassOwner& owner) const {
+  switch (owner.kind) {
+    case PassOwner::Kind::recipe:
+      return fmt::format("{}/products/{}", folder_, owner.name);
+    case PassOwner::Kind::denoiser:
+      return fmt::format("{}/denoisers/{}", folder_, owner.name);
+    case PassOwner::Kind::technique:
+      break;
+  }
+  return fmt::format("{}/techniques/{}", folder_, owner.name);
+}
+
+void Programs::put_preamble(const PassOwner& owner, const ParamSet& params) {
+  std::string text = fmt::format("#include \"{}/params.glsl\"\n", folder_) + unit_defines(owner.needs);
+  if (owner.technique != nullptr) text += sample_declarations(*owner.technique, params);
+  device_.shaders.files().put(folder_of(owner) + "/preamble.glsl", std::move(text));
 }
 
 std::string Programs::driver_file(const Technique& technique, std::string_view driver) const {
-  return fmt::format("{}/{}/{}", folder_, technique.name, driver);
+  return fmt::format("{}/{}", folder_of(owner_of(technique)), driver);
 }
 
-std::string Programs::with_params(const std::string& file, const std::string& before) const {
-  if (file.empty()) return {};
-  std::string name = fmt::format("{}/{}{}{}", folder_, before, before.empty() ? "" : "/", file);
-  std::string text = fmt::format("#include \"{}/params.glsl\"\n", folder_);
-  for (const std::string& included : {before, file}) {
-    if (!included.empty()) text += fmt::format("#include \"{}\"\n", included);
-  }
+std::string Programs::including(const std::string& folder, const std::vector<std::string>& files) const {
+  std::string name = folder;
+  for (size_t i = 1; i < files.size(); ++i) name += "/" + files[i];
+  if (!put_.insert(name).second) return name;
+  std::string text;
+  for (const std::string& file : files) text += fmt::format("#include \"{}\"\n", file);
   device_.shaders.files().put(name, std::move(text));
   return name;
 }
 
 std::vector<gl::Define> Programs::defines(const Technique& technique, const ParamSet& params, bool rotated) {
-  std::vector<gl::Define> defines{{"SAMPLE_ROTATE", rotated ? "1" : "0"}};
-  for (GlslConstant& constant : compiled_constants(params, technique.name + ".")) {
-    defines.push_back({std::move(constant.name), std::move(constant.value)});
-  }
+  std::vector<gl::Define> defines = compiled_defines(technique.name, params);
+  defines.insert(defines.begin(), {"SAMPLE_ROTATE", rotated ? "1" : "0"});
   return defines;
 }
 
@@ -104,27 +149,42 @@ gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& param
   return program;
 }
 
+gl::ProgramDesc Programs::pack(bool history) const {
+  return ready({.desc = {.name = "pack mask",
+                         .vertex = "shared/full_screen.vert",
+                         .fragment = "shadow/drivers/pack.frag",
+                         .defines = {{"HISTORY", history ? "1" : "0"}}}});
+}
+
 gl::ProgramDesc Programs::ready(const LibraryProgram& program) const {
   gl::ProgramDesc desc = program.desc;
-  desc.fragment = with_params(desc.fragment, program.before);
-  desc.compute = with_params(desc.compute, program.before);
+  for (std::string* file : {&desc.fragment, &desc.compute}) {
+    if (file->empty()) continue;
+    std::vector<std::string> files{folder_ + "/params.glsl"};
+    if (!program.before.empty()) files.push_back(program.before);
+    files.push_back(*file);
+    *file = including(folder_, files);
+  }
   return desc;
 }
 
 std::string Programs::forward_file(const Technique& technique) const { return driver_file(technique, "forward.glsl"); }
 
-std::string Programs::own_name(const Technique& technique, std::string_view program) {
-  return fmt::format("{}: {}", technique.name, program);
+std::string Programs::own_name(const PassOwner& owner, std::string_view program) {
+  return fmt::format("{}: {}", owner.name, program);
 }
 
-std::vector<gl::ProgramDesc> Programs::own(const Technique& technique, const ParamSet& params, bool rotated) const {
-  if (!technique.programs) return {};
-  std::vector<gl::ProgramDesc> programs = technique.programs(params);
+std::vector<gl::ProgramDesc> Programs::own(const PassOwner& owner, const ParamSet& params, bool rotated) const {
+  if (!owner.programs) return {};
+  std::vector<gl::ProgramDesc> programs = owner.programs(params);
+  const std::vector<gl::Define> constants =
+      owner.technique != nullptr ? defines(*owner.technique, params, rotated) : compiled_defines(owner.name, params);
+  const std::string folder = folder_of(owner);
   for (gl::ProgramDesc& program : programs) {
-    program.name = own_name(technique, program.name);
-    for (std::string* file : {&program.vertex, &program.geometry, &program.fragment, &program.compute})
-      *file = with_params(*file);
-    const std::vector<gl::Define> constants = defines(technique, params, rotated);
+    program.name = own_name(owner, program.name);
+    for (std::string* file : {&program.vertex, &program.geometry, &program.fragment, &program.compute}) {
+      if (!file->empty()) *file = including(folder, {folder + "/preamble.glsl", *file});
+    }
     program.defines.insert(program.defines.begin(), constants.begin(), constants.end());
   }
   return programs;
@@ -132,27 +192,37 @@ std::vector<gl::ProgramDesc> Programs::own(const Technique& technique, const Par
 
 std::vector<std::vector<gl::Define>> Programs::all_defines(const Technique& technique, const ParamSet& defaults) const {
   std::vector<std::vector<gl::Define>> all;
-  for (const ParamSet& params : compiled_variants(technique, defaults)) {
+  for (const ParamSet& params : compiled_variants(technique.name, defaults)) {
     for (const bool rotated : {true, false}) all.push_back(defines(technique, params, rotated));
   }
   return all;
 }
 
+void Programs::add_own(std::vector<gl::ProgramDesc>& programs, const PassOwner& owner, const ParamSet& defaults) const {
+  for (const ParamSet& params : compiled_variants(owner.name, defaults)) {
+    for (gl::ProgramDesc& program : own(owner, params, /*rotated=*/true)) programs.push_back(std::move(program));
+    if (owner.technique == nullptr) continue;
+    for (gl::ProgramDesc& program : own(owner, params, /*rotated=*/false)) programs.push_back(std::move(program));
+  }
+}
+
 std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
-  std::vector<gl::ProgramDesc> programs{depth_pyramid_program(true), depth_pyramid_program(false)};
+  std::vector<gl::ProgramDesc> programs{pack(true), pack(false)};
   for (const MovementForm form : {MovementForm::average, MovementForm::maximum}) {
     for (const bool any_size : {false, true}) programs.push_back(movement_pyramid_program(form, any_size));
   }
-  for (const LibraryProgram& program : denoise_programs(registry_)) programs.push_back(ready(program));
+  for (const LibraryProgram& program : filter_programs(registry_.filters())) programs.push_back(ready(program));
+  for (const Recipe& recipe : registry_.recipes()) add_own(programs, owner_of(recipe), defaults);
+  for (const Denoiser& denoiser : registry_.denoisers()) add_own(programs, owner_of(denoiser), defaults);
   for (const Technique& technique : registry_.techniques()) {
-    for (const ParamSet& params : compiled_variants(technique, defaults)) {
+    for (const ParamSet& params : compiled_variants(technique.name, defaults)) {
       for (const bool rotated : {true, false}) {
         for (const MaskForm& form : mask_forms(rotated)) {
           if (!technique.glsl.empty()) programs.push_back(mask(technique, params, form));
         }
-        for (gl::ProgramDesc& program : own(technique, params, rotated)) programs.push_back(std::move(program));
       }
     }
+    add_own(programs, owner_of(technique), defaults);
   }
   return programs;
 }

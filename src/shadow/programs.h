@@ -1,10 +1,14 @@
 #pragma once
 
+#include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "technique.h"
+#include "../core/params.h"
+#include "pass_context.h"
+#include "registry.h"
 
 namespace penumbra::shadow {
 
@@ -14,8 +18,9 @@ struct LibraryProgram {
   std::string before = {};
 };
 
-// The shader programs of a registry's techniques. Each begins with the registry's parameters, in files that are
-// generated here; registries with other rows or techniques have files of their own.
+// The shader programs of a registry's techniques, recipes and denoisers. Each begins with a generated file, its
+// preamble: the registry's parameters, the texture units of what it needs, its sample points. Registries with other
+// rows or techniques have files of their own.
 class Programs {
  public:
   Programs(gl::Device& device, const Registry& registry);
@@ -28,29 +33,36 @@ class Programs {
   struct MaskForm {
     bool rotated = true;
     bool compute = false;
-    bool packed = false;   // packed texels and notes, for history and filters; else the mask itself
+    bool packed = false;   // packed texels and notes, for denoisers; else the mask itself
     bool history = false;  // packed, and what the history says
   };
   gl::ProgramDesc mask(const Technique& technique, const ParamSet& params, const MaskForm& form) const;
+  // Packs a mask that a technique's `resolve` filled.
+  gl::ProgramDesc pack(bool history) const;
   // A program of the library's, ready to be compiled.
   gl::ProgramDesc ready(const LibraryProgram& program) const;
   // The file that gives forward surfaces a technique's visibility().
   std::string forward_file(const Technique& technique) const;
-  // Technique::programs(), ready to be compiled, and the names that they then have.
-  std::vector<gl::ProgramDesc> own(const Technique& technique, const ParamSet& params, bool rotated) const;
-  static std::string own_name(const Technique& technique, std::string_view program);
+  // The owner's `programs` under these parameters, ready to be compiled, and the names that they then have.
+  std::vector<gl::ProgramDesc> own(const PassOwner& owner, const ParamSet& params, bool rotated) const;
+  static std::string own_name(const PassOwner& owner, std::string_view program);
 
-  // The defines of every variant of a technique, and all programs of every technique.
+  // The defines of every variant of a technique, and all programs of every technique, recipe, filter and denoiser.
   std::vector<std::vector<gl::Define>> all_defines(const Technique& technique, const ParamSet& defaults) const;
   std::vector<gl::ProgramDesc> all(const ParamSet& defaults) const;
 
  private:
+  std::string folder_of(const PassOwner& owner) const;
   std::string driver_file(const Technique& technique, std::string_view driver) const;
-  std::string with_params(const std::string& file, const std::string& before = {}) const;
+  void put_preamble(const PassOwner& owner, const ParamSet& params);
+  // The name of a generated file in `folder` that includes those, in that order.
+  std::string including(const std::string& folder, const std::vector<std::string>& files) const;
+  void add_own(std::vector<gl::ProgramDesc>& programs, const PassOwner& owner, const ParamSet& defaults) const;
 
   gl::Device& device_;
   const Registry& registry_;
   std::string folder_;
+  mutable std::set<std::string> put_;  // generated files that are there
 };
 
 }  // namespace penumbra::shadow

@@ -1,17 +1,13 @@
+#include "registry.h"
+
 #include <algorithm>
 
 #include "../core/error.h"
 #include "../core/names.h"
+#include "check_registry.h"
 #include "library_params.h"
-#include "samples.h"
-#include "technique.h"
 
 namespace penumbra::shadow {
-
-namespace {
-
-using MakeTechnique = Technique();
-using MakeFilter = Filter();
 
 // One line a technique; each is defined in techniques/<name>.cpp.
 #define PENUMBRA_TECHNIQUES(X) \
@@ -29,32 +25,16 @@ using MakeFilter = Filter();
   X(bilateral)              \
   X(bilateral_separable)
 
-void check_word(std::string_view technique, std::string_view kind, const std::string& word,
-                const std::vector<std::string>& known) {
-  if (!word.empty() && std::ranges::find(known, word) == known.end()) {
-    fail_unknown(fmt::format("{} of technique '{}'", kind, technique), word, known);
-  }
-}
+// One line a denoiser; each is defined in denoisers/<name>.cpp.
+#define PENUMBRA_DENOISERS(X) X(history_and_filters)
 
-void check_names(std::string_view kind, std::vector<std::string> names) {
-  std::ranges::sort(names);
-  const auto twice = std::ranges::adjacent_find(names);
-  if (twice != names.end()) fail("two {} have the name '{}'", kind, *twice);
-}
+// One line a product; each is defined in products/<name>.cpp. What one is made of comes before it.
+#define PENUMBRA_PRODUCTS(X) X(least_depth_pyramid)
 
-void check(const Technique& technique, const Registry& registry) {
-  const std::string& name = technique.name;
-  if (technique.glsl.empty() && !technique.resolve) fail("technique '{}' has neither glsl nor resolve", name);
-  if (technique.glsl.empty() && technique.stand_in.empty())
-    fail("technique '{}' has neither glsl nor a stand_in", name);
-  if (!technique.stand_in.empty() && registry.find(technique.stand_in).glsl.empty()) {
-    fail("technique '{}': its stand_in '{}' has no glsl", name, technique.stand_in);
-  }
-  check_word(name, "pattern", technique.pattern, pattern_names());
-  check_word(name, "scramble", technique.scramble, scramble_names());
-}
-
-}  // namespace
+using MakeTechnique = Technique();
+using MakeFilter = Filter();
+using MakeDenoiser = Denoiser();
+using MakeRecipe = Recipe();
 
 #define X(name) MakeTechnique name;
 PENUMBRA_TECHNIQUES(X)
@@ -62,22 +42,27 @@ PENUMBRA_TECHNIQUES(X)
 #define X(name) MakeFilter name;
 PENUMBRA_FILTERS(X)
 #undef X
-
-std::vector<Filter> built_in_filters() {
-  return {
-#define X(name) name(),
-      PENUMBRA_FILTERS(X)
+#define X(name) MakeDenoiser name;
+PENUMBRA_DENOISERS(X)
 #undef X
-  };
-}
+#define X(name) MakeRecipe name;
+PENUMBRA_PRODUCTS(X)
+#undef X
+
+#define X(name) name(),
+std::vector<Technique> built_in_techniques() { return {PENUMBRA_TECHNIQUES(X)}; }
+std::vector<Filter> built_in_filters() { return {PENUMBRA_FILTERS(X)}; }
+std::vector<Denoiser> built_in_denoisers() { return {PENUMBRA_DENOISERS(X)}; }
+std::vector<Recipe> built_in_recipes() { return {PENUMBRA_PRODUCTS(X)}; }
+#undef X
 
 namespace {
 
 // What is set, and the same in compute shaders.
-std::vector<Alias> presets() {
+std::vector<Preset> presets() {
   const std::vector<std::string> thesis{"pcss.blocker_taps=16",
                                         "pcss.filter_taps=16",
-                                        "pcss.renewal_taps=64",
+                                        "pcss.disocclusion_taps=64",
                                         "sampling.blocker_pattern=poisson_hierarchical",
                                         "sampling.filter_pattern=poisson_hierarchical",
                                         "sampling.scramble=shift",
@@ -96,81 +81,97 @@ std::vector<Alias> presets() {
                                             "history.reuse=false",
                                             "filter.penumbra=median",
                                             "filter.visibility=bilateral_separable"};
-  std::vector<Alias> aliases{
+  std::vector<Preset> all{
       {"thesis", "pcss", "The method of Deligiannis 2019: few taps, a history with a movement map, filters.", thesis},
       {"thesis_8x8", "pcss", "Its fast form, of figure 4.12: 8/8 taps and a filter, no history.", thesis_8x8}};
-  for (Alias& alias : aliases) alias.assignments.emplace_back("driver=fragment");
-  for (const Alias& alias : std::vector{Alias{"pcss", "pcss", "", {}}, Alias{"brute_force", "brute_force", "", {}},
-                                        aliases[0], aliases[1]}) {
-    aliases.push_back({alias.name + "_compute", alias.technique, "The same in compute shaders.", alias.assignments});
-    aliases.back().assignments.emplace_back("driver=compute");
+  for (Preset& preset : all) preset.assignments.emplace_back("driver=fragment");
+  for (const Preset& preset :
+       std::vector{Preset{"pcss", "pcss", "", {}}, Preset{"brute_force", "brute_force", "", {}}, all[0], all[1]}) {
+    all.push_back({preset.name + "_compute", preset.technique, "The same in compute shaders.", preset.assignments});
+    all.back().assignments.emplace_back("driver=compute");
   }
-  return aliases;
+  return all;
+}
+
+template <class T>
+std::vector<std::string> names_of(std::span<const T> pieces) {
+  std::vector<std::string> names;
+  for (const T& piece : pieces) names.push_back(piece.name);
+  return names;
+}
+
+template <class T>
+const T& named(std::string_view kind, std::span<const T> pieces, std::string_view name) {
+  for (const T& piece : pieces) {
+    if (piece.name == name) return piece;
+  }
+  fail_unknown(kind, name, names_of(pieces));
+}
+
+std::vector<Param> rows_of(const Registry::Contents& contents) {
+  std::vector<Param> rows{{.name = "technique",
+                           .default_value = contents.default_technique,
+                           .help = "How shadows are computed.",
+                           .binding = ParamBinding::host,
+                           .choices = names_of<Technique>(contents.techniques)}};
+  const auto append = [&rows](const std::vector<Param>& more) { rows.insert(rows.end(), more.begin(), more.end()); };
+  append(library_params());
+  append({denoiser_param(contents.denoisers)});
+  for (const Denoiser& denoiser : contents.denoisers) append(denoiser.params);
+  append(movement_params());
+  append(filter_params(contents.filters));
+  for (const Recipe& recipe : contents.recipes) append(recipe.params);
+  for (const Technique& technique : contents.techniques) append(technique.params);
+  return rows;
 }
 
 }  // namespace
 
+bool is_base_map(std::string_view name) { return name == "shadow_map" || name == "movement_map"; }
+
 const Registry& built_in_registry() {
   static const Registry registry(
-      {
-#define X(name) name(),
-          PENUMBRA_TECHNIQUES(X)
-#undef X
-      },
-      presets(), "pcss");
+      {.techniques = built_in_techniques(), .presets = presets(), .default_technique = "pcss"});
   return registry;
 }
 
-Registry::Registry(std::vector<Technique> techniques, std::vector<Alias> aliases, std::string default_technique,
-                   std::vector<Filter> filters)
-    : techniques_(std::move(techniques)),
-      aliases_(std::move(aliases)),
-      default_technique_(std::move(default_technique)),
-      filters_(std::move(filters)) {
-  if (techniques_.empty()) fail("a registry needs a technique");
-  if (default_technique_.empty()) default_technique_ = techniques_.front().name;
-  check_names("techniques", names());
-  std::vector<std::string> filter_names;
-  for (const Filter& filter : filters_) filter_names.push_back(filter.name);
-  check_names("filters", std::move(filter_names));
-  for (const Technique& technique : techniques_) check(technique, *this);
-  for (const Alias& alias : aliases_) find(alias.technique);
-  find(default_technique_);
+Registry::Registry(Contents contents) : contents_(std::move(contents)) {
+  if (contents_.techniques.empty()) fail("a registry needs a technique");
+  if (contents_.default_technique.empty()) contents_.default_technique = contents_.techniques.front().name;
+  check_contents(*this);
 }
 
 std::vector<std::string> Registry::names() const {
-  std::vector<std::string> names;
-  for (const Technique& technique : techniques_) names.push_back(technique.name);
-  for (const Alias& alias : aliases_) names.push_back(alias.name);
+  std::vector<std::string> names = names_of(techniques());
+  for (const Preset& preset : presets()) names.push_back(preset.name);
   return names;
 }
 
 const Technique& Registry::find(std::string_view name) const {
-  for (const Technique& technique : techniques_) {
+  for (const Technique& technique : techniques()) {
     if (technique.name == name) return technique;
   }
   fail_unknown("technique", name, names());
 }
 
+const Filter& Registry::find_filter(std::string_view name) const { return named("filter", filters(), name); }
+
+const Recipe& Registry::find_recipe(std::string_view name) const { return named("product", recipes(), name); }
+
+const Denoiser* Registry::find_denoiser(std::string_view name) const {
+  return name == "none" ? nullptr : &named("denoiser", denoisers(), name);
+}
+
 void Registry::select(ParamSet& params, std::string_view name) const {
-  for (const Alias& alias : aliases_) {
-    if (alias.name != name) continue;
-    params.set("technique", alias.technique);
-    for (const std::string& assignment : alias.assignments) params.assign(assignment);
+  for (const Preset& preset : presets()) {
+    if (preset.name != name) continue;
+    params.set("technique", preset.technique);
+    for (const std::string& assignment : preset.assignments) params.assign(assignment);
     return;
   }
   params.set("technique", find(name).name);
 }
 
-std::vector<Param> Registry::params() const {
-  std::vector<std::string> choices;
-  for (const Technique& technique : techniques_) choices.push_back(technique.name);
-  std::vector<Param> rows{
-      {"technique", default_technique_, 0, 0, "", "How shadows are computed.", ParamBinding::host, choices}};
-  for (Param& row : library_params(filters_)) rows.push_back(std::move(row));
-  for (const Technique& technique : techniques_)
-    rows.insert(rows.end(), technique.params.begin(), technique.params.end());
-  return rows;
-}
+std::vector<Param> Registry::params() const { return rows_of(contents_); }
 
 }  // namespace penumbra::shadow

@@ -1,29 +1,37 @@
 #include "samples.h"
 
-#include <cmath>
+#include <fmt/format.h>
 
+#include <cassert>
+#include <cmath>
+#include <span>
+
+#include "light_frame.h"
 #include "noise.h"
 
 namespace penumbra::shadow {
 
 namespace {
 
-static_assert(sizeof(glsl::SampleBlock) == 6144);
-
 // Sets that a step takes in turn.
 constexpr int set_count = 16;
 
-void fill_table(glm::vec4* table, const std::vector<glm::vec2>& points) {
+// How SampleSet::Step is called in the names of parameters and in GLSL.
+const char* name_of(SampleSet::Step step) { return step == SampleSet::Step::blocker ? "blocker" : "filter"; }
+
+void append_table(std::vector<glm::vec4>& tables, std::size_t size, const std::vector<glm::vec2>& points) {
+  assert(points.size() <= 2 * size);
+  const std::size_t first = tables.size();
+  tables.resize(first + size);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    glm::vec4& pair = table[i / 2];
+    glm::vec4& pair = tables[first + i / 2];
     (i % 2 == 0 ? pair.x : pair.z) = points[i].x;
     (i % 2 == 0 ? pair.y : pair.w) = points[i].y;
   }
 }
 
-int taps(const Technique& technique, const ParamSet& params, const std::string& step, int otherwise = 0) {
-  const std::string name = technique.name + "." + step + "_taps";
-  return params.contains(name) ? params.get_int(name) : otherwise;
+bool changes(const ParamSet& params, SampleSet::Step step, std::string_view how) {
+  return params.get_word(fmt::format("sampling.{}_sequence", name_of(step))) == how;
 }
 
 // Point `index` of the lattice of the plastic number.
@@ -32,8 +40,8 @@ glm::vec2 lattice(int index) {
   return {coordinate(0.75487766624669276), coordinate(0.56984029099805327)};
 }
 
-glm::vec2 shift_of(const ParamSet& params, const std::string& step, int frame) {
-  const bool moves = params.get_word("sampling." + step + "_sequence") == "shift";
+glm::vec2 shift_of(const ParamSet& params, SampleSet::Step step, int frame) {
+  const bool moves = changes(params, step, "shift");
   return glm::fract(lattice(params.get_int("sampling.seed")) + lattice(moves ? frame : 0));
 }
 
@@ -44,31 +52,52 @@ const std::vector<std::string>& scramble_names() {
   return names;
 }
 
-bool turns_samples(const Technique& technique, const ParamSet& params) {
+bool rotates_samples(const Technique& technique, const ParamSet& params) {
   const std::string& scramble = technique.scramble.empty() ? params.get_word("sampling.scramble") : technique.scramble;
-  // A turned square would be another light.
+  // A rotated square would be another light.
   return scramble == "rotate" && params.get_word("sun.shape") == "disc";
 }
 
 glm::vec4 noise_shift(const ParamSet& params, int frame) {
-  return {shift_of(params, "blocker", frame), shift_of(params, "filter", frame)};
+  return {shift_of(params, SampleSet::Step::blocker, frame), shift_of(params, SampleSet::Step::filter, frame)};
 }
 
-glsl::SampleBlock Samples::block(const Technique& technique, const ParamSet& params, int frame) {
-  const bool disc = turns_samples(technique, params);
-  const auto points_of = [&](const std::string& step, int count) -> const std::vector<glm::vec2>& {
-    const std::string prefix = "sampling." + step;
-    const std::string& pattern = technique.pattern.empty() ? params.get_word(prefix + "_pattern") : technique.pattern;
-    const bool changes = params.get_word(prefix + "_sequence") == "set";
-    const auto set = static_cast<std::uint64_t>(changes ? frame % set_count : 0);
-    return points({pattern, count, disc, set});
-  };
-  glsl::SampleBlock block{};
-  const int filter_taps = taps(technique, params, "filter");
-  fill_table(block.blocker, points_of("blocker", taps(technique, params, "blocker")));
-  fill_table(block.filter_points, points_of("filter", filter_taps));
-  fill_table(block.renewal_points, points_of("filter", taps(technique, params, "renewal", filter_taps)));
-  return block;
+int set_number(const ParamSet& params, int frame) {
+  const bool any = changes(params, SampleSet::Step::blocker, "set") || changes(params, SampleSet::Step::filter, "set");
+  return any ? frame % set_count : 0;
+}
+
+std::size_t table_size(const SampleSet& set, const ParamSet& params) {
+  return (static_cast<std::size_t>(params.row(set.count_parameter).max) + 1) / 2;
+}
+
+std::string sample_declarations(const Technique& technique, const ParamSet& params) {
+  if (technique.samples.empty()) return {};
+  std::string members, functions;
+  for (const SampleSet& set : technique.samples) {
+    members += fmt::format("  vec4 {}_points[{}];\n", set.name, table_size(set, params));
+    functions += fmt::format(
+        "vec2 {0}_point(int index, Scramble scramble, Light light) {{\n"
+        "  return shape_point({0}_points[index >> 1], index, scramble, light);\n}}\n"
+        "Scramble {0}_scramble(Receiver receiver) {{ return scramble_of(receiver, {1}_step); }}\n",
+        set.name, name_of(set.step));
+  }
+  return fmt::format(
+      "#include \"shadow/sampling.glsl\"\nlayout(std140, binding = {}) uniform SamplePoints {{\n{}}};\n{}",
+      static_cast<unsigned>(block_samples), members, functions);
+}
+
+std::vector<glm::vec4> Samples::tables(const Technique& technique, const ParamSet& params, int set) {
+  const bool disc = rotates_samples(technique, params);
+  std::vector<glm::vec4> tables;
+  for (const SampleSet& samples : technique.samples) {
+    const std::string pattern_row = fmt::format("sampling.{}_pattern", name_of(samples.step));
+    const std::string& pattern = technique.pattern.empty() ? params.get_word(pattern_row) : technique.pattern;
+    const auto seed = static_cast<std::uint64_t>(changes(params, samples.step, "set") ? set : 0);
+    const int count = params.get_int(samples.count_parameter);
+    append_table(tables, table_size(samples, params), points({pattern, count, disc, seed}));
+  }
+  return tables;
 }
 
 const std::vector<glm::vec2>& Samples::points(const Key& key) {

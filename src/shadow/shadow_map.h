@@ -20,16 +20,4 @@ struct ShadowMapInputs {
 // Depth of the casters: DEPTH_COMPONENT32F array, the layers of the projection, linear, near 0, far 1.
 const gl::Texture& draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs);
 
-struct DepthPyramidInputs {
-  std::string name;
-  unsigned depth = 0;  // name of a depth array texture
-  int size = 0;        // its side, texels
-  int layers = 0;
-};
-
-// Minimum depth: R32F array; texel (x, y) of level l is that of the 4·2^l texels squared from (x, y)·4·2^l on.
-const gl::Texture& build_depth_pyramid(gl::Device& device, const DepthPyramidInputs& inputs);
-
-gl::ProgramDesc depth_pyramid_program(bool from_depth);
-
 }  // namespace penumbra::shadow

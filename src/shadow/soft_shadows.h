@@ -7,20 +7,11 @@
 #include "../core/params.h"
 #include "../gl/pass.h"
 #include "inputs.h"
-#include "technique.h"
-#include "technique_frame.h"
+#include "light_frame.h"
+#include "pass_context.h"
+#include "registry.h"
 
 namespace penumbra::shadow {
-
-// What the mask holds, layer by layer (one a light): RGBA16F, the size of the depth texture, texel for texel:
-// R visibility 0..1; G penumbra radius at the receiver, metres (0: none); B mean distance from receiver to blockers
-// along the light, metres (0: none; with a history or filter that which G stands for, also of techniques without one);
-// A cascade index, plus 0.5 where the kernel is smaller than a texel. Texels outside of the viewport are undefined. It
-// lasts until the next render() of its view.
-struct Mask {
-  const gl::Texture* texture = nullptr;
-  std::vector<LightFrame> lights;
-};
 
 // A form in which forward surfaces can get their shadows: the file to include, and the defines that it needs.
 struct ForwardProgram {
@@ -51,7 +42,8 @@ struct ForwardProgram {
 // history) no OpenGL object. Maps, masks and history belong to a view's id until
 // forget_view(); a light's go when a frame of its view leaves it out.
 //
-// Throws Error for bad input (see check()) and for shaders that do not compile.
+// Throws Error for bad input (see check()) and for shaders that do not compile. A texture of the caller's is checked
+// when its name, its size or its use is another than in the last frame of the view.
 class SoftShadows {
  public:
   explicit SoftShadows(gl::Device& device, Registry registry = built_in_registry());
@@ -87,13 +79,6 @@ class SoftShadows {
 
  private:
   struct State;
-  void upload_blocks(const Technique& technique, const Inputs& inputs, const LightFrame& frame,
-                     const std::string& prefix, LightState& state);
-  void prepare_stand_in(const Inputs& inputs, const Light& light, const std::string& light_prefix, LightFrame& frame,
-                        LightState& of_light, const gl::Texture& mask);
-  LightFrame render_light(const Inputs& inputs, const Light& light, ParamSet params, LightState& state,
-                          const gl::Texture& mask, int layer);
-  const Technique& forward_technique(const ParamSet& params) const;
   std::string view_prefix(int id) const;
 
   gl::Device& device_;

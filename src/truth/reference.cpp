@@ -6,7 +6,7 @@ bool is_reference(std::string_view technique) { return technique == "truth" || t
 
 void make_reference(ParamSet& params) {
   constexpr int seeds = 65536, shift = seeds / 2;  // of sampling.seed
-  for (const char* name : {"history.reuse", "filter.penumbra", "filter.visibility"}) params.reset(name);
+  params.set("denoiser", std::string("none"));
   if (params.get_word("technique") != "truth")
     params.set("sampling.seed", (params.get_int("sampling.seed") + shift) % seeds);
 }

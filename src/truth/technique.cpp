@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "gl/api.h"
 #include "render/passes.h"
-#include "shadow/technique_frame.h"
+#include "shadow/pass_context.h"
 #include "truth/background_tracer.h"
 #include "truth/picture_request.h"
 
@@ -40,7 +40,7 @@ TraceOptions trace_options(const ParamSet& params, const TechniqueOptions& optio
           .progress = options.progress};
 }
 
-Light light_of(const shadow::TechniqueFrame& frame, const TechniqueOptions& options, double seconds) {
+Light light_of(const shadow::PassContext& frame, const TechniqueOptions& options, double seconds) {
   if (options.local_light) return options.local_light(seconds);
   return Sun{.to_light = glm::dvec3(std::get<shadow::Sun>(frame.light().source).to_light),
              .angle = glm::radians(static_cast<double>(frame.params().get_float("sun.angle"))),
@@ -75,7 +75,7 @@ std::vector<float> unshadowed(std::span<const Receiver> receivers, const Light& 
 }
 
 // Visibility alone: a ray tells no penumbra radius.
-void fill_mask(const shadow::TechniqueFrame& frame, const std::vector<float>& visibility) {
+void fill_mask(const shadow::PassContext& frame, const std::vector<float>& visibility) {
   const gl::Texture& mask = frame.mask();
   [[maybe_unused]] const shadow::Rect whole{0, 0, mask.width(), mask.height()};
   assert(frame.frame().viewport == whole);
@@ -101,18 +101,17 @@ struct TruthTechnique::State {
   std::optional<Key> awaited;  // by the last frame
   std::optional<Key> failed;
 
-  void resolve(const shadow::TechniqueFrame& frame);
-  PictureRequest request(const shadow::TechniqueFrame& frame, const render::FrameScene& user) const;
+  void resolve(const shadow::PassContext& frame);
+  PictureRequest request(const shadow::PassContext& frame, const render::FrameScene& user) const;
   void show(const PictureRequest& wanted, TracedPicture picture, bool from_cache);
   bool find(const PictureRequest& wanted);
-  void resolve_now(const shadow::TechniqueFrame& frame, const PictureRequest& wanted);
-  void resolve_later(const shadow::TechniqueFrame& frame, PictureRequest wanted);
+  void resolve_now(const shadow::PassContext& frame, const PictureRequest& wanted);
+  void resolve_later(const shadow::PassContext& frame, PictureRequest wanted);
   void take(const PictureRequest& wanted, const std::optional<Key>& waited);
   void stop();
 };
 
-PictureRequest TruthTechnique::State::request(const shadow::TechniqueFrame& frame,
-                                              const render::FrameScene& user) const {
+PictureRequest TruthTechnique::State::request(const shadow::PassContext& frame, const render::FrameScene& user) const {
   PictureRequest request{.scene = &user.scene.scene(),
                          .geometry = user.scene.posed_geometry(),
                          .width = frame.mask().width(),
@@ -139,7 +138,7 @@ bool TruthTechnique::State::find(const PictureRequest& wanted) {
   return kept.has_value();
 }
 
-void TruthTechnique::State::resolve_now(const shadow::TechniqueFrame& frame, const PictureRequest& wanted) {
+void TruthTechnique::State::resolve_now(const shadow::PassContext& frame, const PictureRequest& wanted) {
   if (!find(wanted)) {
     show(wanted, tracer.trace(wanted), /*from_cache=*/false);
     cache.keep(wanted.key, last.traced);
@@ -160,7 +159,7 @@ void TruthTechnique::State::take(const PictureRequest& wanted, const std::option
   }
 }
 
-void TruthTechnique::State::resolve_later(const shadow::TechniqueFrame& frame, PictureRequest wanted) {
+void TruthTechnique::State::resolve_later(const shadow::PassContext& frame, PictureRequest wanted) {
   const std::optional<Key> waited = std::exchange(awaited, std::nullopt);
   take(wanted, waited);
   const Key key = wanted.key;
@@ -176,7 +175,7 @@ void TruthTechnique::State::resolve_later(const shadow::TechniqueFrame& frame, P
   awaited = key;
 }
 
-void TruthTechnique::State::resolve(const shadow::TechniqueFrame& frame) {
+void TruthTechnique::State::resolve(const shadow::PassContext& frame) {
   const auto* user = static_cast<const render::FrameScene*>(frame.inputs().user);
   if (user == nullptr) fail("technique 'truth' traces a renderer's scene, and Inputs::user has none");
   PictureRequest wanted = request(frame, *user);
@@ -204,12 +203,12 @@ TruthTechnique::~TruthTechnique() {
 
 shadow::Registry TruthTechnique::registry(const shadow::Registry& base) const {
   using enum ParamBinding;
-  std::vector<shadow::Technique> techniques(base.techniques().begin(), base.techniques().end());
-  techniques.push_back({
+  shadow::Registry::Contents contents = base.contents();
+  contents.techniques.push_back({
       .name = "truth",
       .summary = "Ray traced: the share of the light that a receiver sees. What the others are measured against.",
       .source = "the visibility integral, Deligiannis 2019, 2.6; Owen-scrambled Sobol points, Embree",
-      .needs = shadow::needs_nothing,
+      .needs = {},
       .params =
           {
               {"truth.samples", 256, 8, max_samples, "rays",
@@ -219,13 +218,11 @@ shadow::Registry TruthTechnique::registry(const shadow::Registry& base) const {
                host},
               {"truth.seed", 0, 0, 1 << 30, "", "Another number gives other points.", host},
           },
-      .resolve = [state = state_](const shadow::TechniqueFrame& frame) { state->resolve(frame); },
+      .resolve = [state = state_](const shadow::PassContext& frame) { state->resolve(frame); },
+      .denoisable = false,
       .stand_in = "brute_force",
   });
-  return {std::move(techniques),
-          {base.aliases().begin(), base.aliases().end()},
-          base.default_technique(),
-          {base.filters().begin(), base.filters().end()}};
+  return shadow::Registry(std::move(contents));
 }
 
 std::optional<TruthTechnique::Pending> TruthTechnique::pending() const {

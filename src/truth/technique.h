@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "shadow/technique.h"
+#include "shadow/registry.h"
 #include "truth/cache.h"
 #include "truth/tracer.h"
 

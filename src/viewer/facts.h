@@ -6,7 +6,7 @@
 
 #include "gl/context.h"
 #include "metrics/error_figures.h"
-#include "shadow/technique.h"
+#include "shadow/registry.h"
 #include "viewer/costs.h"
 #include "viewer/inspect.h"
 #include "viewer/painter.h"

@@ -46,7 +46,7 @@ void choose_technique(const Panel& panel, ParamSet& params) {
   if (!open) return;
   for (const shadow::Technique& technique : registry.techniques()) item(technique.name, technique.summary);
   ImGui::Separator();
-  for (const shadow::Alias& alias : registry.aliases()) item(alias.name, alias.summary);
+  for (const shadow::Preset& preset : registry.presets()) item(preset.name, preset.summary);
   ImGui::EndCombo();
 }
 

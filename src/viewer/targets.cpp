@@ -141,8 +141,8 @@ std::string about_target(std::string_view name) {
       About{"/movement map",
             "How much of what a texel's kernel may see has moved: 0 none, 1 all. Of the last frame with motion."},
       About{"/shadow map", "Depth from the light, 0 to 1, a layer each cascade."},
-      About{"/depth pyramid", "The nearest and the farthest depth from the light below a texel of each level."},
-      About{"/noise/", "The tile that turns or shifts each pixel's sample points."},
+      About{"/products/least_depth_pyramid/", "The least depth from the light below a texel of each level."},
+      About{"/noise/", "The tile that rotates or shifts each pixel's sample points."},
       About{"/mask", "What lighting reads: visibility in red."}};
   const auto found =
       std::find_if(list.begin(), list.end(), [&](const About& about) { return name.find(about.in_name) != name.npos; });

@@ -98,7 +98,7 @@ class Lists(TestCase):
         rows = {row["name"]: row for row in json.loads(self.succeed("list", "techniques", "--json").stdout)}
         self.assertIn("pcss.filter_taps", rows["pcss"]["params"])
         self.assertIn("Fernando", rows["pcss"]["source"])
-        self.assertEqual(rows["pcss_compute"]["alias_of"], "pcss")
+        self.assertEqual(rows["pcss_compute"]["technique"], "pcss")
 
 
 if __name__ == "__main__":

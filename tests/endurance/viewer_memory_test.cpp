@@ -37,7 +37,7 @@ class ViewerMemory : public GpuTest {
     document_.params.set("cascades.count", 1);
     document_.params.set("pcss.blocker_taps", 1);
     document_.params.set("pcss.filter_taps", 1);
-    document_.params.set("pcss.renewal_taps", 1);
+    document_.params.set("pcss.disocclusion_taps", 1);
     document_.params.set("filter.taps", 1);
   }
 

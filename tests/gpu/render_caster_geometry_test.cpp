@@ -27,13 +27,13 @@ void main() {
 
 constexpr std::size_t most_triangles = 64;
 
-void resolve(const shadow::TechniqueFrame& work) {
-  const gl::Buffer& list = work.device().scratch("collected", sizeof(float) * (1 + 9 * most_triangles));
+void resolve(const shadow::PassContext& context) {
+  const gl::Buffer& list = context.device().scratch("collected", sizeof(float) * (1 + 9 * most_triangles));
   gl::write_value(list, 0u);
-  const gl::Attachment mask{.texture = &work.mask(), .layer = work.frame().layer, .clear = glm::vec4(1)};
-  gl::Pass pass(work.device(), {.name = "collect", .colors = {mask}});
+  const gl::Attachment mask{.texture = &context.mask(), .layer = context.frame().layer, .clear = glm::vec4(1)};
+  gl::Pass pass(context.device(), {.name = "collect", .colors = {mask}});
   list.bind_storage(triangles_binding);
-  work.draw_caster_geometry(pass, "collect", glm::mat4(1));
+  context.draw_caster_geometry(pass, "collect", glm::mat4(1));
   pass.barrier();
 }
 
@@ -42,7 +42,7 @@ shadow::Technique collecting() {
           .summary = "Collects casters.",
           .source = "made up",
           .glsl = {},
-          .needs = shadow::needs_nothing,
+          .needs = {},
           .resolve = resolve,
           .programs = [](const ParamSet&) -> std::vector<gl::ProgramDesc> {
             return {{.name = "collect", .geometry = "test/collect.geom"}};
@@ -51,10 +51,10 @@ shadow::Technique collecting() {
 }
 
 shadow::Registry with_collecting() {
-  std::vector<shadow::Technique> all(shadow::built_in_registry().techniques().begin(),
-                                     shadow::built_in_registry().techniques().end());
-  all.push_back(collecting());
-  return shadow::Registry(std::move(all), {}, "collecting");
+  shadow::Registry::Contents contents = shadow::built_in_registry().contents();
+  contents.techniques.push_back(collecting());
+  contents.default_technique = "collecting";
+  return shadow::Registry(std::move(contents));
 }
 
 // A triangle's nine coordinates, each by its nearest thousandth.

@@ -25,7 +25,7 @@ void main() {
 }
 )";
 
-void resolve(const shadow::TechniqueFrame& work) {
+void resolve(const shadow::PassContext& work) {
   const gl::Texture& mask = work.mask();
   const shadow::History counts =
       work.history("counts", {.format = GL_RGBA16F, .width = mask.width(), .height = mask.height()});
@@ -42,7 +42,7 @@ shadow::Technique counting() {
           .summary = "Counts frames.",
           .source = "made up",
           .glsl = "test/counting.glsl",
-          .needs = shadow::needs_nothing,
+          .needs = {},
           .resolve = resolve,
           .programs = [](const ParamSet&) -> std::vector<gl::ProgramDesc> {
             return {{.name = "count", .vertex = "shared/full_screen.vert", .fragment = "test/counting.frag"}};
@@ -63,7 +63,7 @@ class RenderCut : public RenderTest {
     return gl::read_floats(*frame.mask.texture, 1)[0];
   }
 
-  render::Renderer counter{device, shadow::Registry({counting()}, {})};
+  render::Renderer counter{device, shadow::Registry({.techniques = {counting()}})};
   ParamSet counter_params{render::Renderer::params(counter.registry())};
   scene::Scene scene;
 };

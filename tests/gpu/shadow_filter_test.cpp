@@ -46,7 +46,7 @@ shadow::Technique pattern() {
           .summary = "Made-up masks.",
           .source = "made up",
           .glsl = "test/pattern.glsl",
-          .needs = shadow::needs_nothing,
+          .needs = {},
           .params = {{"pattern.marks",
                       std::string("none"),
                       0,
@@ -86,7 +86,8 @@ const std::vector<std::string> drivers{"fragment", "compute"};
 
 class ShadowFilter : public GpuTest {
  protected:
-  ShadowFilter() : renderer(shadow::Registry({pattern()}, {}, {}, filters())), params(renderer.params()) {
+  ShadowFilter()
+      : renderer(shadow::Registry({.techniques = {pattern()}, .filters = filters()})), params(renderer.params()) {
     renderer.device().shaders.files().put("test/pattern.glsl", pattern_text);
     renderer.device().shaders.files().put("test/inverse.glsl", inverse_text);
     params.set("sun.angle", 8.0f);

@@ -18,7 +18,7 @@ uniform sampler2D samples;
 const float max_plane_slope = 7.0;
 float bilinear(vec4 a, vec2 b) { return a.x * b.x; }
 float bias_constant;
-#define SHADOW_MAX_TAPS 3
+#define UNIT_least_depth_pyramid 3
 )";
 
 constexpr const char* engine_after = R"(
@@ -128,10 +128,10 @@ shadow::Technique painted() {
           .summary = "Half light everywhere.",
           .source = "made up",
           .glsl = "",
-          .needs = shadow::needs_nothing,
+          .needs = {},
           .params = {{"painted.level", 0.5f, 0, 1, "", "Visibility.", ParamBinding::uniform}},
           .resolve =
-              [](const shadow::TechniqueFrame& work) {
+              [](const shadow::PassContext& work) {
                 clear(work.device(), {.name = "paint",
                                       .colors = {{.texture = &work.mask(),
                                                   .layer = work.frame().layer,
@@ -144,7 +144,7 @@ shadow::Registry with_painted() {
   const auto built_in = shadow::built_in_registry().techniques();
   std::vector<shadow::Technique> techniques(built_in.rbegin(), built_in.rend());
   techniques.insert(techniques.begin() + 2, painted());
-  return {std::move(techniques), {}, "pcss"};
+  return shadow::Registry({.techniques = std::move(techniques), .default_technique = "pcss"});
 }
 
 TEST_F(ShadowForward, AStandInServesForwardSurfaces) {

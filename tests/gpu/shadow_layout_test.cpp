@@ -50,13 +50,14 @@ shadow::Registry reordered() {
   std::vector<shadow::Technique> techniques(built_in.rbegin(), built_in.rend());
   shadow::Technique first = techniques.back();
   first.name = "first";
+  first.samples = {};
   first.params = {{"first.flag", true, 0, 1, "", "A switch."},
                   {"first.word", std::string("b"), 0, 0, "", "A word.", ParamBinding::uniform, {"a", "b"}},
                   {"first.host", 3, 0, 9, "", "Not for GLSL.", ParamBinding::host},
                   {"first.constant", 3, 0, 9, "", "Compiled in.", ParamBinding::compiled},
                   {"first.quantity", 0.25f, 0, 1, "", "A quantity."}};
   techniques.insert(techniques.begin(), first);
-  return {std::move(techniques), {}, "pcss"};
+  return shadow::Registry({.techniques = std::move(techniques), .default_technique = "pcss"});
 }
 
 class ShadowLayout : public GpuTest {
@@ -74,7 +75,6 @@ TEST_F(ShadowLayout, BlocksLieAsTheDriverReadsThem) {
   TriangleRenderer renderer;
   const GLuint program = program_of(renderer, "pcss");
   using glsl::LayerBlock;
-  using glsl::SampleBlock;
   using glsl::ShadowBlock;
   const Block light = block_of(program, "ShadowData");
   EXPECT_EQ(light.bytes, static_cast<int>(sizeof(ShadowBlock)));
@@ -105,10 +105,12 @@ TEST_F(ShadowLayout, BlocksLieAsTheDriverReadsThem) {
     expect_offset(light, layer + "depth_range", at + offsetof(LayerBlock, depth_range));
     expect_offset(light, layer + "rounding", at + offsetof(LayerBlock, rounding));
   }
-  const Block samples = block_of(program, "SampleData");
-  EXPECT_EQ(samples.bytes, static_cast<int>(sizeof(SampleBlock)));
-  expect_offset(samples, "samples.blocker[0]", offsetof(SampleBlock, blocker));
-  expect_offset(samples, "samples.filter_points[0]", offsetof(SampleBlock, filter_points));
+  // Tables of 256 points, two to a vec4, one after the other.
+  const Block samples = block_of(program, "SamplePoints");
+  EXPECT_EQ(samples.bytes, 3 * 128 * 16);
+  expect_offset(samples, "blocker_points[0]", 0);
+  expect_offset(samples, "filter_points[0]", std::size_t{128} * 16);
+  expect_offset(samples, "disocclusion_points[0]", std::size_t{2} * 128 * 16);
 }
 
 TEST_F(ShadowLayout, ParametersLieInTheOrderOfTheirRows) {

@@ -1,5 +1,5 @@
-// A technique that uses all of the contract, as a program with techniques of its own would write it: a product made in
-// `prepare`, visibility() that reads it, a `resolve` of several passes, and a history.
+// A technique as a program with techniques of its own would write it: a product of a recipe, visibility() that reads
+// it, a `resolve` of several passes, and a history.
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -13,7 +13,7 @@ namespace {
 constexpr const char* technique_text = R"(
 #include "shadow/light.glsl"
 
-layout(binding = 5) uniform sampler2DArray levels;
+layout(binding = UNIT_level) uniform sampler2DArray levels;
 
 float read_radius(Receiver receiver, Light light) { return 0.0; }
 
@@ -26,7 +26,7 @@ Visibility visibility(Receiver receiver, Light light) {
 constexpr const char* fill_text = R"(
 layout(local_size_x = 1) in;
 layout(binding = 0, r32f) uniform writeonly restrict image2DArray level;
-void main() { imageStore(level, ivec3(0), vec4(float(counted_level) / 8.0)); }
+void main() { imageStore(level, ivec3(0), vec4(float(level_eighths) / 8.0)); }
 )";
 
 // First pass: how many frames this pixel has been seen in, on top of what visibility() gave.
@@ -50,40 +50,50 @@ layout(location = 0) out vec4 mask;
 void main() { mask = texelFetch(now, ivec2(gl_FragCoord.xy), 0); }
 )";
 
-void prepare(const shadow::TechniqueFrame& work) {
-  const gl::Texture& level = work.target("level", {.target = GL_TEXTURE_2D_ARRAY, .format = GL_R32F});
-  gl::Pass pass(work.device(), {.name = "fill"});
-  work.use(pass, "fill");
-  level.bind_image(0, GL_WRITE_ONLY);
-  pass.dispatch(1, 1);
-  work.frame().products.push_back({.unit = shadow::first_product_unit, .texture = &level});
+shadow::Recipe level() {
+  return {
+      .name = "level",
+      .summary = "A texel that holds a compiled constant.",
+      .source = "made up",
+      .needs = {},
+      .params = {{"level.eighths", 4, 0, 8, "", "Eighths.", ParamBinding::compiled}},
+      .build = [](const shadow::PassContext& context) -> const gl::Texture& {
+        const gl::Texture& level = context.target("level", {.target = GL_TEXTURE_2D_ARRAY, .format = GL_R32F});
+        gl::Pass pass(context.device(), {.name = "fill"});
+        context.use(pass, "fill");
+        level.bind_image(0, GL_WRITE_ONLY);
+        pass.dispatch(1, 1);
+        return level;
+      },
+      .programs =
+          [](const ParamSet&) { return std::vector<gl::ProgramDesc>{{.name = "fill", .compute = "test/fill.comp"}}; }};
 }
 
-void resolve(const shadow::TechniqueFrame& work) {
-  const int width = work.mask().width();
-  const int height = work.mask().height();
+void resolve(const shadow::PassContext& context) {
+  const int width = context.mask().width();
+  const int height = context.mask().height();
   const gl::Texture& raw =
-      work.target("raw", {.target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA16F, .width = width, .height = height});
-  work.evaluate(raw, 0);
-  const shadow::History counts = work.history("counts", {.format = GL_RGBA16F, .width = width, .height = height});
+      context.target("raw", {.target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA16F, .width = width, .height = height});
+  context.evaluate(raw, 0);
+  const shadow::History counts = context.history("counts", {.format = GL_RGBA16F, .width = width, .height = height});
   {
-    gl::Pass pass(work.device(), {.name = "count", .colors = {{.texture = &counts.now}}});
-    work.use(pass, "count").set("has_last", counts.valid ? 1 : 0);
-    for (const GLuint unit : {8, 9}) work.device().sampler({}).bind(unit);
+    gl::Pass pass(context.device(), {.name = "count", .colors = {{.texture = &counts.now}}});
+    context.use(pass, "count").set("has_last", counts.valid ? 1 : 0);
+    for (const GLuint unit : {8, 9}) context.device().sampler({}).bind(unit);
     raw.bind(8);
     counts.last.bind(9);
     pass.draw_full_screen();
   }
-  gl::Pass pass(work.device(), {.name = "show", .colors = {{.texture = &work.mask(), .layer = work.frame().layer}}});
-  work.use(pass, "show");
-  work.device().sampler({}).bind(8);
+  gl::Pass pass(context.device(),
+                {.name = "show", .colors = {{.texture = &context.mask(), .layer = context.frame().layer}}});
+  context.use(pass, "show");
+  context.device().sampler({}).bind(8);
   counts.now.bind(8);
   pass.draw_full_screen();
 }
 
 std::vector<gl::ProgramDesc> programs(const ParamSet& params) {
   std::vector<gl::ProgramDesc> all{
-      {.name = "fill", .compute = "test/fill.comp"},
       {.name = "count", .vertex = "shared/full_screen.vert", .fragment = "test/count.frag"}};
   if (params.get_bool("counted.shown")) {
     all.push_back({.name = "show", .vertex = "shared/full_screen.vert", .fragment = "test/show.frag"});
@@ -96,11 +106,9 @@ shadow::Technique counted() {
           .summary = "Counts frames.",
           .source = "made up",
           .glsl = "test/counted.glsl",
-          .needs = shadow::needs_nothing,
+          .needs = {"level"},
           .params = {{"counted.scale", 1.0f, 0, 1, "", "Factor.", ParamBinding::uniform},
-                     {"counted.level", 4, 0, 8, "", "Eighths.", ParamBinding::compiled},
                      {"counted.shown", true, 0, 1, "", "Whether there is a last pass.", ParamBinding::compiled}},
-          .prepare = prepare,
           .resolve = resolve,
           .programs = programs};
 }
@@ -111,26 +119,23 @@ shadow::Technique cleared() {
           .summary = "One value.",
           .source = "made up",
           .glsl = {},
-          .needs = shadow::needs_nothing,
+          .needs = {},
           .params = {{"cleared.value", 0.5f, 0, 1, "", "Visibility.", ParamBinding::host}},
-          .prepare =
-              [](const shadow::TechniqueFrame& work) {
-                if (work.params().get_float("cleared.value") > 0) return;
-                gl::Pass pass(work.device(), {.name = "casters"});
-                work.draw_caster_geometry(pass, "volumes", glm::mat4(1));
-              },
           .resolve =
-              [](const shadow::TechniqueFrame& work) {
-                const glm::vec4 value(work.params().get_float("cleared.value"), 0, 0, 0);
-                const gl::Attachment layer{.texture = &work.mask(), .layer = work.frame().layer, .clear = value};
-                const gl::Pass pass(work.device(), {.name = "clear", .colors = {layer}});
+              [](const shadow::PassContext& context) {
+                const glm::vec4 value(context.params().get_float("cleared.value"), 0, 0, 0);
+                const gl::Attachment layer{.texture = &context.mask(), .layer = context.frame().layer, .clear = value};
+                gl::Pass pass(context.device(), {.name = "clear", .colors = {layer}});
+                if (value.x == 0) context.draw_caster_geometry(pass, "volumes", glm::mat4(1));
               },
           .stand_in = "counted"};
 }
 
 class ShadowTechnique : public GpuTest {
  protected:
-  ShadowTechnique() : renderer(shadow::Registry({counted(), cleared()}, {})), params(renderer.params()) {
+  ShadowTechnique()
+      : renderer(shadow::Registry({.techniques = {counted(), cleared()}, .recipes = {level()}})),
+        params(renderer.params()) {
     gl::ShaderFiles& files = renderer.device().shaders.files();
     files.put("test/counted.glsl", technique_text);
     files.put("test/fill.comp", fill_text);
@@ -172,9 +177,9 @@ TEST_F(ShadowTechnique, ProductReachesVisibilityUnderBothDriversAndThePassesFoll
     params.set("driver", driver);
     params.set("counted.scale", 0.5f);
     EXPECT_EQ(frame()[0], glm::vec2(0.25f, 1)) << driver;
-    params.set("counted.level", 8);
+    params.set("level.eighths", 8);
     EXPECT_EQ(frame()[0], glm::vec2(0.5f, 1)) << driver << ": a compiled constant of the technique's own program";
-    params.reset("counted.level");
+    params.reset("level.eighths");
   }
 }
 
@@ -184,7 +189,7 @@ TEST_F(ShadowTechnique, HistoryGoesOnWhileNothingBreaksIt) {
 
 TEST_F(ShadowTechnique, BlendedSurfacesGetTheProductsOfTheStandIn) {
   params.set("technique", "cleared");
-  params.set("counted.level", 6);
+  params.set("level.eighths", 6);
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(frame()[0].x, 0.5f);
     renderer.shadows().bind_forward(renderer.mask(), 0);
@@ -288,7 +293,7 @@ TEST_F(ShadowTechnique, AFrameThatThrowsLeavesNoHistory) {
   EXPECT_EQ(count(), 2);
   gl::ShaderFiles& files = renderer.device().shaders.files();
   files.put("test/show.frag", "nonsense");
-  params.set("counted.level", 5);
+  params.set("level.eighths", 5);
   EXPECT_THROW(frame(), Error);
   files.put("test/show.frag", show_text);
   EXPECT_EQ(count(), 1);
@@ -299,10 +304,10 @@ TEST_F(ShadowTechnique, EveryProgramIsListedForTheChecks) {
   int own = 0;
   for (const gl::ProgramDesc& program : renderer.shadows().all_programs(params)) {
     EXPECT_NO_THROW(gl::Program(program, renderer.device().shaders.files())) << program.name;
-    if (program.name == "counted: show" || program.name == "counted: count" || program.name == "counted: fill") ++own;
+    if (program.name == "counted: show" || program.name == "counted: count" || program.name == "level: fill") ++own;
   }
-  // Switch on and off, points rotated and shifted.
-  EXPECT_EQ(own, 2 * (2 + 3));
+  // The recipe's once; the technique's with the switch on and off, points rotated and shifted.
+  EXPECT_EQ(own, 1 + 2 * (1 + 2));
 }
 
 TEST_F(ShadowTechnique, AProgramThatIsNotListedIsABug) {

@@ -161,7 +161,7 @@ TEST_F(ShadowHistory, PixelsKeepTheirHistoryWhileTheCameraMovesAndDisocclusionsT
   const Picture reference = run.draw_reference();
   const std::vector<std::size_t> beside = beside_disocclusions(run.read_aov("history"), picture, run.width());
   const double moving = mean_error(picture, reference, beside);
-  run.params().set("pcss.renewal_taps", 16);  // as many as where a history is kept
+  run.params().set("pcss.disocclusion_taps", 16);  // as many as where a history is kept
   const double fresh = mean_error(run.draw(/*cut=*/true), reference, beside);
   EXPECT_LE(moving, fresh + 1 / 255.0);
   std::printf(

@@ -1,4 +1,5 @@
-"""A technique is one .cpp, one GLSL file and one line of the registry: this adds one to a copy of the tree."""
+"""A technique, a product, a filter and a denoiser are each one .cpp, at most one GLSL file and one line of the registry: this
+adds one of each to a copy of the tree."""
 
 import shutil
 import subprocess
@@ -6,7 +7,7 @@ import unittest
 
 import support
 
-CPP = """#include "../technique.h"
+TECHNIQUE = """#include "../technique.h"
 
 namespace penumbra::shadow {
 
@@ -15,37 +16,141 @@ Technique checker() {
           .summary = "Squares of light and shadow, with no regard to casters.",
           .source = "made up",
           .glsl = "shadow/techniques/checker.glsl",
-          .needs = needs_nothing,
+          .needs = {"tenth"},
           .params = {{"checker.side", 16, 1, 256, "px", "Side of a square.", ParamBinding::uniform}}};
 }
 
 }  // namespace penumbra::shadow
 """
 
-GLSL = """#include "shadow/light.glsl"
+TECHNIQUE_GLSL = """#include "shadow/light.glsl"
+
+layout(binding = UNIT_tenth) uniform sampler2D dark;
 
 float read_radius(Receiver receiver, Light light) { return 0.0; }
 
 Visibility visibility(Receiver receiver, Light light) {
   ivec2 square = ivec2(receiver.pixel) / checker_side;
-  return Visibility(float((square.x + square.y) & 1), 0.0, 0.0, false);
+  float lit = ((square.x + square.y) & 1) == 1 ? 1.0 : texelFetch(dark, ivec2(0), 0).x;
+  return Visibility(lit, 0.0, 0.0, false);
 }
 """
 
-REGISTRY_LINE = ("  X(brute_force)", "  X(brute_force) \\\n  X(checker)")
+PRODUCT = """#include "../pass_context.h"
+#include "../recipe.h"
+
+namespace penumbra::shadow {
+
+Recipe tenth() {
+  return {.name = "tenth",
+          .summary = "A texel that holds a tenth.",
+          .source = "made up",
+          .needs = {},
+          .build = [](const PassContext& context) -> const gl::Texture& {
+            const gl::Texture& texel = context.target("texel", {.format = GL_R32F});
+            const gl::Attachment cleared{.texture = &texel, .clear = glm::vec4(0.1f)};
+            const gl::Pass pass(context.device(), {.name = "tenth", .colors = {cleared}});
+            return texel;
+          }};
+}
+
+}  // namespace penumbra::shadow
+"""
+
+FILTER = """#include "../filter.h"
+
+namespace penumbra::shadow {
+
+Filter negative() {
+  return {.name = "negative",
+          .summary = "Light for shadow.",
+          .source = "made up",
+          .glsl = "shadow/filters/negative.glsl",
+          .reach = {{0, 0}}};
+}
+
+}  // namespace penumbra::shadow
+"""
+
+FILTER_GLSL = """#include "shadow/drivers/filter.glsl"
+
+uint filtered(ivec2 pixel) { return with_visibility(texel_at(pixel), 1.0 - texel_visibility(texel_at(pixel))); }
+"""
+
+DENOISER = """#include "../denoise_context.h"
+#include "../denoiser.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+// The left half in shadow.
+void denoise(const DenoiseContext& context) {
+  const PackedMask seen = context.evaluate_packed();
+  const gl::Texture& halved = context.target("halved", seen.texels.desc());
+  {
+    gl::Pass pass(context.device(), {.name = "halve", .colors = {{.texture = &halved}}});
+    context.use(pass, "halve");
+    context.device().sampler({}).bind(first_pass_unit);
+    seen.texels.bind(first_pass_unit);
+    pass.draw_full_screen();
+  }
+  context.filter_to_mask("none", {halved, seen.notes});
+}
+
+}  // namespace
+
+Denoiser halving() {
+  return {.name = "halving",
+          .summary = "The left half in shadow.",
+          .source = "made up",
+          .denoise = denoise,
+          .programs = [](const ParamSet&) {
+            return std::vector<gl::ProgramDesc>{{.name = "halve",
+                                                 .vertex = "shared/full_screen.vert",
+                                                 .fragment = "shadow/denoisers/halving.frag"}};
+          }};
+}
+
+}  // namespace penumbra::shadow
+"""
+
+DENOISER_GLSL = """#include "shadow/light.glsl"
+#include "lib/packed_texel.glsl"
+
+layout(binding = 8) uniform usampler2D seen;
+layout(location = 0) out uint texel;
+
+void main() {
+  uint now = texelFetch(seen, ivec2(gl_FragCoord.xy), 0).x;
+  texel = gl_FragCoord.x < 0.5 * shadow.viewport.z ? pack_texel(0.0, 0.0, false) : now;
+}
+"""
+
+FILES = {"src/shadow/techniques/checker.cpp": TECHNIQUE, "glsl/shadow/techniques/checker.glsl": TECHNIQUE_GLSL,
+         "src/shadow/products/tenth.cpp": PRODUCT,
+         "src/shadow/filters/negative.cpp": FILTER, "glsl/shadow/filters/negative.glsl": FILTER_GLSL,
+         "src/shadow/denoisers/halving.cpp": DENOISER, "glsl/shadow/denoisers/halving.frag": DENOISER_GLSL}
+# What is there, and what becomes the next line of the registry.
+LINES = {"X(brute_force)": "X(checker)", "X(least_depth_pyramid)": "X(tenth)", "X(bilateral_separable)": "X(negative)",
+         "X(history_and_filters)": "X(halving)"}
 NOT_COPIED = shutil.ignore_patterns("build", "out", ".git", "__pycache__")
 
 
-class AddATechnique(support.TestCase):
+class AddOneOfEach(support.TestCase):
     def test_one_cpp_one_glsl_and_one_line(self):
         tree = self.folder / "tree"
         shutil.copytree(support.ROOT, tree, ignore=NOT_COPIED)
-        (tree / "src/shadow/techniques/checker.cpp").write_text(CPP)
-        (tree / "glsl/shadow/techniques/checker.glsl").write_text(GLSL)
+        for name, text in FILES.items():
+            file = tree / name
+            file.parent.mkdir(exist_ok=True)
+            file.write_text(text)
         registry = tree / "src/shadow/registry.cpp"
         text = registry.read_text()
-        self.assertEqual(text.count(REGISTRY_LINE[0]), 1)
-        registry.write_text(text.replace(*REGISTRY_LINE))
+        for last, added in LINES.items():
+            self.assertEqual(text.count(last), 1, last)
+            text = text.replace(last, f"{last} \\\n  {added}")
+        registry.write_text(text)
 
         build = tree / "build/release"
         for arguments in (["cmake", "--preset", "release", "-DPENUMBRA_TESTS=OFF"],
@@ -61,22 +166,33 @@ class AddATechnique(support.TestCase):
             self.assertEqual(result.returncode, 0, result.stderr)
             return result.stdout
 
-        self.assertIn("checker", penumbra("list", "techniques"))
-        self.assertIn("checker.side", penumbra("list", "params"))
+        for what, name in (("techniques", "checker"), ("params", "checker.side"), ("filters", "negative"),
+                           ("denoisers", "halving"), ("products", "tenth")):
+            self.assertIn(name, penumbra("list", what))
         # From above, every pixel is a receiver: half of the squares are lit.
         view = ["--eye", "0,20,0.01", "--target", "0,0,0", "--fov", "20", "--sun", "0,60", "--size", "64x64"]
         for driver in ("fragment", "compute"):
-            picture = self.folder / f"{driver}.png"
-            penumbra("render", "scenes/steps.glb", "-o", picture, "--aov", "shadow", "--technique", "checker", "--set",
-                     "checker.side=16", "--set", f"driver={driver}", *view)
-            self.check_picture(support.read_png(picture))
+            for sets, expected in ((["checker.side=16"], lambda lit, x: lit),
+                                   (["filter.visibility=negative"], lambda lit, x: not lit),
+                                   (["denoiser=halving"], lambda lit, x: lit and x >= 32)):
+                picture = self.folder / f"{driver}.png"
+                arguments = [text for value in (f"driver={driver}", *sets) for text in ("--set", value)]
+                penumbra("render", "scenes/steps.glb", "-o", picture, "--aov", "shadow", "--technique", "checker", *arguments,
+                         *view)
+                with self.subTest(driver=driver, sets=sets):
+                    self.check_picture(support.read_png(picture), expected)
+                    if sets == ["checker.side=16"]:
+                        self.check_product(support.read_png(picture))
 
-    def check_picture(self, rows):
+    def check_picture(self, rows, expected):
         for y in range(8, 64, 16):
             for x in range(8, 64, 16):
                 # Rows of the picture run downwards, pixels of the shader upwards.
                 lit = (x // 16 + (63 - y) // 16) % 2 == 1
-                self.assertEqual(rows[y][x][0] > 127, lit, f"pixel {x}, {y}")
+                self.assertEqual(rows[y][x][0] > 127, expected(lit, x), f"pixel {x}, {y}")
+
+    def check_product(self, rows):
+        self.assertGreater(min(row[0] for line in rows for row in line), 10, "dark squares have what the product holds")
 
 
 if __name__ == "__main__":

@@ -54,6 +54,40 @@ TEST(Params, WrongTypesAndRangesSayWhatIsAllowed) {
 
 TEST(Params, UnknownNamesListNearOnes) { EXPECT_NE(message("a.cuont=3").find("a.count"), std::string::npos); }
 
+TEST(Params, AFormerNameIsRefusedWithThePresentOne) {
+  ParamSet params({{.name = "a.count", .default_value = 1, .max = 9, .former_names = {"a.number", "b.taps"}}});
+  for (const char* former : {"a.number", "b.taps"}) {
+    const std::string expected = std::string("parameter '") + former + "' is now called 'a.count'";
+    const auto complaint = [&](const auto& use) -> std::string {
+      try {
+        use();
+      } catch (const Error& error) {
+        return error.what();
+      }
+      return "";
+    };
+    EXPECT_EQ(complaint([&] { params.assign(std::string(former) + "=2"); }), expected);
+    EXPECT_EQ(complaint([&] { params.set(former, 2); }), expected);
+    EXPECT_EQ(complaint([&] { static_cast<void>(params.get_int(former)); }), expected);
+    EXPECT_FALSE(params.contains(former));
+  }
+  EXPECT_EQ(params.get_int("a.count"), 1);
+  EXPECT_THROW(
+      ParamSet({{.name = "a.x", .default_value = 1}, {.name = "a.y", .default_value = 1, .former_names = {"a.x"}}}),
+      std::logic_error);
+}
+
+TEST(Params, SetsAreEqualByNamesAndValues) {
+  ParamSet a = sample();
+  const ParamSet copy = a;
+  EXPECT_EQ(a, copy);
+  EXPECT_EQ(a, sample()) << "declared apart";
+  a.set("a.count", 17);
+  EXPECT_NE(a, copy);
+  EXPECT_EQ(copy.get_int("a.count"), 16) << "a copy has values of its own";
+  EXPECT_NE(ParamSet({{"a.x", 1, 0, 9, "", ""}}), ParamSet({{"a.y", 1, 0, 9, "", ""}}));
+}
+
 TEST(Params, ARefusedAssignmentChangesNothing) {
   ParamSet params = sample();
   EXPECT_THROW(params.assign("a.count=0"), Error);

@@ -1,10 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <stdexcept>
 
 #include "core/error.h"
+#include "shadow/registry.h"
 #include "shadow/sampling.h"
-#include "shadow/technique.h"
 
 namespace penumbra::shadow {
 namespace {
@@ -16,7 +17,7 @@ std::string complaint(const std::function<void(Technique&)>& change) {
   Technique changed = technique("changed");
   change(changed);
   try {
-    const Registry registry({technique("good"), changed}, {});
+    const Registry registry({.techniques = {technique("good"), changed}});
   } catch (const Error& error) {
     return error.what();
   }
@@ -27,7 +28,7 @@ TEST(Registry, RefusesTechniquesThatCanNotBeEvaluated) {
   EXPECT_EQ(complaint([](Technique&) {}), "");
   EXPECT_EQ(complaint([](Technique& t) { t.name = "good"; }), "two techniques have the name 'good'");
   EXPECT_EQ(complaint([](Technique& t) { t.glsl = {}; }), "technique 'changed' has neither glsl nor resolve");
-  const auto resolve = [](const TechniqueFrame&) {};
+  const auto resolve = [](const PassContext&) {};
   EXPECT_EQ(complaint([&](Technique& t) {
               t.glsl = {};
               t.resolve = resolve;
@@ -61,11 +62,112 @@ TEST(Registry, RefusesUnknownPatternsAndScrambles) {
   EXPECT_THROW(square_points("vogle", 4), Error);
 }
 
-TEST(Registry, RefusesAliasesAndDefaultsOfNothing) {
-  EXPECT_THROW(Registry({}, {}), Error);
-  EXPECT_THROW(Registry({technique("good")}, {}, "bad"), Error);
-  EXPECT_THROW(Registry({technique("good")}, {{"alias", "bad", "", {}}}), Error);
-  EXPECT_THROW(Registry({technique("good")}, {{"good", "good", "", {}}}), Error);
+TEST(Registry, RefusesPresetsAndDefaultsOfNothing) {
+  EXPECT_THROW(Registry({.techniques = {}}), Error);
+  EXPECT_THROW(Registry({.techniques = {technique("good")}, .default_technique = "bad"}), Error);
+  EXPECT_THROW(Registry({.techniques = {technique("good")}, .presets = {{"preset", "bad", "", {}}}}), Error);
+  EXPECT_THROW(Registry({.techniques = {technique("good")}, .presets = {{"good", "good", "", {}}}}), Error);
+}
+
+// A technique with a row of so many points at most and a set of them.
+void with_points(Technique& technique, int most) {
+  technique.params = {{"changed.points", 1, 0, static_cast<double>(most), "taps", "How many."}};
+  technique.samples = {{.name = "around", .count_parameter = "changed.points"}};
+}
+
+TEST(Registry, RefusesSampleSetsThatDoNotFitIntoTheirTables) {
+  EXPECT_EQ(complaint([](Technique& t) { with_points(t, 256); }), "");
+  EXPECT_EQ(complaint([](Technique& t) { with_points(t, 512); }),
+            "technique 'changed': the sample set 'around' may have 512 points by 'changed.points'; 256 fit");
+  EXPECT_EQ(complaint([](Technique& t) {
+              with_points(t, 256);
+              for (const char* name : {"b", "c", "d", "e", "f", "g", "h"})
+                t.samples.push_back({name, "changed.points"});
+            }),
+            "");
+  EXPECT_EQ(complaint([](Technique& t) {
+              with_points(t, 256);
+              for (const char* name : {"b", "c", "d", "e", "f", "g", "h", "i"}) {
+                t.samples.push_back({name, "changed.points"});
+              }
+            }),
+            "technique 'changed': its sample sets take 18432 bytes; a uniform block has 16384");
+}
+
+TEST(Registry, RefusesSampleSetsThatNothingCounts) {
+  EXPECT_EQ(complaint([](Technique& t) { t.samples = {{.name = "around", .count_parameter = "changed.points"}}; }),
+            "technique 'changed': the sample set 'around' is counted by 'changed.points', which is no parameter");
+  EXPECT_EQ(complaint([](Technique& t) { t.samples = {{.name = "around", .count_parameter = "sun.angle"}}; }),
+            "technique 'changed': the sample set 'around' is counted by 'sun.angle', which is no number of points");
+  EXPECT_EQ(complaint([](Technique& t) { t.samples = {{.name = "2", .count_parameter = "sampling.seed"}}; }),
+            "technique 'changed': '2' can't be the name of a sample set in GLSL");
+  EXPECT_EQ(complaint([](Technique& t) {
+              with_points(t, 4);
+              t.samples.push_back(t.samples[0]);
+            }),
+            "two sample sets of technique 'changed' have the name 'around'");
+}
+
+const gl::Texture& make_nothing(const PassContext& /*context*/) { throw std::logic_error("never made"); }
+
+Recipe recipe(const char* name, std::vector<std::string> needs = {}) {
+  return {.name = name, .needs = std::move(needs), .build = make_nothing};
+}
+
+// What a registry says of these recipes, and of a technique that needs those of that name.
+std::string complaint(std::vector<Recipe> recipes, std::vector<std::string> needs) {
+  Technique asking = technique("asking");
+  asking.needs = std::move(needs);
+  try {
+    const Registry registry({.techniques = {asking}, .recipes = std::move(recipes)});
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Registry, RefusesProductsThatNothingMakes) {
+  EXPECT_EQ(complaint({recipe("first"), recipe("second", {"shadow_map", "first"})}, {"second"}), "");
+  EXPECT_EQ(complaint({recipe("first")}, {"frist"}),
+            "unknown product that technique 'asking' needs 'frist'; did you mean 'first'?");
+  EXPECT_EQ(complaint({recipe("second", {"first"}), recipe("first")}, {}),
+            "unknown product that recipe 'second' needs 'first'; known: shadow_map");
+  EXPECT_EQ(complaint({recipe("first"), recipe("first")}, {}), "two recipes have the name 'first'");
+  EXPECT_EQ(complaint({recipe("shadow_map")}, {}),
+            "a recipe can't have the name 'shadow_map': the library draws that map");
+  EXPECT_EQ(complaint({{.name = "first"}}, {}), "recipe 'first' has no build");
+  EXPECT_EQ(complaint({recipe("a"), recipe("b"), recipe("c"), recipe("d"), recipe("e")}, {"a", "b", "c", "d", "e"}),
+            "technique 'asking' needs 5 products; there are texture units for 4");
+}
+
+TEST(Registry, RefusesDenoisersThatCanNotRun) {
+  const auto complain = [](Denoiser denoiser) -> std::string {
+    try {
+      const Registry registry({.techniques = {technique("good")}, .denoisers = {std::move(denoiser)}});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  const auto nothing = [](const DenoiseContext&) {};
+  EXPECT_EQ(complain({.name = "blur", .denoise = nothing}), "");
+  EXPECT_EQ(complain({.name = "blur"}), "denoiser 'blur' has no denoise");
+  EXPECT_EQ(complain({.name = "none", .denoise = nothing}), "a denoiser can't have the name 'none'");
+  EXPECT_EQ(complain({.name = "blur", .needs = {"moments"}, .denoise = nothing}),
+            "unknown product that denoiser 'blur' needs 'moments'; known: shadow_map, least_depth_pyramid, "
+            "movement_map");
+}
+
+TEST(Registry, TheDenoiserIsAParameterWithNearNames) {
+  ParamSet params(built_in_registry().params());
+  EXPECT_EQ(params.get_word("denoiser"), "history_and_filters");
+  params.assign("denoiser=none");
+  try {
+    params.assign("denoiser=history_and_filter");
+    FAIL() << "nothing thrown";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("history_and_filters"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

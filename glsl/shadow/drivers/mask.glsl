@@ -11,7 +11,7 @@ PackedPixel shade_pixel(ivec2 pixel) {
   uint refusal = HISTORY_NONE;
 #if HISTORY
   refusal = refusal_of(receiver, light, pixel);
-  receiver.renewed = refusal != HISTORY_KEPT;
+  receiver.history_refused = refusal != HISTORY_KEPT;
 #endif
   return packed_pixel(shadow_of(receiver, light), receiver, refusal);
 }

@@ -1,5 +1,5 @@
 // A pixel of a mask that goes through history and filters: what it holds, and whether its history holds.
-#include "shadow/receive.glsl"
+#include "shadow/shadowed.glsl"
 #include "lib/packed_texel.glsl"
 #if HISTORY
 #include "shadow/history.glsl"

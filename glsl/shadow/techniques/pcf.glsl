@@ -1,12 +1,12 @@
 // Percentage-closer filtering over a disc of constant radius in metres.
-#include "shadow/light.glsl"
+#include "shadow/sampling.glsl"
 
 float read_radius(Receiver receiver, Light light) { return pcf_radius; }
 
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
   receiver = receiver_in_corner(receiver, bias, max_plane_slope, light);
-  Scramble scramble = scramble_of(receiver, filter_step);
+  Scramble scramble = filter_scramble(receiver);
   float lit = 0.0;
   for (int i = 0; i < pcf_filter_taps; ++i) {
     lit += lit_share(receiver, pcf_radius * filter_point(i, scramble, light), bias, light);

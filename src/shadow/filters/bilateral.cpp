@@ -1,4 +1,4 @@
-#include "../technique.h"
+#include "../filter.h"
 
 namespace penumbra::shadow {
 

@@ -9,7 +9,7 @@ Technique brute_force() {
       .summary = "PCSS with hundreds of taps a pixel: what the cheaper forms of it converge to.",
       .source = "Deligiannis 2019, section 4",
       .glsl = "shadow/techniques/brute_force.glsl",
-      .needs = needs_shadow_map | needs_depth_pyramid,
+      .needs = {"shadow_map", "least_depth_pyramid"},
       .params =
           {
               {"brute_force.blocker_taps", 256, 1, 256, "taps", "Points at which blockers are looked for.", compiled},
@@ -18,6 +18,9 @@ Technique brute_force() {
               {"brute_force.every_texel", false, 0, 1, "",
                "Reads every texel of both discs instead: exact, and slow for wide kernels.", compiled},
           },
+      .samples = {{.name = "blocker", .count_parameter = "brute_force.blocker_taps", .step = SampleSet::Step::blocker},
+                  {.name = "filter", .count_parameter = "brute_force.filter_taps"},
+                  {.name = "disocclusion", .count_parameter = "brute_force.filter_taps"}},
       .pattern = "hammersley",
       .scramble = "shift"};
 }

@@ -7,7 +7,7 @@ Technique hard() {
           .summary = "The shadow of the light's centre, filtered over one texel.",
           .source = "Williams 1978, Casting curved shadows on curved surfaces; Reeves et al. 1987",
           .glsl = "shadow/techniques/hard.glsl",
-          .needs = needs_shadow_map,
+          .needs = {"shadow_map"},
           .params = {}};
 }
 

@@ -7,7 +7,7 @@ Technique none() {
           .summary = "No shadows: everything that faces the sun is lit.",
           .source = "",
           .glsl = "shadow/techniques/none.glsl",
-          .needs = needs_nothing,
+          .needs = {},
           .params = {}};
 }
 

@@ -3,15 +3,18 @@
 namespace penumbra::shadow {
 
 Technique pcf() {
-  return {.name = "pcf",
-          .summary = "Percentage-closer filtering over a disc of constant radius: soft everywhere alike.",
-          .source = "Reeves et al. 1987, Rendering antialiased shadows with depth maps",
-          .glsl = "shadow/techniques/pcf.glsl",
-          .needs = needs_shadow_map,
-          .params = {
+  return {
+      .name = "pcf",
+      .summary = "Percentage-closer filtering over a disc of constant radius: soft everywhere alike.",
+      .source = "Reeves et al. 1987, Rendering antialiased shadows with depth maps",
+      .glsl = "shadow/techniques/pcf.glsl",
+      .needs = {"shadow_map"},
+      .params =
+          {
               {"pcf.radius", 0.05f, 0, 1000, "m", "Radius of the disc across the light.", ParamBinding::uniform},
               {"pcf.filter_taps", 16, 1, 256, "taps", "Points of the disc that are compared.", ParamBinding::compiled},
-          }};
+          },
+      .samples = {{.name = "filter", .count_parameter = "pcf.filter_taps"}}};
 }
 
 }  // namespace penumbra::shadow

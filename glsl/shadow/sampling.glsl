@@ -1,0 +1,41 @@
+// What sample points are made of. The points themselves are functions of a technique's sample sets, generated before
+// its file: for a set "blocker"
+//   vec2 blocker_point(int index, Scramble scramble, Light light)
+//   Scramble blocker_scramble(Receiver receiver)
+#include "shadow/light.glsl"
+
+layout(binding = 1) uniform sampler2D sample_noise;  // two values a pixel; repeats; a power of two wide and high
+
+// Points of the light's shape, -1..1, from the tables. A disc's points are rotated, or like a square's shifted on the
+// torus and then mapped.
+struct Scramble {
+  vec2 value;  // rotation: cosine, sine; shift: of the unit square
+};
+
+vec2 shape_point(vec4 table, int index, Scramble scramble, Light light) {
+  vec2 point = (index & 1) == 0 ? table.xy : table.zw;
+#if SAMPLE_ROTATE
+  return vec2(point.x * scramble.value.x - point.y * scramble.value.y,
+              point.x * scramble.value.y + point.y * scramble.value.x);
+#else
+  vec2 shifted = toroidal_shift(point, scramble.value);
+  return light.square ? 2.0 * shifted - 1.0 : concentric_disc(shifted);
+#endif
+}
+
+const int blocker_step = 0;
+const int filter_step = 1;
+
+// By the tile of noise, each step from another part of it.
+Scramble scramble_of(Receiver receiver, int step) {
+  ivec2 mask = textureSize(sample_noise, 0) - 1;
+  ivec2 at = ivec2(receiver.pixel) + (mask + 1) / 2 * step;
+  vec2 noise = toroidal_shift(texelFetch(sample_noise, at & mask, 0).xy,
+                              step == blocker_step ? shadow.noise_shift.xy : shadow.noise_shift.zw);
+#if SAMPLE_ROTATE
+  float angle = 6.2831853 * noise.x;
+  return Scramble(vec2(cos(angle), sin(angle)));
+#else
+  return Scramble(noise);
+#endif
+}

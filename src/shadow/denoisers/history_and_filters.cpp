@@ -1,0 +1,88 @@
+#include <utility>
+
+#include "../denoise_context.h"
+#include "../denoiser.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+std::vector<Param> rows() {
+  return {
+      {"history.reuse", false, 0, 1, "", "Blends each frame with the last ones where they show the same surface."},
+      {"history.alpha", 0.1f, 0.01, 1, "", "Weight of the present frame in the blend."},
+      {"history.distance", 1.0f, 0, 100, "px",
+       "How far before or behind a receiver's plane, in widths of a pixel, the last frame's surface may lie."},
+      {"history.turn", 30.0f, 0, 180, "deg", "How far their normals may turn from each other."},
+  };
+}
+
+// What is kept of a frame for the next one: what was seen, and what of it was lit.
+struct Memory {
+  History surfaces, texels;
+};
+
+const gl::Texture& blend(const DenoiseContext& context, const Memory& memory, const gl::Texture& texels) {
+  const bool compute = context.uses_compute();
+  gl::PassDesc desc{.name = "shadow history"};
+  if (!compute) desc.colors = {{.texture = &memory.texels.now}, {.texture = &memory.surfaces.now}};
+  gl::Pass pass(context.device(), desc);
+  context.use(pass, compute ? "blend in compute" : "blend");
+  context.bind_history(memory.surfaces.last);
+  for (const auto& [unit, texture] : {std::pair(unit_last_texels, &memory.texels.last), {unit_texels, &texels}}) {
+    context.device().sampler({}).bind(unit);
+    texture->bind(unit);
+  }
+  if (compute) {
+    memory.texels.now.bind_image(0, GL_WRITE_ONLY);
+    memory.surfaces.now.bind_image(1, GL_WRITE_ONLY);
+  }
+  context.cover(pass);
+  return memory.texels.now;
+}
+
+// What is kept for the next frame has not gone through the visibility filter, so that no blur comes on top of another.
+void denoise(const DenoiseContext& context) {
+  const std::string& penumbra_filter = context.params().get_word("filter.penumbra");
+  const std::string& visibility_filter = context.params().get_word("filter.visibility");
+  if (!context.params().get_bool("history.reuse")) {
+    const PackedMask raw = context.evaluate_packed();
+    const gl::Texture& penumbrae = context.filter(penumbra_filter, raw.texels);
+    context.filter_to_mask(visibility_filter, {penumbrae, raw.notes});
+    return;
+  }
+  const Memory memory{context.remembered("surfaces"), context.remembered("texels")};
+  const PackedMask raw = context.evaluate_packed(&memory.surfaces.last);
+  const gl::Texture& penumbrae = context.filter(penumbra_filter, raw.texels);
+  const gl::Texture& blended = blend(context, memory, penumbrae);
+  context.filter_to_mask(visibility_filter, {blended, raw.notes});
+}
+
+}  // namespace
+
+Denoiser history_and_filters() {
+  return {.name = "history_and_filters",
+          .summary = "A filter of the blocker distances, a blend with the last frames, a filter of the visibility.",
+          .source = "Deligiannis 2019, section 3.5",
+          .needs = {"movement_map"},
+          .params = rows(),
+          .applies =
+              [](const ParamSet& params) {
+                return params.get_bool("history.reuse") || params.get_word("filter.penumbra") != "none" ||
+                       params.get_word("filter.visibility") != "none";
+              },
+          .remembers =
+              [](const ParamSet& params) {
+                if (!params.get_bool("history.reuse")) return std::vector<Denoiser::Remembered>{};
+                return std::vector<Denoiser::Remembered>{{"surfaces", GL_RG32UI}, {"texels", GL_R32UI}};
+              },
+          .denoise = denoise,
+          .programs =
+              [](const ParamSet&) {
+                return std::vector<gl::ProgramDesc>{
+                    {.name = "blend", .vertex = "shared/full_screen.vert", .fragment = "shadow/drivers/history.frag"},
+                    {.name = "blend in compute", .compute = "shadow/drivers/history.comp"}};
+              }};
+}
+
+}  // namespace penumbra::shadow

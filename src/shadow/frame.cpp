@@ -1,0 +1,212 @@
+#include "frame.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "denoise_context.h"
+#include "light_block.h"
+#include "movement_map.h"
+#include "products.h"
+#include "shadow_map.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+constexpr const char* movement_map_name = "movement map";  // of its target
+
+LightProjection projection_of(const Inputs& inputs, const Light& light, const ParamSet& params) {
+  if (light.maps) return light.maps->projection;
+  return fit_projection(light.source, {.view = inputs.view.view,
+                                       .projection = inputs.view.projection,
+                                       .casters = inputs.casters,
+                                       .receivers = inputs.receivers,
+                                       .params = params});
+}
+
+MovementForm movement_form(const ParamSet& params) {
+  return params.get_word("movement.map") == "average" ? MovementForm::average : MovementForm::maximum;
+}
+
+// Whether the denoiser wants a map of what moved, and the parameters do not refuse it.
+bool asks_for_movement(const LightWork& work) {
+  const auto listed = [&] {
+    const std::vector<std::string>& needs = work.denoiser->needs;
+    return std::ranges::find(needs, "movement_map") != needs.end();
+  };
+  return !work.remembered.empty() && work.params().get_word("movement.map") != "none" && listed();
+}
+
+// What of the last frame may be used in this one: nothing where casters may have moved and no map can show which.
+void plan_history(const LightWork& work, bool has_shadow_map) {
+  LightFrame& frame = work.frame;
+  frame.history = work.state.age > 0 && !work.remembered.empty();
+  const bool asks = has_shadow_map && asks_for_movement(work);
+  const bool none_moved = nothing_moved(work.inputs.moved);
+  if (asks && work.inputs.draw) {
+    // Whether or not something moved in this frame, so that memory stays the same.
+    frame.movement = &movement_target(work.device, work.prefix() + movement_map_name, frame.projection.size(),
+                                      frame.projection.layers(), movement_form(work.params()));
+    frame.casters_moved = work.state.age > 0 && !none_moved;
+  }
+  if (asks && !work.inputs.draw && !none_moved) frame.history = false;
+}
+
+// The shadow map, drawn or as the caller brings it, and where casters moved.
+void draw_maps(const LightWork& work) {
+  const Inputs& inputs = work.inputs;
+  LightFrame& frame = work.frame;
+  const bool finished = work.light.maps.has_value();
+  const bool in_one_pass =
+      frame.casters_moved && !finished && work.params().get_word("movement.present") == "shadow_pass";
+  const gl::Texture* depth = nullptr;
+  if (!finished) {
+    depth = &draw_shadow_map(work.device, {.name = work.prefix() + "shadow map",
+                                           .projection = frame.projection,
+                                           .draw = inputs.draw,
+                                           .moved = in_one_pass ? frame.movement : nullptr,
+                                           .moved_bounds = inputs.moved});
+  }
+  frame.depth = finished ? work.light.maps->depth.id : depth->id();
+  if (!frame.casters_moved) return;
+  draw_movement(work.device, {.map = *frame.movement,
+                              .form = movement_form(work.params()),
+                              .projection = frame.projection,
+                              .draw = inputs.draw,
+                              .depth = depth,
+                              .moved = inputs.moved,
+                              .present_is_drawn = in_one_pass});
+}
+
+void upload_samples(const LightWork& work, const Technique& technique, const char* name) {
+  if (technique.samples.empty()) return;
+  const int set = set_number(work.params(), static_cast<int>(work.state.age));
+  LightState::SampleTables& tables = work.state.samples[technique.name];
+  if (tables.buffer != nullptr && tables.set == set && work.state.uploaded) return;
+  const std::vector<glm::vec4> points = work.samples.tables(technique, work.params(), set);
+  tables = {.buffer = &work.device.scratch(work.prefix() + name, sizeof(glm::vec4) * points.size()), .set = set};
+  tables.buffer->write(std::as_bytes(std::span(points)));
+}
+
+// What every program reads of the parameters, the view and the light.
+void upload_blocks(const LightWork& work) {
+  LightState& state = work.state;
+  const int age = static_cast<int>(state.age);
+  if (!state.uploaded) {
+    const std::vector<std::byte> params = uniform_bytes(state.params);
+    state.params_block = &work.device.scratch(work.prefix() + "params", params.size());
+    state.params_block->write(params);
+    state.noise = &work.samples.noise(state.params.get_word("sampling.noise"));
+  }
+  upload_samples(work, work.technique, "samples");
+  if (&work.forward != &work.technique) upload_samples(work, work.forward, "samples of the stand-in");
+  state.uploaded = true;
+  const LightTraits traits{.noise_shift = noise_shift(state.params, age), .last_jitter = work.view.last_jitter};
+  state.shadow_block = &work.device.scratch(work.prefix() + "light", sizeof(glsl::ShadowBlock));
+  gl::write_value(*state.shadow_block, shadow_block(work.inputs, work.frame, traits));
+}
+
+void draw_layer(const LightWork& work) {
+  const PassContext context(work, owner_of(work.technique));
+  if (work.denoiser != nullptr) {
+    work.denoiser->denoise(DenoiseContext(work, owner_of(*work.denoiser)));
+  } else if (work.technique.resolve) {
+    work.technique.resolve(context);
+  } else {
+    context.evaluate(work.mask, work.frame.layer);
+  }
+}
+
+// The memory of what this frame did not use and the last one did.
+void give_back_unused(const LightWork& work) {
+  LightState& state = work.state;
+  std::erase_if(state.kept, [&](const auto& entry) {
+    const bool unused = entry.second.filled != state.frames;
+    if (unused) work.device.drop(work.prefix() + kept_prefix(entry.first));
+    return unused;
+  });
+  const bool has_movement_map = work.frame.movement != nullptr;
+  if (state.had_movement_map && !has_movement_map) work.device.drop(work.prefix() + movement_map_name);
+  state.had_movement_map = has_movement_map;
+  const bool denoised = work.denoiser != nullptr;
+  if (state.was_denoised && !denoised) work.device.drop(fmt::format("{}{}", work.prefix(), denoise_prefix));
+  state.was_denoised = denoised;
+}
+
+// One light, from its parameters to its layer of the mask.
+LightFrame draw_light(const MaskInputs& from, const Light& light, const ViewState& view, LightState& state,
+                      LightFrame frame, const gl::Texture& mask) {
+  const bool same_params = take_params(state, from.defaults, from.params, light);
+  frame.projection = projection_of(from.inputs, light, state.params);
+  frame.shape = shape_of(light.source, state.params);
+  begin_frame(state, light, frame.projection.layers(), same_params);
+
+  const Technique& technique = from.registry.find(state.params.get_word("technique"));
+  const Denoiser* denoiser = denoiser_for(from.registry, technique, state.params);
+  const LightWork work{.device = from.device,
+                       .registry = from.registry,
+                       .programs = from.programs,
+                       .samples = from.samples,
+                       .inputs = from.inputs,
+                       .light = light,
+                       .mask = mask,
+                       .view = view,
+                       .state = state,
+                       .frame = frame,
+                       .technique = technique,
+                       .forward = forward_technique(from.registry, state.params),
+                       .denoiser = denoiser,
+                       .remembered = remembered_by(denoiser, state.params)};
+  const Wanted wanted = wanted_of(work);
+  // Passes of a technique's own may read casters without the map; what moved is told by it alone.
+  const bool has_shadow_map = wanted.shadow_map || (technique.resolve && asks_for_movement(work));
+  plan_history(work, has_shadow_map);
+  if (has_shadow_map) draw_maps(work);
+  upload_blocks(work);
+  build_products(work, wanted.recipes);
+  draw_layer(work);
+  give_back_unused(work);
+  state.drawn = true;
+  return frame;
+}
+
+const gl::Texture& mask_target(const MaskInputs& from, const ViewState& view) {
+  return from.device.target(view.prefix + "mask", {.target = GL_TEXTURE_2D_ARRAY,
+                                                   .format = GL_RGBA16F,
+                                                   .width = from.inputs.depth.width,
+                                                   .height = from.inputs.depth.height,
+                                                   .layers = std::max(1, static_cast<int>(from.inputs.lights.size()))});
+}
+
+void forget_lights_left_out(gl::Device& device, ViewState& view) {
+  std::erase_if(view.lights, [&](const auto& entry) {
+    if (!entry.second.drawn) device.drop(entry.second.prefix);
+    return !entry.second.drawn;
+  });
+}
+
+}  // namespace
+
+Mask draw_mask(const MaskInputs& from, ViewState& view) {
+  check(from.inputs, view.checked);
+  begin_frame(view, from.inputs);
+  Mask mask;
+  mask.texture = &mask_target(from, view);
+  for (const Light& light : from.inputs.lights) {
+    LightState& state = view.lights[light.id];
+    if (state.prefix.empty()) state.prefix = fmt::format("{}light {}/", view.prefix, light.id);
+    const LightFrame frame{.view = from.inputs.view.id,
+                           .light = light.id,
+                           .layer = static_cast<int>(mask.lights.size()),
+                           .viewport = viewport_of(from.inputs)};
+    mask.lights.push_back(draw_light(from, light, view, state, frame, *mask.texture));
+  }
+  forget_lights_left_out(from.device, view);
+  view.drawn = true;
+  gl::leave_initial_state();
+  return mask;
+}
+
+}  // namespace penumbra::shadow

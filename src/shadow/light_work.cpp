@@ -1,0 +1,71 @@
+#include "light_work.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace penumbra::shadow {
+
+const Technique& forward_technique(const Registry& registry, const ParamSet& params) {
+  const Technique& technique = registry.find(params.get_word("technique"));
+  return technique.stand_in.empty() ? technique : registry.find(technique.stand_in);
+}
+
+const Denoiser* denoiser_for(const Registry& registry, const Technique& technique, const ParamSet& params) {
+  const Denoiser* denoiser = technique.denoisable ? registry.find_denoiser(params.get_word("denoiser")) : nullptr;
+  const bool applies = denoiser != nullptr && (!denoiser->applies || denoiser->applies(params));
+  return applies ? denoiser : nullptr;
+}
+
+std::vector<Denoiser::Remembered> remembered_by(const Denoiser* denoiser, const ParamSet& params) {
+  if (denoiser == nullptr || !denoiser->remembers) return {};
+  return denoiser->remembers(params);
+}
+
+const Product* find_product(const LightFrame& frame, std::string_view name) {
+  const auto found = std::ranges::find(frame.products, name, &Product::name);
+  return found == frame.products.end() ? nullptr : &*found;
+}
+
+PassOwner owner_of(const Technique& technique) {
+  return {PassOwner::Kind::technique, technique.name, technique.needs, technique.programs, &technique};
+}
+
+PassOwner owner_of(const Recipe& recipe) {
+  return {PassOwner::Kind::recipe, recipe.name, recipe.needs, recipe.programs};
+}
+
+PassOwner owner_of(const Denoiser& denoiser) {
+  return {PassOwner::Kind::denoiser, denoiser.name, denoiser.needs, denoiser.programs};
+}
+
+void bind_light(gl::Device& device, const LightFrame& frame, const LightState& state, const PassOwner& owner) {
+  state.params_block->bind_uniform(block_params);
+  state.shadow_block->bind_uniform(block_shadow);
+  if (owner.technique != nullptr && !owner.technique->samples.empty()) {
+    state.samples.at(owner.technique->name).buffer->bind_uniform(block_samples);
+  }
+  // Beyond a map there is nothing, which is at depth 1.
+  device.sampler({.wrap_s = GL_CLAMP_TO_BORDER, .wrap_t = GL_CLAMP_TO_BORDER}).bind(unit_shadow_map);
+  gl::glBindTextureUnit(unit_shadow_map, frame.depth);
+  device.sampler({}).bind(unit_noise);
+  state.noise->bind(unit_noise);
+  unsigned unit = first_product_unit;
+  for (const std::string& need : owner.needs) {
+    if (is_base_map(need)) continue;
+    const Product* product = find_product(frame, need);
+    if (product == nullptr) throw std::logic_error(fmt::format("nothing has made the product '{}'", need));
+    device.sampler(product->sampler).bind(unit);
+    product->texture->bind(unit++);
+  }
+}
+
+void bind_inputs(const LightWork& work, const PassOwner& owner) {
+  bind_light(work.device, work.frame, work.state, owner);
+  for (const GLuint unit : {unit_receiver_depth, unit_receiver_normal}) work.device.sampler({}).bind(unit);
+  gl::glBindTextureUnit(unit_receiver_depth, work.inputs.depth.id);
+  gl::glBindTextureUnit(unit_receiver_normal, work.inputs.normals.id);
+}
+
+}  // namespace penumbra::shadow

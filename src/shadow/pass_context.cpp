@@ -1,0 +1,156 @@
+#include "pass_context.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <stdexcept>
+
+#include "../core/error.h"
+#include "light_work.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+const char* name_of(PassOwner::Kind kind) {
+  switch (kind) {
+    case PassOwner::Kind::recipe:
+      return "recipe";
+    case PassOwner::Kind::denoiser:
+      return "denoiser";
+    case PassOwner::Kind::technique:
+      break;
+  }
+  return "technique";
+}
+
+}  // namespace
+
+gl::Device& PassContext::device() const { return work_.device; }
+const Inputs& PassContext::inputs() const { return work_.inputs; }
+const Light& PassContext::light() const { return work_.light; }
+const ParamSet& PassContext::params() const { return work_.params(); }
+const LightFrame& PassContext::frame() const { return work_.frame; }
+const gl::Texture& PassContext::mask() const { return work_.mask; }
+int PassContext::age() const { return static_cast<int>(work_.state.age); }
+bool PassContext::uses_compute() const { return params().get_word("driver") == "compute"; }
+
+const gl::Texture& PassContext::product(std::string_view recipe) const {
+  const Product* product = find_product(work_.frame, recipe);
+  const bool asked = std::ranges::find(owner_.needs, recipe) != owner_.needs.end();
+  if (product == nullptr || !asked) {
+    throw std::logic_error(fmt::format("{} '{}' does not ask for '{}'", name_of(owner_.kind), owner_.name, recipe));
+  }
+  return *product->texture;
+}
+
+std::string PassContext::full_name(std::string_view name) const {
+  switch (owner_.kind) {
+    case PassOwner::Kind::recipe:
+      return fmt::format("{}{}{}", work_.prefix(), product_prefix(owner_.name), name);
+    case PassOwner::Kind::denoiser:
+      return fmt::format("{}{}{}", work_.prefix(), denoise_prefix, name);
+    case PassOwner::Kind::technique:
+      break;
+  }
+  return fmt::format("{}{}", work_.prefix(), name);
+}
+
+const gl::Texture& PassContext::target(std::string_view name, const gl::TextureDesc& desc) const {
+  return work_.device.target(full_name(name), desc);
+}
+
+const gl::Buffer& PassContext::scratch(std::string_view name, std::size_t bytes) const {
+  return work_.device.scratch(full_name(name), bytes);
+}
+
+History PassContext::history(std::string_view name, const gl::TextureDesc& desc) const {
+  LightState& state = work_.state;
+  // A denoiser's names can be those of the technique that it follows.
+  const std::string key =
+      owner_.kind == PassOwner::Kind::denoiser ? std::string(name) : fmt::format("{} {}", owner_.name, name);
+  LightState::KeptTexture& kept = state.kept[key];
+  assert(kept.filled != state.frames);
+  const bool valid = state.age > 0 && kept.desc == desc && kept.filled + 1 == state.frames;
+  kept = {.desc = desc, .now = 1 - kept.now, .filled = state.frames};
+  const auto texture = [&](int index) -> const gl::Texture& {
+    return work_.device.target(fmt::format("{}{}{}", work_.prefix(), kept_prefix(key), index), desc);
+  };
+  return {texture(1 - kept.now), texture(kept.now), valid};
+}
+
+const gl::ProgramDesc& PassContext::own_program(std::string_view program) const {
+  LightState& state = work_.state;
+  const std::string key = fmt::format("{} {}", name_of(owner_.kind), owner_.name);
+  auto own = state.programs.find(key);
+  if (own == state.programs.end()) {
+    const bool rotated = owner_.technique != nullptr && rotates_samples(*owner_.technique, params());
+    own = state.programs.emplace(key, work_.programs.own(owner_, params(), rotated)).first;
+  }
+  const std::string name = Programs::own_name(owner_, program);
+  const auto found = std::ranges::find(own->second, name, &gl::ProgramDesc::name);
+  if (found == own->second.end()) {
+    throw std::logic_error(fmt::format("{} '{}' has no program '{}'", name_of(owner_.kind), owner_.name, program));
+  }
+  return *found;
+}
+
+const gl::Program& PassContext::use(gl::Pass& pass, std::string_view program) const {
+  const gl::Program& used = pass.use(own_program(program));
+  bind_inputs(work_, owner_);
+  return used;
+}
+
+void PassContext::cover(gl::Pass& pass) const {
+  const Rect& viewport = work_.frame.viewport;
+  if (uses_compute()) {
+    pass.dispatch(viewport.width, viewport.height);
+  } else {
+    pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
+    pass.draw_full_screen();
+  }
+}
+
+void PassContext::evaluate(const gl::Texture& target, int layer) const {
+  gl::PassDesc desc{.name = "shadow mask"};
+  if (!uses_compute()) desc.colors = {{.texture = &target, .layer = layer}};
+  gl::Pass pass(work_.device, desc);
+  const bool rotated = rotates_samples(work_.technique, params());
+  const gl::Program& program =
+      pass.use(work_.programs.mask(work_.technique, params(), {.rotated = rotated, .compute = uses_compute()}));
+  bind_inputs(work_, owner_of(work_.technique));
+  if (uses_compute()) {
+    program.set("mask_layer", layer);
+    target.bind_image(0, GL_WRITE_ONLY);
+  }
+  cover(pass);
+}
+
+void PassContext::check_draws() const {
+  if (!work_.inputs.draw) fail("{} '{}' draws casters, and Inputs::draw is empty", name_of(owner_.kind), owner_.name);
+}
+
+void PassContext::draw_casters(gl::Pass& pass, CasterKind kind, int layer) const {
+  assert(kind != CasterKind::geometry);
+  check_draws();
+  const LightProjection& projection = work_.frame.projection;
+  work_.inputs.draw({.kind = kind,
+                     .layer = layer,
+                     .world_to_clip = projection.world_to_clip(layer),
+                     .cull = projection.cull_volume(layer)},
+                    pass);
+}
+
+void PassContext::draw_caster_geometry(gl::Pass& pass, std::string_view program, const glm::mat4& world_to_clip) const {
+  check_draws();
+  bind_inputs(work_, owner_);
+  work_.inputs.draw({.kind = CasterKind::geometry,
+                     .layer = 0,
+                     .world_to_clip = world_to_clip,
+                     .cull = work_.frame.projection.cull_volume_of_all(),
+                     .program = own_program(program)},
+                    pass);
+}
+
+}  // namespace penumbra::shadow
