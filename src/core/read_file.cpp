@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <new>
 #include <system_error>
 
 #include "error.h"
@@ -21,7 +22,12 @@ std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t 
   if (size > limit) fail("{} bytes, over the limit of {}", size, limit);
   std::ifstream stream(path, std::ios::binary);
   if (!stream) fail("can't be read: {}", std::strerror(errno));
-  std::vector<std::byte> bytes(size);
+  std::vector<std::byte> bytes;
+  try {
+    bytes.resize(size);
+  } catch (const std::bad_alloc&) {
+    fail("not enough memory for its {} bytes", size);
+  }
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (stream.gcount() != static_cast<std::streamsize>(bytes.size())) fail("can't be read to its end");
   return bytes;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "cli/resources.h"
 #include "gl/api.h"
 #include "scene/animation.h"
 
@@ -26,6 +27,7 @@ void limit_threads(const cli::DeviceOptions& options) {
 }
 
 std::unique_ptr<gl::Context> open_context(const cli::DeviceOptions& options, const cli::SceneOptions& scene) {
+  cli::check_resources(options.threads.value_or(0));
   gl::ContextOptions wanted;
   wanted.debug = wanted.debug || debug_wanted(options);
   wanted.egl_device = options.egl_device;

@@ -9,7 +9,7 @@ import subprocess
 import time
 
 from pictures import SMALL, read_exr, read_exr_header, read_png, scene
-from support import PROGRAM, TestCase, main
+from support import PROGRAM, TestCase, main, run, without_root
 
 POSTS = scene("posts")
 AOVS = ("shadow", "depth", "normal", "albedo", "motion", "cascade", "blocker", "penumbra")
@@ -257,6 +257,38 @@ class Output(TestCase):
         self.assertEqual({path.read_text() for path in before}, {"changed"})
         self.succeed("glsl", self.folder / "a" / "b", "--force")
         self.assertEqual({path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}, before)
+
+    def limited(self, limit, most, *arguments, **options):
+        """Runs the program under a limit of resources; it must end with one line of error, or as it does without."""
+        return run(*arguments, preexec_fn=lambda: resource.setrlimit(limit, (most, most)), **options)
+
+    def test_too_little_memory_is_a_sentence(self):
+        # 500 MiB hold the program and its libraries; then come the driver, LLVM and the picture.
+        seen = set()
+        for mebibytes in (550, 700, 850, 1000, 1100):
+            with self.subTest(mebibytes):
+                result = self.limited(resource.RLIMIT_AS, mebibytes << 20, "render", POSTS, "-o", self.folder / "x.png",
+                                      "--size", "640x360", "--quiet")
+                if result.returncode == 127:
+                    continue  # not even the libraries fit: the loader says so
+                self.assertIn(result.returncode, (0, 1), result.stderr)
+                if result.returncode == 1:
+                    self.assertRegex(result.stderr, r"^error: [^\n]*memory[^\n]*\n$")
+                    self.assertNotIn("internal error", result.stderr)
+                    self.assertEqual(self.files(), [])
+                seen.add(result.returncode)
+        self.assertIn(1, seen)
+
+    def test_too_few_threads_are_a_sentence(self):
+        self.folder.chmod(0o777)
+        someone = without_root()
+        for most in (6, 7):  # libraries start four before the program does
+            with self.subTest(most):
+                result = self.limited(resource.RLIMIT_NPROC, most, "render", POSTS, "-o", self.folder / "x.png", *SMALL,
+                                      "--threads", "8", **someone)
+                self.assertEqual(result.returncode, 1)
+                self.assertRegex(result.stderr, r"^error: [^\n]*threads[^\n]*ulimit -u[^\n]*\n$")
+                self.assertEqual(self.files(), [])
 
     def test_a_picture_does_not_overwrite_the_scene(self):
         for name, output in (("my.png", "my.png"), ("my.png", "sub/../my.png"), ("my_0001.png", "my_####.png")):

@@ -44,7 +44,8 @@ bool is_picture(const fs::path& result, const RenderOptions& options, const cli:
   return false;
 }
 
-void check_alone(const char* option, const fs::path& result, const RenderOptions& options, const cli::OutputNames& names) {
+void check_alone(const char* option, const fs::path& result, const RenderOptions& options,
+                 const cli::OutputNames& names) {
   if (is_picture(result, options, names, linked_places(options, names)))
     cli::fail_usage("{} {} is a picture of this command too", option, io::quoted(result));
   io::check_writable(result);
@@ -52,7 +53,8 @@ void check_alone(const char* option, const fs::path& result, const RenderOptions
 
 }  // namespace
 
-void check_scene_files(const std::vector<fs::path>& files, const RenderOptions& options, const cli::OutputNames& names) {
+void check_scene_files(const std::vector<fs::path>& files, const RenderOptions& options,
+                       const cli::OutputNames& names) {
   const std::vector<fs::path> linked = linked_places(options, names);
   for (const fs::path& file : files) {
     const auto refuse = [&](const char* option) {
