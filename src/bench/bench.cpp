@@ -12,7 +12,7 @@
 #include "cli/text.h"
 #include "core/log.h"
 #include "io/output_file.h"
-#include "session/render_session.h"
+#include "session/render_device.h"
 
 namespace penumbra::bench {
 

@@ -8,11 +8,10 @@ constexpr const char* mask_pass = "shadow mask";
 
 }  // namespace
 
-Contender::Contender(const Entry& entry, const scene::Scene& scene, const gl::ShaderFiles& shaders,
-                     gl::Timers::Mode timing, bool with_floor)
-    : device_(shaders, timing), scene_(device_, scene), renderer_(device_) {
+Contender::Contender(const Entry& entry, const scene::Scene& scene, const cli::DeviceOptions& options, bool with_floor)
+    : device_(options), scene_(device_.device, scene), renderer_(device_.device) {
   const shadow::Technique& technique = renderer_.registry().find(entry.params.get_word("technique"));
-  if (with_floor) floor_.emplace(technique, scene, shaders, timing);
+  if (with_floor) floor_.emplace(technique, scene, gl::ShaderFiles(options.glsl), device_.device.timers.mode());
 }
 
 void Contender::draw(const render::FrameInputs& inputs, const ParamSet& params) {
@@ -24,7 +23,7 @@ void Contender::draw(const render::FrameInputs& inputs, const ParamSet& params) 
 }
 
 void Contender::keep(PassTimes& own, PassTimes& floor, std::size_t count) {
-  own.append(device_.timers.rows(), device_.timers.cpu_milliseconds(), count);
+  own.append(device_.device.timers.rows(), device_.device.timers.cpu_milliseconds(), count);
   if (floor_) floor.append(floor_->timers().rows(), floor_->timers().cpu_milliseconds(), count);
 }
 

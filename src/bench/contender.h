@@ -6,9 +6,9 @@
 #include "bench/floor.h"
 #include "bench/times.h"
 #include "core/params.h"
-#include "gl/pass.h"
 #include "render/renderer.h"
 #include "scene/gpu_scene.h"
+#include "session/render_device.h"
 
 namespace penumbra::bench {
 
@@ -23,8 +23,7 @@ struct Entry {
 class Contender {
  public:
   // `scene` outlives this.
-  Contender(const Entry& entry, const scene::Scene& scene, const gl::ShaderFiles& shaders, gl::Timers::Mode timing,
-            bool with_floor);
+  Contender(const Entry& entry, const scene::Scene& scene, const cli::DeviceOptions& options, bool with_floor);
 
   // One frame, and after it one of its floor. With `params` of the entry's technique.
   void draw(const render::FrameInputs& inputs, const ParamSet& params);
@@ -34,10 +33,10 @@ class Contender {
   // Of the floor beside what it is the floor of.
   std::optional<FloorCost> floor_cost(const PassTimes& own, const PassTimes& floor) const;
 
-  std::size_t target_bytes() const { return device_.target_bytes("shadow "); }
+  std::size_t target_bytes() const { return device_.device.target_bytes("shadow "); }
 
  private:
-  gl::Device device_;
+  session::RenderDevice device_;
   scene::GpuScene scene_;
   render::Renderer renderer_;
   std::optional<Floor> floor_;

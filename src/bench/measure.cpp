@@ -13,7 +13,6 @@
 #include "cli/progress.h"
 #include "core/error.h"
 #include "gl/api.h"
-#include "scene/animation.h"
 #include "scene/pose.h"
 #include "session/prepared_scene.h"
 
@@ -29,25 +28,16 @@ struct Kept {
 };
 
 // The frames of a visit to a point, one after the other.
-class Clock {
+class FrameClock {
  public:
-  Clock(const Options& options, const session::PreparedScene& prepared, const cli::Size& size)
+  FrameClock(const Options& options, const session::PreparedScene& prepared, const cli::Size& size)
       : options_(options), prepared_(prepared), size_(size) {}
 
   render::FrameInputs next() {
     constexpr double rate = 60;  // frames a second
     const double last = options_.time + (options_.play ? std::max(frame_ - 1, 0) / rate : 0);
     const double now = options_.time + (options_.play ? frame_ / rate : 0);
-    const render::Setup setup = session::setup_at(prepared_, now);
-    const bool first = frame_++ == 0;
-    return {.width = size_.width,
-            .height = size_.height,
-            .camera = setup.camera,
-            .last_camera = first ? setup.camera : session::setup_at(prepared_, last).camera,
-            .lights = {setup.sun},
-            .time = now,
-            .last_time = last,
-            .cut = first || scene::jumps_between(prepared_.scene, last, now)};
+    return session::frame_inputs(prepared_, size_, {.time = now, .last_time = last, .cut = frame_++ == 0});
   }
 
  private:
@@ -123,11 +113,8 @@ class Bench {
     for (const std::string& output : options_.outputs) cli::check_spared(prepared_->scene.files, "-o", output);
     results_.scene = options_.scene.empty() ? "generated grid of casters"
                                             : std::filesystem::path(options_.scene).filename().string();
-    const auto timing = device_.software ? gl::Timers::Mode::finish : gl::Timers::Mode::query;
-    for (const Entry& entry : results_.entries) {
-      contenders_.push_back(
-          std::make_unique<Contender>(entry, prepared_->scene, gl::ShaderFiles(options_.glsl), timing, options_.floor));
-    }
+    for (const Entry& entry : results_.entries)
+      contenders_.push_back(std::make_unique<Contender>(entry, prepared_->scene, options_, options_.floor));
   }
 
   session::PreparedScene scene_at(const Point& point) const {
@@ -142,7 +129,7 @@ class Bench {
     const cli::Size size = point.size.value_or(options_.size);
     std::vector<ParamSet> params;
     for (const Entry& entry : results_.entries) params.push_back(params_at(point, entry.params));
-    Clock clock(options_, *prepared_, size);
+    FrameClock clock(options_, *prepared_, size);
     for (int i = 0; i < results_.frames.warmup + measured; ++i) {
       const render::FrameInputs inputs = clock.next();
       for (std::size_t c = 0; c < contenders_.size(); ++c) contenders_[c]->draw(inputs, params[c]);

@@ -38,13 +38,11 @@ CameraPath::CameraPath(const CompareOptions& options, const session::PreparedSce
   if (options.orbit && range_.count() > 1) cut_ = options.cut_at.value_or(range_.first + range_.count() / 2);
 }
 
-render::Setup CameraPath::setup_at(int frame) const {
-  render::Setup setup = session::setup_at(prepared_, session::time_of(options_, frame));
-  if (!options_.orbit) return setup;
-  // On both sides of the view that was asked for, which is the first and the last.
+// The orbit passes through the view that was asked for in its first and in its last frame.
+void CameraPath::orbit(render::Camera& camera, int frame) const {
+  if (!options_.orbit) return;
   const bool after_cut = cut_ && frame >= *cut_;
-  turn(setup.camera, target_, *options_.orbit * (frame - (after_cut ? range_.last : range_.first)));
-  return setup;
+  turn(camera, target_, *options_.orbit * (frame - (after_cut ? range_.last : range_.first)));
 }
 
 bool CameraPath::cuts(int frame) const {
@@ -55,15 +53,14 @@ bool CameraPath::cuts(int frame) const {
 
 render::FrameInputs CameraPath::frame(int frame, bool again) const {
   const bool follows = !again && frame > range_.first && !cuts(frame);
-  const render::Setup setup = setup_at(frame);
-  return {.width = options_.size.width,
-          .height = options_.size.height,
-          .camera = setup.camera,
-          .last_camera = follows ? setup_at(frame - 1).camera : setup.camera,
-          .lights = {setup.sun},
-          .time = session::time_of(options_, frame),
-          .last_time = session::time_of(options_, follows ? frame - 1 : frame),
-          .cut = !follows && !again};
+  const int last = follows ? frame - 1 : frame;
+  render::FrameInputs inputs = session::frame_inputs(prepared_, options_.size,
+                                                     {.time = session::time_of(options_, frame),
+                                                      .last_time = session::time_of(options_, last),
+                                                      .cut = !follows && !again});
+  orbit(inputs.camera, frame);
+  orbit(inputs.last_camera, last);
+  return inputs;
 }
 
 }  // namespace penumbra::compare

@@ -23,7 +23,7 @@ class CameraPath {
   bool cuts(int frame) const;
 
  private:
-  render::Setup setup_at(int frame) const;
+  void orbit(render::Camera& camera, int frame) const;
 
   const CompareOptions& options_;
   const session::PreparedScene& prepared_;

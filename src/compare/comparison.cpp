@@ -19,28 +19,13 @@
 #include "render/renderer.h"
 #include "scene/gltf.h"
 #include "session/prepared_scene.h"
-#include "session/render_session.h"
+#include "session/render_device.h"
+#include "session/techniques.h"
 #include "truth/technique.h"
 
 namespace penumbra::compare {
 
 namespace {
-
-// All that draws, for all scenes. Members are in the order of their making: what is made last goes first.
-struct Machine {
-  std::unique_ptr<gl::Context> context;
-  gl::DeviceInfo info;
-  truth::TruthTechnique truth;
-  shadow::Registry techniques;
-  gl::Device device;
-
-  Machine(const CompareOptions& options, std::unique_ptr<gl::Context> opened)
-      : context(std::move(opened)),
-        info(gl::device_info()),
-        truth({.cache = options.folder(), .threads = options.threads.value_or(0)}),
-        techniques(truth.registry()),
-        device(gl::ShaderFiles(options.glsl), info.software ? gl::Timers::Mode::finish : gl::Timers::Mode::query) {}
-};
 
 // Names the file, which the faults of its cameras don't.
 session::PreparedScene load_scene(const CompareOptions& options, const scene::ImageDecoder& decode) {
@@ -70,11 +55,12 @@ void warn_of_frames_without_receivers(const std::string& scene, const std::vecto
   warn("{}: the sun reaches nothing in {}, so there is nothing to measure", io::quoted(scene), which);
 }
 
-ComparedScene compare_scene(const CompareOptions& options, const session::PreparedScene& prepared, Machine& machine,
-                            const ComparedValues& values, const std::function<void()>& drawn) {
-  scene::GpuScene scene(machine.device, prepared.scene);
+ComparedScene compare_scene(const CompareOptions& options, const session::PreparedScene& prepared, gl::Device& device,
+                            const shadow::Registry& techniques, const ComparedValues& values,
+                            const std::function<void()>& drawn) {
+  scene::GpuScene scene(device, prepared.scene);
   const CameraPath path(options, prepared);
-  const DrawnScene common{options, machine.device, machine.techniques, scene, path, drawn};
+  const DrawnScene common{options, device, techniques, scene, path, drawn};
   const render::FrameInputs first = path.frame(options.frames ? options.frames->first : 0);
   ComparedScene result{.path = options.scene,
                        .camera = first.camera,
@@ -104,10 +90,12 @@ Comparison compare(const CompareOptions& options, const ComparedValues& values) 
   for (std::size_t i = 0; i < of_scenes.size(); ++i) of_scenes[i].scene = options.scenes[i];
   const auto load = [](const CompareOptions& one) { return load_scene(one, image::image_decoder()); };
   std::future<session::PreparedScene> loading = std::async(std::launch::async, load, std::cref(of_scenes.front()));
-  std::unique_ptr<gl::Context> context = session::open_context(options, options);
-  Machine machine(options, std::move(context));
-  comparison.device = machine.info;
-  comparison.backend = gl::to_string(machine.context->backend());
+  const std::unique_ptr<gl::Context> context = session::open_context(options, options);
+  const truth::TruthTechnique truth(session::truth_options(options, options));
+  const shadow::Registry techniques = truth.registry();
+  session::RenderDevice device(options);
+  comparison.device = device.info;
+  comparison.backend = gl::to_string(context->backend());
   std::optional<session::PreparedScene> prepared = loading.get();
   for (std::size_t i = 1; i < of_scenes.size(); ++i) check_camera(of_scenes[i]);  // before minutes of drawing
 
@@ -117,7 +105,7 @@ Comparison compare(const CompareOptions& options, const ComparedValues& values) 
   const std::function<void()> drawn = [&progress] { progress.step(); };
   for (const CompareOptions& one : of_scenes) {
     if (!prepared) prepared = load(one);
-    comparison.scenes.push_back(compare_scene(one, *prepared, machine, values, drawn));
+    comparison.scenes.push_back(compare_scene(one, *prepared, device.device, techniques, values, drawn));
     prepared.reset();
   }
   return comparison;

@@ -11,6 +11,7 @@
 #include "metrics/flip.h"
 #include "metrics/penumbra_width.h"
 #include "render/receivers.h"
+#include "session/techniques.h"
 
 namespace penumbra::reproduce {
 
@@ -30,11 +31,10 @@ std::string Look::key() const { return fmt::format("{} {}", technique, fmt::join
 Workbench::Workbench(const Options& options, std::function<void()> drawn)
     : options_(options),
       drawn_(std::move(drawn)),
-      truth_({.cache = options.folder(), .threads = options.threads.value_or(0)}),
+      truth_(session::truth_options(options, options)),
       techniques_(truth_.registry()),
       prepared_(session::load_scene(options, image::image_decoder())),
-      session_(options, session::open_context(options, options), prepared_,
-               {.shaders = gl::ShaderFiles(options.glsl), .techniques = techniques_, .timed = true}),
+      session_(options, options, session::open_context(options, options), prepared_, techniques_, /* timed= */ true),
       device_(session_.device_info()) {
   truth_picture_ = picture_of(truth_look());
   receivers_ = render::receivers_of(session_.renderer(), session_.setup().sun.to_light, sun_angle());

@@ -4,6 +4,7 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "scene/animation.h"
 #include "scene/gltf.h"
 #include "scene/pose.h"
 
@@ -58,6 +59,18 @@ render::Setup setup_at(const PreparedScene& prepared, double seconds) {
   const bool attached = setup.camera_node || setup.sun_node;
   if (attached && !prepared.scene.animations.empty()) render::follow(setup, scene::pose_at(prepared.scene, seconds));
   return setup;
+}
+
+render::FrameInputs frame_inputs(const PreparedScene& prepared, const cli::Size& pixels, const FrameTime& when) {
+  const render::Setup setup = setup_at(prepared, when.time);
+  return {.width = pixels.width,
+          .height = pixels.height,
+          .camera = setup.camera,
+          .last_camera = when.last_time == when.time ? setup.camera : setup_at(prepared, when.last_time).camera,
+          .lights = {setup.sun},
+          .time = when.time,
+          .last_time = when.last_time,
+          .cut = when.cut || scene::jumps_between(prepared.scene, when.last_time, when.time)};
 }
 
 double time_of(const cli::SceneOptions& options, int frame) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/options.h"
+#include "render/renderer.h"
 #include "render/setup.h"
 #include "scene/gltf.h"
 #include "scene/scene.h"
@@ -26,6 +27,15 @@ void update_view(PreparedScene& prepared, const cli::SceneOptions& options);
 
 // The setup at a moment: a camera and a sun of the file follow its animation.
 render::Setup setup_at(const PreparedScene& prepared, double seconds);
+
+// When a frame is, and what came before it.
+struct FrameTime {
+  double time = 0, last_time = 0;  // seconds
+  bool cut = false;                // it follows no frame
+};
+// The inputs of a frame of `pixels`: camera and sun at its time, motion since the last one, and a cut where an
+// animation jumps in between.
+render::FrameInputs frame_inputs(const PreparedScene& prepared, const cli::Size& pixels, const FrameTime& when);
 
 // When a frame is, seconds: frames count from 0 at --time; a single picture is frame 0.
 double time_of(const cli::SceneOptions& options, int frame);

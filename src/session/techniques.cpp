@@ -9,4 +9,11 @@ const shadow::Registry& all_techniques() {
   return registry;
 }
 
+truth::TechniqueOptions truth_options(const CacheOptions& cache, const cli::DeviceOptions& device,
+                                      truth::TechniqueOptions more) {
+  more.cache = cache.folder();
+  more.threads = device.threads.value_or(0);
+  return more;
+}
+
 }  // namespace penumbra::session

@@ -30,13 +30,13 @@ struct ForwardProgram {
 //   - the program, the vertex array, the draw and read framebuffers, textures and samplers of units 0 to 15, images of
 //     units 0 to 7, the buffers of indirect draws and dispatches: nothing is bound.
 // It leaves changed: the viewport, the blend function and equation, uniform buffers 0 to 2 and with them the general
-// binding GL_UNIFORM_BUFFER. All else stays, pixel-store state and the buffers of pixel transfers included, but for what
-// the caster callback and techniques of the caller's own change. After an Error any of these may be changed.
+// binding GL_UNIFORM_BUFFER. All else stays, pixel-store state and the buffers of pixel transfers included, but for
+// what the caster callback and techniques of the caller's own change. After an Error any of these may be changed.
 //
 // OpenGL errors. A frame that makes nothing reads no error flag: what the caller's own calls have raised stays for the
 // caller. To tell whether a texture or buffer found memory, the flags have to be read around the call that makes it;
-// those that were there before are logged as warnings, by name (core/log.h), since OpenGL can't be given them back. In a
-// context with Penumbra's debug output every pass throws Error for errors so far, the caller's included.
+// those that were there before are logged as warnings, by name (core/log.h), since OpenGL can't be given them back. In
+// a context with Penumbra's debug output every pass throws Error for errors so far, the caller's included.
 //
 // Memory. After the first frame of a size no texture is made, and after the first in which a caster moved (with a
 // history) no OpenGL object. Maps, masks and history belong to a view's id until

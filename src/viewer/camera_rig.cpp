@@ -10,9 +10,9 @@ namespace penumbra::viewer {
 
 namespace {
 
-// Straight up and down there is no upright.
+// Looking straight up or down, "upright" is undefined.
 constexpr float steepest = glm::half_pi<float>() - 0.01f;
-// At the zenith a sun has no azimuth to come down by.
+// At the zenith the azimuth is undefined.
 constexpr float highest = glm::half_pi<float>() - 1e-3f;
 
 // As render::direction_to() has them.
@@ -53,7 +53,7 @@ void CameraRig::pan(const glm::vec2& heights) {
 }
 
 void CameraRig::dolly(float factor) {
-  // Nearer, single precision would not tell eye and target apart.
+  // Any nearer, eye and target would be the same in single precision.
   const float least = 1e-4f * (1.0f + glm::length(target)), now = distance();
   eye = target + (eye - target) * (std::max(now * factor, least) / now);
 }

@@ -7,22 +7,22 @@
 
 namespace penumbra::viewer {
 
-// An upright camera that a hand moves. World space, metres, radians.
+// An upright camera that the user moves. World space, metres, radians.
 struct CameraRig {
   glm::vec3 eye{0, 1, 3}, target{0};
   float fov_y = 0.7f;  // of the picture's height
 
-  // About the target: `yaw` about the vertical, `pitch` over the horizon, which stops short of the poles.
+  // Moves the eye about the target: `yaw` about the vertical, `pitch` over the horizon, which stops short of the poles.
   void orbit(float yaw, float pitch);
-  // About the eye.
+  // Turns the target about the eye, likewise.
   void look(float yaw, float pitch);
-  // Eye and target across the picture, in heights of it at the target's distance; y up.
+  // Moves eye and target parallel to the picture, in picture heights at the target's distance; y up.
   void pan(const glm::vec2& heights);
-  // Towards the target for factors below 1, away above. Never reaches it.
+  // Multiplies the distance to the target; never reaches it.
   void dolly(float factor);
-  // Eye and target along right, up and back, metres.
+  // Moves eye and target along right, up and back, metres.
   void fly(const glm::vec3& metres);
-  // Back along the line of sight until all of a box is seen, the target at its centre.
+  // Puts the target at the box's centre and moves back along the line of sight until all of the box is visible.
   void frame(const scene::Bounds& bounds, float aspect);
 
   float distance() const;
@@ -33,7 +33,8 @@ struct CameraRig {
 // centre, in front of the eye.
 CameraRig rig_of(const render::Camera& camera, const scene::Bounds& bounds);
 
-// A direction towards a light, turned by a hand: azimuth about the vertical, elevation 0 to 90 degrees. Unit, radians.
+// A direction towards a light, turned by the user: azimuth about the vertical, elevation 0 to 90 degrees. Unit,
+// radians.
 glm::vec3 turned_light(const glm::vec3& to_light, float azimuth, float elevation);
 
 }  // namespace penumbra::viewer

@@ -5,18 +5,18 @@
 namespace penumbra::viewer {
 
 // How picture A and picture B share the window.
-enum class Comparing { a, b, wipe, side_by_side, difference };
+enum class CompareMode { a, b, wipe, side_by_side, difference };
 
 struct Comparison {
   bool on = false;
-  Comparing how = Comparing::wipe;
+  CompareMode how = CompareMode::wipe;
   ParamSet params;    // of B
   float wipe = 0.5f;  // where B begins, 0..1 of the window's width
   float gain = 8.0f;  // of the difference
 };
 
-// What is seen of the picture: its point in the middle of the window, 0..1 from the upper left, and how many window
-// pixels one of its pixels takes.
+// The part of the picture that the window shows: the point in its middle, 0..1 from the picture's upper left, and how
+// many window pixels one of the picture's pixels takes.
 struct Zoom {
   float factor = 1;
   glm::vec2 center{0.5f};

@@ -67,36 +67,37 @@ void memory(const Panel& panel) {
     row(name, help);
     ImGui::TextUnformatted(cli::bytes_text(static_cast<double>(bytes)).c_str());
   };
-  amount("shadow targets", panel.facts.gl.target_bytes("shadow "), "Maps, masks, histories of all pictures.");
-  amount("all targets", panel.facts.gl.target_bytes(), "Every texture that passes draw to.");
+  amount("shadow targets", panel.status.gl.target_bytes("shadow "),
+         "Shadow maps, masks and histories of all pictures.");
+  amount("all targets", panel.status.gl.target_bytes(), "All textures that passes draw to.");
   end_rows();
 }
 
 void machine(const Panel& panel) {
-  const gl::DeviceInfo& device = panel.facts.device;
+  const gl::DeviceInfo& device = panel.status.device;
   ImGui::TextWrapped("%s", device.renderer.c_str());
   if (device.software)
     ImGui::TextWrapped(
-        "A software rasteriser: the CPU draws, and times are those of the CPU. While something moves the "
-        "picture is drawn at a part of its size.");
+        "A software rasteriser: the CPU draws, and times are those of the CPU. While something moves, the picture is "
+        "drawn at a fraction of its size.");
 }
 
 }  // namespace
 
 void cost_panel(const Panel& panel) {
-  State& state = panel.state;
+  UiState& state = panel.state;
   ImGui::BeginChild("cost");
   machine(panel);
   ImGui::Checkbox("Wait for the screen (vsync)", &state.vsync);
   panel.widgets.mark("vsync");
   const bool both = state.comparison.on;
   if (ImGui::CollapsingHeader(both ? "Picture A" : "Passes", ImGuiTreeNodeFlags_DefaultOpen)) {
-    bars(panel.facts.costs_a);
-    plot(panel.facts.costs_a);
+    bars(panel.status.costs_a);
+    plot(panel.status.costs_a);
   }
   if (both && ImGui::CollapsingHeader("Picture B", ImGuiTreeNodeFlags_DefaultOpen)) {
     ImGui::PushID("b");
-    bars(panel.facts.costs_b);
+    bars(panel.status.costs_b);
     ImGui::PopID();
   }
   if (ImGui::CollapsingHeader("Memory", ImGuiTreeNodeFlags_DefaultOpen)) memory(panel);

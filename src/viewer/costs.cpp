@@ -66,7 +66,7 @@ void CostReader::read(gl::Timers& timers, double now) {
     }
     std::prev(after)->second->add(now, std::move(passes));
   }
-  // All but the last start before what is still to come is of no more use.
+  // Of the starts before the next frame only the last one is still needed.
   const auto last = from_.upper_bound(taken.first + count);
   if (last != from_.begin()) from_.erase(from_.begin(), std::prev(last));
 }

@@ -10,7 +10,7 @@
 
 namespace penumbra::viewer {
 
-// What passes of the last frames cost, for one of the pictures. Milliseconds.
+// The costs of passes over the last frames of one picture, milliseconds.
 class Costs {
  public:
   struct Pass {
@@ -18,15 +18,16 @@ class Costs {
     double median = 0;
   };
 
-  // Adds a frame's times by name, "frame" among them, measured at `now`, seconds. Passes within others count there.
+  // Adds a frame's times by name, "frame" among them, measured at `now`, seconds. A nested pass is part of the one
+  // around it.
   void add(double now, std::map<std::string, double> passes);
-  // What passes of the last frame handed to OpenGL, by name; "frame" has all of it.
+  // The draws, dispatches and triangles of the last frame's passes, by name; "frame" has all of them.
   void set_work(const std::map<std::string, gl::Timers::Work>& work) { work_ = work; }
   gl::Timers::Work work(const std::string& pass) const;
-  // Another scene: medians of the last second say nothing of it.
+  // Forgets the last second: another scene, or another size.
   void clear();
 
-  // Medians over the last second, at least of the last frame; the dearest first.
+  // Medians over the last second, at least of the last frame; the most expensive first.
   std::vector<Pass> passes() const;
   double frame() const;  // median of the whole
   // The last frames' totals, oldest first.
@@ -48,13 +49,13 @@ class Costs {
 // Hands each finished frame of a device's timers to the costs of the picture it was drawn for.
 class CostReader {
  public:
-  // The frames from now on, until the next call, are for these.
+  // Frames drawn from now on, until the next call, count for `costs`.
   void start(const gl::Timers& timers, Costs& costs);
-  // Takes what is finished, without waiting.
+  // Takes the times that have arrived, without waiting for others.
   void read(gl::Timers& timers, double now);
 
  private:
-  std::map<std::size_t, Costs*> from_;  // by the first frame
+  std::map<std::size_t, Costs*> from_;  // by the number of their first frame
 };
 
 }  // namespace penumbra::viewer

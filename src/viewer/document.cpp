@@ -10,10 +10,10 @@ namespace penumbra::viewer {
 
 namespace {
 
-// The fewest digits that read back the same.
+// With the fewest digits that read back as the same values.
 std::string text_of(const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
-// The fewest decimals of degrees that read back the same radians.
+// Degrees with the fewest decimals that read back as the same radians.
 std::string degrees_text(float radians) {
   for (int decimals = 0;; ++decimals) {
     const double scale = std::pow(10.0, decimals);
@@ -22,7 +22,7 @@ std::string degrees_text(float radians) {
   }
 }
 
-// One argument, so that a value may begin with a minus sign.
+// As one argument, so that a value may begin with a minus sign.
 void add(std::vector<std::string>& arguments, const std::string& option, const std::string& value) {
   arguments.push_back(option + "=" + value);
 }
@@ -63,7 +63,7 @@ std::vector<std::string> camera_arguments(const cli::SceneOptions& options) {
 }
 
 std::vector<std::string> scene_arguments(const cli::SceneOptions& options) {
-  // A name that begins like an option is none.
+  // A file whose name begins with a minus sign is no option.
   std::vector<std::string> arguments{options.scene.starts_with('-') ? "./" + options.scene : options.scene};
   add(arguments, "--size", fmt::format("{}x{}", options.size.width, options.size.height));
   for (std::string& argument : camera_arguments(options)) arguments.push_back(std::move(argument));
@@ -85,7 +85,7 @@ std::vector<std::string> render_arguments(const Document& document, const std::s
   add_frames(arguments, range.value_or(cli::FrameRange{document.frame, document.frame}), document.options.fps);
   add_params(arguments, document.params);
   if (warmup > 0) add(arguments, "--warmup", std::to_string(warmup));
-  // The picture at rest is of one moment; a sequence comes to its first frame.
+  // The viewer's picture is of one moment: its warm-up stands still. A sequence's warm-up plays up to its first frame.
   if (warmup > 0 && !range && document.frame > 0) arguments.emplace_back("--warmup-still");
   if (!glsl.empty()) add(arguments, "--glsl", glsl);
   return arguments;
@@ -109,7 +109,7 @@ cli::Direction present_sun(const Document& document, const session::PreparedScen
 
 void place(Document& document, const session::PreparedScene& prepared, const CameraRig& rig) {
   cli::SceneOptions& options = document.options;
-  // Without a sun of its own, the file's or one that was set, a scene's follows the camera that was chosen first.
+  // Where neither the file nor the options have a sun, its direction was chosen by the camera: keep it.
   if (options.camera && !options.sun && !prepared.setup.sun_node) place_sun(document, prepared.setup.sun.to_light);
   options.camera.reset();
   options.eye = rig.eye;
@@ -118,7 +118,7 @@ void place(Document& document, const session::PreparedScene& prepared, const Cam
 }
 
 void place_sun(Document& document, const glm::vec3& to_light) {
-  // In degrees, as --sun takes them: what is shown is what the option says.
+  // Rounded in degrees, so that the printed --sun is exactly what is drawn.
   const auto rounded = [](double radians) { return glm::radians(std::round(glm::degrees(radians) * 1e3) / 1e3); };
   document.options.sun =
       cli::Direction{.azimuth = static_cast<float>(rounded(std::atan2(to_light.x, to_light.z))),

@@ -11,44 +11,44 @@
 
 namespace penumbra::viewer {
 
-// The last one that --frames takes.
+// The highest frame number that --frames takes.
 constexpr int last_frame = 999'999;
 
-// What is shown, in the terms of `penumbra render`: its options and the values of the parameters. Time is that of frame
-// `frame`, counted from --time at --fps.
+// What the viewer shows, as `penumbra render` would be told: its options and the values of the parameters. The time is
+// that of frame `frame`, counted from --time at --fps.
 struct Document {
   cli::SceneOptions options;
   ParamSet params;
   int frame = 0;
 
-  // So many frames on: past the last that render takes it begins anew, before the first there is none.
+  // Moves by `frames`: past the last frame it starts again at 0, and it stops at 0 going backwards.
   void step(int frames);
   double seconds() const { return session::time_of(options, frame); }
 };
 
-// Frames that come before a picture at rest: techniques with memory need them.
+// Frames to draw before a picture is finished: techniques with a history need them.
 int warmup_of(const Document& document);
 
-// The scene and what stands before the camera, as arguments of `penumbra render`.
+// Scene, size, camera, sun, ground and time as arguments of `penumbra render`.
 std::vector<std::string> scene_arguments(const cli::SceneOptions& options);
 
-// The arguments of `penumbra render` that draw this picture: "render", the scene, …, with all that is not a default.
-// `warmup` frames come before it, for techniques with memory; `glsl` is --glsl's folder, or empty; `range`: these
-// frames instead of the present one.
+// The arguments of `penumbra render` that draw this picture: "render", the scene, …, with everything that is not a
+// default. `warmup` frames come before it, for techniques with a history; `glsl` is --glsl's folder, or empty; `range`:
+// these frames instead of the present one.
 std::vector<std::string> render_arguments(const Document& document, const std::string& output, int warmup,
                                           const std::string& glsl, std::optional<cli::FrameRange> range = {});
 
-// Where the camera and the sun stand in the present frame, as a hand takes them up.
+// Camera and sun in the present frame, for the user to move.
 CameraRig present_rig(const Document& document, const session::PreparedScene& prepared);
 cli::Direction present_sun(const Document& document, const session::PreparedScene& prepared);
 
-// Has the camera stand free where the rig is: the options' --eye, --target and --fov.
+// Puts the camera where the rig is: sets the options' --eye, --target and --fov.
 void place(Document& document, const session::PreparedScene& prepared, const CameraRig& rig);
-// Has the sun stand at a direction: the options' --sun.
+// Puts the sun in a direction: sets the options' --sun.
 void place_sun(Document& document, const glm::vec3& to_light);
 
-// Camera numbers as `render` takes them: "--eye 1,2,3 --target 0,0,0 --fov 40"; "--camera NAME" where one of the file's
-// is looked through, empty where the scene's own is.
+// The camera as `render` takes it: "--eye=1,2,3 --target=0,0,0 --fov=40", or "--camera=NAME" for one of the file's;
+// empty for the one that is chosen by default.
 std::vector<std::string> camera_arguments(const cli::SceneOptions& options);
 
 }  // namespace penumbra::viewer

@@ -10,11 +10,11 @@ namespace {
 
 constexpr const char* title = "open a file";
 
-void look_into(FileList& files, const std::filesystem::path& folder) {
+void open_folder(FileList& files, const std::filesystem::path& folder) {
   if (!folder.empty()) files = list_folder(folder);
 }
 
-// The folder that was clicked on, if any: the list is made anew after it was drawn.
+// Returns the folder that was clicked on, if any. The caller lists it after this list is drawn.
 std::filesystem::path list(const Panel& panel, const FileList& files) {
   std::filesystem::path wanted;
   ImGui::BeginChild("files", {0, -ImGui::GetFrameHeightWithSpacing()}, /* border= */ true);
@@ -40,7 +40,7 @@ std::filesystem::path list(const Panel& panel, const FileList& files) {
 void file_browser(const Panel& panel) {
   FileList& files = panel.state.files;
   if (std::exchange(files.wanted, false)) {
-    look_into(files, folder_of(panel.state.scene_file));
+    open_folder(files, folder_of(panel.state.scene_file));
     ImGui::OpenPopup(title);
   }
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
@@ -53,9 +53,9 @@ void file_browser(const Panel& panel) {
   ImGui::SameLine();
   ImGui::TextUnformatted(folder.c_str());
   const std::filesystem::path wanted = list(panel, files);
-  ImGui::TextDisabled("%s", files.note.empty() ? "scenes (.gltf, .glb) and presets (.toml)" : files.note.c_str());
+  ImGui::TextDisabled("%s", files.note.empty() ? "scenes (.gltf, .glb) and preset files (.toml)" : files.note.c_str());
   ImGui::EndPopup();
-  look_into(files, up ? files.folder.parent_path() : wanted);
+  open_folder(files, up ? files.folder.parent_path() : wanted);
 }
 
 }  // namespace penumbra::viewer

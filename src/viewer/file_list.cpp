@@ -36,7 +36,7 @@ FileList list_folder(const fs::path& folder) {
     const bool is_folder = entry->is_directory(gone);
     if (gone || name.starts_with('.') || !(is_folder || can_be_opened(entry->path()))) continue;
     if (list.entries.size() == most_listed) {
-      list.note = "there is more than can be listed: type the name of the file";
+      list.note = "the folder has more files than can be listed: type the name of the file";
       break;
     }
     list.entries.push_back({name, is_folder});

@@ -9,12 +9,12 @@
 namespace penumbra::viewer {
 
 void files_panel(const Panel& panel) {
-  State& state = panel.state;
+  UiState& state = panel.state;
   begin_rows("picture");
   row("file", "A .png, or an .exr with all AOVs as layers. A sequence numbers its files.");
   ImGui::InputText("##picture", &state.picture_file);
   panel.widgets.mark("picture file");
-  row("frames", "First and last frame of a sequence.");
+  row("frames", "The first and the last frame of a sequence.");
   ImGui::InputInt2("##frames", &state.sequence.first);
   panel.widgets.mark("frames");
   end_rows();
@@ -22,24 +22,24 @@ void files_panel(const Panel& panel) {
   state.sequence.last = std::clamp(state.sequence.last, state.sequence.first, last_frame);
   ImGui::Checkbox("with every AOV", &state.with_aovs);
   panel.widgets.mark("with aovs");
-  tooltip("Layers of an EXR, or a PNG each");
-  if (panel.facts.writing) {
-    ImGui::ProgressBar(static_cast<float>(*panel.facts.writing), {-1, 0}, "writing");
+  tooltip("As layers of an EXR, or as a PNG each");
+  if (panel.status.writing) {
+    ImGui::ProgressBar(static_cast<float>(*panel.status.writing), {-1, 0}, "writing");
     panel.widgets.mark("writing");
   } else {
     if (ImGui::Button("Write picture")) state.requests.write_picture = true;
     panel.widgets.mark("write picture");
-    tooltip("What penumbra render writes for the command line below (F12)");
+    tooltip("Writes what penumbra render writes for the command line below (F12)");
     ImGui::SameLine();
     if (ImGui::Button("Write sequence")) state.requests.write_sequence = true;
     panel.widgets.mark("write sequence");
   }
   ImGui::Separator();
-  if (ImGui::Button("Copy as command line")) state.requests.copy_command = true;
+  if (ImGui::Button("Copy command line")) state.requests.copy_command = true;
   panel.widgets.mark("copy command");
-  tooltip("The line for a shell that draws this very picture (Ctrl + C)");
+  tooltip("The penumbra render command that draws this picture (Ctrl + C)");
   ImGui::PushTextWrapPos(0);
-  ImGui::TextDisabled("%s", panel.facts.command.c_str());
+  ImGui::TextDisabled("%s", panel.status.command.c_str());
   ImGui::PopTextWrapPos();
 }
 

@@ -25,10 +25,10 @@ float channel(const Values& values, const float* pixel, int index) {
   return pixel[std::min(index, values.channels - 1)];
 }
 
-Rgb color_of(const Values& values, const float* pixel, const Look& look, const Range& range) {
+Rgb color_of(const Values& values, const float* pixel, const ColorMapping& mapping, const Range& range) {
   const float span = std::max(range.high - range.low, std::numeric_limits<float>::min());
   const auto part = [&](float v) { return (v - range.low) / span; };
-  switch (look.scale) {
+  switch (mapping.scale) {
     case ColorScale::labels:
       return render::label_color(pixel[0]);
     case ColorScale::grey:
@@ -71,7 +71,7 @@ const float* Values::at(int x, int y) const {
   return &numbers[index * static_cast<std::size_t>(channels)];
 }
 
-Look look_of(std::string_view aov) {
+ColorMapping mapping_of(std::string_view aov) {
   using enum ColorScale;
   static const std::vector<std::string> refusals{"kept", "none there", "off screen", "another surface", "caster moved"};
   if (aov == "shadow") return {.scale = grey, .fixed = true};
@@ -86,11 +86,11 @@ Look look_of(std::string_view aov) {
   return {.scale = heat};
 }
 
-Look look_of(const Inspection& inspection, const gl::Device& device) {
+ColorMapping mapping_of(const Inspection& inspection, const gl::Device& device) {
   const std::optional<gl::Device::NamedTarget> target = inspected_target(inspection, device);
-  if (!target) return look_of(inspection.what);
+  if (!target) return mapping_of(inspection.what);
   const std::vector<TargetPart> parts = parts_of(*target);
-  return parts[part_index(parts, inspection)].look;
+  return parts[part_index(parts, inspection)].mapping;
 }
 
 Values read_values(const Inspection& inspection, const render::Renderer& renderer, const gl::Device& device) {
@@ -98,9 +98,9 @@ Values read_values(const Inspection& inspection, const render::Renderer& rendere
   return read_aov(inspection.what, renderer, device);
 }
 
-Range range_of(const Inspection& inspection, const Look& look, const Values& values) {
+Range range_of(const Inspection& inspection, const ColorMapping& mapping, const Values& values) {
   if (!inspection.automatic) return {inspection.low, inspection.high};
-  if (look.fixed) return {look.low, look.high};
+  if (mapping.fixed) return {mapping.low, mapping.high};
   float low = 0, high = 0;
   for (const float v : values.numbers) {
     if (!std::isfinite(v)) continue;
@@ -108,16 +108,16 @@ Range range_of(const Inspection& inspection, const Look& look, const Values& val
     high = std::max(high, v);
   }
   const auto round_number = [](float largest) { return std::max(metrics::heat_scale(largest), largest); };
-  if (look.scale == ColorScale::vectors) return {0, round_number(std::max(high, -low))};
+  if (mapping.scale == ColorScale::vectors) return {0, round_number(std::max(high, -low))};
   return {low < 0 ? -round_number(-low) : 0.0f, round_number(high)};
 }
 
-std::vector<std::uint8_t> colors_of(const Values& values, const Look& look, const Range& range) {
+std::vector<std::uint8_t> colors_of(const Values& values, const ColorMapping& mapping, const Range& range) {
   std::vector<std::uint8_t> rgba;
   rgba.reserve(static_cast<std::size_t>(values.width) * static_cast<std::size_t>(values.height) * 4);
   for (int y = values.height; y-- > 0;) {
     for (int x = 0; x < values.width; ++x) {
-      const Rgb rgb = color_of(values, values.at(x, y), look, range);
+      const Rgb rgb = color_of(values, values.at(x, y), mapping, range);
       rgba.insert(rgba.end(), {rgb[0], rgb[1], rgb[2], 255});
     }
   }

@@ -13,7 +13,7 @@ namespace {
 
 void choose(const Panel& panel, const std::string& what, const std::string& label, const std::string& help) {
   Inspection& inspection = panel.state.inspection;
-  ImGui::PushID(what.c_str());  // a texture may be called as an AOV is
+  ImGui::PushID(what.c_str());  // a texture and an AOV may have the same name
   if (ImGui::Selectable(label.c_str(), inspection.what == what)) inspection = Inspection{.what = what};
   ImGui::PopID();
   panel.widgets.mark("show=" + (what.empty() ? "picture" : what));
@@ -22,11 +22,11 @@ void choose(const Panel& panel, const std::string& what, const std::string& labe
 
 void list(const Panel& panel) {
   ImGui::BeginChild("list", {0, ImGui::GetContentRegionAvail().y * 0.42f}, /* border= */ true);
-  choose(panel, "", "picture", "What a camera would see.");
+  choose(panel, "", "picture", "The lit picture.");
   for (const render::Aov& aov : render::aovs()) choose(panel, aov.name, aov.name, aov.help);
   ImGui::Separator();
   ImGui::TextDisabled("textures that passes draw to");
-  for (const gl::Device::NamedTarget& target : panel.facts.gl.targets()) {
+  for (const gl::Device::NamedTarget& target : panel.status.gl.targets()) {
     if (target.name.starts_with("viewer/") || target.name.find("/view 1/") != std::string_view::npos) continue;
     const gl::TextureDesc& desc = target.texture->desc();
     const std::string about = about_target(target.name);
@@ -40,14 +40,14 @@ void list(const Panel& panel) {
   panel.widgets.mark("shown list");
 }
 
-// Of a target with several.
+// Which part, layer and level of the texture to show.
 void choose_part(const Panel& panel) {
   Inspection& inspection = panel.state.inspection;
-  const std::optional<gl::Device::NamedTarget> target = inspected_target(inspection, panel.facts.gl);
+  const std::optional<gl::Device::NamedTarget> target = inspected_target(inspection, panel.status.gl);
   if (!target) return;
   const std::vector<TargetPart> parts = parts_of(*target);
   if (parts.size() > 1) {
-    row("part", "Of what a texel says.");
+    row("part", "Which value of a packed texel, or which channel.");
     const std::size_t current = part_index(parts, inspection);
     const bool open = ImGui::BeginCombo("##part", parts[current].name.c_str());
     panel.widgets.mark("part");
@@ -66,7 +66,7 @@ void choose_part(const Panel& panel) {
     panel.widgets.mark("layer");
   }
   if (desc.levels > 1) {
-    row("level", "Of the pyramid, 0 the finest.");
+    row("level", "Mip level; 0 is the finest.");
     ImGui::SliderInt("##level", &inspection.level, 0, desc.levels - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
     panel.widgets.mark("level");
   }
@@ -76,18 +76,18 @@ void range(const Panel& panel) {
   Inspection& inspection = panel.state.inspection;
   begin_rows("range");
   choose_part(panel);
-  if (panel.facts.look.scale == ColorScale::labels) {
+  if (panel.status.mapping.scale == ColorScale::labels) {
     end_rows();
     return;
   }
-  row("automatic range", "The range of colours is that of the values.");
+  row("automatic range", "The colours span the range of the values.");
   if (ImGui::Checkbox("##automatic", &inspection.automatic)) {
-    inspection.low = panel.facts.values.low;
-    inspection.high = panel.facts.values.high;
+    inspection.low = panel.status.values.low;
+    inspection.high = panel.status.values.high;
   }
   panel.widgets.mark("automatic range");
   if (!inspection.automatic) {
-    const float span = std::max(panel.facts.values.high - panel.facts.values.low, 1e-4f);
+    const float span = std::max(panel.status.values.high - panel.status.values.low, 1e-4f);
     row("from", "The value with the first colour.");
     ImGui::DragFloat("##low", &inspection.low, span * 0.005f, 0, 0, "%.4g");
     panel.widgets.mark("range low");
@@ -102,13 +102,14 @@ void probe(const Panel& panel) {
   ImGui::Checkbox("Values under the cursor", &panel.state.probe);
   panel.widgets.mark("probe");
   if (!panel.state.probe) return;
-  if (!panel.facts.probed) {
+  if (!panel.status.probed) {
     ImGui::TextDisabled("Point at the picture.");
     return;
   }
-  ImGui::Text("pixel %d, %d%s", panel.facts.probed->x, panel.facts.probed->y, panel.state.comparison.on ? " of A" : "");
+  ImGui::Text("pixel %d, %d%s", panel.status.probed->x, panel.status.probed->y,
+              panel.state.comparison.on ? " of A" : "");
   ImGui::BeginTable("probe", 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg);
-  for (const ProbeRow& each : panel.facts.probe) {
+  for (const ProbeRow& each : panel.status.probe) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::TextDisabled("%s", each.name.c_str());

@@ -1,4 +1,4 @@
-// What the viewer takes up of its last run, and keeps for the next.
+// What the viewer restores from its last run and saves for the next.
 #include "core/log.h"
 #include "viewer/panels.h"
 #include "viewer/viewer.h"
@@ -7,8 +7,8 @@ namespace penumbra::viewer {
 
 namespace {
 
-// Values that the command line leaves open are those of the last run.
-bool says_nothing_of_shadows(const cli::ShadowOptions& options) {
+// Without any shadow option, the parameters are those of the last run.
+bool has_no_shadow_options(const cli::ShadowOptions& options) {
   return options.technique.empty() && options.presets.empty() && options.assignments.empty() &&
          options.sun_angle.empty() && options.exposure.empty();
 }
@@ -16,16 +16,16 @@ bool says_nothing_of_shadows(const cli::ShadowOptions& options) {
 }  // namespace
 
 void Viewer::take_settings() {
-  if (!fault_.empty()) tell_error(state_, fault_ + "; the defaults are taken", 0);
+  if (!fault_.empty()) tell_error(state_, fault_ + "; the defaults are used", 0);
   state_.recent = settings_.recent;
   state_.panel = settings_.panel;
   state_.vsync = settings_.vsync;
   state_.tab = settings_.tab;
-  if (!settings_.params.rows().empty() && says_nothing_of_shadows(options_)) state_.document.params = settings_.params;
+  if (!settings_.params.rows().empty() && has_no_shadow_options(options_)) state_.document.params = settings_.params;
 }
 
 void Viewer::keep_settings() {
-  // A file that could not be read may be mended by hand, or be a later version's.
+  // A file that could not be read is kept: the user may repair it, or a later version has written it.
   if (options_.defaults || !fault_.empty()) return;
   try {
     write_settings({.recent = state_.recent,

@@ -9,9 +9,9 @@ namespace penumbra::viewer {
 
 // What `penumbra view` was asked for; every value is parsed and in range.
 struct ViewOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions, session::CacheOptions {
-  bool sized = false;     // the window's size was given
-  bool defaults = false;  // nothing of the last run is taken up
-  std::string layout;     // a file for scripts: where widgets stand
+  bool sized = false;     // --size was given
+  bool defaults = false;  // ignore the last run's settings, and save none
+  std::string layout;     // file for the rectangles of widgets, for scripts
 };
 
 void add_view_command_options(CLI::App& app, ViewOptions& options);

@@ -32,8 +32,9 @@ ImVec2 inner(const ImVec2& corner, float x, float y) {
   return {corner.x + x * gap, corner.y + y * gap};
 }
 
-// So many letters' heights, and no more than the picture that begins at this corner is wide.
-float room_for_text(const ImVec2& corner, float most) {
+// The width at which text wraps: `most` times the font's size, but no more than there is room from `corner` to the
+// window's right edge.
+float wrap_width(const ImVec2& corner, float most) {
   const float gaps = 4 * ImGui::GetStyle().WindowPadding.x;
   return std::clamp(ImGui::GetIO().DisplaySize.x - corner.x - gaps, 1.0f, ImGui::GetFontSize() * most);
 }
@@ -43,26 +44,26 @@ struct Key {
   const char* what;
 };
 constexpr std::array keys{
-    Key{"left drag", "orbit (fly: look around)"},
+    Key{"left drag", "orbit (in fly mode: look around)"},
     Key{"middle drag, Shift + left", "pan"},
-    Key{"wheel", "nearer and farther"},
+    Key{"wheel", "move nearer or farther"},
     Key{"Ctrl + wheel", "magnify pixels"},
     Key{"right drag", "move the sun"},
-    Key{"W A S D Q E", "fly; Shift is faster"},
+    Key{"W A S D Q E", "move; faster with Shift"},
     Key{"F", "fly mode"},
-    Key{"Home", "frame all, at natural size"},
+    Key{"Home", "show the whole scene, unmagnified"},
     Key{"Space", "play and pause"},
-    Key{"left, right", "one frame back, on"},
-    Key{"C", "compare A with B"},
-    Key{"X", "A or B alone, in turn"},
-    Key{"P", "values under the cursor"},
-    Key{"Tab", "the panel"},
+    Key{"left, right", "previous frame, next frame"},
+    Key{"C", "compare A with B, or stop"},
+    Key{"X", "switch between A and B alone"},
+    Key{"P", "show values under the cursor"},
+    Key{"Tab", "show or hide the panel"},
     Key{"/", "search parameters"},
-    Key{"Ctrl + C", "copy as command line"},
+    Key{"Ctrl + C", "copy the command line"},
     Key{"Ctrl + O", "open a scene or a preset"},
     Key{"F12", "write the picture"},
-    Key{"F1, H", "this list"},
-    Key{"Escape", "close a list, else the window"},
+    Key{"F1, H", "show or hide this list"},
+    Key{"Escape", "close the open list, or else the window"},
 };
 
 }  // namespace
@@ -73,7 +74,7 @@ void help_overlay(const Panel& panel) {
   if (begin_overlay("keys", {size.x * 0.5f, size.y * 0.5f}, {0.5f, 0.5f})) {
     ImGui::TextUnformatted("Mouse and keys");
     ImGui::Separator();
-    // Side by side where they would not fit below each other.
+    // In two columns where one would be higher than the window.
     const bool fits = static_cast<float>(keys.size() + 3) * ImGui::GetTextLineHeightWithSpacing() < size.y;
     const std::size_t columns = fits ? 1 : 2, rows = (keys.size() + columns - 1) / columns;
     ImGui::BeginTable("keys", static_cast<int>(2 * columns), ImGuiTableFlags_SizingFixedFit);
@@ -95,7 +96,7 @@ void messages_overlay(const Panel& panel, const ImVec2& corner, double now) {
   std::erase_if(messages, [now](const Message& message) { return message.until < now; });
   if (messages.empty()) return;
   if (begin_overlay("messages", inner(corner, 1, -1), {0, 1})) {
-    ImGui::PushTextWrapPos(room_for_text(corner, 40.0f));
+    ImGui::PushTextWrapPos(wrap_width(corner, 40.0f));
     for (const Message& message : messages) {
       const ImVec4 color = message.is_error ? ImVec4(1.0f, 0.45f, 0.38f, 1) : ImGui::GetStyleColorVec4(ImGuiCol_Text);
       ImGui::TextColored(color, "%s", message.text.c_str());
@@ -106,11 +107,11 @@ void messages_overlay(const Panel& panel, const ImVec2& corner, double now) {
 }
 
 void shader_errors_overlay(const Panel& panel, const ImVec2& corner) {
-  if (panel.facts.shader_errors.empty()) return;
+  if (panel.status.shader_errors.empty()) return;
   if (begin_overlay("shader errors", inner(corner, 1, 1), {0, 0})) {
-    ImGui::TextColored({1.0f, 0.45f, 0.38f, 1}, "A shader does not compile: the last good one draws.");
-    ImGui::PushTextWrapPos(room_for_text(corner, 44.0f));
-    for (const std::string& error : panel.facts.shader_errors) ImGui::TextUnformatted(error.c_str());
+    ImGui::TextColored({1.0f, 0.45f, 0.38f, 1}, "A shader does not compile. Its last good version is used.");
+    ImGui::PushTextWrapPos(wrap_width(corner, 44.0f));
+    for (const std::string& error : panel.status.shader_errors) ImGui::TextUnformatted(error.c_str());
     ImGui::PopTextWrapPos();
   }
   end_overlay(panel, "shader errors");
@@ -119,37 +120,37 @@ void shader_errors_overlay(const Panel& panel, const ImVec2& corner) {
 namespace {
 
 void color_bar(const Panel& panel) {
-  const Look& look = panel.facts.look;
-  const Range& range = panel.facts.range;
+  const ColorMapping& mapping = panel.status.mapping;
+  const Range& range = panel.status.range;
   constexpr int steps = 64;
   const float width = ImGui::GetFontSize() * 12.0f, height = ImGui::GetFontSize() * 0.7f;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   for (int i = 0; i < steps; ++i) {
-    const glm::vec3 color = color_at(look.scale, static_cast<float>(i) / (steps - 1));
+    const glm::vec3 color = color_at(mapping.scale, static_cast<float>(i) / (steps - 1));
     const float left = at.x + width * static_cast<float>(i) / steps;
     ImGui::GetWindowDrawList()->AddRectFilled({left, at.y}, {left + width / steps + 1, at.y + height},
                                               ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, 1}));
   }
   ImGui::Dummy({width, height});
   const std::string low = fmt::format("{:.4g}", range.low);
-  const std::string high = fmt::format("{:.4g} {}", range.high, look.unit);
+  const std::string high = fmt::format("{:.4g} {}", range.high, mapping.unit);
   ImGui::TextUnformatted(low.c_str());
   ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + width - ImGui::CalcTextSize(high.c_str()).x);
   ImGui::TextUnformatted(high.c_str());
 }
 
 void label_list(const Panel& panel) {
-  const Look& look = panel.facts.look;
-  std::size_t count = look.labels.size();
+  const ColorMapping& mapping = panel.status.mapping;
+  std::size_t count = mapping.labels.size();
   if (panel.state.inspection.what == "cascade")
     count = std::min(count, static_cast<std::size_t>(panel.state.document.params.get_int("cascades.count")));
   for (std::size_t i = 0; i < count; ++i) {
-    const glm::vec3 color = color_at(look.scale, static_cast<float>(i));
-    ImGui::ColorButton(look.labels[i].c_str(), {color.r, color.g, color.b, 1},
+    const glm::vec3 color = color_at(mapping.scale, static_cast<float>(i));
+    ImGui::ColorButton(mapping.labels[i].c_str(), {color.r, color.g, color.b, 1},
                        ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
                        {ImGui::GetFontSize(), ImGui::GetFontSize()});
     ImGui::SameLine();
-    ImGui::TextUnformatted(look.labels[i].c_str());
+    ImGui::TextUnformatted(mapping.labels[i].c_str());
   }
 }
 
@@ -158,8 +159,8 @@ void label_list(const Panel& panel) {
 void legend_overlay(const Panel& panel, const ImVec2& corner) {
   if (panel.state.inspection.what.empty()) return;
   if (begin_overlay("legend", inner(corner, -1, 1), {1, 0})) {
-    ImGui::TextUnformatted(title_of(panel.state.inspection, panel.facts.gl).c_str());
-    switch (panel.facts.look.scale) {
+    ImGui::TextUnformatted(title_of(panel.state.inspection, panel.status.gl).c_str());
+    switch (panel.status.mapping.scale) {
       case ColorScale::labels:
         label_list(panel);
         break;
@@ -168,11 +169,11 @@ void legend_overlay(const Panel& panel, const ImVec2& corner) {
         color_bar(panel);
         break;
       case ColorScale::vectors:
-        ImGui::Text("x, y, z as red, green, blue; grey is 0, white %.4g %s", panel.facts.range.high,
-                    panel.facts.look.unit.c_str());
+        ImGui::Text("x, y, z as red, green, blue; grey is 0, white %.4g %s", panel.status.range.high,
+                    panel.status.mapping.unit.c_str());
         break;
       case ColorScale::rgb:
-        ImGui::Text("linear, %.4g to %.4g", panel.facts.range.low, panel.facts.range.high);
+        ImGui::Text("linear, %.4g to %.4g", panel.status.range.low, panel.status.range.high);
         break;
     }
   }
@@ -180,18 +181,18 @@ void legend_overlay(const Panel& panel, const ImVec2& corner) {
 }
 
 void status_bar(const Panel& panel) {
-  const Facts& facts = panel.facts;
+  const ViewerStatus& status = panel.status;
   std::string text;
-  if (!facts.loading.empty()) text += fmt::format("loading {}   ", facts.loading);
-  if (facts.tracing) text += fmt::format("tracing {:.0f} %   ", *facts.tracing * 100);
-  if (facts.scene != nullptr) {
+  if (!status.loading.empty()) text += fmt::format("loading {}   ", status.loading);
+  if (status.tracing) text += fmt::format("tracing {:.0f} %   ", *status.tracing * 100);
+  if (status.scene != nullptr) {
     const glm::ivec2 full(panel.state.document.options.size.width, panel.state.document.options.size.height);
-    text += fmt::format("{} × {}", facts.drawn_size.x, facts.drawn_size.y);
-    if (facts.drawn_size != full) text += fmt::format(" of {} × {}", full.x, full.y);
-    text += fmt::format("   {:.1f} ms   {}", facts.costs_a.frame(), panel.state.document.params.get_word("technique"));
-    text += facts.at_rest ? "   at rest" : fmt::format("   {} drawn", facts.frames);
+    text += fmt::format("{} × {}", status.drawn_size.x, status.drawn_size.y);
+    if (status.drawn_size != full) text += fmt::format(" of {} × {}", full.x, full.y);
+    text += fmt::format("   {:.1f} ms   {}", status.costs_a.frame(), panel.state.document.params.get_word("technique"));
+    text += status.idle ? "   idle" : fmt::format("   {} drawn", status.frames);
   }
-  if (facts.device.software) text += "   software rasteriser";
+  if (status.device.software) text += "   software rasteriser";
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text.c_str());
   panel.widgets.mark("status");
@@ -205,14 +206,14 @@ void status_bar(const Panel& panel) {
 
 namespace {
 
-// Both ends of what would hide the picture.
+// A text that would cover the picture, without its middle.
 std::string shortened(const std::string& text) {
   constexpr std::size_t most = 600;
   if (text.size() <= most) return text;
   return text.substr(0, most / 2) + " ... " + text.substr(text.size() - most / 2);
 }
 
-void add(State& state, Message message) {
+void add(UiState& state, Message message) {
   constexpr std::size_t most = 4;
   const auto same = [&](const Message& other) { return other.text == message.text; };
   std::erase_if(state.messages, same);
@@ -222,8 +223,8 @@ void add(State& state, Message message) {
 
 }  // namespace
 
-void tell(State& state, const std::string& text, double now) { add(state, {shortened(text), false, now + 6}); }
+void tell(UiState& state, const std::string& text, double now) { add(state, {shortened(text), false, now + 6}); }
 
-void tell_error(State& state, const std::string& text, double now) { add(state, {shortened(text), true, now + 20}); }
+void tell_error(UiState& state, const std::string& text, double now) { add(state, {shortened(text), true, now + 20}); }
 
 }  // namespace penumbra::viewer

@@ -2,16 +2,16 @@
 
 #include <imgui.h>
 
-#include "viewer/facts.h"
 #include "viewer/state.h"
+#include "viewer/status.h"
 #include "viewer/widgets.h"
 
 namespace penumbra::viewer {
 
-// What a panel draws with.
+// What a panel reads and changes.
 struct Panel {
-  State& state;
-  const Facts& facts;
+  UiState& state;
+  const ViewerStatus& status;
   WidgetMap& widgets;
 };
 
@@ -23,10 +23,10 @@ void compare_panel(const Panel& panel);  // picture B
 void cost_panel(const Panel& panel);     // passes, memory, the machine
 void files_panel(const Panel& panel);    // pictures, sequences, the command line
 
-// Within the scene's panel, over the window: a file to open from a folder's list, once State::files asks for it.
+// A popup of the scene panel that lists a folder, to open a file. It opens when UiState::files.wanted is set.
 void file_browser(const Panel& panel);
 
-// Over the picture; corners of the picture in pixels of the window.
+// Windows over the picture, placed at corners of it, in pixels of the window.
 void help_overlay(const Panel& panel);
 void messages_overlay(const Panel& panel, const ImVec2& lower_left, double now);
 void shader_errors_overlay(const Panel& panel, const ImVec2& upper_left);
@@ -34,8 +34,8 @@ void legend_overlay(const Panel& panel, const ImVec2& upper_right);
 // At the window's lower edge.
 void status_bar(const Panel& panel);
 
-// A message of so many seconds; errors stay longer.
-void tell(State& state, const std::string& text, double now);
-void tell_error(State& state, const std::string& text, double now);
+// Shows a message for some seconds; errors stay longer.
+void tell(UiState& state, const std::string& text, double now);
+void tell_error(UiState& state, const std::string& text, double now);
 
 }  // namespace penumbra::viewer

@@ -12,15 +12,15 @@ namespace penumbra::viewer {
 
 namespace {
 
-constexpr float turn_per_pixel = 0.006f;  // radians
-constexpr float light_per_pixel = 0.004f;
+constexpr float turn_per_pixel = 0.006f;   // of the camera, radians
+constexpr float light_per_pixel = 0.004f;  // of the sun, radians
 constexpr float dolly_per_notch = 0.88f;
-constexpr float grip = 6;  // pixels about the line between A and B
+constexpr float grip = 6;  // pixels on each side of the line between A and B that take the mouse
 
-void move(const Panel& panel, const CameraRig& rig) { place(panel.state.document, panel.facts.scene->prepared, rig); }
+void move(const Panel& panel, const CameraRig& rig) { place(panel.state.document, panel.status.scene->prepared, rig); }
 
 void drag_camera(const Panel& panel, const glm::vec2& by, const PictureArea& area) {
-  CameraRig rig = present_rig(panel.state.document, panel.facts.scene->prepared);
+  CameraRig rig = present_rig(panel.state.document, panel.status.scene->prepared);
   const bool pan = ImGui::IsMouseDown(ImGuiMouseButton_Middle) || ImGui::GetIO().KeyShift;
   if (pan) {
     rig.pan(glm::vec2(-by.x, by.y) / area.size.y);
@@ -33,12 +33,13 @@ void drag_camera(const Panel& panel, const glm::vec2& by, const PictureArea& are
 }
 
 void drag_sun(const Panel& panel, const glm::vec2& by) {
-  const cli::Direction sun = present_sun(panel.state.document, panel.facts.scene->prepared);
+  const cli::Direction sun = present_sun(panel.state.document, panel.status.scene->prepared);
   const glm::vec3 to_light = render::direction_to(sun.azimuth, sun.elevation);
   place_sun(panel.state.document, turned_light(to_light, by.x * light_per_pixel, -by.y * light_per_pixel));
 }
 
-// The picture's point under the cursor stays there.
+// Magnifies about the cursor: the point of the picture under it stays there. `halves`: side by side, each half of the
+// window has a centre of its own.
 void magnify(Zoom& zoom, float notches, const PictureArea& area, bool halves) {
   const float before = zoom.factor;
   glm::vec2 middle = area.size * 0.5f;
@@ -54,19 +55,19 @@ void take_wheel(const Panel& panel, const PictureArea& area) {
   if (notches == 0 || !area.cursor) return;
   if (ImGui::GetIO().KeyCtrl) {
     const Comparison& comparison = panel.state.comparison;
-    const bool halves = comparison.on && comparison.how == Comparing::side_by_side;
+    const bool halves = comparison.on && comparison.how == CompareMode::side_by_side;
     magnify(panel.state.zoom, notches > 0 ? 1.0f : -1.0f, area, halves);
-  } else if (panel.facts.scene != nullptr) {
-    CameraRig rig = present_rig(panel.state.document, panel.facts.scene->prepared);
+  } else if (panel.status.scene != nullptr) {
+    CameraRig rig = present_rig(panel.state.document, panel.status.scene->prepared);
     rig.dolly(std::pow(dolly_per_notch, notches));
     move(panel, rig);
   }
 }
 
-// True while the line has the mouse.
+// Returns whether the mouse drags the line between A and B.
 bool drag_line(const Panel& panel, const PictureArea& area, bool active) {
   Comparison& comparison = panel.state.comparison;
-  if (!comparison.on || comparison.how != Comparing::wipe) return false;
+  if (!comparison.on || comparison.how != CompareMode::wipe) return false;
   const float line = area.corner.x + comparison.wipe * area.size.x;
   bool& dragging = panel.state.dragging_line;
   const float cursor = ImGui::GetIO().MousePos.x;
@@ -78,8 +79,8 @@ bool drag_line(const Panel& panel, const PictureArea& area, bool active) {
   return dragging;
 }
 
-// On a plate of its own, for light floors and dark ones.
-void letter(const glm::vec2& at, const char* text) {
+// A label on a dark backdrop, so that it can be read over bright and dark pictures.
+void label(const glm::vec2& at, const char* text) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 size = ImGui::CalcTextSize(text);
   const float gap = ImGui::GetStyle().FramePadding.y;
@@ -93,17 +94,19 @@ void draw_line(const Panel& panel, const PictureArea& area) {
   if (!comparison.on) return;
   const float top = area.corner.y, bottom = area.corner.y + area.size.y, gap = ImGui::GetFontSize();
   float line = -1;
-  if (comparison.how == Comparing::wipe) line = area.corner.x + comparison.wipe * area.size.x;
-  if (comparison.how == Comparing::side_by_side) line = area.corner.x + 0.5f * area.size.x;
+  if (comparison.how == CompareMode::wipe) line = area.corner.x + comparison.wipe * area.size.x;
+  if (comparison.how == CompareMode::side_by_side) line = area.corner.x + 0.5f * area.size.x;
   if (line >= 0) {
     ImGui::GetWindowDrawList()->AddLine({line, top}, {line, bottom}, IM_COL32(255, 255, 255, 200), 1.0f);
     panel.widgets.mark("line", {line - grip, top}, {line + grip, bottom});
-    letter({line - 1.6f * gap, bottom - 2 * gap}, "A");
-    letter({line + 1.0f * gap, bottom - 2 * gap}, panel.facts.b_waits ? "B before the change" : "B");
+    label({line - 1.6f * gap, bottom - 2 * gap}, "A");
+    label({line + 1.0f * gap, bottom - 2 * gap}, panel.status.b_is_old ? "B (not drawn again yet)" : "B");
   } else {
     const std::string difference = fmt::format("|A - B| × {:.0f}", comparison.gain);
-    const char* name = comparison.how == Comparing::a ? "A" : comparison.how == Comparing::b ? "B" : difference.c_str();
-    letter({area.corner.x + gap, bottom - 2 * gap}, name);
+    const char* name = comparison.how == CompareMode::a   ? "A"
+                       : comparison.how == CompareMode::b ? "B"
+                                                          : difference.c_str();
+    label({area.corner.x + gap, bottom - 2 * gap}, name);
   }
 }
 
@@ -113,16 +116,17 @@ void fly(const Panel& panel, float seconds) {
     return static_cast<float>(ImGui::IsKeyDown(positive)) - static_cast<float>(ImGui::IsKeyDown(negative));
   };
   const glm::vec3 way(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_S, GLFW_KEY_W));
-  if (way == glm::vec3(0) || io.KeyCtrl || panel.facts.scene == nullptr) return;
-  CameraRig rig = present_rig(panel.state.document, panel.facts.scene->prepared);
-  const float speed = 0.25f * std::max(panel.facts.scene->prepared.bounds.radius(), 0.1f) * (io.KeyShift ? 4.0f : 1.0f);
+  if (way == glm::vec3(0) || io.KeyCtrl || panel.status.scene == nullptr) return;
+  CameraRig rig = present_rig(panel.state.document, panel.status.scene->prepared);
+  const float speed =
+      0.25f * std::max(panel.status.scene->prepared.bounds.radius(), 0.1f) * (io.KeyShift ? 4.0f : 1.0f);
   rig.fly(glm::normalize(way) * speed * std::min(seconds, 0.1f));
   move(panel, rig);
 }
 
 void take_time_keys(const Panel& panel) {
-  State& state = panel.state;
-  const bool moves = panel.facts.scene != nullptr && !panel.facts.scene->prepared.scene.animations.empty();
+  UiState& state = panel.state;
+  const bool moves = panel.status.scene != nullptr && !panel.status.scene->prepared.scene.animations.empty();
   // The same keys walk from widget to widget.
   if (!moves || ImGui::GetIO().NavVisible) return;
   if (ImGui::IsKeyPressed(GLFW_KEY_SPACE, false)) state.playback.playing = !state.playback.playing;
@@ -132,7 +136,7 @@ void take_time_keys(const Panel& panel) {
 
 }  // namespace
 
-PictureArea picture_area(const Panel& panel, const gl::Texture* seen) {
+PictureArea picture_area(const Panel& panel, const gl::Texture* shown) {
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
   PictureArea area{.corner = {corner.x, corner.y}, .size = {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}};
   ImGui::InvisibleButton(
@@ -140,12 +144,12 @@ PictureArea picture_area(const Panel& panel, const gl::Texture* seen) {
       ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
   panel.widgets.mark("picture");
   const bool active = ImGui::IsItemActive();
-  area.busy = active;
+  area.dragging = active;
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsItemHovered()) area.cursor = glm::vec2(io.MousePos.x - corner.x, io.MousePos.y - corner.y);
   const bool line = drag_line(panel, area, active);
   const glm::vec2 by(io.MouseDelta.x, io.MouseDelta.y);
-  if (active && !line && by != glm::vec2(0) && panel.facts.scene != nullptr) {
+  if (active && !line && by != glm::vec2(0) && panel.status.scene != nullptr) {
     if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
       drag_sun(panel, by);
     } else {
@@ -153,10 +157,10 @@ PictureArea picture_area(const Panel& panel, const gl::Texture* seen) {
     }
   }
   take_wheel(panel, area);
-  if (seen != nullptr) {
+  if (shown != nullptr) {
     // Textures begin at the bottom, the window at the top.
     // ImGui's textures are pointers, OpenGL's are numbers. NOLINTNEXTLINE(performance-no-int-to-ptr)
-    const auto texture = reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(seen->id()));
+    const auto texture = reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(shown->id()));
     const ImVec2 end(corner.x + area.size.x, corner.y + area.size.y);
     ImGui::GetWindowDrawList()->AddImage(texture, corner, end, {0, 1}, {1, 0});
     draw_line(panel, area);
@@ -165,13 +169,13 @@ PictureArea picture_area(const Panel& panel, const gl::Texture* seen) {
 }
 
 void take_keys(const Panel& panel, float seconds) {
-  State& state = panel.state;
+  UiState& state = panel.state;
   if (ImGui::GetIO().WantTextInput) return;
   const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, /* repeat= */ false); };
   if (pressed(GLFW_KEY_ESCAPE)) {
     if (state.help) {
       state.help = false;
-    } else if (!state.list_open) {
+    } else if (!state.popup_open) {
       state.requests.quit = true;
     }
   }
@@ -190,7 +194,7 @@ void take_keys(const Panel& panel, float seconds) {
     }
   }
   if (pressed(GLFW_KEY_X) && state.comparison.on)
-    state.comparison.how = state.comparison.how == Comparing::a ? Comparing::b : Comparing::a;
+    state.comparison.how = state.comparison.how == CompareMode::a ? CompareMode::b : CompareMode::a;
   if (pressed(GLFW_KEY_O) && ImGui::GetIO().KeyCtrl) {
     state.panel = state.files.wanted = true;
     state.tab = "Scene";

@@ -8,18 +8,18 @@
 
 namespace penumbra::viewer {
 
-// Where the picture stands in the window, and the hand that is over it.
+// Where the picture is in the window, and what the mouse does over it.
 struct PictureArea {
   glm::vec2 corner{0}, size{1};     // of the window, from its upper left
   std::optional<glm::vec2> cursor;  // over the picture, from its upper left
-  bool busy = false;                // a button that began over the picture is down
+  bool dragging = false;            // a mouse button that was pressed over the picture is down
 };
 
-// Draws the texture that is seen into what is left of the current window, and takes the mouse over it: the camera, the
-// sun, the line between A and B, the magnification.
-PictureArea picture_area(const Panel& panel, const gl::Texture* seen);
+// Draws the texture `shown` into the rest of the current ImGui window, and handles the mouse over it: it moves the
+// camera, the sun and the line between A and B, and magnifies.
+PictureArea picture_area(const Panel& panel, const gl::Texture* shown);
 
-// The keys that are for the picture and the viewer as a whole, where no field has them.
+// Handles the keys that act on the picture and the viewer as a whole, unless the user types into a field.
 void take_keys(const Panel& panel, float seconds);
 
 }  // namespace penumbra::viewer

@@ -9,11 +9,12 @@ namespace {
 // The picture's point in the middle of its part of the window, pixels.
 glm::vec2 center_of(const PresentInputs& inputs) { return inputs.zoom.center * glm::vec2(inputs.picture_size); }
 
-Comparing how_of(const PresentInputs& inputs) {
-  return inputs.comparison.on && inputs.b != nullptr ? inputs.comparison.how : Comparing::a;
+CompareMode how_of(const PresentInputs& inputs) {
+  return inputs.comparison.on && inputs.b != nullptr ? inputs.comparison.how : CompareMode::a;
 }
 
-// Magnified pixels are to be counted; a picture of less than full size is to be looked at.
+// Magnified pixels keep their edges, so that single ones can be examined; a picture of less than full size is
+// interpolated.
 gl::SamplerDesc sampler_for(const PresentInputs& inputs, const gl::Texture& texture) {
   const bool full = texture.width() == inputs.picture_size.x && texture.height() == inputs.picture_size.y;
   const GLenum magnify = full || inputs.values ? GL_NEAREST : GL_LINEAR;
@@ -55,7 +56,7 @@ const gl::Texture& present(gl::Device& device, const PresentInputs& inputs) {
 
 std::optional<glm::ivec2> pixel_at(const PresentInputs& inputs, const glm::vec2& window) {
   glm::vec2 middle = glm::vec2(inputs.window_size) * 0.5f;
-  if (how_of(inputs) == Comparing::side_by_side) middle.x *= window.x >= middle.x ? 1.5f : 0.5f;
+  if (how_of(inputs) == CompareMode::side_by_side) middle.x *= window.x >= middle.x ? 1.5f : 0.5f;
   const glm::ivec2 pixel(glm::floor(center_of(inputs) + (window - middle) / inputs.zoom.factor));
   const bool inside =
       glm::all(glm::greaterThanEqual(pixel, glm::ivec2(0))) && glm::all(glm::lessThan(pixel, inputs.picture_size));

@@ -12,20 +12,20 @@ namespace penumbra::viewer {
 struct PresentInputs {
   const gl::Texture* a = nullptr;
   const gl::Texture* b = nullptr;  // absent: there is only A
-  glm::ivec2 picture_size{1};      // at full resolution; textures in motion are smaller
+  glm::ivec2 picture_size{1};      // at full resolution; textures drawn in motion are smaller
   glm::ivec2 window_size{1};
   Comparison comparison;
   Zoom zoom;
-  bool values = false;  // in false colour: each stands for itself, whatever the texture's size
+  bool values = false;  // the textures are values in false colour: never interpolated
 };
 
-// RGBA8, the size of the window: what is seen.
+// Draws them into a texture of the window's size, RGBA8.
 const gl::Texture& present(gl::Device& device, const PresentInputs& inputs);
 
-// The program that it draws with, for checks of all shaders.
+// The program that present() uses, for the check that compiles all shaders.
 gl::ProgramDesc present_program();
 
-// The picture's pixel that a pixel of the window shows; none outside of the picture.
+// The picture's pixel that a pixel of the window shows; nothing outside of the picture.
 std::optional<glm::ivec2> pixel_at(const PresentInputs& inputs, const glm::vec2& window);
 
 }  // namespace penumbra::viewer

@@ -54,7 +54,7 @@ RenderProcess::~RenderProcess() {
 }
 
 void RenderProcess::start(const std::vector<std::string>& arguments, std::vector<std::filesystem::path> files) {
-  if (runs()) fail("a picture is being written: wait until it is there");
+  if (runs()) fail("another picture is still being written");
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) fail("penumbra render: {}", std::strerror(errno));
   fcntl(ends[0], F_SETFL, O_NONBLOCK);

@@ -7,12 +7,12 @@
 
 namespace penumbra::viewer {
 
-// `penumbra render` in a process of its own, so that the window lives on and what it writes is what the same command
-// writes in a shell.
+// Runs `penumbra render` in a process of its own: the window stays responsive, and the files are those that the same
+// command writes in a shell.
 class RenderProcess {
  public:
   RenderProcess() = default;
-  ~RenderProcess();  // ends it; its unfinished files go
+  ~RenderProcess();  // ends the process, which removes unfinished files
   RenderProcess(const RenderProcess&) = delete;
   RenderProcess& operator=(const RenderProcess&) = delete;
 
@@ -25,9 +25,9 @@ class RenderProcess {
 
   struct Result {
     bool good = false;
-    std::string text;  // what it said last
+    std::string text;  // the last line of its output
   };
-  // Once it has ended; never waits.
+  // The result, once it has ended. Never waits.
   std::optional<Result> finished();
 
  private:

@@ -1,4 +1,4 @@
-// What the interface asked for, done between two frames of it.
+// What the user asked for with a widget or a key, done between two frames of the interface.
 #include <imgui.h>
 
 #include <filesystem>
@@ -29,7 +29,7 @@ void Viewer::do_requests() {
 }
 
 void Viewer::open(const std::string& scene) {
-  // Before it is read: one that fails is tried again when it is saved.
+  // Watched before it is read: a file that fails is read again when it is saved.
   guarded([&] {
     std::vector<std::filesystem::path> files{scene};
     if (scene_ != nullptr)
@@ -40,26 +40,26 @@ void Viewer::open(const std::string& scene) {
   options.scene = scene;
   options.fps = options_.fps;
   options.frames = cli::FrameRange{};
-  // Camera, sun, ground and time are those of one scene: of the shown one, the command line's of the first.
+  // The shown scene keeps its camera, sun, ground and time; another one starts with the defaults.
   loader_.start(scene == state_.document.options.scene ? state_.document.options : options);
 }
 
 void Viewer::open_preset(const std::string& file) {
   if (std::error_code unread; std::filesystem::is_fifo(file, unread))
-    fail("cannot read {}: a pipe, for which a window would wait", io::quoted(file));
+    fail("cannot read {}: it is a pipe, and the window would wait for it", io::quoted(file));
   cli::ShadowOptions options;
   options.presets = {file};
   state_.document.params = cli::resolve_params(options, session::all_techniques());
   state_.preset_file = file;
-  tell(state_, "took the values of " + file, ImGui::GetTime());
+  tell(state_, "loaded " + file, ImGui::GetTime());
 }
 
-// In the place of nothing but another preset.
+// Overwrites nothing but another preset file.
 void Viewer::save_preset(const std::string& file) {
-  if (!is_preset(file)) fail("cannot write {}: a preset's name ends in .toml", io::quoted(file));
+  if (!is_preset(file)) fail("cannot write {}: the name of a preset file ends in .toml", io::quoted(file));
   if (scene_ != nullptr) {
     for (const std::filesystem::path& read : scene_->prepared.scene.files) {
-      if (io::would_replace(file, read)) fail("cannot write {}: the scene is made of it", io::quoted(file));
+      if (io::would_replace(file, read)) fail("cannot write {}: it is a file of the scene", io::quoted(file));
     }
   }
   io::write_preset(file, state_.document.params);
@@ -91,12 +91,12 @@ void Viewer::write_picture(bool sequence) {
   writer_.start(arguments, std::move(files));
 }
 
-// What is being written, and what came of it.
+// Shows how far writing is, and its result.
 void Viewer::take_written() {
-  facts_.writing = writer_.runs() ? std::optional(writer_.progress()) : std::nullopt;
+  status_.writing = writer_.runs() ? std::optional(writer_.progress()) : std::nullopt;
   const std::optional<RenderProcess::Result> result = writer_.finished();
   if (!result) return;
-  facts_.writing.reset();
+  status_.writing.reset();
   if (result->good) {
     tell(state_, result->text, ImGui::GetTime());
   } else {
@@ -107,7 +107,7 @@ void Viewer::take_written() {
 void Viewer::copy_camera() {
   const std::string text = cli::command_text("", camera_arguments(state_.document.options));
   ImGui::SetClipboardText(text.c_str());
-  tell(state_, text.empty() ? "the camera is the scene's own: nothing to copy" : "copied: " + text, ImGui::GetTime());
+  tell(state_, text.empty() ? "the camera is the default one: nothing to copy" : "copied: " + text, ImGui::GetTime());
 }
 
 void Viewer::frame_all() {

@@ -10,11 +10,11 @@ namespace penumbra::viewer {
 
 namespace {
 
-// Most of the time goes into images: there a scene that nobody wants any more is given up.
-scene::ImageDecoder decoder_until(std::stop_token dropped) {
-  return [dropped = std::move(dropped), decode = image::image_decoder()](std::span<const std::byte> encoded,
-                                                                         const std::string& name) {
-    if (dropped.stop_requested()) fail("{}: not read to the end", name);
+// Images take most of the time, so a cancelled scene ends at its next image.
+scene::ImageDecoder decoder_until(std::stop_token cancelled) {
+  return [cancelled = std::move(cancelled), decode = image::image_decoder()](std::span<const std::byte> encoded,
+                                                                             const std::string& name) {
+    if (cancelled.stop_requested()) fail("{}: cancelled", name);
     return decode(encoded, name);
   };
 }
@@ -25,15 +25,15 @@ bool is_ready(const std::future<session::PreparedScene>& loading) {
 
 }  // namespace
 
-SceneLoader::~SceneLoader() { dropped_.request_stop(); }
+SceneLoader::~SceneLoader() { cancelled_.request_stop(); }
 
 void SceneLoader::start(cli::SceneOptions options) {
-  dropped_.request_stop();
+  cancelled_.request_stop();
   if (loading_.valid()) ending_.push_back(std::move(loading_));
   options_ = std::move(options);
-  dropped_ = {};
-  loading_ = std::async(std::launch::async, [options = options_, dropped = dropped_.get_token()] {
-    return session::load_scene(options, decoder_until(dropped));
+  cancelled_ = {};
+  loading_ = std::async(std::launch::async, [options = options_, cancelled = cancelled_.get_token()] {
+    return session::load_scene(options, decoder_until(cancelled));
   });
 }
 

@@ -10,33 +10,33 @@
 
 namespace penumbra::viewer {
 
-// Reads scenes on threads of their own, so that the window lives on.
+// Reads scenes on threads of their own, so that the window stays responsive.
 class SceneLoader {
  public:
   SceneLoader() = default;
-  // Waits for what is being read, which ends at its next image.
+  // Waits for threads that are still reading; they stop at their next image.
   ~SceneLoader();
   SceneLoader(const SceneLoader&) = delete;
   SceneLoader& operator=(const SceneLoader&) = delete;
 
-  // Begins to read; one that is being read is dropped. Waits for nothing.
+  // Starts to read a scene, and cancels the one that is being read. Never waits.
   void start(cli::SceneOptions options);
-  // The scene once it is there, with the options that it was read with. Throws Error for one that can't be read.
+  // The scene once it is read, with its options. Throws Error if it can't be read.
   struct Loaded {
     cli::SceneOptions options;
     session::PreparedScene prepared;
   };
   std::optional<Loaded> finished();
-  // What was started last, whatever came of it.
+  // The options of the last start(), also if reading failed.
   const cli::SceneOptions& asked() const { return options_; }
-  // The file that is being read; empty: none.
+  // The file that is being read, or empty.
   std::string file() const { return loading_.valid() ? options_.scene : ""; }
 
  private:
   cli::SceneOptions options_;
-  std::stop_source dropped_;  // of what is being read
+  std::stop_source cancelled_;  // of the scene that is being read
   std::future<session::PreparedScene> loading_;
-  std::vector<std::future<session::PreparedScene>> ending_;  // dropped, and not at their next image yet
+  std::vector<std::future<session::PreparedScene>> ending_;  // cancelled, but not at their next image yet
 };
 
 }  // namespace penumbra::viewer

@@ -14,7 +14,7 @@ namespace penumbra::viewer {
 namespace {
 
 void file(const Panel& panel) {
-  State& state = panel.state;
+  UiState& state = panel.state;
   begin_rows("file");
   row("file", "A .gltf or .glb file: type its name and press Enter, choose it from a list, or drop it on the window.");
   if (ImGui::InputText("##scene", &state.scene_file, ImGuiInputTextFlags_EnterReturnsTrue))
@@ -33,13 +33,13 @@ void file(const Panel& panel) {
   end_rows();
   if (ImGui::Button("Open...")) state.files.wanted = true;
   panel.widgets.mark("open");
-  tooltip("A scene or a preset from a list (Ctrl + O)");
+  tooltip("Choose a scene or a preset file from a list (Ctrl + O)");
   file_browser(panel);
 }
 
 void choose_camera(const Panel& panel) {
   cli::SceneOptions& options = panel.state.document.options;
-  row("look through", "A camera of the file, the one that penumbra render would choose, or one of your own.");
+  row("look through", "A camera of the file, the one that penumbra render chooses by default, or a free one.");
   const std::string current = options.eye ? "free" : options.camera ? *options.camera : "automatic";
   const bool open = ImGui::BeginCombo("##camera", current.c_str());
   panel.widgets.mark("camera");
@@ -52,7 +52,7 @@ void choose_camera(const Panel& panel) {
   };
   if (ImGui::Selectable("automatic", !options.eye && !options.camera)) look_through({});
   panel.widgets.mark("camera=automatic");
-  const std::vector<std::string>& cameras = panel.facts.scene->cameras;
+  const std::vector<std::string>& cameras = panel.status.scene->cameras;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     if (choice(fmt::format("{}  {}", i, cameras[i]))) look_through(std::to_string(i));
     panel.widgets.mark(fmt::format("camera={}", i));
@@ -61,8 +61,8 @@ void choose_camera(const Panel& panel) {
 }
 
 void camera(const Panel& panel) {
-  State& state = panel.state;
-  const session::PreparedScene& prepared = panel.facts.scene->prepared;
+  UiState& state = panel.state;
+  const session::PreparedScene& prepared = panel.status.scene->prepared;
   CameraRig rig = present_rig(state.document, prepared);
   rig.eye += 0.0f;  // no minus before a zero
   begin_rows("camera");
@@ -92,12 +92,12 @@ void camera(const Panel& panel) {
   ImGui::SameLine();
   ImGui::Checkbox("Fly", &state.fly);
   panel.widgets.mark("fly");
-  tooltip("The left button turns the head, W A S D Q E move (F)");
+  tooltip("The left button looks around from the eye; W A S D Q E move (F)");
 }
 
 void sun(const Panel& panel) {
-  State& state = panel.state;
-  const cli::Direction sun = present_sun(state.document, panel.facts.scene->prepared);
+  UiState& state = panel.state;
+  const cli::Direction sun = present_sun(state.document, panel.status.scene->prepared);
   float azimuth = glm::degrees(sun.azimuth), elevation = glm::degrees(sun.elevation);
   begin_rows("sun");
   row("azimuth", "From +Z towards +X. The right mouse button drags the sun.");
@@ -120,9 +120,9 @@ double longest_animation(const scene::Scene& scene) {
 }
 
 void time(const Panel& panel) {
-  State& state = panel.state;
+  UiState& state = panel.state;
   Document& document = state.document;
-  const double duration = longest_animation(panel.facts.scene->prepared.scene);
+  const double duration = longest_animation(panel.status.scene->prepared.scene);
   if (duration <= 0) {
     ImGui::TextDisabled("The scene has no animation.");
     return;
@@ -138,7 +138,7 @@ void time(const Panel& panel) {
   ImGui::SameLine();
   ImGui::Text("%.3f s", document.seconds());
   begin_rows("time");
-  row("frame", "Of the animation, at so many frames a second.");
+  row("frame", "Of the animation, counted at --fps frames a second.");
   const int last = static_cast<int>(std::clamp(std::ceil(duration * document.options.fps), 1.0, double{last_frame}));
   ImGui::SliderInt("##frame", &document.frame, 0, std::max(last, document.frame), "%d", ImGuiSliderFlags_AlwaysClamp);
   panel.widgets.mark("frame");
@@ -155,7 +155,7 @@ bool section(const char* title) { return ImGui::CollapsingHeader(title, ImGuiTre
 
 void scene_panel(const Panel& panel) {
   file(panel);
-  if (panel.facts.scene == nullptr) return;
+  if (panel.status.scene == nullptr) return;
   ImGui::BeginChild("scene");
   if (section("Camera")) camera(panel);
   if (section("Sun")) sun(panel);

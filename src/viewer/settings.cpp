@@ -33,7 +33,7 @@ fs::path folder_from(const char* variable) {
   return path.is_absolute() ? path : fs::path();
 }
 
-// One line, however long the name is that the file has.
+// One line of limited length, whatever text of the file it quotes.
 std::string one_line(std::string cause) {
   if (cause.size() > longest_cause) {
     std::size_t end = longest_cause;
@@ -54,9 +54,9 @@ Json parse(const std::vector<std::byte>& bytes) {
   try {
     return Json::parse(text, text + bytes.size(), guard);
   } catch (const Json::parse_error& error) {
-    fail("no JSON at byte {}", error.byte);
+    fail("not JSON at byte {}", error.byte);
   } catch (const Json::exception&) {
-    fail("no JSON: a number is out of range");
+    fail("not JSON: a number is out of range");
   }
 }
 
@@ -111,7 +111,7 @@ void take_tab(const Json& file, Settings& settings) {
   settings.tab = json->get<std::string>();
 }
 
-// The value as --set takes it, once its type is right: "16" is no number.
+// The value as --set takes it. The JSON type has to fit: the string "16" is not accepted as a number.
 std::string text_of(const Param& param, const Json& json) {
   const ParamValue& like = param.default_value;
   const bool is_flag = std::holds_alternative<bool>(like), is_word = std::holds_alternative<std::string>(like);
@@ -137,7 +137,7 @@ Settings defaults() {
 }
 
 Settings settings_of(const Json& file) {
-  if (!file.is_object()) fail("no settings, but {}", file.type_name());
+  if (!file.is_object()) fail("not settings, but {}", file.type_name());
   Settings settings = defaults();
   take_recent(file, settings);
   take_window(file, settings);
@@ -171,7 +171,7 @@ Json params_of(const Settings& settings) {
     Settings again = defaults();
     take_params({{"params", params}}, again);
   } catch (const Error&) {
-    return Json::object();  // a preset may ask for more memory than the next start would be given
+    return Json::object();  // values of a preset file that the next start would refuse
   }
   return params;
 }
@@ -187,7 +187,8 @@ Json to_json(const Settings& settings) {
   return json;
 }
 
-// New folders are the user's alone, as the specification asks. Writing the file tells of what fails.
+// Makes the missing folders, readable by the user only, as the specification asks. A fault shows when the file is
+// written.
 void make_folders(const fs::path& folder) {
   std::error_code code;
   if (folder == folder.root_path() || fs::exists(folder, code)) return;

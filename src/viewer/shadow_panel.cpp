@@ -21,7 +21,7 @@ bool is_technique(const shadow::Registry& registry, const std::string& group) {
   return std::any_of(techniques.begin(), techniques.end(), [&](const auto& each) { return each.name == group; });
 }
 
-// Words of a search, each somewhere in the name or the sentence.
+// Whether each word of a search is in the parameter's name or help.
 bool found(const Param& param, const std::string& search) {
   const std::string text = lower_case(param.name + " " + param.help), words = lower_case(search);
   for (std::size_t begin = 0; begin < words.size();) {
@@ -33,7 +33,7 @@ bool found(const Param& param, const std::string& search) {
 }
 
 void choose_technique(const Panel& panel, ParamSet& params) {
-  const shadow::Registry& registry = panel.facts.techniques;
+  const shadow::Registry& registry = panel.status.techniques;
   const std::string current = params.get_word("technique");
   const auto item = [&](const std::string& name, const std::string& summary) {
     if (ImGui::Selectable(name.c_str(), name == current)) registry.select(params, name);
@@ -62,7 +62,7 @@ void group(const Panel& panel, ParamSet& params, const std::string& name, std::s
   };
   const auto rows = params.rows();
   if (std::none_of(rows.begin(), rows.end(), shown)) return;
-  const bool own = is_technique(panel.facts.techniques, name);
+  const bool own = is_technique(panel.status.techniques, name);
   if (own && name != params.get_word("technique") && panel.state.search.empty()) return;
   const std::string title = name.empty() ? "general" : name;
   const bool first = own || name.empty() || name == "sun";
@@ -72,7 +72,7 @@ void group(const Panel& panel, ParamSet& params, const std::string& name, std::s
   panel.widgets.mark("group " + title);
   if (!open) return;
   begin_rows(title.c_str());
-  // Rows may change while they are drawn: their declarations stay.
+  // A widget may change values, but not the list of declarations.
   for (const Param& param : rows) {
     if (shown(param)) param_row(params, param, panel.widgets, fault);
   }
@@ -85,14 +85,14 @@ std::vector<std::string> groups_of(const ParamSet& params) {
     const std::string name = group_of(param.name);
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
-  // The technique's own come first.
+  // The technique's own group comes first.
   std::stable_partition(names.begin(), names.end(),
                         [&](const std::string& name) { return name == params.get_word("technique"); });
   return names;
 }
 
 void presets(const Panel& panel) {
-  State& state = panel.state;
+  UiState& state = panel.state;
   ImGui::SetNextItemWidth(-1);
   ImGui::InputTextWithHint("##preset", "preset.toml", &state.preset_file);
   panel.widgets.mark("preset file");
@@ -106,7 +106,7 @@ void presets(const Panel& panel) {
 }  // namespace
 
 void shadow_panel(const Panel& panel) {
-  State& state = panel.state;
+  UiState& state = panel.state;
   ParamSet& params = state.document.params;
   begin_rows("technique");
   choose_technique(panel, params);
@@ -118,7 +118,7 @@ void shadow_panel(const Panel& panel) {
   ImGui::SameLine();
   if (ImGui::Button("Reset all")) reset_all(params);
   panel.widgets.mark("reset all");
-  tooltip("Every parameter but the technique back to its default");
+  tooltip("Reset every parameter but the technique to its default");
   const float footer = 2 * ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().ItemSpacing.y;
   ImGui::BeginChild("parameters", {0, -footer});
   std::string fault;

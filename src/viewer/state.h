@@ -15,18 +15,18 @@ namespace penumbra::viewer {
 
 struct Playback {
   bool playing = false;
-  float speed = 1;     // of the file's time
-  double carried = 0;  // frames that are due, less than one
+  float speed = 1;
+  double carried = 0;  // the fraction of a frame that is due
 };
 
-// One line for the user, over the picture until it has been read.
+// One line for the user, shown over the picture for a while.
 struct Message {
   std::string text;
   bool is_error = false;
   double until = 0;  // seconds of the viewer's clock
 };
 
-// What the interface asks for, done between two frames of it.
+// What the user asked for with a widget or a key; done between two frames of the interface.
 struct Requests {
   std::optional<std::string> open;  // a scene
   std::optional<std::string> open_preset, save_preset;
@@ -36,29 +36,29 @@ struct Requests {
   bool quit = false;
 };
 
-// All that a hand can change.
-struct State {
+// Everything that the user can change.
+struct UiState {
   Document document;  // picture A
   Comparison comparison;
   Inspection inspection;
   Zoom zoom;
   Playback playback;
-  bool fly = false;            // the left button turns the head, instead of the scene
-  bool dragging_line = false;  // between A and B
-  bool list_open = false;      // in the last frame: Escape closes it
+  bool fly = false;            // the left button looks around from the eye, instead of orbiting the target
+  bool dragging_line = false;  // the user drags the line between A and B
+  bool popup_open = false;     // a list was open in the last frame: Escape closes it
   bool panel = true, help = false, probe = true, vsync = true;
-  std::string search;         // in the parameters
-  std::string tab, open_tab;  // to be opened; that is open
-  bool focus_search = false;  // the next frame
-  FileList files;             // to open one
+  std::string search;         // filters the parameters
+  std::string tab, open_tab;  // the one to open in the next frame; the one that is open
+  bool focus_search = false;  // put the keyboard focus into the search field in the next frame
+  FileList files;             // of the file browser
   std::string preset_file = "preset.toml", picture_file = "penumbra.png", scene_file;
   cli::FrameRange sequence{0, 47};
-  bool with_aovs = false;           // in what is written
-  std::vector<std::string> recent;  // scenes, the last one first
+  bool with_aovs = false;           // write every AOV beside the picture
+  std::vector<std::string> recent;  // scenes, the most recent first
   std::deque<Message> messages;
   Requests requests;
 
-  // Whether A stands beside B; at first B is A.
+  // Compares A with B or not. The first time, B gets A's values.
   void compare(bool on) {
     comparison.on = on;
     if (on && comparison.params.rows().empty()) comparison.params = document.params;

@@ -20,11 +20,11 @@ constexpr std::string_view target_prefix = "target ";
 // Fields of integer texels, in their order in a texel's parts.
 struct Field {
   const char* name;
-  Look look;
+  ColorMapping mapping;
   float (*of)(unsigned texel);
 };
 
-// A mask on its way through history and filters.
+// A shadow mask between history and filters.
 const std::array<Field, 3>& texel_fields() {
   static const std::array<Field, 3> fields{
       Field{"visibility", {.scale = ColorScale::grey, .fixed = true}, glsl::texel_visibility},
@@ -37,11 +37,11 @@ const std::array<Field, 3>& texel_fields() {
 
 const std::array<Field, 3>& notes_fields() {
   static const std::array<Field, 3> fields{
-      Field{"cascade", look_of("cascade"),
+      Field{"cascade", mapping_of("cascade"),
             [](unsigned notes) { return static_cast<float>(glsl::notes_cascade(notes)); }},
-      Field{"under a texel", look_of("under_texel"),
+      Field{"under a texel", mapping_of("under_texel"),
             [](unsigned notes) { return glsl::notes_under_texel(notes) ? 1.0f : 0.0f; }},
-      Field{"history", look_of("history"),
+      Field{"history", mapping_of("history"),
             [](unsigned notes) { return static_cast<float>(glsl::notes_refusal(notes)); }}};
   return fields;
 }
@@ -51,7 +51,7 @@ const std::array<Field, 3>* fields_of(const gl::Texture& texture) {
   return texture.desc().format == GL_R8UI ? &notes_fields() : nullptr;
 }
 
-// Those that can be seen: alpha is none of them.
+// Without alpha, which is not shown.
 int channels_of(const gl::Texture& texture) {
   int count = 0;
   for (const GLenum part : {GL_TEXTURE_RED_SIZE, GL_TEXTURE_GREEN_SIZE, GL_TEXTURE_BLUE_SIZE}) {
@@ -62,7 +62,7 @@ int channels_of(const gl::Texture& texture) {
   return std::max(count, 1);
 }
 
-// Numbers from 0 to 1.
+// Whether all values lie from 0 to 1.
 bool is_share(std::string_view name) {
   return name.find("/noise/") != name.npos || name.ends_with("movement map") || name.ends_with("/mask");
 }
@@ -77,7 +77,7 @@ Values flipped(Values values) {
   return values;
 }
 
-// One channel of several.
+// Drops all channels but one.
 void keep_channel(Values& values, int channel) {
   std::vector<float> kept;
   kept.reserve(values.numbers.size() / static_cast<std::size_t>(values.channels));
@@ -103,13 +103,14 @@ std::string target_of_view(std::string_view what, int view) {
 std::vector<TargetPart> parts_of(const gl::Device::NamedTarget& target) {
   std::vector<TargetPart> parts;
   if (const std::array<Field, 3>* fields = fields_of(*target.texture)) {
-    for (const Field& field : *fields) parts.push_back({field.name, field.look});
+    for (const Field& field : *fields) parts.push_back({field.name, field.mapping});
     return parts;
   }
   constexpr std::array names{"red", "green", "blue"};
-  const Look look = is_share(target.name) ? Look{.scale = ColorScale::grey, .fixed = true} : Look{};
+  const ColorMapping mapping =
+      is_share(target.name) ? ColorMapping{.scale = ColorScale::grey, .fixed = true} : ColorMapping{};
   const int channels = channels_of(*target.texture);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(channels); ++i) parts.push_back({names.at(i), look});
+  for (std::size_t i = 0; i < static_cast<std::size_t>(channels); ++i) parts.push_back({names.at(i), mapping});
   if (channels == 3) parts.push_back({"all as a colour", {.scale = ColorScale::rgb}});
   return parts;
 }
@@ -133,16 +134,18 @@ std::string about_target(std::string_view name) {
   };
   static constexpr std::array list{
       About{"/denoise/texels", "The shadow mask with its history, before the first filter: packed texels."},
-      About{"/denoise/notes", "Beside the packed mask: cascade, kernels under a texel, what became of the history."},
+      About{
+          "/denoise/notes",
+          "Beside the packed mask: the cascade, whether the kernel is under a texel, and why the history was refused."},
       About{"/denoise/", "The shadow mask after this filter's step: packed texels."},
-      About{"/history texels",
-            "The packed mask that the next frame takes up; the last frame's and this one's in turn."},
-      About{"/history surfaces", "Depth and normal by which the next frame knows its surfaces."},
+      About{"/history texels", "The packed mask that the next frame blends with; two textures take turns."},
+      About{"/history surfaces",
+            "Depth and normal, by which the next frame tells whether a pixel shows the same surface."},
       About{"/movement map",
-            "How much of what a texel's kernel may see has moved: 0 none, 1 all. Of the last frame with motion."},
+            "How much of the area around a texel has moving casters: 0 none, 1 all. Of the last frame with motion."},
       About{"/shadow map", "Depth from the light, 0 to 1, a layer each cascade."},
-      About{"/products/least_depth_pyramid/", "The least depth from the light below a texel of each level."},
-      About{"/noise/", "The tile that rotates or shifts each pixel's sample points."},
+      About{"/products/least_depth_pyramid/", "The least depth from the light that a texel of each mip level covers."},
+      About{"/noise/", "The tile of noise that rotates or shifts the sample points of each pixel."},
       About{"/mask", "What lighting reads: visibility in red."}};
   const auto found =
       std::find_if(list.begin(), list.end(), [&](const About& about) { return name.find(about.in_name) != name.npos; });

@@ -2,7 +2,7 @@
 
 namespace penumbra::viewer {
 
-// Colours and spacing of the whole interface: quiet greys, so that the picture is what the eye goes to. `scale` is
+// Sets colours and spacing of the whole interface: greys, so that the picture stands out. `scale` is
 // Window::scale().
 void set_theme(float scale);
 

@@ -29,7 +29,7 @@ void end_on_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-// The first document: what the command line says.
+// The document of the command line.
 Document document_of(const ViewOptions& options) {
   Document document;
   document.options = options;
@@ -43,7 +43,7 @@ Window::Options window_options(const ViewOptions& options, const Settings& setti
   return {.width = size.width, .height = size.height, .debug = session::debug_wanted(options)};
 }
 
-// The one that comes with the program, installed or in its sources' folder; empty: there is none.
+// The scene that comes with the program, installed or in the source tree; empty if there is none.
 std::string own_scene() {
   std::error_code fault;
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", fault).parent_path();
@@ -68,18 +68,17 @@ Viewer::Viewer(ViewOptions options)
     : options_(std::move(options)),
       settings_(options_.defaults ? Settings{} : read_settings(fault_)),
       window_(window_options(options_, settings_)),
-      device_info_(gl::device_info()),
-      device_(gl::ShaderFiles(options_.glsl), session::timing_of(device_info_)),
-      truth_({.cache = options_.folder(), .threads = options_.threads.value_or(0), .background = true}),
-      renderer_(device_, truth_.registry()),
-      a_(device_, renderer_, 0),
-      b_(device_, renderer_, 1),
-      pace_(device_info_.software),
-      facts_{.techniques = renderer_.registry(),
-             .device = device_info_,
-             .gl = device_,
-             .costs_a = a_.costs,
-             .costs_b = b_.costs} {
+      device_(options_),
+      truth_(session::truth_options(options_, options_, {.background = true})),
+      renderer_(device_.device, truth_.registry()),
+      a_(device_.device, renderer_, 0),
+      b_(device_.device, renderer_, 1),
+      pacing_(device_.info.software),
+      status_{.techniques = renderer_.registry(),
+              .device = device_.info,
+              .gl = device_.device,
+              .costs_a = a_.costs,
+              .costs_b = b_.costs} {
   state_.document = document_of(options_);
   take_settings();
   guarded([&] {
@@ -108,7 +107,7 @@ int Viewer::run() {
 void Viewer::show_frames() {
   double last = ImGui::GetTime();
   while (caught_signal == 0) {
-    const bool still = device_info_.software && ImGui::GetTime() - last_draw_ > 0.5 && loader_.file().empty();
+    const bool still = device_.info.software && ImGui::GetTime() - last_draw_ > 0.5 && loader_.file().empty();
     if (!window_.poll(still ? 0.1 : 0.0)) break;
     if (window_.pixels().x == 0 || window_.pixels().y == 0) {
       window_.poll(0.1);
@@ -136,17 +135,17 @@ void Viewer::frame(float seconds) {
   widgets_.begin();
   play(seconds);
   const PictureArea area = build_interface(seconds);
-  guarded([&] { aim(); });
+  guarded([&] { update_view(); });
   guarded([&] { draw_pictures(area, ImGui::GetTime()); });
   guarded([&] { probe(area); });
   guarded([&] { show_pictures(); });
   gl::leave_initial_state();
-  // Also what a program that was idle at the save tells only now.
-  if (device_.shaders.take_outdated() || !facts_.shader_errors.empty())
-    facts_.shader_errors = session::shader_faults(device_.shaders);
-  if (facts_.at_rest) widgets_.mark_rest();
+  // Also the faults of programs that were unused when the shader was saved, and are compiled only now.
+  if (device_.device.shaders.take_outdated() || !status_.shader_errors.empty())
+    status_.shader_errors = session::shader_faults(device_.device.shaders);
+  if (status_.idle) widgets_.mark_idle();
   window_.show();
-  cost_reader_.read(device_.timers, ImGui::GetTime());
+  cost_reader_.read(device_.device.timers, ImGui::GetTime());
   if (!options_.layout.empty()) guarded([&] { widgets_.write_changes(options_.layout); });
   if (std::exchange(vsync_, state_.vsync) != state_.vsync) window_.set_vsync(state_.vsync);
 }
@@ -158,20 +157,20 @@ void Viewer::take_events() {
   take_loaded();
   take_saved();
   take_written();
-  facts_.command = cli::command_text("penumbra", command());
+  status_.command = cli::command_text("penumbra", command());
 }
 
 void Viewer::take_loaded() {
   guarded([&] {
     std::optional<SceneLoader::Loaded> loaded = loader_.finished();
-    facts_.loading = loader_.file().empty() ? "" : std::filesystem::path(loader_.file()).filename().string();
+    status_.loading = loader_.file().empty() ? "" : std::filesystem::path(loader_.file()).filename().string();
     if (!loaded) return;
     truth_.stop();
-    auto scene = std::make_unique<LoadedScene>(device_, std::move(loaded->prepared));
+    auto scene = std::make_unique<LoadedScene>(device_.device, std::move(loaded->prepared));
     scene_ = std::move(scene);
-    facts_.scene = scene_.get();
+    status_.scene = scene_.get();
     const cli::Size size = state_.document.options.size;
-    // A scene that was saved again is seen as it was: what was changed meanwhile stays.
+    // A scene that was saved again keeps the camera, sun and time that the user has chosen.
     if (state_.document.options.scene != loaded->options.scene) {
       state_.document.options = loaded->options;
       state_.document.options.size = size;
@@ -180,16 +179,16 @@ void Viewer::take_loaded() {
     state_.scene_file = loaded->options.scene;
     add_recent(state_.recent, loaded->options.scene);
     for (Side* side : {&a_, &b_}) {
-      side->painter.cut();
+      side->renderer.cut();
       side->costs.clear();
     }
-    aimed_.clear();
+    view_options_.clear();
     window_.set_title(std::filesystem::path(loaded->options.scene).filename().string() + " - Penumbra");
     if (watch_) watch_->set_files(scene_->prepared.scene.files);
   });
 }
 
-// Files of the scene and shaders, as they are saved.
+// Loads saved files again: the scene's, and shaders.
 void Viewer::take_saved() {
   if (!watch_) return;
   guarded([&] {
@@ -199,7 +198,7 @@ void Viewer::take_saved() {
     };
     const cli::SceneOptions& shown = state_.document.options;
     const cli::SceneOptions& asked = loader_.asked();
-    // One that is being read, or that could not be.
+    // Another scene is being read, or could not be.
     const bool is_other = scene_ == nullptr || asked.scene != shown.scene;
     if (is_other && is_saved(asked.scene)) {
       loader_.start(asked);
@@ -212,17 +211,15 @@ void Viewer::take_saved() {
 }
 
 void Viewer::take_shaders(std::span<const std::filesystem::path> changed) {
-  const session::ShaderReload reload = session::reload_shaders(device_.shaders, changed);
+  const session::ShaderReload reload = session::reload_shaders(device_.device.shaders, changed);
   if (reload.files.empty()) return;
-  facts_.shader_errors = reload.errors;
+  status_.shader_errors = reload.errors;
   if (!reload.redraws()) return;
-  a_.painter.cut();
-  b_.painter.cut();
-  // One of a kind: editors save often.
+  a_.renderer.cut();
+  b_.renderer.cut();
+  // Replaces the last message of this kind: editors save often.
   std::erase_if(state_.messages, [](const Message& message) { return message.text.starts_with("programs compiled"); });
-  tell(state_,
-       fmt::format("programs compiled: {}, in {:.2f} s; what techniques remember begins anew", reload.rebuilt,
-                   reload.seconds),
+  tell(state_, fmt::format("programs compiled: {}, in {:.2f} s; histories start again", reload.rebuilt, reload.seconds),
        ImGui::GetTime());
 }
 
@@ -236,7 +233,7 @@ void Viewer::play(float seconds) {
 }
 
 PictureArea Viewer::build_interface(float seconds) {
-  const Panel panel{state_, facts_, widgets_};
+  const Panel panel{state_, status_, widgets_};
   take_keys(panel, seconds);
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
@@ -258,10 +255,11 @@ PictureArea Viewer::build_interface(float seconds) {
   const ImVec2 dots = ImGui::GetIO().DisplayFramebufferScale;
   const ImVec2 room = ImGui::GetContentRegionAvail();
   window_size_ = glm::max(glm::ivec2(room.x * dots.x, room.y * dots.y), 1);
-  const gl::Texture* seen = a_.seen == nullptr
-                                ? nullptr
-                                : &device_.target("viewer/window", {.width = window_size_.x, .height = window_size_.y});
-  const PictureArea area = picture_area(panel, seen);
+  const gl::Texture* shown =
+      a_.shown == nullptr
+          ? nullptr
+          : &device_.device.target("viewer/window", {.width = window_size_.x, .height = window_size_.y});
+  const PictureArea area = picture_area(panel, shown);
   ImGui::End();
   ImGui::SetNextWindowPos({left, whole.y - bar});
   ImGui::SetNextWindowSize({whole.x - left, bar});
@@ -275,7 +273,7 @@ PictureArea Viewer::build_interface(float seconds) {
   legend_overlay(panel, {corner.x + area.size.x, corner.y});
   messages_overlay(panel, {corner.x, corner.y + area.size.y}, ImGui::GetTime());
   help_overlay(panel);
-  state_.list_open = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  state_.popup_open = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   return area;
 }
 
@@ -301,15 +299,15 @@ void Viewer::side_panel(const Panel& panel) {
   state_.tab.clear();
 }
 
-// Camera and sun as `render` would choose them for these options.
-void Viewer::aim() {
+// Chooses camera and sun as `render` would for the present options.
+void Viewer::update_view() {
   if (scene_ == nullptr) return;
   cli::SceneOptions& options = state_.document.options;
   options.size = {window_size_.x, window_size_.y};
   std::string wanted = cli::command_text("", scene_arguments(options));
-  if (wanted == aimed_) return;
+  if (wanted == view_options_) return;
   session::update_view(scene_->prepared, options);
-  aimed_ = std::move(wanted);
+  view_options_ = std::move(wanted);
 }
 
 }  // namespace penumbra::viewer

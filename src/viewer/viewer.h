@@ -9,27 +9,29 @@
 #include "gl/pass.h"
 #include "render/renderer.h"
 #include "session/file_watch.h"
+#include "session/render_device.h"
 #include "truth/technique.h"
 #include "viewer/costs.h"
-#include "viewer/facts.h"
+#include "viewer/frame_pacing.h"
+#include "viewer/frame_plan.h"
 #include "viewer/options.h"
-#include "viewer/pace.h"
-#include "viewer/painter.h"
 #include "viewer/picture_area.h"
-#include "viewer/plan.h"
+#include "viewer/picture_renderer.h"
 #include "viewer/render_process.h"
 #include "viewer/scene_loader.h"
 #include "viewer/settings.h"
 #include "viewer/state.h"
+#include "viewer/status.h"
 #include "viewer/widgets.h"
 #include "viewer/window.h"
 
 namespace penumbra::viewer {
 
-// The desktop viewer: a window in which a scene is drawn by the same code as offscreen, and all that tunes it.
+// The desktop viewer: a window in which a scene is drawn by the same code as offscreen, with panels to change its
+// options and parameters.
 class Viewer {
  public:
-  // Throws Error where there is no display, or the first values are wrong.
+  // Throws Error where there is no display, or the options' values are wrong.
   explicit Viewer(ViewOptions options);
   ~Viewer();
 
@@ -37,17 +39,23 @@ class Viewer {
   int run();
 
  private:
-  // One of the two pictures, what it cost and, where numbers are looked at, these.
+  // One of the two pictures, A or B: what draws it, what it cost and the values read back from it.
   struct Side {
-    Side(gl::Device& device, render::Renderer& renderer, int view) : painter(device, renderer, view) {}
-    Painter painter;
+    Side(gl::Device& device, render::Renderer& shared, int view) : renderer(device, shared, view) {}
+    PictureRenderer renderer;
     Costs costs;
-    int divisor = 1;                    // of the last frame
-    Values values;                      // of what is inspected
-    int reads = 0;                      // of them, so far
-    std::vector<float> visibility;      // if measured
-    bool measured = false;              // at rest, as it is seen
-    const gl::Texture* seen = nullptr;  // its picture, or its values in false colour
+    int divisor = 1;                     // of the last frame
+    Values values;                       // of the inspected AOV or texture
+    int reads = 0;                       // how often they were read back
+    std::vector<float> visibility;       // if measured
+    bool measured = false;               // the visibility is that of the finished picture
+    const gl::Texture* shown = nullptr;  // its picture, or its values in false colour
+  };
+  // What a frame does for one of them.
+  struct SideWork {
+    Side& side;
+    const Document& document;
+    const PicturePlan& plan;
   };
 
   void show_frames();
@@ -60,17 +68,17 @@ class Viewer {
   PictureArea build_interface(float seconds);
   void side_panel(const Panel& panel);
   void draw_pictures(const PictureArea& area, double now);
-  Situation situation_of(const Document& b, const PictureArea& area, double now);
+  FrameState frame_state(const Document& b, const PictureArea& area, double now);
   void take_traced(const Document& b);
-  void draw_sides(const Plan& plan, const Document& b, double now);
+  void draw_sides(std::span<const SideWork> work, int divisor, double now);
   void measure(Side& side);
   void forget_b();
-  bool draw_side(Side& side, const Document& document, int divisor, bool measures);
+  bool draw_side(const SideWork& work, int divisor);
   Document document_b() const;
   void inspect(Side& side);
   void color_values(bool differ);
   void color(Side& side, const Values& values, int number);
-  void measure_distance();
+  void measure_difference();
   bool probes(const PictureArea& area) const;
   void probe(const PictureArea& area);
   void show_pictures();
@@ -87,32 +95,31 @@ class Viewer {
   void frame_all();
   void take_settings();
   void keep_settings();
-  void aim();
-  // Tells the user of an Error that it throws, and goes on.
+  void update_view();
+  // Runs an action; an Error that it throws becomes a message to the user.
   void guarded(const std::function<void()>& action);
 
   ViewOptions options_;
-  std::string fault_;  // of the last run's settings
+  std::string fault_;  // why the last run's settings could not be read
   Settings settings_;
   Window window_;
-  gl::DeviceInfo device_info_;
-  gl::Device device_;
+  session::RenderDevice device_;
   truth::TruthTechnique truth_;
   render::Renderer renderer_;
   std::unique_ptr<LoadedScene> scene_;
   SceneLoader loader_;
-  std::optional<session::FileWatch> watch_;  // absent: the system has none left
+  std::optional<session::FileWatch> watch_;  // absent if the system's limit of watches is reached
   RenderProcess writer_;
-  State state_;
+  UiState state_;
   Side a_, b_;
-  Pace pace_;
+  FramePacing pacing_;
   CostReader cost_reader_;
   WidgetMap widgets_;
-  Facts facts_;
-  std::string aimed_;                // the options that camera and sun were last chosen for
-  std::string inspected_, colored_;  // what values were last read of, and coloured
-  bool readable_ = false;            // the renderer's last frame; it is
-  bool last_is_b_ = false;           // B's
+  ViewerStatus status_;
+  std::string view_options_;         // the options that camera and sun were last chosen for
+  std::string inspected_, colored_;  // what values were last read back from, and coloured
+  bool readable_ = false;            // the renderer's last frame succeeded, so values can be read back
+  bool last_is_b_ = false;           // it drew B
   std::optional<glm::ivec2> last_probed_;
   glm::ivec2 window_size_{1};  // of the picture's area, pixels
   bool vsync_ = true;

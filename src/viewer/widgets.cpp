@@ -94,9 +94,10 @@ void WidgetMap::mark(std::string_view name, const ImVec2& low, const ImVec2& hig
 }
 
 void WidgetMap::write_changes(const std::filesystem::path& file) {
-  // A list that opens takes a frame to find its size; the end of rest is news at once.
-  const bool rest_ends = written_.contains(rest) && !boxes_.contains(rest);
-  if (!rest_ends && (boxes_ != last_ || boxes_ == written_)) return;
+  // A popup takes a frame to find its size, so rectangles have to hold for two frames. That the viewer is no longer
+  // idle is written at once, lest a script takes an old picture for the finished one.
+  const bool idle_ends = written_.contains(idle) && !boxes_.contains(idle);
+  if (!idle_ends && (boxes_ != last_ || boxes_ == written_)) return;
   io::Json json = io::Json::object();
   for (const auto& [name, box] : boxes_) json[name] = {box.left, box.top, box.right, box.bottom};
   io::write_text(file, io::text_of(json));

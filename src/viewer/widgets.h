@@ -11,17 +11,18 @@
 
 namespace penumbra::viewer {
 
-// Where widgets stand, by name, in pixels of the window from its upper left: for scripts that drive the viewer.
+// The rectangles of widgets by name, in pixels from the window's upper left: for scripts that drive the viewer.
 class WidgetMap {
  public:
-  // A new frame of the interface.
+  // Starts a new frame of the interface.
   void begin();
-  // The widget that was drawn last has this name; a second one of a name in a frame counts alone.
+  // Names the widget that was drawn last. If two of a frame get one name, the second is kept.
   void mark(std::string_view name);
   void mark(std::string_view name, const ImVec2& low, const ImVec2& high);
-  // "at rest": what is seen stays as it is.
-  void mark_rest() { mark(rest, {0, 0}, {0, 0}); }
-  // Writes all of them as JSON if any moved since, and have come to rest: {"name": [left, top, right, bottom], …}.
+  // Adds the name "idle": all pictures are finished.
+  void mark_idle() { mark(idle, {0, 0}, {0, 0}); }
+  // Writes all of them as JSON if any changed since the last file and none since the last frame:
+  // {"name": [left, top, right, bottom], …}.
   // Throws Error.
   void write_changes(const std::filesystem::path& file);
 
@@ -30,23 +31,23 @@ class WidgetMap {
     int left = 0, top = 0, right = 0, bottom = 0;
     bool operator==(const Box&) const = default;
   };
-  static constexpr std::string_view rest = "at rest";
+  static constexpr std::string_view idle = "idle";
   std::map<std::string, Box, std::less<>> boxes_, last_, written_;
 };
 
-// A label in the left column and room for a widget in the right one, until end_rows().
+// A table of rows until end_rows(): each has a label in the left column and a widget in the right one.
 void begin_rows(const char* id);
 void row(const std::string& label, const std::string& tooltip, bool changed = false);
 void end_rows();
 
-// A row for a parameter, made from its declaration. True: `params` has another value now, in its range; one that the
-// program can't take (maps over the limit of memory) leaves it and is told in `fault`.
+// A row for a parameter, made from its declaration. Returns whether `params` changed. A value that the program refuses
+// (maps over the limit of memory) changes nothing and sets `fault` to the reason.
 bool param_row(ParamSet& params, const Param& param, WidgetMap& widgets, std::string& fault);
 
-// Text that appears while the pointer is over the last widget.
+// Text shown while the pointer is over the last widget.
 void tooltip(const std::string& text);
 
-// A line of a list, whatever is in its text: ImGui ends a label at "##". True: it was chosen.
+// A selectable line of a list with any text: ImGui's own would end it at "##". Returns whether it was clicked.
 bool choice(const std::string& text, bool chosen = false, ImGuiSelectableFlags flags = 0);
 
 }  // namespace penumbra::viewer

@@ -27,16 +27,17 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  // Takes the events that are there; waits for one up to `seconds`, 0: not at all. False: the window is to be closed.
+  // Handles the pending events, and waits up to `seconds` for one if there are none. Returns false once the user closes
+  // the window.
   bool poll(double seconds);
 
-  // A frame of the user interface begins; show() ends it and puts it on the screen.
+  // begin() starts a frame of the user interface; show() ends it and puts it on the screen.
   void begin();
   void show();
 
   // Of the framebuffer; 0 while it is minimised.
   glm::ivec2 pixels() const;
-  // Pixels of a point of text at a scale of 1: 2 on a screen with twice the dots.
+  // The desktop's content scale: 2 on a screen with twice as many dots per inch.
   float scale() const { return scale_; }
   // In the desktop's units, while it is neither minimised nor maximised; else as it was before.
   cli::Size size();
@@ -46,8 +47,9 @@ class Window {
   std::vector<std::string> dropped();
 
  private:
-  // Dear ImGui sees which keys and buttons are down between two frames, and where the pointer is by then. On a slow
-  // machine a tap or a click is over by that time, and the hand elsewhere: each change is played where it was.
+  // Dear ImGui polls keys, buttons and the pointer once a frame. On a slow machine a click can begin and end between
+  // two frames, with the pointer elsewhere by then. So each change is recorded with the pointer's place, and given to
+  // ImGui in order.
   struct Change {
     enum class Of { key, button, text };
     Of of = Of::key;
@@ -69,13 +71,13 @@ class Window {
   float scale_ = 0;
   cli::Size size_;
   std::vector<std::string> dropped_;
-  glm::vec2 pointer_{0};          // as of the events so far, not of this moment
-  std::deque<Change> changes_;    // to come
-  std::array<bool, 512> keys_{};  // that are down, of those played; as many as Dear ImGui knows
+  glm::vec2 pointer_{0};          // at the last recorded event
+  std::deque<Change> changes_;    // recorded, not given to ImGui yet
+  std::array<bool, 512> keys_{};  // which are down as far as ImGui was told; it knows 512 keys
   std::array<bool, 5> buttons_{};
 };
 
-// Whether there is a display to open a window on; else what is missing.
+// Empty if there is a display to open a window on; else what is missing.
 std::string missing_display();
 
 }  // namespace penumbra::viewer

@@ -39,7 +39,7 @@ class Size(WindowTest):
                 self.resize(viewer, *size)
                 viewer.wait_for(lambda size=size: self.desktop.client.size(viewer.window) == size, "the new size")
                 viewer.follow()
-                viewer.wait_for(lambda: viewer.has("at rest"), "a picture at rest")
+                viewer.wait_for(lambda: viewer.has("idle"), "a finished picture")
             self.resize(viewer, 800, 600)
             viewer.wait_for(lambda: viewer.rest() == before, "the first picture")
 

@@ -21,7 +21,7 @@ class WindowTest(TestCase):
         return Viewer(self.desktop, *arguments, folder=self.folder, **options)
 
     def picture_of(self, *arguments, **options):
-        """What a viewer of its own shows at rest."""
+        """The finished picture of a viewer of its own."""
         with self.view(*arguments, **options) as viewer:
             return viewer.rest()
 

@@ -6,7 +6,7 @@
 
 #include "gpu/gpu_test.h"
 #include "image/read.h"
-#include "viewer/painter.h"
+#include "viewer/picture_renderer.h"
 
 namespace penumbra::test {
 namespace {
@@ -28,7 +28,7 @@ void expect_no_more_than([[maybe_unused]] std::size_t bytes) {
 
 class ViewerMemory : public GpuTest {
  protected:
-  ViewerMemory() : renderer_(device_), painter_(device_, renderer_, 0) {
+  ViewerMemory() : renderer_(device_), renderer_of_a_(device_, renderer_, 0) {
     document_.options.size = {320, 180};
     document_.params = ParamSet(render::Renderer::params(renderer_.registry()));
     renderer_.registry().select(document_.params, "thesis");
@@ -50,7 +50,7 @@ class ViewerMemory : public GpuTest {
   void draw(viewer::LoadedScene& scene, int frames, int divisor = 1) {
     for (int i = 0; i < frames; ++i) {
       document_.params.set("sampling.seed", i % 2);  // something changes, as under a hand
-      painter_.draw(scene, document_, divisor);
+      renderer_of_a_.draw(scene, document_, divisor);
       device_.timers.take();
     }
   }
@@ -59,7 +59,7 @@ class ViewerMemory : public GpuTest {
 
   gl::Device device_{gl::ShaderFiles{}, gl::Timers::Mode::finish};
   render::Renderer renderer_;
-  viewer::Painter painter_;
+  viewer::PictureRenderer renderer_of_a_;
   viewer::Document document_;
 };
 
@@ -77,7 +77,7 @@ TEST_F(ViewerMemory, IsFlatOverFiftyScenesAndTheirSizes) {
   const auto show = [&](int number) {
     const auto scene = load(number % 2 == 0 ? "steps.glb" : "posts.glb");
     document_.options.size = {64 + 16 * (number % 3), 48};
-    painter_.cut();
+    renderer_of_a_.cut();
     draw(*scene, 2, 1 + number % 2);
   };
   for (int i = 0; i < 12; ++i) show(i);

@@ -102,13 +102,13 @@ class Viewer:
         def rests():
             nonlocal seen
             self.follow()
-            last, seen = seen, self.picture() if self.has("at rest") else None
+            last, seen = seen, self.picture() if self.has("idle") else None
             return seen if seen == last else None
 
-        return self.wait_for(rests, "a picture at rest")
+        return self.wait_for(rests, "a finished picture")
 
     def changed(self, before):
-        """The picture at rest once it is another."""
+        """The finished picture, once it is another."""
         self.leave()
 
         def other():

@@ -12,8 +12,8 @@
 namespace penumbra {
 namespace {
 
+using viewer::ColorMapping;
 using viewer::ColorScale;
-using viewer::Look;
 using viewer::Range;
 using viewer::Values;
 
@@ -80,7 +80,7 @@ TEST(ViewerInspect, AHandsRangeAndAKnownOneAreKept) {
   const Range by_hand = range_of({.automatic = false, .low = 3, .high = 4}, {.fixed = true}, values);
   EXPECT_EQ(by_hand.low, 3);
   EXPECT_EQ(by_hand.high, 4);
-  const Range fixed = range_of({}, viewer::look_of("shadow"), values);
+  const Range fixed = range_of({}, viewer::mapping_of("shadow"), values);
   EXPECT_EQ(fixed.low, 0);
   EXPECT_EQ(fixed.high, 1);
 }
@@ -158,14 +158,14 @@ TEST(ViewerInspect, VectorsLieAboutGrey) {
   EXPECT_EQ(color_in(values, rgba, 2, 0), glm::ivec3(64, 191, 128));
 }
 
-TEST(ViewerInspect, EveryAovHasALookThatFitsIt) {
+TEST(ViewerInspect, EveryAovHasFittingColours) {
   for (const render::Aov& aov : render::aovs()) {
-    const Look look = viewer::look_of(aov.name);
+    const ColorMapping mapping = viewer::mapping_of(aov.name);
     const bool is_vector = aov.channels.size() > 1;
-    EXPECT_EQ(look.scale == ColorScale::rgb || look.scale == ColorScale::vectors, is_vector) << aov.name;
-    EXPECT_EQ(look.scale == ColorScale::labels, !look.labels.empty()) << aov.name;
-    EXPECT_EQ(look.unit == "m", aov.help.find(", m;") != std::string::npos) << aov.name;
-    EXPECT_EQ(look.unit == "px", aov.in_pixels) << aov.name;
+    EXPECT_EQ(mapping.scale == ColorScale::rgb || mapping.scale == ColorScale::vectors, is_vector) << aov.name;
+    EXPECT_EQ(mapping.scale == ColorScale::labels, !mapping.labels.empty()) << aov.name;
+    EXPECT_EQ(mapping.unit == "m", aov.help.find(", m;") != std::string::npos) << aov.name;
+    EXPECT_EQ(mapping.unit == "px", aov.in_pixels) << aov.name;
   }
 }
 
@@ -193,9 +193,9 @@ class ViewerCursor : public testing::Test {
 };
 
 TEST_F(ViewerCursor, ThePixelUnderTheCursorIsTheOneThatIsShownThere) {
-  for (const viewer::Comparing how : {viewer::Comparing::a, viewer::Comparing::b, viewer::Comparing::wipe,
-                                      viewer::Comparing::side_by_side, viewer::Comparing::difference}) {
-    const int parts = how == viewer::Comparing::side_by_side ? 2 : 1;
+  for (const viewer::CompareMode how : {viewer::CompareMode::a, viewer::CompareMode::b, viewer::CompareMode::wipe,
+                                        viewer::CompareMode::side_by_side, viewer::CompareMode::difference}) {
+    const int parts = how == viewer::CompareMode::side_by_side ? 2 : 1;
     for (const float factor : {1.0f, 0.5f, 3.0f, 16.0f}) {
       viewer::PresentInputs inputs{.a = &picture_, .b = &picture_, .picture_size = {40, 30}, .window_size = {321, 200}};
       inputs.comparison.on = true;
@@ -226,7 +226,7 @@ TEST_F(ViewerCursor, BesideThePictureThereIsNone) {
 
 TEST_F(ViewerCursor, WithoutASecondPictureThereIsNoSideBySide) {
   viewer::PresentInputs inputs{.a = &picture_, .picture_size = {100, 100}, .window_size = {100, 100}};
-  inputs.comparison.how = viewer::Comparing::side_by_side;
+  inputs.comparison.how = viewer::CompareMode::side_by_side;
   inputs.comparison.on = true;
   EXPECT_EQ(pixel_at(inputs, {50.5f, 50.5f}), glm::ivec2(50, 50)) << "B is not drawn yet";
   inputs.b = &picture_;

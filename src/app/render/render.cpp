@@ -47,10 +47,9 @@ void render_files(const RenderOptions& options) {
   std::unique_ptr<gl::Context> context = session::open_context(options, options);
   const session::PreparedScene prepared = loading.get();
   check_scene_files(prepared.scene.files, options, names);
-  const truth::TruthTechnique truth({.cache = options.folder(), .threads = options.threads.value_or(0)});
-  session::RenderSession session(
-      options, std::move(context), prepared,
-      {.shaders = gl::ShaderFiles(options.glsl), .techniques = truth.registry(), .timed = !options.stats.empty()});
+  const truth::TruthTechnique truth(session::truth_options(options, options));
+  session::RenderSession session(options, options, std::move(context), prepared, truth.registry(),
+                                 /* timed= */ !options.stats.empty());
 
   draw_frames(options, session, params, range, [&](int frame) { write_frame(session, options, params, names, frame); });
   write_reports(options, prepared, params, session,

@@ -116,7 +116,7 @@ Watch::Watch(const RenderOptions& options)
     : options_(options),
       names_(options.output, /* sequence= */ false),
       params_(cli::resolve_params(options, session::all_techniques())),
-      truth_({.cache = options.folder(), .threads = options.threads.value_or(0)}) {
+      truth_(session::truth_options(options, options)) {
   check_files(options_, names_);
   files_.set_files(inputs());
   if (!options_.glsl.empty()) files_.add_folder(options_.glsl);
@@ -124,10 +124,8 @@ Watch::Watch(const RenderOptions& options)
   prepared_ = std::make_unique<session::PreparedScene>(session::load_scene(options_, image::image_decoder()));
   check_scene_files(prepared_->scene.files, options_, names_);
   files_.set_files(inputs());
-  session_ = std::make_unique<session::RenderSession>(
-      options_, session::open_context(options_, options_), *prepared_,
-      session::SessionResources{
-          .shaders = gl::ShaderFiles(options_.glsl), .techniques = truth_.registry(), .timed = true});
+  session_ = std::make_unique<session::RenderSession>(options_, options_, session::open_context(options_, options_),
+                                                      *prepared_, truth_.registry(), /* timed= */ true);
 }
 
 // Single files: the scene's, whether they could be read or not, and the presets.

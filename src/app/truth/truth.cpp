@@ -146,7 +146,7 @@ void trace_files(const TruthOptions& options) {
   constexpr int parts = 1000;  // of a frame
   std::optional<cli::Progress> progress;
   progress.emplace(range.count() > 1 ? "frame" : "", range.count() > 1 ? range.count() : parts, !options.quiet);
-  truth::TechniqueOptions how{.cache = options.folder(), .threads = options.threads.value_or(0)};
+  truth::TechniqueOptions how = session::truth_options(options, options);
   if (range.count() == 1) {
     how.progress = [&progress](double share) {
       progress->reach(std::min(static_cast<int>(share * parts), parts - 1));
@@ -155,8 +155,8 @@ void trace_files(const TruthOptions& options) {
   }
   if (options.light) how.local_light = local_light(prepared.scene, *options.light, options.light_radius);
   const truth::TruthTechnique truth(std::move(how));
-  session::RenderSession session(options, session::open_context(options, options), prepared,
-                                 {.shaders = gl::ShaderFiles(options.glsl), .techniques = truth.registry()});
+  session::RenderSession session(options, options, session::open_context(options, options), prepared, truth.registry(),
+                                 /* timed= */ false);
   std::string last_line;
   for (int frame = range.first; frame <= range.last; ++frame) {
     session.draw(frame, params);

@@ -1,5 +1,5 @@
 // What the viewer draws next: the frames that a picture lacks, and no others.
-#include "viewer/plan.h"
+#include "viewer/frame_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -8,46 +8,51 @@
 namespace penumbra {
 namespace {
 
+using viewer::FramePlan;
+using viewer::FrameState;
 using viewer::PictureState;
-using viewer::Plan;
-using viewer::Situation;
 
 // A viewer at work: two pictures, a truth that takes so many turns, and a clock.
 class Desk {
  public:
-  explicit Desk(bool software) : pace_(software) {}
+  explicit Desk(bool software) : pacing_(software) {}
 
-  Plan turn() {
+  FramePlan turn() {
     now_ += 0.05;
-    Situation situation{.now = now_, .a = a, .b = b, .pending = tracing > 0, .looks = looks, .last_is_b = last_is_b_};
-    const Plan plan = plan_frame(pace_, situation);
-    looks = false;
-    if (plan.cancel) tracing = 0;
+    FrameState state{.now = now_,
+                     .a = a,
+                     .b = b,
+                     .truth_pending = tracing > 0,
+                     .values_wanted = values_wanted,
+                     .last_is_b = last_is_b_};
+    const FramePlan plan = plan_frame(pacing_, state);
+    values_wanted = false;
+    if (plan.cancel_truth) tracing = 0;
     if (tracing > 0 && --tracing == 0) {  // its picture is there: it is drawn once more
       if (a.traced) a.frames = 0;
       if (b && b->traced) b->frames = 0;
     }
-    if (plan.measure_a && !plan.draw_a) {
+    if (plan.a.measure && !plan.a.draw) {
       EXPECT_TRUE(!last_is_b_ && a.missing() == 0);
       a.measured = true;
     }
-    if (b && plan.measure_b && !plan.draw_b) {
+    if (b && plan.b.measure && !plan.b.draw) {
       EXPECT_TRUE(last_is_b_ && b->missing() == 0);
       b->measured = true;
     }
-    if (b && plan.draw_b) draw(*b, plan.cut_b, plan.measure_b, plan.divisor, drawn_b);
-    if (plan.draw_a) draw(a, plan.cut_a, plan.measure_a, plan.divisor, drawn_a);
-    if (plan.draw_a || plan.draw_b) last_is_b_ = !plan.draw_a;
-    if (plan.draw_a || plan.draw_b) pace_.drew(plan.divisor, 50);
+    if (b && plan.b.draw) draw(*b, plan.b.cut, plan.b.measure, plan.divisor, drawn_b);
+    if (plan.a.draw) draw(a, plan.a.cut, plan.a.measure, plan.divisor, drawn_a);
+    if (plan.a.draw || plan.b.draw) last_is_b_ = !plan.a.draw;
+    if (plan.a.draw || plan.b.draw) pacing_.drew(plan.divisor, 50);
     return plan;
   }
   // Until nothing is to come, and a while on. The last turn.
-  Plan rest(int turns = 200) {
-    Plan plan;
+  FramePlan rest(int turns = 200) {
+    FramePlan plan;
     for (int i = 0; i < turns; ++i) plan = turn();
     return plan;
   }
-  // A hand moves the camera.
+  // The user moves the camera.
   void move(int turns) {
     for (int i = 0; i < turns; ++i) {
       change(a);
@@ -62,7 +67,7 @@ class Desk {
 
   PictureState a;
   std::optional<PictureState> b;
-  bool looks = false;
+  bool values_wanted = false;
   int tracing = 0;               // turns that are left
   int drawn_a = 0, drawn_b = 0;  // frames since the last cut
 
@@ -76,7 +81,7 @@ class Desk {
     picture.measured |= measure && !(picture.traced && tracing > 0);
   }
 
-  viewer::Pace pace_;
+  viewer::FramePacing pacing_;
   double now_ = 10;
   bool last_is_b_ = false;
 };
@@ -90,9 +95,9 @@ TEST(ViewerPlan, InSoftwareEachPictureAtRestHasItsFrames) {
     desk.a = wanting(32);
     if (two) desk.b = wanting(5);
     desk.move(20);
-    const Plan last = desk.rest();
-    EXPECT_TRUE(last.at_rest);
-    EXPECT_FALSE(last.draw_a || last.draw_b);
+    const FramePlan last = desk.rest();
+    EXPECT_TRUE(last.idle);
+    EXPECT_FALSE(last.a.draw || last.b.draw);
     EXPECT_EQ(desk.drawn_a, 32);
     EXPECT_EQ(desk.drawn_b, two ? 5 : 0);
   }
@@ -105,7 +110,7 @@ TEST(ViewerPlan, InSoftwareAIsWhatItWasWhateverHappensToB) {
   desk.rest();
   for (const PictureState& b : {wanting(1), wanting(32), truth()}) {
     desk.b = b;
-    EXPECT_TRUE(desk.rest().at_rest);
+    EXPECT_TRUE(desk.rest().idle);
     EXPECT_EQ(desk.drawn_a, 32);
     EXPECT_TRUE(desk.a.measured && desk.b->measured);
     EXPECT_TRUE(b.traced || desk.drawn_b == b.wanted) << desk.drawn_b;
@@ -119,16 +124,16 @@ TEST(ViewerPlan, ValuesThatAreLookedAtAreReadAnewOrAreThoseOfTheCommand) {
   Desk desk(/*software=*/true);
   desk.a = wanting(32);
   desk.rest();
-  desk.looks = true;
-  Plan plan = desk.turn();
+  desk.values_wanted = true;
+  FramePlan plan = desk.turn();
   EXPECT_TRUE(plan.inspect);
-  EXPECT_FALSE(plan.draw_a);
+  EXPECT_FALSE(plan.a.draw);
   desk.b = wanting(32);
   desk.rest();
-  desk.looks = true;
+  desk.values_wanted = true;
   plan = desk.turn();
-  EXPECT_TRUE(plan.draw_a && plan.draw_b);
-  EXPECT_TRUE(desk.rest().at_rest);
+  EXPECT_TRUE(plan.a.draw && plan.b.draw);
+  EXPECT_TRUE(desk.rest().idle);
   EXPECT_EQ(desk.drawn_a, 32);
   EXPECT_EQ(desk.drawn_b, 32);
 }
@@ -142,14 +147,14 @@ TEST(ViewerPlan, DistancesAreMeasuredOnceAtRest) {
       for (int i = 0; i < 30; ++i) {
         Desk::change(desk.a);
         Desk::change(*desk.b);
-        const Plan plan = desk.turn();
-        EXPECT_FALSE(plan.measure_a || plan.measure_b) << "in motion";
+        const FramePlan plan = desk.turn();
+        EXPECT_FALSE(plan.a.measure || plan.b.measure) << "in motion";
       }
       int a = 0, b = 0;
       for (int i = 0; i < 200; ++i) {
-        const Plan plan = desk.turn();
-        a += plan.measure_a;
-        b += plan.measure_b;
+        const FramePlan plan = desk.turn();
+        a += plan.a.measure;
+        b += plan.b.measure;
       }
       EXPECT_EQ(a, 1) << software << wanted;
       EXPECT_EQ(b, 1) << software << wanted;
@@ -165,13 +170,13 @@ TEST(ViewerPlan, ATruthIsTracedAtRestAndItsPictureStays) {
     for (int i = 0; i < 20; ++i) {
       Desk::change(desk.a);
       Desk::change(*desk.b);
-      EXPECT_FALSE(desk.turn().draw_b) << "in motion";
+      EXPECT_FALSE(desk.turn().b.draw) << "in motion";
     }
     desk.rest();
     EXPECT_TRUE(desk.b->current);
     EXPECT_TRUE(desk.b->measured) << software;
     int drawn = 0;
-    for (int i = 0; i < 50; ++i) drawn += desk.turn().draw_b;
+    for (int i = 0; i < 50; ++i) drawn += desk.turn().b.draw;
     EXPECT_EQ(drawn, 0);
   }
 }
@@ -181,13 +186,13 @@ TEST(ViewerPlan, OnAGpuATracedAFollowsTheHandAndThenStays) {
   desk.a = truth();
   for (int i = 0; i < 10; ++i) {
     Desk::change(desk.a);
-    EXPECT_TRUE(desk.turn().draw_a);
+    EXPECT_TRUE(desk.turn().a.draw);
   }
   desk.rest();
   int drawn = 0;
-  for (int i = 0; i < 50; ++i) drawn += desk.turn().draw_a;
+  for (int i = 0; i < 50; ++i) drawn += desk.turn().a.draw;
   EXPECT_EQ(drawn, 0);
-  EXPECT_TRUE(desk.turn().at_rest);
+  EXPECT_TRUE(desk.turn().idle);
 }
 
 TEST(ViewerPlan, ATruthThatNobodyWaitsForIsCancelled) {
@@ -197,15 +202,15 @@ TEST(ViewerPlan, ATruthThatNobodyWaitsForIsCancelled) {
     desk.b = truth();
     for (int i = 0; i < 12; ++i) desk.turn();
     ASSERT_GT(desk.tracing, 0);
-    EXPECT_FALSE(desk.turn().cancel);
+    EXPECT_FALSE(desk.turn().cancel_truth);
     Desk::change(*desk.b);
     Desk::change(desk.a);
-    EXPECT_TRUE(desk.turn().cancel) << "the camera moves";
+    EXPECT_TRUE(desk.turn().cancel_truth) << "the camera moves";
     for (int i = 0; i < 12; ++i) desk.turn();
     ASSERT_GT(desk.tracing, 0);
     desk.b = wanting(1);
-    EXPECT_TRUE(desk.turn().cancel) << "B is another technique";
-    EXPECT_TRUE(desk.rest().at_rest);
+    EXPECT_TRUE(desk.turn().cancel_truth) << "B is another technique";
+    EXPECT_TRUE(desk.rest().idle);
   }
 }
 
@@ -214,8 +219,8 @@ TEST(ViewerPlan, AGpuDrawsEveryFrame) {
   desk.a = wanting(1);
   desk.b = wanting(1);
   for (int i = 0; i < 50; ++i) {
-    const Plan plan = desk.turn();
-    EXPECT_TRUE(plan.draw_a && plan.draw_b);
+    const FramePlan plan = desk.turn();
+    EXPECT_TRUE(plan.a.draw && plan.b.draw);
     EXPECT_EQ(plan.divisor, 1);
   }
 }

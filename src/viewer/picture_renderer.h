@@ -12,7 +12,7 @@
 
 namespace penumbra::viewer {
 
-// A scene that is shown: on the CPU and on the GPU.
+// The scene that is shown, on the CPU and on the GPU.
 struct LoadedScene {
   LoadedScene(gl::Device& device, session::PreparedScene loaded)
       : prepared(std::move(loaded)), gpu(device, prepared.scene) {}
@@ -22,32 +22,33 @@ struct LoadedScene {
   std::vector<std::string> cameras = render::camera_names(prepared.scene);
 };
 
-// One of the pictures that are compared, and what was drawn last of it.
-class Painter {
+// Draws one of the two pictures, A or B, and keeps what it drew last.
+class PictureRenderer {
  public:
-  // `view` tells painters apart that share a renderer.
-  Painter(gl::Device& device, render::Renderer& renderer, int view);
+  // `view`: 0 for A, 1 for B, which share a renderer (FrameInputs::view).
+  PictureRenderer(gl::Device& device, render::Renderer& renderer, int view);
 
-  // Whether this document, at whatever size, is what was drawn last.
+  // Whether the last drawing is of this document, at full size or a smaller one.
   bool shows(const Document& document) const;
-  // Draws the document's picture, its sides divided by `divisor`, with the motion since the last one. Throws Error.
+  // Draws the document, with the picture's sides divided by `divisor` and the motion since the last drawing. Throws
+  // Error.
   void draw(LoadedScene& scene, const Document& document, int divisor);
-  // The next picture takes up nothing of the last: another scene, other shaders, the first of a picture at rest.
+  // The next drawing starts without history: after another scene or other shaders, and for the first one at full size.
   void cut() {
     cut_ = true;
     frames_ = 0;
   }
-  // The present picture is to be drawn once more: what it shows was not ready.
+  // The picture has to be drawn again: what it shows was not finished.
   void again() { frames_ = 0; }
 
-  // There is no picture.
+  // Frees the picture.
   void forget();
 
-  // Pictures of the present state at full size, drawn since it changed.
+  // Frames drawn at full size since the document changed.
   int frames() const { return divisor_ == 1 ? frames_ : 0; }
   double milliseconds() const { return milliseconds_; }
 
-  // As it is shown, RGBA8; stays until the next draw().
+  // The last drawing, tone mapped, RGBA8; valid until the next draw().
   const gl::Texture& picture() const { return *picture_; }
   bool has_picture() const { return picture_ != nullptr; }
 
@@ -58,7 +59,7 @@ class Painter {
   render::Renderer& renderer_;
   int view_;
   const gl::Texture* picture_ = nullptr;
-  std::string drawn_;  // what was, in words
+  std::string drawn_;  // the document drawn last, as its command line
   int divisor_ = 1, frames_ = 0;
   double milliseconds_ = 0, last_time_ = 0;
   render::Camera last_camera_;

@@ -1,5 +1,6 @@
-// When the viewer draws, and how large: at once under a hand, in full at rest, no more than is wanted.
-#include "viewer/pace.h"
+// When the viewer draws, and at what size: small while the user moves something, at full size once idle, and no more
+// frames than are wanted.
+#include "viewer/frame_pacing.h"
 
 #include <gtest/gtest.h>
 
@@ -9,18 +10,18 @@
 namespace penumbra {
 namespace {
 
-using viewer::Pace;
+using viewer::FramePacing;
 
 // A machine whose full picture takes so many milliseconds, and a viewer on it.
 class Machine {
  public:
-  explicit Machine(double full_ms, bool software = true) : pace(software), full_ms_(full_ms) {}
+  explicit Machine(double full_ms, bool software = true) : pacing(software), full_ms_(full_ms) {}
 
   // One turn of the viewer's loop, some of a second after the last.
-  Pace::Step turn(bool changed, int frames = 0, int wanted = 32, bool busy = false) {
+  FramePacing::Step turn(bool changed, int frames = 0, int wanted = 32, bool ui_active = false) {
     now_ += 0.02;
-    const Pace::Step step = pace.next(now_, changed, busy, frames, wanted);
-    if (step.draw) pace.drew(step.divisor, took(step.divisor));
+    const FramePacing::Step step = pacing.next(now_, changed, ui_active, frames, wanted);
+    if (step.draw) pacing.drew(step.divisor, took(step.divisor));
     return step;
   }
   double took(int divisor) const { return full_ms_ / divisor / divisor; }
@@ -33,7 +34,7 @@ class Machine {
     return divisor;
   }
 
-  Pace pace;
+  FramePacing pacing;
 
  private:
   double full_ms_, now_ = 10;
@@ -42,7 +43,7 @@ class Machine {
 TEST(ViewerPace, AGpuDrawsEveryFrameInFull) {
   Machine machine(500, /*software=*/false);
   for (const bool changed : {true, false, true, false, false}) {
-    const Pace::Step step = machine.turn(changed, /*frames=*/100, /*wanted=*/1, /*busy=*/true);
+    const FramePacing::Step step = machine.turn(changed, /*frames=*/100, /*wanted=*/1, /*ui_active=*/true);
     EXPECT_TRUE(step.draw);
     EXPECT_EQ(step.divisor, 1);
   }
@@ -52,7 +53,7 @@ TEST(ViewerPace, WhatChangesIsDrawnAtOnceAndSmall) {
   Machine machine(800);
   EXPECT_GT(machine.turn(true).divisor, 1) << "before anything is known of the machine";
   for (int i = 0; i < 20; ++i) {
-    const Pace::Step step = machine.turn(true, 0, 1, /*busy=*/true);
+    const FramePacing::Step step = machine.turn(true, 0, 1, /*ui_active=*/true);
     EXPECT_TRUE(step.draw);
     EXPECT_GT(step.divisor, 1);
   }
@@ -63,9 +64,9 @@ TEST(ViewerPace, AtRestThePictureIsFullAndDrawnAsOftenAsWanted) {
   machine.turn(true);
   int waited = 0, frames = 0, drawn = 0;
   while (!machine.turn(false).draw) ASSERT_LT(++waited, 100);
-  EXPECT_GT(waited, 3) << "a pause of the hand is no rest";
+  EXPECT_GT(waited, 3) << "a short pause is not idle";
   for (int i = 0; i < 100; ++i) {
-    const Pace::Step step = machine.turn(false, frames, 31);
+    const FramePacing::Step step = machine.turn(false, frames, 31);
     if (!step.draw) continue;
     EXPECT_EQ(step.divisor, 1);
     ++frames;
@@ -78,36 +79,36 @@ TEST(ViewerPace, APictureAtRestBeginsAnewOnceWhateverTheSizeInMotion) {
   for (const double full : {1.0, 300.0}) {
     Machine machine(full);
     machine.in_motion();
-    std::vector<bool> anew;
+    std::vector<bool> restarts;
     for (int i = 0; i < 100; ++i) {
-      const Pace::Step step = machine.turn(false, static_cast<int>(anew.size()), 31);
-      if (step.draw) anew.push_back(step.anew);
+      const FramePacing::Step step = machine.turn(false, static_cast<int>(restarts.size()), 31);
+      if (step.draw) restarts.push_back(step.restart);
     }
-    ASSERT_EQ(anew.size(), 31u) << full;
-    EXPECT_TRUE(anew.front());
-    EXPECT_EQ(std::count(anew.begin(), anew.end(), true), 1);
-    EXPECT_FALSE(machine.turn(true).anew);
+    ASSERT_EQ(restarts.size(), 31u) << full;
+    EXPECT_TRUE(restarts.front());
+    EXPECT_EQ(std::count(restarts.begin(), restarts.end(), true), 1);
+    EXPECT_FALSE(machine.turn(true).restart);
   }
 }
 
 TEST(ViewerPace, AGpuGoesOnWhenMotionEndsAndSaysWhenItRests) {
   Machine machine(1, /*software=*/false);
   int turns = 0;
-  EXPECT_FALSE(machine.turn(true).rests);
-  for (Pace::Step step; !step.rests; ++turns) {
+  EXPECT_FALSE(machine.turn(true).idle);
+  for (FramePacing::Step step; !step.idle; ++turns) {
     step = machine.turn(false);
-    EXPECT_FALSE(step.anew);
+    EXPECT_FALSE(step.restart);
     ASSERT_LT(turns, 100);
   }
   EXPECT_GT(turns, 3);
-  EXPECT_FALSE(machine.turn(true).rests);
+  EXPECT_FALSE(machine.turn(true).idle);
 }
 
 TEST(ViewerPace, AHandAtThePanelIsNotKeptWaitingForFullPictures) {
   Machine machine(300);
   machine.turn(true);
-  for (int i = 0; i < 100; ++i) EXPECT_FALSE(machine.turn(false, 0, 31, /*busy=*/true).draw);
-  EXPECT_TRUE(machine.turn(false).draw) << "after the hand has gone";
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(machine.turn(false, 0, 31, /*ui_active=*/true).draw);
+  EXPECT_TRUE(machine.turn(false).draw) << "once no widget is held";
 }
 
 TEST(ViewerPace, AChangeEndsTheRest) {
@@ -127,7 +128,7 @@ TEST(ViewerPace, SlowMachinesDrawSmallerAndFastOnesLarger) {
     EXPECT_LE(divisor, 8);
     last = divisor;
     if (full < 3000) {
-      EXPECT_LE(machine.took(divisor), 100) << "a hand that is not followed";
+      EXPECT_LE(machine.took(divisor), 100) << "too slow to follow the mouse";
     }
     if (divisor > 1) {
       EXPECT_GT(machine.took(divisor / 2), 50) << "smaller than need be";
@@ -141,7 +142,7 @@ TEST(ViewerPace, TheSizeSettles) {
     Machine machine(full);
     const int settled = machine.in_motion();
     for (int i = 0; i < 10; ++i) EXPECT_EQ(machine.turn(true).divisor, settled) << full;
-    // Pictures at rest tell the same of the machine.
+    // Full-size pictures say as much about the machine.
     for (int i = 0; i < 40; ++i) machine.turn(false);
     EXPECT_EQ(machine.turn(true).divisor, settled) << full;
   }

@@ -1,0 +1,71 @@
+#include "viewer/picture_renderer.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "cli/text.h"
+#include "gl/api.h"
+#include "scene/animation.h"
+
+namespace penumbra::viewer {
+
+namespace {
+
+// Two documents with the same text have the same picture.
+std::string text_of(const Document& document) {
+  return cli::command_text("", render_arguments(document, "", /* warmup= */ 0, /* glsl= */ ""));
+}
+
+// Whether the time has moved as it does in a playing animation, and not jumped.
+bool continues(const session::PreparedScene& prepared, double last, double now) {
+  constexpr double longest_step = 1.0;  // seconds
+  return now >= last && now - last < longest_step && !scene::jumps_between(prepared.scene, last, now);
+}
+
+}  // namespace
+
+PictureRenderer::PictureRenderer(gl::Device& device, render::Renderer& renderer, int view)
+    : device_(device), renderer_(renderer), view_(view) {}
+
+bool PictureRenderer::shows(const Document& document) const {
+  return picture_ != nullptr && !cut_ && drawn_ == text_of(document);
+}
+
+void PictureRenderer::draw(LoadedScene& scene, const Document& document, int divisor) {
+  const auto start = std::chrono::steady_clock::now();
+  const double time = document.seconds();
+  std::string text = text_of(document);
+  frames_ = divisor == divisor_ && shows(document) ? frames_ : 0;
+  const cli::Size& size = document.options.size;
+  const bool cut = cut_ || !continues(scene.prepared, last_time_, time);
+  render::FrameInputs inputs = session::frame_inputs(
+      scene.prepared, {.width = std::max(size.width / divisor, 1), .height = std::max(size.height / divisor, 1)},
+      {.time = time, .last_time = cut ? time : last_time_, .cut = cut});
+  inputs.view = view_;
+  if (!cut) inputs.last_camera = last_camera_;  // the user moves the camera too
+  cut_ = true;                                  // until the frame is drawn: after one that throws there is no history
+  const render::Frame& frame = renderer_.draw(scene.gpu, inputs, document.params);
+  keep(*frame.display);
+  cut_ = false;
+  drawn_ = std::move(text);
+  divisor_ = divisor;
+  ++frames_;
+  last_time_ = time;
+  last_camera_ = inputs.camera;
+  milliseconds_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+void PictureRenderer::forget() {
+  device_.drop(fmt::format("viewer/picture {}", view_));
+  picture_ = nullptr;
+  drawn_.clear();
+  cut();
+}
+
+void PictureRenderer::keep(const gl::Texture& display) {
+  picture_ = &device_.target(fmt::format("viewer/picture {}", view_), display.desc());
+  gl::glCopyImageSubData(display.id(), GL_TEXTURE_2D, 0, 0, 0, 0, picture_->id(), GL_TEXTURE_2D, 0, 0, 0, 0,
+                         display.width(), display.height(), 1);
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gl/context.h"
+#include "metrics/error_figures.h"
+#include "shadow/registry.h"
+#include "viewer/costs.h"
+#include "viewer/inspect.h"
+#include "viewer/picture_renderer.h"
+
+namespace penumbra::viewer {
+
+// A value of the pixel under the cursor.
+struct ProbeRow {
+  std::string name, value;
+};
+
+// The figures of A against B, over the surfaces of the picture.
+struct PictureDifference {
+  metrics::ErrorFigures figures;  // of visibility
+  double flip = 0;
+};
+
+// What the panels show and the user can't change.
+struct ViewerStatus {
+  const shadow::Registry& techniques;
+  const gl::DeviceInfo& device;
+  const gl::Device& gl;
+  const LoadedScene* scene = nullptr;  // absent until one is loaded
+  std::string loading;                 // the file that is being read, or empty
+  const Costs& costs_a;
+  const Costs& costs_b;
+  glm::ivec2 drawn_size{0};  // of the last picture, pixels
+  int frames = 0;            // drawn since something changed
+  bool idle = false;         // all pictures are finished: nothing will be drawn until something changes
+  std::vector<std::string> shader_errors;
+  std::optional<double> writing;                // share of the files that are written
+  std::string command;                          // the command line that draws this picture
+  std::optional<double> tracing;                // share of the ray-traced picture that is done
+  bool both_traced = false;                     // A and B are both ray traced: then B is not drawn
+  bool b_is_old = false;                        // the shown B is older than A
+  std::optional<PictureDifference> difference;  // of A and B, once both are finished
+  std::optional<glm::ivec2> probed;             // the picture's pixel under the cursor
+  std::vector<ProbeRow> probe;
+  ColorMapping mapping;  // of the inspected values
+  Range range;           // of the colours
+  Range values;          // of A's values; the same unless differences are shown
+};
+
+}  // namespace penumbra::viewer
