@@ -81,6 +81,26 @@ bool explain_filter(const std::string& name) {
   return false;
 }
 
+bool explain_denoiser(const std::string& name) {
+  for (const shadow::Denoiser& denoiser : session::all_techniques().denoisers()) {
+    if (denoiser.name != name) continue;
+    fmt::print("{}: {}\n\n  source  {}\n", denoiser.name, denoiser.summary, denoiser.source);
+    fmt::print("\n  penumbra render SCENE -o FILE --set denoiser={}\n", denoiser.name);
+    return true;
+  }
+  return false;
+}
+
+bool explain_product(const std::string& name) {
+  for (const shadow::Recipe& recipe : session::all_techniques().recipes()) {
+    if (recipe.name != name) continue;
+    fmt::print("{}: {}\n\n  source  {}\n  made of {}\n", recipe.name, recipe.summary, recipe.source,
+               fmt::join(recipe.needs, ", "));
+    return true;
+  }
+  return false;
+}
+
 const char* to_text(render::Reduction reduction) {
   switch (reduction) {
     case render::Reduction::mean:
@@ -107,7 +127,10 @@ bool explain_aov(const std::string& name) {
 std::vector<std::string> explained_names() {
   std::vector<std::string> names = session::all_techniques().names();
   for (const Command& command : commands()) names.emplace_back(command.name);
-  for (const shadow::Filter& filter : session::all_techniques().filters()) names.push_back(filter.name);
+  const shadow::Registry& registry = session::all_techniques();
+  for (const shadow::Filter& filter : registry.filters()) names.push_back(filter.name);
+  for (const shadow::Denoiser& denoiser : registry.denoisers()) names.push_back(denoiser.name);
+  for (const shadow::Recipe& recipe : registry.recipes()) names.push_back(recipe.name);
   for (const render::Aov& aov : render::aovs()) names.push_back(aov.name);
   for (const Param& param : render::Renderer::params(session::all_techniques())) names.push_back(param.name);
   return names;
@@ -116,15 +139,19 @@ std::vector<std::string> explained_names() {
 }  // namespace
 
 int run_help(const Arguments& arguments) {
-  CLI::App app("Explain a parameter, technique, filter, AOV or sub-command", "penumbra help");
+  CLI::App app("Explain a parameter, technique, filter, denoiser, product, AOV or sub-command", "penumbra help");
   std::string name;
   app.add_option("NAME", name, "What to explain")->required()->type_name("");
   if (!cli::parse(app, arguments)) return 0;
   // One name may stand for several things: truth is a technique and a command.
   bool found = false;
-  for (const auto explain : {explain_technique, explain_filter, explain_param, explain_aov, explain_command})
+  for (const auto explain : {explain_technique, explain_filter, explain_denoiser, explain_product, explain_param,
+                             explain_aov, explain_command})
     found = explain(name) || found;
   if (found) return 0;
+  const ParamSet params(render::Renderer::params(session::all_techniques()));
+  if (const Param* present = params.renamed_from(name))
+    cli::fail_usage("parameter '{}' is now called '{}'", name, present->name);
   const std::vector<std::string> near = near_names(name, explained_names());
   if (near.empty())
     cli::fail_usage("nothing is called '{}'; see penumbra list techniques, filters, params or aovs", name);
