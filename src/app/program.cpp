@@ -32,7 +32,7 @@ constexpr std::array table{
     Command{"bench", "Measure what shadows cost, pass by pass", run_bench},
     Command{"reproduce", "Make and measure the figures of the thesis anew: an HTML page", reproduce::run},
     Command{"bake", "Make noise tiles and sets of sample points", run_bake},
-    Command{"help", "Explain a parameter, technique, AOV or sub-command", run_help},
+    Command{"help", "Explain a parameter, technique, denoiser, AOV or sub-command", run_help},
     Command{"doctor", "Tell which OpenGL backends work here", run_doctor},
 };
 

@@ -29,15 +29,20 @@ const Product* find_product(const LightFrame& frame, std::string_view name) {
 }
 
 PassOwner owner_of(const Technique& technique) {
-  return {PassOwner::Kind::technique, technique.name, technique.needs, technique.programs, &technique};
+  return {.kind = PassOwner::Kind::technique,
+          .name = technique.name,
+          .needs = technique.needs,
+          .programs = technique.programs,
+          .technique = &technique};
 }
 
 PassOwner owner_of(const Recipe& recipe) {
-  return {PassOwner::Kind::recipe, recipe.name, recipe.needs, recipe.programs};
+  return {.kind = PassOwner::Kind::recipe, .name = recipe.name, .needs = recipe.needs, .programs = recipe.programs};
 }
 
 PassOwner owner_of(const Denoiser& denoiser) {
-  return {PassOwner::Kind::denoiser, denoiser.name, denoiser.needs, denoiser.programs};
+  return {
+      .kind = PassOwner::Kind::denoiser, .name = denoiser.name, .needs = denoiser.needs, .programs = denoiser.programs};
 }
 
 void bind_light(gl::Device& device, const LightFrame& frame, const LightState& state, const PassOwner& owner) {

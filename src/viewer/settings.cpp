@@ -125,7 +125,8 @@ void take_params(const Json& file, Settings& settings) {
   if (json == nullptr) return;
   if (!json->is_object()) fail("'params' takes values by name, not {}", json->type_name());
   for (const auto& [name, value] : json->items()) {
-    if (!settings.params.contains(name)) fail("unknown parameter '{}'", name);
+    const bool known = settings.params.contains(name) || settings.params.renamed_from(name) != nullptr;
+    if (!known) fail("unknown parameter '{}'", name);
     cli::assign(settings.params, name + "=" + text_of(settings.params.row(name), value));
   }
 }

@@ -96,6 +96,17 @@ class Params(TestCase):
         for path in (self.folder / "none.toml", self.folder):
             self.assertIn("preset", self.refuse("render", POSTS, "-o", self.folder / "x.png", "--preset", path))
 
+    def test_a_former_name_is_refused_with_the_present_one(self):
+        told = "parameter 'pcss.renewal_taps' is now called 'pcss.disocclusion_taps'"
+        preset = self.preset("[pcss]\nrenewal_taps = 9\n")
+        for arguments in (["--set", "pcss.renewal_taps=9"], ["--preset", preset]):
+            with self.subTest(arguments[0]):
+                error = self.refuse("render", POSTS, "-o", self.folder / "x.png", *arguments,
+                                    code=2 if arguments[0] == "--set" else 1)
+                self.assertIn(told, error)
+                self.assertEqual(len(error.strip().splitlines()), 1)
+        self.assertIn(told, self.refuse("help", "pcss.renewal_taps", code=2))
+
     def test_later_words_win(self):
         path = self.preset('technique = "hard"\n[sun]\nangle = 1.0\n[pcss]\nfilter_taps = 9\n')
         values = self.stats_after("--set", "sun.angle=3", "--preset", path, "--sun-angle", "2", "--technique",
