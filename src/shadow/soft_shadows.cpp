@@ -24,10 +24,10 @@ struct SoftShadows::State {
       : defaults(registry.params()), programs(device, registry), samples(device, fmt::format("shadow {}/", number)) {}
 
   // The library's rows alone, in the order that GLSL was told of, with the caller's values and the light's own.
-  ParamSet params_of(const ParamSet& params, const Light& light) const {
-    LightState state;
-    take_params(state, defaults, params, light);
-    return state.params;
+  // Until it is asked for others.
+  const ParamSet& params_of(const ParamSet& params, const Light& light) {
+    take_params(forward, defaults, params, light);
+    return forward.params;
   }
 
   const int number = next_number();  // tells the facades of a device apart
@@ -35,6 +35,7 @@ struct SoftShadows::State {
   Programs programs;
   Samples samples;
   std::map<int, ViewState> views;
+  LightState forward;  // the parameters that a forward program was asked for last
 };
 
 SoftShadows::SoftShadows(gl::Device& device, Registry registry)
@@ -71,7 +72,7 @@ void SoftShadows::bind_forward(const Mask& mask, size_t light) {
 void SoftShadows::unbind_forward() { gl::unbind_textures(first_pass_unit); }
 
 ForwardProgram SoftShadows::forward_program(const ParamSet& params, const Light& light) const {
-  const ParamSet own = state_->params_of(params, light);
+  const ParamSet& own = state_->params_of(params, light);
   const Technique& technique = forward_technique(registry_, own);
   return {state_->programs.forward_file(technique), Programs::defines(technique, own, rotates_samples(technique, own))};
 }

@@ -78,7 +78,8 @@ class Info(TestCase):
 
 class Lists(TestCase):
     def test_each_list_has_names_and_sentences(self):
-        for what, name in (("techniques", "pcss"), ("params", "sun.angle"), ("aovs", "shadow"), ("backends", "osmesa")):
+        for what, name in (("techniques", "pcss"), ("params", "sun.angle"), ("aovs", "shadow"),
+                           ("denoisers", "history_and_filters"), ("products", "least_depth_pyramid"), ("backends", "osmesa")):
             with self.subTest(what):
                 rows = json.loads(self.succeed("list", what, "--json").stdout)
                 self.assertIn(name, [row["name"] for row in rows])

@@ -1,42 +1,13 @@
-// What a frame in which nothing changed does not do again.
+// What a frame in which nothing changed does not do again. That it asks OpenGL nothing: render_steady_frame_test.cpp.
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "gl/api.h"
 #include "gpu/gpu_test.h"
 #include "gpu/triangle_scene.h"
 #include "shadow/light_state.h"
 
 namespace penumbra::test {
 namespace {
-
-int questions = 0;  // to OpenGL
-
-// Counts the calls of a function of OpenGL while it lives.
-template <auto& Pointer>
-class Counted {
-  using Function = std::remove_reference_t<decltype(Pointer)>;
-
-  template <class R, class... A>
-  static R count(A... arguments) {
-    ++questions;
-    return original(arguments...);
-  }
-  template <class R, class... A>
-  static Function counting(R (*)(A...)) {
-    return count<R, A...>;
-  }
-  static inline Function original = nullptr;
-
- public:
-  Counted() {
-    original = Pointer;
-    Pointer = counting(Pointer);
-  }
-  ~Counted() { Pointer = original; }
-  Counted(const Counted&) = delete;
-  Counted& operator=(const Counted&) = delete;
-};
 
 class ShadowUnchanged : public TriangleTest {
  protected:
@@ -45,45 +16,12 @@ class ShadowUnchanged : public TriangleTest {
     renderer_->render(scene_, params, [&](shadow::Inputs& inputs) {
       inputs.view.last_view = inputs.view.view;
       inputs.view.last_projection = inputs.view.projection;
-      inputs_ = inputs;
       if (adjust) adjust(inputs);
     });
   }
 
   TriangleScene scene_ = box_on_ground();
-  shadow::Inputs inputs_;
 };
-
-// Without the questions that the test's own drawing and reading back ask.
-int questions_of(TriangleRenderer& renderer, const TriangleScene& scene, const ParamSet& params) {
-  int asked = 0;
-  renderer.render(scene, params, [&](shadow::Inputs& inputs) {
-    const Counted<gl::glIsTexture> a;
-    const Counted<gl::glGetTextureParameteriv> b;
-    const Counted<gl::glGetTextureLevelParameteriv> c;
-    const Counted<gl::glGetIntegerv> d;
-    const Counted<gl::glGetIntegeri_v> e;
-    const Counted<gl::glGetFloatv> f;
-    const Counted<gl::glIsEnabled> g;
-    const Counted<gl::glGetProgramiv> h;
-    const Counted<gl::glGetUniformLocation> i;
-    const Counted<gl::glCheckNamedFramebufferStatus> j;
-    questions = 0;
-    renderer.shadows().render(inputs, params);
-    asked = questions;
-  });
-  return asked;
-}
-
-TEST_F(ShadowUnchanged, AsksOpenGLNothing) {
-  for (const char* technique : {"hard", "pcss", "thesis", "thesis_compute"}) {
-    ParamSet params = renderer_->params();
-    renderer_->shadows().registry().select(params, technique);
-    EXPECT_GT(questions_of(*renderer_, scene_, params), 0) << technique << ": programs are made";
-    questions_of(*renderer_, scene_, params);
-    EXPECT_EQ(questions_of(*renderer_, scene_, params), 0) << technique;
-  }
-}
 
 TEST_F(ShadowUnchanged, ATextureIsCheckedAgainWhenItIsAnother) {
   const ParamSet params = renderer_->params();
@@ -113,6 +51,25 @@ TEST_F(ShadowUnchanged, MakesNoParameterSet) {
   EXPECT_FALSE(shadow::take_params(state, defaults, given, light));
   EXPECT_EQ(state.params.get_float("sun.angle"), 2.0f);
   EXPECT_FALSE(state.uploaded);
+}
+
+TEST_F(ShadowUnchanged, TellsTheForwardProgramOfTheParametersThatItIsAskedFor) {
+  ParamSet params = renderer_->params();
+  params.set("technique", std::string("pcf"));
+  const auto taps = [&](const shadow::Light& light) {
+    std::string value;
+    for (const gl::Define& define : renderer_->shadows().forward_program(params, light).defines) {
+      if (define.name == "pcf_filter_taps") value = define.value;
+    }
+    return value;
+  };
+  shadow::Light light;
+  light.overrides = {"pcf.filter_taps=7"};
+  EXPECT_EQ(taps(light), "7");
+  EXPECT_EQ(taps({}), "16");
+  params.set("pcf.filter_taps", 9);
+  EXPECT_EQ(taps({}), "9");
+  EXPECT_EQ(taps(light), "7");
 }
 
 TEST_F(ShadowUnchanged, PutsNoGeneratedFile) {
