@@ -2,6 +2,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "cli/reading.h"
 #include "cli/text.h"
 #include "core/error.h"
 #include "image/read.h"
@@ -64,11 +65,14 @@ void print_parts(const scene::SceneInfo& info) {
 int run_info(const Arguments& arguments) {
   CLI::App app("Tell what is in a scene", "penumbra info");
   std::string path;
+  cli::ReadingOptions reading{.progress = true};
   bool json = false;
   app.add_option("SCENE", path, "glTF file, .gltf or .glb")->required()->type_name("");
   app.add_flag("--json", json, "For machines")->disable_flag_override();
+  cli::add_reading_options(app, reading);
   if (!cli::parse(app, arguments)) return 0;
-  const scene::SceneInfo info = scene::describe(scene::read_gltf(path, image::image_decoder()));
+  const scene::SceneInfo info =
+      scene::describe(cli::read_scene(path, reading, image::image_decoder(cli::limits_of(reading))));
   if (json) {
     fmt::print("{}", io::text_of(io::to_json(info)));
     return 0;

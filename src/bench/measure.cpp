@@ -52,7 +52,8 @@ class Bench {
   Bench(const Options& options, const scene::ImageDecoder& decode)
       : options_(options), decode_(decode), device_(gl::device_info()) {
     results_.entries = entries_of(options, shadow::built_in_registry());
-    if (options.sweep == "casters" && !options.scene.empty()) model_ = scene::read_gltf(options.scene, decode);
+    if (options.sweep == "casters" && !options.scene.empty())
+      model_ = cli::read_scene(options.scene, options.reading, decode);
     results_.sweep = make_sweep(options.sweep, limits());
     results_.frames = frame_counts(options, device_.software);
     for (const Point& point : results_.sweep.points) {

@@ -64,6 +64,7 @@ void add_view_options(CLI::App& app, SceneOptions& o) {
             [&o](const auto& text) { o.sun = parse_direction("--sun", text); });
   add_value(app, "--ground", "auto|on|off", "A plane under the scene; auto: where there is nothing to cast on",
             [&o](const auto& text) { o.ground = ground_choice(text); });
+  add_reading_options(app, o.reading);
 }
 
 void add_time_options(CLI::App& app, SceneOptions& o) {

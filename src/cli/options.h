@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/cli_fwd.h"
+#include "cli/reading.h"
 #include "cli/usage.h"
 #include "core/params.h"
 #include "render/setup.h"
@@ -19,6 +20,7 @@ namespace penumbra::cli {
 // What stands before the camera, when, and how large.
 struct SceneOptions {
   std::string scene;
+  ReadingOptions reading;
   Size size;
   int supersample = 1;
 

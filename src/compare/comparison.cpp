@@ -29,7 +29,7 @@ namespace {
 
 // Names the file, which the faults of its cameras don't.
 session::PreparedScene load_scene(const CompareOptions& options, const scene::ImageDecoder& decode) {
-  scene::Scene scene = scene::read_gltf(options.scene, decode);
+  scene::Scene scene = cli::read_scene(options.scene, options.reading, decode);
   try {
     return session::prepare_scene(std::move(scene), options);
   } catch (const Error& error) {
@@ -88,7 +88,9 @@ Comparison compare(const CompareOptions& options, const ComparedValues& values) 
   // Drivers take as long to start as scenes to load, and there are two cores nearly everywhere.
   std::vector<CompareOptions> of_scenes(options.scenes.size(), options);
   for (std::size_t i = 0; i < of_scenes.size(); ++i) of_scenes[i].scene = options.scenes[i];
-  const auto load = [](const CompareOptions& one) { return load_scene(one, image::image_decoder()); };
+  const auto load = [](const CompareOptions& one) {
+    return load_scene(one, image::image_decoder(cli::limits_of(one.reading)));
+  };
   std::future<session::PreparedScene> loading = std::async(std::launch::async, load, std::cref(of_scenes.front()));
   const std::unique_ptr<gl::Context> context = session::open_context(options, options);
   const truth::TruthTechnique truth(session::truth_options(options, options));

@@ -88,11 +88,13 @@ void check_assignment(const std::string& assignment) {
   if (assignment.starts_with("technique=")) fail_usage("'{}' has no meaning here: see --technique", assignment);
 }
 
-// And all under the reference's sun.
+// And all under the reference's sun, with its casters.
 void check_own_assignment(const std::string& assignment) {
   check_assignment(assignment);
   if (assignment.starts_with("sun."))
     fail_usage("'{}' would give a technique another sun than the reference's: see --set", assignment);
+  if (assignment.starts_with("casters."))
+    fail_usage("'{}' would give a technique other casters than the reference's: see --set", assignment);
 }
 
 // Each value by itself: together they are right or wrong only with what presets say.

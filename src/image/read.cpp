@@ -59,9 +59,10 @@ scene::Image read_image(std::span<const std::byte> encoded, const std::string& n
 }
 
 scene::ImageDecoder image_decoder(const scene::ReadLimits& limits) {
-  return [max_pixels = limits.image_pixels](std::span<const std::byte> encoded, const std::string& name) {
-    return read_image(encoded, name, max_pixels);
-  };
+  return {[max_pixels = limits.image_pixels](std::span<const std::byte> encoded, const std::string& name) {
+            return read_image(encoded, name, max_pixels);
+          },
+          probe};
 }
 
 }  // namespace penumbra::image

@@ -21,6 +21,7 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
   const glsl::ViewBlock view = view_block(camera, last_camera, inputs.width, inputs.height);
   bind_view(device, view);
 
+  scene.choose_casters(caster_choice(params));
   scene.pose(device, inputs.last_time, inputs.time);
 
   const GBuffer gbuffer = draw_gbuffer(device, {.scene = scene, .view = view});

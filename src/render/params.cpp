@@ -12,7 +12,27 @@ std::vector<Param> render_params() {
        "Illuminance of a level plane by the sky, as a part of what the sun gives a plane that faces it.", host},
       {"render.ground_light", 0.5f, 0, 1, "",
        "Part of the light of the ground around a scene that reaches its surfaces.", host},
+      {"casters.faces",
+       "both",
+       0,
+       0,
+       "",
+       "Triangles that cast: those whose front faces the light (front), those whose back does (back), or both. "
+       "Materials "
+       "that are double-sided cast from both.",
+       host,
+       {"both", "front", "back"}},
+      {"casters.skies", false, 0, 1, "",
+       "Shells that enclose the scene, as sky domes, cast too; they are named when the scene is read.", host},
   };
+}
+
+scene::CasterChoice caster_choice(const ParamSet& params) {
+  const std::string& faces = params.get_word("casters.faces");
+  return {.faces = faces == "front"  ? scene::CasterFaces::front
+                   : faces == "back" ? scene::CasterFaces::back
+                                     : scene::CasterFaces::both,
+          .skies = params.get_bool("casters.skies")};
 }
 
 }  // namespace penumbra::render

@@ -106,6 +106,8 @@ std::vector<gl::ProgramDesc> tone_map_programs();
 
 // Rows of the parameter table that these passes read.
 std::vector<Param> render_params();
+// Which casters they choose.
+scene::CasterChoice caster_choice(const ParamSet& params);
 
 // Uniform blocks that several passes read: bound once a frame.
 inline constexpr GLuint view_binding = 4;

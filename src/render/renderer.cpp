@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "core/error.h"
@@ -14,7 +15,8 @@ struct Renderer::State {
   shadow::SoftShadows soft_shadows;
   FrameParts parts;
   Frame frame;
-  std::uint64_t last_scene = 0;  // its id; 0: there is none
+  std::uint64_t last_scene = 0;                // its id; 0: there is none
+  std::map<int, scene::CasterChoice> casters;  // of each view's last frame
 
   const FrameParts& drawn() const {
     if (parts.display == nullptr) fail("no frame was drawn that could be read");
@@ -23,7 +25,7 @@ struct Renderer::State {
 };
 
 Renderer::Renderer(gl::Device& device, shadow::Registry registry)
-    : state_(new State{device, shadow::SoftShadows(device, std::move(registry)), {}, {}, 0}) {}
+    : state_(new State{device, shadow::SoftShadows(device, std::move(registry)), {}, {}, 0, {}}) {}
 
 Renderer::~Renderer() = default;
 
@@ -40,7 +42,10 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   // Until the end there is none: a frame that throws is no frame to go on from.
   const std::uint64_t last_scene = std::exchange(state_->last_scene, 0);
   FrameInputs placed = inputs;
-  placed.cut = inputs.cut || last_scene != scene.id();
+  const scene::CasterChoice casters = caster_choice(params);
+  scene::CasterChoice& last_casters = state_->casters.try_emplace(inputs.view, casters).first->second;
+  const bool others_cast = std::exchange(last_casters, casters) != casters;
+  placed.cut = inputs.cut || last_scene != scene.id() || others_cast;
   // What a frame that throws has dropped must not be read.
   state_->parts = {};
   device.shaders.next_frame();
@@ -88,7 +93,10 @@ std::vector<gl::ProgramDesc> Renderer::all_programs(const ParamSet& defaults) {
   return all;
 }
 
-void Renderer::forget_view(int id) { state_->soft_shadows.forget_view(id); }
+void Renderer::forget_view(int id) {
+  state_->soft_shadows.forget_view(id);
+  state_->casters.erase(id);
+}
 
 const shadow::Registry& Renderer::registry() const { return state_->soft_shadows.registry(); }
 

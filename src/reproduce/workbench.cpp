@@ -33,7 +33,7 @@ Workbench::Workbench(const Options& options, std::function<void()> drawn)
       drawn_(std::move(drawn)),
       truth_(session::truth_options(options, options)),
       techniques_(truth_.registry()),
-      prepared_(session::load_scene(options, image::image_decoder())),
+      prepared_(session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)))),
       session_(options, options, session::open_context(options, options), prepared_, techniques_, /* timed= */ true),
       device_(session_.device_info()) {
   truth_picture_ = picture_of(truth_look());

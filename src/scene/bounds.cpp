@@ -65,6 +65,17 @@ class Bounder {
     return triangles.empty ? others : triangles;
   }
 
+  std::vector<Bounds> of_nodes() {
+    std::vector<Bounds> all(scene_.nodes.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Node& node = scene_.nodes[i];
+      if (!pose_.drawn[i] || node.mesh < 0) continue;
+      for (const Primitive& primitive : scene_.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+        if (primitive.topology == Topology::triangles) all[i].add(primitive_bounds(primitive, node, i));
+    }
+    return all;
+  }
+
  private:
   Bounds primitive_bounds(const Primitive& primitive, const Node& node, std::size_t index) {
     const bool is_skinned = node.skin >= 0 && !primitive.joints.empty();
@@ -136,5 +147,7 @@ void Bounds::add(const Bounds& other) {
 float Bounds::radius() const { return glm::length(extent()) * 0.5f; }
 
 Bounds bounds_of(const Scene& scene, const Pose& pose) { return Bounder(scene, pose).bounds(); }
+
+std::vector<Bounds> node_bounds(const Scene& scene, const Pose& pose) { return Bounder(scene, pose).of_nodes(); }
 
 }  // namespace penumbra::scene

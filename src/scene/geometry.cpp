@@ -138,16 +138,18 @@ void make_flat_normals(Primitive& primitive) {
   }
 }
 
-void repair_normals(Primitive& primitive) {
+std::size_t repair_normals(Primitive& primitive) {
   std::vector<glm::dvec3> sums;
+  std::size_t repaired = 0;
   for (glm::vec3& normal : primitive.normals)
     if (const glm::vec3 unit = unit_or(glm::dvec3(normal), glm::vec3(0)); unit != glm::vec3(0)) {
       normal = unit;
     } else {
       normal = glm::vec3(0);
+      ++repaired;
       sums.resize(primitive.positions.size(), glm::dvec3(0));
     }
-  if (sums.empty()) return;
+  if (sums.empty()) return 0;
   if (primitive.topology == Topology::triangles) {
     for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
       const uint32_t* corner = &primitive.indices[i];
@@ -158,6 +160,7 @@ void repair_normals(Primitive& primitive) {
   }
   for (std::size_t i = 0; i < sums.size(); ++i)
     if (primitive.normals[i] == glm::vec3(0)) primitive.normals[i] = unit_or(sums[i], up);
+  return repaired;
 }
 
 void repair_tangents(Primitive& primitive) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -18,8 +19,9 @@ Topology expanded_topology(int mode);
 // Points and lines get +Y. Degenerate triangles get +Y too.
 void make_flat_normals(Primitive& primitive);
 
-// Unit length for all normals; one of no length becomes the area-weighted mean of its triangles' normals.
-void repair_normals(Primitive& primitive);
+// Unit length for all normals; one of no length becomes the area-weighted mean of its triangles' normals. Returns how
+// many had none.
+std::size_t repair_normals(Primitive& primitive);
 
 // Unit length for all tangents, and a handedness of 1 or -1.
 void repair_tangents(Primitive& primitive);

@@ -8,22 +8,26 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/log.h"
+#include "scene/casting.h"
+#include "scene/drawn.h"
+#include "scene/gltf/one_line.h"
 #include "scene/gltf/read.h"
+#include "scene/limits.h"
 #include "scene/pose.h"
+#include "scene/sky.h"
 
 namespace penumbra::scene {
 namespace {
 
-constexpr std::size_t longest_message = 400;
-
-// Faults quote the file, which may hold anything: control characters and bytes outside ASCII become '?', so that the
-// message stays one printable line.
-std::string one_line(std::string_view text) {
-  std::string line(text.substr(0, longest_message));
-  while (!line.empty() && (line.back() == '\n' || line.back() == ' ')) line.pop_back();
-  for (char& c : line)
-    if (c < ' ' || c > '~') c = c == '\n' ? ' ' : '?';
-  return line;
+void check_drawn(const Scene& scene, const ReadLimits& limits) {
+  const auto [instances, triangles, deformed] = count_drawn(scene);
+  if (instances > limits.instances)
+    fail_over_limit(fmt::format("{} primitives to draw", instances), limits, &ReadLimits::instances);
+  if (triangles > limits.triangles)
+    fail_over_limit(fmt::format("{} triangles to draw", triangles), limits, &ReadLimits::triangles);
+  if (deformed > limits.vertices)
+    fail_over_limit(fmt::format("{} vertices of skinned and morphed meshes", deformed), limits, &ReadLimits::vertices);
 }
 
 // Float arithmetic on what lies further out would overflow in the passes.
@@ -40,8 +44,29 @@ void check_extent(const Scene& scene, double limit) {
   if (!(furthest <= limit)) fail("reaches {:.3g} m from the origin, over the limit of {:.3g} m", furthest, limit);
 }
 
-Scene read_scene(const std::filesystem::path& path, const ImageDecoder& decode, const ReadLimits& limits) {
-  gltf::Document document = gltf::read_document(path, limits);
+std::string quoted_or(const std::string& name, const std::string& otherwise) {
+  return name.empty() ? otherwise : "'" + name + "'";
+}
+
+// Marks them, and says which there are.
+void mark_skies(const std::filesystem::path& path, Scene& scene) {
+  for (const int number : find_skies(scene, rest_pose(scene))) {
+    Node& node = scene.nodes[static_cast<std::size_t>(number)];
+    node.sky = true;
+    const Primitive& primitive = scene.meshes[static_cast<std::size_t>(node.mesh)].primitives[0];
+    const Material material =
+        primitive.material < 0 ? Material() : scene.materials[static_cast<std::size_t>(primitive.material)];
+    if (!casting_faces(node, material, {}))
+      warn("{}: {}", path.string(),
+           gltf::one_line(fmt::format(
+               "node {} (material {}) encloses the scene as a sky does, and casts no shadow; --set casters.skies=on "
+               "lets it",
+               quoted_or(node.name, std::to_string(number)), quoted_or(material.name, "without a name"))));
+  }
+}
+
+Scene read_scene(const std::filesystem::path& path, const ImageDecoder& decode, const ReadOptions& options) {
+  gltf::Document document = gltf::read_document(path, options);
   Scene scene;
   scene.files = document.files;
   scene.files.push_back(path);
@@ -53,22 +78,25 @@ Scene read_scene(const std::filesystem::path& path, const ImageDecoder& decode, 
   gltf::read_skins(document, scene);
   gltf::read_nodes(document, scene);
   gltf::read_animations(document, scene);
-  check_extent(scene, limits.extent);
+  document.left_out.finish();
+  check_drawn(scene, options.limits);
+  check_extent(scene, options.limits.extent);
+  mark_skies(path, scene);
   if (scene.name.empty()) scene.name = path.stem().string();
   return scene;
 }
 
 }  // namespace
 
-Scene read_gltf(const std::filesystem::path& path, const ImageDecoder& decode, const ReadLimits& limits) {
+Scene read_gltf(const std::filesystem::path& path, const ImageDecoder& decode, const ReadOptions& options) {
   try {
-    return read_scene(path, decode, limits);
+    return read_scene(path, decode, options);
   } catch (const Error& e) {
-    fail("{}: {}", path.string(), one_line(e.what()));
+    fail("{}: {}", path.string(), gltf::one_line(e.what()));
   } catch (const std::bad_alloc&) {
     fail("{}: not enough memory to read it", path.string());
   } catch (const std::exception& e) {  // of a library below
-    fail("{}: {}", path.string(), one_line(e.what()));
+    fail("{}: {}", path.string(), gltf::one_line(e.what()));
   }
 }
 

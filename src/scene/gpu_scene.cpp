@@ -151,6 +151,7 @@ GpuScene::State::State(gl::Device& device, const Scene& described)
   instance_blocks = gl::Buffer("instances", std::max<std::size_t>(instances.size(), 1) * sizeof(glsl::InstanceBlock));
   for (const Instance& instance : instances) blended = blended || instance.alpha_mode == AlphaMode::blend;
   lit_by_file = has_directional_light(scene);
+  choose_faces();
 }
 
 PosedVertices& GpuScene::State::posed_at(gl::Device& device, double time, const PosedVertices* keep) {
@@ -207,7 +208,7 @@ void GpuScene::State::update_instances() {
   std::vector<glsl::InstanceBlock> blocks;
   blocks.reserve(instances.size());
   moved = false;
-  casters = receivers = moved_casters = {};
+  receivers = {};
   for (Instance& instance : instances) {
     const glm::mat4& world = instance.world = placement(instance, now->pose);
     const glm::mat4 last_world = placement(instance, last->pose);
@@ -218,13 +219,6 @@ void GpuScene::State::update_instances() {
     instance.box = box(instance, now->pose, world);
     instance.last_box = instance.moved ? box(instance, last->pose, last_world) : instance.box;
     moved = moved || instance.moved;
-    if (instance.casts != Casts::never) {
-      casters.add(instance.box);
-      if (instance.moved) {
-        moved_casters.add(instance.box);
-        moved_casters.add(instance.last_box);
-      }
-    }
     receivers.add(instance.box);
     const unsigned triangles = instance.topology == Topology::triangles ? INSTANCE_TRIANGLES : 0u;
     blocks.push_back({.world = world,
@@ -236,6 +230,34 @@ void GpuScene::State::update_instances() {
                       .winding = instance.mirrored ? -1.0f : 1.0f});
   }
   instance_blocks.write(std::as_bytes(std::span(blocks)));
+  update_caster_bounds();
+}
+
+void GpuScene::State::choose_faces() {
+  for (Instance& instance : instances) {
+    const Material& material = Materials::of(scene, instance.primitive->material);
+    instance.faces.reset();
+    if (instance.casts != Casts::never)
+      instance.faces = casting_faces(scene.nodes[static_cast<std::size_t>(instance.node)], material, choice);
+  }
+}
+
+void GpuScene::State::update_caster_bounds() {
+  casters = moved_casters = {};
+  for (const Instance& instance : instances) {
+    if (!instance.faces) continue;
+    casters.add(instance.box);
+    if (!instance.moved) continue;
+    moved_casters.add(instance.box);
+    moved_casters.add(instance.last_box);
+  }
+}
+
+void GpuScene::choose_casters(const CasterChoice& choice) {
+  if (state_->choice == choice) return;
+  state_->choice = choice;
+  state_->choose_faces();
+  state_->update_caster_bounds();
 }
 
 GpuScene::GpuScene(gl::Device& device, const Scene& scene) : state_(std::make_unique<State>(device, scene)) {}

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gl/pass.h"
+#include "scene/casting.h"
 #include "scene/pose.h"
 #include "scene/posed_geometry.h"
 #include "scene/scene.h"
@@ -39,6 +40,10 @@ class GpuScene {
   // Takes the poses of the last and the present frame: matrices, skins and morphs. Work that is already done is kept.
   void pose(gl::Device& device, double last_time, double time);
 
+  // Which casters draw_casters(), the bounds of casters and posed_geometry() have from now on. At first: all, of both
+  // faces, but skies.
+  void choose_casters(const CasterChoice& choice);
+
   // Draws surfaces with a program that includes glsl/scene/surface.vert; the view's uniform block is bound.
   void draw_surfaces(gl::Device& device, gl::Pass& pass, Surfaces surfaces, const gl::ProgramDesc& program,
                      const BoxTest& visible);
@@ -48,7 +53,8 @@ class GpuScene {
   // Draws what casts shadows: opaque surfaces, and of the others what their alpha leaves.
   void draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
                     const BoxTest& reaches);
-  // Draws the triangles of opaque and masked casters, the latter whole, with with_caster_vertices(stages).
+  // Draws the triangles of opaque and masked casters, the latter whole, both faces of each, with
+  // with_caster_vertices(stages).
   void draw_caster_geometry(gl::Device& device, gl::Pass& pass, const gl::ProgramDesc& stages,
                             const glm::mat4& world_to_clip, const BoxTest& reaches);
 

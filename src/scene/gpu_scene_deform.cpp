@@ -88,27 +88,40 @@ bool Deformer::deforms(const Node& node, const Primitive& primitive) {
   return !primitive.targets.empty() || (node.skin >= 0 && !primitive.joints.empty());
 }
 
+const Deformer::Source& Deformer::source_of(const Primitive& primitive, std::size_t joints) {
+  const auto [entry, added] = sources_.try_emplace({&primitive, joints});
+  Source& source = entry->second;
+  if (!added) return source;
+  source = {.vertices = static_cast<std::uint32_t>(rest_.size() / 10),
+            .influences = static_cast<std::uint32_t>(influences_.size() / 6),
+            .deltas = static_cast<std::uint32_t>(deltas_.size() / 9),
+            .parts = bounds_by_joint(primitive, joints),
+            .reaches = {}};
+  for (const MorphTarget& morph : primitive.targets) source.reaches.push_back(reach_of(morph));
+  append_rest(rest_, primitive);
+  if (joints != 0) append_influences(influences_, primitive);
+  append_deltas(deltas_, primitive);
+  return source;
+}
+
 int Deformer::add(const Scene& scene, int node, const Primitive& primitive, std::uint32_t target) {
   const int skin = scene.nodes[static_cast<std::size_t>(node)].skin;
   const std::size_t joints =
       skin >= 0 && !primitive.joints.empty() ? scene.skins[static_cast<std::size_t>(skin)].joints.size() : 0;
   const auto count = static_cast<std::uint32_t>(primitive.positions.size());
   const auto targets = static_cast<std::uint32_t>(primitive.targets.size());
+  const Source& source = source_of(primitive, joints);
   jobs_.push_back({.node = node,
-                   .block = {.source = static_cast<std::uint32_t>(rest_.size() / 10),
+                   .source = &source,
+                   .block = {.source = source.vertices,
                              .target = target,
                              .count = count,
-                             .influences = static_cast<std::uint32_t>(influences_.size() / 6),
+                             .influences = source.influences,
                              .joints = joints_,
                              .joint_count = static_cast<std::uint32_t>(joints),
-                             .deltas = static_cast<std::uint32_t>(deltas_.size() / 9),
+                             .deltas = source.deltas,
                              .weights = weights_,
-                             .target_count = targets},
-                   .parts = bounds_by_joint(primitive, joints)});
-  for (const MorphTarget& morph : primitive.targets) jobs_.back().reaches.push_back(reach_of(morph));
-  append_rest(rest_, primitive);
-  if (joints != 0) append_influences(influences_, primitive);
-  append_deltas(deltas_, primitive);
+                             .target_count = targets}});
   joints_ += static_cast<std::uint32_t>(joints);
   weights_ += targets;
   vertices_ = std::max<std::size_t>(vertices_, target + count);
@@ -141,11 +154,13 @@ bool Deformer::differs(int job, const Pose& a, const Pose& b) const {
 Bounds Deformer::bounds(int job, const Pose& pose) const {
   const Job& own = jobs_[static_cast<std::size_t>(job)];
   glm::vec3 reach(0.0f);
-  for (std::size_t i = 0; i < own.reaches.size(); ++i) reach += std::abs(weight_of(pose, own.node, i)) * own.reaches[i];
+  const Source& source = *own.source;
+  for (std::size_t i = 0; i < source.reaches.size(); ++i)
+    reach += std::abs(weight_of(pose, own.node, i)) * source.reaches[i];
   Bounds bounds;
-  for (std::size_t joint = 0; joint < own.parts.size(); ++joint) {
-    if (own.parts[joint].empty) continue;
-    Bounds part = own.parts[joint];
+  for (std::size_t joint = 0; joint < source.parts.size(); ++joint) {
+    if (source.parts[joint].empty) continue;
+    Bounds part = source.parts[joint];
     part.add(part.min - reach);
     part.add(part.max + reach);
     // A skinned vertex is a mean of where its joints would put it.

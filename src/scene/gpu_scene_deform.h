@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "gl/buffer.h"
@@ -37,13 +40,22 @@ class Deformer {
   static gl::ProgramDesc program();
 
  private:
-  struct Job {
-    int node = -1;
-    glsl::DeformBlock block{};
+  // A primitive at rest, which all nodes that draw it with as many joints share.
+  struct Source {
+    std::uint32_t vertices = 0, influences = 0, deltas = 0;  // where they begin
     std::vector<Bounds> parts;       // by joint (one in all without a skin): vertices at rest that it moves
     std::vector<glm::vec3> reaches;  // by target: how far it moves any vertex
   };
 
+  struct Job {
+    int node = -1;
+    const Source* source = nullptr;
+    glsl::DeformBlock block{};
+  };
+
+  const Source& source_of(const Primitive& primitive, std::size_t joints);
+
+  std::map<std::pair<const Primitive*, std::size_t>, Source> sources_;  // by primitive and number of joints
   std::vector<Job> jobs_;
   std::size_t vertices_ = 0;
   std::uint32_t joints_ = 0, weights_ = 0;

@@ -45,6 +45,19 @@ Batch shaded_batch(const Instance& instance) {
           .material = instance.material};
 }
 
+// Whether what is counter-clockwise as the light sees it is clockwise in its map: with x to the right and y up, depth
+// that grows away from the light makes a left-handed system, which a right-handed world is only mapped to by a mirror.
+bool turns_round(const glm::mat4& world_to_clip) { return glm::determinant(world_to_clip) > 0; }
+
+// Without a material or faces to tell apart, all are one draw. Where faces are, the others are culled as backs.
+Batch caster_batch(const Instance& instance, bool masked, bool flips) {
+  Batch batch{.deformed = instance.job >= 0, .double_sided = true, .material = masked ? instance.material : -1};
+  if (instance.faces == CasterFaces::both) return batch;
+  batch.double_sided = false;
+  batch.mirrored = (instance.mirrored != flips) != (instance.faces == CasterFaces::back);
+  return batch;
+}
+
 std::size_t triangles_of(const DrawList& list, const Batch& batch) {
   std::size_t triangles = 0;
   for (std::size_t i = batch.first; i < batch.first + batch.count; ++i)
@@ -129,16 +142,15 @@ void GpuScene::draw_blended(gl::Device& device, gl::Pass& pass, const gl::Progra
 
 void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const CasterDraw& which,
                                    const glm::mat4& world_to_clip, const BoxTest& reaches) const {
+  const bool flips = turns_round(world_to_clip);
   for (const bool masked : {false, true}) {
     DrawList list;
     for (std::uint32_t i = 0; i < instances.size(); ++i) {
       const Instance& instance = instances[i];
-      if (instance.casts != (masked ? Casts::by_alpha : Casts::always)) continue;
+      if (!instance.faces || instance.casts != (masked ? Casts::by_alpha : Casts::always)) continue;
       if (!(instance.moved ? which.moved : which.still)) continue;
       if (!reaches(which.last_pose ? instance.last_box : instance.box)) continue;
-      // Without a material or sides to tell apart, all are one draw.
-      list.add(instance, i,
-               {.deformed = instance.job >= 0, .double_sided = true, .material = masked ? instance.material : -1});
+      list.add(instance, i, caster_batch(instance, masked, flips));
     }
     if (list.commands.empty()) continue;
     pass.use(caster_program(masked, which.marks, which.last_pose)).set("world_to_clip", world_to_clip);
@@ -176,7 +188,7 @@ void GpuScene::State::draw_caster_geometry(gl::Device& device, gl::Pass& pass, c
     const Instance& instance = instances[i];
     const bool whole = instance.casts == Casts::always ||
                        (instance.casts == Casts::by_alpha && instance.alpha_mode == AlphaMode::mask);
-    if (!whole || !reaches(instance.box)) continue;
+    if (!instance.faces || !whole || !reaches(instance.box)) continue;
     list.add(instance, i, {.deformed = instance.job >= 0, .double_sided = true});
   }
   program.set("world_to_clip", world_to_clip);

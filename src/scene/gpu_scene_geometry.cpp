@@ -26,7 +26,9 @@ PosedGeometry GpuScene::posed_geometry() const {
                                                   ? std::span(primitive.positions)
                                                   : deformed.subspan(instance.base_vertex, primitive.positions.size()),
                                  .world = instance.world,
-                                 .casts = instance.casts});
+                                 .casts = instance.faces ? instance.casts : Casts::never,
+                                 .faces = instance.faces.value_or(CasterFaces::both),
+                                 .mirrored = instance.mirrored});
   }
   return geometry;
 }

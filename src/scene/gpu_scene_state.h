@@ -25,6 +25,8 @@ struct Instance {
   Casts casts = Casts::always;
   int material = 0;
   bool double_sided = false;
+  // Which faces cast, by the present choice; nothing: none does.
+  std::optional<CasterFaces> faces = CasterFaces::both;
   std::uint32_t first_index = 0, index_count = 0, base_vertex = 0;
   Bounds local;  // of what does not deform
 
@@ -83,12 +85,15 @@ struct GpuScene::State {
   const PosedVertices* last = nullptr;
   std::pair<double, double> times;  // of the last and the present pose
 
+  CasterChoice choice;
   bool moved = false, blended = false, lit_by_file = false;
   Bounds casters, receivers, moved_casters;
 
   PosedVertices& posed_at(gl::Device& device, double time, const PosedVertices* keep);
   void set_vertex_arrays() const;
   void update_instances();
+  void choose_faces();
+  void update_caster_bounds();
   void draw(gl::Device& device, gl::Pass& pass, const DrawList& list) const;
   void draw_casters(gl::Device& device, gl::Pass& pass, const CasterDraw& which, const glm::mat4& world_to_clip,
                     const BoxTest& reaches) const;

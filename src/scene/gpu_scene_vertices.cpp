@@ -57,8 +57,6 @@ std::uint32_t VertexStreams::append(const Primitive& primitive) {
   const std::size_t first = positions.size();
   const std::size_t count = primitive.positions.size();
   positions.insert(positions.end(), primitive.positions.begin(), primitive.positions.end());
-  frames.reserve(first + count);
-  surfaces.reserve(first + count);
   for (std::size_t i = 0; i < count; ++i) {
     const glm::vec4 tangent = primitive.tangents.empty() ? glm::vec4(0.0f)
                                                          : glm::vec4(unit(glm::vec3(primitive.tangents[i])),

@@ -70,17 +70,6 @@ void place_nodes(const Scene& scene, const std::vector<Local>& locals, Pose& pos
   }
 }
 
-void mark_drawn(const Scene& scene, Pose& pose) {
-  pose.drawn.assign(scene.nodes.size(), false);
-  std::vector<int> open = scene.roots;
-  while (!open.empty()) {
-    const auto i = static_cast<std::size_t>(open.back());
-    open.pop_back();
-    pose.drawn[i] = true;
-    open.insert(open.end(), scene.nodes[i].children.begin(), scene.nodes[i].children.end());
-  }
-}
-
 void place_joints(const Scene& scene, Pose& pose) {
   pose.skin.resize(scene.nodes.size());
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -95,7 +84,7 @@ void place_joints(const Scene& scene, Pose& pose) {
 Pose make_pose(const Scene& scene, std::vector<Local> locals) {
   Pose pose;
   place_nodes(scene, locals, pose);
-  mark_drawn(scene, pose);
+  pose.drawn = drawn_nodes(scene);
   place_joints(scene, pose);
   for (Local& local : locals) pose.weights.push_back(std::move(local.weights));
   return pose;
@@ -123,6 +112,18 @@ Transform to_transform(const glm::mat4& matrix) {
   }
   transform.rotation = glm::normalize(glm::quat_cast(axes));
   return transform;
+}
+
+std::vector<bool> drawn_nodes(const Scene& scene) {
+  std::vector<bool> drawn(scene.nodes.size(), false);
+  std::vector<int> open = scene.roots;
+  while (!open.empty()) {
+    const auto i = static_cast<std::size_t>(open.back());
+    open.pop_back();
+    drawn[i] = true;
+    open.insert(open.end(), scene.nodes[i].children.begin(), scene.nodes[i].children.end());
+  }
+  return drawn;
 }
 
 Pose rest_pose(const Scene& scene) { return make_pose(scene, rest_locals(scene)); }

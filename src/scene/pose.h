@@ -17,6 +17,9 @@ struct Pose {
   std::vector<bool> drawn;  // per node: reachable from the scene's roots
 };
 
+// Which nodes the scene's roots reach.
+std::vector<bool> drawn_nodes(const Scene& scene);
+
 // The pose without animation.
 Pose rest_pose(const Scene& scene);
 
@@ -38,6 +41,9 @@ struct Bounds {
 // World bounds of all drawn triangles (deformed and instanced), points and lines included only when there are no
 // triangles. Exact up to two million vertices; what goes beyond is bounded by boxes.
 Bounds bounds_of(const Scene& scene, const Pose& pose);
+
+// The same of each node by itself, triangles only; empty: it draws none.
+std::vector<Bounds> node_bounds(const Scene& scene, const Pose& pose);
 
 // A transform as a matrix, and the transform nearest to a matrix (shear is lost).
 glm::mat4 to_matrix(const Transform& transform);

@@ -22,6 +22,9 @@ struct PosedSurface {
   std::span<const glm::vec3> positions;  // one a vertex: at rest, or as skins and morphs left them on the GPU
   glm::mat4 world{1};                    // what takes them to world space
   Casts casts = Casts::always;
+  CasterFaces faces = CasterFaces::both;  // of it that cast
+  // Front faces are clockwise, as `positions` and `world` place them: glTF's rule for mirrored nodes.
+  bool mirrored = false;
 };
 
 // All that is drawn at a moment, in the order of the GPU's instances, so that the index of a surface is what shaders

@@ -40,6 +40,20 @@ struct TextureRef {
 
 enum class AlphaMode : uint8_t { opaque, mask, blend };
 
+// Which triangles cast shadows: those whose front faces the light (glTF: counter-clockwise), those whose back does, or
+// all.
+enum class CasterFaces : uint8_t { both, front, back };
+
+// How the surfaces of a material or a node cast shadows; a node's stands over its material's.
+enum class Casting : uint8_t {
+  automatic,  // as the renderer's parameters say, but not if they are a sky (Node::sky)
+  on,         // as the parameters say, a sky too
+  off,
+  both,  // these faces, whatever the parameters say; a sky too
+  front,
+  back,
+};
+
 struct Material {
   std::string name;
   glm::vec4 base_color{1};
@@ -55,7 +69,9 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
-  bool unlit = false;  // KHR_materials_unlit
+  bool unlit = false;                    // KHR_materials_unlit
+  Casting casting = Casting::automatic;  // extras: "penumbra_casts"
+  bool casting_over_nodes = false;       // that stands over what nodes say
 };
 
 enum class Topology : uint8_t { points, lines, triangles };  // strips, fans and loops are expanded by the reader
@@ -99,8 +115,10 @@ struct Node {
   Transform transform;              // used unless `matrix`
   std::optional<glm::mat4> matrix;  // a file's matrix, kept as it is (it may hold shear)
   int mesh = -1, skin = -1, camera = -1, light = -1;
-  std::vector<float> weights;        // overrides the mesh's default weights
-  std::vector<Transform> instances;  // EXT_mesh_gpu_instancing; empty: one, at the node
+  Casting casting = Casting::automatic;  // extras: "penumbra_casts"
+  bool sky = false;                      // a shell about all that is drawn besides, as a sky dome: see sky.h
+  std::vector<float> weights;            // overrides the mesh's default weights
+  std::vector<Transform> instances;      // EXT_mesh_gpu_instancing; empty: one, at the node
 };
 
 struct Skin {

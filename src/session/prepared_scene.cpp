@@ -51,7 +51,7 @@ PreparedScene prepare_scene(scene::Scene scene, const cli::SceneOptions& options
 }
 
 PreparedScene load_scene(const cli::SceneOptions& options, const scene::ImageDecoder& decode) {
-  return prepare_scene(scene::read_gltf(options.scene, decode), options);
+  return prepare_scene(cli::read_scene(options.scene, options.reading, decode), options);
 }
 
 render::Setup setup_at(const PreparedScene& prepared, double seconds) {

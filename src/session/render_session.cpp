@@ -3,7 +3,24 @@
 #include <utility>
 #include <variant>
 
+#include "core/log.h"
+#include "scene/drawn.h"
+
 namespace penumbra::session {
+
+namespace {
+
+// A pass of so many takes seconds, and a frame has several.
+void warn_of_many(const scene::Scene& scene, const gl::DeviceInfo& device) {
+  constexpr std::size_t many_triangles = 20'000'000, many_vertices = 10'000'000;
+  if (!device.software) return;
+  const scene::Drawn drawn = scene::count_drawn(scene);
+  if (drawn.triangles > many_triangles || drawn.deformed_vertices > many_vertices)
+    warn("a frame draws {} triangles, and {} vertices of skinned and morphed meshes: a software rasteriser takes long",
+         drawn.triangles, drawn.deformed_vertices);
+}
+
+}  // namespace
 
 RenderSession::RenderSession(const cli::SceneOptions& options, const cli::DeviceOptions& device_options,
                              std::unique_ptr<gl::Context> context, const PreparedScene& prepared,
@@ -13,7 +30,9 @@ RenderSession::RenderSession(const cli::SceneOptions& options, const cli::Device
       context_(std::move(context)),
       device_(device_options, timed),
       scene_(std::make_unique<scene::GpuScene>(device_.device, prepared.scene)),
-      renderer_(device_.device, std::move(techniques)) {}
+      renderer_(device_.device, std::move(techniques)) {
+  warn_of_many(prepared.scene, device_.info);
+}
 
 void RenderSession::show(const PreparedScene& prepared) {
   scene_ = std::make_unique<scene::GpuScene>(device_.device, prepared.scene);

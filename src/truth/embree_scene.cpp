@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <tuple>
 #include <utility>
 
 #include "core/error.h"
@@ -51,14 +52,23 @@ bool turns_back(const glm::mat4& world) {
   return std::isfinite(volume) && volume > 1e-2 * longest * longest * longest;
 }
 
-// Lets rays through where a surface's alpha leaves nothing.
+// Lets rays through where a surface casts nothing. They go to the light: where a ray leaves the surface by its front,
+// the front faces the light.
 void pass_through_holes(const RTCFilterFunctionNArguments* args) {
-  const auto& test = *static_cast<const AlphaTest*>(args->geometryUserPtr);
+  const auto& test = *static_cast<const CasterTest*>(args->geometryUserPtr);
   const unsigned int count = args->N;
   for (unsigned int i = 0; i < count; ++i) {
     if (args->valid[i] == 0) continue;
-    const bool there = test.passes(RTCHitN_primID(args->hit, count, i), RTCHitN_u(args->hit, count, i),
-                                   RTCHitN_v(args->hit, count, i));
+    bool there =
+        test.alpha == nullptr || test.alpha->passes(RTCHitN_primID(args->hit, count, i), RTCHitN_u(args->hit, count, i),
+                                                    RTCHitN_v(args->hit, count, i));
+    if (test.faces != scene::CasterFaces::both) {
+      const float along = RTCHitN_Ng_x(args->hit, count, i) * RTCRayN_dir_x(args->ray, count, i) +
+                          RTCHitN_Ng_y(args->hit, count, i) * RTCRayN_dir_y(args->ray, count, i) +
+                          RTCHitN_Ng_z(args->hit, count, i) * RTCRayN_dir_z(args->ray, count, i);
+      const bool front = (along > 0) != test.mirrored;
+      there = there && front == (test.faces == scene::CasterFaces::front);
+    }
     if (!there) args->valid[i] = 0;
   }
 }
@@ -125,15 +135,16 @@ EmbreeObject EmbreeSceneBuilder::new_object() {
   return object;
 }
 
-// Casters, those of the same vertices and material together.
+// Casters, those of the same vertices, material and casting faces together.
 std::vector<EmbreeSceneBuilder::Surfaces> EmbreeSceneBuilder::copies() {
-  std::map<std::pair<const scene::Primitive*, const glm::vec3*>, std::size_t> place;
+  std::map<std::tuple<const scene::Primitive*, const glm::vec3*, scene::CasterFaces>, std::size_t> place;
   std::vector<Surfaces> all;
   for (const scene::PosedSurface& surface : geometry_.surfaces) {
     const std::size_t count = triangle_count(surface);
     if (surface.casts == scene::Casts::never || count == 0) continue;
     out_.stats_.triangles += count;
-    const auto [at, added] = place.try_emplace({surface.primitive, surface.positions.data()}, all.size());
+    const auto [at, added] =
+        place.try_emplace({surface.primitive, surface.positions.data(), surface.faces}, all.size());
     if (added) all.emplace_back();
     all[at->second].push_back(&surface);
   }
@@ -200,13 +211,18 @@ void EmbreeSceneBuilder::add(RTCScene object, const scene::PosedSurface& surface
   check();
   set_vertices(geometry.get(), surface, origin);
   set_triangles(geometry.get(), *surface.primitive, solid);
+  auto test =
+      std::make_unique<CasterTest>(CasterTest{.alpha = nullptr, .faces = surface.faces, .mirrored = surface.mirrored});
   if (surface.casts == scene::Casts::by_alpha) {
     static const scene::Material unspecified;
     const int index = surface.primitive->material;
     const scene::Material& material = index < 0 ? unspecified : scene_.materials[static_cast<std::size_t>(index)];
-    out_.alpha_tests_.push_back(std::make_unique<AlphaTest>(material, *surface.primitive, texture_of(material), solid));
-    rtcSetGeometryUserData(geometry.get(), out_.alpha_tests_.back().get());
+    test->alpha = std::make_unique<AlphaTest>(material, *surface.primitive, texture_of(material), solid);
+  }
+  if (test->alpha != nullptr || test->faces != scene::CasterFaces::both) {
+    rtcSetGeometryUserData(geometry.get(), test.get());
     rtcSetGeometryOccludedFilterFunction(geometry.get(), pass_through_holes);
+    out_.tests_.push_back(std::move(test));
   }
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometry(object, geometry.get());
@@ -219,6 +235,7 @@ void EmbreeSceneBuilder::add_shared(const Surfaces& copies) {
   EmbreeObject object = new_object();
   scene::PosedSurface at_rest = *copies.front();
   at_rest.world = glm::mat4(1);
+  at_rest.mirrored = false;  // it is their places that mirror them
   add(object.get(), at_rest, glm::dvec3(0));
   rtcCommitScene(object.get());
   check();

@@ -31,6 +31,13 @@ struct MemoryUse {
   std::ptrdiff_t limit = 0;  // 0: none
 };
 
+// Which hits of a geometry count: where its alpha leaves something, on the faces that cast.
+struct CasterTest {
+  std::unique_ptr<AlphaTest> alpha;  // null: it is there everywhere
+  scene::CasterFaces faces = scene::CasterFaces::both;
+  bool mirrored = false;  // front faces are clockwise, as Embree has them
+};
+
 // All casters of a posed scene in Embree. Keeps nothing of the scene but what it copies.
 class EmbreeScene {
  public:
@@ -52,7 +59,7 @@ class EmbreeScene {
   std::unique_ptr<MemoryUse> memory_ = std::make_unique<MemoryUse>();
   EmbreeDevice device_;
   std::vector<std::unique_ptr<AlphaTexture>> textures_;  // one a texture of the scene, null where none is needed
-  std::vector<std::unique_ptr<AlphaTest>> alpha_tests_;
+  std::vector<std::unique_ptr<CasterTest>> tests_;
   std::vector<EmbreeObject> prototypes_;
   EmbreeObject top_;
   glm::dvec3 origin_{0};

@@ -105,6 +105,10 @@ Key key_of(const scene::Scene& scene, const scene::PosedGeometry& geometry) {
   for (const scene::PosedSurface& surface : geometry.surfaces) {
     hash.add(surface.casts);
     if (surface.casts == scene::Casts::never) continue;
+    if (surface.faces != scene::CasterFaces::both) {  // else as ever, so that what was traced before stays known
+      hash.add(surface.faces);
+      hash.add(surface.mirrored);
+    }
     for (int column = 0; column < 4; ++column) hash.add(surface.world[column]);
     hash.add_all(surface.positions);
     hash.add_all(std::span(surface.primitive->indices));

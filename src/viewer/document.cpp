@@ -74,6 +74,7 @@ std::vector<std::string> scene_arguments(const cli::SceneOptions& options) {
   if (options.ground == render::GroundChoice::on) add(arguments, "--ground", "on");
   if (options.ground == render::GroundChoice::off) add(arguments, "--ground", "off");
   if (options.time != 0) add(arguments, "--time", fmt::format("{}", options.time));
+  for (std::string& argument : cli::reading_arguments(options.reading)) arguments.push_back(std::move(argument));
   return arguments;
 }
 

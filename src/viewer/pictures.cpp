@@ -19,13 +19,13 @@ bool is_traced(const Document& document) {
 
 }  // namespace
 
-// B has A's camera, time, sun, exposure and render options; its own are those of shadows.
+// B has A's camera, time, sun, casters, exposure and render options; its own are those of shadows.
 Document Viewer::document_b() const {
   Document document = state_.document;
   document.params = state_.comparison.params;
   for (const Param& row : document.params.rows()) {
-    const bool shared =
-        row.name.starts_with("sun.") || row.name.starts_with("exposure.") || row.name.starts_with("render.");
+    const bool shared = row.name.starts_with("sun.") || row.name.starts_with("casters.") ||
+                        row.name.starts_with("exposure.") || row.name.starts_with("render.");
     if (shared) document.params.set(row.name, state_.document.params.value(row.name));
   }
   return document;

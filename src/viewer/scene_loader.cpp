@@ -11,12 +11,13 @@ namespace penumbra::viewer {
 namespace {
 
 // Images take most of the time, so a cancelled scene ends at its next image.
-scene::ImageDecoder decoder_until(std::stop_token cancelled) {
-  return [cancelled = std::move(cancelled), decode = image::image_decoder()](std::span<const std::byte> encoded,
-                                                                             const std::string& name) {
-    if (cancelled.stop_requested()) fail("{}: cancelled", name);
-    return decode(encoded, name);
-  };
+scene::ImageDecoder decoder_until(std::stop_token cancelled, const scene::ReadLimits& limits) {
+  const scene::ImageDecoder decode = image::image_decoder(limits);
+  return {[cancelled = std::move(cancelled), decode](std::span<const std::byte> encoded, const std::string& name) {
+            if (cancelled.stop_requested()) fail("{}: cancelled", name);
+            return decode(encoded, name);
+          },
+          decode.probe()};
 }
 
 bool is_ready(const std::future<session::PreparedScene>& loading) {
@@ -33,7 +34,7 @@ void SceneLoader::start(cli::SceneOptions options) {
   options_ = std::move(options);
   cancelled_ = {};
   loading_ = std::async(std::launch::async, [options = options_, cancelled = cancelled_.get_token()] {
-    return session::load_scene(options, decoder_until(cancelled));
+    return session::load_scene(options, decoder_until(cancelled, cli::limits_of(options.reading)));
   });
 }
 

@@ -45,7 +45,8 @@ Picture SceneRun::draw(bool cut) {
 ParamSet SceneRun::reference_params() const {
   ParamSet params = params_;
   for (const Param& row : params.rows()) {
-    const bool of_scene = row.name.starts_with("sun.") || row.name.starts_with("cascades.");
+    const bool of_scene =
+        row.name.starts_with("sun.") || row.name.starts_with("casters.") || row.name.starts_with("cascades.");
     if (!of_scene) params.reset(row.name);
   }
   return params;

@@ -11,9 +11,11 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
+#include "core/log.h"
 #include "scene/gltf.h"
 
 namespace penumbra::test {
@@ -124,7 +126,18 @@ inline scene::Image any_image(std::span<const std::byte>, const std::string& nam
 
 inline scene::Scene load_text(const std::string& text, const scene::ReadLimits& limits = {}) {
   const ScratchFolder folder;
-  return scene::read_gltf(folder.write("scene.gltf", text), any_image, limits);
+  return scene::read_gltf(folder.write("scene.gltf", text), any_image, {.limits = limits});
+}
+
+// The warnings that `action` logs.
+inline std::vector<std::string> warnings_of(const std::function<void()>& action) {
+  std::vector<std::string> warnings;
+  set_log_sink([&](LogLevel level, std::string_view message) {
+    if (level == LogLevel::warning) warnings.emplace_back(message);
+  });
+  action();
+  set_log_sink({});
+  return warnings;
 }
 
 // The message of the Error that `action` throws; empty when it throws none.

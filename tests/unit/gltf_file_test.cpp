@@ -12,7 +12,7 @@ namespace {
 constexpr const char* empty_scene = R"({"asset":{"version":"2.0"}})";
 
 std::string refusal(const std::filesystem::path& file, const scene::ReadLimits& limits = {}) {
-  std::string message = error_of([&] { scene::read_gltf(file, no_image, limits); });
+  std::string message = error_of([&] { scene::read_gltf(file, no_image, {.limits = limits}); });
   EXPECT_EQ(message.find(file.string()), 0u) << "the message begins with the file: " << message;
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   return message;
@@ -113,7 +113,9 @@ TEST(GltfFile, LimitsNestingAndValuesBeforeParsing) {
   const std::string deep =
       R"({"asset":{"version":"2.0"},"extras":)" + std::string(300, '[') + std::string(300, ']') + "}";
   EXPECT_NE(error_of([&] { load_text(deep); }).find("nested deeper than the limit of 256"), std::string::npos);
-  EXPECT_NE(error_of([&] { load_text(deep, {.json_values = 100, .json_depth = 1000}); }).find("limit of 100 values"),
+  EXPECT_NE(error_of([&] {
+              load_text(deep, {.json_values = 100, .json_depth = 1000});
+            }).find("over the limit of 100; --limit json-values=N"),
             std::string::npos);
   EXPECT_NO_THROW(load_text(R"({"asset":{"version":"2.0"},"extras":"[[[[\"[[["})", {.json_depth = 2}));
 }
@@ -151,7 +153,24 @@ TEST(GltfFile, ReadsNothingOutsideTheScenesFolder) {
         std::string("link.bin"), std::string("up/secret.bin"), absolute, "file://" + absolute,
         std::string("http://localhost/a.bin"), std::string("a%00.bin")})
     EXPECT_THROW(scene::read_gltf(folder.write("scene.gltf", triangle_with_buffer(uri)), no_image), Error) << uri;
-  expect_refused(folder.write("scene.gltf", triangle_with_buffer("up/secret.bin")), "leads out of the scene's folder");
+  for (const char* uri : {"link.bin", "up/secret.bin"})
+    expect_refused(folder.write("scene.gltf", triangle_with_buffer(uri)),
+                   "leads out of the scene's folder by a symbolic link; --follow-links allows it");
+}
+
+TEST(GltfFile, FollowsLinksOnlyIfAsked) {
+  const ScratchFolder folder;
+  folder.write("../elsewhere/data.bin", triangle_bytes);
+  std::filesystem::create_symlink("../elsewhere/data.bin", folder.scene() / "link.bin");
+  std::filesystem::create_directory_symlink("../elsewhere", folder.scene() / "up");
+  const auto load = [&](const char* uri) {
+    scene::read_gltf(folder.write("scene.gltf", triangle_with_buffer(uri)), no_image, {.follow_links = true});
+  };
+  EXPECT_NO_THROW(load("link.bin"));
+  EXPECT_NO_THROW(load("up/data.bin"));
+  for (const char* uri : {"../elsewhere/data.bin", "up/../../elsewhere/data.bin"})
+    EXPECT_NE(error_of([&] { load(uri); }).find("leads out of the scene's folder"), std::string::npos)
+        << "a name that leads out is no link: " << uri;
 }
 
 TEST(GltfFile, ReadsLinksThatStayInside) {
@@ -168,11 +187,26 @@ TEST(GltfFile, RefusesBuffersThatAreShortOrOverTheLimit) {
   expect_refused(folder.write("scene.gltf", triangle_with_buffer("short.bin")), "buffers[0]: has 35 bytes, not 36");
   const auto scene = folder.write("scene.gltf", triangle_with_buffer("long.bin"));
   EXPECT_NO_THROW(scene::read_gltf(scene, no_image));
-  EXPECT_NE(refusal(scene, {.file_bytes = 40}).find("over the limit of 40"), std::string::npos);
+  EXPECT_NE(refusal(scene, {.file_bytes = 40}).find("over the limit of 40 bytes; --limit file=SIZE"),
+            std::string::npos);
 }
 
-TEST(GltfFile, RefusesBrokenBase64) {
-  for (const char* uri : {"data:;base64,AA!A", "data:;base64,A", "data:text/plain,AAAA", "data:"})
+TEST(GltfFile, ReadsDataUrisInBase64AndPercentEncoded) {
+  std::string escaped;
+  for (const char byte : triangle_bytes) escaped += fmt::format("%{:02x}", static_cast<unsigned char>(byte));
+  std::string base64_escaped;
+  for (const char c : base64(triangle_bytes)) base64_escaped += c == 'A' ? "%41" : std::string(1, c);
+  for (const std::string& uri :
+       {"data:application/octet-stream," + escaped, "data:," + escaped, "DATA:;charset=x," + escaped,
+        "data:;base64," + base64(triangle_bytes), "data:;BASE64," + base64_escaped}) {
+    const scene::Scene scene = load_text(triangle_with_buffer(uri));
+    EXPECT_EQ(scene.meshes[0].primitives[0].positions[1], glm::vec3(1, 0, 0)) << uri;
+  }
+}
+
+TEST(GltfFile, RefusesBrokenDataUris) {
+  for (const char* uri :
+       {"data:;base64,AA!A", "data:;base64,A", "data:text/plain,AAAA", "data:", "data:,%0", "data:,%zz"})
     EXPECT_THROW(load_text(triangle_with_buffer(uri)), Error) << uri;
 }
 

@@ -15,10 +15,11 @@ using scene::Scene;
 using scene::TextureRef;
 using scene::Wrap;
 
-// A document with a material, three textures and an image each.
+// A document with a material that is drawn, three textures and an image each.
 std::string with_material(const std::string& material, const std::string& more = "") {
   return R"({"asset":{"version":"2.0"},"materials":[{)" + material +
-         R"(}],"textures":[{"source":0},{"source":1},{"source":2}],"images":[)"
+         R"(}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{},"material":0}]}],)"
+         R"("textures":[{"source":0},{"source":1},{"source":2}],"images":[)"
          R"({"uri":"data:;base64,AAAA"},{"uri":"data:;base64,BBBB"},{"uri":"data:;base64,CCCC"}])" +
          more + "}";
 }
@@ -145,10 +146,37 @@ TEST(GltfMaterial, LimitsWhatAllImagesDecodeTo) {
   const auto megapixel = [](std::span<const std::byte>, const std::string& name) {
     return scene::Image{.name = name, .width = 1024, .height = 1024, .rgba = std::vector<uint8_t>(4 << 20)};
   };
-  EXPECT_NO_THROW(scene::read_gltf(file, megapixel, {.decoded_bytes = 9 << 20}));
-  EXPECT_NE(
-      error_of([&] { scene::read_gltf(file, megapixel, {.decoded_bytes = 7 << 20}); }).find("expands to more than"),
-      std::string::npos);
+  EXPECT_NO_THROW(scene::read_gltf(file, megapixel, {.limits = {.image_bytes = 9 << 20}}));
+  const auto over = [&] { scene::read_gltf(file, megapixel, {.limits = {.image_bytes = 7 << 20}}); };
+  EXPECT_NE(error_of(over).find("the images decode to more, over the limit of 7 MiB; --limit images=SIZE"),
+            std::string::npos);
+}
+
+TEST(GltfMaterial, KnowsWhatAllImagesTakeBeforeTheFirstIsDecoded) {
+  const ScratchFolder folder;
+  const auto file =
+      folder.write("scene.gltf", with_material(R"("emissiveTexture":{"index":2},"normalTexture":{"index":0})"));
+  int decoded = 0;
+  const scene::ImageDecoder counting(
+      [&](std::span<const std::byte> bytes, const std::string& name) {
+        ++decoded;
+        return any_image(bytes, name);
+      },
+      [](std::span<const std::byte>) {
+        return scene::ImageHeader{.width = 1 << 12, .height = 1 << 12, .channels = 3, .decoded_bytes = 64 << 20};
+      });
+  const std::string message =
+      error_of([&] { scene::read_gltf(file, counting, {.limits = {.image_bytes = 100 << 20}}); });
+  EXPECT_EQ(message, file.string() +
+                         ": 2 images take 128 MiB when decoded, over the limit of 100 MiB; "
+                         "--limit images=SIZE changes it");
+  EXPECT_EQ(error_of([&] { scene::read_gltf(file, counting, {.limits = {.image_pixels = 1 << 23}}); }),
+            file.string() +
+                ": images[0]: 4096 x 4096 pixels, over the limit of 8388608; "
+                "--limit image-pixels=N changes it");
+  EXPECT_EQ(decoded, 0);
+  EXPECT_NO_THROW(scene::read_gltf(file, counting, {.limits = {.image_bytes = 128 << 20}}));
+  EXPECT_EQ(decoded, 2);
 }
 
 }  // namespace

@@ -209,14 +209,18 @@ TEST(GltfMesh, RefusesMoreVerticesThanTheLimit) {
   gltf.add(square, "VEC3", 3);
   const std::string text = gltf.text(one_mesh(R"({"attributes":{"POSITION":0},"mode":0})"));
   EXPECT_NO_THROW(load_text(text, {.vertices = 4}));
-  EXPECT_NE(error_of([&] { load_text(text, {.vertices = 3}); }).find("limit of 3 vertices"), std::string::npos);
+  EXPECT_NE(error_of([&] {
+              load_text(text, {.vertices = 3});
+            }).find("at least 4 vertices, over the limit of 3; --limit vertices=N"),
+            std::string::npos);
 }
 
 TEST(GltfMesh, RefusesCountsWithoutBytesBehindThem) {
   const std::string text = R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"count":2000000000,)"
                            R"("type":"VEC3"}],)" +
                            one_mesh(R"({"attributes":{"POSITION":0}})") + "}";
-  EXPECT_NE(error_of([&] { load_text(text); }).find("expands to more than"), std::string::npos);
+  EXPECT_NE(error_of([&] { load_text(text); }).find("expand to more, over the limit of 1 GiB; --limit data=SIZE"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -33,7 +33,10 @@ TEST(GltfNode, RefusesHierarchiesDeeperThanTheLimit) {
   for (int i = 1; i < 50; ++i) nodes += fmt::format(R"({{"children":[{}]}},)", i);
   const std::string text = document(R"("nodes":[)" + nodes + "{}]");
   EXPECT_NO_THROW(load_text(text, {.node_depth = 50}));
-  EXPECT_NE(error_of([&] { load_text(text, {.node_depth = 49}); }).find("limit of 49 levels"), std::string::npos);
+  EXPECT_NE(error_of([&] {
+              load_text(text, {.node_depth = 49});
+            }).find("50 levels deep, over the limit of 49; --limit node-depth=N"),
+            std::string::npos);
 }
 
 TEST(GltfNode, DrawsTheDefaultSceneOrTheFirst) {
@@ -86,9 +89,10 @@ TEST(GltfNode, ReadsCameras) {
   EXPECT_FALSE(scene.cameras[0].far) << "infinite";
   EXPECT_EQ(scene.cameras[1].half_height, 3);
   EXPECT_EQ(scene.cameras[1].far, 9);
-  expect_fault(R"("cameras":[{"type":"perspective","perspective":{"yfov":0.7,"znear":1,"zfar":0.5}}])", "not beyond");
-  expect_fault(R"("cameras":[{"type":"perspective","perspective":{"yfov":4,"znear":1}}])", "yfov is 4, outside");
-  expect_fault(R"("cameras":[{"type":"orthographic","orthographic":{"xmag":0,"ymag":1,"znear":0,"zfar":9}}])", "zero");
+  const std::string placed = R"("nodes":[{"camera":0}],"cameras":)";
+  expect_fault(placed + R"([{"type":"perspective","perspective":{"yfov":0.7,"znear":1,"zfar":0.5}}])", "not beyond");
+  expect_fault(placed + R"([{"type":"perspective","perspective":{"yfov":4,"znear":1}}])", "yfov is 4, outside");
+  expect_fault(placed + R"([{"type":"orthographic","orthographic":{"xmag":0,"ymag":1,"znear":0,"zfar":9}}])", "zero");
 }
 
 TEST(GltfNode, ReadsLightsAndLeavesUnknownOnesOut) {
@@ -101,7 +105,8 @@ TEST(GltfNode, ReadsLightsAndLeavesUnknownOnesOut) {
   EXPECT_EQ(scene.lights[0].kind, scene::LightKind::spot);
   EXPECT_EQ(scene.lights[0].color, glm::vec3(1, 0.5f, 0));
   EXPECT_FLOAT_EQ(scene.lights[0].outer_cone, 0.3f);
-  expect_fault(R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":-1}]}})",
+  expect_fault(R"("nodes":[{"extensions":{"KHR_lights_punctual":{"light":0}}}],)"
+               R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":-1}]}})",
                "intensity is -1, outside");
   expect_fault(R"("nodes":[{"extensions":{"KHR_lights_punctual":{"light":0}}}])", "light is 0, but there are 0");
 }

@@ -42,8 +42,9 @@ void render_files(const RenderOptions& options) {
   check_files(options, names);
 
   // Drivers take as long to start as scenes to load, and there are two cores nearly everywhere.
-  std::future<session::PreparedScene> loading =
-      std::async(std::launch::async, [&options] { return session::load_scene(options, image::image_decoder()); });
+  std::future<session::PreparedScene> loading = std::async(std::launch::async, [&options] {
+    return session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)));
+  });
   std::unique_ptr<gl::Context> context = session::open_context(options, options);
   const session::PreparedScene prepared = loading.get();
   check_scene_files(prepared.scene.files, options, names);
@@ -66,6 +67,7 @@ int run_render(const Arguments& arguments) {
   add_render_options(app, options);
   if (!cli::parse(app, arguments)) return 0;
   check_together(options);
+  options.reading.progress = !options.quiet;
   render_files(options);
   return 0;
 }

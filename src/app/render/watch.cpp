@@ -121,7 +121,8 @@ Watch::Watch(const RenderOptions& options)
   files_.set_files(inputs());
   if (!options_.glsl.empty()) files_.add_folder(options_.glsl);
   params_ = cli::resolve_params(options_, session::all_techniques());  // what changed before they were watched counts
-  prepared_ = std::make_unique<session::PreparedScene>(session::load_scene(options_, image::image_decoder()));
+  prepared_ = std::make_unique<session::PreparedScene>(
+      session::load_scene(options_, image::image_decoder(cli::limits_of(options_.reading))));
   check_scene_files(prepared_->scene.files, options_, names_);
   files_.set_files(inputs());
   session_ = std::make_unique<session::RenderSession>(options_, options_, session::open_context(options_, options_),
@@ -198,7 +199,8 @@ void Watch::tell_faults() {
 }
 
 void Watch::reload_scene() {
-  auto prepared = std::make_unique<session::PreparedScene>(session::load_scene(options_, image::image_decoder()));
+  auto prepared = std::make_unique<session::PreparedScene>(
+      session::load_scene(options_, image::image_decoder(cli::limits_of(options_.reading))));
   check_scene_files(prepared->scene.files, options_, names_);
   session_->show(*prepared);
   prepared_ = std::move(prepared);

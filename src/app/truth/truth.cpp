@@ -140,7 +140,8 @@ void trace_files(const TruthOptions& options) {
   session::limit_threads(options);
   check_scene_files({options.scene}, names, range);
   io::check_writable(names.picture(range.first));
-  const session::PreparedScene prepared = session::load_scene(options, image::image_decoder());
+  const session::PreparedScene prepared =
+      session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)));
   check_scene_files(prepared.scene.files, names, range);
 
   constexpr int parts = 1000;  // of a frame

@@ -65,6 +65,25 @@ std::vector<glm::vec<N, float>> read_vectors(const AccessorView& view, const Sel
   return vectors;
 }
 
+// The same, but vectors that are not finite become zero. Adds their number to `wrong`.
+template <int N>
+std::vector<glm::vec<N, float>> read_finite_vectors(const AccessorView& view, const Selection& selection,
+                                                    std::size_t& wrong) {
+  expect_components(view, N);
+  std::vector<glm::vec<N, float>> vectors(selection.count, glm::vec<N, float>(0));
+  for (std::size_t i = 0; i < selection.count; ++i) {
+    const std::byte* element = view.element(selection[i]);
+    if (element == nullptr) continue;
+    glm::vec<N, float> vector;
+    for (int c = 0; c < N; ++c) vector[c] = view.number(element, c);
+    if (glm::any(glm::isnan(vector)) || glm::any(glm::isinf(vector)))
+      ++wrong;
+    else
+      vectors[i] = vector;
+  }
+  return vectors;
+}
+
 template <int N>
 std::vector<glm::vec<N, float>> read_vectors(const AccessorView& view) {
   return read_vectors<N>(view, Selection{.count = view.count});

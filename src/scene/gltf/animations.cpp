@@ -79,7 +79,8 @@ std::optional<AnimationChannel> read_channel(Document& document, const Scene& sc
   return channel;
 }
 
-Animation read_animation(Document& document, const Scene& scene, const tinygltf::Animation& in) {
+Animation read_animation(Document& document, const Scene& scene, std::size_t number) {
+  const tinygltf::Animation& in = document.model.animations[number];
   Animation animation{.name = in.name};
   for (std::size_t i = 0; i < in.channels.size(); ++i) {
     try {
@@ -88,7 +89,10 @@ Animation read_animation(Document& document, const Scene& scene, const tinygltf:
       animation.duration = std::max(animation.duration, channel->times.back());
       animation.channels.push_back(std::move(*channel));
     } catch (const Error& e) {
-      fail("channels[{}]: {}", i, e.what());
+      const int node = in.channels[i].target_node;
+      document.left_out.add_part(fmt::format("animations[{}].channels[{}]", number, i),
+                                 node >= 0 && document.left_out.used().holds("nodes", static_cast<std::size_t>(node)),
+                                 e.what());
     }
   }
   return animation;
@@ -97,13 +101,8 @@ Animation read_animation(Document& document, const Scene& scene, const tinygltf:
 }  // namespace
 
 void read_animations(Document& document, Scene& scene) {
-  for (const tinygltf::Animation& in : document.model.animations) {
-    try {
-      scene.animations.push_back(read_animation(document, scene, in));
-    } catch (const Error& e) {
-      fail("animations[{}]: {}", scene.animations.size(), e.what());
-    }
-  }
+  for (std::size_t i = 0; i < document.model.animations.size(); ++i)
+    scene.animations.push_back(read_animation(document, scene, i));
   // Animation moves a node's translation, rotation and scale, which a matrix does not have apart.
   for (const Animation& animation : scene.animations)
     for (const AnimationChannel& channel : animation.channels) {

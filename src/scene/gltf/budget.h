@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "core/error.h"
 #include "scene/gltf.h"
+#include "scene/limits.h"
 
 namespace penumbra::scene::gltf {
 
@@ -15,21 +17,31 @@ class Budget {
   void add_file(std::size_t bytes) { file_bytes_ += bytes; }
 
   void spend_vertices(std::size_t count) {
-    if (count > limits_.vertices - vertices_) fail("more than the limit of {} vertices", limits_.vertices);
+    if (count > limits_.vertices - vertices_)
+      fail_over_limit(fmt::format("at least {} vertices", vertices_ + count), limits_, &ReadLimits::vertices);
     vertices_ += count;
   }
 
   // `count` things of `size` bytes each.
   void spend(std::size_t count, std::size_t size) {
-    const std::size_t limit = limits_.decoded_bytes + limits_.decoded_ratio * file_bytes_;
-    if (count > (limit - spent_) / size)
-      fail("expands to more than {} bytes, the limit for its {} bytes", limit, file_bytes_);
+    ReadLimits allowed = limits_;
+    allowed.decoded_bytes = std::min(limits_.decoded_bytes + limits_.decoded_ratio * file_bytes_, limits_.decoded_most);
+    if (count > (allowed.decoded_bytes - std::min(spent_, allowed.decoded_bytes)) / size)
+      fail_over_limit(fmt::format("{} bytes of files expand to more", file_bytes_), allowed,
+                      &ReadLimits::decoded_bytes);
     spent_ += count * size;
+  }
+
+  // An image's pixels, decoded.
+  void spend_image(std::size_t bytes) {
+    if (bytes > limits_.image_bytes - std::min(image_bytes_, limits_.image_bytes))
+      fail_over_limit("the images decode to more", limits_, &ReadLimits::image_bytes);
+    image_bytes_ += bytes;
   }
 
  private:
   ReadLimits limits_;
-  std::size_t file_bytes_ = 0, vertices_ = 0, spent_ = 0;
+  std::size_t file_bytes_ = 0, vertices_ = 0, spent_ = 0, image_bytes_ = 0;
 };
 
 }  // namespace penumbra::scene::gltf

@@ -4,7 +4,8 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "core/read_file.h"
+#include "scene/gltf/resources.h"
+#include "scene/limits.h"
 
 namespace penumbra::scene::gltf {
 namespace {
@@ -69,7 +70,8 @@ void check_json_size(std::string_view text, const ReadLimits& limits) {
       if (++depth > limits.json_depth) fail("JSON is nested deeper than the limit of {}", limits.json_depth);
     }
     if ((c == '}' || c == ']') && depth > 0) --depth;
-    if (values > limits.json_values) fail("JSON has more than the limit of {} values", limits.json_values);
+    if (values > limits.json_values)
+      fail_over_limit(fmt::format("JSON of {} or more values", values), limits, &ReadLimits::json_values);
   }
 }
 
@@ -101,7 +103,7 @@ nlohmann::json parse_json(Bytes bytes, const ReadLimits& limits) {
 
 Container read_container(const std::filesystem::path& path, const ReadLimits& limits) {
   Container container;
-  container.file = read_file(path, limits.file_bytes);
+  container.file = load_file(path, limits);
   const Bytes file = container.file;
   if (file.empty()) fail("the file is empty");
   if (file.size() >= 4 && little_endian_32(file, 0) == glb_magic) {

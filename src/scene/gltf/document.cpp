@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "scene/casting.h"
 #include "scene/gltf/compression.h"
 #include "scene/gltf/container.h"
 #include "scene/gltf/resources.h"
@@ -64,10 +65,14 @@ std::vector<Bytes> load_buffers(Document& document, const Container& container) 
     const auto length = buffer["byteLength"].get<std::size_t>();
     const std::size_t number = buffers.size();
     Bytes bytes;
+    if (document.left_out.holds("buffers", number)) {
+      buffers.emplace_back();
+      continue;
+    }
     try {
       if (buffer.contains("uri")) {
         document.storage.push_back(
-            load_uri(document.folder, buffer["uri"].get_ref<const std::string&>(), document.limits.file_bytes));
+            load_uri(document.folder, buffer["uri"].get_ref<const std::string&>(), document.options));
         document.budget.add_file(document.storage.back().size());
         bytes = document.storage.back();
       } else if (number == 0 && container.has_binary) {
@@ -79,7 +84,9 @@ std::vector<Bytes> load_buffers(Document& document, const Container& container) 
       }
       if (bytes.size() < length) fail("has {} bytes, not {}", bytes.size(), length);
     } catch (const Error& e) {
-      fail("buffers[{}]: {}", number, e.what());
+      document.left_out.add("buffers", number, e.what());
+      buffers.emplace_back();
+      continue;
     }
     buffers.push_back(bytes.first(length));
   }
@@ -99,6 +106,10 @@ Bytes cut(const std::vector<Bytes>& buffers, const Json& view) {
 void cut_views(Document& document, const Json& json, const std::vector<Bytes>& buffers) {
   if (!json.contains("bufferViews")) return;
   for (const Json& view : json["bufferViews"]) {
+    if (document.left_out.holds("bufferViews", document.views.size())) {
+      document.views.emplace_back();
+      continue;
+    }
     try {
       const Json extensions = view.value("extensions", Json::object());
       const auto meshopt = extensions.find("EXT_meshopt_compression");
@@ -117,7 +128,8 @@ void cut_views(Document& document, const Json& json, const std::vector<Bytes>& b
       document.storage.push_back(decode_meshopt(stream));
       document.views.emplace_back(document.storage.back());
     } catch (const Error& e) {
-      fail("bufferViews[{}]: {}", document.views.size(), e.what());
+      document.left_out.add("bufferViews", document.views.size(), e.what());
+      document.views.emplace_back();
     }
   }
 }
@@ -127,7 +139,7 @@ void list_images(Document& document, const Json& json) {
   for (const Json& image : json["images"]) {
     ImageSource source{.name = fmt::format("images[{}]", document.images.size())};
     if (image.contains("uri") == image.contains("bufferView"))
-      fail("{} must have either a uri or a bufferView", source.name);
+      document.left_out.add("images", document.images.size(), "must have either a uri or a bufferView");
     source.uri = image.value("uri", std::string());
     source.view = image.value("bufferView", -1);
     if (!source.uri.empty() && !is_data_uri(source.uri)) source.name += fmt::format(" '{}'", source.uri.substr(0, 80));
@@ -154,8 +166,8 @@ void spend_array(Budget& budget, const Json& owner, const char* key) {
 // yet, but the sizes of what is no array are harmless.
 void spend_model(Document& document, const Json& json) {
   Budget& budget = document.budget;
-  if (json.contains("nodes") && json["nodes"].size() > document.limits.nodes)
-    fail("{} nodes, over the limit of {}", json["nodes"].size(), document.limits.nodes);
+  if (json.contains("nodes") && json["nodes"].size() > document.options.limits.nodes)
+    fail_over_limit(fmt::format("{} nodes", json["nodes"].size()), document.options.limits, &ReadLimits::nodes);
   spend_array<tinygltf::Node>(budget, json, "nodes");
   spend_array<tinygltf::Accessor>(budget, json, "accessors");
   spend_array<tinygltf::BufferView>(budget, json, "bufferViews");
@@ -203,13 +215,16 @@ tinygltf::Model parse_model(Json json) {
 
 }  // namespace
 
-Document read_document(const std::filesystem::path& path, const ReadLimits& limits) {
-  Container container = read_container(path, limits);
+Document read_document(const std::filesystem::path& path, const ReadOptions& options) {
+  Container container = read_container(path, options.limits);
   if (!container.json.is_object()) fail("the JSON is not an object");
-  Document document{.folder = path.parent_path(), .limits = limits, .budget = Budget(limits)};
+  Document document{.folder = path.parent_path(),
+                    .options = options,
+                    .budget = Budget(options.limits),
+                    .left_out = LeftOut(path.string(), Used(container.json))};
   document.budget.add_file(std::filesystem::file_size(path));
   spend_model(document, container.json);
-  check_schema(container.json);
+  check_schema(container.json, document.left_out);
   check_asset(container.json);
   check_extensions(container.json);
 
@@ -220,6 +235,18 @@ Document read_document(const std::filesystem::path& path, const ReadLimits& limi
   document.model = parse_model(std::move(container.json));
   document.storage.push_back(std::move(container.file));  // moving a vector leaves its bytes where they are
   return document;
+}
+
+Casting casting_of_extras(const tinygltf::Value& extras, const std::string& place) {
+  constexpr const char* key = "penumbra_casts";
+  if (!extras.IsObject() || !extras.Has(key)) return Casting::automatic;
+  const tinygltf::Value& value = extras.Get(key);
+  if (value.IsBool()) return value.Get<bool>() ? Casting::on : Casting::off;
+  if (value.IsString())
+    if (const auto casting = casting_of(value.Get<std::string>())) return *casting;
+  warn("{}: {} of its extras is neither true nor false nor one of {}; not used", place, key,
+       fmt::join(casting_words(), ", "));
+  return Casting::automatic;
 }
 
 double number_or(const tinygltf::Value& object, const char* key, double otherwise) {

@@ -10,6 +10,7 @@
 
 #include "scene/gltf.h"
 #include "scene/gltf/budget.h"
+#include "scene/gltf/left_out.h"
 
 namespace penumbra::scene::gltf {
 
@@ -22,19 +23,28 @@ struct ImageSource {
 };
 
 // A glTF with its data at hand. All indices of the model are in range, types and ranges are checked; what the numbers
-// mean together (accessors, hierarchy, animations) is checked where it is read.
+// mean together (accessors, hierarchy, animations) is checked where it is read. Elements that were left out for a fault
+// are stand-ins.
 struct Document {
   std::filesystem::path folder;
   std::vector<std::filesystem::path> files;  // those that the glTF names, whether anything uses them or not
   tinygltf::Model model;                     // buffers and images are kept here instead:
   std::vector<Bytes> views;                  // of each bufferView, decompressed; empty where its buffer has no data
   std::vector<ImageSource> images;
-  ReadLimits limits;
+  ReadOptions options;
   Budget budget;
+  LeftOut left_out;
   std::vector<std::vector<std::byte>> storage;  // what the views point into
+
+  // Tells the caller, at most a hundred times a part.
+  void report(const ReadProgress& progress) const {
+    const auto percent = [&](std::size_t done) { return done * 100 / progress.count; };
+    const bool news = progress.done == 0 || percent(progress.done) != percent(progress.done - 1);
+    if (options.progress && news) options.progress(progress);
+  }
 };
 
-Document read_document(const std::filesystem::path& path, const ReadLimits& limits);
+Document read_document(const std::filesystem::path& path, const ReadOptions& options);
 
 // An extension's object, or null when `owner` has none.
 template <class Owner>
@@ -42,6 +52,10 @@ const tinygltf::Value* find_extension(const Owner& owner, const char* name) {
   const auto found = owner.extensions.find(name);
   return found == owner.extensions.end() ? nullptr : &found->second;
 }
+
+// What the extras of a node or a material say of its shadows: {"penumbra_casts": true, false, "both", "front" or
+// "back"}. Another value is warned of at `place`.
+Casting casting_of_extras(const tinygltf::Value& extras, const std::string& place);
 
 // Members of an extension's object, which the schema has checked.
 double number_or(const tinygltf::Value& object, const char* key, double otherwise);

@@ -3,8 +3,8 @@
 #include <string_view>
 
 #include "core/log.h"
+#include "scene/gltf/images.h"
 #include "scene/gltf/read.h"
-#include "scene/gltf/resources.h"
 
 namespace penumbra::scene::gltf {
 namespace {
@@ -75,7 +75,7 @@ void assign_uv_slots(MaterialUse& use) {
   for (TextureRef* ref : references(use.material)) ref->uv_set = sets.size() > 1 && ref->uv_set == sets[1] ? 1 : 0;
 }
 
-MaterialUse read_material(const tinygltf::Material& in) {
+MaterialUse read_material(const tinygltf::Material& in, std::size_t number) {
   MaterialUse use;
   Material& out = use.material;
   const auto& pbr = in.pbrMetallicRoughness;
@@ -102,6 +102,7 @@ MaterialUse read_material(const tinygltf::Material& in) {
   out.alpha_cutoff = static_cast<float>(in.alphaCutoff);
   out.double_sided = in.doubleSided;
   out.unlit = find_extension(in, "KHR_materials_unlit") != nullptr;
+  out.casting = casting_of_extras(in.extras, fmt::format("materials[{}]", number));
   assign_uv_slots(use);
   return use;
 }
@@ -128,70 +129,39 @@ Texture read_texture(const Document& document, const tinygltf::Texture& in) {
   return out;
 }
 
-// Decodes each image once.
-class ImageReader {
- public:
-  ImageReader(Document& document, const ImageDecoder& decode, Scene& scene)
-      : document_(document), decode_(decode), scene_(scene), image_of_(document.images.size(), -1) {}
-
-  // The scene's number of the file's image.
-  int image(int number) {
-    int& image = image_of_[static_cast<std::size_t>(number)];
-    if (image >= 0) return image;
-    const ImageSource& source = document_.images[static_cast<std::size_t>(number)];
-    try {
-      scene_.images.push_back(decode(source));
-    } catch (const Error& e) {
-      fail("{}: {}", source.name, e.what());
-    }
-    return image = static_cast<int>(scene_.images.size()) - 1;
-  }
-
- private:
-  Image decode(const ImageSource& source) {
-    std::vector<std::byte> file;
-    Bytes bytes;
-    if (source.view >= 0) {
-      bytes = document_.views[static_cast<std::size_t>(source.view)];
-    } else {
-      file = load_uri(document_.folder, source.uri, document_.limits.file_bytes);
-      document_.budget.add_file(file.size());
-      bytes = file;
-    }
-    if (bytes.empty()) fail("has no data");
-    Image image = decode_(bytes, source.name);
-    document_.budget.spend(image.rgba.size(), 1);
-    return image;
-  }
-
-  Document& document_;
-  const ImageDecoder& decode_;
-  Scene& scene_;
-  std::vector<int> image_of_;
-};
+// The file's number of a reference's image; -1 for none.
+int image_of(const Document& document, const TextureRef& ref) {
+  return document.model.textures[static_cast<std::size_t>(ref.texture)].source;
+}
 
 }  // namespace
 
 std::vector<MaterialUse> read_materials(const Document& document) {
   std::vector<MaterialUse> materials;
-  for (const tinygltf::Material& material : document.model.materials) materials.push_back(read_material(material));
+  for (const tinygltf::Material& material : document.model.materials)
+    materials.push_back(read_material(material, materials.size()));
   return materials;
 }
 
 void read_textures(Document& document, const ImageDecoder& decode, std::vector<MaterialUse>& materials, Scene& scene) {
   for (const tinygltf::Texture& texture : document.model.textures)
     scene.textures.push_back(read_texture(document, texture));
-  ImageReader reader(document, decode, scene);
+  ImageReader images(document, decode, scene);
+  for (MaterialUse& use : materials)
+    for (const TextureRef* ref : references(use.material))
+      if (ref->texture >= 0) images.need(image_of(document, *ref));
+  images.read();
   for (MaterialUse& use : materials) {
     for (TextureRef* ref : references(use.material)) {
       if (ref->texture < 0) continue;
-      const int image = document.model.textures[static_cast<std::size_t>(ref->texture)].source;
-      if (image < 0) {
+      const int source = image_of(document, *ref);
+      if (source < 0)
         warn("material '{}': textures[{}] has no image that can be read; left out", use.material.name, ref->texture);
+      const int image = source < 0 ? -1 : images.number(source);
+      if (image < 0)
         ref->texture = -1;
-      } else {
-        scene.textures[static_cast<std::size_t>(ref->texture)].image = reader.image(image);
-      }
+      else
+        scene.textures[static_cast<std::size_t>(ref->texture)].image = image;
     }
     scene.materials.push_back(use.material);
   }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -28,8 +29,14 @@ Selection select_vertices(std::vector<uint32_t>& indices, std::size_t count) {
 
 class PrimitiveReader {
  public:
-  PrimitiveReader(Document& document, const std::vector<MaterialUse>& materials, const tinygltf::Primitive& in)
-      : document_(document), in_(in), use_(in.material < 0 ? MaterialUse() : materials[index(in.material)]) {
+  // `place`: "meshes[1].primitives[0]". `skinned`: a node that is drawn gives the mesh a skin.
+  PrimitiveReader(Document& document, const std::vector<MaterialUse>& materials, const tinygltf::Primitive& in,
+                  std::string place, bool skinned)
+      : document_(document),
+        in_(in),
+        use_(in.material < 0 ? MaterialUse() : materials[index(in.material)]),
+        place_(std::move(place)),
+        skinned_(skinned) {
     out_.material = in.material;
     if (const auto* extension = find_extension(in, "KHR_draco_mesh_compression"))
       draco_ = decode_draco(document, in, *extension);
@@ -45,7 +52,7 @@ class PrimitiveReader {
     selection_ = select_vertices(out_.indices, count_);
     document_.budget.spend_vertices(selection_.count * (1 + in_.targets.size()));
     read_vertices(*positions);
-    read_joints();
+    unless_unused("JOINTS_0", skinned_, [this] { read_joints(); });
     read_targets();
     finish_normals();
     return std::move(out_);
@@ -96,12 +103,53 @@ class PrimitiveReader {
     return view ? read_checked<N>(*view) : std::vector<glm::vec<N, float>>();
   }
 
+  // What can be computed from the rest is no reason to refuse a file: zeros stand in, and count as wrong.
+  template <int N>
+  std::vector<glm::vec<N, float>> read_repairable(const AccessorView& view, std::size_t& wrong) {
+    if (view.count != count_) fail("{} has {} elements for {} vertices", view.name, view.count, count_);
+    document_.budget.spend(selection_.count, sizeof(glm::vec<N, float>));
+    return read_finite_vectors<N>(view, selection_, wrong);
+  }
+
+  template <class Read>
+  void unless_unused(const std::string& semantic, bool used, const Read& read) {
+    try {
+      read();
+    } catch (const Error& e) {
+      if (used) throw;
+      document_.left_out.add_part(fmt::format("{}.attributes.{}", place_, semantic), used, e.what());
+    }
+  }
+
+  bool textured_by(int uv_set) const {
+    const Material& m = use_.material;
+    return std::ranges::any_of(std::array{m.base_color_texture, m.metallic_roughness_texture, m.normal_texture,
+                                          m.occlusion_texture, m.emissive_texture},
+                               [&](const TextureRef& ref) { return ref.texture >= 0 && ref.uv_set == uv_set; });
+  }
+
+  void read_tangents() {
+    const auto tangents = attribute("TANGENT");
+    if (!tangents || use_.material.normal_texture.texture < 0) return;
+    std::size_t wrong = 0;
+    out_.tangents = read_repairable<4>(*tangents, wrong);
+    if (wrong == 0) return;
+    warn("{}: {} of {} tangents are not finite; all are computed from the texture coordinates", place_, wrong,
+         selection_.count);
+    out_.tangents.clear();
+  }
+
   void read_vertices(const AccessorView& positions) {
     out_.positions = read_checked<3>(positions);
-    out_.normals = read_optional<3>("NORMAL");
-    if (use_.material.normal_texture.texture >= 0) out_.tangents = read_optional<4>("TANGENT");
-    for (std::size_t slot = 0; slot < 2; ++slot)
-      out_.uvs[slot] = read_optional<2>(fmt::format("TEXCOORD_{}", use_.uv_sets[slot]));
+    if (const auto normals = attribute("NORMAL")) {
+      std::size_t wrong = 0;  // counted with those of no length when they are repaired
+      out_.normals = read_repairable<3>(*normals, wrong);
+    }
+    read_tangents();
+    for (int slot = 0; slot < 2; ++slot) {
+      const std::string semantic = fmt::format("TEXCOORD_{}", use_.uv_sets[index(slot)]);
+      unless_unused(semantic, textured_by(slot), [&] { out_.uvs[index(slot)] = read_optional<2>(semantic); });
+    }
     const auto colors = attribute("COLOR_0");
     if (!colors) return;
     if (colors->components == 3) {
@@ -176,13 +224,19 @@ class PrimitiveReader {
   void read_targets() {
     for (const auto& in : in_.targets) {
       MorphTarget& target = out_.targets.emplace_back();
-      const auto read = [&](const char* semantic) {
+      std::size_t wrong = 0;
+      const auto read = [&](const char* semantic, bool repairable) {
         const auto found = in.find(semantic);
-        return found == in.end() ? std::vector<glm::vec3>() : read_checked<3>(view_accessor(document_, found->second));
+        if (found == in.end()) return std::vector<glm::vec3>();
+        const AccessorView view = view_accessor(document_, found->second);
+        return repairable ? read_repairable<3>(view, wrong) : read_checked<3>(view);
       };
-      target.positions = read("POSITION");
-      if (!out_.normals.empty()) target.normals = read("NORMAL");
-      if (!out_.tangents.empty()) target.tangents = read("TANGENT");
+      target.positions = read("POSITION", false);
+      if (!out_.normals.empty()) target.normals = read("NORMAL", true);
+      if (!out_.tangents.empty()) target.tangents = read("TANGENT", true);
+      if (wrong > 0)
+        warn("{}.targets[{}]: {} changes of normals and tangents are not finite; taken for none", place_,
+             out_.targets.size() - 1, wrong);
     }
   }
 
@@ -193,7 +247,9 @@ class PrimitiveReader {
       document_.budget.spend(out_.indices.size(), 128 + in_.targets.size() * sizeof(glm::vec3) * 2);
     }
     if (flat) make_flat_normals(out_);
-    repair_normals(out_);
+    if (const std::size_t repaired = repair_normals(out_); repaired > 0)
+      warn("{}: {} of {} normals are not finite or have no length; computed from the triangles", place_, repaired,
+           out_.normals.size());
     const TextureRef& normal_map = use_.material.normal_texture;
     if (normal_map.texture < 0) return;
     if (out_.tangents.empty()) {
@@ -206,20 +262,25 @@ class PrimitiveReader {
   Document& document_;
   const tinygltf::Primitive& in_;
   const MaterialUse use_;
+  const std::string place_;
+  const bool skinned_;
   std::optional<DracoMesh> draco_;
   std::size_t count_ = 0;  // of the file's vertices, of which `selection_` are read
   Selection selection_;
   Primitive out_;
 };
 
-Mesh read_mesh(Document& document, const std::vector<MaterialUse>& materials, const tinygltf::Mesh& in) {
+Mesh read_mesh(Document& document, const std::vector<MaterialUse>& materials, std::size_t number) {
+  const tinygltf::Mesh& in = document.model.meshes[number];
+  const bool skinned = document.left_out.used().skinned(number);
   Mesh mesh{.name = in.name};
   const std::size_t targets = in.primitives.empty() ? 0 : in.primitives[0].targets.size();
   for (std::size_t i = 0; i < in.primitives.size(); ++i) {
     try {
       if (in.primitives[i].targets.size() != targets)
         fail("{} morph targets, another primitive has {}", in.primitives[i].targets.size(), targets);
-      if (auto primitive = PrimitiveReader(document, materials, in.primitives[i]).read())
+      const std::string place = fmt::format("meshes[{}].primitives[{}]", number, i);
+      if (auto primitive = PrimitiveReader(document, materials, in.primitives[i], place, skinned).read())
         mesh.primitives.push_back(std::move(*primitive));
     } catch (const Error& e) {
       fail("primitives[{}]: {}", i, e.what());
@@ -235,12 +296,16 @@ Mesh read_mesh(Document& document, const std::vector<MaterialUse>& materials, co
 }  // namespace
 
 void read_meshes(Document& document, const std::vector<MaterialUse>& materials, Scene& scene) {
-  for (const tinygltf::Mesh& mesh : document.model.meshes) {
+  const std::size_t count = document.model.meshes.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    document.report({.part = "mesh", .done = i, .count = count});
+    Mesh mesh;
     try {
-      scene.meshes.push_back(read_mesh(document, materials, mesh));
+      mesh = read_mesh(document, materials, i);
     } catch (const Error& e) {
-      fail("meshes[{}]: {}", scene.meshes.size(), e.what());
+      document.left_out.add("meshes", i, e.what());
     }
+    scene.meshes.push_back(std::move(mesh));
   }
 }
 

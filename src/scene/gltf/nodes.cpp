@@ -5,6 +5,7 @@
 #include "core/log.h"
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/read.h"
+#include "scene/limits.h"
 #include "scene/pose.h"
 
 namespace penumbra::scene::gltf {
@@ -63,7 +64,7 @@ glm::mat4 affine_matrix(const float* numbers) {
   return matrix;
 }
 
-Node read_node(Document& document, const tinygltf::Node& in) {
+Node read_node(Document& document, const tinygltf::Node& in, std::size_t number) {
   Node node{.name = in.name, .mesh = in.mesh, .skin = in.skin, .camera = in.camera};
   node.children = in.children;
   if (!in.translation.empty()) node.transform.translation = to_vec3(in.translation);
@@ -75,6 +76,7 @@ Node read_node(Document& document, const tinygltf::Node& in) {
     node.matrix = affine_matrix(numbers.data());
   }
   node.weights.assign(in.weights.begin(), in.weights.end());
+  node.casting = casting_of_extras(in.extras, fmt::format("nodes[{}]", number));
   if (const Value* instancing = find_extension(in, "EXT_mesh_gpu_instancing"); instancing && instancing->IsObject())
     read_instances(document, *instancing, node);
   return node;
@@ -110,23 +112,38 @@ void check_attachments(Document& document, const Scene& scene, const std::vector
   if (!mesh.skinned) node.skin = -1;
   if (node.skin < 0) return;
   const std::size_t joints = scene.skins[static_cast<std::size_t>(node.skin)].joints.size();
+  if (joints == 0) {  // left out
+    node.skin = -1;
+    return;
+  }
   if (mesh.last_joint >= static_cast<int>(joints))
     fail("its mesh uses joint {}, but its skin has {}", mesh.last_joint, joints);
   document.budget.spend(joints, 2 * sizeof(glm::mat4));
 }
 
-void link_parents(Scene& scene) {
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-    for (const int child : scene.nodes[i].children) {
-      Node& node = scene.nodes[static_cast<std::size_t>(child)];
-      if (static_cast<std::size_t>(child) == i) fail("nodes[{}] is its own child", i);
-      if (node.parent >= 0) fail("nodes[{}] has two parents, {} and {}", child, node.parent, i);
-      node.parent = static_cast<int>(i);
+// First the children of what is drawn, so that of two parents the one that nothing drawn uses is at fault.
+void link_parents(Document& document, Scene& scene) {
+  for (const bool of_used : {true, false})
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+      if (document.left_out.used().holds("nodes", i) != of_used) continue;
+      std::erase_if(scene.nodes[i].children, [&](int child) {
+        Node& node = scene.nodes[static_cast<std::size_t>(child)];
+        std::string fault;
+        if (static_cast<std::size_t>(child) == i)
+          fault = fmt::format("nodes[{}] is its own child", i);
+        else if (node.parent >= 0)
+          fault = fmt::format("nodes[{}] has two parents, {} and {}", child, node.parent, i);
+        else
+          node.parent = static_cast<int>(i);
+        if (!fault.empty()) document.left_out.add_part("", of_used, fault);
+        return !fault.empty();
+      });
     }
 }
 
 // With one parent each, nodes that no root reaches go round in a cycle.
-void check_forest(const Scene& scene, std::size_t max_depth) {
+void check_forest(Document& document, Scene& scene) {
+  const ReadLimits& limits = document.options.limits;
   std::vector<std::pair<int, std::size_t>> open;  // node and depth
   for (std::size_t i = 0; i < scene.nodes.size(); ++i)
     if (scene.nodes[i].parent < 0) open.emplace_back(static_cast<int>(i), 1);
@@ -134,12 +151,18 @@ void check_forest(const Scene& scene, std::size_t max_depth) {
   while (!open.empty()) {
     const auto [node, depth] = open.back();
     open.pop_back();
-    if (depth > max_depth) fail("nodes[{}] lies deeper than the limit of {} levels", node, max_depth);
+    if (depth > limits.node_depth)
+      fail_over_limit(fmt::format("nodes[{}] lies {} levels deep", node, depth), limits, &ReadLimits::node_depth);
     reached[static_cast<std::size_t>(node)] = true;
     for (const int child : scene.nodes[static_cast<std::size_t>(node)].children) open.emplace_back(child, depth + 1);
   }
-  const auto lost = std::find(reached.begin(), reached.end(), false);
-  if (lost != reached.end()) fail("nodes[{}] belongs to a cycle", lost - reached.begin());
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    if (reached[i]) continue;
+    document.left_out.add_part(fmt::format("nodes[{}]", i), document.left_out.used().holds("nodes", i),
+                               "belongs to a cycle");
+    scene.nodes[i].parent = -1;  // so do all others of the cycle, which nothing drawn uses either
+    scene.nodes[i].children.clear();
+  }
 }
 
 // The default scene, or the first; a file without scenes is a library of parts, and all of it is drawn.
@@ -181,7 +204,8 @@ void read_skins(Document& document, Scene& scene) {
         for (std::size_t j = 0; j < view.count; ++j) skin.inverse_bind[j] = affine_matrix(&numbers[j * 16]);
       }
     } catch (const Error& e) {
-      fail("skins[{}]: {}", scene.skins.size(), e.what());
+      document.left_out.add("skins", scene.skins.size(), e.what());
+      skin = {};
     }
     scene.skins.push_back(std::move(skin));
   }
@@ -192,18 +216,20 @@ void read_nodes(Document& document, Scene& scene) {
   std::vector<MeshFacts> facts;
   for (const Mesh& mesh : scene.meshes) facts.push_back(facts_of(mesh));
   for (const tinygltf::Node& in : document.model.nodes) {
+    Node node;
     try {
-      Node node = read_node(document, in);
+      node = read_node(document, in, scene.nodes.size());
       if (const Value* light = find_extension(in, "KHR_lights_punctual"); light && light->IsObject())
         node.light = light_of[static_cast<std::size_t>(index_or(*light, "light", 0))];
       check_attachments(document, scene, facts, node);
-      scene.nodes.push_back(std::move(node));
     } catch (const Error& e) {
-      fail("nodes[{}]: {}", scene.nodes.size(), e.what());
+      document.left_out.add("nodes", scene.nodes.size(), e.what());
+      node = {};
     }
+    scene.nodes.push_back(std::move(node));
   }
-  link_parents(scene);
-  check_forest(scene, document.limits.node_depth);
+  link_parents(document, scene);
+  check_forest(document, scene);
   read_roots(document, scene);
 }
 

@@ -19,10 +19,10 @@ std::vector<MaterialUse> read_materials(const Document& document);
 // Textures, and the images that materials use; texture references without an image are cut.
 void read_textures(Document& document, const ImageDecoder& decode, std::vector<MaterialUse>& materials, Scene& scene);
 void read_meshes(Document& document, const std::vector<MaterialUse>& materials, Scene& scene);
-void read_cameras(const Document& document, Scene& scene);
+void read_cameras(Document& document, Scene& scene);
 void read_skins(Document& document, Scene& scene);
 // The scene's number of each of the file's lights; -1 for one of an unknown kind.
-std::vector<int> read_lights(const Document& document, Scene& scene);
+std::vector<int> read_lights(Document& document, Scene& scene);
 // With lights, instances and the scene's roots; checks that meshes, skins and weights fit and that the graph is a
 // forest.
 void read_nodes(Document& document, Scene& scene);

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <system_error>
 
 #include "core/error.h"
 #include "core/read_file.h"
+#include "scene/limits.h"
 
 namespace penumbra::scene::gltf {
 namespace {
@@ -44,21 +46,39 @@ bool lies_inside(const std::filesystem::path& file, const std::filesystem::path&
   return in_folder == folder.end() && in_file != file.end();
 }
 
-// The file that a relative URI names: decoded as the standard says, or as written, as many exporters write it.
-std::filesystem::path resolve(const std::filesystem::path& folder, std::string_view uri) {
+// A relative name below the folder, decoded as the standard says, or as written, as many exporters write it. Where it
+// leads is judged of files that don't exist too, so that a scene can't find out which do.
+std::filesystem::path resolve(const std::filesystem::path& folder, std::string_view uri, bool follow_links) {
   std::error_code code;
   const auto base = std::filesystem::canonical(folder.empty() ? "." : folder, code);
   if (code) fail("the scene's folder can't be resolved: {}", code.message());
   for (const std::string& name : {percent_decoded(uri), std::string(uri)}) {
     if (name.find('\0') != std::string::npos) fail("'{}' holds a zero byte", shortened(uri));
     if (std::filesystem::path(name).is_absolute()) fail("'{}' is an absolute path", shortened(uri));
-    // Of a file that does not exist too, so that a scene can't find out what does.
-    auto file = std::filesystem::weakly_canonical(base / name, code);
+    const auto named = (base / name).lexically_normal();
+    if (!lies_inside(named, base)) fail("'{}' leads out of the scene's folder", shortened(uri));
+    const auto file = follow_links ? named : std::filesystem::weakly_canonical(base / name, code);
     if (code) continue;
-    if (!lies_inside(file, base)) fail("'{}' leads out of the scene's folder", shortened(uri));
+    if (!lies_inside(file, base))
+      fail("'{}' leads out of the scene's folder by a symbolic link; --follow-links allows it", shortened(uri));
     if (std::filesystem::exists(file, code)) return file;
   }
   fail("'{}' not found", shortened(uri));
+}
+
+bool equals_ignoring_case(std::string_view text, std::string_view lower) {
+  return std::ranges::equal(text, lower,
+                            [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
+}
+
+// Each byte as it is, or as '%' and two hexadecimal digits.
+std::vector<std::byte> percent_decoded_bytes(std::string_view text) {
+  for (std::size_t i = text.find('%'); i != std::string_view::npos; i = text.find('%', i + 1))
+    if (i + 2 >= text.size() || hex_digit(text[i + 1]) < 0 || hex_digit(text[i + 2]) < 0)
+      fail("a data URI with a '%' that no two hexadecimal digits follow");
+  const std::string decoded = percent_decoded(text);
+  const auto bytes = std::as_bytes(std::span(decoded));
+  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace
@@ -98,23 +118,36 @@ std::vector<std::byte> base64_decoded(std::string_view text) {
   return bytes;
 }
 
-bool is_data_uri(std::string_view uri) { return uri.substr(0, 5) == "data:"; }
+bool is_data_uri(std::string_view uri) { return equals_ignoring_case(uri.substr(0, 5), "data:"); }
 
-std::vector<std::byte> load_uri(const std::filesystem::path& folder, std::string_view uri, std::size_t limit) {
+std::vector<std::byte> data_uri_bytes(std::string_view uri) {
+  const auto comma = uri.find(',');
+  if (comma == std::string_view::npos) fail("'{}' is a data URI without a comma before its data", uri.substr(0, 30));
+  const std::string_view data = uri.substr(comma + 1);
+  constexpr std::string_view marker = ";base64";
+  const std::string_view type = uri.substr(0, comma);
+  const bool base64 =
+      type.size() >= marker.size() && equals_ignoring_case(type.substr(type.size() - marker.size()), marker);
+  if (!base64) return percent_decoded_bytes(data);
+  if (data.find('%') == std::string_view::npos) return base64_decoded(data);
+  return base64_decoded(percent_decoded(data));
+}
+
+std::vector<std::byte> load_file(const std::filesystem::path& file, const ReadLimits& limits) {
+  std::error_code code;
+  const auto size = std::filesystem::is_regular_file(file, code) ? std::filesystem::file_size(file, code) : 0;
+  if (!code && size > limits.file_bytes)
+    fail_over_limit(fmt::format("{} bytes", size), limits, &ReadLimits::file_bytes);
+  return read_file(file, limits.file_bytes);
+}
+
+std::vector<std::byte> load_uri(const std::filesystem::path& folder, std::string_view uri, const ReadOptions& options) {
   if (uri.empty()) fail("an empty URI");
-  if (is_data_uri(uri)) {
-    const auto comma = uri.find(',');
-    constexpr std::string_view marker = ";base64";
-    if (comma == std::string_view::npos || comma < marker.size() ||
-        uri.substr(comma - marker.size(), marker.size()) != marker)
-      fail("'{}' is a data URI without base64", shortened(uri.substr(0, 30)));
-    if ((uri.size() - comma) / 4 * 3 > limit) fail("a data URI over the limit of {} bytes", limit);
-    return base64_decoded(uri.substr(comma + 1));
-  }
+  if (is_data_uri(uri)) return data_uri_bytes(uri);
   if (has_scheme(uri)) fail("'{}' is not a file beside the scene", shortened(uri));
-  const auto file = resolve(folder, uri);
+  const auto file = resolve(folder, uri, options.follow_links);
   try {
-    return read_file(file, limit);
+    return load_file(file, options.limits);
   } catch (const Error& e) {
     fail("'{}': {}", shortened(uri), e.what());
   }

@@ -14,23 +14,15 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The size of the array at a path without "[]"; 0 when there is none.
-std::size_t array_size(const Json& document, std::string_view path) {
-  const Json* value = &document;
-  while (!path.empty()) {
-    const auto dot = path.find('.');
-    const std::string key(path.substr(0, dot));
-    path = dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
-    if (!value->is_object() || !value->contains(key)) return 0;
-    value = &(*value)[key];
-  }
-  return value->is_array() ? value->size() : 0;
+std::size_t array_size(const Json& document, const std::string& path) {
+  const Json* array = path.empty() ? nullptr : array_at(document, path);
+  return array == nullptr ? 0 : array->size();
 }
 
 class Walker {
  public:
-  Walker(Json& document, const Check& check)
-      : document_(document), check_(check), targets_(check.into.empty() ? 0 : array_size(document, check.into)) {}
+  Walker(Json& document, const Check& check, LeftOut& left_out)
+      : document_(document), check_(check), left_out_(left_out), targets_(array_size(document, check.into)) {}
 
   void walk(std::string_view path) { member(document_, path); }
 
@@ -63,8 +55,24 @@ class Walker {
     std::size_t i = 0;
     for (auto it = value.begin(); it != value.end(); ++it, ++i) {
       where_ += elements ? fmt::format("[{}]", i) : "." + it.key();
-      below(*it, rest.substr(2));
+      if (elements)
+        element(*it, i, rest.substr(2), length);
+      else
+        below(*it, rest.substr(2));
       where_.resize(length);
+    }
+  }
+
+  // `array`: how many letters of `where_` name the array.
+  void element(Json& value, std::size_t index, std::string_view rest, std::size_t array) {
+    const auto stand_in = stand_ins().find(std::string_view(where_).substr(0, array));
+    if (stand_in == stand_ins().end()) return below(value, rest);
+    if (left_out_.holds(stand_in->first, index)) return;
+    try {
+      below(value, rest);
+    } catch (const Error& e) {
+      left_out_.add(stand_in->first, index, e.what());
+      value = stand_in->second;
     }
   }
 
@@ -134,14 +142,15 @@ class Walker {
 
   Json& document_;
   const Check& check_;
+  LeftOut& left_out_;
   std::size_t targets_;
   std::string where_;
 };
 
 }  // namespace
 
-void check_schema(Json& document) {
-  for (const Rule& rule : schema()) Walker(document, rule.check).walk(rule.path);
+void check_schema(Json& document, LeftOut& left_out) {
+  for (const Rule& rule : schema()) Walker(document, rule.check, left_out).walk(rule.path);
 }
 
 }  // namespace penumbra::scene::gltf

@@ -47,17 +47,19 @@ Light read_light(const tinygltf::Light& in) {
 
 }  // namespace
 
-void read_cameras(const Document& document, Scene& scene) {
-  for (const tinygltf::Camera& camera : document.model.cameras) {
+void read_cameras(Document& document, Scene& scene) {
+  for (const tinygltf::Camera& in : document.model.cameras) {
+    Camera camera;
     try {
-      scene.cameras.push_back(read_camera(camera));
+      camera = read_camera(in);
     } catch (const Error& e) {
-      fail("cameras[{}]: {}", scene.cameras.size(), e.what());
+      document.left_out.add("cameras", scene.cameras.size(), e.what());
     }
+    scene.cameras.push_back(std::move(camera));
   }
 }
 
-std::vector<int> read_lights(const Document& document, Scene& scene) {
+std::vector<int> read_lights(Document& document, Scene& scene) {
   std::vector<int> light_of;
   for (const tinygltf::Light& light : document.model.lights) {
     const std::size_t number = light_of.size();
@@ -69,7 +71,9 @@ std::vector<int> read_lights(const Document& document, Scene& scene) {
     try {
       scene.lights.push_back(read_light(light));
     } catch (const Error& e) {
-      fail("lights[{}]: {}", number, e.what());
+      document.left_out.add(lights_array, number, e.what());
+      light_of.push_back(-1);
+      continue;
     }
     light_of.push_back(static_cast<int>(scene.lights.size()) - 1);
   }

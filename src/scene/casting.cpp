@@ -1,0 +1,51 @@
+#include "scene/casting.h"
+
+#include <algorithm>
+
+namespace penumbra::scene {
+
+const std::vector<std::string>& casting_words() {
+  static const std::vector<std::string> words{"on", "off", "both", "front", "back"};
+  return words;
+}
+
+std::optional<Casting> casting_of(std::string_view word) {
+  const auto found = std::ranges::find(casting_words(), word);
+  if (found == casting_words().end()) return {};
+  constexpr Casting values[] = {Casting::on, Casting::off, Casting::both, Casting::front, Casting::back};
+  return values[found - casting_words().begin()];
+}
+
+bool set_casting(Scene& scene, std::string_view material, Casting casting) {
+  bool found = false;
+  for (Material& candidate : scene.materials) {
+    if (candidate.name != material) continue;
+    candidate.casting = casting;
+    candidate.casting_over_nodes = true;
+    found = true;
+  }
+  return found;
+}
+
+std::optional<CasterFaces> casting_faces(const Node& node, const Material& material, const CasterChoice& choice) {
+  const CasterFaces chosen = material.double_sided ? CasterFaces::both : choice.faces;
+  const bool of_material = material.casting_over_nodes || node.casting == Casting::automatic;
+  switch (of_material ? material.casting : node.casting) {
+    case Casting::automatic:
+      if (node.sky && !choice.skies) return {};
+      return chosen;
+    case Casting::on:
+      return chosen;
+    case Casting::off:
+      return {};
+    case Casting::both:
+      return CasterFaces::both;
+    case Casting::front:
+      return CasterFaces::front;
+    case Casting::back:
+      return CasterFaces::back;
+  }
+  return {};
+}
+
+}  // namespace penumbra::scene

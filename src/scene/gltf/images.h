@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "scene/gltf/document.h"
+#include "scene/scene.h"
+
+namespace penumbra::scene::gltf {
+
+// Reads a document's images into a scene, each once. What they take is known from their headers before the first is
+// decoded; of images that nothing drawn uses, those with a fault, and those beyond the limit, are left out.
+class ImageReader {
+ public:
+  ImageReader(Document& document, const ImageDecoder& decode, Scene& scene);
+
+  // Asks for the file's image of that number; -1 asks for none.
+  void need(int number);
+  // Reads all that were asked for. Throws Error that names the image, or the limit.
+  void read();
+  // The scene's number of the file's image; -1: it was left out.
+  int number(int image) const { return numbers_[static_cast<std::size_t>(image)]; }
+
+ private:
+  std::vector<std::byte> load(const ImageSource& source) const;
+  bool used(std::size_t image) const { return document_.left_out.used().holds("images", image); }
+  std::size_t decoded_size(std::size_t image);
+  void check_sizes();
+  void decode(std::size_t image);
+
+  Document& document_;
+  const ImageDecoder& decode_;
+  Scene& scene_;
+  std::vector<bool> needed_;
+  std::vector<int> numbers_;
+};
+
+}  // namespace penumbra::scene::gltf

@@ -1,0 +1,88 @@
+"""Options for scene files: limits, links, and which materials cast."""
+
+import json
+import os
+import struct
+import zlib
+
+from pictures import SMALL, scene
+from support import TestCase, main
+
+TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+
+
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def large_png(side):
+    """A PNG of one colour: its file is small, what it decodes to is not."""
+    rows = zlib.compress(b"".join(b"\0" + bytes(side * 3) for _ in range(side)), 9)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", rows) + chunk(b"IEND", b""))
+
+
+class SceneReading(TestCase):
+    def write_scene(self, **members):
+        document = {"asset": {"version": "2.0"}, "buffers": [{"byteLength": 36, "uri": "data.bin"}],
+                    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+                    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+                    "materials": [{"name": "paint = red"}],
+                    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+                    "nodes": [{"mesh": 0}], **members}
+        path = self.folder / "scene" / "scene.gltf"
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(json.dumps(document))
+        if not os.path.lexists(path.parent / "data.bin"):
+            (path.parent / "data.bin").write_bytes(TRIANGLE)
+        return path
+
+    def test_images_over_the_limit_are_refused_before_they_are_decoded(self):
+        count, side = 8, 2048
+        path = self.write_scene(
+            images=[{"uri": f"{i}.png"} for i in range(count)], textures=[{"source": i} for i in range(count)],
+            materials=[{"emissiveTexture": {"index": i}} for i in range(count)],
+            meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "material": i} for i in range(count)]}])
+        for i in range(count):
+            (path.parent / f"{i}.png").write_bytes(large_png(side) if i < 7 else large_png(side)[:-40])
+        error = self.refuse("info", path, "--limit", "images=100MiB")
+        self.assertIn(f"{path}: 8 images take 128 MiB when decoded, over the limit of 100 MiB; --limit images=SIZE", error)
+        self.assertIn("images[7]", self.refuse("info", path, "--limit", "images=128MiB"))  # damaged: it was decoded
+        self.assertIn("2048 x 2048 pixels", self.refuse("info", path, "--limit", "image-pixels=1000000"))
+
+    def test_limits_have_names_and_numbers(self):
+        path = self.write_scene()
+        self.succeed("info", path, "--limit", "vertices=3", "--limit", "data=1MiB")
+        self.assertIn("over the limit of 2", self.refuse("info", path, "--limit", "vertices=2"))
+        self.assertIn("'vertices'", self.refuse("info", path, "--limit", "vertexes=2", code=2))
+        self.assertIn("'many'", self.refuse("info", path, "--limit", "images=many", code=2))
+
+    def test_links_out_of_the_folder_are_followed_if_asked(self):
+        path = self.write_scene()
+        (path.parent / "data.bin").rename(self.folder / "elsewhere.bin")
+        (path.parent / "data.bin").symlink_to(self.folder / "elsewhere.bin")
+        self.assertIn("--follow-links allows it", self.refuse("info", path))
+        self.succeed("info", path, "--follow-links")
+
+    def test_materials_that_cast_are_known(self):
+        path = self.write_scene()
+        picture = self.folder / "x.png"
+        self.succeed("render", path, "-o", picture, *SMALL, "--casters", "paint = red=off")
+        self.assertIn("did you mean 'paint = red'",
+                      self.refuse("render", path, "-o", picture, *SMALL, "--casters", "paint red=off"))
+        self.assertIn("'front'", self.refuse("render", path, "-o", picture, "--casters", "paint = red=frnt", code=2))
+        self.assertIn("MATERIAL=HOW", self.refuse("render", path, "-o", picture, "--casters", "paint", code=2))
+
+    def test_casters_change_the_picture(self):
+        def mask(*arguments):
+            path = self.folder / "mask.png"
+            self.succeed("render", scene("steps"), "-o", path, *SMALL, "--aov", "shadow", *arguments)
+            return {file.name: file.read_bytes() for file in self.folder.glob("*.png")}
+
+        usual = mask()
+        self.assertEqual(usual, mask("--set", "casters.faces=both"))
+        self.assertNotEqual(usual, mask("--set", "casters.faces=back"))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,105 @@
+// Limits: their names, what they count, and files that a small text makes large.
+
+#include <gtest/gtest.h>
+
+#include "scene/limits.h"
+#include "support/gltf_files.h"
+
+namespace penumbra::test {
+namespace {
+
+using scene::ReadLimits;
+
+TEST(GltfLimits, AreSetByName) {
+  ReadLimits limits;
+  scene::set_limit(limits, "images=3GiB");
+  scene::set_limit(limits, "file=1500MiB");
+  scene::set_limit(limits, "data=123456");
+  scene::set_limit(limits, "vertices=7");
+  EXPECT_EQ(limits.image_bytes, std::size_t{3} << 30);
+  EXPECT_EQ(limits.file_bytes, std::size_t{1500} << 20);
+  EXPECT_EQ(limits.decoded_bytes, 123456u);
+  EXPECT_EQ(limits.decoded_ratio, 0u) << "that much, whatever the files hold";
+  EXPECT_EQ(limits.vertices, 7u);
+}
+
+TEST(GltfLimits, RefuseWhatIsNoNumber) {
+  ReadLimits limits;
+  for (const char* text : {"images", "images=", "images=0", "images=-1", "images=1.5GiB", "images=2GB", "vertices=2GiB",
+                           "images=99999999999999999999", "images=9999999999999GiB", "=1"})
+    EXPECT_NE(error_of([&] { scene::set_limit(limits, text); }), "") << text;
+  EXPECT_NE(error_of([&] { scene::set_limit(limits, "vertexes=1"); }).find("did you mean 'vertices'"),
+            std::string::npos);
+  EXPECT_EQ(error_of([&] { scene::set_limit(limits, "images=many"); }),
+            "limit images: 'many' is not a number of bytes, as 1500000000, 1500MiB or 2GiB");
+}
+
+TEST(GltfLimits, EachIsNamedByItsRow) {
+  for (const scene::LimitRow& row : scene::limit_rows()) {
+    ReadLimits limits;
+    limits.*row.value = std::size_t{3} << 20;
+    EXPECT_EQ(error_of([&] { scene::fail_over_limit("too much", limits, row.value); }),
+              fmt::format("too much, over the limit of {}; --limit {}={} changes it", row.bytes ? "3 MiB" : "3145728",
+                          row.name, row.bytes ? "SIZE" : "N"));
+  }
+}
+
+std::string refusal(const std::string& text, const ReadLimits& limits) {
+  return error_of([&] { load_text(text, limits); });
+}
+
+std::string list(std::size_t count, const std::string& element) {
+  std::string text = element;
+  text.reserve(count * (element.size() + 1));
+  for (std::size_t i = 1; i < count; ++i) text += "," + element;
+  return text;
+}
+
+// A triangle; `node` draws it.
+std::string triangle(const std::string& node, std::size_t count, const std::string& more = "") {
+  GltfBuilder gltf;
+  gltf.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
+  gltf.add(std::vector<uint8_t>(12, 0), "VEC4", 4);
+  gltf.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
+  return gltf.text(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}]}],"nodes":[)" +
+                   list(count, node) + "]" + more);
+}
+
+TEST(GltfLimits, CountWhatIsDrawn) {
+  const std::string ten = triangle(R"({"mesh":0})", 10);
+  EXPECT_EQ(refusal(ten, {.triangles = 10, .instances = 10}), "");
+  EXPECT_NE(refusal(ten, {.triangles = 9}).find("10 triangles to draw, over the limit of 9; --limit triangles=N"),
+            std::string::npos);
+  EXPECT_NE(refusal(ten, {.instances = 9}).find("10 primitives to draw, over the limit of 9; --limit instances=N"),
+            std::string::npos);
+  const std::string skinned = triangle(R"({"mesh":0,"skin":0})", 10, R"(,"skins":[{"joints":[0]}])");
+  EXPECT_EQ(refusal(skinned, {.vertices = 30}), "");
+  EXPECT_NE(refusal(skinned, {.vertices = 29}).find("30 vertices of skinned and morphed meshes, over the limit of 29"),
+            std::string::npos);
+}
+
+TEST(GltfLimits, ProgressTellsOfEveryPartAtMostAHundredTimes) {
+  GltfBuilder gltf;
+  gltf.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
+  const std::string text =
+      gltf.text(R"("meshes":[)" + list(1000, R"({"primitives":[{"attributes":{"POSITION":0}}]})") + "]");
+  const ScratchFolder folder;
+  std::size_t calls = 0, last = 0;
+  const auto file = folder.write("scene.gltf", text);
+  scene::read_gltf(file, any_image, {.progress = [&](const scene::ReadProgress& progress) {
+                     EXPECT_EQ(std::string(progress.part), "mesh");
+                     EXPECT_EQ(progress.count, 1000u);
+                     EXPECT_TRUE(calls == 0 || progress.done > last);
+                     last = progress.done;
+                     ++calls;
+                   }});
+  EXPECT_EQ(calls, 100u);
+  EXPECT_NE(error_of([&] {
+              scene::read_gltf(file, any_image,
+                               {.progress = [](const scene::ReadProgress&) { fail("not wanted any more"); }});
+            }).find("not wanted any more"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace penumbra::test
