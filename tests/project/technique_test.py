@@ -134,7 +134,14 @@ FILES = {"src/shadow/techniques/checker.cpp": TECHNIQUE, "glsl/shadow/techniques
 # What is there, and what becomes the next line of the registry.
 LINES = {"X(brute_force)": "X(checker)", "X(least_depth_pyramid)": "X(tenth)", "X(bilateral_separable)": "X(negative)",
          "X(history_and_filters)": "X(halving)"}
+WIDTH, HEIGHT = 320, 240  # of the mask
 NOT_COPIED = shutil.ignore_patterns("build", "out", ".git", "__pycache__")
+
+
+def rows_of(picture):
+    """The rows of a grey picture as text (PGM)."""
+    values = [int(word) for word in picture.split()[4:]]
+    return [values[i:i + WIDTH] for i in range(0, WIDTH * HEIGHT, WIDTH)]
 
 
 class AddOneOfEach(support.TestCase):
@@ -152,47 +159,48 @@ class AddOneOfEach(support.TestCase):
             text = text.replace(last, f"{last} \\\n  {added}")
         registry.write_text(text)
 
-        build = tree / "build/release"
-        for arguments in (["cmake", "--preset", "release", "-DPENUMBRA_TESTS=OFF"],
-                          ["cmake", "--build", build, "--target", "penumbra", "--parallel", "2"]):
-            result = subprocess.run(arguments, cwd=tree, capture_output=True, text=True)
+        self.check_program(self.build(tree))
+
+    def build(self, tree):
+        """The library of the tree, installed, and a little program that draws with it."""
+        prefix, mask = self.folder / "prefix", self.folder / "mask"
+        for arguments in (["cmake", "-S", tree, "-B", tree / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                           "-DPENUMBRA_APP=OFF", "-DPENUMBRA_TESTS=OFF"],
+                          ["cmake", "--build", tree / "build", "--parallel", "2"],
+                          ["cmake", "--install", tree / "build", "--prefix", prefix],
+                          ["cmake", "-S", tree / "tests/project/mask", "-B", mask, "-G", "Ninja",
+                           "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_PREFIX_PATH={prefix}"],
+                          ["cmake", "--build", mask]):
+            result = subprocess.run(arguments, capture_output=True, text=True)
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        return mask / "mask"
 
-        self.check_program(build / "penumbra", tree)
-
-    def check_program(self, program, tree):
-        def penumbra(*arguments):
-            result = subprocess.run([program, *arguments], cwd=tree, capture_output=True, text=True)
+    def check_program(self, program):
+        def run(*arguments):
+            result = subprocess.run([program, *arguments], capture_output=True, text=True)
             self.assertEqual(result.returncode, 0, result.stderr)
             return result.stdout
 
-        for what, name in (("techniques", "checker"), ("params", "checker.side"), ("filters", "negative"),
-                           ("denoisers", "halving"), ("products", "tenth")):
-            self.assertIn(name, penumbra("list", what))
-        # From above, every pixel is a receiver: half of the squares are lit.
-        view = ["--eye", "0,20,0.01", "--target", "0,0,0", "--fov", "20", "--sun", "0,60", "--size", "64x64"]
+        listed = run("list").splitlines()
+        for line in ("technique checker", "param checker.side", "filter negative", "denoiser halving", "product tenth"):
+            self.assertIn(line, listed)
         for driver in ("fragment", "compute"):
-            for sets, expected in ((["checker.side=16"], lambda lit, x: lit),
-                                   (["filter.visibility=negative"], lambda lit, x: not lit),
-                                   (["denoiser=halving"], lambda lit, x: lit and x >= 32)):
-                picture = self.folder / f"{driver}.png"
-                arguments = [text for value in (f"driver={driver}", *sets) for text in ("--set", value)]
-                penumbra("render", "scenes/steps.glb", "-o", picture, "--aov", "shadow", "--technique", "checker", *arguments,
-                         *view)
-                with self.subTest(driver=driver, sets=sets):
-                    self.check_picture(support.read_png(picture), expected)
-                    if sets == ["checker.side=16"]:
-                        self.check_product(support.read_png(picture))
+            for setting, expected in (("checker.side=16", lambda lit, x: lit),
+                                      ("filter.visibility=negative", lambda lit, x: not lit),
+                                      ("denoiser=halving", lambda lit, x: lit and x >= WIDTH / 2)):
+                with self.subTest(driver=driver, setting=setting):
+                    rows = rows_of(run("technique=checker", f"driver={driver}", setting))
+                    self.check_picture(rows, expected)
+                    if setting == "checker.side=16":
+                        self.assertGreater(min(map(min, rows)), 10, "dark squares have what the product holds")
 
     def check_picture(self, rows, expected):
-        for y in range(8, 64, 16):
-            for x in range(8, 64, 16):
+        """Every pixel is a receiver: half of the squares are lit."""
+        for y in range(8, HEIGHT, 16):
+            for x in range(8, WIDTH, 16):
                 # Rows of the picture run downwards, pixels of the shader upwards.
-                lit = (x // 16 + (63 - y) // 16) % 2 == 1
-                self.assertEqual(rows[y][x][0] > 127, expected(lit, x), f"pixel {x}, {y}")
-
-    def check_product(self, rows):
-        self.assertGreater(min(row[0] for line in rows for row in line), 10, "dark squares have what the product holds")
+                lit = (x // 16 + (HEIGHT - 1 - y) // 16) % 2 == 1
+                self.assertEqual(rows[y][x] > 127, expected(lit, x), f"pixel {x}, {y}")
 
 
 if __name__ == "__main__":
