@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Records golden pictures anew, in tests/image/golden, with the renderer of this machine:
+#   scripts/goldens.sh           all of them
+#   scripts/goldens.sh NAME...   these
+# Look at what `git diff` shows before you commit it; tests/image/goldens.cpp lists them.
+set -euo pipefail
+root=$(dirname -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")")
+source "$root/scripts/setup.sh"
+
+ensure_packages "run test"
+build_lock
+configured "$root/build/release" || configure release -DPENUMBRA_TESTS=ON
+build release penumbra_image_tests
+build_unlock
+
+filter='All/GoldenPictures.*'
+if (($# > 0)); then
+  filter=
+  for name; do filter+="All/GoldenPictures.IsAsRecorded/$name:"; done
+fi
+PENUMBRA_GOLDENS=record "$root/build/release/tests/penumbra_image_tests" --gtest_filter="$filter" --gtest_brief=1
