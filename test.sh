@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds everything, runs the test suite and the static checks, and prints the counts last.
 #   ./test.sh [--quick] [-R REGEX]
-#     --quick    leave out what is slow: clang-tidy and the build with sanitizers
+#     --quick    leave out what is slow: clang-tidy and the builds with sanitizers
 #     -R REGEX   only the tests whose name matches, and no static checks
 # Tests on third-party scenes need PENUMBRA_ASSETS, the folder that holds them; without it they are skipped.
 set -euo pipefail
@@ -70,6 +70,8 @@ if ((!quick)) && [[ -z $regex ]]; then
   tests_built asan penumbra_sanitized
   # Mesa and LLVM keep memory to the end of the process; that is theirs to mend.
   LSAN_OPTIONS=suppressions=$root/tests/lsan.supp:print_suppressions=0 suite asan -L sanitize
+  tests_built tsan penumbra_threads_tests
+  TSAN_OPTIONS=suppressions=$root/tests/tsan.supp suite tsan -L threads
 fi
 
 python3 "$root/scripts/count_tests.py" "${result_folders[@]}"
