@@ -35,7 +35,8 @@
 
 namespace penumbra::test {
 
-// For GoogleTest's messages.
+// For GoogleTest's messages, which looks for this name.
+// NOLINTNEXTLINE(readability-identifier-naming)
 static void PrintTo(const Golden& golden, std::ostream* stream) { *stream << golden.name; }
 
 namespace {
