@@ -108,6 +108,7 @@ shadow::Technique counted() {
           .glsl = "test/counted.glsl",
           .needs = {"level"},
           .params = {{"counted.scale", 1.0f, 0, 1, "", "Factor.", ParamBinding::uniform},
+                     {"counted.form", 0, 0, 9, "", "Another program each.", ParamBinding::compiled},
                      {"counted.shown", true, 0, 1, "", "Whether there is a last pass.", ParamBinding::compiled}},
           .resolve = resolve,
           .programs = programs};
@@ -178,7 +179,7 @@ TEST_F(ShadowTechnique, ProductReachesVisibilityUnderBothDriversAndThePassesFoll
     params.set("counted.scale", 0.5f);
     EXPECT_EQ(frame()[0], glm::vec2(0.25f, 1)) << driver;
     params.set("level.eighths", 8);
-    EXPECT_EQ(frame()[0], glm::vec2(0.5f, 1)) << driver << ": a compiled constant of the technique's own program";
+    EXPECT_EQ(frame()[0], glm::vec2(0.5f, 1)) << driver << ": a compiled constant of the recipe's own program";
     params.reset("level.eighths");
   }
 }
@@ -293,7 +294,7 @@ TEST_F(ShadowTechnique, AFrameThatThrowsLeavesNoHistory) {
   EXPECT_EQ(count(), 2);
   gl::ShaderFiles& files = renderer.device().shaders.files();
   files.put("test/show.frag", "nonsense");
-  params.set("level.eighths", 5);
+  params.set("counted.form", 5);
   EXPECT_THROW(frame(), Error);
   files.put("test/show.frag", show_text);
   EXPECT_EQ(count(), 1);
