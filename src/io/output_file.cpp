@@ -1,6 +1,7 @@
 #include "io/output_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -59,7 +60,8 @@ fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.
 // A new, empty file beside `path`.
 fs::path make_temporary(const fs::path& path, const fs::path& folder) {
   constexpr size_t longest = 200;  // bytes of the name, so that it and its ending fit a file system's 255
-  const std::string pattern = (folder / ("." + path.filename().string().substr(0, longest) + ".XXXXXX")).string();
+  const std::string pattern =
+      (folder / fmt::format(".{}.XXXXXX", path.filename().string().substr(0, longest))).string();
   std::vector<char> name(pattern.begin(), pattern.end());
   name.push_back('\0');
   const int file = mkostemp(name.data(), O_CLOEXEC);
@@ -82,7 +84,7 @@ void refuse_all_but_files(const fs::path& path) {
 
 }  // namespace
 
-std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
+std::string quoted(const fs::path& path) { return fmt::format("'{}'", path.string()); }
 
 OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
   refuse_all_but_files(path_);
