@@ -7,7 +7,7 @@
 namespace penumbra::scene {
 namespace {
 
-// Vertices transformed one by one in a call of bounds_of; beyond, boxes stand in for what they hold.
+// Vertices that one call transforms one by one; of further primitives only the corners of their boxes.
 constexpr std::size_t most_exact = 2'000'000;
 
 glm::vec3 transformed(const glm::mat4& matrix, const glm::vec3& point) { return {matrix * glm::vec4(point, 1)}; }
@@ -107,7 +107,7 @@ class Bounder {
     return matrices;
   }
 
-  // Holds the morphed primitive, whatever its vertices do together.
+  // A box that contains the morphed primitive: every target at its own extreme.
   Bounds morphed_box(const Primitive& primitive, const std::vector<float>& weights) {
     const auto [found, is_new] = boxes_.try_emplace(&primitive);
     Boxes& boxes = found->second;

@@ -6,7 +6,7 @@
 
 namespace penumbra::scene {
 
-// The box about a box that a matrix moved.
+// The bounding box of a transformed box.
 inline Bounds transformed(const Bounds& box, const glm::mat4& matrix) {
   if (box.empty) return box;
   const glm::vec3 half = box.extent() * 0.5f;

@@ -27,10 +27,10 @@ class Deformer {
   void upload();
 
   bool skinned(int job) const { return jobs_[static_cast<std::size_t>(job)].block.joint_count != 0; }
-  // Whether its matrices turn triangles round.
+  // Whether its matrices turn counter-clockwise triangles clockwise.
   bool mirrored(int job, const Pose& pose) const;
   bool differs(int job, const Pose& a, const Pose& b) const;
-  // A box about the deformed vertices, in the space that they come out in.
+  // The bounding box of the deformed vertices, in the space of the results.
   Bounds bounds(int job, const Pose& pose) const;
 
   std::size_t vertices() const { return vertices_; }

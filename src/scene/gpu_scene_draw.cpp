@@ -45,11 +45,13 @@ Batch shaded_batch(const Instance& instance) {
           .material = instance.material};
 }
 
-// Whether what is counter-clockwise as the light sees it is clockwise in its map: with x to the right and y up, depth
-// that grows away from the light makes a left-handed system, which a right-handed world is only mapped to by a mirror.
+// Whether triangles that are counter-clockwise as seen from the light are clockwise in its map. A map with x to the
+// right, y up and depth growing away from the light is left-handed, so a matrix that keeps their order has a negative
+// determinant.
 bool turns_round(const glm::mat4& world_to_clip) { return glm::determinant(world_to_clip) > 0; }
 
-// Without a material or faces to tell apart, all are one draw. Where faces are, the others are culled as backs.
+// Casters of both faces without a material all share one draw. Where only one face casts, the other is culled as back
+// faces are.
 Batch caster_batch(const Instance& instance, bool masked, bool flips) {
   Batch batch{.deformed = instance.job >= 0, .double_sided = true, .material = masked ? instance.material : -1};
   if (instance.faces == CasterFaces::both) return batch;
@@ -166,7 +168,7 @@ void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, Casters casters,
       draw({.still = true, .moved = true});
       break;
     case Casters::all_and_moved:
-      // What stands still only hides, so it needs no fragment stage: drawn first, it leaves the mark of nobody.
+      // Casters at rest only occlude, so they need no fragment stage: drawn first, they write no mark.
       gl::glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
       draw({.still = true});
       gl::glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

@@ -7,15 +7,15 @@
 
 namespace penumbra::scene {
 
-// The nodes, if any, whose meshes are skies: painted shells about all that is drawn besides, which would shadow all of
-// it. A mesh is taken for one if
-// - its box holds the boxes of all else, but for what lies below it;
-// - seen from the middle of all else, it fills the sky from 6 degrees over the horizon to the zenith, and shows its
-//   front or is double-sided;
-// - and something tells it from a room: its material is unlit or only shines, its name, its mesh's or its material's
-//   has "sky", "backdrop", "panorama" or "hdri" in it, or it is everywhere at least twice as far from the middle as
-//   the furthest corner of all else's box.
-// Skies within skies are found from the outermost inwards.
+// The nodes, if any, whose meshes are skies: shells that enclose the rest of the scene and would shadow all of it. "The
+// rest" is everything else that is drawn. A mesh counts as a sky if
+// - its bounding box contains that of the rest, except below;
+// - seen from the centre of the rest, its front faces (or a double-sided material) cover 97 % of the directions from 6
+//   degrees above the horizon to the zenith;
+// - and something distinguishes it from a room: its material is unlit or only emissive; the name of the node, mesh or
+//   material contains "sky", "backdrop", "panorama" or "hdri"; or it is in every direction at least twice as far from
+//   that centre as the corners of the rest's bounding box.
+// Nested skies are listed from the outermost inwards. Skinned and instanced meshes are never skies.
 std::vector<int> find_skies(const Scene& scene, const Pose& pose);
 
 }  // namespace penumbra::scene

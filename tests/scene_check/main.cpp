@@ -56,7 +56,7 @@ void start_hang_guard(const std::string& file) {
 Reading read_and_check(const std::filesystem::path& file) {
   scene::Scene scene;
   try {
-    scene = scene::read_gltf(file, image::image_decoder());
+    scene = scene::read_gltf(file, image::image_decoder(), {.limits = {.image_bytes = std::size_t{1} << 30}});
   } catch (const Error& e) {
     return {Outcome::refused, e.what()};
   }

@@ -21,7 +21,7 @@ class LeftOut {
 
   // Leaves an element out, or throws Error "meshes[3]: CAUSE" if something drawn uses it.
   void add(std::string_view array, std::size_t index, std::string_view cause);
-  // The same of what is no element of such an array; `place` begins the message.
+  // The same for a part that is no element of such an array; `place` begins the message.
   void add_part(const std::string& place, bool used, std::string_view cause);
   // Says how many more there were than warnings.
   void finish();
