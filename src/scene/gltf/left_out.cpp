@@ -16,7 +16,7 @@ std::string place_of(std::string_view array, std::size_t index) {
 }  // namespace
 
 bool LeftOut::holds(std::string_view array, std::size_t index) const {
-  return elements_.contains(std::pair(std::string(array), index));
+  return !elements_.empty() && elements_.contains(std::pair(std::string(array), index));
 }
 
 void LeftOut::add(std::string_view array, std::size_t index, std::string_view cause) {

@@ -53,6 +53,10 @@ class PrimitiveReader {
     document_.budget.spend_vertices(selection_.count * (1 + in_.targets.size()));
     read_vertices(*positions);
     unless_unused("JOINTS_0", skinned_, [this] { read_joints(); });
+    if (out_.joints.size() != selection_.count) {  // left out
+      out_.joints.clear();
+      out_.weights.clear();
+    }
     read_targets();
     finish_normals();
     return std::move(out_);

@@ -52,27 +52,26 @@ class Walker {
     if (elements ? !value.is_array() : !value.is_object())
       fail("{} must be an {}", where_, elements ? "array" : "object");
     const std::size_t length = where_.size();
+    const auto stand_in = elements ? stand_ins().find(where_) : stand_ins().end();
     std::size_t i = 0;
     for (auto it = value.begin(); it != value.end(); ++it, ++i) {
       where_ += elements ? fmt::format("[{}]", i) : "." + it.key();
-      if (elements)
-        element(*it, i, rest.substr(2), length);
-      else
+      if (stand_in == stand_ins().end())
         below(*it, rest.substr(2));
+      else
+        element(*it, rest.substr(2), stand_in->first, i);
       where_.resize(length);
     }
   }
 
-  // `array`: how many letters of `where_` name the array.
-  void element(Json& value, std::size_t index, std::string_view rest, std::size_t array) {
-    const auto stand_in = stand_ins().find(std::string_view(where_).substr(0, array));
-    if (stand_in == stand_ins().end()) return below(value, rest);
-    if (left_out_.holds(stand_in->first, index)) return;
+  // One that can be left out.
+  void element(Json& value, std::string_view rest, const std::string& array, std::size_t index) {
+    if (left_out_.holds(array, index)) return;
     try {
       below(value, rest);
     } catch (const Error& e) {
-      left_out_.add(stand_in->first, index, e.what());
-      value = stand_in->second;
+      left_out_.add(array, index, e.what());
+      value = stand_ins().at(array);
     }
   }
 
