@@ -99,7 +99,7 @@ TEST_F(RenderSteadyFrame, MakesNothingWithHistoryWhileACasterMoves) {
   params.set("history.reuse", true);
   for (const std::string map : {"average", "maximum"}) {
     for (const std::string present : {"own_pass", "shadow_pass"}) {
-      SCOPED_TRACE(map + " " + present);
+      SCOPED_TRACE(fmt::format("{} {}", map, present));
       params.set("movement.map", map);
       params.set("movement.present", present);
       for (int i = 0; i < 4; ++i) {
