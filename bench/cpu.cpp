@@ -131,10 +131,10 @@ void metric(benchmark::State& state, Metric measure) {
   const std::vector<float> test = visibility(0), reference = visibility(1);
   for ([[maybe_unused]] auto _ : state) {
     benchmark::DoNotOptimize(
-        measure(metrics::Picture{width, height, test}, metrics::Picture{width, height, reference}));
+        measure(metrics::ImageView{width, height, test}, metrics::ImageView{width, height, reference}));
   }
 }
-using Pictures = const metrics::Picture&;
+using Pictures = const metrics::ImageView&;
 BENCHMARK_CAPTURE(metric, error_figures, [](Pictures a, Pictures b) {
   return metrics::error_figures(a, b);
 })->Unit(benchmark::kMillisecond);

@@ -20,6 +20,6 @@ void main() {
   out_emission = min(emission(surface.uv), vec3(64000.0));
   out_motion = motion();
 #if MASKED
-  if (color.a < material.alpha_cutoff) discard;  // last: texture reads need their neighbours
+  if (color.a < material.alpha_cutoff) discard;  // last: derivatives, which choose mip levels, need the whole quad
 #endif
 }

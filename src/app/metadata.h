@@ -7,7 +7,7 @@
 
 namespace penumbra::app {
 
-// What an EXR file says of itself: all that it takes to draw it again.
+// The metadata of an EXR file: everything needed to draw it again.
 image::Metadata metadata_of(const cli::SceneOptions& options, const render::Setup& setup, const ParamSet& params,
                             int frame);
 

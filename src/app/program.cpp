@@ -19,21 +19,21 @@ int run_bench(const Arguments& arguments) { return bench::run("penumbra bench", 
 
 constexpr std::array table{
     Command{"render", "Draw a glTF scene into a PNG or EXR file", run_render},
-    Command{"watch", "Draw it again whenever the scene, a preset or a shader is saved", run_watch},
-    Command{"glsl", "Write the built-in shaders to a folder, to change there", run_glsl},
+    Command{"watch", "Draw it again whenever the scene, a preset file or a shader is saved", run_watch},
+    Command{"glsl", "Write the built-in shaders to a folder, for editing", run_glsl},
 #ifdef PENUMBRA_VIEWER
     Command{"view", "Show a scene in a window and tune its shadows", viewer::run},
 #endif
     Command{"truth", "Ray trace the shadows of a scene, for techniques to be measured against", run_truth},
-    Command{"info", "Tell what is in a scene", run_info},
+    Command{"info", "Print what is in a scene", run_info},
     Command{"list", "List techniques, filters, denoisers, products, params, aovs or backends", run_list},
     Command{"diff", "Compare two pictures, and fail past a limit", run_diff},
     Command{"compare", "Compare techniques with the truth: tables and an HTML page", compare::run},
     Command{"bench", "Measure what shadows cost, pass by pass", run_bench},
-    Command{"reproduce", "Make and measure the figures of the thesis anew: an HTML page", reproduce::run},
+    Command{"reproduce", "Draw and measure the figures of the thesis again: an HTML page", reproduce::run},
     Command{"bake", "Make noise tiles and sets of sample points", run_bake},
     Command{"help", "Explain a parameter, technique, denoiser, AOV or sub-command", run_help},
-    Command{"doctor", "Tell which OpenGL backends work here", run_doctor},
+    Command{"doctor", "Print which OpenGL backends work here", run_doctor},
 };
 
 std::string overview() {

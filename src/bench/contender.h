@@ -12,25 +12,25 @@
 
 namespace penumbra::bench {
 
-// A technique with its values, under the name that it was asked for by.
+// A technique with its values, and the label that the user gave it.
 struct Entry {
   std::string label;
   ParamSet params;
 };
 
-// An entry that takes turns with others. Each has a device of its own, which keeps timers, programs and histories
-// apart.
+// An entry while it is measured in turn with others. Each has a device of its own, so that timers, programs and
+// histories are separate.
 class Contender {
  public:
   // `scene` outlives this.
   Contender(const Entry& entry, const scene::Scene& scene, const cli::DeviceOptions& options, bool with_floor);
 
-  // One frame, and after it one of its floor. With `params` of the entry's technique.
+  // Draws one frame, and after it one of its floor. `params` are of the entry's technique.
   void draw(const render::FrameInputs& inputs, const ParamSet& params);
 
-  // Keeps the last `count` frames as measured. Waits for what is outstanding.
+  // Appends the last `count` frames. Waits until they are measured.
   void keep(PassTimes& own, PassTimes& floor, std::size_t count);
-  // Of the floor beside what it is the floor of.
+  // The cost of the floor, and its ratio to the technique's.
   std::optional<FloorCost> floor_cost(const PassTimes& own, const PassTimes& floor) const;
 
   std::size_t target_bytes() const { return device_.device.target_bytes("shadow "); }

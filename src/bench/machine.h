@@ -4,7 +4,7 @@
 
 namespace penumbra::bench {
 
-// What a measurement says of where it was made: no name of the machine, no path.
+// What a measurement records about the machine: neither its name nor a path.
 struct Machine {
   std::string cpu;  // "AMD EPYC 7B13", "unknown" where the system does not tell
   int cores = 0;    // that the system offers

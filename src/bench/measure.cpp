@@ -90,7 +90,7 @@ class Bench {
   }
 
   // Points take turns, so that a machine that slows down meanwhile slows all of them; but not where each is a scene to
-  // be made anew.
+  // be made again.
   int visit_count() const {
     constexpr int most = 4;
     const Sweep& sweep = results_.sweep;

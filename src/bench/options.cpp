@@ -33,9 +33,10 @@ void add_output(Options& options, const std::string& name) {
 }
 
 void add_bench_options(CLI::App& app, Options& o) {
-  add_value(app, "--technique", "NAME,...",
-            "Techniques or presets (.toml) to compare, in turn frame by frame; see penumbra list techniques",
-            [&o](const auto& text) { o.techniques = names_of("--technique", text); });
+  add_value(
+      app, "--technique", "NAME,...",
+      "Techniques, presets or preset files (.toml) to compare, in turn frame by frame; see penumbra list techniques",
+      [&o](const auto& text) { o.techniques = names_of("--technique", text); });
   add_value(app, "--frames", "N", "Frames that count, for each technique and point (400; in software 20, of a sweep 4)",
             [&o](const auto& text) { o.frame_count = cli::parse_count("--frames", text, 1, 100000); });
   add_value(app, "--warmup", "N", "Frames before them that don't (20; in software 2)",
@@ -78,7 +79,7 @@ void check_together(const Options& o) {
   cli::check_together(static_cast<const cli::SceneOptions&>(o));
   cli::check_together(static_cast<const cli::DeviceOptions&>(o));
   if (o.scene.empty() && o.sweep != "casters") fail_usage("SCENE is required");
-  if (o.quiet && o.outputs.empty()) fail_usage("--quiet without -o would measure for nobody");
+  if (o.quiet && o.outputs.empty()) fail_usage("--quiet without -o would neither print nor write anything");
 }
 
 std::vector<Entry> entries_of(const Options& options, const shadow::Registry& registry) {

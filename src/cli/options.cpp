@@ -78,7 +78,8 @@ void add_time_options(CLI::App& app, SceneOptions& o) {
 }
 
 void add_technique_option(CLI::App& app, ShadowOptions& o) {
-  add_value(app, "--technique", "NAME", "Shadow technique; see penumbra list techniques",
+  add_value(app, "--technique", "NAME",
+            "Shadow technique or preset, in place of a preset file's; see penumbra list techniques",
             [&o](const auto& text) { o.technique = text; });
 }
 
@@ -89,7 +90,8 @@ void add_shadow_options(CLI::App& app, ShadowOptions& o) {
             "Exposure value at ISO 100; short for --set exposure.auto=off --set exposure.ev=EV",
             [&o](const auto& text) { o.exposure = text; });
   words(app, "--set", "NAME=VALUE", "A parameter's value; repeatable; see penumbra list params", o.assignments);
-  words(app, "--preset", "FILE", "Values from a TOML file; repeatable", o.presets);
+  words(app, "--preset", "FILE", "Values from a preset file (TOML), before those of other options; repeatable",
+        o.presets);
 }
 
 void add_device_options(CLI::App& app, DeviceOptions& o) {

@@ -17,7 +17,7 @@ namespace penumbra::cli {
 
 // Groups of options that several commands share. Every value is parsed and in range.
 
-// What stands before the camera, when, and how large.
+// Which picture of which scene: size, camera, sun, ground and time.
 struct SceneOptions {
   std::string scene;
   ReadingOptions reading;
@@ -60,14 +60,15 @@ void add_device_options(CLI::App& app, DeviceOptions& options);
 void check_together(const SceneOptions& options);
 void check_together(const DeviceOptions& options);
 
-// The values to render with: defaults, then presets, then --technique, --sun-angle and --exposure, then every --set in
-// the order given. Throws UsageError for the command line's faults and Error for a preset's.
+// The values to render with: defaults, then the preset files, then --technique, --sun-angle and --exposure, then every
+// --set in the order given. The order of different options on the command line does not matter. Throws UsageError for
+// the command line's faults and Error for a preset's.
 ParamSet resolve_params(const ShadowOptions& options, const shadow::Registry& registry);
 
-// "NAME=VALUE" or UsageError; a name that no parameter is near to is told where to look.
+// Sets "NAME=VALUE". Throws UsageError, with near names for an unknown one or else where to find the list.
 void assign(ParamSet& params, const std::string& assignment);
 
-// An option whose text `set` parses, so that every fault is worded in one place. None takes an empty text.
+// Adds an option whose text `set` parses. An empty text is refused.
 void add_value(CLI::App& app, const char* name, const char* type, const char* help,
                const std::function<void(const std::string&)>& set);
 

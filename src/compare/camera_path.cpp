@@ -9,7 +9,7 @@ namespace penumbra::compare {
 
 namespace {
 
-// What the camera looks at: the point on its axis that is nearest to the scene's centre, in front of it.
+// The point on the camera's axis, in front of it, that is nearest to the scene's centre.
 glm::vec3 target_of(const CompareOptions& options, const session::PreparedScene& prepared) {
   if (options.target) return *options.target;
   const render::Camera& camera = prepared.setup.camera;
@@ -20,8 +20,8 @@ glm::vec3 target_of(const CompareOptions& options, const session::PreparedScene&
   return eye + forward * (distance > 0 ? distance : bounds.radius());
 }
 
-// The camera carried about a vertical axis.
-void turn(render::Camera& camera, const glm::vec3& center, double degrees) {
+// Rotates the camera about a vertical axis.
+void rotate(render::Camera& camera, const glm::vec3& center, double degrees) {
   glm::mat4 world = glm::translate(glm::mat4(1), center);
   world = glm::rotate(world, glm::radians(static_cast<float>(degrees)), glm::vec3(0, 1, 0));
   world = glm::translate(world, -center);
@@ -42,7 +42,7 @@ CameraPath::CameraPath(const CompareOptions& options, const session::PreparedSce
 void CameraPath::orbit(render::Camera& camera, int frame) const {
   if (!options_.orbit) return;
   const bool after_cut = cut_ && frame >= *cut_;
-  turn(camera, target_, *options_.orbit * (frame - (after_cut ? range_.last : range_.first)));
+  rotate(camera, target_, *options_.orbit * (frame - (after_cut ? range_.last : range_.first)));
 }
 
 bool CameraPath::cuts(int frame) const {

@@ -8,18 +8,17 @@
 
 namespace penumbra::compare {
 
-// Where the camera is in each frame of a comparison, and when: the file's animation, or an orbit about the target that
-// leaves the view that was asked for, is cut, and comes back to it from the other side.
+// The camera and the time of each frame of a comparison: the file's animation, or an orbit about the target. The orbit
+// starts at the view that was asked for; halfway it jumps, so that it ends at that view again.
 class CameraPath {
  public:
   CameraPath(const CompareOptions& options, const session::PreparedScene& prepared);
 
-  // What a renderer draws for a frame of the range; the first one follows none. `again`: the frame before showed the
-  // same.
+  // The renderer's inputs for a frame of the range; the first one is a cut. `again`: the same frame is drawn once more.
   render::FrameInputs frame(int frame, bool again = false) const;
-  // What the first camera looks at, and what an orbit is about.
+  // The point that the first camera looks at, and the centre of the orbit.
   const glm::vec3& target() const { return target_; }
-  // Whether frame shows another view or time than the one before leads to. The first frame does not count.
+  // Whether view or time jump before this frame. Not for the first one.
   bool cuts(int frame) const;
 
  private:

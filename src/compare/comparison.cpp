@@ -27,7 +27,7 @@ namespace penumbra::compare {
 
 namespace {
 
-// Names the file, which the faults of its cameras don't.
+// Errors about cameras do not name the file: this adds it.
 session::PreparedScene load_scene(const CompareOptions& options, const scene::ImageDecoder& decode) {
   scene::Scene scene = cli::read_scene(options.scene, options.reading, decode);
   try {
@@ -37,7 +37,7 @@ session::PreparedScene load_scene(const CompareOptions& options, const scene::Im
   }
 }
 
-// Whether a camera is there takes no pictures.
+// Throws for a camera that the scene lacks. Reads the scene without decoding its images.
 void check_camera(const CompareOptions& options) {
   load_scene(options, [](std::span<const std::byte>, const std::string& name) {
     return scene::Image{.name = name, .width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
@@ -52,7 +52,7 @@ void warn_of_frames_without_receivers(const std::string& scene, const std::vecto
   const auto count = std::ranges::count_if(frames, [](const auto& frame) { return receiver_count(frame) == 0; });
   if (count == 0) return;
   const std::string which = frames.size() == 1 ? "the picture" : fmt::format("{} of {} frames", count, frames.size());
-  warn("{}: the sun reaches nothing in {}, so there is nothing to measure", io::quoted(scene), which);
+  warn("{}: no surface faces the sun in {}, so there is nothing to measure", io::quoted(scene), which);
 }
 
 ComparedScene compare_scene(const CompareOptions& options, const session::PreparedScene& prepared, gl::Device& device,
@@ -85,7 +85,7 @@ Angles angles_of(const glm::vec3& to_light) {
 Comparison compare(const CompareOptions& options, const ComparedValues& values) {
   Comparison comparison{.reference_params = values.reference};
 
-  // Drivers take as long to start as scenes to load, and there are two cores nearly everywhere.
+  // Starting the driver takes about as long as loading a scene: do both at once.
   std::vector<CompareOptions> of_scenes(options.scenes.size(), options);
   for (std::size_t i = 0; i < of_scenes.size(); ++i) of_scenes[i].scene = options.scenes[i];
   const auto load = [](const CompareOptions& one) {

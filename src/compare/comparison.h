@@ -14,7 +14,7 @@
 
 namespace penumbra::compare {
 
-// What a technique's shadow is off by over all frames, see metrics/. Figures that could not be measured are NaN.
+// A technique's errors over all frames, see metrics/. Figures that could not be measured are NaN.
 struct ComparedFigures {
   double rmse = 0, psnr = 0;                    // all receivers
   double rmse_penumbra = 0, psnr_penumbra = 0;  // reference in the penumbra
@@ -30,7 +30,7 @@ struct ShadowCost {
   std::size_t frames = 0;
 };
 
-// The last frame as a picture.
+// The last frame's pictures.
 struct ComparedPictures {
   std::vector<std::uint8_t> display;  // RGB, sRGB
   std::vector<float> visibility;

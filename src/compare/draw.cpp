@@ -14,14 +14,14 @@ namespace penumbra::compare {
 
 namespace {
 
-constexpr int usual_warmup = 32;  // e^-3 is left of what a history of the usual weight began with
+constexpr int usual_warmup = 32;  // then e^-3 of the first frame is left in a history of the default weight
 
 // Nested passes are in the time of the one around them.
 bool is_shadow_row(const std::string& name) {
   return name != "frame" && name.find('/') == std::string::npos && bench::is_shadow_pass(name);
 }
 
-// Of these frames of the device.
+// The cost over these of the device's frames.
 ShadowCost shadow_cost(gl::Timers& timers, const std::vector<std::size_t>& frames) {
   std::vector<double> sums(frames.size(), 0.0);
   for (const gl::Timers::Row& row : timers.rows()) {
@@ -34,7 +34,7 @@ ShadowCost shadow_cost(gl::Timers& timers, const std::vector<std::size_t>& frame
 
 cli::FrameRange range_of(const CompareOptions& options) { return options.frames.value_or(cli::FrameRange{}); }
 
-// A single picture of a technique that remembers is the one that it settles on.
+// A single picture of a technique with a history is drawn until the history has converged.
 int warmup_of(const CompareOptions& options, const ParamSet& params) {
   if (options.frames || !params.get_bool("history.reuse")) return 0;
   return options.warmup.value_or(usual_warmup);
@@ -53,9 +53,9 @@ std::size_t frames_drawn(gl::Timers& timers) {
   return rows.empty() ? 0 : rows.back().milliseconds.size();
 }
 
-// One of those that take turns. Its renderer is its own: what another technique left behind has no say.
-struct Turn {
-  Turn(const DrawnScene& scene, const ParamSet& own)
+// One contender while they take turns. It has a renderer of its own, so that no history is shared.
+struct ContenderRun {
+  ContenderRun(const DrawnScene& scene, const ParamSet& own)
       : params(own),
         renderer(scene.device, scene.techniques),
         sums(scene.options.size.width, scene.options.size.height) {}
@@ -68,58 +68,58 @@ struct Turn {
   std::size_t target_bytes = 0;
 };
 
-class Turns {
+class InterleavedRuns {
  public:
-  Turns(const DrawnScene& scene, const std::vector<ParamSet>& params, const std::vector<ReferenceFrame>& reference)
+  InterleavedRuns(const DrawnScene& scene, const std::vector<ParamSet>& params,
+                  const std::vector<ReferenceFrame>& reference)
       : scene_(scene),
         reference_(reference),
         range_(range_of(scene.options)),
         frames_drawn_(frames_drawn(scene.device.timers)) {
-    for (const ParamSet& own : params) turns_.push_back(std::make_unique<Turn>(scene, own));
+    for (const ParamSet& own : params) runs_.push_back(std::make_unique<ContenderRun>(scene, own));
   }
 
   // A sequence's cost is that of all its frames but the first, which compiles shaders; a single picture is drawn again.
   std::vector<ComparedTechnique> results() {
     for (int frame = range_.first; frame <= range_.last; ++frame) {
-      for (const auto& turn : turns_) measure(*turn, frame);
+      for (const auto& run : runs_) measure(*run, frame);
     }
     for (int i = 0; range_.count() == 1 && i < scene_.options.cost_frames; ++i) {
-      for (const auto& turn : turns_)
-        draw(*turn, scene_.path.frame(range_.first, /* again= */ true), /* timed= */ true);
+      for (const auto& run : runs_) draw(*run, scene_.path.frame(range_.first, /* again= */ true), /* timed= */ true);
     }
     std::vector<ComparedTechnique> results;
-    for (std::size_t i = 0; i < turns_.size(); ++i) {
-      Turn& turn = *turns_[i];
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      ContenderRun& run = *runs_[i];
       results.push_back({.label = scene_.options.contenders[i].label,
-                         .params = turn.params,
-                         .cost = shadow_cost(scene_.device.timers, turn.timed),
-                         .target_bytes = turn.target_bytes,
-                         .figures = turn.sums.figures(),
-                         .pictures = std::move(turn.pictures)});
+                         .params = run.params,
+                         .cost = shadow_cost(scene_.device.timers, run.timed),
+                         .target_bytes = run.target_bytes,
+                         .figures = run.sums.figures(),
+                         .pictures = std::move(run.pictures)});
     }
     return results;
   }
 
  private:
-  void draw(Turn& turn, const render::FrameInputs& inputs, bool timed) {
+  void draw(ContenderRun& run, const render::FrameInputs& inputs, bool timed) {
     const std::size_t before = scene_.device.target_bytes("shadow ");
-    turn.renderer.draw(scene_.scene, inputs, turn.params);
-    turn.target_bytes += scene_.device.target_bytes("shadow ") - before;
-    if (timed) turn.timed.push_back(frames_drawn_);
+    run.renderer.draw(scene_.scene, inputs, run.params);
+    run.target_bytes += scene_.device.target_bytes("shadow ") - before;
+    if (timed) run.timed.push_back(frames_drawn_);
     ++frames_drawn_;
   }
 
-  void measure(Turn& turn, int frame) {
-    draw(turn, scene_.path.frame(frame), /* timed= */ frame > range_.first);
-    for (int i = warmup_of(scene_.options, turn.params); i > 0; --i)
-      draw(turn, scene_.path.frame(frame, /* again= */ true), /* timed= */ false);
-    std::vector<float> visibility = turn.renderer.read_aov("shadow");
+  void measure(ContenderRun& run, int frame) {
+    draw(run, scene_.path.frame(frame), /* timed= */ frame > range_.first);
+    for (int i = warmup_of(scene_.options, run.params); i > 0; --i)
+      draw(run, scene_.path.frame(frame, /* again= */ true), /* timed= */ false);
+    std::vector<float> visibility = run.renderer.read_aov("shadow");
     const ReferenceFrame& reference = reference_[static_cast<std::size_t>(frame - range_.first)];
-    turn.sums.add(visibility, reference, scene_.path.cuts(frame));
+    run.sums.add(visibility, reference, scene_.path.cuts(frame));
     if (frame == range_.last) {
-      turn.pictures.display = turn.renderer.read_display();
-      turn.pictures.error = error_of(visibility, reference);
-      turn.pictures.visibility = std::move(visibility);
+      run.pictures.display = run.renderer.read_display();
+      run.pictures.error = error_of(visibility, reference);
+      run.pictures.visibility = std::move(visibility);
     }
     scene_.drawn();
   }
@@ -128,7 +128,7 @@ class Turns {
   const std::vector<ReferenceFrame>& reference_;
   cli::FrameRange range_;
   std::size_t frames_drawn_;  // by the device
-  std::vector<std::unique_ptr<Turn>> turns_;
+  std::vector<std::unique_ptr<ContenderRun>> runs_;
 };
 
 }  // namespace
@@ -151,7 +151,7 @@ std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamS
 
 std::vector<ComparedTechnique> draw_techniques(const DrawnScene& scene, const std::vector<ParamSet>& params,
                                                const std::vector<ReferenceFrame>& reference) {
-  return Turns(scene, params, reference).results();
+  return InterleavedRuns(scene, params, reference).results();
 }
 
 }  // namespace penumbra::compare

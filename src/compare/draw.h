@@ -31,8 +31,8 @@ struct ReferenceFrame {
 // The reference's frames; `last` becomes the last one's pictures.
 std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamSet& params, ComparedPictures& last);
 
-// The contenders drawn over all frames and measured against them, with values of `params` in the same order. They take
-// turns, frame by frame, so that a machine that slows down meanwhile slows all of them.
+// Draws the contenders over all frames and measures them against the reference; `params` are theirs, in order. They
+// take turns, frame by frame, so that a machine that slows down meanwhile slows all of them alike.
 std::vector<ComparedTechnique> draw_techniques(const DrawnScene& scene, const std::vector<ParamSet>& params,
                                                const std::vector<ReferenceFrame>& reference);
 

@@ -24,8 +24,8 @@ void FigureSums::Mean::add(double value, std::size_t weight) {
 double FigureSums::Mean::mean() const { return count == 0 ? none : sum / static_cast<double>(count); }
 
 void FigureSums::add(const std::vector<float>& visibility, const ReferenceFrame& reference, bool cut) {
-  const metrics::Picture test{.width = width_, .height = height_, .pixels = visibility};
-  const metrics::Picture truth{.width = width_, .height = height_, .pixels = reference.visibility};
+  const metrics::ImageView test{.width = width_, .height = height_, .pixels = visibility};
+  const metrics::ImageView truth{.width = width_, .height = height_, .pixels = reference.visibility};
   const metrics::Quality quality = metrics::quality_of(test, truth, reference.receivers);
   const metrics::ErrorFigures& errors = quality.errors;
   squared_.add(errors.rmse * errors.rmse, errors.samples);

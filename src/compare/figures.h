@@ -10,19 +10,19 @@
 
 namespace penumbra::compare {
 
-// The figures of a technique, frame by frame: errors over the receivers of all frames together, what is no mean of
-// single pixels (SSIM, FLIP, penumbra widths) as a mean over the frames.
+// Accumulates the figures of a technique frame by frame: errors are taken over the receivers of all frames together;
+// SSIM, FLIP and penumbra widths, which are no means over pixels, are averaged over the frames.
 class FigureSums {
  public:
   FigureSums(int width, int height) : width_(width), height_(height) {}
 
-  // `cut`: the frame shows another view or time than the last one leads to.
+  // `cut`: view or time jumped before this frame.
   void add(const std::vector<float>& visibility, const ReferenceFrame& reference, bool cut);
 
   ComparedFigures figures() const;
 
  private:
-  // Of what may be missing in a frame.
+  // A mean over values some of which may be missing (NaN).
   struct Mean {
     double sum = 0;
     std::size_t count = 0;

@@ -9,7 +9,7 @@
 
 namespace penumbra::compare {
 
-// One of those that are compared: a technique or a preset, and values of its own.
+// What is compared: a technique or a preset, and parameter values of its own.
 struct Contender {
   std::string label;  // as it was asked for: "pcss:pcss.filter_taps=64"
   std::string name;
@@ -32,15 +32,16 @@ struct CompareOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOption
   bool quiet = false;
 };
 
-// Parses the command line; false: --help was asked for. Throws UsageError for all that is wrong whatever presets and
-// scenes hold, before any of them is looked at.
+// Parses the command line; returns false if --help was asked for. Throws UsageError for every fault that does not
+// depend on the contents of preset files and scenes, before any of them is read.
 bool parse_compare(const cli::Arguments& arguments, CompareOptions& options);
 
-// "a,b:p=1,q=2,c" is a, b with two values of its own, and c. Throws UsageError for what has no name.
+// "a,b:p=1,q=2,c" is a, b with two values of its own, and c. Throws UsageError for an empty name.
 std::vector<Contender> parse_contenders(const std::string& text);
 
-// The values that the reference and the contenders are drawn with. A sampled reference has other points than contenders
-// have, lest errors of both agree. Throws UsageError for the command line's faults and Error for a preset's.
+// The values that the reference and the contenders are drawn with. A sampled reference gets another seed than the
+// contenders, so that their errors are independent. Throws UsageError for the command line's faults and Error for a
+// preset's.
 struct ComparedValues {
   ParamSet reference;
   std::vector<ParamSet> contenders;

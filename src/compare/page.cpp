@@ -41,7 +41,7 @@ std::vector<report::Column> columns_of(bool sequence) {
       {"Bias", "visibility", "Mean signed error: above 0 where the shadow is too bright.", Best::nearest_zero},
       {"99th percentile", "visibility", "99 of 100 receivers are off by no more.", Best::lowest},
       {"SSIM", "", "Structural similarity, 1 where nothing differs.", Best::highest},
-      {"FLIP", "", "How different the two look to somebody who flips between them, 0 to 1.", Best::lowest},
+      {"FLIP", "", "How different the two look to a viewer who flips between them, 0 to 1.", Best::lowest},
       {"Width error", "%", "How much wider or narrower penumbrae are, on average.", Best::lowest},
       {"Width lost", "%", "Share of penumbra pixels where the shadow has no edge to measure; in no other width.",
        Best::lowest}};
@@ -106,13 +106,13 @@ std::string figures_text(const ComparedTechnique& technique) {
 
 Html pictures_of(const ComparedScene& scene, const Comparison& comparison, const cli::Size& size) {
   const std::string& reference = comparison.reference_params.get_word("technique");
-  const report::Picture display = display_picture(scene.reference, size);
-  const report::Picture visibility = visibility_picture(scene.reference, size);
+  const report::EncodedPicture display = display_picture(scene.reference, size);
+  const report::EncodedPicture visibility = visibility_picture(scene.reference, size);
   const float scale = error_scale(scene);
   Html html;
   for (const ComparedTechnique& technique : scene.techniques) {
     const std::string& label = technique.label;
-    const auto figure = [](const std::string& name, const char* what, const report::Picture& picture) {
+    const auto figure = [](const std::string& name, const char* what, const report::EncodedPicture& picture) {
       return report::Figure{.label = name, .alt = fmt::format("{} drawn by {}", what, name), .picture = picture};
     };
     html.add(report::heading(label));

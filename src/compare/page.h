@@ -7,8 +7,8 @@
 
 namespace penumbra::compare {
 
-// A comparison as a page: for each scene a table, cost against error, and pictures against the reference's. `arguments`
-// are those of the command.
+// The HTML page of a comparison: for each scene a table, a plot of cost against error, and pictures beside the
+// reference's. `arguments` are those of the command.
 report::Page comparison_page(const Comparison& comparison, const CompareOptions& options,
                              const cli::Arguments& arguments);
 

@@ -40,25 +40,25 @@ Rgb colour_of(float error) {
   return colour;
 }
 
-report::Picture encoded(const std::vector<std::uint8_t>& pixels, int channels, const cli::Size& size) {
+report::EncodedPicture encoded(const std::vector<std::uint8_t>& pixels, int channels, const cli::Size& size) {
   return report::make_picture(image::encode_png(size.width, size.height, channels, pixels), size.width, size.height);
 }
 
 }  // namespace
 
-report::Picture display_picture(const ComparedPictures& pictures, const cli::Size& size) {
+report::EncodedPicture display_picture(const ComparedPictures& pictures, const cli::Size& size) {
   return encoded(pictures.display, 3, size);
 }
 
-report::Picture visibility_picture(const ComparedPictures& pictures, const cli::Size& size) {
-  const render::Bytes bytes = render::aov_bytes("shadow", 1, pictures.visibility);
+report::EncodedPicture visibility_picture(const ComparedPictures& pictures, const cli::Size& size) {
+  const render::ByteImage bytes = render::aov_bytes("shadow", 1, pictures.visibility);
   return encoded(bytes.pixels, bytes.channels, size);
 }
 
 float error_scale(const ComparedScene& scene) {
   double best = 1;
   for (const ComparedTechnique& technique : scene.techniques) {
-    // One that is the reference itself says nothing of the others' errors.
+    // A contender that equals the reference does not count: its error is 0.
     if (technique.figures.p99 > 0) best = std::min(best, technique.figures.p99);
   }
   for (const float scale : {0.05f, 0.1f, 0.2f, 0.5f}) {
@@ -67,7 +67,7 @@ float error_scale(const ComparedScene& scene) {
   return 1.0f;
 }
 
-report::Picture error_picture(const ComparedPictures& pictures, const cli::Size& size, float scale) {
+report::EncodedPicture error_picture(const ComparedPictures& pictures, const cli::Size& size, float scale) {
   std::vector<std::uint8_t> pixels;
   pixels.reserve(pictures.error.size() * 3);
   for (const float error : pictures.error) {

@@ -30,7 +30,7 @@ double percentile(std::vector<float>& values, std::size_t hundredths) {
 // Of 1 it is 0, not -0.
 double psnr_of(double mean_squared_error) { return 10 * std::log10(1 / mean_squared_error); }
 
-ErrorFigures error_figures(const Picture& test, const Picture& reference, Receivers receivers) {
+ErrorFigures error_figures(const ImageView& test, const ImageView& reference, Receivers receivers) {
   check(test, reference, receivers);
   ErrorFigures figures;
   Sums sums;

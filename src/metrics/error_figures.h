@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "metrics/picture.h"
+#include "metrics/image_view.h"
 
 namespace penumbra::metrics {
 
@@ -27,6 +27,6 @@ struct ErrorFigures {
 double psnr_of(double mean_squared_error);
 
 // Throws Error as check() does.
-ErrorFigures error_figures(const Picture& test, const Picture& reference, Receivers receivers = {});
+ErrorFigures error_figures(const ImageView& test, const ImageView& reference, Receivers receivers = {});
 
 }  // namespace penumbra::metrics

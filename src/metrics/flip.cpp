@@ -29,7 +29,7 @@ constexpr std::array<Sensitivity, 3> sensitivities{
 // Luminance, red-green and blue-yellow; a grey picture has the first alone.
 using Opponent = std::vector<Plane>;
 
-Opponent opponent_of(const Picture& picture, const Picture& elsewhere, Receivers receivers) {
+Opponent opponent_of(const ImageView& picture, const ImageView& elsewhere, Receivers receivers) {
   const auto channels = static_cast<std::size_t>(picture.channels);
   Opponent planes(channels, Plane(picture.width, picture.height));
   for (std::size_t i = 0; i < picture.pixel_count(); ++i) {
@@ -147,7 +147,7 @@ std::vector<float> feature_errors(const Plane& test, const Plane& reference, flo
   return errors;
 }
 
-bool all_finite(const Picture& picture, std::size_t pixel) {
+bool all_finite(const ImageView& picture, std::size_t pixel) {
   const auto channels = static_cast<std::size_t>(picture.channels);
   const auto values = picture.pixels.subspan(pixel * channels, channels);
   return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
@@ -155,7 +155,7 @@ bool all_finite(const Picture& picture, std::size_t pixel) {
 
 }  // namespace
 
-Flip flip(const Picture& test, const Picture& reference, Receivers receivers, float pixels_per_degree) {
+Flip flip(const ImageView& test, const ImageView& reference, Receivers receivers, float pixels_per_degree) {
   check(test, reference, receivers);
   if (reference.channels != 1 && reference.channels != 3)
     fail("FLIP compares pictures of 1 or 3 channels, not {}", reference.channels);

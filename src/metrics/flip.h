@@ -2,13 +2,13 @@
 
 #include <vector>
 
-#include "metrics/picture.h"
+#include "metrics/image_view.h"
 
 namespace penumbra::metrics {
 
 // LDR-FLIP: Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild, "FLIP: A Difference Evaluator for
 // Alternating Images", Proceedings of the ACM on Computer Graphics and Interactive Techniques 3(2), 2020. How different
-// two pictures look to somebody who flips between them: colours after the eye's blur at a viewing distance, and edges
+// two pictures look to a viewer who flips between them: colours after the eye's blur at a viewing distance, and edges
 // and points that are in one picture alone.
 struct Flip {
   double mean = 0;         // over the receivers, 0 (the same) to 1; NaN without receivers
@@ -22,7 +22,7 @@ constexpr float usual_pixels_per_degree = 67.0206f;
 // visibility of 0.5 looks like the grey 127.5 of 255. Where no receiver is, both pictures show the reference, so that
 // what is not measured does not change its neighbours. A pixel whose test value is not finite is at the error 1.
 // Throws Error as check() does, and for channels other than 1 and 3.
-Flip flip(const Picture& test, const Picture& reference, Receivers receivers = {},
+Flip flip(const ImageView& test, const ImageView& reference, Receivers receivers = {},
           float pixels_per_degree = usual_pixels_per_degree);
 
 }  // namespace penumbra::metrics

@@ -23,7 +23,7 @@ struct Point {
 };
 
 struct Field {
-  const Picture& picture;
+  const ImageView& picture;
   Receivers receivers;
 
   // NaN outside the picture and beside what is no receiver.
@@ -78,7 +78,7 @@ struct Line {
 };
 
 // The reference smoothed over its receivers; 0 far from all of them.
-Plane smoothed(const Picture& picture, Receivers receivers) {
+Plane smoothed(const ImageView& picture, Receivers receivers) {
   const Kernel kernel = gaussian(smoothing, static_cast<int>(std::ceil(3 * smoothing)));
   Plane values(picture.width, picture.height), weights(picture.width, picture.height);
   for (std::size_t i = 0; i < values.pixels.size(); ++i) {
@@ -111,7 +111,7 @@ double PenumbraWidth::lost_share() const {
   return all == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(lost) / static_cast<double>(all);
 }
 
-PenumbraWidth penumbra_width(const Picture& test, const Picture& reference, Receivers receivers) {
+PenumbraWidth penumbra_width(const ImageView& test, const ImageView& reference, Receivers receivers) {
   check(test, reference, receivers);
   if (reference.channels != 1) fail("a penumbra's width is measured in 1 channel, not {}", reference.channels);
   const Plane smooth = smoothed(reference, receivers);

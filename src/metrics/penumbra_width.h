@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "metrics/picture.h"
+#include "metrics/image_view.h"
 
 namespace penumbra::metrics {
 
@@ -25,6 +25,6 @@ struct PenumbraWidth {
 // pixels either way: a pixel whose line ends before both crossings has no width. Reads are bilinear, so no width is
 // under 0.8 pixels; noise crosses early, so a noisy penumbra reads as a narrow one. One channel. Throws Error as
 // check() does, and for more channels.
-PenumbraWidth penumbra_width(const Picture& test, const Picture& reference, Receivers receivers = {});
+PenumbraWidth penumbra_width(const ImageView& test, const ImageView& reference, Receivers receivers = {});
 
 }  // namespace penumbra::metrics

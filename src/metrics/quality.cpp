@@ -7,7 +7,7 @@
 
 namespace penumbra::metrics {
 
-Quality quality_of(const Picture& test, const Picture& reference, Receivers receivers) {
+Quality quality_of(const ImageView& test, const ImageView& reference, Receivers receivers) {
   Flip difference = flip(test, reference, receivers);
   return {.errors = error_figures(test, reference, receivers),
           .ssim = ssim(test, reference, receivers),

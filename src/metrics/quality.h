@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "metrics/error_figures.h"
+#include "metrics/image_view.h"
 #include "metrics/penumbra_width.h"
-#include "metrics/picture.h"
 
 namespace penumbra::metrics {
 
@@ -20,6 +20,6 @@ struct Quality {
 
 // Of one channel. Takes about half a second for 1280 x 720 pixels on one core; error_figures() alone a fiftieth of it.
 // Throws Error as check() does, and for more channels.
-Quality quality_of(const Picture& test, const Picture& reference, Receivers receivers = {});
+Quality quality_of(const ImageView& test, const ImageView& reference, Receivers receivers = {});
 
 }  // namespace penumbra::metrics

@@ -36,7 +36,7 @@ std::optional<std::size_t> recovery_frames(std::span<const double> errors, doubl
   return frames;
 }
 
-void SequenceMetrics::check_frame(const Picture& test, const Picture& reference, Receivers receivers) {
+void SequenceMetrics::check_frame(const ImageView& test, const ImageView& reference, Receivers receivers) {
   check(test, reference, receivers);
   if (reference.channels != 1) fail("a sequence is measured in 1 channel, not {}", reference.channels);
   if (sums_.frames > 0 && (reference.width != width_ || reference.height != height_))
@@ -83,7 +83,7 @@ void SequenceMetrics::add_receiver(const Pixel& last, Pixel& pixel, float test) 
   }
 }
 
-void SequenceMetrics::add(const Picture& test, const Picture& reference, Receivers receivers, Event event) {
+void SequenceMetrics::add(const ImageView& test, const ImageView& reference, Receivers receivers, Event event) {
   check_frame(test, reference, receivers);
   begin(event);
   const auto older = [](std::uint8_t age) { return age == never ? never : static_cast<std::uint8_t>(age + 1); };

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "metrics/picture.h"
+#include "metrics/image_view.h"
 
 namespace penumbra::metrics {
 
@@ -57,7 +57,7 @@ class SequenceMetrics {
   static constexpr std::size_t memory_frames = 8;
 
   // Throws Error as check() does, for more than one channel, and for a size other than the first frame's.
-  void add(const Picture& test, const Picture& reference, Receivers receivers = {}, Event event = Event::none);
+  void add(const ImageView& test, const ImageView& reference, Receivers receivers = {}, Event event = Event::none);
 
   SequenceFigures figures() const;
 
@@ -75,7 +75,7 @@ class SequenceMetrics {
     std::vector<double> errors;  // mean |e| of the region, a value a frame
   };
 
-  void check_frame(const Picture& test, const Picture& reference, Receivers receivers);
+  void check_frame(const ImageView& test, const ImageView& reference, Receivers receivers);
   void begin(Event event);
   void end_segment();
   void add_receiver(const Pixel& last, Pixel& pixel, float test);

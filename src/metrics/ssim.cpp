@@ -15,7 +15,7 @@ namespace {
 constexpr float middle = 0.5f;
 constexpr float c1 = 0.01f * 0.01f, c2 = 0.03f * 0.03f;
 
-float value_at(const Picture& picture, std::size_t pixel) {
+float value_at(const ImageView& picture, std::size_t pixel) {
   if (picture.channels == 1) return picture.pixels[pixel];
   const float* rgb = &picture.pixels[pixel * 3];
   return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
@@ -23,7 +23,7 @@ float value_at(const Picture& picture, std::size_t pixel) {
 
 // Means under the window of what `value` gives for each receiver, without the window's weight.
 template <class Value>
-Plane sums(const Picture& size, Receivers receivers, Value value) {
+Plane sums(const ImageView& size, Receivers receivers, Value value) {
   static const Kernel window = gaussian(1.5, 5);
   Plane plane(size.width, size.height);
   for (std::size_t i = 0; i < plane.pixels.size(); ++i)
@@ -33,7 +33,7 @@ Plane sums(const Picture& size, Receivers receivers, Value value) {
 
 }  // namespace
 
-double ssim(const Picture& test, const Picture& reference, Receivers receivers) {
+double ssim(const ImageView& test, const ImageView& reference, Receivers receivers) {
   check(test, reference, receivers);
   if (reference.channels != 1 && reference.channels != 3)
     fail("SSIM compares pictures of 1 or 3 channels, not {}", reference.channels);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "metrics/picture.h"
+#include "metrics/image_view.h"
 
 namespace penumbra::metrics {
 
@@ -15,6 +15,6 @@ namespace penumbra::metrics {
 // the border are measured as well, which the paper leaves out. A test value that is not finite stands for 0 or 1,
 // whichever is farther from the reference. NaN without receivers. Throws Error as check() does, and for channels other
 // than 1 and 3.
-double ssim(const Picture& test, const Picture& reference, Receivers receivers = {});
+double ssim(const ImageView& test, const ImageView& reference, Receivers receivers = {});
 
 }  // namespace penumbra::metrics

@@ -39,13 +39,13 @@ std::size_t pixel_values(int width, int height, int channels) { return index_of(
 
 // Each value of `pixels` as a byte, `encode` deciding how.
 template <class Encode>
-Bytes each(int channels, const std::vector<float>& pixels, Encode encode) {
-  Bytes bytes{channels, std::vector<std::uint8_t>(pixels.size())};
+ByteImage each(int channels, const std::vector<float>& pixels, Encode encode) {
+  ByteImage bytes{channels, std::vector<std::uint8_t>(pixels.size())};
   std::transform(pixels.begin(), pixels.end(), bytes.pixels.begin(), [&](float v) { return to_byte(encode(v)); });
   return bytes;
 }
 
-Bytes depth_bytes(const std::vector<float>& depths) {
+ByteImage depth_bytes(const std::vector<float>& depths) {
   std::vector<float> seen;
   std::copy_if(depths.begin(), depths.end(), std::back_inserter(seen),
                [](float z) { return std::isfinite(z) && z > 0; });
@@ -56,7 +56,7 @@ Bytes depth_bytes(const std::vector<float>& depths) {
               [median = *middle](float z) { return std::isfinite(z) && z > 0 ? median / (median + z) : 0.0f; });
 }
 
-Bytes relative_bytes(int channels, const std::vector<float>& pixels, bool is_signed) {
+ByteImage relative_bytes(int channels, const std::vector<float>& pixels, bool is_signed) {
   float largest = 0;
   for (const float v : pixels) {
     if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
@@ -65,8 +65,8 @@ Bytes relative_bytes(int channels, const std::vector<float>& pixels, bool is_sig
   return each(channels, pixels, [=](float v) { return is_signed ? 0.5f + 0.5f * v * scale : v * scale; });
 }
 
-Bytes label_bytes(int channels, const std::vector<float>& pixels) {
-  Bytes bytes{3, {}};
+ByteImage label_bytes(int channels, const std::vector<float>& pixels) {
+  ByteImage bytes{3, {}};
   for (std::size_t i = 0; i < pixels.size(); i += static_cast<std::size_t>(channels)) {
     const std::array<std::uint8_t, 3> color = label_color(pixels[i]);
     bytes.pixels.insert(bytes.pixels.end(), color.begin(), color.end());
@@ -75,8 +75,8 @@ Bytes label_bytes(int channels, const std::vector<float>& pixels) {
 }
 
 // PNG has no two-channel colour: the third is middle grey's.
-Bytes with_third(const Bytes& two) {
-  Bytes three{3, {}};
+ByteImage with_third(const ByteImage& two) {
+  ByteImage three{3, {}};
   for (std::size_t i = 0; i < two.pixels.size(); i += 2)
     three.pixels.insert(three.pixels.end(), {two.pixels[i], two.pixels[i + 1], std::uint8_t{128}});
   return three;
@@ -136,7 +136,7 @@ std::vector<float> reduced(const std::vector<float>& pixels, int width, int heig
   return result;
 }
 
-Bytes display_bytes(std::vector<std::uint8_t> rgb, int width, int height, int factor) {
+ByteImage display_bytes(std::vector<std::uint8_t> rgb, int width, int height, int factor) {
   assert(rgb.size() == pixel_values(width * factor, height * factor, 3));
   if (factor == 1) return {3, std::move(rgb)};
   std::vector<float> linear(rgb.size());
@@ -158,7 +158,7 @@ std::array<std::uint8_t, 3> label_color(float label) {
   return colors[static_cast<std::size_t>(label) % colors.size()];
 }
 
-Bytes aov_bytes(std::string_view name, int channels, const std::vector<float>& pixels) {
+ByteImage aov_bytes(std::string_view name, int channels, const std::vector<float>& pixels) {
   if (name == "cascade" || name == "history") return label_bytes(channels, pixels);
   if (name == "depth") return depth_bytes(pixels);
   if (name == "albedo") return each(channels, pixels, glsl::srgb_encode);

@@ -80,11 +80,11 @@ std::string base64(std::span<const std::byte> bytes) {
   return result;
 }
 
-Picture make_picture(std::vector<std::byte> png, int width, int height) {
+EncodedPicture make_picture(std::vector<std::byte> png, int width, int height) {
   return {std::make_shared<const std::vector<std::byte>>(std::move(png)), width, height};
 }
 
-std::string data_uri(const Picture& picture) { return "data:image/png;base64," + base64(*picture.png); }
+std::string data_uri(const EncodedPicture& picture) { return "data:image/png;base64," + base64(*picture.png); }
 
 Html& Html::add(std::string_view markup) {
   if (parts_.empty() || parts_.back().picture.png) parts_.emplace_back();
@@ -102,7 +102,7 @@ Html& Html::add(const Html& other) {
 
 Html& Html::text(std::string_view text) { return add(escape(text)); }
 
-Html& Html::source(const Picture& picture) {
+Html& Html::source(const EncodedPicture& picture) {
   add("");
   parts_.back().picture = picture;
   return *this;

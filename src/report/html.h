@@ -17,12 +17,12 @@ std::string escape(std::string_view text);
 std::string base64(std::span<const std::byte> bytes);
 
 // A PNG file in memory and its size in pixels. Copies share the file.
-struct Picture {
+struct EncodedPicture {
   std::shared_ptr<const std::vector<std::byte>> png;
   int width = 0, height = 0;
 };
 
-Picture make_picture(std::vector<std::byte> png, int width, int height);
+EncodedPicture make_picture(std::vector<std::byte> png, int width, int height);
 
 // Markup of a page. What others wrote (names in scenes, paths, command lines) becomes markup by text() alone, so a
 // scene named "<script>" stays a name. Pictures are kept beside the markup: a page that shows one several times holds
@@ -32,7 +32,7 @@ class Html {
   // Markup, and behind it, unless empty, the attribute that makes an <img> show `picture`.
   struct Part {
     std::string markup;
-    Picture picture;
+    EncodedPicture picture;
   };
 
   Html() = default;
@@ -42,7 +42,7 @@ class Html {
   Html& add(const Html& other);
   Html& text(std::string_view text);  // escaped
   // The attribute of an <img> whose tag is still open.
-  Html& source(const Picture& picture);
+  Html& source(const EncodedPicture& picture);
 
   const std::vector<Part>& parts() const { return parts_; }
   // All of it, each picture as a data: URI wherever it is shown.
@@ -53,6 +53,6 @@ class Html {
 };
 
 // "data:image/png;base64,…"
-std::string data_uri(const Picture& picture);
+std::string data_uri(const EncodedPicture& picture);
 
 }  // namespace penumbra::report

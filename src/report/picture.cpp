@@ -10,7 +10,7 @@ namespace {
 
 // A picture's frame: it keeps the picture's shape while that loads, takes the keyboard's arrows, and clips what zoom
 // pushes out.
-std::string open_pane(const Picture& picture, std::string_view kind, std::string_view label) {
+std::string open_pane(const EncodedPicture& picture, std::string_view kind, std::string_view label) {
   return fmt::format(
       "<div class='pane{}' style='aspect-ratio:{}/{}'>"
       "<div class='view' tabindex='0' role='group' aria-label='{}'>",

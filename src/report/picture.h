@@ -13,7 +13,7 @@ namespace penumbra::report {
 struct Figure {
   std::string label;  // "pcss": a few words, shown over the picture
   std::string alt;    // a sentence
-  Picture picture;
+  EncodedPicture picture;
 };
 
 // Two pictures of one size, one over the other, parted by a handle: `left` shows to its left.

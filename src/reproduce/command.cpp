@@ -17,7 +17,7 @@ namespace {
 
 struct Entry {
   MakeFigure make;
-  int pictures;  // about what it takes, in pictures of few taps, for the time left
+  int pictures;  // about how long it takes, in pictures of few taps; for the estimate of the time left
 };
 
 // In the order of the page.
@@ -32,7 +32,7 @@ constexpr std::array figures{
 };
 constexpr int references = 8;  // what truth and converged PCSS take
 
-// Where the build or the installation put ours.
+// The scene that comes with the program, in the source tree or the installation.
 std::string default_scene() {
   namespace fs = std::filesystem;
   const fs::path file = fs::path("scenes") / "thesis.glb";
@@ -48,11 +48,13 @@ std::string default_scene() {
 }
 
 void add_reproduce_options(CLI::App& app, Options& o, std::optional<cli::Size>& size) {
-  app.add_option("SCENE", o.scene, "glTF file, .gltf or .glb (our reference scene, scenes/thesis.glb)")->type_name("");
+  app.add_option("SCENE", o.scene, "glTF file, .gltf or .glb (scenes/thesis.glb, which comes with Penumbra)")
+      ->type_name("");
   cli::add_value(app, "-o,--output", "FOLDER", "Folder for index.html, figures.json and figures.csv",
                  [&o](const auto& text) { o.output = text; });
   app.get_option("--output")->required();
-  app.add_flag("--quick", o.quick, "Small pictures and few frames: a look, no measurement")->disable_flag_override();
+  app.add_flag("--quick", o.quick, "Small pictures and few frames: a preview, not a measurement")
+      ->disable_flag_override();
   cli::add_value(app, "--size", "WIDTHxHEIGHT", "Pixels (640x360; with --quick 192x108)",
                  [&size](const auto& text) { size = cli::parse_size("--size", text); });
   cli::add_view_options(app, o);
@@ -62,7 +64,7 @@ void add_reproduce_options(CLI::App& app, Options& o, std::optional<cli::Size>& 
 }
 
 bool parse(const cli::Arguments& arguments, Options& options) {
-  CLI::App app("Make and measure the figures of the thesis anew: an HTML page", "penumbra reproduce");
+  CLI::App app("Draw and measure the figures of the thesis again: an HTML page", "penumbra reproduce");
   std::optional<cli::Size> size;
   add_reproduce_options(app, options, size);
   if (!cli::parse(app, arguments)) return false;
@@ -73,10 +75,10 @@ bool parse(const cli::Arguments& arguments, Options& options) {
   return true;
 }
 
-// "picture 12 of 100, 1:14 left", by what each figure is expected to take.
-class Pace {
+// "12 %, 1:14 left", by what each figure is expected to take.
+class FigureProgress {
  public:
-  explicit Pace(bool wanted) : progress_("", all(), wanted) {}
+  explicit FigureProgress(bool wanted) : progress_("", all(), wanted) {}
 
   void drawn() { progress_.reach(std::min(++at_, end_)); }
   void next(int pictures) {
@@ -109,11 +111,11 @@ int run(const cli::Arguments& arguments) {
   session::limit_threads(options);
   for (const std::filesystem::path& path : {page, json, csv}) io::check_writable(path);
 
-  Pace pace(!options.quiet);
-  Workbench bench(options, [&pace] { pace.drawn(); });
+  FigureProgress progress(!options.quiet);
+  Workbench bench(options, [&progress] { progress.drawn(); });
   std::vector<Finding> findings;
   for (const Entry& entry : figures) {
-    pace.next(entry.pictures);
+    progress.next(entry.pictures);
     findings.push_back(entry.make(bench));
   }
   io::write_text(json, io::text_of(json_of(findings, bench)));

@@ -62,18 +62,18 @@ Crop noisiest_crop(const Workbench& bench) {
   return best_crop(bench, weights);
 }
 
-report::Picture grey_picture(std::span<const float> pixels, int width, int height) {
+report::EncodedPicture grey_picture(std::span<const float> pixels, int width, int height) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(pixels.size());
   for (const float value : pixels) bytes.push_back(byte_of(value));
   return report::make_picture(image::encode_png(width, height, 1, bytes), width, height);
 }
 
-report::Picture colour_picture(const std::vector<std::uint8_t>& rgb, int width, int height) {
+report::EncodedPicture colour_picture(const std::vector<std::uint8_t>& rgb, int width, int height) {
   return report::make_picture(image::encode_png(width, height, 3, rgb), width, height);
 }
 
-report::Picture enlarged(std::span<const float> pixels, int width, const Crop& crop) {
+report::EncodedPicture enlarged(std::span<const float> pixels, int width, const Crop& crop) {
   const int factor = std::max(1, static_cast<int>(std::lround(static_cast<double>(tile_width) / crop.width)));
   std::vector<float> large;
   large.reserve(static_cast<std::size_t>(crop.width * crop.height * factor * factor));
@@ -84,36 +84,36 @@ report::Picture enlarged(std::span<const float> pixels, int width, const Crop& c
   return grey_picture(large, crop.width * factor, crop.height * factor);
 }
 
-report::Picture enlarged(std::span<const float> pixels, int width, int height) {
+report::EncodedPicture enlarged(std::span<const float> pixels, int width, int height) {
   return enlarged(pixels, width, {.width = width, .height = height});
 }
 
-report::Tile tile(const std::string& title, const std::string& note, const report::Picture& picture) {
+report::Tile tile(const std::string& title, const std::string& note, const report::EncodedPicture& picture) {
   return {.title = title,
           .note = note,
           .body = report::picture({.label = {}, .alt = title + (note.empty() ? "" : ", " + note), .picture = picture})};
 }
 
-Quantity psnr_of(const Named& named, const Drawing& drawing) {
+Quantity psnr_of(const NamedConfig& named, const MeasuredPicture& drawing) {
   return {"the PSNR of " + named.name, drawing.psnr_pcss, "dB"};
 }
 
-Quantity psnr_truth_of(const Named& named, const Drawing& drawing) {
+Quantity psnr_truth_of(const NamedConfig& named, const MeasuredPicture& drawing) {
   return {"the PSNR against truth of " + named.name, drawing.psnr_truth, "dB"};
 }
 
-Quantity psnr_blurred_of(const Named& named, const Drawing& drawing) {
+Quantity psnr_blurred_of(const NamedConfig& named, const MeasuredPicture& drawing) {
   return {"the PSNR after a blur of " + named.name, drawing.psnr_blurred, "dB"};
 }
 
-Quantity flip_of(const Named& named, const Drawing& drawing) {
+Quantity flip_of(const NamedConfig& named, const MeasuredPicture& drawing) {
   return {"the FLIP of " + named.name, drawing.flip, "", 4};
 }
 
-report::Html crop_tiles(Workbench& bench, const std::vector<Named>& looks, const Crop& crop) {
+report::Html crop_tiles(Workbench& bench, const std::vector<NamedConfig>& configs, const Crop& crop) {
   std::vector<report::Tile> tiles;
-  for (const Named& named : looks) {
-    const Drawing& drawing = bench.draw(named.look);
+  for (const NamedConfig& named : configs) {
+    const MeasuredPicture& drawing = bench.draw(named.config);
     const std::string note = "PSNR " + report::fixed(drawing.psnr_pcss, 2) + " dB, after a blur " +
                              report::fixed(drawing.psnr_blurred, 2) + " dB";
     tiles.push_back(tile(named.name, note, enlarged(drawing.visibility, bench.width(), crop)));
@@ -121,18 +121,18 @@ report::Html crop_tiles(Workbench& bench, const std::vector<Named>& looks, const
   return report::tiles(tiles);
 }
 
-report::Html quality_table(Finding& finding, Workbench& bench, const std::vector<Named>& looks) {
+report::Html quality_table(Finding& finding, Workbench& bench, const std::vector<NamedConfig>& configs) {
   using report::Best;
   report::Table table{
       .caption = "In the penumbra, against converged PCSS unless it says otherwise.",
       .columns = {{"Picture"},
                   {"PSNR", "dB", "Over receivers whose reference is between 0.02 and 0.98.", Best::highest},
                   {"PSNR after a blur", "dB", "Errors first go through a Gaussian of 1.5 pixels.", Best::highest},
-                  {"FLIP", "", "How different the two look to somebody who flips between them, 0 to 1.", Best::lowest},
+                  {"FLIP", "", "How different the two look to a viewer who flips between them, 0 to 1.", Best::lowest},
                   {"PSNR against truth", "dB", "The same against the ray-traced picture.", Best::highest}},
       .rows = {}};
-  for (const Named& named : looks) {
-    const Drawing& drawing = bench.draw(named.look);
+  for (const NamedConfig& named : configs) {
+    const MeasuredPicture& drawing = bench.draw(named.config);
     finding.record(psnr_of(named, drawing));
     finding.record(psnr_blurred_of(named, drawing));
     finding.record(flip_of(named, drawing));

@@ -22,32 +22,32 @@ Crop best_crop(const Workbench& bench, std::span<const double> weights);
 Crop noisiest_crop(const Workbench& bench);
 
 // Values from 0 to 1 as grey, enlarged without interpolation to about the width of a tile.
-report::Picture enlarged(std::span<const float> pixels, int width, int height);
-report::Picture enlarged(std::span<const float> pixels, int width, const Crop& crop);
-// As it is.
-report::Picture grey_picture(std::span<const float> pixels, int width, int height);
-report::Picture colour_picture(const std::vector<std::uint8_t>& rgb, int width, int height);
+report::EncodedPicture enlarged(std::span<const float> pixels, int width, int height);
+report::EncodedPicture enlarged(std::span<const float> pixels, int width, const Crop& crop);
+// At their own size.
+report::EncodedPicture grey_picture(std::span<const float> pixels, int width, int height);
+report::EncodedPicture colour_picture(const std::vector<std::uint8_t>& rgb, int width, int height);
 
 // A picture under a title.
-report::Tile tile(const std::string& title, const std::string& note, const report::Picture& picture);
+report::Tile tile(const std::string& title, const std::string& note, const report::EncodedPicture& picture);
 
-// A look by the name that it goes by in a figure.
-struct Named {
+// A configuration and the name that a figure gives it.
+struct NamedConfig {
   std::string name;
-  Look look;
+  ShadowConfig config;
 };
 // Crops side by side, each with its figures.
-report::Html crop_tiles(Workbench& bench, const std::vector<Named>& looks, const Crop& crop);
-// What all drawings are measured by, recorded in the finding: a row each.
-report::Html quality_table(Finding& finding, Workbench& bench, const std::vector<Named>& looks);
+report::Html crop_tiles(Workbench& bench, const std::vector<NamedConfig>& configs, const Crop& crop);
+// A table of each picture's figures, which are recorded in the finding too.
+report::Html quality_table(Finding& finding, Workbench& bench, const std::vector<NamedConfig>& configs);
 
-// What it takes to be "significantly" or "much" better: a fifth less of squared error.
+// How much better counts as "significantly" or "much" better: a fifth less squared error.
 constexpr double clear_gain = 1;  // dB
 
-// Figures of a drawing, as recorded: "PSNR of NAME".
-Quantity psnr_of(const Named& named, const Drawing& drawing);
-Quantity psnr_truth_of(const Named& named, const Drawing& drawing);
-Quantity psnr_blurred_of(const Named& named, const Drawing& drawing);
-Quantity flip_of(const Named& named, const Drawing& drawing);
+// Figures of a picture as they are recorded: "PSNR of NAME".
+Quantity psnr_of(const NamedConfig& named, const MeasuredPicture& drawing);
+Quantity psnr_truth_of(const NamedConfig& named, const MeasuredPicture& drawing);
+Quantity psnr_blurred_of(const NamedConfig& named, const MeasuredPicture& drawing);
+Quantity flip_of(const NamedConfig& named, const MeasuredPicture& drawing);
 
 }  // namespace penumbra::reproduce

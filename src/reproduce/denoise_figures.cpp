@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "report/number.h"
+#include "reproduce/configs.h"
 #include "reproduce/figures.h"
-#include "reproduce/looks.h"
 
 namespace penumbra::reproduce {
 
@@ -20,23 +20,23 @@ std::string test_of(const Workbench& bench) {
       report::fixed(fixed_sigma(bench), 1));
 }
 
-Quantity psnr(Workbench& bench, const Named& named) { return psnr_of(named, bench.draw(named.look)); }
+Quantity psnr(Workbench& bench, const NamedConfig& named) { return psnr_of(named, bench.draw(named.config)); }
 
-std::vector<Named> filtered(const Workbench& bench, const std::vector<Named>& noisy) {
-  std::vector<Named> looks;
-  for (const Named& named : noisy) looks.push_back(denoised(bench, named, filter_name));
-  return looks;
+std::vector<NamedConfig> filtered(const Workbench& bench, const std::vector<NamedConfig>& noisy) {
+  std::vector<NamedConfig> configs;
+  for (const NamedConfig& named : noisy) configs.push_back(denoised(bench, named, filter_name));
+  return configs;
 }
 
-// Crops of all looks before the filter, and under them the same after it.
-Finding finding_of(Workbench& bench, const char* id, const char* title, const std::vector<Named>& before,
-                   const std::vector<Named>& after) {
+// Crops of all configs before the filter, and under them the same after it.
+Finding finding_of(Workbench& bench, const char* id, const char* title, const std::vector<NamedConfig>& before,
+                   const std::vector<NamedConfig>& after) {
   Finding finding;
   finding.id = id;
   finding.title = title;
   finding.test = test_of(bench);
   const Crop crop = noisiest_crop(bench);
-  std::vector<Named> all = before;
+  std::vector<NamedConfig> all = before;
   all.insert(all.end(), after.begin(), after.end());
   finding.body = crop_tiles(bench, before, crop);
   finding.body.add(crop_tiles(bench, after, crop)).add(quality_table(finding, bench, all));
@@ -44,7 +44,7 @@ Finding finding_of(Workbench& bench, const char* id, const char* title, const st
 }
 
 // Receivers whose visibility differs by what 8 bits show.
-std::vector<std::uint8_t> differing(const Drawing& a, const Drawing& b) {
+std::vector<std::uint8_t> differing(const MeasuredPicture& a, const MeasuredPicture& b) {
   std::vector<std::uint8_t> mask(a.visibility.size());
   for (std::size_t i = 0; i < mask.size(); ++i)
     mask[i] = std::abs(a.visibility[i] - b.visibility[i]) > 1.0f / 255 ? 1 : 0;
@@ -54,8 +54,9 @@ std::vector<std::uint8_t> differing(const Drawing& a, const Drawing& b) {
 }  // namespace
 
 Finding figure_4_8(Workbench& bench) {
-  const std::vector<Named> before{sampled("white", "hammersley", few_taps), sampled("white", "poisson", few_taps)};
-  const std::vector<Named> after = filtered(bench, before);
+  const std::vector<NamedConfig> before{sampled("white", "hammersley", few_taps),
+                                        sampled("white", "poisson", few_taps)};
+  const std::vector<NamedConfig> after = filtered(bench, before);
   Finding finding = finding_of(bench, "4.8", "White noise denoised: Hammersley and Poisson disk", before, after);
   finding.claim =
       "Two penumbrae with white noise side by side; the thesis prefers low-discrepancy points (chapter 6), so "
@@ -66,9 +67,9 @@ Finding figure_4_8(Workbench& bench) {
 }
 
 Finding figure_4_9(Workbench& bench) {
-  std::vector<Named> before;
+  std::vector<NamedConfig> before;
   for (const Taps& taps : {few_taps, some_taps, many_taps}) before.push_back(sampled("white", "hammersley", taps));
-  const std::vector<Named> after = filtered(bench, before);
+  const std::vector<NamedConfig> after = filtered(bench, before);
   Finding finding = finding_of(bench, "4.9", "White noise and Hammersley points, denoised", before, after);
   finding.claim = "A bilateral filter improves the overall quality (chapter 5).";
   finding.test += " And at 32×32 and 64×64.";
@@ -77,11 +78,11 @@ Finding figure_4_9(Workbench& bench) {
 }
 
 Finding figure_4_10(Workbench& bench) {
-  std::vector<Named> before;
+  std::vector<NamedConfig> before;
   for (const char* pattern : {"poisson", "hammersley"}) {
     for (const char* noise : {"white", "blue"}) before.push_back(sampled(noise, pattern, few_taps));
   }
-  const std::vector<Named> after = filtered(bench, before);
+  const std::vector<NamedConfig> after = filtered(bench, before);
   Finding finding = finding_of(bench, "4.10", "Denoising overview", before, after);
   finding.claim = "Blue noise, with its weak low frequencies, is much easier to denoise (section 2.6.2).";
   finding.test += " After the filter blue noise must be at least 1 dB above white, for both patterns.";
@@ -91,10 +92,10 @@ Finding figure_4_10(Workbench& bench) {
 }
 
 Finding figure_4_11(Workbench& bench) {
-  const Named noisy = sampled("blue", "hammersley", few_taps);
-  const Named bilateral = denoised(bench, noisy, filter_name), gaussian = denoised(bench, noisy, "gaussian");
-  const Drawing& by_bilateral = bench.draw(bilateral.look);
-  const Drawing& by_gaussian = bench.draw(gaussian.look);
+  const NamedConfig noisy = sampled("blue", "hammersley", few_taps);
+  const NamedConfig bilateral = denoised(bench, noisy, filter_name), gaussian = denoised(bench, noisy, "gaussian");
+  const MeasuredPicture& by_bilateral = bench.draw(bilateral.config);
+  const MeasuredPicture& by_gaussian = bench.draw(gaussian.config);
   const std::vector<std::uint8_t> where = differing(by_bilateral, by_gaussian);
   Finding finding;
   finding.id = "4.11";
@@ -109,12 +110,12 @@ Finding figure_4_11(Workbench& bench) {
     weights[i] =
         std::abs(static_cast<double>(by_bilateral.visibility[i]) - static_cast<double>(by_gaussian.visibility[i]));
   const Crop crop = best_crop(bench, weights);
-  const std::vector<Named> looks{noisy, gaussian, bilateral};
-  finding.body = crop_tiles(bench, looks, crop);
+  const std::vector<NamedConfig> configs{noisy, gaussian, bilateral};
+  finding.body = crop_tiles(bench, configs, crop);
   finding.body.add(report::tiles({tile("converged PCSS", "", enlarged(bench.pcss(), bench.width(), crop)),
                                   tile("truth", "ray traced", enlarged(bench.truth(), bench.width(), crop))}));
-  finding.body.add(quality_table(finding, bench, looks));
-  const auto rmse = [&](const char* name, const Drawing& drawing) {
+  finding.body.add(quality_table(finding, bench, configs));
+  const auto rmse = [&](const char* name, const MeasuredPicture& drawing) {
     return Quantity{std::string("the RMSE about edges of the ") + name, bench.errors_at(drawing, where).rmse, "", 4};
   };
   finding.expect_below(rmse("bilateral filter", by_bilateral), rmse("Gaussian", by_gaussian));

@@ -8,7 +8,7 @@
 
 namespace penumbra::reproduce {
 
-// Something measured, under a name that is its own within a finding.
+// A measured value, with a name that is unique within its finding.
 struct Quantity {
   std::string name;
   double value = 0;
@@ -18,8 +18,7 @@ struct Quantity {
   std::string text() const;  // "31.20 dB"
 };
 
-// What the program found about one figure of the thesis. The verdict and its sentence follow from what was measured:
-// nothing else is written into them.
+// What was measured about one figure of the thesis. The verdict and its sentence follow from the measurements alone.
 class Finding {
  public:
   std::string id;     // "4.3"
@@ -35,7 +34,7 @@ class Finding {
   void expect_at_least(const Quantity& a, double limit);
   void expect_near(const Quantity& a, const Quantity& b, double tolerance);
 
-  // Records a figure. Of one name the first counts.
+  // Records a value; a second one of the same name is ignored.
   void record(const Quantity& quantity);
 
   const std::vector<Quantity>& quantities() const { return quantities_; }

@@ -69,7 +69,7 @@ metrics::Plane blurred(const metrics::Plane& plane) {
 
 Quantity psnr(const std::string& name, const metrics::Plane& test, const metrics::Plane& reference) {
   const auto picture = [](const metrics::Plane& plane) {
-    return metrics::Picture{.width = plane.width, .height = plane.height, .pixels = plane.pixels};
+    return metrics::ImageView{.width = plane.width, .height = plane.height, .pixels = plane.pixels};
   };
   return {name, metrics::error_figures(picture(test), picture(reference)).psnr, "dB"};
 }

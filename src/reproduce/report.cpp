@@ -17,7 +17,7 @@ namespace {
 using penumbra::report::Html;
 
 constexpr std::string_view quick_warning =
-    "A quick run: small pictures, few frames and rays. Its figures are a look, no measurement.";
+    "A quick run: small pictures, few frames and rays. Its figures are a preview, not a measurement.";
 
 constexpr int findings_before = 1;  // sections before the first figure's
 

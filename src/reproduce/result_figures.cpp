@@ -54,10 +54,10 @@ report::Html heat_map(const bench::Results& results) {
 }  // namespace
 
 Finding figure_4_12(Workbench& bench) {
-  const Named many{"256×256 taps", {"brute_force", {}}};
-  const Named few{"8×8 taps with blue noise and a bilateral filter", {"thesis_8x8", {}}};
-  const Drawing& drawing = bench.draw(few.look);
-  const std::vector<double> costs = bench.costs({many.look, few.look});
+  const NamedConfig many{"256×256 taps", {"brute_force", {}}};
+  const NamedConfig few{"8×8 taps with blue noise and a bilateral filter", {"thesis_8x8", {}}};
+  const MeasuredPicture& drawing = bench.draw(few.config);
+  const std::vector<double> costs = bench.costs({many.config, few.config});
   Finding finding;
   finding.id = "4.12";
   finding.title = "Result";
@@ -82,7 +82,7 @@ Finding figure_4_12(Workbench& bench) {
         .note = "PSNR " + report::fixed(drawing.psnr_truth, 2) + " dB",
         .body = report::picture_slider(figure("8×8", drawing.visibility), figure("truth", bench.truth()))}});
   finding.body.add(
-      crop_tiles(bench, {{"256×256 taps", many.look}, {"8×8 taps and a filter", few.look}}, noisiest_crop(bench)));
+      crop_tiles(bench, {{"256×256 taps", many.config}, {"8×8 taps and a filter", few.config}}, noisiest_crop(bench)));
   finding.body.add(quality_table(finding, bench, {many, few}));
   finding.record({"the cost of 256×256 taps", costs[0], "ms", 1});
   finding.record({"the cost of 8×8 taps with a filter", costs[1], "ms", 1});

@@ -51,12 +51,12 @@ std::vector<float> with_salt_and_pepper(std::vector<float> pixels) {
 }
 
 Quantity psnr(const std::string& name, const Workbench& bench, const std::vector<float>& pixels) {
-  const metrics::Picture test{.width = bench.width(), .height = bench.height(), .pixels = pixels};
-  const metrics::Picture truth{.width = bench.width(), .height = bench.height(), .pixels = bench.truth()};
+  const metrics::ImageView test{.width = bench.width(), .height = bench.height(), .pixels = pixels};
+  const metrics::ImageView truth{.width = bench.width(), .height = bench.height(), .pixels = bench.truth()};
   return {"the PSNR of " + name, metrics::error_figures(test, truth).psnr, "dB"};
 }
 
-Named thesis_with_median(const char* median) {
+NamedConfig thesis_with_median(const char* median) {
   const bool on = std::string_view(median) == "median";
   return {on ? "8/8 taps with a median of blocker distances" : "the same without",
           {"thesis_8x8", {std::string("filter.penumbra=") + median}}};
@@ -85,13 +85,14 @@ Finding figure_2_14(Workbench& bench) {
   const auto shown = [&](const char* title, const Quantity& quantity, const std::vector<float>& pixels) {
     return tile(title, "PSNR " + quantity.text(), enlarged(pixels, bench.width(), crop));
   };
-  const std::vector<Named> looks{thesis_with_median("median"), thesis_with_median("none")};
+  const std::vector<NamedConfig> configs{thesis_with_median("median"), thesis_with_median("none")};
   finding.record(of_noisy);
   finding.body = report::tiles({shown("Salt and pepper", of_noisy, noisy), shown("Box, 3 × 3", of_box, box),
                                 shown("Median, 3 × 3", of_median, median)});
-  finding.body.add(quality_table(finding, bench, looks));
+  finding.body.add(quality_table(finding, bench, configs));
   finding.expect_above(of_median, of_box);
-  finding.expect_above(psnr_of(looks[0], bench.draw(looks[0].look)), psnr_of(looks[1], bench.draw(looks[1].look)));
+  finding.expect_above(psnr_of(configs[0], bench.draw(configs[0].config)),
+                       psnr_of(configs[1], bench.draw(configs[1].config)));
   return finding;
 }
 
@@ -103,12 +104,12 @@ Finding figure_4_1(Workbench& bench) {
     const float seen = bench.truth()[i];
     if (seen >= metrics::penumbra_low && seen <= metrics::penumbra_high) ++penumbra;
   }
-  const Named hard{"hard shadows", {"hard", {}}};
-  const Named pcss{"converged PCSS", Workbench::pcss_look()};
-  const auto figure = [&](const char* label, const Look& look) {
+  const NamedConfig hard{"hard shadows", {"hard", {}}};
+  const NamedConfig pcss{"converged PCSS", Workbench::pcss_config()};
+  const auto figure = [&](const char* label, const ShadowConfig& config) {
     return report::Figure{.label = label,
                           .alt = std::string("The reference scene, ") + label,
-                          .picture = colour_picture(bench.display(look), bench.width(), bench.height())};
+                          .picture = colour_picture(bench.display(config), bench.width(), bench.height())};
   };
   const auto visibility = [&](const char* label, const std::vector<float>& pixels) {
     return report::Figure{.label = label,
@@ -126,18 +127,18 @@ Finding figure_4_1(Workbench& bench) {
   finding.body = report::tiles(
       {{.title = "The scene",
         .note = "hard shadows against the ray-traced truth",
-        .body = report::picture_slider(figure("hard", hard.look), figure("truth", bench.truth_look()))},
+        .body = report::picture_slider(figure("hard", hard.config), figure("truth", bench.truth_config()))},
        {.title = "Visibility of the sun",
         .note = "converged PCSS against the ray-traced truth",
         .body = report::picture_slider(visibility("PCSS", bench.pcss()), visibility("truth", bench.truth()))}});
-  const metrics::ErrorFigures off = bench.draw(pcss.look).to_truth;
+  const metrics::ErrorFigures off = bench.draw(pcss.config).to_truth;
   finding.record({"the PSNR against truth of converged PCSS", off.psnr_penumbra, "dB"});
   finding.record({"the bias against truth of converged PCSS", off.bias, "", 5});
-  finding.record({"the PSNR against truth of hard shadows", bench.draw(hard.look).psnr_truth, "dB"});
+  finding.record({"the PSNR against truth of hard shadows", bench.draw(hard.config).psnr_truth, "dB"});
   finding.body.add(report::Html("<p>Against the truth, in the penumbra, converged PCSS has a PSNR of ")
                        .text(report::fixed(off.psnr_penumbra, 2))
                        .add(" dB and hard shadows one of ")
-                       .text(report::fixed(bench.draw(hard.look).psnr_truth, 2))
+                       .text(report::fixed(bench.draw(hard.config).psnr_truth, 2))
                        .add(" dB.</p>\n"));
   finding.expect_at_least({"the share of receivers in the penumbra",
                            100 * static_cast<double>(penumbra) / static_cast<double>(receivers), "%", 1},

@@ -26,7 +26,7 @@ metrics::Plane blurred(const metrics::Plane& plane) {
 
 }  // namespace
 
-std::string Look::key() const { return fmt::format("{} {}", technique, fmt::join(values, " ")); }
+std::string ShadowConfig::key() const { return fmt::format("{} {}", technique, fmt::join(values, " ")); }
 
 Workbench::Workbench(const Options& options, std::function<void()> drawn)
     : options_(options),
@@ -36,44 +36,46 @@ Workbench::Workbench(const Options& options, std::function<void()> drawn)
       prepared_(session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)))),
       session_(options, options, session::open_context(options, options), prepared_, techniques_, /* timed= */ true),
       device_(session_.device_info()) {
-  truth_picture_ = picture_of(truth_look());
+  truth_picture_ = picture_of(truth_config());
   receivers_ = render::receivers_of(session_.renderer(), session_.setup().sun.to_light, sun_angle());
-  pcss_picture_ = picture_of(pcss_look());
-  drawings_.emplace(pcss_look().key(), measured(pcss_picture_));
+  pcss_picture_ = picture_of(pcss_config());
+  drawings_.emplace(pcss_config().key(), measured(pcss_picture_));
 }
 
-Look Workbench::truth_look() const { return {"truth", {fmt::format("truth.samples={}", options_.truth_samples())}}; }
+ShadowConfig Workbench::truth_config() const {
+  return {"truth", {fmt::format("truth.samples={}", options_.truth_samples())}};
+}
 
-Look Workbench::pcss_look() { return {"brute_force", {"sampling.seed=4711"}}; }
+ShadowConfig Workbench::pcss_config() { return {"brute_force", {"sampling.seed=4711"}}; }
 
-double Workbench::sun_angle() const { return static_cast<double>(params_of(pcss_look()).get_float("sun.angle")); }
+double Workbench::sun_angle() const { return static_cast<double>(params_of(pcss_config()).get_float("sun.angle")); }
 
-ParamSet Workbench::params_of(const Look& look) const {
+ParamSet Workbench::params_of(const ShadowConfig& config) const {
   cli::ShadowOptions shadow;
-  shadow.technique = look.technique;
-  shadow.assignments = look.values;
+  shadow.technique = config.technique;
+  shadow.assignments = config.values;
   return cli::resolve_params(shadow, techniques_);
 }
 
-std::vector<float> Workbench::picture_of(const Look& look) {
-  session_.draw(0, params_of(look));
+std::vector<float> Workbench::picture_of(const ShadowConfig& config) {
+  session_.draw(0, params_of(config));
   drawn_();
   return session_.renderer().read_aov("shadow");
 }
 
-metrics::Picture Workbench::as_picture(const std::vector<float>& pixels) const {
+metrics::ImageView Workbench::as_picture(const std::vector<float>& pixels) const {
   return {.width = width(), .height = height(), .pixels = pixels};
 }
 
-const Drawing& Workbench::draw(const Look& look) {
-  const std::string key = look.key();
+const MeasuredPicture& Workbench::draw(const ShadowConfig& config) {
+  const std::string key = config.key();
   const auto known = drawings_.find(key);
-  return known != drawings_.end() ? known->second : drawings_.emplace(key, measured(picture_of(look))).first->second;
+  return known != drawings_.end() ? known->second : drawings_.emplace(key, measured(picture_of(config))).first->second;
 }
 
-Drawing Workbench::measured(std::vector<float> visibility) const {
-  Drawing drawing{.visibility = std::move(visibility)};
-  const metrics::Picture test = as_picture(drawing.visibility), pcss = as_picture(pcss_picture_);
+MeasuredPicture Workbench::measured(std::vector<float> visibility) const {
+  MeasuredPicture drawing{.visibility = std::move(visibility)};
+  const metrics::ImageView test = as_picture(drawing.visibility), pcss = as_picture(pcss_picture_);
   drawing.to_pcss = metrics::error_figures(test, pcss, receivers_);
   drawing.to_truth = metrics::error_figures(test, as_picture(truth_picture_), receivers_);
   drawing.psnr_pcss = drawing.to_pcss.psnr_penumbra;
@@ -104,18 +106,19 @@ double Workbench::psnr_blurred(const std::vector<float>& visibility) const {
   return metrics::psnr_of(squared / static_cast<double>(count));
 }
 
-metrics::ErrorFigures Workbench::errors_at(const Drawing& drawing, const std::vector<std::uint8_t>& mask) const {
+metrics::ErrorFigures Workbench::errors_at(const MeasuredPicture& drawing,
+                                           const std::vector<std::uint8_t>& mask) const {
   std::vector<std::uint8_t> both(mask.size());
   for (std::size_t i = 0; i < both.size(); ++i) both[i] = mask[i] != 0 && receivers_[i] != 0 ? 1 : 0;
   return metrics::error_figures(as_picture(drawing.visibility), as_picture(pcss_picture_), both);
 }
 
-std::vector<double> Workbench::costs(const std::vector<Look>& looks) {
-  std::vector<bench::PassTimes> times(looks.size());
-  for (const Look& look : looks) session_.draw(0, params_of(look));  // compiles
+std::vector<double> Workbench::costs(const std::vector<ShadowConfig>& configs) {
+  std::vector<bench::PassTimes> times(configs.size());
+  for (const ShadowConfig& config : configs) session_.draw(0, params_of(config));  // compiles
   for (int frame = 0; frame < options_.cost_frames(); ++frame) {
-    for (std::size_t i = 0; i < looks.size(); ++i) {
-      session_.draw(0, params_of(looks[i]));
+    for (std::size_t i = 0; i < configs.size(); ++i) {
+      session_.draw(0, params_of(configs[i]));
       times[i].append(session_.device().timers.rows(), session_.device().timers.cpu_milliseconds(), 1);
     }
   }
@@ -124,8 +127,8 @@ std::vector<double> Workbench::costs(const std::vector<Look>& looks) {
   return medians;
 }
 
-std::vector<std::uint8_t> Workbench::display(const Look& look) {
-  session_.draw(0, params_of(look));
+std::vector<std::uint8_t> Workbench::display(const ShadowConfig& config) {
+  session_.draw(0, params_of(config));
   return session_.renderer().read_display();
 }
 

@@ -28,7 +28,7 @@ struct Options : cli::SceneOptions, cli::DeviceOptions, session::CacheOptions {
 };
 
 // How something is drawn: a technique or a preset, and values ("pcss.filter_taps=8") that differ from its own.
-struct Look {
+struct ShadowConfig {
   std::string technique = "pcss";
   std::vector<std::string> values;
 
@@ -36,32 +36,32 @@ struct Look {
 };
 
 // A visibility picture against both references, over the receivers.
-struct Drawing {
+struct MeasuredPicture {
   std::vector<float> visibility;
   double psnr_pcss = 0, psnr_truth = 0;  // in the penumbra, dB
-  // The same against converged PCSS where errors are blurred first: what is left for an eye, or a denoiser, that takes
-  // the mean over neighbours. Grain falls away, bands and blotches stay.
+  // The same against converged PCSS where errors are blurred first: what remains for a viewer or a
+  // denoiser that averages neighbours. Grain disappears, bands and blotches remain.
   double psnr_blurred = 0;
   double flip = 0;        // against converged PCSS
   double width_bias = 0;  // of penumbra widths, against converged PCSS; a share of the width
   metrics::ErrorFigures to_pcss, to_truth;
 };
 
-// The scene, and all that is drawn of it in a run: each thing once.
+// The scene, its references and the pictures drawn of it, each drawn once.
 class Workbench {
  public:
   // `drawn` is called after each picture. Opens a context, which stays current. Throws Error.
   Workbench(const Options& options, std::function<void()> drawn);
 
   // Valid as long as the workbench.
-  const Drawing& draw(const Look& look);
-  // Median of the passes between G-buffer and lighting, ms. Each look is drawn anew, in turn, so that a machine that
+  const MeasuredPicture& draw(const ShadowConfig& config);
+  // Median of the passes between G-buffer and lighting, ms. The configurations take turns, so that a machine that
   // slows down meanwhile slows all of them.
-  std::vector<double> costs(const std::vector<Look>& looks);
+  std::vector<double> costs(const std::vector<ShadowConfig>& configs);
   // RGB, 8 bits.
-  std::vector<std::uint8_t> display(const Look& look);
+  std::vector<std::uint8_t> display(const ShadowConfig& config);
   // A picture's errors within some of the receivers, against converged PCSS.
-  metrics::ErrorFigures errors_at(const Drawing& drawing, const std::vector<std::uint8_t>& mask) const;
+  metrics::ErrorFigures errors_at(const MeasuredPicture& drawing, const std::vector<std::uint8_t>& mask) const;
 
   const std::vector<float>& truth() const { return truth_picture_; }
   const std::vector<float>& pcss() const { return pcss_picture_; }
@@ -72,15 +72,15 @@ class Workbench {
   const gl::DeviceInfo& device() const { return device_; }
   double sun_angle() const;  // full angle, degrees
 
-  Look truth_look() const;
-  // Its noise lies elsewhere than that of what is measured against it, lest errors of both agree.
-  static Look pcss_look();
+  ShadowConfig truth_config() const;
+  // With another seed than the measured pictures have, so that their errors are independent.
+  static ShadowConfig pcss_config();
 
  private:
-  ParamSet params_of(const Look& look) const;
-  std::vector<float> picture_of(const Look& look);
-  Drawing measured(std::vector<float> visibility) const;
-  metrics::Picture as_picture(const std::vector<float>& pixels) const;
+  ParamSet params_of(const ShadowConfig& config) const;
+  std::vector<float> picture_of(const ShadowConfig& config);
+  MeasuredPicture measured(std::vector<float> visibility) const;
+  metrics::ImageView as_picture(const std::vector<float>& pixels) const;
   double psnr_blurred(const std::vector<float>& visibility) const;
 
   const Options& options_;
@@ -92,7 +92,7 @@ class Workbench {
   gl::DeviceInfo device_;
   std::vector<float> truth_picture_, pcss_picture_;
   std::vector<std::uint8_t> receivers_;
-  std::map<std::string, Drawing> drawings_;
+  std::map<std::string, MeasuredPicture> drawings_;
 };
 
 }  // namespace penumbra::reproduce

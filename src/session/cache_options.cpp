@@ -13,10 +13,9 @@ std::filesystem::path CacheOptions::folder() const {
 }
 
 void add_cache_options(CLI::App& app, CacheOptions& options) {
-  cli::add_value(app, "--cache", "DIR", "Where ray-traced shadows are kept ($XDG_CACHE_HOME/penumbra/truth)",
+  cli::add_value(app, "--cache", "DIR", "Folder in which ray-traced shadows are kept ($XDG_CACHE_HOME/penumbra/truth)",
                  [&options](const auto& text) { options.cache = text; });
-  app.add_flag("--no-cache", options.no_cache, "Ray traced shadows are neither looked up nor kept")
-      ->disable_flag_override();
+  app.add_flag("--no-cache", options.no_cache, "Neither look up nor keep ray-traced shadows")->disable_flag_override();
 }
 
 void check_together(const CacheOptions& options) {

@@ -8,12 +8,12 @@
 
 namespace penumbra::session {
 
-// Where ray-traced shadows are kept.
+// Whether and where ray-traced shadows are kept between runs.
 struct CacheOptions {
   std::optional<std::string> cache;
   bool no_cache = false;
 
-  std::filesystem::path folder() const;  // empty: nowhere
+  std::filesystem::path folder() const;  // empty: they are not kept
 };
 
 void add_cache_options(CLI::App& app, CacheOptions& options);

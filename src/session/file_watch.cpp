@@ -107,7 +107,7 @@ void FileWatch::survey_file(Survey& survey, const fs::path& file) {
                         .mode = status.st_mode};
 }
 
-// `above` are the real folders that this one lies in: a link to one of them leads nowhere new.
+// `above` are the real folders that this one lies in: a link to one of them would be a loop.
 void FileWatch::survey_folder(Survey& survey, const fs::path& folder, std::set<fs::path>& above) {
   std::error_code error;
   const fs::path real = fs::canonical(folder, error);
@@ -176,14 +176,14 @@ void FileWatch::refresh() {
 
 std::vector<fs::path> FileWatch::poll(std::chrono::milliseconds timeout) {
   const Clock::time_point end = Clock::now() + timeout;
-  tell_fault();
+  throw_fault();
   while (true) {
     Clock::time_point now = Clock::now();
     read_events(now);
-    const Clock::time_point due = std::min(last_event_ + rest, first_event_ + longest_unrest);
+    const Clock::time_point due = std::min(last_event_ + idle, first_event_ + longest_wait);
     if (pending_ && now >= due) {
       if (std::vector<fs::path> changes = take_changes(); !changes.empty()) return changes;
-      tell_fault();
+      throw_fault();
       now = Clock::now();
     }
     if (now >= end) return {};
@@ -193,7 +193,7 @@ std::vector<fs::path> FileWatch::poll(std::chrono::milliseconds timeout) {
   }
 }
 
-void FileWatch::tell_fault() {
+void FileWatch::throw_fault() {
   if (fault_) std::rethrow_exception(std::exchange(fault_, nullptr));
 }
 

@@ -12,16 +12,17 @@
 
 namespace penumbra::session {
 
-// Tells which files were saved, by inotify: a descriptor that poll() reads, no thread. A change is told once it has
-// come to rest, so that a half-written file or a burst of saves is one change. It does not matter how an editor saves:
-// in place, by renaming over the file, or by deleting and making it anew. Paths are resolved through symbolic links,
-// and every folder on the way is watched, so that links may be turned and folders removed and made again.
+// Tells which files were saved, by inotify: a descriptor that poll() reads, no thread. A change is reported once
+// nothing more has changed for a while, so that a half-written file or a burst of saves is one change. It does not
+// matter how an editor saves: in place, by renaming over the file, or by deleting and creating it. Paths are resolved
+// through symbolic links, and every folder on the way is watched, so that links may change and folders be removed and
+// created again.
 class FileWatch {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // A change is told after so long without another, and at the latest so long after its first event.
-  static constexpr std::chrono::milliseconds rest{50}, longest_unrest{300};
+  // A change is reported after `idle` without another event, and at the latest `longest_wait` after its first event.
+  static constexpr std::chrono::milliseconds idle{50}, longest_wait{300};
 
   // Throws Error where the system's limit of inotify instances is reached.
   FileWatch();
@@ -38,8 +39,8 @@ class FileWatch {
 
   // The files that were written, made, renamed or deleted, each once, sorted, under the names that they were added by
   // (a folder's: folder / "lib/a.glsl"). Waits at most `timeout`; without one it never waits, which is cheap enough for
-  // every frame. After an overflow of the system's queue all files are told. Throws Error as add_folder() does, when a
-  // new sub-folder can't be watched any more; changes that were found with it are told first.
+  // every frame. After an overflow of the system's queue all files are returned. Throws Error as add_folder() does,
+  // when a new sub-folder can't be watched any more; changes that were found with it are reported first.
   std::vector<std::filesystem::path> poll(std::chrono::milliseconds timeout = std::chrono::milliseconds(0));
 
  private:
@@ -67,7 +68,7 @@ class FileWatch {
   Survey survey() const;
   bool watch_places();
   void refresh();
-  void tell_fault();
+  void throw_fault();
 
   void read_events(Clock::time_point now);
   void note(int descriptor, std::uint32_t mask, const char* name);
@@ -82,7 +83,7 @@ class FileWatch {
   bool lost_ = false;  // the queue overflowed
   Clock::time_point first_event_, last_event_;
   std::set<std::filesystem::path> touched_;
-  std::exception_ptr fault_;  // not told yet
+  std::exception_ptr fault_;  // to be thrown by the next poll()
 };
 
 }  // namespace penumbra::session

@@ -15,17 +15,17 @@ struct PreparedScene {
   render::Setup setup;   // at --time
 };
 
-// Sets a scene up. What is chosen from its bounds is chosen at --time, so that it is the same in all frames of a
-// sequence, wherever one starts. Throws Error.
+// Adds the ground and chooses camera and sun. What depends on the scene's bounds is chosen at --time, so that it is the
+// same in all frames of a sequence, whichever is drawn first. Throws Error.
 PreparedScene prepare_scene(scene::Scene scene, const cli::SceneOptions& options);
 
 // Reads the scene and sets it up. Throws Error.
 PreparedScene load_scene(const cli::SceneOptions& options, const scene::ImageDecoder& decode);
 
-// Chooses camera and sun anew for options that changed. Scene and ground stay. Throws Error.
+// Chooses camera and sun again for changed options. Scene and ground stay as they are. Throws Error.
 void update_view(PreparedScene& prepared, const cli::SceneOptions& options);
 
-// The setup at a moment: a camera and a sun of the file follow its animation.
+// The setup at a time: a camera and a sun of the file follow its animation.
 render::Setup setup_at(const PreparedScene& prepared, double seconds);
 
 // When a frame is, and what came before it.

@@ -81,7 +81,7 @@ void BackgroundTracer::trace(PictureRequest& request, const std::stop_token& can
   }
 }
 
-// What happens to a picture that nobody waits for is no error.
+// An exception of a cancelled picture is no error.
 void BackgroundTracer::give_up(std::exception_ptr error, const std::stop_token& cancelled) {
   const std::lock_guard lock(mutex_);
   if (cancelled.stop_requested()) return;

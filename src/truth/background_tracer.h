@@ -20,10 +20,10 @@ class BackgroundTracer {
   BackgroundTracer(const BackgroundTracer&) = delete;
   BackgroundTracer& operator=(const BackgroundTracer&) = delete;
 
-  // Begins with this picture in the place of the one before, whose error is forgotten. Progress is called on the
+  // Starts this picture instead of the one before, whose error is forgotten. Progress is called on the
   // tracer's thread; when it says to stop, that is an error. Throws Error if the system has no thread.
   void start(PictureRequest request);
-  // Nobody waits for the picture any more: what it refers to is still read for a while.
+  // Cancels the picture and returns at once; the thread may still read what the picture refers to for a while.
   void cancel();
   // Cancels, and returns when nothing is read any more.
   void stop();

@@ -80,7 +80,7 @@ bool keep_to_limit(void* pointer, ssize_t bytes, bool /*already_done*/) {
 }
 
 // On Embree's threads.
-bool goes_on(void* pointer, double /*share_done*/) {
+bool report_progress(void* pointer, double /*share_done*/) {
   return !static_cast<const BuildOptions*>(pointer)->stop.stop_requested();
 }
 
@@ -131,7 +131,7 @@ EmbreeObject EmbreeSceneBuilder::new_object() {
   // Robust: a ray through a shared edge hits one of the triangles, and boxes lose no triangle to rounding.
   rtcSetSceneFlags(object.get(), RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(object.get(), RTC_BUILD_QUALITY_HIGH);
-  rtcSetSceneProgressMonitorFunction(object.get(), goes_on, &options_);
+  rtcSetSceneProgressMonitorFunction(object.get(), report_progress, &options_);
   return object;
 }
 

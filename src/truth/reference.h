@@ -6,11 +6,11 @@
 
 namespace penumbra::truth {
 
-// Whether a technique is there to measure others against.
+// Whether a technique is a reference, that others are measured against.
 bool is_reference(std::string_view technique);
 
-// Values with which the technique that they select is a reference: nothing that approximates, and, where it samples,
-// other noise than the same technique has as a contender.
+// Changes parameters so that their technique is a reference: no history and no filters, and, where it samples, another
+// seed, so that its errors are independent of those of the technique it is compared with.
 void make_reference(ParamSet& params);
 
 }  // namespace penumbra::truth

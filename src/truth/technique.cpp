@@ -195,7 +195,7 @@ void TruthTechnique::State::stop() {
 
 TruthTechnique::TruthTechnique(TechniqueOptions options) : state_(std::make_shared<State>(std::move(options))) {}
 
-// Nobody could stop what a later frame begins.
+// After this there is no one left who could stop what a later frame starts.
 TruthTechnique::~TruthTechnique() {
   state_->stop();
   state_->options.background = false;

@@ -14,8 +14,8 @@ namespace penumbra::truth {
 struct TechniqueOptions {
   std::filesystem::path cache = default_cache_folder();  // empty: nothing is found or kept
   int threads = 0;                                       // 0: one a core
-  // As TraceOptions::progress. In the background it is called on a thread of the technique's; the frame that finds its
-  // picture given up throws Interrupted.
+  // As TraceOptions::progress. In the background it is called on a thread of the technique's; a frame whose
+  // picture was cancelled throws Interrupted.
   std::function<bool(double share_done)> progress;
   // In the place of the sun, at the seconds of the frame.
   std::function<LocalLight(double seconds)> local_light;
@@ -46,10 +46,10 @@ class TruthTechnique {
   // next frame has it.
   std::optional<Pending> pending() const;
 
-  // Nobody waits for what is traced in the background; returns at once, while the scene is read for a moment more.
+  // Cancels what is traced in the background. Returns at once; the scene may still be read for a moment.
   void cancel();
   // Stops what is traced in the background, and returns when nothing refers to the scene any more: to be called before
-  // the GpuScene of the last frames, or its scene::Scene, goes. The next frame begins anew.
+  // the GpuScene of the last frames, or its scene::Scene, goes. The next frame starts again.
   void stop();
 
   // What the last frame drew by it that had its picture; rows from the bottom.

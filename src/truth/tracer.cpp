@@ -1,7 +1,7 @@
 #include "truth/tracer.h"
 
 #include "truth/embree_scene.h"
-#include "truth/picture.h"
+#include "truth/picture_trace.h"
 
 namespace penumbra::truth {
 
@@ -18,7 +18,7 @@ Tracer& Tracer::operator=(Tracer&& other) noexcept = default;
 
 Traced Tracer::trace(std::span<const Receiver> receivers, int width, const Light& light,
                      const TraceOptions& options) const {
-  return Picture(state_->scene, receivers, width, light, options).trace();
+  return PictureTrace(state_->scene, receivers, width, light, options).trace();
 }
 
 const BuildStats& Tracer::stats() const { return state_->scene.stats(); }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "session/techniques.h"
 #include "truth/reference.h"
 #include "viewer/panels.h"
 
@@ -27,7 +28,7 @@ constexpr std::array ways{
 void choose_b(const Panel& panel) {
   Comparison& comparison = panel.state.comparison;
   const shadow::Registry& registry = panel.status.techniques;
-  const std::string current = comparison.params.get_word("technique");
+  const std::string current = session::technique_label(comparison.params);
   row("B is",
       "The technique of picture B. Choosing one copies A's values; after that only sun, exposure and render options "
       "follow "

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "session/techniques.h"
 #include "viewer/panels.h"
 #include "viewer/targets.h"
 
@@ -189,7 +190,8 @@ void status_bar(const Panel& panel) {
     const glm::ivec2 full(panel.state.document.options.size.width, panel.state.document.options.size.height);
     text += fmt::format("{} × {}", status.drawn_size.x, status.drawn_size.y);
     if (status.drawn_size != full) text += fmt::format(" of {} × {}", full.x, full.y);
-    text += fmt::format("   {:.1f} ms   {}", status.costs_a.frame(), panel.state.document.params.get_word("technique"));
+    text +=
+        fmt::format("   {:.1f} ms   {}", status.costs_a.frame(), session::technique_label(panel.state.document.params));
     text += status.idle ? "   idle" : fmt::format("   {} drawn", status.frames);
   }
   if (status.device.software) text += "   software rasteriser";

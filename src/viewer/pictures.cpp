@@ -141,7 +141,7 @@ void Viewer::forget_b() {
 // The figures of A against B, over the surfaces that face the sun.
 void Viewer::measure_difference() {
   const glm::ivec2 size = status_.drawn_size;
-  const metrics::Picture a{size.x, size.y, a_.visibility}, b{size.x, size.y, b_.visibility};
+  const metrics::ImageView a{size.x, size.y, a_.visibility}, b{size.x, size.y, b_.visibility};
   if (a.pixels.size() != a.pixel_count() || b.pixels.size() != b.pixel_count()) return;
   const std::vector<std::uint8_t> receivers =
       render::receivers_of(renderer_, session::setup_at(scene_->prepared, state_.document.seconds()).sun.to_light,

@@ -224,10 +224,7 @@ void write_settings(const Settings& settings) {
   const fs::path file = settings_file();
   if (file.empty()) fail("no place for settings: neither XDG_CONFIG_HOME nor HOME is an absolute path");
   make_folders(file.parent_path());
-  // A link stays one: it is what it leads to that is written.
-  std::error_code code;
-  const fs::path place = fs::canonical(file, code);
-  io::write_text(code ? file : place, io::text_of(to_json(settings)));
+  io::write_text(file, io::text_of(to_json(settings)));
 }
 
 void add_recent(std::vector<std::string>& recent, const std::string& scene) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/names.h"
+#include "session/techniques.h"
 #include "viewer/panels.h"
 
 namespace penumbra::viewer {
@@ -34,7 +35,7 @@ bool found(const Param& param, const std::string& search) {
 
 void choose_technique(const Panel& panel, ParamSet& params) {
   const shadow::Registry& registry = panel.status.techniques;
-  const std::string current = params.get_word("technique");
+  const std::string current = session::technique_label(params);
   const auto item = [&](const std::string& name, const std::string& summary) {
     if (ImGui::Selectable(name.c_str(), name == current)) registry.select(params, name);
     panel.widgets.mark("technique=" + name);

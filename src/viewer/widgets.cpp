@@ -61,7 +61,7 @@ bool choose_word(const Param& param, std::string& word, WidgetMap& widgets) {
   return changed;
 }
 
-// The widget of a value; true if a hand changed it.
+// The widget of a value. Returns whether the user changed it.
 bool edit(const Param& param, ParamValue& value, WidgetMap& widgets) {
   bool changed = false;
   if (bool* on = std::get_if<bool>(&value)) {

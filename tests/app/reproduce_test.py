@@ -82,7 +82,7 @@ class Reproduce(TestCase):
     def test_a_quick_run_says_so(self):
         self.assertIs(self.data["quick"], True)
         for text in (self.page, self.result.stdout):
-            self.assertIn("a look, no measurement", text)
+            self.assertIn("a preview, not a measurement", text)
 
     def test_nothing_asks_the_network(self):
         self.assertEqual(re.findall(r"""(?:src|href)=['"]?(?!data:|#)[^'" >]+""", self.page), [])

@@ -11,6 +11,7 @@
 #include "gl/api.h"
 #include "gpu_test.h"
 #include "session/file_watch.h"
+#include "support/temp_folder.h"
 
 namespace penumbra {
 namespace {
@@ -41,12 +42,8 @@ class ShaderReloadTest : public test::GpuTest {
   }
   int size_of(const gl::ProgramDesc& desc) { return library.get(desc).group_size().x; }
 
-  static fs::path make_folder() {
-    std::string pattern = (fs::temp_directory_path() / "penumbra-reload-XXXXXX").string();
-    return mkdtemp(pattern.data());
-  }
-
-  fs::path folder = make_folder();
+  test::TempFolder temp;
+  fs::path folder = temp.path();
   gl::ShaderLibrary library{gl::ShaderFiles(folder.string())};
   session::FileWatch watch;
   gl::ProgramDesc a{.name = "a", .compute = "a.comp"}, b{.name = "b", .compute = "b.comp"};

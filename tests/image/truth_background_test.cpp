@@ -20,6 +20,7 @@
 #include "render/setup.h"
 #include "scene/gltf.h"
 #include "scene/pose.h"
+#include "support/temp_folder.h"
 #include "truth/technique.h"
 
 namespace penumbra::test {
@@ -251,11 +252,10 @@ TEST_F(TruthInTheBackground, TellsTheNextFrameOnceWhatWentWrong) {
 }
 
 TEST_F(TruthInTheBackground, IsKeptInTheCache) {
-  std::string folder = (std::filesystem::temp_directory_path() / "penumbra_truth.XXXXXX").string();
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const TempFolder folder;
   Stage stage;
   for (const bool first : {true, false}) {
-    const truth::TruthTechnique truth({.cache = folder, .background = true});
+    const truth::TruthTechnique truth({.cache = folder.path(), .background = true});
     render::Renderer renderer = stage.renderer(truth);
     if (first) {
       stage.draw_until_there(renderer, few, truth);
@@ -265,7 +265,6 @@ TEST_F(TruthInTheBackground, IsKeptInTheCache) {
     EXPECT_EQ(truth.last().from_cache, !first);
     expect_the_same_as_blocking(stage, renderer, truth);
   }
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "metrics/picture.h"
+#include "metrics/image_view.h"
 
 namespace penumbra::test {
 
@@ -26,7 +26,7 @@ struct Grey {
   float& at(int x, int y) {
     return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
   }
-  operator metrics::Picture() const { return {width, height, pixels}; }  // NOLINT(google-explicit-constructor)
+  operator metrics::ImageView() const { return {width, height, pixels}; }  // NOLINT(google-explicit-constructor)
 };
 
 // A shadow's edge through the middle, lit on the side that `degrees` points to (0: right, 90: down): a linear ramp of

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "support/temp_folder.h"
 
 namespace {
 
@@ -40,14 +41,10 @@ using Paths = std::vector<fs::path>;
 class FileWatchTest : public testing::Test {
  protected:
   FileWatchTest() {
-    std::string pattern = (fs::temp_directory_path() / "penumbra-watch-XXXXXX").string();
-    root_ = mkdtemp(pattern.data());
     fs::create_directories(glsl() / "lib");
     write(glsl() / "a.glsl", "a");
     write(glsl() / "lib/b.glsl", "b");
   }
-  ~FileWatchTest() override { fs::remove_all(root_); }
-
   fs::path glsl() const { return root_ / "glsl"; }
 
   static void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
@@ -57,7 +54,8 @@ class FileWatchTest : public testing::Test {
   // After everything that is under way.
   static Paths rest(FileWatch& watch) { return watch.poll(400ms); }
 
-  fs::path root_;
+  test::TempFolder folder_;
+  fs::path root_ = folder_.path();
 };
 
 TEST_F(FileWatchTest, TellsNothingUntilSomethingChanges) {

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "support/temp_folder.h"
 #include "truth/cache.h"
 
 namespace penumbra::test {
@@ -20,9 +21,6 @@ using truth::Key;
 
 class TruthCache : public testing::Test {
  protected:
-  TruthCache() : folder_(fs::temp_directory_path() / ("penumbra-cache-" + std::to_string(getpid()))) {}
-  ~TruthCache() override { fs::remove_all(folder_); }
-
   // A file of 1000 pixels is a little over 12,000 bytes.
   static truth::Traced traced(float value) {
     return {.visibility = std::vector<float>(1000, value),
@@ -37,7 +35,8 @@ class TruthCache : public testing::Test {
     fs::last_write_time(file, fs::last_write_time(file) - std::chrono::hours(hours));
   }
 
-  fs::path folder_;
+  test::TempFolder temp_;
+  fs::path folder_ = temp_.path() / "cache";
 };
 
 TEST_F(TruthCache, GivesBackWhatItKept) {

@@ -71,7 +71,7 @@ TEST_P(Receivers, LieOnThePlaneAndFaceTheEye) {
       const EyeRays rays{glm::inverse(p.matrix * view), width, height};
       for (const std::uint32_t triangle : {0U, 1U}) {
         const std::vector<glm::uvec2> drawn(width * height, glm::uvec2(0, triangle));
-        const auto receivers = render::receivers_of(scene.geometry(), rays, drawn);
+        const auto receivers = receivers_of(scene.geometry(), rays, drawn);
         const glm::dvec3 a(glm::vec3(at + glm::vec3(-9, 0, 9)));
         const glm::dvec3 normal = glm::normalize(glm::cross(glm::dvec3(glm::vec3(at + glm::vec3(9, 1, 9))) - a,
                                                             glm::dvec3(glm::vec3(at + glm::vec3(9, 2, -9))) - a));
@@ -110,7 +110,7 @@ TEST(TruthReceivers, OfNothingPointsAndFlatTrianglesAreNotThere) {
   const glm::dmat4 view = glm::lookAt(glm::dvec3(0, 5, 1), glm::dvec3(0), glm::dvec3(0, 1, 0));
   const EyeRays rays{glm::inverse(projections(true)[0].matrix * view), 6, 1};
   const std::vector<glm::uvec2> drawn = {{0, 0}, {no_surface, 0}, {1, 0}, {2, 0}, {0, 1}, {77, 0}};
-  const auto receivers = render::receivers_of(scene.geometry(), rays, drawn);
+  const auto receivers = receivers_of(scene.geometry(), rays, drawn);
   EXPECT_TRUE(receivers[0].there);
   for (std::size_t i = 1; i < 6; ++i) EXPECT_FALSE(receivers[i].there) << i;
 }
@@ -122,10 +122,10 @@ TEST(TruthReceivers, FallBackToTheNearestCorner) {
   scene.add_triangles({{-4, 6, 2}, {3, 6, 2}, {1, 9, 3}});
   const glm::dmat4 view = glm::translate(glm::dmat4(1), glm::dvec3(0, -5, 0));  // at (0, 5, 0), looking to −Z
   const EyeRays rays{glm::inverse(projections(true)[0].matrix * view), 1, 1};
-  const auto along = render::receivers_of(scene.geometry(), rays, std::vector{glm::uvec2(0, 0)});
+  const auto along = receivers_of(scene.geometry(), rays, std::vector{glm::uvec2(0, 0)});
   ASSERT_TRUE(along[0].there);
   EXPECT_EQ(along[0].position, glm::dvec3(1, 5, -3));
-  const auto behind = render::receivers_of(scene.geometry(), rays, std::vector{glm::uvec2(1, 0)});
+  const auto behind = receivers_of(scene.geometry(), rays, std::vector{glm::uvec2(1, 0)});
   ASSERT_TRUE(behind[0].there);
   EXPECT_EQ(behind[0].position, glm::dvec3(3, 6, 2));
 }

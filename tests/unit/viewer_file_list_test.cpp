@@ -1,4 +1,5 @@
 // What the viewer lists of a folder, to open.
+#include "support/temp_folder.h"
 #include "viewer/file_list.h"
 
 #include <gtest/gtest.h>
@@ -17,12 +18,6 @@ using viewer::FileList;
 
 class ViewerFileList : public testing::Test {
  protected:
-  ViewerFileList() {
-    std::string pattern = (fs::temp_directory_path() / "penumbra-files-XXXXXX").string();
-    root_ = mkdtemp(pattern.data());
-  }
-  ~ViewerFileList() override { fs::remove_all(root_); }
-
   void put(const std::string& name) const { std::ofstream(root_ / name) << "text"; }
   // Folders with a slash.
   std::vector<std::string> names() const {
@@ -32,7 +27,8 @@ class ViewerFileList : public testing::Test {
     return names;
   }
 
-  fs::path root_;
+  test::TempFolder folder_;
+  fs::path root_ = folder_.path();
 };
 
 TEST_F(ViewerFileList, HasWhatCanBeOpenedFoldersFirst) {

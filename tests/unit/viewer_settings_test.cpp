@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "io/output_file.h"
+#include "support/temp_folder.h"
 #include "viewer/settings.h"
 
 namespace penumbra {
@@ -21,13 +22,10 @@ using viewer::Settings;
 class ViewerSettings : public testing::Test {
  protected:
   ViewerSettings() {
-    std::string pattern = (fs::temp_directory_path() / "penumbra-settings-XXXXXX").string();
-    root_ = mkdtemp(pattern.data());
     setenv("XDG_CONFIG_HOME", (root_ / "config").c_str(), 1);
     setenv("HOME", (root_ / "home").c_str(), 1);
   }
   ~ViewerSettings() override {
-    fs::remove_all(root_);
     unsetenv("XDG_CONFIG_HOME");
     setenv("HOME", home_.c_str(), 1);
   }
@@ -59,7 +57,8 @@ class ViewerSettings : public testing::Test {
     for (const Param& row : settings.params.rows()) EXPECT_TRUE(settings.params.is_default(row.name)) << row.name;
   }
 
-  fs::path root_;
+  test::TempFolder folder_;
+  fs::path root_ = folder_.path();
   std::string home_ = std::getenv("HOME") == nullptr ? "" : std::getenv("HOME");
 };
 
@@ -118,8 +117,8 @@ TEST_F(ViewerSettings, PartsMayBeMissingAndUnknownKeysAreIgnored) {
 TEST_F(ViewerSettings, ABrokenFileIsIgnoredAndNamed) {
   for (const char* text : {"", "{", "{\"panel\": false,}", "{\"panel\": false} {}", "\xff\xfe{}", "{\"tab\": \"\xff\"}",
                            "{'panel': true}", "{\"window\": 1e999}"})
-    expect_fault(text, "no JSON");
-  for (const char* text : {"[]", "null", "3", "\"text\""}) expect_fault(text, "no settings");
+    expect_fault(text, "not JSON");
+  for (const char* text : {"[]", "null", "3", "\"text\""}) expect_fault(text, "not settings");
 }
 
 TEST_F(ViewerSettings, AWrongPartSpoilsTheWhole) {

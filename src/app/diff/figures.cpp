@@ -26,7 +26,7 @@ constexpr std::array<Metric, 9> all_metrics{{
     {"penumbra_width", "Mean relative error of the penumbrae's widths", "", false},
 }};
 
-metrics::Picture view(const image::Picture& picture) {
+metrics::ImageView view(const image::Picture& picture) {
   return {picture.width, picture.height, picture.pixels, static_cast<int>(picture.channels.size())};
 }
 
@@ -106,7 +106,7 @@ void check_comparable(const image::Picture& test, const image::Picture& referenc
 }
 
 Difference difference_of(const image::Picture& test, const image::Picture& reference, metrics::Receivers receivers) {
-  const metrics::Picture a = view(test), b = view(reference);
+  const metrics::ImageView a = view(test), b = view(reference);
   const Kind kind = kind_of(reference, receivers);
   const metrics::ErrorFigures errors = metrics::error_figures(a, b, receivers);
   Difference difference;

@@ -8,7 +8,7 @@
 
 #include "image/picture.h"
 #include "io/report.h"
-#include "metrics/picture.h"
+#include "metrics/image_view.h"
 
 namespace penumbra::app {
 

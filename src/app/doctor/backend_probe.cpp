@@ -22,7 +22,7 @@ using io::Json;
 
 constexpr std::chrono::seconds patience(20);
 
-// All that the child writes, until it closes the pipe or patience ends.
+// Everything that the child writes, until it closes the pipe or the time limit is reached.
 bool read_all(int pipe, std::string& text) {
   const auto deadline = std::chrono::steady_clock::now() + patience;
   for (;;) {
@@ -46,7 +46,7 @@ void write_all(int pipe, const std::string& text) {
 }
 
 [[noreturn]] void run_child(int pipe, const std::function<Json()>& work) {
-  // A driver's own chatter on stderr is no part of the report.
+  // Messages of a driver on stderr are no part of the report.
   if (std::freopen("/dev/null", "w", stderr) == nullptr) std::fclose(stderr);
   Json result;
   try {

@@ -7,7 +7,8 @@
 
 namespace penumbra::app {
 
-// Tries one backend in a child process, so that a driver that crashes or hangs is a finding and not the end:
+// Tries one backend in a child process, so that a driver that crashes or hangs is reported and does not end the
+// program:
 // {"name", "works", "device": io::to_json(DeviceInfo)} or {"name", "works", "fault"}.
 io::Json probe_backend(const std::string& name);
 

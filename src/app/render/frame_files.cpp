@@ -36,12 +36,12 @@ void write_pngs(const render::Renderer& renderer, const RenderOptions& options, 
                 int frame) {
   const auto [width, height] = options.size;
   const image::Metadata metadata{{"Software", cli::version()}};
-  const render::Bytes display = render::display_bytes(renderer.read_display(), width, height, options.supersample);
+  const render::ByteImage display = render::display_bytes(renderer.read_display(), width, height, options.supersample);
   image::write_png(names.picture(frame), width, height, display.channels, display.pixels, metadata);
   for (const std::string& name : options.aovs) {
     if (name == color_name) continue;
     const render::Aov& aov = find_aov(name);
-    const render::Bytes bytes =
+    const render::ByteImage bytes =
         render::aov_bytes(name, static_cast<int>(aov.channels.size()), read_layer(renderer, options, aov));
     image::write_png(names.aov(frame, name), width, height, bytes.channels, bytes.pixels, metadata);
   }

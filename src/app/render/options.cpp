@@ -34,16 +34,16 @@ void add_output_options(CLI::App& app, RenderOptions& o) {
   add_value(app, "--aov", "NAME,...",
             "Other pictures of the frame: layers of an EXR, or a PNG each; see penumbra list aovs",
             [&o](const auto& text) { add_aovs(o.aovs, text); });
-  add_value(app, "--stats", "FILE", "Writes what each pass cost, and all about the frame, as JSON",
+  add_value(app, "--stats", "FILE", "Write the cost of each pass and facts about the frame as JSON",
             [&o](const auto& text) { o.stats = text; });
-  add_value(app, "--stats-frames", "N", "Frames measured a picture, after one that is not (1)",
+  add_value(app, "--stats-frames", "N", "Frames to measure, after one that compiles shaders (1)",
             [&o](const auto& text) { o.stats_frames = cli::parse_count("--stats-frames", text, 1, 10000); });
-  add_value(app, "--save-preset", "FILE", "Writes the values of this picture as a preset",
+  add_value(app, "--save-preset", "FILE", "Write this picture's parameters as a preset file",
             [&o](const auto& text) { o.save_preset = text; });
-  add_value(app, "--warmup", "N", "Frames drawn and not written before the first, for techniques with memory (0)",
+  add_value(app, "--warmup", "N", "Frames drawn, but not written, before the first, for techniques with a history (0)",
             [&o](const auto& text) { o.warmup = cli::parse_count("--warmup", text, 0, 10000); });
   app.add_flag("--warmup-still", o.warmup_still,
-               "Those frames are all of the first one's time: a scene at rest, not one that comes to that point")
+               "Draw all warm-up frames at the first frame's time, so that nothing moves before it")
       ->disable_flag_override();
   app.add_flag("--quiet,-q", o.quiet, "No progress and no summary")->disable_flag_override();
 }
@@ -67,10 +67,10 @@ void check_together(const RenderOptions& o) {
   cli::check_together(static_cast<const cli::SceneOptions&>(o));
   cli::check_together(static_cast<const cli::DeviceOptions&>(o));
   check_together(static_cast<const session::CacheOptions&>(o));
-  if (o.warmup_still && o.warmup == 0) cli::fail_usage("--warmup-still has no meaning without --warmup");
+  if (o.warmup_still && o.warmup == 0) cli::fail_usage("--warmup-still needs --warmup");
   if (o.stats_frames > 1 && o.frames)
     cli::fail_usage("--stats measures each frame of a sequence: leave out --stats-frames");
-  if (o.stats_frames > 1 && o.stats.empty()) cli::fail_usage("--stats-frames has no meaning without --stats");
+  if (o.stats_frames > 1 && o.stats.empty()) cli::fail_usage("--stats-frames needs --stats");
 }
 
 }  // namespace penumbra::app

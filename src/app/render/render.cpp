@@ -29,7 +29,7 @@ std::string summary(const RenderOptions& options, const ParamSet& params, const 
   if (const std::size_t count = options.aovs.size(); count > 0)
     files += fmt::format(" with {} AOV{}", count, count == 1 ? "" : "s");
   return fmt::format("wrote {} ({}×{}, {}, {:.2f} s)", files, options.size.width, options.size.height,
-                     params.get_word("technique"), seconds);
+                     session::technique_label(params), seconds);
 }
 
 void render_files(const RenderOptions& options) {
@@ -41,7 +41,7 @@ void render_files(const RenderOptions& options) {
   session::limit_threads(options);
   check_files(options, names);
 
-  // Drivers take as long to start as scenes to load, and there are two cores nearly everywhere.
+  // Starting the driver takes about as long as loading a scene: do both at once.
   std::future<session::PreparedScene> loading = std::async(std::launch::async, [&options] {
     return session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)));
   });

@@ -38,7 +38,7 @@ using Paths = std::vector<fs::path>;
 
 bool is_among(const fs::path& file, const Paths& files) { return std::ranges::find(files, file) != files.end(); }
 
-// At once, also into a pipe: somebody waits for it.
+// Flushed at once, so that a reader of a pipe sees it.
 void print_line(const std::string& line) {
   fmt::print("{}\n", cli::printable(line));
   if (std::fflush(stdout) != 0) fail("cannot write to standard output");
@@ -77,7 +77,7 @@ std::string difference(const std::vector<std::uint8_t>& before, const std::vecto
   return fmt::format("differs by {:.3f} of 255 in the mean, {} at most", sum / static_cast<double>(now.size()), most);
 }
 
-// One picture, drawn anew whenever what it is made of changes.
+// One picture, drawn again whenever a file that it depends on changes.
 class Watch {
  public:
   explicit Watch(const RenderOptions& options);
@@ -89,7 +89,7 @@ class Watch {
     Paths files;
     std::size_t rebuilt = 0;  // programs
     double seconds = 0;       // to compile them
-    bool told = false;        // why others failed
+    bool reported = false;    // the errors of those that failed
   };
 
   Paths inputs() const;
@@ -98,7 +98,7 @@ class Watch {
   void reload_scene();
   bool draw();
   std::string report(const Change& change);
-  void tell_faults();
+  void print_faults();
 
   const RenderOptions& options_;
   cli::OutputNames names_;
@@ -107,7 +107,7 @@ class Watch {
   truth::TruthTechnique truth_;
   std::unique_ptr<session::PreparedScene> prepared_;
   std::unique_ptr<session::RenderSession> session_;
-  // What the picture does not show yet, because its file changed and could not be read or drawn since.
+  // What has changed, but could not be read or drawn since.
   bool params_due_ = false, scene_due_ = false, picture_due_ = true;
   std::vector<std::uint8_t> shown_;  // the last picture that was written
 };
@@ -163,8 +163,8 @@ void Watch::take(const Paths& changed) {
     if (is_preset || is_scene) change.files.push_back(file);
   }
   const session::ShaderReload reload = session::reload_shaders(session_->device().shaders, changed);
-  change.told = reload.failed > 0;
-  if (change.told) tell_faults();
+  change.reported = reload.failed > 0;
+  if (change.reported) print_faults();
   change.files.insert(change.files.end(), reload.files.begin(), reload.files.end());
   change.rebuilt = reload.rebuilt;
   change.seconds = reload.seconds;
@@ -181,7 +181,7 @@ void Watch::update(const Change& change) {
     if (scene_due_) reload_scene();
     scene_due_ = false;
     if (!draw()) {
-      if (!change.told) tell_faults();
+      if (!change.reported) print_faults();
       return;
     }
     picture_due_ = false;
@@ -194,7 +194,7 @@ void Watch::update(const Change& change) {
 }
 
 // Programs that fail for the same lines are one fault.
-void Watch::tell_faults() {
+void Watch::print_faults() {
   for (const std::string& error : session::shader_faults(session_->device().shaders)) print_error(error);
 }
 
@@ -207,7 +207,7 @@ void Watch::reload_scene() {
   files_.set_files(inputs());
 }
 
-// False where a program that it takes does not compile any more: then the last picture stays.
+// Returns false if a shader that it needs does not compile: then the last picture stays.
 bool Watch::draw() {
   constexpr int frame = 0;
   gl::ShaderLibrary& shaders = session_->device().shaders;
@@ -222,7 +222,7 @@ bool Watch::draw() {
   return written;
 }
 
-// Measures the picture, writes what goes with it, and says all in a line.
+// Measures the picture, writes the reports, and returns a line about all of it.
 std::string Watch::report(const Change& change) {
   std::vector<std::uint8_t> display = render::display_bytes(session_->renderer().read_display(), options_.size.width,
                                                             options_.size.height, options_.supersample)
@@ -240,11 +240,11 @@ std::string Watch::report(const Change& change) {
   const double cost = io::pass_costs(std::span(rows).last(1), measured).front().median;
   return fmt::format("{}wrote {} ({}×{}, {}, frame {:.1f} ms{})",
                      change.files.empty() ? "" : names_of(change.files) + " changed: ", options_.output,
-                     options_.size.width, options_.size.height, params_.get_word("technique"), cost, facts);
+                     options_.size.width, options_.size.height, session::technique_label(params_), cost, facts);
 }
 
 void check_watchable(const RenderOptions& options) {
-  if (options.frames) cli::fail_usage("--frames has no meaning for watch, which draws one picture: see --time");
+  if (options.frames) cli::fail_usage("--frames is not for watch, which draws one picture: see --time");
   for (const std::string& preset : options.presets) {
     if (!options.save_preset.empty() && io::would_replace(options.save_preset, preset))
       cli::fail_usage("--save-preset {} would change a preset that is watched", io::quoted(options.save_preset));
@@ -254,7 +254,7 @@ void check_watchable(const RenderOptions& options) {
 }  // namespace
 
 int run_watch(const Arguments& arguments) {
-  CLI::App app("Draw a picture as render does, and again whenever its scene, a preset or a shader is saved",
+  CLI::App app("Draw a picture as render does, and again whenever its scene, a preset file or a shader is saved",
                "penumbra watch");
   RenderOptions options;
   add_render_options(app, options);

@@ -44,7 +44,7 @@ void add_truth_options(CLI::App& app, TruthOptions& o) {
             [&o](const auto& text) { o.samples = text; });
   add_value(app, "--error", "E", "Standard error to reach in 99.9 % of pixels; short for --set truth.error=E",
             [&o](const auto& text) { o.error = text; });
-  add_value(app, "--seed", "N", "Another number gives other points; short for --set truth.seed=N",
+  add_value(app, "--seed", "N", "Seed of the sample points; short for --set truth.seed=N",
             [&o](const auto& text) { o.seed = text; });
   cli::add_size_option(app, o);
   cli::add_view_options(app, o);
@@ -86,7 +86,7 @@ std::vector<float> from_top(const std::vector<float>& rows, int width) {
   return flipped;
 }
 
-// That 99.9 % of the receivers have no more of.
+// The error that 99.9 % of the receivers stay below.
 float error_of_most(const truth::TruthTechnique::Last& last) {
   std::vector<float> errors;
   for (std::size_t i = 0; i < last.receiver.size(); ++i) {

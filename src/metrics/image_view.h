@@ -6,8 +6,8 @@
 
 namespace penumbra::metrics {
 
-// A picture that somebody else owns: rows top to bottom, channels interleaved.
-struct Picture {
+// A view of a picture's pixels, which the caller owns: rows top to bottom, channels interleaved.
+struct ImageView {
   int width = 0, height = 0;
   std::span<const float> pixels;  // width · height · channels values
   int channels = 1;               // 1: visibility or grey, 3: colour
@@ -24,7 +24,7 @@ float signed_error(float test, float reference);  // test − reference
 
 // Throws Error if the two differ in size or channels, if `receivers` is neither empty nor one byte a pixel, or if the
 // reference is not finite at a receiver.
-void check(const Picture& test, const Picture& reference, Receivers receivers);
+void check(const ImageView& test, const ImageView& reference, Receivers receivers);
 
 inline bool is_receiver(Receivers receivers, std::size_t pixel) { return receivers.empty() || receivers[pixel] != 0; }
 

@@ -11,13 +11,13 @@
 
 namespace penumbra::truth {
 
-// One picture while it is traced.
-class Picture {
+// The tracing of one picture.
+class PictureTrace {
  public:
-  Picture(const EmbreeScene& scene, std::span<const Receiver> receivers, int width, const Light& light,
-          const TraceOptions& options);
+  PictureTrace(const EmbreeScene& scene, std::span<const Receiver> receivers, int width, const Light& light,
+               const TraceOptions& options);
 
-  // Once. Throws Interrupted.
+  // Call it once. Throws Interrupted.
   Traced trace();
 
  private:

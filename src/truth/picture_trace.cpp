@@ -1,4 +1,4 @@
-#include "truth/picture.h"
+#include "truth/picture_trace.h"
 
 #include <algorithm>
 #include <array>
@@ -44,8 +44,8 @@ Estimate estimate_of(const LitCounts& lit, std::uint32_t points) {
 
 }  // namespace
 
-Picture::Picture(const EmbreeScene& scene, std::span<const Receiver> receivers, int width, const Light& light,
-                 const TraceOptions& options)
+PictureTrace::PictureTrace(const EmbreeScene& scene, std::span<const Receiver> receivers, int width, const Light& light,
+                           const TraceOptions& options)
     : scene_(scene),
       receivers_(receivers),
       width_(static_cast<std::size_t>(width)),
@@ -63,7 +63,7 @@ Picture::Picture(const EmbreeScene& scene, std::span<const Receiver> receivers, 
   if (options.error > 0) lit_.resize(receivers.size());
 }
 
-void Picture::trace_pixel(std::size_t pixel, PixelRays& rays) {
+void PictureTrace::trace_pixel(std::size_t pixel, PixelRays& rays) {
   const PixelPoints points(options_.seed, static_cast<std::uint32_t>(pixel));
   rays.start_at(receivers_[pixel]);
   LitCounts lit{};
@@ -77,7 +77,7 @@ void Picture::trace_pixel(std::size_t pixel, PixelRays& rays) {
   out_.standard_error[pixel] = estimate.standard_error;
 }
 
-void Picture::trace_tile(std::size_t tile, PixelRays& rays) {
+void PictureTrace::trace_tile(std::size_t tile, PixelRays& rays) {
   const std::size_t left = tile % tiles_across(width_) * tile_size;
   const std::size_t low = tile / tiles_across(width_) * tile_size;
   for (std::size_t y = low; y < std::min(low + tile_size, height_); ++y) {
@@ -89,13 +89,13 @@ void Picture::trace_tile(std::size_t tile, PixelRays& rays) {
 }
 
 // Estimates of what is left may grow; what is shown doesn't fall.
-bool Picture::report(double share) {
+bool PictureTrace::report(double share) {
   reported_ = std::max(reported_, share);
   return options_.progress(reported_);
 }
 
 // What each thread does in a round.
-void Picture::work(const Shares& shares, bool reports) {
+void PictureTrace::work(const Shares& shares, bool reports) {
   const std::size_t tiles = tiles_across(width_) * tiles_across(height_);
   PixelRays rays(scene_, light_);
   auto reported = std::chrono::steady_clock::now();
@@ -112,7 +112,7 @@ void Picture::work(const Shares& shares, bool reports) {
   rays_ += rays.traced();
 }
 
-void Picture::run_round(const Shares& shares) {
+void PictureTrace::run_round(const Shares& shares) {
   next_tile_ = 0;
   std::vector<std::jthread> helpers;  // joined at the end
   try {
@@ -128,7 +128,7 @@ void Picture::run_round(const Shares& shares) {
   }
 }
 
-bool Picture::differs_from_neighbour(std::size_t pixel) const {
+bool PictureTrace::differs_from_neighbour(std::size_t pixel) const {
   const std::size_t x = pixel % width_;
   const std::size_t y = pixel / width_;
   for (std::size_t ny = y > 0 ? y - 1 : 0; ny < std::min(y + 2, height_); ++ny) {
@@ -140,7 +140,7 @@ bool Picture::differs_from_neighbour(std::size_t pixel) const {
   return false;
 }
 
-bool Picture::resolved(std::size_t pixel) const {
+bool PictureTrace::resolved(std::size_t pixel) const {
   const auto samples = static_cast<double>(points_[pixel]) * scrambling_count;
   if (samples >= max_samples) return true;
   if (out_.standard_error[pixel] > options_.error) return false;
@@ -149,7 +149,7 @@ bool Picture::resolved(std::size_t pixel) const {
 }
 
 // Which pixels another round has to go on with; false if there are few enough.
-bool Picture::choose_next() {
+bool PictureTrace::choose_next() {
   std::size_t there = 0;
   std::size_t open = 0;
   for (std::size_t pixel = 0; pixel < receivers_.size(); ++pixel) {
@@ -163,7 +163,7 @@ bool Picture::choose_next() {
 }
 
 // From how many samples each pixel should need in the end.
-Picture::Shares Picture::shares_of_next() const {
+PictureTrace::Shares PictureTrace::shares_of_next() const {
   double done = 0;
   double next = 0;
   double needed = 0;
@@ -178,7 +178,7 @@ Picture::Shares Picture::shares_of_next() const {
   return {done / needed, next / needed};
 }
 
-Traced Picture::trace() {
+Traced PictureTrace::trace() {
   const auto start = std::chrono::steady_clock::now();
   const bool bounded = options_.error > 0;
   run_round({0, bounded ? 0.25 : 1.0});

@@ -1,4 +1,4 @@
-#include "reproduce/looks.h"
+#include "reproduce/configs.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 namespace penumbra::reproduce {
 
-Named sampled(const std::string& noise, const std::string& pattern, const Taps& taps) {
+NamedConfig sampled(const std::string& noise, const std::string& pattern, const Taps& taps) {
   const std::string with = noise == "none" ? "without noise" : "with " + noise + " noise";
   return {fmt::format("{} {}×{} {}", pattern, taps.blocker, taps.filter, with),
           {"pcss",
@@ -20,13 +20,13 @@ double fixed_sigma(const Workbench& bench) {
   return std::min(bench.height() / 90.0, largest);
 }
 
-Named denoised(const Workbench& bench, const Named& noisy, const std::string& filter) {
-  Named result = noisy;
+NamedConfig denoised(const Workbench& bench, const NamedConfig& noisy, const std::string& filter) {
+  NamedConfig result = noisy;
   result.name += filter == "gaussian" ? ", Gaussian" : ", bilateral";
   for (const std::string& value :
        {"filter.visibility=" + filter, std::string("filter.penumbra=median"), std::string("filter.width=1"),
         fmt::format("filter.max_sigma={}", fixed_sigma(bench))})
-    result.look.values.push_back(value);
+    result.config.values.push_back(value);
   return result;
 }
 

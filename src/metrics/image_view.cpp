@@ -1,4 +1,4 @@
-#include "metrics/picture.h"
+#include "metrics/image_view.h"
 
 #include <cmath>
 
@@ -11,14 +11,14 @@ float signed_error(float test, float reference) {
   return reference <= 0.5f ? 1.0f : -1.0f;
 }
 
-void check(const Picture& test, const Picture& reference, Receivers receivers) {
+void check(const ImageView& test, const ImageView& reference, Receivers receivers) {
   if (test.width != reference.width || test.height != reference.height)
     fail("the pictures differ in size: {} x {} and {} x {} pixels", test.width, test.height, reference.width,
          reference.height);
   if (test.channels != reference.channels)
     fail("the pictures differ in channels: {} and {}", test.channels, reference.channels);
   const std::size_t pixels = reference.pixel_count(), channels = static_cast<std::size_t>(reference.channels);
-  for (const Picture& picture : {test, reference}) {
+  for (const ImageView& picture : {test, reference}) {
     if (picture.pixels.size() != pixels * channels)
       fail("a picture of {} x {} pixels with {} channels has {} values", picture.width, picture.height,
            picture.channels, picture.pixels.size());
