@@ -41,7 +41,7 @@ std::string shell_quoted(const std::string& text) {
 
 std::string command_text(std::string_view program, const std::vector<std::string>& arguments) {
   std::string text(program);
-  for (const std::string& argument : arguments) text += " " + shell_quoted(argument);
+  for (const std::string& argument : arguments) text += fmt::format(" {}", shell_quoted(argument));
   return text;
 }
 
