@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/commands.h"
@@ -41,8 +42,9 @@ int run_glsl(const Arguments& arguments) {
   const gl::ShaderFiles built_in;
   const std::vector<std::string> names = gl::ShaderFiles::built_in_names();
   if (!force) refuse_present(folder, names);
-  for (const std::string& name : names) io::check_writable(folder / name);
-  for (const std::string& name : names) io::write_text(folder / name, built_in.read(name).value());
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const std::string& name : names) files.emplace_back(name, built_in.read(name).value());
+  io::write_files(folder, files);
   if (!quiet) fmt::print("wrote {} shader files to {}\n", names.size(), output);
   return 0;
 }

@@ -4,15 +4,20 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <new>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 
+#include "cli/resources.h"
 #include "cli/signals.h"
 #include "cli/text.h"
 #include "cli/usage.h"
 #include "core/log.h"
 #include "core/names.h"
+#include "io/output_file.h"
 
 namespace penumbra::cli {
 
@@ -54,6 +59,30 @@ void log_from(const std::string& name) {
   fail_unknown("option", name, names);
 }
 
+// What is neither an option nor wanted. CLI11 leaves the mark "--" among it, behind which nothing is an option.
+void refuse_extras(const CLI::App& options) {
+  bool only_positional = false;
+  for (const std::string& extra : options.remaining()) {
+    if (extra == "--" && !only_positional) {
+      only_positional = true;
+    } else if (only_positional) {
+      fail_usage("unexpected argument '{}'", extra);
+    } else {
+      fail_extra(options, extra);
+    }
+  }
+}
+
+// A file whose name begins with a dash, which was taken for options.
+void hint_at_file(const Arguments& arguments) {
+  for (const std::string& argument : arguments) {
+    if (argument == "--") return;
+    std::error_code ignored;
+    if (argument.size() > 1 && argument.starts_with('-') && std::filesystem::exists(argument, ignored))
+      fail_usage("'{}' is taken for an option; the file of that name is './{}'", argument, argument);
+  }
+}
+
 // CLI11 says "--size: 1 required WIDTHxHEIGHT missing" and "--size: At Most 1 required but received 2".
 std::string one_line(const CLI::ParseError& error) {
   std::string text = error.what();
@@ -67,6 +96,20 @@ std::string one_line(const CLI::ParseError& error) {
 }
 
 constexpr const char no_output[] = "cannot write to standard output";
+
+// What the system or the standard library throws; the rest is a bug of Penumbra's.
+std::string sentence_of(const std::exception& error) {
+  const bool no_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  // A container that was asked to be larger than any can be.
+  if (no_memory || dynamic_cast<const std::length_error*>(&error) != nullptr) return memory_refused();
+  if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
+    return fmt::format("{}: {}", io::quoted(file->path1()), file->code().message());
+  if (const auto* system = dynamic_cast<const std::system_error*>(&error)) {
+    if (system->code() == std::errc::not_enough_memory) return memory_refused();
+    if (system->code() == std::errc::resource_unavailable_try_again) return threads_refused();
+  }
+  return std::string("internal error: ") + error.what();
+}
 
 // One line whatever a file's names hold, so that scripts can read it.
 int report(const std::string& message, int code) {
@@ -89,12 +132,10 @@ int run_guarded(const std::function<int()>& program) {
     return report(error.what(), 2);
   } catch (const Error& error) {
     return report(error.what(), 1);
-  } catch (const std::bad_alloc&) {
-    return report("out of memory", 1);
   } catch (const std::exception& error) {
     // What fmt::print throws there is no Error.
     if (std::ferror(stdout) != 0) return report(no_output, 1);
-    return report(std::string("internal error: ") + error.what(), 1);
+    return report(sentence_of(error), 1);
   }
 }
 
@@ -109,11 +150,12 @@ bool parse(CLI::App& options, const Arguments& arguments) {
     fmt::print("{}", options.help());
     return false;
   } catch (const CLI::ParseError& error) {
+    hint_at_file(arguments);
     throw UsageError(one_line(error));
   }
   try {
-    if (const std::vector<std::string> extras = options.remaining(); !extras.empty())
-      fail_extra(options, extras.front());
+    if (options.remaining_size() > 0) hint_at_file(arguments);
+    refuse_extras(options);
     log_from(level);
   } catch (const Error& error) {
     throw UsageError(error.what());

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <new>
 #include <system_error>
 
 #include "error.h"
@@ -12,6 +13,7 @@ namespace penumbra {
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t limit) {
   std::error_code code;
   const auto status = std::filesystem::status(path, code);
+  if (code && code != std::errc::no_such_file_or_directory) fail("can't be read: {}", code.message());
   if (!std::filesystem::exists(status)) fail("file not found");
   // Pipes and devices could block for ever.
   if (!std::filesystem::is_regular_file(status)) fail("not a regular file");
@@ -19,8 +21,13 @@ std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t 
   if (code) fail("can't be read: {}", code.message());
   if (size > limit) fail("{} bytes, over the limit of {}", size, limit);
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) fail("can't be opened: {}", std::strerror(errno));
-  std::vector<std::byte> bytes(size);
+  if (!stream) fail("can't be read: {}", std::strerror(errno));
+  std::vector<std::byte> bytes;
+  try {
+    bytes.resize(size);
+  } catch (const std::bad_alloc&) {
+    fail("not enough memory for its {} bytes", size);
+  }
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (stream.gcount() != static_cast<std::streamsize>(bytes.size())) fail("can't be read to its end");
   return bytes;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <utility>
 
 #include "core/error.h"
@@ -147,6 +148,8 @@ Picture read_picture(const std::filesystem::path& path, const std::string& layer
     return read(read_file(path, most_bytes), path.string(), layer, max_pixels);
   } catch (const Error& error) {
     fail("cannot read {}: {}", io::quoted(path), error.what());
+  } catch (const std::bad_alloc&) {
+    fail("cannot read {}: not enough memory for its pixels", io::quoted(path));
   }
 }
 

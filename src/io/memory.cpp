@@ -33,12 +33,6 @@ std::optional<std::size_t> number_in(const char* file) {
   return {};  // missing, or "max"
 }
 
-std::size_t left_of_address_space() {
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
-  return left(limit.rlim_cur, kilobytes("/proc/self/status", "VmSize:").value_or(0));
-}
-
 // Inside a container its own control group is the root that it sees.
 std::size_t left_of_group() {
   std::size_t least = unlimited;
@@ -54,9 +48,15 @@ std::size_t left_of_group() {
 
 }  // namespace
 
+std::size_t available_address_space() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
+  return left(limit.rlim_cur, kilobytes("/proc/self/status", "VmSize:").value_or(0));
+}
+
 std::size_t available_memory() {
   return std::min(
-      {kilobytes("/proc/meminfo", "MemAvailable:").value_or(unlimited), left_of_address_space(), left_of_group()});
+      {kilobytes("/proc/meminfo", "MemAvailable:").value_or(unlimited), available_address_space(), left_of_group()});
 }
 
 }  // namespace penumbra::io

@@ -4,9 +4,14 @@
 
 namespace penumbra::io {
 
+// How far a process may still go; a limit that can't be found out counts as none (the largest number).
+
+// Bytes of address space left under the process's own limit (ulimit -v).
+std::size_t available_address_space();
+
 // Bytes of memory that this process can still use before the system or a limit refuses more: the least of what the
-// machine has left (MemAvailable in /proc/meminfo), what the process's limit of address space leaves (ulimit -v) and
-// what its control group leaves (a container's limit). What can't be found out limits nothing.
+// machine has left (MemAvailable in /proc/meminfo), available_address_space(), and what its control group leaves (a
+// container's limit).
 std::size_t available_memory();
 
 }  // namespace penumbra::io

@@ -3,15 +3,18 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <climits>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -57,83 +60,183 @@ void forget(const fs::path& path) {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-// A new, empty file beside `path`.
-fs::path make_temporary(const fs::path& path, const fs::path& folder) {
+// /proc/self/fd/1, which /dev/stdout leads to, is a link that can name a pipe or a file that somebody has open.
+bool on_procfs(const fs::path& folder) {
+  constexpr auto procfs = 0x9FA0;  // PROC_SUPER_MAGIC of linux/magic.h
+  struct statfs about {};
+  return statfs(folder.c_str(), &about) == 0 && about.f_type == procfs;
+}
+
+// What a path's last component leads to, link by link, whether that exists or not. Links in its folders are left to the
+// system. `fault` gets what is wrong, or stays empty.
+fs::path linked_from(fs::path path, std::string& fault) {
+  constexpr int most_links = 40;  // as Linux
+  std::error_code error;
+  for (int i = 0; i < most_links; ++i) {
+    if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
+    if (on_procfs(folder_of(path))) return fault = "it stands for an open file or pipe, not for a file's name", path;
+    const fs::path next = fs::read_symlink(path, error);
+    if (error) return fault = error.message(), path;
+    path = folder_of(path) / next;  // `next` alone where it is absolute
+  }
+  return fault = std::strerror(ELOOP), path;
+}
+
+fs::path target_of(const fs::path& path) {
+  std::string fault;
+  fs::path target = linked_from(path, fault);
+  if (!fault.empty()) fail_write(path, fault);
+  return target;
+}
+
+// A new, empty file beside `target`, which only this user may read.
+fs::path make_temporary(const fs::path& path, const fs::path& target) {
   constexpr size_t longest = 200;  // bytes of the name, so that it and its ending fit a file system's 255
-  const std::string pattern =
-      (folder / fmt::format(".{}.XXXXXX", path.filename().string().substr(0, longest))).string();
-  std::vector<char> name(pattern.begin(), pattern.end());
-  name.push_back('\0');
-  const int file = mkostemp(name.data(), O_CLOEXEC);
+  const std::string name = fmt::format(".{}.XXXXXX", target.filename().string().substr(0, longest));
+  std::string pattern = (folder_of(target) / name).string();
+  const int file = mkostemp(pattern.data(), O_CLOEXEC);
   if (file < 0) fail_write(path, std::strerror(errno));
-  // mkostemp makes files private; a picture is as public as any other file.
-  const mode_t mask = umask(0);
-  umask(mask);
-  fchmod(file, 0666 & ~mask);
   close(file);
-  return name.data();
+  return pattern;
+}
+
+// Owner and permissions of the file that is replaced, as far as this user may set them; of a new file, the usual ones.
+void take_permissions(const fs::path& temporary, const fs::path& target) {
+  struct stat old {};
+  if (stat(target.c_str(), &old) != 0) {
+    const mode_t mask = umask(0);
+    umask(mask);
+    chmod(temporary.c_str(), 0666 & ~mask);
+    return;
+  }
+  mode_t mode = old.st_mode & 0777;
+  const bool same_group = chown(temporary.c_str(), old.st_uid, old.st_gid) == 0 ||
+                          chown(temporary.c_str(), static_cast<uid_t>(-1), old.st_gid) == 0;
+  if (!same_group) mode &= ~S_IRWXG | (mode & S_IRWXO) << 3;  // another group may do no more than all others
+  chmod(temporary.c_str(), mode);
 }
 
 // What is there is replaced as a whole: a device or a pipe would be one no more.
-void refuse_all_but_files(const fs::path& path) {
+void refuse_all_but_files(const fs::path& path, const fs::path& target) {
   std::error_code error;
-  const fs::file_status there = fs::status(path, error);
+  const fs::file_status there = fs::status(target, error);
   if (!path.has_filename() || fs::is_directory(there)) fail_write(path, "it is a folder");
-  if (fs::exists(there) && !fs::is_regular_file(there)) fail_write(path, "it is a device or a pipe");
+  if (!fs::exists(there)) return;
+  if (!fs::is_regular_file(there)) fail_write(path, "it is a device or a pipe");
+  if (access(target.c_str(), W_OK) != 0) fail_write(path, std::strerror(errno));
 }
+
+// The folders that are missing above a file at `path`, the outermost first.
+std::vector<fs::path> missing_folders(const fs::path& path) {
+  std::vector<fs::path> missing;
+  std::error_code error;
+  for (fs::path folder = folder_of(path); !fs::exists(folder, error) && !error; folder = folder_of(folder))
+    missing.insert(missing.begin(), folder);
+  return missing;
+}
+
+// Signals that end the program wait while this lives.
+class HeldSignals {
+ public:
+  HeldSignals() {
+    sigset_t held;
+    sigemptyset(&held);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&held, signal);
+    pthread_sigmask(SIG_BLOCK, &held, &before_);
+  }
+  ~HeldSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+ private:
+  sigset_t before_{};
+};
 
 }  // namespace
 
 std::string quoted(const fs::path& path) { return fmt::format("'{}'", path.string()); }
 
-OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
-  refuse_all_but_files(path_);
-  const fs::path folder = folder_of(path_);
+OutputFile::OutputFile(fs::path path) : path_(std::move(path)), target_(target_of(path_)) {
+  refuse_all_but_files(path_, target_);
+  made_ = missing_folders(target_);
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) fail_write(path_, error.message());
-  temporary_ = make_temporary(path_, folder);
+  fs::create_directories(folder_of(target_), error);
+  try {
+    if (error) fail_write(path_, error.message());
+    temporary_ = make_temporary(path_, target_);
+  } catch (const Error&) {
+    remove_made_folders();
+    throw;
+  }
   remember(temporary_);
 }
 
 OutputFile::~OutputFile() {
-  if (!committed_) unlink(temporary_.c_str());
   forget(temporary_);
+  if (committed_) return;
+  unlink(temporary_.c_str());
+  remove_made_folders();
+}
+
+// Those that are empty: another may have written there by now.
+void OutputFile::remove_made_folders() noexcept {
+  for (; !made_.empty(); made_.pop_back()) rmdir(made_.back().c_str());
+}
+
+void OutputFile::write(std::string_view text) {
+  std::ofstream stream(temporary_, std::ios::binary);
+  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+  stream.close();
+  if (!stream) fail_write(path_, std::strerror(errno));
 }
 
 void OutputFile::commit() {
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail_write(path_, std::strerror(errno));
+  take_permissions(temporary_, target_);
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_write(path_, std::strerror(errno));
   committed_ = true;
 }
 
 void check_writable(const fs::path& path) {
-  refuse_all_but_files(path);
-  fs::path folder = folder_of(path);
+  const fs::path target = target_of(path);
+  refuse_all_but_files(path, target);
+  fs::path folder = folder_of(target);
   std::error_code error;
-  while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder_of(folder);
+  while (!fs::exists(folder, error) && !error && folder.has_relative_path()) folder = folder_of(folder);
+  if (error) fail_write(path, error.message());
   if (!fs::is_directory(folder, error)) fail_write(path, quoted(folder) + " is not a folder");
-  unlink(make_temporary(path, folder).c_str());
+  unlink(make_temporary(path, folder / target.filename()).c_str());
 }
 
 fs::path place_of(const fs::path& path) {
+  std::string ignored;
+  const fs::path target = linked_from(path, ignored);
   std::error_code error;
-  const fs::path real = fs::weakly_canonical(fs::absolute(folder_of(path)), error);
-  return (error ? folder_of(path).lexically_normal() : real) / path.filename();
+  const fs::path real = fs::weakly_canonical(fs::absolute(folder_of(target)), error);
+  return (error ? folder_of(target).lexically_normal() : real) / target.filename();
 }
 
-bool would_replace(const fs::path& result, const fs::path& file) {
-  std::error_code error;
-  const fs::path place = place_of(result);
-  return place == place_of(file) || place == fs::weakly_canonical(file, error);
-}
+bool would_replace(const fs::path& result, const fs::path& file) { return place_of(result) == place_of(file); }
 
 void write_text(const fs::path& path, std::string_view text) {
   OutputFile file(path);
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  if (!stream) fail_write(path, std::strerror(errno));
+  file.write(text);
   file.commit();
+}
+
+void write_files(const fs::path& folder, std::span<const std::pair<std::string, std::string>> files) {
+  const HeldSignals held;
+  // From the last to the first, so that the folders that the first ones made are empty when they go.
+  struct Outputs {
+    std::vector<std::unique_ptr<OutputFile>> files;
+    ~Outputs() {
+      while (!files.empty()) files.pop_back();
+    }
+  } outputs;
+  for (const auto& [name, text] : files) {
+    outputs.files.push_back(std::make_unique<OutputFile>(folder / name));
+    outputs.files.back()->write(text);
+  }
+  for (const std::unique_ptr<OutputFile>& file : outputs.files) file->commit();
 }
 
 void remove_temporaries() noexcept {

@@ -9,7 +9,7 @@ import subprocess
 import time
 
 from pictures import SMALL, read_exr, read_exr_header, read_png, scene
-from support import PROGRAM, TestCase, main
+from support import PROGRAM, TestCase, main, run, without_root
 
 POSTS = scene("posts")
 AOVS = ("shadow", "depth", "normal", "albedo", "motion", "cascade", "blocker", "penumbra")
@@ -198,6 +198,97 @@ class Output(TestCase):
             process = subprocess.run([PROGRAM, "list", "params", "--json"], stdout=listing, stderr=subprocess.PIPE,
                                      preexec_fn=few_bytes, text=True, check=False)
         self.assertEqual((process.returncode, process.stderr), (1, "error: cannot write to standard output\n"))
+
+    def test_links_stay_and_what_they_lead_to_is_written(self):
+        (self.folder / "real").mkdir()
+        for name in ("x.png", "s.json", "p.toml"):
+            (self.folder / "real" / name).write_text("old")
+            (self.folder / "real" / name).chmod(0o640)
+            (self.folder / name).symlink_to(f"real/{name}")
+        self.draw("x.png", "--stats", self.folder / "s.json", "--save-preset", self.folder / "p.toml")
+        for name in ("x.png", "s.json", "p.toml"):
+            self.assertTrue((self.folder / name).is_symlink(), name)
+            self.assertEqual((self.folder / "real" / name).stat().st_mode & 0o777, 0o640, name)
+        read_png(self.folder / "real" / "x.png")
+        json.loads((self.folder / "real" / "s.json").read_text())
+        self.assertEqual(len(self.files()), 7)
+
+    def test_no_result_goes_through_a_link_to_the_scene(self):
+        copy = self.folder / "s.glb"
+        shutil.copy(POSTS, copy)
+        before = copy.read_bytes()
+        for name in ("x.png", "x.depth.png", "x_0001.png", "s.json"):
+            (self.folder / name).symlink_to("s.glb")
+        for results in (("-o", "x.png"), ("-o", "x_#.png", "--frames", "0:1"), ("-o", "y.png", "--stats", "s.json"),
+                        ("-o", "x.png", "--aov", "depth"), ("-o", "y.png", "--save-preset", "s.json")):
+            arguments = [result.replace("x_#", "x_####") for result in results]
+            error = self.refuse("render", copy, *arguments, *SMALL, code=2, cwd=self.folder)
+            self.assertIn("overwrite the scene", error)
+        self.assertEqual(copy.read_bytes(), before)
+
+    def test_a_link_to_an_open_file_is_refused(self):
+        # As /dev/stdout, which leads to /proc/self/fd/1: replacing it would take the machine's away.
+        for option, name in (("-o", "x.png"), ("--stats", "s.json"), ("--save-preset", "p.toml")):
+            link = self.folder / name
+            link.symlink_to("/proc/self/fd/1")
+            others = [] if option == "-o" else ["-o", self.folder / "y.png"]
+            for output in (subprocess.PIPE, (self.folder / "stdout.txt").open("w")):
+                with self.subTest(f"{option} {output}"):
+                    result = subprocess.run([PROGRAM, "render", POSTS, option, link, *others, *SMALL], stdout=output,
+                                            stderr=subprocess.PIPE, text=True, check=False)
+                    self.assertEqual(result.returncode, 1)
+                    self.assertRegex(result.stderr, rf"^error: cannot write '\S+{name}': it stands for an open file[^\n]+\n$")
+                    self.assertEqual(os.readlink(link), "/proc/self/fd/1")
+            link.unlink()
+        self.assertEqual(self.files(), ["stdout.txt"])
+
+    def test_shaders_are_written_all_or_none(self):
+        def few_bytes():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+        error = self.refuse("glsl", self.folder / "a" / "b", preexec_fn=few_bytes)
+        self.assertIn("File too large", error)
+        self.assertEqual(self.files(), [])
+        self.succeed("glsl", self.folder / "a" / "b")
+        before = {path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}
+        for path in before:
+            path.write_text("changed")
+        self.refuse("glsl", self.folder / "a" / "b", "--force", preexec_fn=few_bytes)
+        self.assertEqual({path.read_text() for path in before}, {"changed"})
+        self.succeed("glsl", self.folder / "a" / "b", "--force")
+        self.assertEqual({path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}, before)
+
+    def limited(self, limit, most, *arguments, **options):
+        """Runs the program under a limit of resources; it must end with one line of error, or as it does without."""
+        return run(*arguments, preexec_fn=lambda: resource.setrlimit(limit, (most, most)), **options)
+
+    def test_too_little_memory_is_a_sentence(self):
+        # 500 MiB hold the program and its libraries; then come the driver, LLVM and the picture.
+        seen = set()
+        for mebibytes in (550, 700, 850, 1000, 1100):
+            with self.subTest(mebibytes):
+                result = self.limited(resource.RLIMIT_AS, mebibytes << 20, "render", POSTS, "-o", self.folder / "x.png",
+                                      "--size", "640x360", "--quiet")
+                if result.returncode == 127:
+                    continue  # not even the libraries fit: the loader says so
+                self.assertIn(result.returncode, (0, 1), result.stderr)
+                if result.returncode == 1:
+                    self.assertRegex(result.stderr, r"^error: [^\n]*memory[^\n]*\n$")
+                    self.assertNotIn("internal error", result.stderr)
+                    self.assertEqual(self.files(), [])
+                seen.add(result.returncode)
+        self.assertIn(1, seen)
+
+    def test_too_few_threads_are_a_sentence(self):
+        self.folder.chmod(0o777)
+        someone = without_root()
+        for most in (6, 7):  # libraries start four before the program does
+            with self.subTest(most):
+                result = self.limited(resource.RLIMIT_NPROC, most, "render", POSTS, "-o", self.folder / "x.png", *SMALL,
+                                      "--threads", "8", **someone)
+                self.assertEqual(result.returncode, 1)
+                self.assertRegex(result.stderr, r"^error: [^\n]*threads[^\n]*ulimit -u[^\n]*\n$")
+                self.assertEqual(self.files(), [])
 
     def test_a_picture_does_not_overwrite_the_scene(self):
         for name, output in (("my.png", "my.png"), ("my.png", "sub/../my.png"), ("my_0001.png", "my_####.png")):

@@ -4,7 +4,7 @@ import json
 import subprocess
 
 from pictures import SMALL, scene
-from support import PROGRAM, TestCase, main, run
+from support import PROGRAM, TestCase, main, run, without_root
 
 POSTS = scene("posts")
 
@@ -156,6 +156,44 @@ class Usage(TestCase):
             for row in json.loads(self.succeed("list", what, "--json").stdout):
                 with self.subTest(row["name"]):
                     self.assertIn(row["help"], self.succeed("help", row["name"]).stdout)
+
+    def test_what_cannot_be_reached_is_told_as_what_it_is(self):
+        (self.folder / "file").write_text("a file")
+        (self.folder / "a").symlink_to("b")
+        (self.folder / "b").symlink_to("a")
+        places = [("file/x.glb", "Not a directory"), ("a", "Too many levels of symbolic links"),
+                  ("x" * 300, "File name too long"), ("none.glb", "file not found")]
+        for name, cause in places:
+            for command in (("info", name), ("diff", name, name)):
+                with self.subTest(command):
+                    error = self.refuse(*command, cwd=self.folder)
+                    self.assertIn(name, error)
+                    self.assertTrue(error.endswith(cause), error)
+
+    def test_a_folder_that_may_not_be_read_is_told(self):
+        locked = self.folder / "locked"
+        locked.mkdir()
+        (locked / "x.glb").write_bytes(POSTS.read_bytes())
+        self.folder.chmod(0o755)
+        locked.chmod(0)
+        self.addCleanup(locked.chmod, 0o755)
+        someone = without_root()
+        for command in (("info", locked / "x.glb"), ("diff", locked / "x.png", locked / "x.png")):
+            error = self.refuse(*command, **someone)
+            self.assertIn(str(command[1]), error)
+            self.assertTrue(error.endswith("Permission denied"), error)
+
+    def test_names_that_begin_with_a_dash(self):
+        (self.folder / "-s.glb").write_bytes(POSTS.read_bytes())
+        (self.folder / "-q.png").write_bytes(b"no picture")
+        self.succeed("render", "-o", "x.png", *SMALL, "--quiet", "--", "-s.glb", cwd=self.folder)
+        self.assertTrue((self.folder / "x.png").exists())
+        for arguments in (["--", "-s.glb"], ["./-s.glb"]):
+            self.assertIn("nodes", self.succeed("info", *arguments, cwd=self.folder).stdout)
+        for arguments in (["info", "-s.glb"], ["render", "-s.glb", "-o", "y.png"], ["diff", "-q.png", "x.png"]):
+            self.assertRegex(self.wrong(*arguments), r"'\./-[sq]\.\w+'")
+        self.assertIn("unknown option '-t.glb'", self.wrong("info", "-t.glb"))
+        self.assertIn("unexpected argument '--quiet'", self.wrong("info", "./-s.glb", "--", "--quiet"))
 
     def test_output_that_cannot_be_written_is_an_error(self):
         with open("/dev/full", "w") as full:

@@ -77,6 +77,18 @@ def temporary_folder():
     return tempfile.TemporaryDirectory(prefix="penumbra-test-")
 
 
+def without_root():
+    """What makes subprocess run a program as a user who may not do all; skips the test where that user can't run it."""
+    if os.geteuid() != 0:
+        return {}
+    nobody = {"user": 65534, "group": 65534}
+    try:
+        subprocess.run([PROGRAM, "--version"], capture_output=True, check=True, **nobody)
+    except PermissionError:
+        raise unittest.SkipTest("only root may read the program's folder") from None
+    return nobody
+
+
 class TestCase(unittest.TestCase):
     """A test with a folder of its own, removed afterwards."""
 

@@ -2,7 +2,6 @@
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstddef>
@@ -13,13 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
-#include "io/output_file.h"
-
 namespace {
 
 namespace fs = std::filesystem;
-using penumbra::Error;
 
 class ImageWrite : public testing::Test {
  protected:
@@ -29,11 +24,6 @@ class ImageWrite : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  std::vector<std::string> files() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_)) names.push_back(entry.path().filename());
-    return names;
-  }
   fs::path folder_;
 };
 
@@ -92,52 +82,6 @@ TEST_F(ImageWrite, FilesHoldNoTime) {
 TEST_F(ImageWrite, MakesMissingFolders) {
   penumbra::image::write_png(folder_ / "a/b/x.png", 1, 1, 1, std::vector<std::uint8_t>{7});
   EXPECT_TRUE(fs::exists(folder_ / "a/b/x.png"));
-}
-
-TEST_F(ImageWrite, AnUncommittedFileLeavesNothingAndTheOldOneStands) {
-  penumbra::io::write_text(folder_ / "x.txt", "old");
-  {
-    const penumbra::io::OutputFile file(folder_ / "x.txt");
-    std::ofstream(file.temporary()) << "new";
-  }
-  EXPECT_EQ(files(), std::vector<std::string>{"x.txt"});
-  EXPECT_EQ(bytes_of(folder_ / "x.txt"), "old");
-}
-
-TEST_F(ImageWrite, DevicesAndPipesStayWhatTheyAre) {
-  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
-  fs::create_symlink("pipe", folder_ / "link");
-  for (const char* name : {"pipe", "link"}) {
-    EXPECT_THROW(penumbra::io::check_writable(folder_ / name), Error);
-    EXPECT_THROW(penumbra::io::write_text(folder_ / name, "text"), Error);
-  }
-  EXPECT_THROW(penumbra::io::check_writable("/dev/null"), Error);
-  EXPECT_TRUE(fs::is_fifo(folder_ / "link"));
-  EXPECT_EQ(files().size(), 2u);
-}
-
-TEST_F(ImageWrite, TemporariesCanBeRemovedFromASignalHandler) {
-  const penumbra::io::OutputFile file(folder_ / "x.txt");
-  EXPECT_EQ(files().size(), 1u);
-  penumbra::io::remove_temporaries();
-  EXPECT_TRUE(files().empty());
-}
-
-TEST_F(ImageWrite, RefusesPlacesThatCannotBeWritten) {
-  penumbra::io::write_text(folder_ / "file", "text");
-  EXPECT_THROW(penumbra::io::check_writable(folder_), Error);
-  EXPECT_THROW(penumbra::io::check_writable(folder_ / "file/x.png"), Error);
-  EXPECT_THROW(penumbra::io::check_writable("/proc/no/x.png"), Error);
-  EXPECT_THROW(penumbra::io::write_text("/proc/no/x.png", "text"), Error);
-  EXPECT_NO_THROW(penumbra::io::check_writable(folder_ / "new/x.png"));
-  EXPECT_EQ(files(), std::vector<std::string>{"file"});
-}
-
-TEST_F(ImageWrite, NewFilesHaveTheUsersPermissions) {
-  const mode_t mask = umask(022);
-  penumbra::io::write_text(folder_ / "x.txt", "text");
-  umask(mask);
-  EXPECT_EQ(fs::status(folder_ / "x.txt").permissions(), fs::perms(0644));
 }
 
 }  // namespace

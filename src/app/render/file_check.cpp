@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <vector>
 
 #include "io/output_file.h"
 
@@ -11,11 +12,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A picture of any frame.
-bool is_picture(const fs::path& result, const RenderOptions& options, const cli::OutputNames& names) {
+// Pictures that are links by now are written where they lead.
+std::vector<fs::path> linked_places(const RenderOptions& options, const cli::OutputNames& names) {
+  std::vector<fs::path> places;
+  const auto add = [&](const fs::path& picture) {
+    std::error_code error;
+    if (fs::is_symlink(fs::symlink_status(picture, error))) places.push_back(io::place_of(picture));
+  };
   const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});
-  if (io::place_of(result).parent_path() != io::place_of(names.picture(range.first)).parent_path()) return false;
-  const fs::path name = result.filename();
+  for (int frame = range.first; frame <= range.last; ++frame) {
+    add(names.picture(frame));
+    if (names.is_exr()) continue;
+    for (const std::string& aov : options.aovs) add(names.aov(frame, aov));
+  }
+  return places;
+}
+
+// Is a file written to `result` a picture of any frame?
+bool is_picture(const fs::path& result, const RenderOptions& options, const cli::OutputNames& names,
+                const std::vector<fs::path>& linked) {
+  const fs::path place = io::place_of(result), name = place.filename();
+  if (std::ranges::find(linked, place) != linked.end()) return true;
+  const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});
+  const fs::path folder = names.picture(range.first).parent_path();
+  if (place.parent_path() != io::place_of(folder / "picture").parent_path()) return false;
   for (int frame = range.first; frame <= range.last; ++frame) {
     if (name == names.picture(frame).filename()) return true;
     const auto is_aov = [&](const std::string& aov) { return name == names.aov(frame, aov).filename(); };
@@ -26,7 +46,7 @@ bool is_picture(const fs::path& result, const RenderOptions& options, const cli:
 
 void check_alone(const char* option, const fs::path& result, const RenderOptions& options,
                  const cli::OutputNames& names) {
-  if (is_picture(result, options, names))
+  if (is_picture(result, options, names, linked_places(options, names)))
     cli::fail_usage("{} {} is a picture of this command too", option, io::quoted(result));
   io::check_writable(result);
 }
@@ -35,13 +55,12 @@ void check_alone(const char* option, const fs::path& result, const RenderOptions
 
 void check_scene_files(const std::vector<fs::path>& files, const RenderOptions& options,
                        const cli::OutputNames& names) {
+  const std::vector<fs::path> linked = linked_places(options, names);
   for (const fs::path& file : files) {
     const auto refuse = [&](const char* option) {
       cli::fail_usage("{} would overwrite the scene's file {}", option, io::quoted(file));
     };
-    std::error_code error;
-    const fs::path target = fs::weakly_canonical(file, error);
-    if (is_picture(file, options, names) || (!error && is_picture(target, options, names))) refuse("-o");
+    if (is_picture(file, options, names, linked)) refuse("-o");
     if (!options.stats.empty() && io::would_replace(options.stats, file)) refuse("--stats");
     if (!options.save_preset.empty() && io::would_replace(options.save_preset, file)) refuse("--save-preset");
   }
