@@ -20,7 +20,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-constexpr std::size_t most_bytes = std::size_t{1} << 30;
+// Of a file: 16 float values a pixel, as many as an EXR may have, and what surrounds them.
+constexpr std::size_t bytes_per_pixel = 64, other_bytes = std::size_t{1} << 20;
 
 // "a.b.R" is channel R of layer a.b.
 std::string layer_of(const std::string& channel) {
@@ -145,7 +146,7 @@ Picture read(std::span<const std::byte> bytes, const std::string& name, const st
 
 Picture read_picture(const std::filesystem::path& path, const std::string& layer, std::size_t max_pixels) {
   try {
-    return read(read_file(path, most_bytes), path.string(), layer, max_pixels);
+    return read(read_file(path, bytes_per_pixel * max_pixels + other_bytes), path.string(), layer, max_pixels);
   } catch (const Error& error) {
     fail("cannot read {}: {}", io::quoted(path), error.what());
   } catch (const std::bad_alloc&) {

@@ -238,6 +238,11 @@ class Refusals(Diff):
         self.assertIn("99999 x 99999", self.broken("huge.png", data[:12] + big + struct.pack(">I", zlib.crc32(big))
                                                    + data[33:]))
 
+    def test_the_limit_of_pixels_can_be_chosen(self):
+        self.succeed("diff", self.grey, self.grey, "--max-pixels", "1200")
+        error = self.refuse("diff", self.grey, self.grey, "--max-pixels", "1199")
+        self.assertIn("40 x 30 pixels, over the limit of 1199", error)
+
     def test_pictures_that_do_not_match(self):
         small = png(self.folder / "small.png", flat(100, 39))
         error = self.refuse("diff", self.grey, small)

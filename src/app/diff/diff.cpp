@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -12,6 +13,7 @@
 #include "cli/usage.h"
 #include "image/picture.h"
 #include "image/write.h"
+#include "io/memory.h"
 #include "io/output_file.h"
 #include "io/report.h"
 #include "metrics/heat_map.h"
@@ -24,6 +26,7 @@ struct DiffOptions {
   std::string test, reference, layer, mask, heatmap, json;
   std::string metric = "rmse";
   std::optional<double> max, min;
+  std::optional<int> max_pixels;
   bool quiet = false;
 };
 
@@ -55,6 +58,10 @@ void add_options(CLI::App& app, DiffOptions& options) {
   add("--mask", "NAME", "Layer of B, of one channel: what is 0 or no number there is left out", options.mask);
   add("--heatmap", "FILE", "Draw where they differ into a PNG: FLIP for that metric, else |error|", options.heatmap);
   add("--json", "FILE", "Write the figures as JSON; - is standard output, in place of the line", options.json);
+  cli::add_value(app, "--max-pixels", "N", "Refuse larger pictures before they are decoded (as many as memory holds)",
+                 [&](const std::string& text) {
+                   options.max_pixels = cli::parse_count("--max-pixels", text, 1, std::numeric_limits<int>::max());
+                 });
   app.add_flag("--quiet", options.quiet, "Print errors alone")->disable_flag_override();
 }
 
@@ -67,10 +74,17 @@ void check_together(const DiffOptions& options, const Metric& metric) {
     cli::fail_usage("--heatmap {}: the name does not end in .png", io::quoted(options.heatmap));
 }
 
+image::Picture read(const DiffOptions& options, const std::string& file, const std::string& layer) {
+  constexpr std::size_t bytes_per_pixel = 128;  // of both pictures, the metrics' fields and the heat map
+  const std::size_t most = options.max_pixels ? static_cast<std::size_t>(*options.max_pixels)
+                                              : io::available_memory() / bytes_per_pixel;
+  return image::read_picture(file, layer, most);
+}
+
 // Empty for all pixels.
 std::vector<std::uint8_t> receivers_of(const DiffOptions& options) {
   if (options.mask.empty()) return {};
-  const image::Picture mask = image::read_picture(options.reference, options.mask);
+  const image::Picture mask = read(options, options.reference, options.mask);
   if (mask.channels.size() != 1)
     fail("--mask {}: that layer of {} has {} channels, not 1", options.mask, io::quoted(options.reference),
          mask.channels.size());
@@ -161,8 +175,8 @@ int run_diff(const Arguments& arguments) {
   check_together(options, metric);
   check_results(options);
 
-  const image::Picture test = image::read_picture(options.test, options.layer);
-  const image::Picture reference = image::read_picture(options.reference, options.layer);
+  const image::Picture test = read(options, options.test, options.layer);
+  const image::Picture reference = read(options, options.reference, options.layer);
   const std::vector<std::uint8_t> receivers = receivers_of(options);
   check_comparable(test, reference, receivers, options.test, options.reference);
   const Difference difference = difference_of(test, reference, receivers);
