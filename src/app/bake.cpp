@@ -105,8 +105,8 @@ int bake_noise(const Arguments& arguments) {
   const int most_threads = cli::parse_count("--threads", threads, 0, 1024);
   io::check_writable(common.output);
   cli::Progress progress(/* part= */ "", 100, !common.quiet);
-  const shadow::NoiseTile tile = shadow::make_noise(kind, side, values, seed, most_threads,
-                                                    [&](double done) { progress.reach(static_cast<int>(100 * done)); });
+  const shadow::NoiseTile tile = shadow::make_noise(
+      kind, side, values, seed, most_threads, [&](double done) { progress.set_done(static_cast<int>(100 * done)); });
   const auto write = format == ".png" ? write_noise_png : format == ".exr" ? write_noise_exr : write_noise_ranks;
   write(common.output, tile);
   if (common.quiet) return 0;

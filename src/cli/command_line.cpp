@@ -23,7 +23,7 @@ namespace penumbra::cli {
 
 namespace {
 
-// "quiet" lies past every level: nothing passes.
+// By name. "quiet" is more than any message's level, so none is shown.
 const std::map<std::string, int>& log_levels() {
   static const std::map<std::string, int> levels{{"debug", static_cast<int>(LogLevel::debug)},
                                                  {"info", static_cast<int>(LogLevel::info)},
@@ -111,9 +111,9 @@ std::string sentence_of(const std::exception& error) {
   return std::string("internal error: ") + error.what();
 }
 
-// One line whatever a file's names hold, so that scripts can read it.
+// Always one line, so that scripts can read it: names from files may hold line breaks.
 int report(const std::string& message, int code) {
-  // Not by fmt::print, which throws where stderr is closed.
+  // fmt::print would throw where stderr is closed.
   std::fputs(fmt::format("error: {}\n", printable(message)).c_str(), stderr);
   return code;
 }
@@ -133,7 +133,7 @@ int run_guarded(const std::function<int()>& program) {
   } catch (const Error& error) {
     return report(error.what(), 1);
   } catch (const std::exception& error) {
-    // What fmt::print throws there is no Error.
+    // Then fmt::print threw a system_error, which knows no more than that.
     if (std::ferror(stdout) != 0) return report(no_output, 1);
     return report(sentence_of(error), 1);
   }
@@ -141,7 +141,8 @@ int run_guarded(const std::function<int()>& program) {
 
 bool parse(CLI::App& options, const Arguments& arguments) {
   std::string level = "warning";
-  options.add_option("--log-level", level, "Least messages to show: debug, info, warning, error or quiet")
+  options
+      .add_option("--log-level", level, "Least severe message to show: debug, info, warning, error; or quiet for none")
       ->type_name("LEVEL");
   options.allow_extras();
   try {

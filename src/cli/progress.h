@@ -5,20 +5,20 @@
 
 namespace penumbra::cli {
 
-// "frame 12 of 100, 1:14 left" on one line of the terminal; nothing when stderr is no terminal. It never throws once it
-// is made.
+// A line of progress on the terminal, "frame 12 of 100, 1:14 left", written anew as parts are done and removed at the
+// end. Nothing is written when stderr is no terminal or there is one part alone. Only the constructor throws.
 class Progress {
  public:
-  // `part` is what there are `count` of. Parts without a name are told as a share: "12 %, 0:08 left".
+  // `part` names one of the `count` parts ("frame"). Without a name the line has a percentage: "12 %, 0:08 left".
   Progress(std::string part, int count, bool wanted);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   // One more part is done.
-  void step() { reach(done_ + 1); }
-  // So many are done.
-  void reach(int done);
+  void step() { set_done(done_ + 1); }
+  // `done` parts are done; a number less than before is ignored.
+  void set_done(int done);
 
  private:
   std::string part_;

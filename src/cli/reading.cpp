@@ -46,7 +46,7 @@ class ReadingProgress {
       progress_.reset();
       progress_ = std::make_unique<Progress>(std::string("reading: ") + at.part, static_cast<int>(at.count), true);
     }
-    progress_->reach(static_cast<int>(at.done));
+    progress_->set_done(static_cast<int>(at.done));
   }
 
  private:

@@ -10,7 +10,7 @@
 
 namespace penumbra::cli {
 
-// The command line itself is wrong, whatever the files hold: exit code 2.
+// The command line is wrong whatever the files hold. Ends the program with exit code 2.
 struct UsageError : Error {
   using Error::Error;
 };

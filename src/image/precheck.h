@@ -10,9 +10,8 @@ namespace penumbra::image {
 // Throws Error for a picture of more than `max_pixels`. Sides are at least 1.
 void check_pixels(std::int64_t width, std::int64_t height, std::size_t max_pixels);
 
-// A PNG without the chunks that don't carry pixels: text and profiles are of no use to a texture, can be bombs, and
-// make libpng write warnings to stderr. Throws Error when a chunk's length or checksum is wrong, which libpng would
-// report on stderr too.
+// A PNG without the chunks that don't carry pixels: text and profiles are of no use to a texture, and may be compressed
+// data that expand without bound. Throws Error when a chunk's length or checksum is wrong.
 std::vector<std::byte> pixel_chunks_of_png(std::span<const std::byte> encoded);
 
 // A JPEG without the segments that don't carry pixels: EXIF, IPTC, profiles, thumbnails and comments are of no use to a

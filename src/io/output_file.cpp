@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Names a signal handler can remove without locks or allocation. A slot is free while `used` is false; the handler
-// reads `name` only where `ready` is true.
+// Names of temporaries in fixed memory, so that a signal handler can remove the files without locks or allocation. A
+// slot is free while `used` is false; the handler reads `name` only where `ready` is true.
 struct Slot {
   std::atomic<bool> used = false, ready = false;
   std::array<char, PATH_MAX> name{};

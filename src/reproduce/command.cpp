@@ -80,10 +80,10 @@ class FigureProgress {
  public:
   explicit FigureProgress(bool wanted) : progress_("", all(), wanted) {}
 
-  void drawn() { progress_.reach(std::min(++at_, end_)); }
+  void drawn() { progress_.set_done(std::min(++at_, end_)); }
   void next(int pictures) {
     at_ = end_;
-    progress_.reach(at_);
+    progress_.set_done(at_);
     end_ += pictures;
   }
 

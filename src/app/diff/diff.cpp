@@ -76,8 +76,8 @@ void check_together(const DiffOptions& options, const Metric& metric) {
 
 image::Picture read(const DiffOptions& options, const std::string& file, const std::string& layer) {
   constexpr std::size_t bytes_per_pixel = 128;  // of both pictures, the metrics' fields and the heat map
-  const std::size_t most = options.max_pixels ? static_cast<std::size_t>(*options.max_pixels)
-                                              : io::available_memory() / bytes_per_pixel;
+  const std::size_t most =
+      options.max_pixels ? static_cast<std::size_t>(*options.max_pixels) : io::available_memory() / bytes_per_pixel;
   return image::read_picture(file, layer, most);
 }
 

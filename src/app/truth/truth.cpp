@@ -150,7 +150,7 @@ void trace_files(const TruthOptions& options) {
   truth::TechniqueOptions how = session::truth_options(options, options);
   if (range.count() == 1) {
     how.progress = [&progress](double share) {
-      progress->reach(std::min(static_cast<int>(share * parts), parts - 1));
+      progress->set_done(std::min(static_cast<int>(share * parts), parts - 1));
       return true;
     };
   }
