@@ -23,8 +23,8 @@ struct Common {
 
 void add_common(CLI::App& app, Common& common, const char* files) {
   app.add_option("-o,--output", common.output, files)->required()->type_name("FILE");
-  app.add_option("--seed", common.seed, "Another number gives another result")->type_name("N")->capture_default_str();
-  app.add_flag("--quiet", common.quiet, "Print errors alone")->disable_flag_override();
+  app.add_option("--seed", common.seed, "Seed of the random numbers")->type_name("N")->capture_default_str();
+  app.add_flag("--quiet", common.quiet, "Print errors only")->disable_flag_override();
 }
 
 // The file's extension, which is one of those that can be written.
@@ -94,7 +94,7 @@ int bake_noise(const Arguments& arguments) {
       ->type_name("KIND")
       ->capture_default_str();
   app.add_option("--size", size, "Side in pixels, a multiple of 16")->type_name("N")->capture_default_str();
-  app.add_option("--channels", channels, "Values a pixel, 1 to 3")->type_name("N")->capture_default_str();
+  app.add_option("--channels", channels, "Values per pixel, 1 to 3")->type_name("N")->capture_default_str();
   app.add_option("--threads", threads, "0: one a core; the result is the same")->type_name("N")->capture_default_str();
   if (!cli::parse(app, arguments)) return 0;
   const std::string format = format_of(common.output, {".exr", ".png", ".u16"});

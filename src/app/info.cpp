@@ -63,12 +63,12 @@ void print_parts(const scene::SceneInfo& info) {
 }  // namespace
 
 int run_info(const Arguments& arguments) {
-  CLI::App app("Tell what is in a scene", "penumbra info");
+  CLI::App app("Print what is in a scene", "penumbra info");
   std::string path;
   cli::ReadingOptions reading{.progress = true};
   bool json = false;
   app.add_option("SCENE", path, "glTF file, .gltf or .glb")->required()->type_name("");
-  app.add_flag("--json", json, "For machines")->disable_flag_override();
+  app.add_flag("--json", json, "Print JSON")->disable_flag_override();
   cli::add_reading_options(app, reading);
   if (!cli::parse(app, arguments)) return 0;
   const scene::SceneInfo info =

@@ -83,11 +83,11 @@ Json aov_rows() {
 }
 
 Json backend_rows() {
-  return {{{"name", "auto"}, {"help", "The first that works of egl and osmesa."}},
-          {{"name", "egl"},
-           {"help", "Without a display: Mesa's surfaceless platform, or a GPU of a server (--egl-device)."}},
-          {{"name", "osmesa"}, {"help", "Mesa's software rasteriser as a library, where nothing else is."}},
-          {{"name", "window"}, {"help", "An invisible window on a display."}}};
+  return {
+      {{"name", "auto"}, {"help", "The first that works of egl and osmesa."}},
+      {{"name", "egl"}, {"help", "Without a display: Mesa's surfaceless platform, or a server's GPU (--egl-device)."}},
+      {{"name", "osmesa"}, {"help", "Mesa's software rasteriser as a library, which needs no driver."}},
+      {{"name", "window"}, {"help", "An invisible window on a display."}}};
 }
 
 constexpr std::array listings{
@@ -97,7 +97,7 @@ constexpr std::array listings{
     Listing{"products", "What is made of a light's maps for those techniques that ask for it.", product_rows},
     Listing{"params", "Parameters, for --set and presets.", param_rows},
     Listing{"aovs", "Pictures of a frame, for --aov.", aov_rows},
-    Listing{"backends", "Ways to an OpenGL context, for --backend.", backend_rows}};
+    Listing{"backends", "Ways to open an OpenGL context, for --backend.", backend_rows}};
 
 Json listing_rows() {
   Json rows = Json::array();
@@ -145,13 +145,13 @@ void print_rows(const Json& rows) {
 }  // namespace
 
 int run_list(const Arguments& arguments) {
-  CLI::App app("List what penumbra knows by name", "penumbra list");
+  CLI::App app("List techniques, filters, parameters and others by name", "penumbra list");
   std::string what;
   bool json = false;
   app.add_option("WHAT", what,
                  "techniques, filters, denoisers, products, params, aovs or backends; without it, these choices")
       ->type_name("");
-  app.add_flag("--json", json, "For machines")->disable_flag_override();
+  app.add_flag("--json", json, "Print JSON")->disable_flag_override();
   if (!cli::parse(app, arguments)) return 0;
   const Json rows = app.count("WHAT") == 0 ? listing_rows() : find_listing(what).rows();
   if (json) {

@@ -37,18 +37,18 @@ void add_bench_options(CLI::App& app, Options& o) {
       app, "--technique", "NAME,...",
       "Techniques, presets or preset files (.toml) to compare, in turn frame by frame; see penumbra list techniques",
       [&o](const auto& text) { o.techniques = names_of("--technique", text); });
-  add_value(app, "--frames", "N", "Frames that count, for each technique and point (400; in software 20, of a sweep 4)",
+  add_value(app, "--frames", "N", "Frames to measure, for each technique and point (400; in software 20, of a sweep 4)",
             [&o](const auto& text) { o.frame_count = cli::parse_count("--frames", text, 1, 100000); });
-  add_value(app, "--warmup", "N", "Frames before them that don't (20; in software 2)",
+  add_value(app, "--warmup", "N", "Frames before them that are not measured (20; in software 2)",
             [&o](const auto& text) { o.warmup = cli::parse_count("--warmup", text, 1, 100000); });
   add_value(app, "--time", "S", "Time of the scene's animation, seconds",
             [&o](const auto& text) { o.time = cli::parse_number("--time", text, 0, 1e6); });
-  app.add_flag("--play", o.play, "Lets the animation run, 60 frames a second; else it stands still")
+  app.add_flag("--play", o.play, "Play the animation, 60 frames per second, instead of one time of it")
       ->disable_flag_override();
   app.add_flag("--floor", o.floor,
-               "Also measures the fetches alone of each technique, and one read and write of the mask")
+               "Also measure each technique's texture fetches alone, and one read and write of the mask")
       ->disable_flag_override();
-  const std::string sweeps = fmt::format("Measures over a range: {}", fmt::join(sweep_names(), ", "));
+  const std::string sweeps = fmt::format("Measure over a range of values: {}", fmt::join(sweep_names(), ", "));
   add_value(app, "--sweep", "NAME", sweeps.c_str(),
             [&o](const auto& text) { o.sweep = cli::one_of("sweep", text, sweep_names()); });
   app.add_option_function<std::vector<std::string>>(
@@ -56,7 +56,7 @@ void add_bench_options(CLI::App& app, Options& o) {
          [&o](const auto& names) {
            for (const std::string& name : names) add_output(o, name);
          },
-         "Writes all of it: .json, .csv or .html; repeatable")
+         "File for the results: .json, .csv or .html; repeatable")
       ->type_name("FILE")
       ->allow_extra_args(false);
   app.add_flag("--quiet,-q", o.quiet, "No progress and no table")->disable_flag_override();

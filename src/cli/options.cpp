@@ -44,7 +44,7 @@ void add_size_option(CLI::App& app, SceneOptions& o) {
 }
 
 void add_supersample_option(CLI::App& app, SceneOptions& o) {
-  add_value(app, "--supersample", "N", "Draws N times larger each way and averages, in linear light (1)",
+  add_value(app, "--supersample", "N", "Draw N times as wide and as high, and average in linear light (1)",
             [&o](const auto& text) { o.supersample = parse_count("--supersample", text, 1, 16); });
 }
 
@@ -53,9 +53,9 @@ void add_view_options(CLI::App& app, SceneOptions& o) {
       app, "--camera", "NAME|INDEX",
       "A camera of the scene; else its first that sees the scene over a tenth of the picture, else one that frames it",
       [&o](const auto& text) { o.camera = text; });
-  add_value(app, "--eye", "X,Y,Z", "Where the camera is, metres",
+  add_value(app, "--eye", "X,Y,Z", "Position of the camera, metres",
             [&o](const auto& text) { o.eye = parse_point("--eye", text); });
-  add_value(app, "--target", "X,Y,Z", "What it looks at, metres",
+  add_value(app, "--target", "X,Y,Z", "Point that the camera looks at, metres",
             [&o](const auto& text) { o.target = parse_point("--target", text); });
   add_value(app, "--fov", "DEG", "Field of view of the picture's height, degrees",
             [&o](const auto& text) { o.fov = parse_number("--fov", text, 1, 179); });
@@ -73,7 +73,7 @@ void add_time_options(CLI::App& app, SceneOptions& o) {
   add_value(app, "--frames", "FIRST:LAST",
             "A sequence; files are numbered at one #### or %04d in -o, or before its extension",
             [&o](const auto& text) { o.frames = parse_frames("--frames", text); });
-  add_value(app, "--fps", "N", "Frames a second (24)",
+  add_value(app, "--fps", "N", "Frames per second (24)",
             [&o](const auto& text) { o.fps = parse_number("--fps", text, 0.001, 10000); });
 }
 
@@ -130,7 +130,7 @@ void check_together(const SceneOptions& o) {
 void check_together(const DeviceOptions& o) {
   if (!o.glsl.empty() && !std::filesystem::is_directory(o.glsl)) fail("--glsl: {} is not a folder", io::quoted(o.glsl));
   if (o.egl_device && o.backend != "auto" && o.backend != "egl")
-    fail_usage("--egl-device has no meaning for --backend {}", o.backend);
+    fail_usage("--egl-device is not for --backend {}", o.backend);
 }
 
 namespace {

@@ -32,26 +32,26 @@ void add_compare_options(CLI::App& app, CompareOptions& o) {
   add_value(app, "-o,--output", "FOLDER", "Folder for index.html, results.csv and results.json",
             [&o](const auto& text) { o.output = text; });
   app.get_option("--output")->required();
-  add_value(
-      app, "--technique", "NAME,...",
-      "What is compared; NAME:PARAM=VALUE,PARAM=VALUE is one with values of its own; see penumbra list techniques",
-      [&o](const auto& text) { add_contenders(o.contenders, text); });
-  add_value(app, "--reference", "NAME", "What they are measured against: truth or brute_force (truth)",
+  add_value(app, "--technique", "NAME,...",
+            "Techniques and presets to compare; NAME:PARAM=VALUE,PARAM=VALUE changes values of one; see penumbra list "
+            "techniques",
+            [&o](const auto& text) { add_contenders(o.contenders, text); });
+  add_value(app, "--reference", "NAME", "Reference that they are measured against: truth or brute_force (truth)",
             [&o](const auto& text) {
               o.reference = cli::one_of("reference", text, std::vector<std::string>{"truth", "brute_force"});
             });
-  add_value(app, "--spp", "N", "Rays a pixel of the truth; short for --set truth.samples=N (256)",
+  add_value(app, "--spp", "N", "Rays per pixel of the truth; short for --set truth.samples=N (256)",
             [&o](const auto& text) { o.samples = cli::parse_count("--spp", text, 8, 65536); });
   cli::add_size_option(app, o);
   cli::add_view_options(app, o);
   cli::add_time_options(app, o);
   app.get_option("--frames")->description("A sequence: figures are of all its frames, pictures of the last");
-  add_value(app, "--orbit", "DEG", "The camera circles its target, so many degrees a frame",
+  add_value(app, "--orbit", "DEG", "Degrees per frame that the camera circles about its target",
             [&o](const auto& text) { o.orbit = cli::parse_number("--orbit", text, -180, 180); });
   add_value(app, "--cut-at", "FRAME",
-            "Frame at which the orbit jumps, to come back to its first view with the last frame (the middle one)",
+            "Frame at which the orbit jumps, so that it ends at its first view (the middle frame)",
             [&o](const auto& text) { o.cut_at = cli::parse_count("--cut-at", text, 0, 1000000); });
-  add_value(app, "--warmup", "N", "Frames drawn before a single picture by techniques with a history (32)",
+  add_value(app, "--warmup", "N", "Frames drawn before a single picture, for techniques with a history (32)",
             [&o](const auto& text) { o.warmup = cli::parse_count("--warmup", text, 0, 10000); });
   add_value(app, "--cost-frames", "N", "Frames whose median is the cost of a single picture (3)",
             [&o](const auto& text) { o.cost_frames = cli::parse_count("--cost-frames", text, 1, 10000); });
@@ -63,7 +63,7 @@ void add_compare_options(CLI::App& app, CompareOptions& o) {
 
 void check_orbit(const CompareOptions& o) {
   if (o.orbit && !o.frames) fail_usage("--orbit moves the camera from frame to frame: it needs --frames");
-  if (o.cut_at && !o.orbit) fail_usage("--cut-at has no meaning without --orbit");
+  if (o.cut_at && !o.orbit) fail_usage("--cut-at needs --orbit");
   if (o.cut_at && (*o.cut_at <= o.frames->first || *o.cut_at > o.frames->last))
     fail_usage("--cut-at {} is not after the first of the frames {}:{}", *o.cut_at, o.frames->first, o.frames->last);
 }
@@ -74,7 +74,7 @@ void check_together(const CompareOptions& o) {
   if (o.contenders.empty()) fail_usage("--technique is required: what to compare; see penumbra list techniques");
   if (o.reference == "truth" && std::ranges::any_of(o.contenders, [](const auto& c) { return c.name == "truth"; }))
     fail_usage("--technique truth is the reference already; see --reference");
-  if (o.samples && o.reference != "truth") fail_usage("--spp has no meaning for --reference {}", o.reference);
+  if (o.samples && o.reference != "truth") fail_usage("--spp is not for --reference {}", o.reference);
   if (o.warmup && o.frames) fail_usage("--warmup is for single pictures: of --frames each is measured");
   check_orbit(o);
   const long long pixels = 1LL * o.size.width * o.size.height, frames = o.frames ? o.frames->count() : 1;
@@ -85,7 +85,7 @@ void check_together(const CompareOptions& o) {
 
 // All contenders are of a technique of their own.
 void check_assignment(const std::string& assignment) {
-  if (assignment.starts_with("technique=")) fail_usage("'{}' has no meaning here: see --technique", assignment);
+  if (assignment.starts_with("technique=")) fail_usage("'{}' can't be set here: see --technique", assignment);
 }
 
 // And all under the reference's sun, with its casters.
@@ -121,7 +121,7 @@ void check_values(const CompareOptions& options, const shadow::Registry& registr
       check(assignment);
     }
   }
-  if (options.cache && !traced) fail_usage("--cache has no meaning where nothing is ray traced");
+  if (options.cache && !traced) fail_usage("--cache is of no use: nothing here is ray traced");
 }
 
 ParamSet params_of(const CompareOptions& options, const Contender& contender, const shadow::Registry& registry) {

@@ -35,7 +35,7 @@ std::vector<report::Column> columns_of(bool sequence) {
   std::vector<report::Column> columns{
       {"Technique", "", "As --technique names it."},
       {"Cost", "ms", "Median time of all passes between G-buffer and lighting.", Best::lowest},
-      {"Memory", "MiB", "Shadow maps, masks, history and what else the technique keeps on the GPU.", Best::lowest},
+      {"Memory", "MiB", "Shadow maps, masks, history and all other textures of the technique.", Best::lowest},
       {"PSNR penumbra", "dB", "Over receivers whose reference is between 0.02 and 0.98.", Best::highest},
       {"PSNR all", "dB", "Over all receivers.", Best::highest},
       {"Bias", "visibility", "Mean signed error: above 0 where the shadow is too bright.", Best::nearest_zero},
@@ -43,11 +43,13 @@ std::vector<report::Column> columns_of(bool sequence) {
       {"SSIM", "", "Structural similarity, 1 where nothing differs.", Best::highest},
       {"FLIP", "", "How different the two look to a viewer who flips between them, 0 to 1.", Best::lowest},
       {"Width error", "%", "How much wider or narrower penumbrae are, on average.", Best::lowest},
-      {"Width lost", "%", "Share of penumbra pixels where the shadow has no edge to measure; in no other width.",
+      {"Width lost", "%",
+       "Share of penumbra pixels where the shadow has no edge to measure; they count in no other width.",
        Best::lowest}};
   if (sequence) {
     columns.push_back({"Flicker", "visibility", "Mean change of the error from frame to frame.", Best::lowest});
-    columns.push_back({"Ghost", "visibility", "Mean error where shadow has just gone.", Best::lowest});
+    columns.push_back(
+        {"Ghost", "visibility", "Mean error of pixels that were in shadow shortly before.", Best::lowest});
   }
   return columns;
 }
@@ -123,10 +125,10 @@ Html pictures_of(const ComparedScene& scene, const Comparison& comparison, const
           .body = report::picture_slider(figure(label, "The scene", display_picture(technique.pictures, size)),
                                          figure(reference, "The scene", display))},
          {.title = "Visibility of the sun",
-          .note = "White: the whole sun is seen. Figures are of this.",
+          .note = "White: the whole sun is visible. The figures are of these pictures.",
           .body = report::picture_slider(
-              figure(label, "The share of the sun that is seen", visibility_picture(technique.pictures, size)),
-              figure(reference, "The share of the sun that is seen", visibility))},
+              figure(label, "The visible share of the sun", visibility_picture(technique.pictures, size)),
+              figure(reference, "The visible share of the sun", visibility))},
          {.title = "Error",
           .note = {},
           .body = report::error_map({.label = {},
@@ -216,8 +218,9 @@ report::Page comparison_page(const Comparison& comparison, const CompareOptions&
     Html body = table_of(scene, comparison, options.frames.has_value());
     body.add(report::heading("Cost against error"));
     body.add(plot_of(scene));
-    body.add(report::note(
-        "Lower and further left is better. The stair joins the techniques that no other betters in both."));
+    body.add(
+        report::note("Lower and further left is better. The steps join the techniques that no other one beats in both "
+                     "cost and error."));
     body.add(pictures_of(scene, comparison, options.size));
     page.sections.push_back({.title = scene_name(scene.path), .body = std::move(body)});
   }

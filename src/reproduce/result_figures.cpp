@@ -71,7 +71,7 @@ Finding figure_4_12(Workbench& bench) {
       "to have grown.";
   const auto figure = [&](const std::string& label, const std::vector<float>& pixels) {
     return report::Figure{.label = label,
-                          .alt = "The share of the sun that is seen, " + label,
+                          .alt = "The visible share of the sun, " + label,
                           .picture = grey_picture(pixels, bench.width(), bench.height())};
   };
   finding.body = report::tiles(

@@ -113,7 +113,7 @@ Finding figure_4_1(Workbench& bench) {
   };
   const auto visibility = [&](const char* label, const std::vector<float>& pixels) {
     return report::Figure{.label = label,
-                          .alt = std::string("The share of the sun that is seen, ") + label,
+                          .alt = std::string("The visible share of the sun, ") + label,
                           .picture = grey_picture(pixels, bench.width(), bench.height())};
   };
   Finding finding;

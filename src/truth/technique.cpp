@@ -216,7 +216,7 @@ shadow::Registry TruthTechnique::registry(const shadow::Registry& base) const {
               {"truth.error", 0.0f, 0, 1, "",
                "Standard error to reach in 99.9 % of pixels; truth.samples are then the first round. 0: one round.",
                host},
-              {"truth.seed", 0, 0, 1 << 30, "", "Another number gives other points.", host},
+              {"truth.seed", 0, 0, 1 << 30, "", "Seed of the sample points.", host},
           },
       .resolve = [state = state_](const shadow::PassContext& frame) { state->resolve(frame); },
       .denoisable = false,

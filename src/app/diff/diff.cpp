@@ -32,7 +32,8 @@ struct DiffOptions {
 
 std::string description() {
   std::string text =
-      "Tell how far picture A is from picture B, the reference: PNG (display values from 0 to 1) or EXR (its values as "
+      "Measure how far picture A is from picture B, the reference: PNG (display values from 0 to 1) or EXR (its values "
+      "as "
       "they are). Exits with 1 past a limit, and with a limit also if A has values that are not finite, each of which "
       "counts as the error 1.\n\nMetrics:\n";
   for (const Metric& metric : diff_metrics()) text += fmt::format("  {:<15} {}\n", metric.name, metric.help);
@@ -44,7 +45,7 @@ std::string description() {
 void add_options(CLI::App& app, DiffOptions& options) {
   app.add_option("A", options.test, "Picture to test, .png or .exr")->required()->type_name("");
   app.add_option("B", options.reference, "Picture to compare with")->required()->type_name("");
-  app.add_option("--metric", options.metric, "What --max, --min and --heatmap are about")
+  app.add_option("--metric", options.metric, "Metric of --max, --min and --heatmap")
       ->type_name("METRIC")
       ->capture_default_str();
   cli::add_value(app, "--max", "V", "Fail if the metric is greater",
@@ -54,15 +55,16 @@ void add_options(CLI::App& app, DiffOptions& options) {
   const auto add = [&app](const char* name, const char* type, const char* help, std::string& value) {
     cli::add_value(app, name, type, help, [&value](const std::string& text) { value = text; });
   };
-  add("--layer", "NAME", "Layer of both EXRs; else the one without a name, or the only one", options.layer);
-  add("--mask", "NAME", "Layer of B, of one channel: what is 0 or no number there is left out", options.mask);
+  add("--layer", "NAME", "Layer of both EXRs (the one without a name, or else the only one)", options.layer);
+  add("--mask", "NAME", "Layer of B with one channel: pixels that are 0 or not finite in it are left out",
+      options.mask);
   add("--heatmap", "FILE", "Draw where they differ into a PNG: FLIP for that metric, else |error|", options.heatmap);
   add("--json", "FILE", "Write the figures as JSON; - is standard output, in place of the line", options.json);
   cli::add_value(app, "--max-pixels", "N", "Refuse larger pictures before they are decoded (as many as memory holds)",
                  [&](const std::string& text) {
                    options.max_pixels = cli::parse_count("--max-pixels", text, 1, std::numeric_limits<int>::max());
                  });
-  app.add_flag("--quiet", options.quiet, "Print errors alone")->disable_flag_override();
+  app.add_flag("--quiet", options.quiet, "Print errors only")->disable_flag_override();
 }
 
 void check_together(const DiffOptions& options, const Metric& metric) {

@@ -69,9 +69,9 @@ void print_report(const Json& report) {
 }  // namespace
 
 int run_doctor(const Arguments& arguments) {
-  CLI::App app("Tell which OpenGL backends work here", "penumbra doctor");
+  CLI::App app("Print which OpenGL backends work here", "penumbra doctor");
   bool json = false;
-  app.add_flag("--json", json, "For machines")->disable_flag_override();
+  app.add_flag("--json", json, "Print JSON")->disable_flag_override();
   if (!cli::parse(app, arguments)) return 0;
   const Json report = examine();
   if (json) {
