@@ -17,9 +17,9 @@ namespace penumbra::cli {
 
 namespace {
 
-// Mesa's software rasteriser with LLVM and a picture of 640 x 360 take 350 MiB of address space; with less they end in
-// a segmentation fault or in LLVM's abort.
-constexpr std::size_t least_address_space = std::size_t{512} << 20;
+// Mesa's software rasteriser with LLVM and a picture of 640 x 360 take up to 700 MiB of address space; with less they
+// end in a segmentation fault, in LLVM's abort, or never.
+constexpr std::size_t least_address_space = std::size_t{768} << 20;
 constexpr int most_rasteriser_threads = 32;  // of Mesa, whatever the cores
 constexpr int other_threads = 3;             // the scene's loader and the driver's compiler and cache
 
