@@ -68,7 +68,7 @@ std::filesystem::path OutputNames::picture(int frame) const {
 std::filesystem::path OutputNames::aov(int frame, std::string_view name) const {
   std::filesystem::path path = picture(frame);
   const std::string extension = path.extension().string();
-  return path.replace_extension("." + std::string(name) + extension);
+  return path.replace_extension(fmt::format(".{}{}", name, extension));
 }
 
 void check_spared(const std::vector<std::filesystem::path>& scene_files, std::string_view option,

@@ -162,8 +162,9 @@ std::string csv_table(const Comparison& comparison) {
     for (const ComparedTechnique& technique : scene.techniques) {
       text += fmt::format("{},{},{},{}", io::csv_field(scene.path), io::csv_field(technique.label),
                           comparison.reference_params.get_word("technique"), technique.target_bytes);
-      for (const NamedFigure& figure : figures_of(technique.figures)) text += "," + csv_number(figure.value);
-      for (const NamedFigure& figure : costs_of(technique.cost)) text += "," + csv_number(figure.value);
+      for (const NamedFigure& figure : figures_of(technique.figures))
+        text += fmt::format(",{}", csv_number(figure.value));
+      for (const NamedFigure& figure : costs_of(technique.cost)) text += fmt::format(",{}", csv_number(figure.value));
       text += "\n";
     }
   }

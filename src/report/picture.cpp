@@ -46,7 +46,7 @@ Html picture(const Figure& figure) {
 
 Html legend(const Legend& legend) {
   std::string colours, labels;
-  for (const std::string& colour : legend.colours) colours += "," + escape(colour);
+  for (const std::string& colour : legend.colours) colours += fmt::format(",{}", escape(colour));
   for (const std::string& text : legend.labels) labels += fmt::format("<span>{}</span>", escape(text));
   return Html(
       fmt::format("<div class='legend'><span class='legend-title'>{}</span>"

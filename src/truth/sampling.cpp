@@ -3,8 +3,9 @@
 #include <cmath>
 #include <cstddef>
 
-// The same arithmetic for as many lanes at once as the processor has, chosen when the program starts.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+// The same arithmetic for as many lanes at once as the processor has, chosen when the program starts. Not
+// under the thread sanitizer, whose calls in the function that chooses come before it is there.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 #define TRUTH_WIDE_VECTORS __attribute__((target_clones("avx2", "default")))
 #else
 #define TRUTH_WIDE_VECTORS

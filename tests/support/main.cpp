@@ -10,13 +10,14 @@ namespace {
 // its tests share (a GL context) is made once, and files run side by side.
 std::string filter_of(std::string_view file) {
   const testing::UnitTest& all = *testing::UnitTest::GetInstance();
-  const std::string ending = "/" + std::string(file);
+  std::string ending("/");
+  ending += file;
   std::string filter;
   for (int s = 0; s < all.total_test_suite_count(); ++s) {
     const testing::TestSuite& suite = *all.GetTestSuite(s);
     for (int t = 0; t < suite.total_test_count(); ++t) {
       const testing::TestInfo& test = *suite.GetTestInfo(t);
-      if (("/" + std::string(test.file())).ends_with(ending))
+      if (test.file() == file || std::string_view(test.file()).ends_with(ending))
         filter += suite.name() + std::string(".") + test.name() + ":";
     }
   }
