@@ -21,18 +21,22 @@ GLSL_FUNCTION vec2 plane_gradient(vec3 normal, float max_slope) {
   return slope > max_slope ? gradient * (max_slope / slope) : gradient;
 }
 
-// The faces beside a receiver.
-struct Corner {
-  vec4 slopes;     // how much nearer to the light they get with each metre towards +x, +y, -x, -y; not negative
-  float steepest;  // what is nearer than this, with each metre of distance, is never theirs
+// What a shadow map shows about a receiver. Heights are those above the receiver's plane, metres along the light.
+struct Surroundings {
+  vec4 slopes;       // of lit faces beside it: how much higher they get per metre towards +x, +y, -x, -y; not negative
+  float steepest;    // what comes nearer to the light by more than this per metre blocks even if it lies on those faces
+  float covered;     // metres; not 0 if something covers the receiver: texels so near block wherever before the plane
+  float unresolved;  // what is not higher doesn't block: the map can't tell it from the receiver's own surface
 };
 
 // Depths before which four texels block: the nearest of the receiver, its plane and the faces beside it at the texels'
 // centres, less the bias. `plane`: how much deeper than the receiver its plane lies there, metres.
-GLSL_FUNCTION vec4 blocking_depths(float receiver_depth, vec4 plane, Corner corner, vec4 x, vec4 y, float bias) {
-  vec4 faces = max(corner.slopes.x * x, -corner.slopes.z * x) + max(corner.slopes.y * y, -corner.slopes.w * y);
-  vec4 beside = min(faces, corner.steepest * max(abs(x), abs(y)));
-  return receiver_depth + min(plane, -beside) - bias;
+GLSL_FUNCTION vec4 blocking_depths(float receiver_depth, vec4 plane, Surroundings about, vec4 x, vec4 y, float bias) {
+  vec4 distance_to = max(abs(x), abs(y));
+  vec4 faces = max(about.slopes.x * x, -about.slopes.z * x) + max(about.slopes.y * y, -about.slopes.w * y);
+  vec4 before_faces = max(plane - faces, min(plane, -about.steepest * distance_to));
+  vec4 before_receiver = max(plane, vec4(0.0f)) * step(distance_to, vec4(about.covered));
+  return receiver_depth + min(before_faces, before_receiver) - (bias + about.unresolved);
 }
 
 // 1 for each texel that can hide a part of the light, else 0: it is at most `radius` from the receiver, the light's

@@ -76,7 +76,7 @@ Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, int fil
   float bias = depth_bias(receiver, light);
   Search search = narrow_search(receiver, light, light.layer, light.read_radius);
   if (early_exits && search.nearest >= receiver.position.z - bias) return fully_lit();
-  receiver = receiver_in_corner(receiver, bias, cone_slope(receiver, light), light);
+  receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
   Blockers blockers = find_blockers(receiver, search.radius, blocker_taps, bias, light);
   if (blockers.weight == 0.0) return fully_lit();
   float mean = mean_distance(blockers);

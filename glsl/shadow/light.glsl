@@ -25,41 +25,73 @@ float depth_bias(Receiver receiver, Light light) {
   return depth_rounding(light) + texel_size(receiver, light) * (bias_constant + bias_slope * length(receiver.gradient));
 }
 
-// How much nearer to the light the surface beside the receiver gets with each metre towards one side. 0 unless the next
-// three texels rise, not less and less, as a face or the foot of one does, and their surface, continued to the
-// receiver, passes behind it.
-float side_slope(Receiver receiver, ivec2 at, ivec2 side, float texels, float bias, Light light) {
-  float first = depth_at(at + side, light);
-  float second = depth_at(at + 2 * side, light);
-  float near = first - second;
-  float far = second - depth_at(at + 3 * side, light);
-  float rise = min(near, far);
-  bool continues = rise > 0.0 && near <= 1.25 * far + bias;
-  bool behind = first + rise * texels >= receiver.position.z - bias;
-  return continues && behind ? rise / texel_size(receiver, light) : 0.0;
+// How far four texels lie before the receiver's plane, metres along the light.
+vec4 heights_above(Receiver receiver, vec4 depths, Offsets at) {
+  return receiver.position.z + plane_depths(receiver, at) - depths;
 }
 
-// Where lit faces meet in a corner each lies before the other's plane, and yet neither hides the other: a receiver next
-// to another face must not be shadowed by what lies on that face's plane either. What rises by more than `steepest`
-// metres with each metre blocks all the same.
-Receiver receiver_in_corner(Receiver receiver, float bias, float steepest, Light light) {
-  vec2 place = map_place(receiver.position, light.layer);
-  ivec2 at = ivec2(floor(place));
-  vec2 high = vec2(at) + 1.5 - place;
-  vec2 low = place - vec2(at) + 0.5;
-  vec4 own = max(vec4(-receiver.gradient, receiver.gradient), 0.0);
-  vec4 slopes = vec4(side_slope(receiver, at, ivec2(1, 0), high.x, bias, light),
-                     side_slope(receiver, at, ivec2(0, 1), high.y, bias, light),
-                     side_slope(receiver, at, ivec2(-1, 0), low.x, bias, light),
-                     side_slope(receiver, at, ivec2(0, -1), low.y, bias, light));
-  bool meets = any(greaterThan(slopes, own * 1.01 + bias / texel_size(receiver, light)));
-  receiver.corner = Corner(meets ? max(slopes, own) : vec4(0.0), steepest);
+// A surface that the map shows on one side of a receiver.
+struct Face {
+  float rise;    // of its height above the receiver's plane with each texel away from the receiver; 0: there is no face
+  float height;  // continued to the receiver, along the texels' row or column
+};
+
+// The face that the three texels next to the receiver's own show. Their heights rise, about evenly or more and more, as
+// those of a face or of the foot of one do; less and less they rise behind the edge of something before the receiver.
+Face face_beside(Receiver receiver, ivec2 at, ivec2 side, float bias, Light light) {
+  vec2 first = texel_offset(receiver, at + side, light);
+  vec2 next = vec2(side) * texel_size(receiver, light);
+  Offsets offsets = Offsets(first.x + next.x * vec4(0.0, 1.0, 2.0, 2.0), first.y + next.y * vec4(0.0, 1.0, 2.0, 2.0));
+  vec3 depths = vec3(depth_at(at + side, light), depth_at(at + 2 * side, light), depth_at(at + 3 * side, light));
+  vec3 heights = heights_above(receiver, depths.xyzz, offsets).xyz;
+  float near = heights.y - heights.x;
+  float rise = heights.z - heights.y;
+  if (rise <= bias || near < 0.25 * rise || near > 1.25 * rise + bias) return Face(0.0, 0.0);
+  return Face(rise, heights.z - rise * (2.0 + dot(first, next) / dot(next, next)));
+}
+
+// Where lit faces meet each lies before the other's plane, and yet neither hides the other: a receiver next to another
+// face must not be shadowed by what lies on that face. Their slopes along x and y; 0 for a face that, continued to the
+// receiver, passes before it, and so hides it.
+vec4 lit_slopes(Receiver receiver, float bias, Light light) {
+  ivec2 at = ivec2(floor(map_place(receiver.position, light.layer)));
+  Face right = face_beside(receiver, at, ivec2(1, 0), bias, light);
+  Face up = face_beside(receiver, at, ivec2(0, 1), bias, light);
+  Face left = face_beside(receiver, at, ivec2(-1, 0), bias, light);
+  Face down = face_beside(receiver, at, ivec2(0, -1), bias, light);
+  // From the row of texels to the receiver's, and from their column to the receiver's.
+  vec2 to_receiver = -texel_offset(receiver, at, light) / texel_size(receiver, light);
+  vec2 across = vec2(right.rise - left.rise, up.rise - down.rise) * to_receiver;
+  vec4 heights = vec4(right.height, up.height, left.height, down.height) + across.yxyx;
+  return step(heights, vec4(bias)) * vec4(right.rise, up.rise, left.rise, down.rise) / texel_size(receiver, light);
+}
+
+// Texels' widths by which a plane may be off before a texel that lies before it counts as something else than the same
+// surface, where that is bent within less than a texel.
+const float unresolved_bend = 0.15;
+
+// A receiver that knows what the map shows about it. What comes nearer to the light than by `steepest` metres with each
+// metre blocks even if it lies on a face beside the receiver.
+Receiver with_surroundings(Receiver receiver, float bias, float steepest, Light light) {
+  Footprint footprint = fetch_footprint(receiver, vec2(0.0), light);
+  vec4 heights = heights_above(receiver, footprint.depths, footprint.offsets);
+  float least = min(min(heights.x, heights.y), min(heights.z, heights.w));
+  float most = max(max(heights.x, heights.y), max(heights.z, heights.w));
+  float texel = texel_size(receiver, light);
+  // Four texels that all lie before the plane and show one surface: it covers the receiver, which lies between them.
+  bool one_surface = abs(heights.x + heights.z - heights.y - heights.w) <= 0.25 * least + bias;
+  bool nearer = any(lessThan(footprint.depths, vec4(receiver.position.z - bias)));
+  float bend = unresolved_bend * texel * length(receiver.gradient);
+  receiver.surroundings.slopes = lit_slopes(receiver, bias, light);
+  receiver.surroundings.steepest = steepest;
+  receiver.surroundings.covered = least > bias && one_surface && nearer ? 1.5 * texel : 0.0;
+  receiver.surroundings.unresolved = least <= bias && most <= bias + bend ? bend : 0.0;
   return receiver;
 }
 
 // Depths before which texels at those offsets block.
 vec4 blocking_depths_at(Receiver receiver, Offsets at, float bias) {
-  return blocking_depths(receiver.position.z, plane_depths(receiver, at), receiver.corner, at.x, at.y, bias);
+  return blocking_depths(receiver.position.z, plane_depths(receiver, at), receiver.surroundings, at.x, at.y, bias);
 }
 
 // 1 for each texel of a footprint that blocks, else 0.

@@ -16,7 +16,7 @@ struct Receiver {
   vec3 position;
   vec3 normal;    // geometric
   vec2 gradient;  // of its plane: change of depth per metre across the light
-  Corner corner;  // the faces beside it
+  Surroundings surroundings;
   vec2 pixel;     // seeds the noise
   bool history_refused;  // there is a history, and it does not hold here: more taps are worth it
 };
@@ -53,7 +53,7 @@ Receiver make_receiver(vec3 view_position, vec3 light_normal, vec2 pixel) {
   receiver.position = light_position(view_position);
   receiver.normal = light_normal;
   receiver.gradient = plane_gradient(light_normal, max_plane_slope);
-  receiver.corner = Corner(vec4(0.0), 0.0);
+  receiver.surroundings = Surroundings(vec4(0.0), 0.0, 0.0, 0.0);
   receiver.pixel = pixel;
   receiver.history_refused = false;
   return receiver;

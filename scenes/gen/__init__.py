@@ -1,6 +1,6 @@
 """The generator of Penumbra's own scenes: a glTF writer, shapes, textures, and the scenes by name."""
 
-from . import courtyard, measure, story
+from . import contact, courtyard, measure, story
 
 SCENES = {
     "courtyard": courtyard.courtyard,
@@ -11,4 +11,7 @@ SCENES = {
     "moving": story.moving,
     "fence": measure.fence,
     "foliage": story.foliage,
+    "coincident": contact.coincident,
+    "tent": contact.tent,
+    "curtain": contact.curtain,
 }

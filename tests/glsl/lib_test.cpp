@@ -108,20 +108,40 @@ TEST(Kernel, PlaneGradientIsLimitedWhereTheLightGrazes) {
   EXPECT_NEAR(length(gradient), 50, 1e-3);
 }
 
+// Of lit faces that rise so much per metre to each side.
+Surroundings faces(const vec4& slopes, float steepest) { return {slopes, steepest, 0, 0}; }
+
 TEST(Kernel, TexelsBlockBeforeTheReceiverItsPlaneAndTheFacesBesideIt) {
   const vec4 x(-1, 1, 0, -1);
   const vec4 y(0, 0, -1, 1);
   const vec4 plane = 2.0f * x;
-  const vec4 alone = blocking_depths(10, plane, Corner{vec4(0), 100}, x, y, 0.1f);
+  const vec4 alone = blocking_depths(10, plane, faces(vec4(0), 100), x, y, 0.1f);
   EXPECT_FLOAT_EQ(alone.x, 7.9f) << "the plane rises to the light";
   EXPECT_FLOAT_EQ(alone.y, 9.9f) << "the plane falls away";
-  const vec4 beside = blocking_depths(10, plane, Corner{vec4(3, 0, 0, 5), 100}, x, y, 0.1f);
-  EXPECT_FLOAT_EQ(beside.y, 6.9f) << "a face rises on that side";
+  const vec4 beside = blocking_depths(10, plane, faces(vec4(3, 0, 0, 5), 100), x, y, 0.1f);
+  EXPECT_FLOAT_EQ(beside.y, 8.9f) << "a face rises above the plane on that side";
   EXPECT_FLOAT_EQ(beside.z, 4.9f) << "and on that";
   EXPECT_FLOAT_EQ(beside.w, 7.9f) << "elsewhere the plane decides";
-  const vec4 capped = blocking_depths(10, plane, Corner{vec4(3, 0, 0, 5), 4}, x, y, 0.1f);
-  EXPECT_FLOAT_EQ(capped.y, 6.9f);
+  const vec4 capped = blocking_depths(10, plane, faces(vec4(3, 0, 0, 5), 4), x, y, 0.1f);
+  EXPECT_FLOAT_EQ(capped.y, 8.9f);
   EXPECT_FLOAT_EQ(capped.z, 5.9f) << "no face is steeper than that";
+}
+
+TEST(Kernel, TexelsBlockBehindACoveredReceiverWhereTheyLieBeforeItsPlane) {
+  const vec4 x(-1, 1, 2, 1);
+  const vec4 y(0, 0, 0, -1);
+  const vec4 depths = blocking_depths(10, 2.0f * x, {vec4(0), 100, 1.5f, 0}, x, y, 0.1f);
+  EXPECT_FLOAT_EQ(depths.x, 7.9f) << "the plane rises to the light";
+  EXPECT_FLOAT_EQ(depths.y, 11.9f) << "the plane falls away, but its texel is near";
+  EXPECT_FLOAT_EQ(depths.z, 9.9f) << "this one is not";
+  EXPECT_FLOAT_EQ(depths.w, 11.9f);
+}
+
+TEST(Kernel, TexelsThatTheMapCannotTellFromTheReceiversSurfaceDoNotBlock) {
+  const vec4 x(-1, 1, 0, 0);
+  const vec4 depths = blocking_depths(10, 2.0f * x, {vec4(0), 100, 0, 0.5f}, x, vec4(0), 0.1f);
+  EXPECT_FLOAT_EQ(depths.x, 7.4f);
+  EXPECT_FLOAT_EQ(depths.y, 9.4f);
 }
 
 TEST(Kernel, TheConeHoldsWhatCanHideTheLight) {

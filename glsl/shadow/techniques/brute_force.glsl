@@ -48,7 +48,7 @@ bool blocks(Receiver receiver, Texel texel, float bias) {
 
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
-  receiver = receiver_in_corner(receiver, bias, cone_slope(receiver, light), light);
+  receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
   // The map's own footprint belongs to both discs, as in add_blockers().
   float search =
       narrow_search(receiver, light, light.layer, light.read_radius).radius + footprint_margin(receiver, light);

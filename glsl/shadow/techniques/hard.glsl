@@ -7,7 +7,7 @@ Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
   float lit = lit_share(receiver, vec2(0.0), bias, light);
   if (lit < 1.0) {
-    lit = lit_share(receiver_in_corner(receiver, bias, max_plane_slope, light), vec2(0.0), bias, light);
+    lit = lit_share(with_surroundings(receiver, bias, max_plane_slope, light), vec2(0.0), bias, light);
   }
   return Visibility(lit, 0.0, 0.0, true);
 }

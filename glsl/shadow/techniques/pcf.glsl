@@ -5,7 +5,7 @@ float read_radius(Receiver receiver, Light light) { return pcf_radius; }
 
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
-  receiver = receiver_in_corner(receiver, bias, max_plane_slope, light);
+  receiver = with_surroundings(receiver, bias, max_plane_slope, light);
   Scramble scramble = filter_scramble(receiver);
   float lit = 0.0;
   for (int i = 0; i < pcf_filter_taps; ++i) {
