@@ -26,13 +26,13 @@ Visibility visibility(Receiver receiver, Light light) { return fully_lit(); }
 constexpr const char* ground_text = R"(
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
-layout(std140, binding = 4) uniform Projection { mat4 world_to_clip; vec4 to_light; };
+layout(std140, binding = 4) uniform Projection { mat4 plane_to_clip; vec4 to_light; };
 void main() {
   vec3 heights = vec3(gl_in[0].gl_Position.y, gl_in[1].gl_Position.y, gl_in[2].gl_Position.y);
   if (max(heights.x, max(heights.y, heights.z)) < 0.01) return;
   for (int i = 0; i < 3; ++i) {
     vec3 position = gl_in[i].gl_Position.xyz;
-    gl_Position = world_to_clip * vec4(position - to_light.xyz * (position.y / to_light.y), 1.0);
+    gl_Position = plane_to_clip * vec4(position - to_light.xyz * (position.y / to_light.y), 1.0);
     EmitVertex();
   }
   EndPrimitive();
