@@ -48,7 +48,7 @@ std::string quoted_or(const std::string& name, const std::string& otherwise) {
   return name.empty() ? otherwise : "'" + name + "'";
 }
 
-// Marks them, and says which there are.
+// Marks the nodes that are skies, and warns of those that cast no shadow for it.
 void mark_skies(const std::filesystem::path& path, Scene& scene) {
   for (const int number : find_skies(scene, rest_pose(scene))) {
     Node& node = scene.nodes[static_cast<std::size_t>(number)];
