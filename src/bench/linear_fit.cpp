@@ -14,7 +14,7 @@ namespace {
 using Rows = std::vector<std::vector<double>>;
 
 // Gaussian elimination with pivots: `rows` is a square matrix and, as a last column, the right-hand side. The matrix
-// has 1 on its diagonal, so that a pivot tells how far its row is from depending on the others.
+// has 1 on its diagonal, so that a pivot is small if its row nearly depends on the others.
 std::vector<double> solved(Rows rows) {
   constexpr double least_pivot = 1e-9;
   const std::size_t n = rows.size();

@@ -91,7 +91,8 @@ std::vector<Entry> entries_of(const Options& options, const shadow::Registry& re
     if (is_preset(name)) {
       one.presets.push_back(name);
     } else {
-      if (name == "truth") fail_usage("--technique truth is traced by the CPU: penumbra truth tells its rays a second");
+      if (name == "truth")
+        fail_usage("--technique truth is traced by the CPU: see penumbra truth, which prints its rays per second");
       one.technique = name;
     }
     Entry entry{.label = name, .params = cli::resolve_params(one, registry)};

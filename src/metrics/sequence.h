@@ -10,16 +10,16 @@
 
 namespace penumbra::metrics {
 
-// What happens at a frame, before it is drawn. A cut: camera or scene are others than in the last frame, which then
-// says nothing. A stop: the first frame in which all is where it stays. A start: something moves again.
+// What happens at a frame, before it is drawn. A cut: camera or scene differ from the last frame, which is then not
+// compared. A stop: the first frame in which everything is where it stays. A start: something moves again.
 enum class Event : std::uint8_t { none, cut, stop, start };
 
-// How a technique came to rest after a cut or a stop.
+// How a technique converges after a cut or a stop.
 struct Recovery {
   std::size_t frame = 0;              // of the event, counted from 0
   Event event = Event::cut;           // cut or stop
-  std::optional<std::size_t> frames;  // after which it is at rest: 0 if from the event's own frame on; none: not told
-  double static_error = 0;            // mean |e| of the region at rest, NaN if not told
+  std::optional<std::size_t> frames;  // until it has converged: 0 for the event's own frame; absent if unknown
+  double static_error = 0;            // mean |e| of the region once converged, NaN if unknown
 };
 
 // Figures of all frames so far; NaN where nothing was measured.

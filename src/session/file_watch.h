@@ -12,8 +12,8 @@
 
 namespace penumbra::session {
 
-// Tells which files were saved, by inotify: a descriptor that poll() reads, no thread. A change is reported once
-// nothing more has changed for a while, so that a half-written file or a burst of saves is one change. It does not
+// Finds out which files were saved, by inotify: a descriptor that poll() reads, without a thread. A change is reported
+// once nothing more has changed for a while, so that a half-written file or a burst of saves is one change. It does not
 // matter how an editor saves: in place, by renaming over the file, or by deleting and creating it. Paths are resolved
 // through symbolic links, and every folder on the way is watched, so that links may change and folders be removed and
 // created again.
@@ -44,7 +44,7 @@ class FileWatch {
   std::vector<std::filesystem::path> poll(std::chrono::milliseconds timeout = std::chrono::milliseconds(0));
 
  private:
-  // What tells two states of a file apart.
+  // Two states of a file differ if their stamps do.
   struct Stamp {
     std::uint64_t device = 0, inode = 0;
     std::int64_t size = 0, seconds = 0, nanoseconds = 0;
@@ -53,12 +53,12 @@ class FileWatch {
   };
   // A real folder, and what matters of its entries.
   struct Place {
-    std::set<std::filesystem::path> prefixes;                      // a watched folder: what its entries are told as
+    std::set<std::filesystem::path> prefixes;  // names under which a watched folder's entries are reported
     std::map<std::string, std::set<std::filesystem::path>> names;  // single entries, and the files that each one is
   };
   struct Survey {
     std::map<std::filesystem::path, Place> places;
-    std::map<std::filesystem::path, Stamp> files;  // those that exist, by the name that they are told by
+    std::map<std::filesystem::path, Stamp> files;  // those that exist, by the name under which they are reported
   };
 
   static void survey_path(Survey& survey, const std::filesystem::path& path, const std::filesystem::path& told_as);

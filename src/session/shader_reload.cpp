@@ -8,7 +8,7 @@ namespace penumbra::session {
 
 namespace {
 
-// Both as the user wrote them: a watch tells a folder's files under the folder's own name.
+// Compares paths as the user wrote them, because a watch reports a folder's files under the folder's own name.
 bool lies_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }

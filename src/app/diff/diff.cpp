@@ -122,7 +122,7 @@ void write_heatmap(const DiffOptions& options, const Metric& metric, const Diffe
                    {{"Software", cli::version()}, {"penumbra:full_scale", fmt::format("{:g}", scale)}});
 }
 
-// What the limit says, in one line; empty if all is well.
+// One line about a limit that is exceeded, or an empty text.
 std::string verdict(const DiffOptions& options, const Figure& figure, const Difference& difference) {
   const std::string names = fmt::format("{} against {}", io::quoted(options.test), io::quoted(options.reference));
   if (!options.max && !options.min) return {};

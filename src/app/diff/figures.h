@@ -12,7 +12,7 @@
 
 namespace penumbra::app {
 
-// A figure by which two pictures are compared. Its formula stands in docs/metrics.md.
+// A figure by which two pictures are compared. docs/metrics.md has its formula.
 struct Metric {
   const char* name;
   const char* help;
@@ -46,7 +46,7 @@ void check_comparable(const image::Picture& test, const image::Picture& referenc
                       const std::string& test_name, const std::string& reference_name);
 Difference difference_of(const image::Picture& test, const image::Picture& reference, metrics::Receivers receivers);
 
-// "rmse 0.0123, psnr 38.20 dB, …": what fits these pictures. Widths that the test lost are told after their error.
+// "rmse 0.0123, psnr 38.20 dB, …": what fits these pictures. The share of lost widths comes after their error.
 std::string text_of(const Difference& difference);
 std::string text_of(const Figure& figure);  // with its unit; "inf" for an infinite one
 // The figures by name, and penumbra_width_lost; infinite ones are "inf" and those of an empty penumbra null, unfit ones
