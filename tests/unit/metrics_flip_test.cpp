@@ -23,7 +23,7 @@ using test::Grey;
 struct Rgb {
   int width = 0, height = 0;
   std::vector<float> pixels;
-  operator Picture() const { return {width, height, pixels, 3}; }  // NOLINT(google-explicit-constructor)
+  operator ImageView() const { return {width, height, pixels, 3}; }  // NOLINT(google-explicit-constructor)
 };
 
 Rgb read(const fs::path& path) {

@@ -15,7 +15,7 @@ namespace {
 
 std::string base64_of(std::string_view text) { return base64(std::as_bytes(std::span(text))); }
 
-Picture picture_of(std::string_view bytes) {
+EncodedPicture picture_of(std::string_view bytes) {
   const auto span = std::as_bytes(std::span(bytes));
   return make_picture({span.begin(), span.end()}, 4, 2);
 }
