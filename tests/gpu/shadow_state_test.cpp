@@ -273,7 +273,8 @@ TEST_F(ShadowState, EveryTechniqueInheritsNothingAndLeavesWhatIsDocumented) {
 TEST_F(ShadowState, SoDoesEveryChoiceOfTheLibrary) {
   TriangleRenderer clean, disturbed;
   const std::vector<std::string> techniques = clean.shadows().registry().names();
-  for (const Param& row : clean.params().rows()) {
+  const ParamSet defaults = clean.params();
+  for (const Param& row : defaults.rows()) {
     const bool of_technique = std::ranges::find(techniques, row.name.substr(0, row.name.find('.'))) != techniques.end();
     const bool is_choice = !row.choices.empty() || std::holds_alternative<bool>(row.default_value);
     if (of_technique || !is_choice) continue;
