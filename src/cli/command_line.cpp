@@ -38,7 +38,7 @@ void log_from(const std::string& name) {
   if (found == log_levels().end()) {
     std::vector<std::string> names;
     for (const auto& [level, value] : log_levels()) names.push_back(level);
-    fail_unknown("log level", name, names);
+    fail_unknown_usage("log level", name, names);
   }
   set_log_sink([least = found->second](LogLevel level, std::string_view message) {
     if (static_cast<int>(level) < least) return;
@@ -56,7 +56,7 @@ void log_from(const std::string& name) {
   const std::string name = extra.substr(0, extra.find('='));
   const std::vector<std::string> near = near_names(name, names);
   if (near.empty()) fail_usage("unknown option '{}'; see {} --help", name, options.get_name());
-  fail_unknown("option", name, names);
+  fail_unknown_usage("option", name, names);
 }
 
 // What is neither an option nor wanted. CLI11 leaves the mark "--" among it, behind which nothing is an option.
@@ -150,17 +150,17 @@ bool parse(CLI::App& options, const Arguments& arguments) {
   } catch (const CLI::CallForHelp&) {
     fmt::print("{}", options.help());
     return false;
+  } catch (const CLI::RequiredError& error) {
+    hint_at_file(arguments);
+    refuse_extras(options);  // an unknown option is why the scene is missing, as often as not
+    throw UsageError(one_line(error));
   } catch (const CLI::ParseError& error) {
     hint_at_file(arguments);
     throw UsageError(one_line(error));
   }
-  try {
-    if (options.remaining_size() > 0) hint_at_file(arguments);
-    refuse_extras(options);
-    log_from(level);
-  } catch (const Error& error) {
-    throw UsageError(error.what());
-  }
+  if (options.remaining_size() > 0) hint_at_file(arguments);
+  refuse_extras(options);
+  log_from(level);
   return true;
 }
 

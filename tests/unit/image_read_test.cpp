@@ -80,16 +80,22 @@ TEST(ImageRead, RefusesDamage) {
 
 // A JPEG of 8 x 8 grey pixels, made of flat blocks, with `segments` behind its first marker.
 std::string jpeg_8x8(const std::string& segments = {}) {
-  const auto segment = [](int marker, const std::string& payload) {
-    const std::size_t size = payload.size() + 2;
-    return std::string{'\xff', static_cast<char>(marker), static_cast<char>(size >> 8), static_cast<char>(size)} +
-           payload;
-  };
   using namespace std::string_literals;
-  const std::string table = "\1"s + std::string(15, '\0') + '\0';  // one code, of one bit, for the symbol 0
-  return "\xff\xd8"s + segments + segment(0xDB, '\0' + std::string(64, '\1')) +
-         segment(0xC0, "\x08\0\x08\0\x08\1\1\x11\0"s) + segment(0xC4, '\0' + table) + segment(0xC4, '\x10' + table) +
-         segment(0xDA, "\1\1\0\0\x3f\0"s) + "\x3f\xff\xd9"s;
+  std::string jpeg = "\xff\xd8"s;
+  const auto add = [&jpeg](int marker, const std::string& head, const std::string& rest) {
+    const std::size_t size = head.size() + rest.size() + 2;
+    jpeg.append({'\xff', static_cast<char>(marker), static_cast<char>(size >> 8), static_cast<char>(size)});
+    jpeg.append(head).append(rest);
+  };
+  std::string table(17, '\0');
+  table[0] = 1;  // one code, of one bit, for the symbol 0
+  jpeg.append(segments);
+  add(0xDB, "\0"s, std::string(64, '\1'));
+  add(0xC0, "\x08\0\x08\0\x08\1\1\x11\0"s, {});
+  add(0xC4, "\0"s, table);
+  add(0xC4, "\x10"s, table);
+  add(0xDA, "\1\1\0\0\x3f\0"s, {});
+  return jpeg.append("\x3f\xff\xd9"s);
 }
 
 std::vector<std::byte> bytes_of(const std::string& text) {
