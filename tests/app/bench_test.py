@@ -139,7 +139,7 @@ class Bench(TestCase):
         for arguments, said in {
             ("--technique", "pcs"): "did you mean 'pcf'",
             ("--technique", "pcss,pcss"): "twice",
-            ("--technique", "pcss,truth"): "penumbra truth tells",
+            ("--technique", "pcss,truth"): "see penumbra truth",
             ("--technique", "pcss,,hard"): "empty",
             ("--technique", "hard", "--sweep", "taps"): "hard.blocker_taps",
             ("--sweep", "tap"): "did you mean 'taps'",

@@ -84,7 +84,7 @@ struct Bytes {
 };
 
 // What all goldens share. Scenes stay read, and programs compiled, from one to the next.
-class Studio {
+class GoldenRenderer {
  public:
   ParamSet params_of(const Golden& golden) const {
     ParamSet params(render::Renderer::params(registry_));
@@ -219,22 +219,25 @@ std::string report(const Golden& golden, const Bytes& picture, const Bytes& refe
 class GoldenPictures : public GpuTest, public testing::WithParamInterface<Golden> {
  protected:
   GoldenPictures() {
-    if (studio_) return;
-    studio_ = std::make_unique<Studio>();
-    if (recording()) std::ofstream(record_file()) << renderer_version() << "\n";
+    if (renderer_) return;
+    renderer_ = std::make_unique<GoldenRenderer>();
+    if (recording()) {
+      fs::create_directories(folder());
+      std::ofstream(record_file()) << renderer_version() << "\n";
+    }
     const bool same = renderer_version() == recorded_version();
     if (!same) fmt::print("the golden pictures are of {}; this is {}\n", recorded_version(), renderer_version());
   }
-  static void TearDownTestSuite() { studio_.reset(); }
+  static void TearDownTestSuite() { renderer_.reset(); }
 
-  static inline std::unique_ptr<Studio> studio_;
+  static inline std::unique_ptr<GoldenRenderer> renderer_;
 };
 
 TEST_P(GoldenPictures, IsAsRecorded) {
   const Golden& golden = GetParam();
   const std::optional<Tolerance> tolerance = tolerance_here(golden);
   if (!tolerance) GTEST_SKIP() << "skipped: golden pictures are of a software renderer, this is " << renderer_version();
-  const Bytes picture = studio_->draw(golden);
+  const Bytes picture = renderer_->draw(golden);
   if (recording()) {
     write(file_of(golden), picture);
     return;
