@@ -29,6 +29,8 @@ std::span<const Golden> goldens() {
       {"pcss_compute_fence", "fence", "pcss_compute", {}, &rounding},
       {"brute_force_posts", "posts", "brute_force", {"sun.angle=2"}, &rounding},
       {"brute_force_fence", "fence", "brute_force", {}, &rounding},
+      {"brute_force_compute_posts", "posts", "brute_force_compute", {"sun.angle=2"}, &rounding},
+      {"brute_force_compute_fence", "fence", "brute_force_compute", {}, &rounding},
       {"truth_posts", "posts", "truth", {"truth.samples=64", "sun.angle=2"}, &tracing},
       {"truth_foliage", "foliage", "truth", {"truth.samples=64"}, &tracing},
       {"thesis_thesis", "thesis", "thesis", {}, &rounding},
