@@ -21,11 +21,13 @@ class ImageDecoder {
   using Decode = std::function<Image(std::span<const std::byte> encoded, const std::string& name)>;
 
   ImageDecoder(Decode decode, ImageProbe probe) : decode_(std::move(decode)), probe_(std::move(probe)) {}
-  // Without a probe, limits are checked only as images are decoded.
+  // Implicit, so that a function can be passed where a decoder is expected. Without a probe, limits are checked only as
+  // images are decoded.
   template <class Callable>
   requires(!std::same_as<std::remove_cvref_t<Callable>, ImageDecoder> && std::constructible_from<Decode, Callable>)
+      // NOLINTNEXTLINE(bugprone-forwarding-reference-overload,google-explicit-constructor)
       ImageDecoder(Callable&& decode)
-      : decode_(std::forward<Callable>(decode)) {}  // NOLINT: a function is a decoder
+      : decode_(std::forward<Callable>(decode)) {}
 
   Image operator()(std::span<const std::byte> encoded, const std::string& name) const { return decode_(encoded, name); }
   const ImageProbe& probe() const { return probe_; }
