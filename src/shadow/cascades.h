@@ -13,17 +13,17 @@ constexpr int max_cascades = 8;
 // `world_to_light`: x and y across the light, z along its rays, growing away from the light. It is left-handed: the
 // matrix is orthogonal with determinant -1.
 
-// One square of a shadow map. The map's depth is linear: 0 at near_z, 1 at far_z.
+// One cascade: a square layer of the shadow map. The map's depth is linear: 0 at near_z, 1 at far_z.
 struct Cascade {
   glm::vec2 center{0};    // light space, metres; a whole number of texels from the world's origin
-  float half_extent = 1;  // of the whole map, metres
-  float near_z = 0;       // before every caster that can reach the cascade: depths are never clamped
+  float half_extent = 1;  // of the layer, metres
+  float near_z = 0;  // nearer to the light than every caster that can shadow the cascade, so depths need no clamping
   float far_z = 1;
   glm::dmat4 world_to_clip{1};  // x, y in -1..1, z in 0..1
 };
 
-// The cascades of a directional light, finest first. Each holds all of the view's frustum up to its range, so a
-// receiver whose disc leaves one cascade finds it whole in a coarser one.
+// The cascades of a directional light, finest first. Each contains the whole view frustum up to its range, so where a
+// receiver's search disc is not within one cascade, a coarser cascade contains all of it.
 struct Cascades {
   glm::dmat3 world_to_light{1};
   glm::dvec3 anchor{0};
@@ -39,20 +39,20 @@ struct CascadeInputs {
   glm::mat4 view{1};            // world to view, right-handed, -Z forward
   glm::mat4 projection{1};      // perspective or orthographic; its depth convention does not matter here
   glm::vec3 to_light{0, 1, 0};  // unit, world
-  float tan_half_angle = 0;     // of the light; a wide light under high casters widens the last map
-  Box casters;                  // all that may cast
-  Box receivers;                // all that may receive; limits the last cascade's range
+  float tan_half_angle = 0;     // of the light; a large light and high casters make the last cascade wider
+  Box casters;                  // bounds of all casters
+  Box receivers;                // bounds of all receivers; limits the last cascade's range
   int count = 4;
   int size = 2048;
   float split_blend = 0.75f;  // 0 uniform, 1 logarithmic (Zhang 2006, parallel-split shadow maps, eq. 3)
-  float distance = 0;         // range of the last cascade, metres; 0: what the view sees of the receivers
+  float distance = 0;         // range of the last cascade, metres; 0: as far as receivers lie in the view
 };
 
 Cascades fit_cascades(const CascadeInputs& inputs);
 
-// The column over a cascade's map, open towards the light. A receiver whose disc leaves the map reads a coarser
-// cascade, and the last map is fitted to the frustum's part widened by the light's cone, as far up as casters are: it
-// holds the discs of all receivers. So a caster outside the column can't matter.
+// The column above a cascade, unbounded towards the light. A caster outside of it can't shadow a receiver that reads
+// the cascade: a receiver whose search disc is not within the cascade reads a coarser one, and the last cascade, which
+// covers the frustum widened by the light's cone up to the highest caster, contains the discs of all receivers.
 CullVolume cull_volume(const Cascades& cascades, int index);
 
 }  // namespace penumbra::shadow

@@ -7,15 +7,15 @@
 
 namespace penumbra::shadow {
 
-// The caller's textures that were found good in a view's last frame. OpenGL is asked about a texture again only when
-// its name, its size or what it is used for is another.
+// Remembers which of the caller's textures passed the checks in a view's last frame. OpenGL is queried about a texture
+// again only when its name, size or use changes.
 class TextureChecks {
  public:
   struct Key {
     unsigned id = 0;
     int width = 0, height = 0;
-    int channels = 0;  // signed numbers; 0: depth
-    int layers = 1;    // at least
+    int channels = 0;  // that it needs, of signed numbers; 0: it is a depth texture
+    int layers = 1;    // that it needs at least
 
     bool operator==(const Key&) const = default;
   };
@@ -28,7 +28,7 @@ class TextureChecks {
   std::vector<Key> last_, now_;
 };
 
-// As check(Inputs), with what is known of the last frame.
+// Like check(Inputs), but skips the textures that `checks` knows from the last frame.
 void check(const Inputs& inputs, TextureChecks& checks);
 
 }  // namespace penumbra::shadow

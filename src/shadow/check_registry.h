@@ -4,7 +4,7 @@
 
 namespace penumbra::shadow {
 
-// Throws Error as Registry's constructor says.
+// Throws Error for the faults that Registry's constructor lists.
 void check_contents(const Registry& registry);
 
 }  // namespace penumbra::shadow

@@ -4,23 +4,24 @@
 
 namespace penumbra::shadow {
 
-// A mask on its way through a denoiser: R32UI packed texels (see glsl/lib/packed_texel.glsl), and R8UI notes (see
-// LightFrame), both the size of the mask.
+// The intermediate form of a mask between a denoiser's steps: R32UI packed texels (see glsl/lib/packed_texel.glsl), and
+// R8UI notes (see LightFrame::notes), both of the mask's size.
 struct PackedMask {
   const gl::Texture& texels;
   const gl::Texture& notes;
 };
 
-// What a denoiser's steps do beyond what a technique's may.
+// PassContext with the additional steps that only denoisers use.
 class DenoiseContext : public PassContext {
  public:
   using PassContext::PassContext;
 
-  // What Denoiser::remembers lists.
+  // The history of a texture that Denoiser::remembers lists.
   History remembered(std::string_view name) const;
-  // What the technique computed, as packed texels and notes: of its visibility(), or of the mask's layer as its
-  // `resolve` left it. With `last_surfaces`, each pixel's note says whether its history holds, so that techniques can
-  // take more points where it does not: RG32UI, what surface_bits() of glsl/shadow/history.glsl gave in the last frame.
+  // The technique's result as packed texels and notes: computed by its visibility(), or converted from the layer of the
+  // mask that its `resolve` filled. With `last_surfaces` (RG32UI, the surface_bits() of glsl/shadow/history.glsl of the
+  // last frame), each pixel's note says whether its history is valid, so that techniques can take more sample points
+  // where it is not.
   PackedMask evaluate_packed(const gl::Texture* last_surfaces = nullptr) const;
   // Packed texels after all passes of a filter; "none": `source` itself. R32UI, the size of the mask.
   const gl::Texture& filter(std::string_view filter, const gl::Texture& source) const;

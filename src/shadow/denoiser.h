@@ -11,10 +11,10 @@ namespace penumbra::shadow {
 
 class DenoiseContext;
 
-// What follows a technique, so that few sample points are enough: filters, and blends with earlier frames. The
+// Reduces the noise of a technique that takes few sample points, by filters and by blending with earlier frames. The
 // parameter "denoiser" chooses one, or "none".
 struct Denoiser {
-  // A texture of the mask's size that it takes from one frame to the next, for each light in each view.
+  // A texture of the mask's size that is kept from one frame to the next, for each light in each view.
   struct Remembered {
     std::string name;
     GLenum format = GL_R32UI;
@@ -23,17 +23,18 @@ struct Denoiser {
   std::string name;
   std::string summary;  // one sentence
   std::string source;   // "Author Year, section"
-  // What its passes read of a light, by name, as Technique::needs; besides "movement_map", which is drawn where
-  // `remembers` is not empty (see movement_map.h).
+  // The textures of a light that its passes read, by name, like Technique::needs; also "movement_map", which is drawn
+  // only if `remembers` is not empty (see movement_map.h).
   std::vector<std::string> needs = {};
   std::vector<Param> params = {};
-  // Whether it does anything under these parameters: else the technique writes the mask itself. Absent: always.
+  // Whether it does anything with these parameters; if not, the technique writes the mask directly. Absent: always.
   std::function<bool(const ParamSet&)> applies = {};
-  // What it remembers under these parameters; absent or empty: nothing, so that no frame depends on an earlier one.
+  // What it keeps for the next frame with these parameters; absent or empty: nothing, so no frame depends on an earlier
+  // one.
   std::function<std::vector<Remembered>(const ParamSet&)> remembers = {};
-  // Its steps in order: from DenoiseContext::evaluate_packed() to the mask's layer.
+  // Runs its steps in order, from DenoiseContext::evaluate_packed() to the filled layer of the mask.
   std::function<void(const DenoiseContext&)> denoise;
-  // The programs of its own that `denoise` uses under these parameters, by name, as Technique::programs.
+  // Its own programs that `denoise` uses with these parameters, by name, like Technique::programs.
   std::function<std::vector<gl::ProgramDesc>(const ParamSet&)> programs = {};
 };
 

@@ -8,9 +8,10 @@ namespace penumbra::shadow {
 
 // A filter on the packed texels of a mask (see glsl/lib/packed_texel.glsl). Its GLSL file defines
 //   uint filtered(ivec2 pixel);
-// in terms of what glsl/shadow/drivers/filter.glsl offers, and nothing there knows its name.
+// using the functions of glsl/shadow/drivers/filter.glsl, which is the same for every filter.
 struct Filter {
-  // What it changes: the mean blocker distance, before the size of any kernel is taken from it, or the visibility.
+  // What it filters: the mean blocker distance, from which the visibility filter's kernel size is computed later, or
+  // the visibility.
   enum class Of { penumbra, visibility };
 
   std::string name;
@@ -19,8 +20,9 @@ struct Filter {
   std::string glsl;     // file under glsl/
   Of of = Of::visibility;
   int passes = 1;
-  // Pixels that a pass reads to each side of its own, along x and y: what the compute form shares in a group. No more
-  // than fits into 32 KiB, else its compute form is the fragment one.
+  // For each pass, how many pixels it reads to each side of the filtered one, along x and y. The compute variant loads
+  // a group's pixels with this border into shared memory; if they do not fit into 32 KiB, the fragment variant is used
+  // instead.
   std::vector<glm::ivec2> reach = {};
 };
 

@@ -5,11 +5,11 @@
 
 namespace penumbra::shadow {
 
-// GLSL with every name that it declares at global scope, macros and members of uniform blocks included, renamed to
-// begin with `prefix`, wherever it stands; names that begin so already stay. For text whose includes are resolved.
+// Returns GLSL in which every name declared at global scope, including macros and members of uniform blocks, is renamed
+// to begin with `prefix` wherever it is used, unless it already does. Includes must have been resolved.
 std::string with_prefix(std::string_view glsl, std::string_view prefix);
 
-// The text without its #version, which the program that it is pasted into has of its own.
+// The text without its #version line: the program into which it is pasted has one.
 std::string without_version(std::string_view glsl);
 
 }  // namespace penumbra::shadow

@@ -9,12 +9,12 @@ struct MaskInputs {
   const Registry& registry;
   const Programs& programs;
   Samples& samples;
-  const ParamSet& defaults;  // of the registry's rows
+  const ParamSet& defaults;  // the registry's parameters with their default values
   const Inputs& inputs;
   const ParamSet& params;
 };
 
-// The frame of the shadow library: from what the caller gives to the mask, one layer a light.
+// Runs a whole frame of the shadow library: draws the maps of every light and fills the mask, one layer for each light.
 Mask draw_mask(const MaskInputs& inputs, ViewState& view);
 
 }  // namespace penumbra::shadow

@@ -9,13 +9,13 @@
 
 namespace penumbra::shadow {
 
-// The rows that belong to no technique, denoiser or filter: driver, sun, cascades, bias, sampling.
+// The parameters that belong to no technique, denoiser or filter: driver, sun, cascades, bias, sampling.
 std::vector<Param> library_params();
-// Which denoiser is used.
+// The parameter that chooses the denoiser.
 Param denoiser_param(std::span<const Denoiser> denoisers);
-// Of the movement map, which denoisers ask for.
+// The parameters of the movement map, which denoisers with a history use.
 std::vector<Param> movement_params();
-// Which filters are used, and what all of them have.
+// The parameters that choose the filters, and those that all filters share.
 std::vector<Param> filter_params(std::span<const Filter> filters);
 
 }  // namespace penumbra::shadow

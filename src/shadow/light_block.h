@@ -7,13 +7,13 @@
 
 namespace penumbra::shadow {
 
-// What a light's state says of a frame.
+// Values for the uniform block that come from a light's state.
 struct LightTraits {
   glm::vec4 noise_shift{0};  // see samples.h
   glm::vec2 last_jitter{0};
 };
 
-// What the GLSL of the shadow passes reads of a view and a light.
+// The contents of the uniform block that the shadow passes read for one view and one light.
 glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, const LightTraits& traits);
 
 }  // namespace penumbra::shadow

@@ -16,11 +16,11 @@ struct ShadowBlock;
 
 namespace penumbra::shadow {
 
-// What depends on the kind of a light is declared here and in glsl/shadow/light_projection.glsl, and nowhere else: what
-// a light is, how its shadow map is projected, and what shaders are told of both.
+// All that depends on the kind of light is declared here and in glsl/shadow/light_projection.glsl, and nowhere else:
+// the data that describes a light, the projection of its shadow map, and the uniforms for both.
 
-// A light without end distance, whose rays are parallel. Its angle and shape are the parameters sun.angle and
-// sun.shape.
+// A directional light at infinite distance, with parallel rays. Its angular size and shape are the parameters sun.angle
+// and sun.shape.
 struct Sun {
   glm::vec3 to_light{0, 1, 0};  // unit, world
 
@@ -33,9 +33,9 @@ constexpr int max_layers = 8;
 // The kinds of light.
 using LightSource = std::variant<Sun>;
 
-// Its size, which makes shadows soft.
+// The size of a light's emitter, which causes the penumbra.
 struct LightShape {
-  float extent = 0;     // of a sun: the tangent of half the angle that it spans
+  float extent = 0;     // of a sun: the tangent of half its angular diameter
   bool square = false;  // else a disc
 };
 
@@ -44,40 +44,39 @@ struct TexelRange {
   glm::ivec2 first{0}, last{0};
 };
 
-// Where the layers of a light's shadow map lie in the world, and what their depths mean. A layer stores depths along
-// the light, linear: 0 at its nearest, 1 at its farthest.
+// Places the layers of a light's shadow map in the world, and converts their depths. A layer stores linear depth along
+// the light: 0 at its near plane, 1 at its far plane.
 class LightProjection {
  public:
   LightProjection() = default;
-  // A sun's: one layer a cascade.
+  // For a sun: one layer for each cascade.
   LightProjection(Cascades cascades) : cascades_(std::move(cascades)) {}  // NOLINT(google-explicit-constructor)
 
   int layers() const { return static_cast<int>(cascades_.items.size()); }
   int size() const { return cascades_.size; }  // side of each layer, texels
-  // From world space to clip space of a layer: x and y in -1..1 within the map, z in 0..1 as it stores it.
+  // From world space to clip space of a layer: x and y in -1..1 within the map, z in 0..1, which is the stored depth.
   glm::mat4 world_to_clip(int layer) const;
-  // Casters outside of it can't matter to the layer.
+  // Casters outside of it can't shadow any receiver that reads the layer.
   CullVolume cull_volume(int layer) const;
-  // Casters outside of it can't reach any receiver of the view.
+  // Casters outside of it can't shadow any receiver of the view.
   CullVolume cull_volume_of_all() const { return cull_volume(layers() - 1); }
-  // Texels of a layer in which something within a box can be, none where nothing can. A texel more to each side than
-  // the box covers, for rounding.
+  // The texels of a layer that a box in the world may cover, widened by one texel to each side for rounding; none if
+  // the box lies outside of the layer.
   std::optional<TexelRange> texels_of(int layer, const Box& world_box) const;
-  // Of a sun.
+  // Only for a sun.
   const Cascades& cascades() const { return cascades_; }
 
-  // Fills the members of the block that tell shaders of the projection, for a camera. `moved`: what moved, as in
-  // Inputs.
+  // Fills those members of the uniform block that describe the projection, for a camera. `moved`: see Inputs::moved.
   void write(glsl::ShadowBlock& block, const glm::dmat4& view_to_world, const std::optional<Box>& moved) const;
 
-  // What keeps it from being used, for an error message ("cascade 2 has no extent"); empty if nothing does.
+  // Why it can't be used, for an error message ("cascade 2 has no extent"); empty if it can.
   std::string fault() const;
 
  private:
   Cascades cascades_;
 };
 
-// What a projection is fitted to.
+// What fit_projection() fits the layers to.
 struct FitInputs {
   glm::mat4 view{1}, projection{1};  // of the camera
   Box casters, receivers;
@@ -86,10 +85,10 @@ struct FitInputs {
 
 LightProjection fit_projection(const LightSource& source, const FitInputs& inputs);
 
-// A light's size by its parameters.
+// The size that the parameters give the light.
 LightShape shape_of(const LightSource& source, const ParamSet& params);
 
-// What keeps a light from being used, for an error message ("has no direction"); empty if nothing does.
+// Why the light can't be used, for an error message ("has no direction"); empty if it can.
 std::string fault_of(const LightSource& source);
 
 }  // namespace penumbra::shadow

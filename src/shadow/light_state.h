@@ -14,11 +14,12 @@
 
 namespace penumbra::shadow {
 
-// What outlives a frame of one light in one view.
+// The state of one light in one view that is kept between frames.
 struct LightState {
   std::string prefix;  // of the names of its targets and buffers
 
-  // The parameters of the last frame, as given and with the light's own values; made anew only when either changes.
+  // The parameters of the last frame, as given and with the light's overrides applied; rebuilt only when either
+  // changes.
   ParamSet given, params;
   std::vector<std::string> overrides;
   // The programs of techniques, recipes and denoisers under these parameters, by owner.
@@ -29,8 +30,8 @@ struct LightState {
     const gl::Buffer* buffer = nullptr;
     int set = 0;  // see set_number()
   };
-  std::map<std::string, SampleTables, std::less<>> samples;  // by technique: the light's, and its stand-in
-  bool uploaded = false;                                     // `params_block` and `samples` hold what `params` says
+  std::map<std::string, SampleTables, std::less<>> samples;  // by technique: the light's technique and its stand-in
+  bool uploaded = false;  // `params_block` and `samples` are up to date with `params`
   const gl::Texture* noise = nullptr;
   const gl::Buffer* params_block = nullptr;
   const gl::Buffer* shadow_block = nullptr;
@@ -38,23 +39,23 @@ struct LightState {
   LightSource source;
   int layers = 0;              // of the shadow map
   bool drawn = false;          // in this frame
-  bool uninterrupted = false;  // the last frame of the view drew it, and is the one before this
+  bool uninterrupted = false;  // the previous frame of the view drew this light
   std::uint64_t frames = 0;    // drawn
-  std::uint64_t age = 0;       // of them, since what is kept began
+  std::uint64_t age = 0;       // of them, since the history began
 
-  // Two textures that take turns.
+  // A double-buffered history: two textures, swapped every frame.
   struct KeptTexture {
     gl::TextureDesc desc;
     int now = 0;
-    std::uint64_t filled = 0;  // the last of `frames` that did
+    std::uint64_t filled = 0;  // value of `frames` when it was last written
   };
   std::map<std::string, KeptTexture, std::less<>> kept;
-  // What the last frame made, so that what this one does not make is given back.
+  // What the last frame made, so that what this frame no longer makes can be released.
   std::vector<std::string> products;
   bool had_movement_map = false, was_denoised = false;
 };
 
-// What outlives a frame of a view.
+// The state of a view that is kept between frames.
 struct ViewState {
   std::string prefix;  // of the names of its targets and buffers
   glm::mat4 view{1}, projection{1};
@@ -62,20 +63,21 @@ struct ViewState {
   Conventions conventions;
   int width = 0, height = 0;  // of the receivers' textures
   Rect viewport;
-  bool drawn = false;  // to its end
+  bool drawn = false;  // the last frame completed without an Error
   TextureChecks checked;
   std::map<int, LightState> lights;
 };
 
-// Decides whether what is kept of the view's last frame holds in this one.
+// Decides whether the history of the view's last frame is valid in this one.
 void begin_frame(ViewState& view, const Inputs& inputs);
-// Takes the parameters of this frame: the caller's values of the library's rows, and the light's own. Returns whether
-// all that the chosen technique and denoiser can see are those of the last frame.
+// Sets the light's parameters for this frame: the caller's values of the library's parameters, with the light's
+// overrides applied. Returns whether all those that the chosen technique and denoiser can read have the values of the
+// last frame.
 bool take_params(LightState& state, const ParamSet& defaults, const ParamSet& given, const Light& light);
-// Decides whether what is kept of the light's last frame holds in this one.
+// Decides whether the history of the light's last frame is valid in this one.
 void begin_frame(LightState& state, const Light& light, int layers, bool same_params);
 
-// What the names of targets begin with after those of the light: of a kept texture, a product, a denoiser's.
+// Prefixes of target names, after the light's own prefix: of a history texture, of a product, of a denoiser's targets.
 std::string kept_prefix(std::string_view name);
 std::string product_prefix(std::string_view recipe);
 constexpr std::string_view denoise_prefix = "denoise/";

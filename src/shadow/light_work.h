@@ -7,7 +7,7 @@
 
 namespace penumbra::shadow {
 
-// One light of one view in one frame, on its way through the steps of frame.cpp.
+// One light of one view in one frame: the data that the steps of frame.cpp pass on to each other.
 struct LightWork {
   gl::Device& device;
   const Registry& registry;
@@ -20,26 +20,27 @@ struct LightWork {
   LightState& state;
   LightFrame& frame;
   const Technique& technique;
-  const Technique& forward;                      // serves blended surfaces: the technique itself, or its stand-in
+  const Technique& forward;                      // used for blended surfaces: the technique itself, or its stand-in
   const Denoiser* denoiser = nullptr;            // null where none applies
-  std::vector<Denoiser::Remembered> remembered;  // by the denoiser, under the parameters of this frame
+  std::vector<Denoiser::Remembered> remembered;  // what the denoiser keeps for the next frame
 
   const ParamSet& params() const { return state.params; }
   const std::string& prefix() const { return state.prefix; }  // of the names of targets and buffers
 };
 
-// The technique that serves blended surfaces.
+// The technique that is used for blended surfaces.
 const Technique& forward_technique(const Registry& registry, const ParamSet& params);
-// The denoiser that the parameters choose, if it applies under them to what the technique computes; else null.
+// The denoiser that the parameters choose; null if there is none, if it does nothing with these parameters, or if the
+// technique is not denoisable.
 const Denoiser* denoiser_for(const Registry& registry, const Technique& technique, const ParamSet& params);
 std::vector<Denoiser::Remembered> remembered_by(const Denoiser* denoiser, const ParamSet& params);
 
-// Null where nothing of that name was made in this frame.
+// Null if this frame made no product of that name.
 const Product* find_product(const LightFrame& frame, std::string_view name);
 
-// Binds what every program of the owner reads but receivers: blocks, maps, noise, products.
+// Binds what every program of the owner reads, except the receivers: uniform blocks, maps, noise, products.
 void bind_light(gl::Device& device, const LightFrame& frame, const LightState& state, const PassOwner& owner);
-// The same, and the receivers.
+// The same, and the receivers' depth and normals.
 void bind_inputs(const LightWork& work, const PassOwner& owner);
 
 PassOwner owner_of(const Technique& technique);

@@ -8,8 +8,8 @@
 
 namespace penumbra::shadow {
 
-// A square of noise that tiles the plane, one to three values a pixel. Each channel holds each of the ranks 0 to
-// size² - 1 once, so that its histogram is flat.
+// A square, tileable noise texture with one to three values a pixel. Each channel contains each of the ranks 0 to size²
+// - 1 exactly once, so its histogram is uniform.
 struct NoiseTile {
   int size = 0;                      // pixels a side
   int channels = 0;                  // values a pixel
@@ -30,26 +30,27 @@ constexpr int least_noise_size = 16;
 constexpr int largest_noise_size = 256;
 constexpr int most_noise_channels = 3;
 
-// The ways to make noise: white, blue, void_and_cluster.
+// The kinds of noise: white, blue, void_and_cluster.
 const std::vector<std::string>& noise_kinds();
 
-// Told how much is done, 0 to 1. It must not throw: other threads wait for the one that calls it.
+// Progress callback; receives the fraction done, 0 to 1. It must not throw, because other threads wait for the thread
+// that calls it.
 using NoiseProgress = std::function<void(double)>;
 
 // Noise of that kind: the same for the same arguments, whatever the machine and the number of threads (0: one a core).
 // The size is a multiple of 16 from 16 to 256. Throws Error on another size, kind or number of channels.
-//   white             a random order
-//   blue              neighbours differ in all channels together: Georgiev and Fajardo 2016, "Blue-noise dithered
+//   white a random permutation blue neighbours differ in all channels together: Georgiev and Fajardo 2016, "Blue-noise
+//   dithered
 //                     sampling", by swaps under simulated annealing
 //   void_and_cluster  each channel by itself: Ulichney 1993, "The void-and-cluster method for dither array generation"
 NoiseTile make_noise(std::string_view kind, int size, int channels, std::uint64_t seed, int threads = 0,
                      const NoiseProgress& progress = {});
 
-// The tile of 64 × 64 pixels with two channels that the library carries: make_noise(kind, 64, 2, 1), read from data.
+// The precomputed tile of 64 × 64 pixels with two channels that is embedded in the library; it equals make_noise(kind,
+// 64, 2, 1).
 NoiseTile built_in_noise(std::string_view kind);
 
-// Mean power of one channel's frequencies below 1/8 cycle a pixel over that of those from 0.35 to 0.5. White noise
-// has 1.
+// Ratio of one channel's mean spectral power below 1/8 cycle a pixel to that from 0.35 to 0.5. It is 1 for white noise.
 double low_to_high_power(const NoiseTile& tile, int channel);
 
 }  // namespace penumbra::shadow

@@ -14,14 +14,14 @@ namespace penumbra::shadow {
 
 struct LightWork;
 
-// A texture that lives from frame to frame, one for each light in each view.
+// A texture that is kept from frame to frame, for each light in each view. It is double-buffered.
 struct History {
-  const gl::Texture& last;  // as the last frame left it; undefined unless `valid`
-  const gl::Texture& now;   // to be filled in this frame
+  const gl::Texture& last;  // what the last frame wrote; undefined unless `valid`
+  const gl::Texture& now;   // to be written in this frame
   bool valid = false;
 };
 
-// The technique, recipe or denoiser whose passes are drawn.
+// The technique, recipe or denoiser whose passes are run.
 struct PassOwner {
   enum class Kind { technique, recipe, denoiser };
 
@@ -32,17 +32,16 @@ struct PassOwner {
   const Technique* technique = nullptr;  // whose sample points its programs read; none for other kinds
 };
 
-// One light of one view in one frame: what the functions of a technique, a recipe or a denoiser read, make and draw
-// with.
+// One light of one view in one frame, as the functions of a technique, a recipe or a denoiser see it: their inputs, and
+// the calls that allocate textures and run passes.
 //
-// Whatever was kept of earlier frames is void, so that age() is 0 and no history is valid,
+// The history is discarded, so that age() is 0 and no History is valid,
 //   - in the first frame of a light in a view, and in the first after a frame of the view without it,
 //   - with View::cut, and when View::last_view or last_projection are not the matrices of the view's last frame,
-//   - when the viewport, the size of the textures, the conventions, the light's source or the number of its map's
-//   layers
-//     change, or a parameter, except those of techniques and denoisers that are not chosen,
+//   - when the viewport, the size of the textures, the conventions, the light's source or the number of layers
+//     of its shadow map changes, or a parameter does, except those of techniques and denoisers that are not chosen,
 //   - after a frame that ended in an Error.
-// So the frame after a cut is that of a run that starts there.
+// So a frame after a cut is the same as the first frame of a run that starts there.
 class PassContext {
  public:
   PassContext(const LightWork& work, const PassOwner& owner) : work_(work), owner_(owner) {}
@@ -50,38 +49,39 @@ class PassContext {
   gl::Device& device() const;
   const Inputs& inputs() const;  // receivers, motion, cameras, caster callback
   const Light& light() const;
-  const ParamSet& params() const;   // the light's own values included
+  const ParamSet& params() const;   // with the light's overrides applied
   const LightFrame& frame() const;  // projection, maps, products
-  const gl::Texture& mask() const;  // frame().layer of it is this light's, within the viewport
-  int age() const;                  // frames since what is kept began; 0: nothing is kept
-  // A product that the owner needs.
+  const gl::Texture& mask() const;  // this light fills layer frame().layer, within the viewport
+  int age() const;                  // how many frames the history goes back; 0: there is none
+  // The texture that a recipe in the owner's `needs` made.
   const gl::Texture& product(std::string_view recipe) const;
 
-  // A texture or buffer of this light in this view: nothing is allocated while descriptions stay. Contents last until
-  // the name's next use in a later frame, but only history() says whether they are still good. Techniques share their
-  // names with each other, each recipe has its own.
+  // A texture or buffer of this light in this view, allocated on first use and again only when the description changes.
+  // Contents last until the name is next used in a later frame, but only history() reports whether they are still
+  // valid. All techniques share one set of names; each recipe has its own.
   const gl::Texture& target(std::string_view name, const gl::TextureDesc& desc) const;
   const gl::Buffer& scratch(std::string_view name, std::size_t bytes) const;
-  // Once a frame for each name. After a frame that does not ask for it, it is void and its memory is given back.
+  // To be called at most once a frame for each name. A frame that does not call it releases the memory, and the history
+  // is lost.
   History history(std::string_view name, const gl::TextureDesc& desc) const;
 
-  // Makes a program of the owner's `programs` current, with all bound that its GLSL reads: parameters, light, shadow
-  // map, noise, receivers, the products that the owner needs and, for a technique, its sample points. The pass's own
-  // inputs come after it, from `first_pass_unit` on.
+  // Makes a program of the owner's `programs` current and binds what its GLSL reads: parameters, light, shadow map,
+  // noise, receivers, the products that the owner needs and, for a technique, its sample points. The caller then binds
+  // the pass's own inputs, from `first_pass_unit` on.
   const gl::Program& use(gl::Pass& pass, std::string_view program) const;
-  // Runs the technique's visibility() under the driver of the parameters, into a layer of an RGBA16F array of the
-  // size of the mask, which is laid out like it (see Mask).
+  // Runs the technique's visibility() for every pixel, with fragment or compute shaders as the parameter "driver" says,
+  // and writes a layer of an RGBA16F array that has the size and layout of the mask (see Mask).
   void evaluate(const gl::Texture& target, int layer) const;
   // Whether the parameters ask for compute shaders.
   bool uses_compute() const;
-  // Draws, or dispatches, over the viewport.
+  // Draws a triangle over the viewport, or dispatches the compute program over it.
   void cover(gl::Pass& pass) const;
-  // The caller's casters, into a pass that is open on a layer of the shadow map's size; not for kind `geometry`. Throws
-  // Error without Inputs::draw.
+  // Draws the caller's casters in a pass whose attachments have the size of a shadow map's layer; not for kind
+  // `geometry`. Throws Error without Inputs::draw.
   void draw_casters(gl::Pass& pass, CasterKind kind, int layer) const;
-  // The triangles of the caller's casters, through the geometry and fragment shaders of one of the owner's `programs`:
-  // gl_in[].gl_Position is world_to_clip times the world position. All that use() binds is bound. Casters that can't
-  // reach a receiver of the view are left out. Throws Error without Inputs::draw.
+  // Draws the triangles of the caller's casters with the geometry and fragment shaders of one of the owner's
+  // `programs`: gl_in[].gl_Position is world_to_clip times the world position. Binds the same inputs as use(). Casters
+  // that can't shadow any receiver of the view are culled. Throws Error without Inputs::draw.
   void draw_caster_geometry(gl::Pass& pass, std::string_view program, const glm::mat4& world_to_clip) const;
 
  protected:

@@ -6,15 +6,15 @@
 
 namespace penumbra::shadow {
 
-// What a light's technique, its stand-in and its denoiser ask for in this frame, themselves or through what they ask
-// for.
+// What a light's technique, its stand-in and its denoiser need in this frame, directly or through the recipes that they
+// need.
 struct Wanted {
   bool shadow_map = false;
   std::vector<const Recipe*> recipes;  // in the order in which they are made
 };
 Wanted wanted_of(const LightWork& work);
 
-// Makes the products, each in passes of its own, and gives back those that only the last frame made.
+// Makes the products, each by its own passes, and releases those that the last frame made and this one does not need.
 void build_products(const LightWork& work, const std::vector<const Recipe*>& recipes);
 
 }  // namespace penumbra::shadow

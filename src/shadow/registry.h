@@ -19,33 +19,34 @@ struct Preset {
   std::vector<std::string> assignments;  // "name=value"
 };
 
-// What this library has of each: one file and one line of registry.cpp a piece.
+// What this library provides of each kind; each one is defined in its own file and listed by one line of registry.cpp.
 std::vector<Technique> built_in_techniques();
 std::vector<Filter> built_in_filters();
 std::vector<Denoiser> built_in_denoisers();
 std::vector<Recipe> built_in_recipes();
 
-// The techniques, and what they are made with and followed by, that a renderer offers: a value that is passed in.
+// The techniques, presets, filters, denoisers and recipes that a renderer offers: a value that is passed to
+// SoftShadows.
 class Registry {
  public:
   struct Contents {
     std::vector<Technique> techniques;
     std::vector<Preset> presets = {};
-    // What the parameter "technique" begins with; empty: the first.
+    // The default of the parameter "technique"; empty: the first.
     std::string default_technique = {};
     std::vector<Filter> filters = built_in_filters();
-    std::vector<Denoiser> denoisers = built_in_denoisers();  // the first is what the parameter "denoiser" begins with
+    std::vector<Denoiser> denoisers = built_in_denoisers();  // the first is the parameter's default
     std::vector<Recipe> recipes = built_in_recipes();
   };
 
-  // Throws Error, in one line that names the piece and the fault, for
-  //   - two of a kind that share a name;
+  // Throws Error, in one line that names the entry and the fault, for
+  //   - two entries of one kind with the same name;
   //   - techniques that can't be evaluated: without glsl and resolve, without glsl for blended surfaces (their own or a
   //     stand-in's), or with an unknown stand_in, pattern or scramble;
-  //   - sample sets whose count parameter is unknown, no whole number or may exceed most_points, more of them than a
-  //     uniform buffer holds, and two of a technique that share a name;
-  //   - needs that no recipe makes, or that a recipe has of one that comes after it, and more of them than there are
-  //     texture units; recipes without build, denoisers without denoise.
+  //   - sample sets whose count parameter is unknown, not an integer, or may exceed most_points; more sample points
+  //     than a uniform buffer holds; two sets of one technique with the same name;
+  //   - needs that no recipe makes, recipes that need one listed after them, and more needs than there are texture
+  //     units; recipes without build, denoisers without denoise.
   explicit Registry(Contents contents);
 
   const Contents& contents() const { return contents_; }
@@ -65,7 +66,7 @@ class Registry {
   const Denoiser* find_denoiser(std::string_view name) const;
   // Sets "technique" and, for a preset, its assignments.
   void select(ParamSet& params, std::string_view name) const;
-  // The rows of the library, and of every denoiser, recipe and technique.
+  // The parameters of the library, and of every denoiser, recipe and technique.
   std::vector<Param> params() const;
 
  private:

@@ -16,34 +16,34 @@ namespace penumbra::shadow {
 // The values of sampling.scramble and Technique::scramble.
 const std::vector<std::string>& scramble_names();
 
-// Whether a technique's sample points are rotated from pixel to pixel (points of a disc), or shifted on the torus
-// (points of the unit square).
+// Whether a technique's sample points differ from pixel to pixel by a rotation (points on a disc) or by a toroidal
+// shift (points in the unit square).
 bool rotates_samples(const Technique& technique, const ParamSet& params);
 
-// Where the noise of a frame is shifted to on the torus: xy of the blocker step, zw of the filter step. Each seed and,
-// of steps that shift from frame to frame, each frame adds a point of a lattice (Roberts 2018, "The unreasonable
+// The toroidal shift of a frame's noise texture: xy for the blocker step, zw for the filter step. Each seed and, for
+// steps that shift from frame to frame, each frame adds a point of a lattice (Roberts 2018, "The unreasonable
 // effectiveness of quasirandom sequences") that covers the torus evenly.
 glm::vec4 noise_shift(const ParamSet& params, int frame);
 
-// The point sets of steps that change from frame to frame are taken in turn: the number of a frame's.
+// The number of the point set that a frame uses: steps that change from frame to frame cycle through several sets.
 int set_number(const ParamSet& params, int frame);
 
-// Elements of a set's table, two points each: as many as its count parameter's bound allows.
+// Number of vec4 elements in a set's table, two points each: enough for the maximum of its count parameter.
 std::size_t table_size(const SampleSet& set, const ParamSet& params);
 
 // GLSL text: the uniform block at `block_samples` with the tables of a technique's sets one after the other, and the
-// functions that SampleSet names; empty for a technique without sets.
+// functions that SampleSet describes; empty for a technique without sets.
 std::string sample_declarations(const Technique& technique, const ParamSet& params);
 
-// What sample points come from: sets by pattern, and tiles of noise. Keeps what it made.
+// Makes sample point sets and noise textures, and caches them.
 class Samples {
  public:
-  // `prefix`: of its targets' names.
+  // `prefix`: begins the names of its targets.
   Samples(gl::Device& device, std::string prefix) : device_(device), prefix_(std::move(prefix)) {}
 
-  // What that block holds.
+  // The contents of the uniform block in sample_declarations().
   std::vector<glm::vec4> tables(const Technique& technique, const ParamSet& params, int set);
-  // RG16, 64 × 64; none: one texel, 0.
+  // The noise texture of that kind: RG16, 64 × 64, tileable; "none": one texel of value 0.
   const gl::Texture& noise(const std::string& kind);
 
  private:

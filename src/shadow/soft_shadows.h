@@ -13,7 +13,7 @@
 
 namespace penumbra::shadow {
 
-// A form in which forward surfaces can get their shadows: the file to include, and the defines that it needs.
+// What a forward shader needs for its shadows: the GLSL file to include, and the defines to compile it with.
 struct ForwardProgram {
   std::string include;
   std::vector<gl::Define> defines;
@@ -21,29 +21,32 @@ struct ForwardProgram {
 
 // Soft shadows for a deferred renderer: depth and normals in, a visibility mask out.
 //
-// OpenGL state. render() expects none, and saves none. It leaves at OpenGL's initial values what it changes of
+// OpenGL state. render() relies on no state set before it, and restores none. Of the following, whatever it changes is
+// back at OpenGL's initial value afterwards:
 //   - capabilities: depth and stencil test, scissor, blend, logic operation, culling, depth clamp, dithering, colour
 //     encoding (GL_FRAMEBUFFER_SRGB), rasterizer discard, sample mask, coverage, shading and alpha to coverage or one,
 //     line and polygon smoothing, polygon offset, primitive restart, program point size, clip distances 0 to 7;
 //   - depth function, mask and range, stencil function, operations and mask, colour mask, front face, culled face,
 //     polygon mode, clip control, point and line size;
 //   - the program, the vertex array, the draw and read framebuffers, textures and samplers of units 0 to 15, images of
-//     units 0 to 7, the buffers of indirect draws and dispatches: nothing is bound.
-// It leaves changed: the viewport, the blend function and equation, uniform buffers 0 to 2 and with them the general
-// binding GL_UNIFORM_BUFFER. All else stays, pixel-store state and the buffers of pixel transfers included, but for
-// what the caster callback and techniques of the caller's own change. After an Error any of these may be changed.
+//     units 0 to 7, the buffers of indirect draws and dispatches: all are unbound.
+// It changes without resetting: the viewport, the blend function and equation, uniform buffer bindings 0 to 2 and with
+// them the generic binding GL_UNIFORM_BUFFER. All other state is unchanged, including pixel-store state and the buffers
+// bound for pixel transfers, except for what the caster callback and the caller's own techniques change. After an Error
+// any of the state named here may have changed.
 //
-// OpenGL errors. A frame that makes nothing reads no error flag: what the caller's own calls have raised stays for the
-// caller. To tell whether a texture or buffer found memory, the flags have to be read around the call that makes it;
-// those that were there before are logged as warnings, by name (core/log.h), since OpenGL can't be given them back. In
-// a context with Penumbra's debug output every pass throws Error for errors so far, the caller's included.
+// OpenGL errors. A frame that creates no texture or buffer reads no error flag, so errors of the caller's own calls
+// stay for the caller to read. When render() allocates a texture or buffer, it has to read the flags before and after
+// the call to find out whether memory ran out. It logs flags raised earlier as warnings, by name (core/log.h), since
+// they can't be put back. In a context with Penumbra's debug output every pass throws Error for all errors so far,
+// including the caller's.
 //
-// Memory. After the first frame of a size no texture is made, and after the first in which a caster moved (with a
-// history) no OpenGL object. Maps, masks and history belong to a view's id until
-// forget_view(); a light's go when a frame of its view leaves it out.
+// Memory. No texture is created after the first frame of a size, and no OpenGL object at all after the first frame in
+// which a caster moved (where a history is kept). Shadow maps, masks and histories are kept for each view id until
+// forget_view(); those of a light are released in the first frame of the view that does not list it.
 //
-// Throws Error for bad input (see check()) and for shaders that do not compile. A texture of the caller's is checked
-// when its name, its size or its use is another than in the last frame of the view.
+// Throws Error for bad input (see check()) and for shaders that do not compile. A caller's texture is checked again
+// only when its name, size or use differs from the last frame of the view.
 class SoftShadows {
  public:
   explicit SoftShadows(gl::Device& device, Registry registry = built_in_registry());
@@ -55,25 +58,25 @@ class SoftShadows {
 
   // `params` holds at least registry().params().
   Mask render(const Inputs& inputs, const ParamSet& params);
-  // Gives back all that is kept for a view.
+  // Releases everything that is kept for a view.
   void forget_view(int id);
 
-  // For surfaces drawn forward, after render(). A program of the caller's own takes forward_source(): text to put after
-  // its #version 450 line, in which every global name begins with "penumbra_", and which defines
+  // For surfaces drawn forward, after render(). The caller's own programs use forward_source(): text to put after the
+  // #version 450 line, in which every global name begins with "penumbra_", and which defines
   //   float penumbra_shadow_visibility(vec3 view_position, vec3 geometric_normal_world, vec2 pixel)
-  // where `geometric_normal_world` is of unit length and on the viewer's side of the surface, and `pixel` is that of
-  // the mask. A program of gl::ShaderLibrary takes forward_program(): the file to include and the defines; the function
-  // is shadow_visibility(). `light` is a light that the parameters are overridden by.
+  // where `geometric_normal_world` has unit length and points to the viewer's side of the surface, and `pixel` is the
+  // pixel's position in the mask. Programs of gl::ShaderLibrary use forward_program(): the file to include and the
+  // defines; there the function is called shadow_visibility(). `light`: its overrides are applied to the parameters.
   std::string forward_source(const ParamSet& params, const Light& light = {}) const;
   ForwardProgram forward_program(const ParamSet& params, const Light& light = {}) const;
-  // Binds what that function reads for a light of the mask: textures and samplers of units 0 to 7, uniform buffers 0 to
-  // 2. unbind_forward() frees the units again.
+  // Binds what that function reads for one light of the mask, by its index in Mask::lights: textures and samplers of
+  // units 0 to 7, uniform buffers 0 to 2. unbind_forward() unbinds the textures and samplers.
   void bind_forward(const Mask& mask, size_t light);
   void unbind_forward();
 
-  // Every program that render() can build with any parameter, and every form of a technique for forward surfaces, for
-  // validation ahead of time. Those without a vertex shader are for CasterKind::geometry: the caster callback's own is
-  // to be added to them.
+  // Every program that render() can build with any parameter values, and every variant of every technique for forward
+  // surfaces, so that a build can validate them in advance. Programs without a vertex shader are for
+  // CasterKind::geometry: the caster callback adds its own.
   std::vector<gl::ProgramDesc> all_programs(const ParamSet& defaults) const;
   std::vector<ForwardProgram> all_forward_programs(const ParamSet& defaults) const;
 

@@ -12,45 +12,47 @@ namespace penumbra::shadow {
 class PassContext;
 
 // Sample points that a technique's GLSL reads. For a set "blocker" the library generates
-//   vec2 blocker_point(int index, Scramble scramble, Light light);  // of the light's shape, -1..1
-//   Scramble blocker_scramble(Receiver receiver);                   // what differs from pixel to pixel
+//   vec2 blocker_point(int index, Scramble scramble, Light light); // in the light's shape (disc or square), -1..1
+//   Scramble blocker_scramble(Receiver receiver); // the pixel's rotation or shift of the set
 struct SampleSet {
-  // The step of the technique whose parameters, sampling.blocker_* or sampling.filter_*, choose the pattern and what
-  // changes from frame to frame.
+  // Which parameters, sampling.blocker_* or sampling.filter_*, choose the set's pattern and how it changes from frame
+  // to frame.
   enum class Step { blocker, filter };
 
   std::string name;             // an identifier of GLSL, lower case
-  std::string count_parameter;  // a row of whole numbers: how many points there are; its upper bound is the set's size
+  std::string count_parameter;  // an integer parameter: how many points are used; its maximum is the table's size
   Step step = Step::filter;
 };
 
-constexpr int most_points = 256;  // of a set
+constexpr int most_points = 256;  // in one set
 
-// A technique is a value. Its GLSL file defines
+// A shadow technique, described as a value that a Registry holds. Its GLSL file defines
 //   float read_radius(Receiver receiver, Light light);
 //   Visibility visibility(Receiver receiver, Light light);
-// and nothing in the drivers knows its name.
+// and the drivers (glsl/shadow/drivers), which call these, are the same for every technique.
 struct Technique {
   std::string name;
   std::string summary;  // one sentence
   std::string source;   // "Author Year, section"
-  std::string glsl;  // file under glsl/, "shadow/techniques/pcss.glsl"; empty: `resolve` does all, `stand_in` the rest
-  // What its GLSL reads of a light, by name: "shadow_map", and recipes, each a texture at the unit UNIT_<name>.
+  std::string glsl;     // file under glsl/, "shadow/techniques/pcss.glsl"; empty: `resolve` fills the mask, `stand_in`
+                        // serves blended surfaces
+  // The textures of a light that its GLSL reads, by name: "shadow_map", and recipes (recipe.h), each bound at the unit
+  // UNIT_<name>.
   std::vector<std::string> needs = {"shadow_map"};
   std::vector<Param> params = {};
   std::vector<SampleSet> samples = {};
-  // Fixes the patterns of all of its sets, and sampling.scramble; empty leaves them to the parameters.
+  // Overrides the pattern parameters of all its sample sets, and sampling.scramble; empty: the parameters decide.
   std::string pattern = {}, scramble = {};
-  // Fills the mask's layer in passes of its own, of which PassContext::evaluate() can be one: methods that are no
-  // function of one receiver. Optional.
+  // Fills the mask's layer by its own passes, of which PassContext::evaluate() can be one: for methods that can't
+  // compute each receiver independently. Optional.
   std::function<void(const PassContext&)> resolve = {};
-  // The programs that `resolve` uses under these parameters, by name. Their files may include all that the technique's
-  // GLSL may, and are compiled with its constants. One without vertex and compute shader is for
-  // PassContext::draw_caster_geometry(): the caster callback brings the vertex shader.
+  // The programs that `resolve` uses with these parameters, by name. Their files may include whatever the technique's
+  // GLSL may, and are compiled with the same constants. A program with neither vertex nor compute shader is for
+  // PassContext::draw_caster_geometry(): the caster callback adds the vertex shader.
   std::function<std::vector<gl::ProgramDesc>(const ParamSet&)> programs = {};
-  // Whether the denoiser of the parameters is applied to what it computes.
+  // Whether the denoiser that the parameters choose is applied to its result.
   bool denoisable = true;
-  // The technique whose `glsl` serves blended surfaces, where this one's does not: with its own needs and samples.
+  // For techniques without `glsl`: the name of the technique that computes shadows on blended surfaces instead.
   std::string stand_in = {};
 };
 

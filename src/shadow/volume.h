@@ -12,13 +12,14 @@ struct Box {
   std::array<glm::dvec3, 8> corners() const;
 };
 
-// Where casters can be that matter to one layer of a shadow map: the part of the world before all of some planes.
+// The convex volume that contains every caster which matters to one layer of a shadow map: the points in front of all
+// its planes.
 struct CullVolume {
-  // A point p is before a plane if dot(xyz, p) + w >= 0; xyz is of unit length, or all is 0 and the plane cuts nothing
-  // off. World space, metres.
+  // A point p is in front of a plane if dot(xyz, p) + w >= 0; xyz has unit length. An unused plane is all 0. World
+  // space, metres.
   std::array<glm::dvec4, 6> planes{};
 
-  // False only if nothing in the box can cast on the layer.
+  // Conservative: false only if the box lies outside of the volume.
   bool holds(const Box& world_box) const;
 };
 
