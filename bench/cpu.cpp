@@ -41,7 +41,7 @@ void bake_noise(benchmark::State& state, const char* kind) {
 BENCHMARK_CAPTURE(bake_noise, void_and_cluster, "void_and_cluster")->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(bake_noise, blue, "blue")->Arg(16)->Arg(32)->Unit(benchmark::kMillisecond);
 
-// The scene as its file has it, without skins and morphs.
+// The scene in its rest pose, without skins and morphs.
 scene::PosedGeometry at_rest(const scene::Scene& scene) {
   const scene::Pose pose = scene::rest_pose(scene);
   scene::PosedGeometry geometry;
@@ -60,14 +60,14 @@ void build_tree(benchmark::State& state, const char* name) {
 }
 BENCHMARK_CAPTURE(build_tree, courtyard, "courtyard")->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// Points on a triangle, as many as its area asks for: `wanted` is what is left over of a point from triangle to
-// triangle.
+// Adds receivers on a triangle, as many as its area requires. `wanted` passes the fraction of a point that is left over
+// on to the next triangle.
 void add_receivers(std::vector<truth::Receiver>& receivers, const std::array<glm::dvec3, 3>& corners, double density,
                    double& wanted) {
   const glm::dvec3 u = corners[1] - corners[0], v = corners[2] - corners[0], cross = glm::cross(u, v);
   const double twice_area = glm::length(cross), reach = glm::length(u) + glm::length(v);
   for (wanted += density * twice_area / 2; wanted >= 1; wanted -= 1) {
-    // Martin Roberts's sequence R2, folded into the triangle.
+    // Martin Roberts's R2 sequence, folded into the triangle.
     const auto index = static_cast<double>(receivers.size());
     glm::dvec2 at = glm::fract(index * glm::dvec2(0.7548776662466927, 0.5698402909980532));
     if (at.x + at.y > 1) at = 1.0 - at;
@@ -76,7 +76,7 @@ void add_receivers(std::vector<truth::Receiver>& receivers, const std::array<glm
   }
 }
 
-// About `count` of them all over the scene, triangle after triangle.
+// About `count` receivers over the whole scene, triangle after triangle.
 std::vector<truth::Receiver> receivers_on(const scene::PosedGeometry& geometry, double count) {
   const auto each_triangle = [&geometry](const auto& take) {
     for (const scene::PosedSurface& surface : geometry.surfaces) {
@@ -96,7 +96,7 @@ std::vector<truth::Receiver> receivers_on(const scene::PosedGeometry& geometry, 
   return receivers;
 }
 
-// All cores; the counter is rays a second.
+// Traces on all cores; the counter is in rays per second.
 void trace_rays(benchmark::State& state, const char* name) {
   const scene::Scene scene = scene::read_gltf(path_of(name), image::image_decoder());
   const scene::PosedGeometry geometry = at_rest(scene);
@@ -114,7 +114,7 @@ BENCHMARK_CAPTURE(trace_rays, courtyard, "courtyard")->Unit(benchmark::kMillisec
 
 constexpr int width = 640, height = 360;
 
-// Visibility with soft edges, the second one a little beside the first.
+// A visibility picture with soft edges, displaced by `shift`.
 std::vector<float> visibility(float shift) {
   std::vector<float> pixels;
   for (int y = 0; y < height; ++y) {

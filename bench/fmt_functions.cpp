@@ -1,5 +1,5 @@
-// The functions of fmt that the layers call, from its headers: Debian has them as a shared library alone, and
-// penumbra-bench is to run without one. Named here is what the library's own source instantiates.
+// Instantiates the functions of fmt that the library calls, from fmt's headers: Debian ships only a shared library, and
+// penumbra-bench must run without it. The list follows the instantiations in fmt's own source.
 #include <fmt/format-inl.h>
 
 FMT_BEGIN_NAMESPACE

@@ -54,7 +54,7 @@ scene::Casters casters_of(shadow::CasterKind kind) {
   }
 }
 
-// A scene in motion under its own camera and sun.
+// An animated scene with its camera and sun.
 struct Stage {
   gl::Device& device;
   scene::GpuScene& scene;
@@ -100,7 +100,7 @@ int run(const std::filesystem::path& path, int frames) {
   const scene::Pose pose = scene::pose_at(scene, 0);
   const render::Setup setup = render::choose_setup(scene, pose);
 
-  // One device a way, so that each has rows of its own.
+  // One device for each variant, so that each has its own timer rows.
   struct Case {
     gl::Device device;
     scene::GpuScene scene;

@@ -1,4 +1,4 @@
-// `penumbra bench` in a program that needs no more than an EGL driver: for bare servers with a GPU.
+// The command `penumbra bench` as a program that needs only an EGL driver, for minimal servers with a GPU.
 
 #include <fmt/format.h>
 

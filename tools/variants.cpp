@@ -1,6 +1,7 @@
-// penumbra-variants FOLDER: writes the stages of every program variant that any parameters can build, includes
-// resolved, as FOLDER/<program>.vert, .frag or .comp, and has the driver compile and run each. A driver that crashes
-// takes down a child process, not the check: the program is named and the rest goes on.
+// penumbra-variants FOLDER: writes the stages of every program variant that any choice of parameters can build, with
+// includes resolved, as FOLDER/<program>.vert, .frag or .comp, and has the driver compile and run each. Compilation
+// runs in child processes: if the driver crashes, the program is reported as failed and the check continues with the
+// next.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -25,7 +26,7 @@
 namespace penumbra {
 namespace {
 
-// A program with a name of its own among the variants.
+// A program variant and its unique name.
 struct Variant {
   std::string name;
   gl::ProgramDesc program;
@@ -72,7 +73,7 @@ void write_stages(const gl::ShaderFiles& files, const Variant& variant, const st
   }
 }
 
-// Drivers compile to machine code when a program first draws: so it has to, with nothing bound.
+// Drivers generate machine code only when a program first draws, so draw or dispatch it with nothing bound.
 void run(gl::Device& device, const gl::ProgramDesc& program) {
   if (!program.compute.empty()) {
     gl::Pass pass(device, {.name = "variant"});
@@ -112,11 +113,11 @@ int compile_from(gl::Device& device, const std::vector<Variant>& variants, std::
 }
 
 struct Outcome {
-  std::size_t next;  // the variant to go on with
+  std::size_t next;  // the first variant that is still to be compiled
   bool good;
 };
 
-// One child's work: all from `first` on, or up to the one at which the driver crashes.
+// The work of one child process: all variants from `first` on, or up to the one at which the driver crashes.
 Outcome compile_in_child(gl::Device& device, const std::vector<Variant>& variants, std::size_t first) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) fail("no pipe for the compiling process");

@@ -16,7 +16,7 @@ inline bool starts_with(std::span<const std::byte> bytes, std::string_view signa
   return bytes.size() >= signature.size() && std::memcmp(bytes.data(), signature.data(), signature.size()) == 0;
 }
 
-// The unsigned number of `count` bytes (at most 4) at `offset`, most significant byte first. All must exist.
+// The big-endian unsigned number of `count` bytes (at most 4) at `offset`, which must be within `bytes`.
 inline std::uint32_t big_endian(std::span<const std::byte> bytes, std::size_t offset, std::size_t count) {
   std::uint32_t value = 0;
   for (std::size_t i = 0; i < count; ++i) value = value << 8 | std::to_integer<std::uint32_t>(bytes[offset + i]);

@@ -9,18 +9,18 @@ namespace penumbra::image {
 // One segment of a JPEG file (ITU-T T.81, annex B): its marker, and all its bytes with marker and length.
 struct JpegSegment {
   std::uint8_t marker = 0;
-  std::span<const std::byte> bytes;    // empty where the file ends before a marker
-  std::span<const std::byte> payload;  // behind the length; empty for markers that stand alone
+  std::span<const std::byte> bytes;    // empty if the file ends before another marker
+  std::span<const std::byte> payload;  // the bytes after the length; empty for markers without a length
 };
 
-// Walks through a JPEG as decoders do: fill bytes and bytes that belong to nothing are skipped up to the next marker.
+// Iterates over a JPEG's segments as decoders do: fill bytes and stray bytes are skipped up to the next marker.
 class JpegSegments {
  public:
   explicit JpegSegments(std::span<const std::byte> encoded) : rest_(encoded) {}
 
-  // The next segment. Throws Error when the file ends inside it.
+  // The next segment. Throws Error if the file ends inside it.
   JpegSegment next();
-  // After a start-of-scan segment: the compressed data up to the next marker that is no restart marker.
+  // Call after a start-of-scan segment: the compressed data up to the next marker that is not a restart marker.
   std::span<const std::byte> scan_data();
 
  private:

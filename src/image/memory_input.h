@@ -11,18 +11,18 @@
 
 namespace penumbra::image {
 
-// The library's cause, which may be several lines, as one.
+// An error message of the library, which may have several lines, as one line.
 std::string cause(std::string message);
 
-// An image file in memory, opened with OpenImageIO. Alpha stays unassociated. Throws Error with the cause.
+// An image file in memory that OpenImageIO reads. Alpha stays unassociated. Throws Error with the cause.
 class MemoryInput {
  public:
-  // `format` as OpenImageIO names it; `bytes` must live as long as this.
+  // `format` is OpenImageIO's name of it; `bytes` must outlive this object.
   MemoryInput(const char* format, std::span<const std::byte> bytes, const std::string& name, std::size_t max_pixels);
 
   const OIIO::ImageSpec& spec() const { return spec_; }
   std::size_t pixels() const;
-  // Channels `first` to `end` without it, interleaved, rows top to bottom.
+  // Reads channels `first` to `end` (exclusive), interleaved, rows top to bottom.
   void read(int first, int end, const OIIO::TypeDesc& type, void* pixels);
 
  private:

@@ -10,7 +10,7 @@
 
 namespace penumbra::image {
 
-// What a file says about itself: name and value, in this order.
+// Metadata of a file: names and values, in this order.
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
 // Some channels of an EXR. Channels are named "layer.channel", or just "channel" where the layer has no name.
@@ -20,15 +20,16 @@ struct Layer {
   std::vector<float> pixels;  // rows top to bottom, channels interleaved
 };
 
-// Both write to a temporary and rename, put no time, host or user into the file, and throw Error naming the file.
+// The functions that write a file write a temporary and rename it, store no time, host or user, and throw Error that
+// names the file.
 
-// 8-bit sRGB: `channels` is 1 (grey), 3 or 4; rows top to bottom.
+// Writes 8-bit sRGB: `channels` is 1 (grey), 3 or 4; rows top to bottom.
 void write_png(const std::filesystem::path& path, int width, int height, int channels,
                std::span<const std::uint8_t> pixels, const Metadata& metadata = {});
-// The bytes of such a file.
+// The bytes that write_png() writes.
 std::vector<std::byte> encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels,
                                   const Metadata& metadata = {});
-// 32-bit float, linear.
+// Writes 32-bit floats, linear.
 void write_exr(const std::filesystem::path& path, int width, int height, std::span<const Layer> layers,
                const Metadata& metadata = {});
 

@@ -4,7 +4,7 @@
 
 namespace penumbra::io {
 
-// How far a process may still go; a limit that can't be found out counts as none (the largest number).
+// How much memory the process may still use. A limit that can't be determined counts as none (the largest number).
 
 // Bytes of address space left under the process's own limit (ulimit -v).
 std::size_t available_address_space();

@@ -9,14 +9,14 @@
 
 namespace penumbra::io {
 
-// A file that appears whole or not at all: written under a temporary name in its own folder, then renamed. Where `path`
-// is a symbolic link, it stays one, and the file that it leads to is written. A file that is replaced hands on its
-// permissions, and its owner and group where this user may set them. Refused are folders, devices, pipes, files that
-// this user may not write, and links to open files of a process (/dev/stdout): they can't be replaced as a whole.
+// A file that is written atomically: under a temporary name in its own folder, then renamed. If `path` is a symbolic
+// link, the link stays and the file that it leads to is written. A replaced file keeps its permissions, and its owner
+// and group where this user may set them. Folders, devices, pipes, files that this user may not write, and links to
+// open files of a process (/dev/stdout) are refused, because they can't be replaced atomically.
 class OutputFile {
  public:
-  // Makes missing folders, which go again unless the file is committed. Throws Error naming the file when nothing can
-  // be written there.
+  // Creates missing folders, and removes them again unless the file is committed. Throws Error that names the file if
+  // nothing can be written there.
   explicit OutputFile(std::filesystem::path path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -24,7 +24,7 @@ class OutputFile {
 
   // Where to write; exists and is empty.
   const std::filesystem::path& temporary() const { return temporary_; }
-  // Makes `text` the temporary's content. Throws Error when the disk is full or the file passes a limit.
+  // Writes `text` as the content of the temporary. Throws Error if the disk is full or the file exceeds a limit.
   void write(std::string_view text);
   // Puts the temporary in place of the file. Throws Error if the system refuses.
   void commit();
@@ -37,25 +37,26 @@ class OutputFile {
   bool committed_ = false;
 };
 
-// Throws Error unless a file at `path` could be written, its missing folders included. Leaves nothing behind.
+// Throws Error unless a file could be written to `path`, missing folders included. Leaves nothing behind.
 void check_writable(const std::filesystem::path& path);
 
 void write_text(const std::filesystem::path& path, std::string_view text);
 
-// Writes files by name within `folder`, each with its text: all or, when one can't be written, none. Signals that end
-// the program wait until it is done.
+// Writes files, given as names within `folder` and text: all of them or, if one can't be written, none. Signals that
+// end the program are blocked until it is done.
 void write_files(const std::filesystem::path& folder, std::span<const std::pair<std::string, std::string>> files);
 
-// Where a file written to `path` is put: links followed, with its real folder. Paths of one file are equal.
+// The path at which a file written to `path` ends up: links followed, with its real folder. Paths that lead to the same
+// file give the same result.
 std::filesystem::path place_of(const std::filesystem::path& path);
 
-// Would a file written to `result` replace `file`?
+// Whether a file written to `result` would replace `file`.
 bool would_replace(const std::filesystem::path& result, const std::filesystem::path& file);
 
-// The error's one line for the user: `path` quoted as given.
+// `path` for an error message: in quotes, as the user gave it.
 std::string quoted(const std::filesystem::path& path);
 
-// Removes the temporaries of all living OutputFiles. Async-signal-safe: for handlers of SIGINT and SIGTERM.
+// Removes the temporaries of all existing OutputFiles. Async-signal-safe: for handlers of SIGINT and SIGTERM.
 void remove_temporaries() noexcept;
 
 }  // namespace penumbra::io

@@ -12,20 +12,20 @@
 
 namespace penumbra::io {
 
-// JSON with its keys in the order of insertion, so that reports can be compared line by line.
+// JSON that keeps its keys in the order of insertion, so that reports can be compared line by line.
 using Json = nlohmann::ordered_json;
 
-// JSON has no infinity: "inf" and "-inf", as text. NaN is null.
+// JSON has no infinity or NaN: infinities become the strings "inf" and "-inf", NaN becomes null.
 Json json_number(double value);
 
-// What one pass cost over the frames that were counted, milliseconds.
+// What one pass cost over the measured frames, milliseconds.
 struct PassCost {
   std::string name;
   double median = 0, min = 0, max = 0;
-  std::size_t frames = 0;  // that drew it
+  std::size_t frames = 0;  // measured frames in which the pass ran
 };
 
-// Costs over the last `frames` frames: those before are warm-up. Passes that none of them drew are left out.
+// Costs over the last `frames` frames; earlier ones are warm-up. Passes that ran in none of them are left out.
 std::vector<PassCost> pass_costs(std::span<const gl::Timers::Row> rows, std::size_t frames);
 
 Json to_json(const PassCost& cost);
@@ -37,7 +37,7 @@ Json to_json(const ParamSet& params);
 // A parameter's declaration.
 Json to_json(const Param& param);
 
-// Two spaces of indentation, a final newline; bytes that are no UTF-8 (names in a scene) are replaced.
+// JSON as text with two spaces of indentation and a final newline; invalid UTF-8 (in names of a scene) is replaced.
 std::string text_of(const Json& json);
 
 }  // namespace penumbra::io

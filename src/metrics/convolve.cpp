@@ -7,7 +7,7 @@ namespace penumbra::metrics {
 
 namespace {
 
-// Inner loops run along a row, so that the compiler makes vectors of them.
+// The inner loops run along a row, so that the compiler vectorises them.
 void add_scaled(float* out, const float* in, float scale, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) out[i] += scale * in[i];
 }

@@ -5,7 +5,7 @@
 
 namespace penumbra::metrics {
 
-// A picture of one channel of our own, rows top to bottom.
+// A picture of one channel that owns its pixels, rows top to bottom.
 struct Plane {
   int width = 0, height = 0;
   std::vector<float> pixels;
@@ -18,16 +18,16 @@ struct Plane {
   }
 };
 
-// What lies outside the picture: the nearest pixel's value, or 0.
+// What filters read outside the picture: the nearest pixel, or 0.
 enum class Border { nearest, zero };
 
-// Of 2 · radius + 1 taps, the middle one at the pixel.
+// A filter kernel of 2 · radius + 1 taps; the middle one is at the pixel.
 using Kernel = std::vector<float>;
 
-// A Gaussian that sums to 1; `sigma` in pixels.
+// A Gaussian kernel that sums to 1; `sigma` in pixels.
 Kernel gaussian(double sigma, int radius);
 
-// Correlation with across(x) · down(y), one after the other.
+// Separable correlation: with `across` along rows, then with `down` along columns.
 Plane convolve(const Plane& plane, const Kernel& across, const Kernel& down, Border border);
 
 }  // namespace penumbra::metrics

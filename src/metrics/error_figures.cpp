@@ -27,7 +27,7 @@ double percentile(std::vector<float>& values, std::size_t hundredths) {
 
 }  // namespace
 
-// Of 1 it is 0, not -0.
+// Written as log10(1 / error) so that an error of 1 gives 0, not -0.
 double psnr_of(double mean_squared_error) { return 10 * std::log10(1 / mean_squared_error); }
 
 ErrorFigures error_figures(const ImageView& test, const ImageView& reference, Receivers receivers) {

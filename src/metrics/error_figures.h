@@ -6,11 +6,11 @@
 
 namespace penumbra::metrics {
 
-// References between these count as penumbra (visibility; both inclusive).
+// Receivers whose reference visibility is between these (both inclusive) are in the penumbra.
 constexpr float penumbra_low = 0.02f, penumbra_high = 0.98f;
 
-// What single values are off by, with e = test − reference over the receivers. Where there is nothing to measure a
-// figure is NaN.
+// Error statistics over single values, with e = test − reference over the receivers. A figure without any values is
+// NaN.
 struct ErrorFigures {
   std::size_t samples = 0;           // values that were measured: receivers times channels
   std::size_t penumbra_samples = 0;  // of them, those whose reference is in the penumbra
@@ -23,7 +23,7 @@ struct ErrorFigures {
   double p99 = 0;                    // 99th percentile of |e| by nearest rank: 99 of 100 values are off by no more
 };
 
-// 10 log₁₀(1 / mean squared error), dB: the peak signal is 1. Infinite at 0.
+// Peak signal-to-noise ratio, 10 log₁₀(1 / mean squared error), dB, for a peak signal of 1. Infinite for an error of 0.
 double psnr_of(double mean_squared_error);
 
 // Throws Error as check() does.

@@ -19,14 +19,14 @@ constexpr double pi = std::numbers::pi;
 constexpr float color_exponent = 0.7f, color_knee = 0.4f, color_knee_error = 0.95f;  // q_c, p_c, p_t of the paper
 constexpr double feature_width = 0.082;                                              // degrees: w of the paper
 
-// A channel's contrast sensitivity as a sum of two Gaussians a √(π/b) exp(−π² x² / b), x in degrees.
+// A channel's contrast sensitivity: a sum of two Gaussians a √(π/b) exp(−π² x² / b), x in degrees.
 struct Sensitivity {
   double a1, b1, a2, b2;
 };
 constexpr std::array<Sensitivity, 3> sensitivities{
     {{1, 0.0047, 0, 1e-5}, {1, 0.0053, 0, 1e-5}, {34.1, 0.04, 13.5, 0.025}}};
 
-// Luminance, red-green and blue-yellow; a grey picture has the first alone.
+// The planes of luminance, red-green and blue-yellow; a grey picture has luminance only.
 using Opponent = std::vector<Plane>;
 
 Opponent opponent_of(const ImageView& picture, const ImageView& elsewhere, Receivers receivers) {
@@ -49,7 +49,8 @@ Opponent opponent_of(const ImageView& picture, const ImageView& elsewhere, Recei
   return planes;
 }
 
-// The two-dimensional kernel sums to 1, so each Gaussian's share is its volume.
+// Filters a plane by the contrast sensitivity. The two-dimensional kernel is normalised to 1, so each Gaussian is
+// weighted by its volume.
 Plane seen(const Plane& plane, const Sensitivity& s, float pixels_per_degree) {
   const double widest = std::sqrt(0.04 / (2 * pi * pi));  // degrees: the radius is the same for all channels
   const int radius = static_cast<int>(std::ceil(3 * widest * pixels_per_degree));
@@ -88,7 +89,8 @@ Color lab_at(const Opponent& planes, std::size_t pixel) {
       xyz_of_linear({std::clamp(rgb.x, 0.0f, 1.0f), std::clamp(rgb.y, 0.0f, 1.0f), std::clamp(rgb.z, 0.0f, 1.0f)}));
 }
 
-// Small differences get most of the range 0 to 1; the greatest is that of the screen's green and blue.
+// The colour difference, 0 to 1, with most of the range for small differences. The largest possible one is between the
+// screen's green and blue.
 float color_error(const Color& a, const Color& b) {
   static const float greatest = std::pow(
       hyab(hunt_lab_of_xyz(xyz_of_linear({0, 1, 0})), hunt_lab_of_xyz(xyz_of_linear({0, 0, 1}))), color_exponent);
@@ -97,7 +99,7 @@ float color_error(const Color& a, const Color& b) {
   return color_knee_error + (difference - knee) / (greatest - knee) * (1.0f - color_knee_error);
 }
 
-// First and second derivatives of a Gaussian; positive taps sum to 1 and negative ones to −1.
+// First and second derivatives of a Gaussian, normalised so that positive taps sum to 1 and negative ones to −1.
 struct FeatureKernels {
   Kernel smooth, edge, point;
 };
@@ -123,7 +125,8 @@ FeatureKernels feature_kernels(float pixels_per_degree) {
   return kernels;
 }
 
-// How strong edges or points are: the length of the responses along both axes, of luminance from 0 to 1.
+// The strength of edges or points: the length of the vector of filter responses along both axes, for luminance from 0
+// to 1.
 std::vector<float> features(const Plane& luminance, const Kernel& feature, const Kernel& smooth) {
   Plane across = convolve(luminance, feature, smooth, Border::nearest);
   const Plane down = convolve(luminance, smooth, feature, Border::nearest);
@@ -134,7 +137,7 @@ std::vector<float> features(const Plane& luminance, const Kernel& feature, const
   return std::move(across.pixels);
 }
 
-// 0 to 1: the larger of the differences of edges and of points.
+// The feature error, 0 to 1: the larger of the differences in edges and in points.
 std::vector<float> feature_errors(const Plane& test, const Plane& reference, float pixels_per_degree) {
   const FeatureKernels kernels = feature_kernels(pixels_per_degree);
   std::vector<float> errors(test.pixels.size());

@@ -4,7 +4,7 @@
 
 namespace penumbra::metrics {
 
-// The colour spaces of FLIP, for the illuminant D65 that white has in sRGB.
+// The colour spaces of FLIP, for the white point D65 of sRGB.
 
 struct Color {
   float x = 0, y = 0, z = 0;
@@ -12,7 +12,7 @@ struct Color {
 
 inline constexpr Color white_xyz{0.950428545f, 1.0f, 1.088900371f};
 
-// sRGB's electro-optical function (IEC 61966-2-1).
+// Decodes an sRGB value to linear light (IEC 61966-2-1).
 inline float srgb_decoded(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
 
 inline Color xyz_of_linear(const Color& rgb) {
@@ -27,7 +27,8 @@ inline Color linear_of_xyz(const Color& xyz) {
           0.055639420f * xyz.x - 0.204011206f * xyz.y + 1.057148977f * xyz.z};
 }
 
-// The opponent space in which the eye's blur is known: luminance, red-green, blue-yellow. A linear CIELAB.
+// The opponent space in which contrast sensitivity is known: luminance, red-green, blue-yellow. A linear form of
+// CIELAB.
 inline Color ycxcz_of_xyz(const Color& xyz) {
   const float x = xyz.x / white_xyz.x, y = xyz.y / white_xyz.y, z = xyz.z / white_xyz.z;
   return {116.0f * y - 16.0f, 500.0f * (x - y), 200.0f * (y - z)};
@@ -43,7 +44,7 @@ inline float lab_curve(float t) {
   return t > delta * delta * delta ? std::cbrt(t) : t / (3.0f * delta * delta) + 4.0f / 29.0f;
 }
 
-// CIELAB with the Hunt effect: colour is seen less where it is dark.
+// CIELAB with the Hunt effect: colours look less saturated at low luminance.
 inline Color hunt_lab_of_xyz(const Color& xyz) {
   const float x = lab_curve(xyz.x / white_xyz.x), y = lab_curve(xyz.y / white_xyz.y),
               z = lab_curve(xyz.z / white_xyz.z);
@@ -51,7 +52,7 @@ inline Color hunt_lab_of_xyz(const Color& xyz) {
   return {lightness, 500.0f * (x - y) * hunt, 200.0f * (y - z) * hunt};
 }
 
-// The distance that holds for large differences too (Abasi et al. 2020).
+// HyAB, a colour distance that also holds for large differences (Abasi et al. 2020).
 inline float hyab(const Color& a, const Color& b) { return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z); }
 
 }  // namespace penumbra::metrics

@@ -26,10 +26,10 @@ Rgb of_oklab(double lightness, double a, double b) {
 }
 
 Rgb on_path(double error) {
-  const double lab = 96 * error;  // CIELAB's L*, of which equal steps look equal
+  const double lab = 96 * error;  // CIELAB's L*, which is perceptually uniform
   const double lightness = std::cbrt(lab > 8 ? std::pow((lab + 16) / 116, 3) : lab / 903.3);
   const double hue = (290 + 180 * error) * std::numbers::pi / 180;
-  const double chroma = std::min(0.4 * lightness, 0.155);  // within the gamut of sRGB all along
+  const double chroma = std::min(0.4 * lightness, 0.155);  // stays within the sRGB gamut for all errors
   return of_oklab(lightness, chroma * std::cos(hue), chroma * std::sin(hue));
 }
 

@@ -13,11 +13,11 @@ namespace penumbra::metrics {
 
 namespace {
 
-constexpr int glyph_columns = 3, glyph_rows = 5, dot = 2;  // a glyph's point is dot x dot pixels
+constexpr int glyph_columns = 3, glyph_rows = 5, dot = 2;  // each dot of a glyph is dot x dot pixels
 constexpr int advance = (glyph_columns + 1) * dot, margin = 4;
 constexpr std::uint8_t paper = 32, ink = 224;
 
-// Rows of three bits, the highest one left.
+// Rows of three bits; the highest bit is on the left.
 struct Glyph {
   char character;
   std::array<std::uint8_t, glyph_rows> rows;

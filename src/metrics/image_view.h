@@ -6,7 +6,7 @@
 
 namespace penumbra::metrics {
 
-// A view of a picture's pixels, which the caller owns: rows top to bottom, channels interleaved.
+// A non-owning view of a picture's pixels: rows top to bottom, channels interleaved.
 struct ImageView {
   int width = 0, height = 0;
   std::span<const float> pixels;  // width · height · channels values
@@ -15,7 +15,8 @@ struct ImageView {
   std::size_t pixel_count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
-// One byte a pixel, rows top to bottom: pixels that are not 0 are measured, the others are left out. Empty: all pixels.
+// One byte per pixel, rows top to bottom: pixels that are not 0 are measured, the others are ignored. Empty: all pixels
+// are measured.
 using Receivers = std::span<const std::uint8_t>;
 
 // How every metric takes values that are no numbers: a test value that is NaN or infinite is at the error 1, on the

@@ -15,7 +15,7 @@ namespace {
 
 constexpr float low_level = 0.1f, high_level = 0.9f;
 constexpr float farthest = 256.0f, stride = 0.5f;  // pixels
-constexpr float least_slope = 1e-4f;               // per pixel; below it there is no direction
+constexpr float least_slope = 1e-4f;               // per pixel; below it the gradient has no reliable direction
 constexpr double smoothing = 1.5;                  // pixels: the Gaussian's σ before the gradient
 
 struct Point {
@@ -26,7 +26,7 @@ struct Field {
   const ImageView& picture;
   Receivers receivers;
 
-  // NaN outside the picture and beside what is no receiver.
+  // NaN outside the picture and at pixels that are no receivers.
   float at(int x, int y) const {
     if (x < 0 || y < 0 || x >= picture.width || y >= picture.height) return std::numeric_limits<float>::quiet_NaN();
     const std::size_t i =
@@ -35,18 +35,18 @@ struct Field {
   }
 
   float bilinear(const Point& point) const {
-    // Rounding must not carry a line along the border out of the picture.
+    // Snapped, since rounding must not move a line along the border out of the picture.
     const auto snapped = [](float v) { return std::abs(v - std::round(v)) < 1e-3f ? std::round(v) : v; };
     const Point p{snapped(point.x), snapped(point.y)};
     const float left = std::floor(p.x), top = std::floor(p.y), u = p.x - left, v = p.y - top;
     const int x = static_cast<int>(left), y = static_cast<int>(top);
-    // A pixel of weight 0 is not read: it may be none.
+    // A pixel of weight 0 is not read: it may be outside the picture.
     const auto mixed = [&](int row) { return u == 0 ? at(x, row) : (1 - u) * at(x, row) + u * at(x + 1, row); };
     return v == 0 ? mixed(y) : (1 - v) * mixed(y) + v * mixed(y + 1);
   }
 };
 
-// A picture along a line; `direction` is of length 1 and points to the light.
+// A picture sampled along a line; `direction` has length 1 and points towards the lit side.
 struct Line {
   const Field& field;
   Point origin, direction;
@@ -55,7 +55,8 @@ struct Line {
     return field.bilinear({origin.x + distance * direction.x, origin.y + distance * direction.y});
   }
 
-  // Where the picture crosses the level, searched from the origin towards it.
+  // The position on the line at which the picture crosses the level, searched from the origin in the direction of the
+  // level.
   std::optional<float> crossing(float level) const {
     float last = at(0);
     const bool above = last >= level;
@@ -77,7 +78,7 @@ struct Line {
   }
 };
 
-// The reference smoothed over its receivers; 0 far from all of them.
+// The reference, smoothed over its receivers; 0 far from all of them.
 Plane smoothed(const ImageView& picture, Receivers receivers) {
   const Kernel kernel = gaussian(smoothing, static_cast<int>(std::ceil(3 * smoothing)));
   Plane values(picture.width, picture.height), weights(picture.width, picture.height);
@@ -93,7 +94,8 @@ Plane smoothed(const ImageView& picture, Receivers receivers) {
   return values;
 }
 
-// By central differences, one-sided at the border; length 1, or nothing where the picture is flat.
+// The gradient's direction by central differences, one-sided at the border; length 1, or nothing where the picture is
+// flat.
 std::optional<Point> direction_at(const Plane& plane, int x, int y) {
   const int left = std::max(x - 1, 0), right = std::min(x + 1, plane.width - 1);
   const int top = std::max(y - 1, 0), bottom = std::min(y + 1, plane.height - 1);

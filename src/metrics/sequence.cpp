@@ -16,7 +16,7 @@ constexpr double not_told = std::numeric_limits<double>::quiet_NaN();
 
 double mean(double sum, std::size_t count) { return count == 0 ? not_told : sum / static_cast<double>(count); }
 
-// `errors` from the event on.
+// `errors` starts at the event's frame.
 Recovery recovery_of(std::size_t frame, Event event, std::span<const double> errors) {
   Recovery recovery{frame, event, {}, not_told};
   constexpr std::size_t at_rest = SequenceMetrics::memory_frames;

@@ -11,7 +11,7 @@ namespace penumbra::metrics {
 
 namespace {
 
-// Taken from all values, so that rounding does not eat small variances.
+// Subtracted from all values, so that rounding does not cancel small variances.
 constexpr float middle = 0.5f;
 constexpr float c1 = 0.01f * 0.01f, c2 = 0.03f * 0.03f;
 
@@ -21,7 +21,7 @@ float value_at(const ImageView& picture, std::size_t pixel) {
   return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
 }
 
-// Means under the window of what `value` gives for each receiver, without the window's weight.
+// For each pixel the windowed sum of `value` over the receivers, before division by the window's total weight.
 template <class Value>
 Plane sums(const ImageView& size, Receivers receivers, Value value) {
   static const Kernel window = gaussian(1.5, 5);
@@ -54,7 +54,7 @@ double ssim(const ImageView& test, const ImageView& reference, Receivers receive
     if (!is_receiver(receivers, i)) continue;
     const float w = weight.pixels[i], dx = x.pixels[i] / w, dy = y.pixels[i] / w;
     const float mx = dx + middle, my = dy + middle;
-    // Within what they can be: rounding must not leave two pictures that are more than the same.
+    // Clamped to the possible range: rounding must not make two pictures more similar than identical ones.
     const float variances = std::max(xx.pixels[i] / w - dx * dx, 0.0f) + std::max(yy.pixels[i] / w - dy * dy, 0.0f);
     const float covariance = std::clamp(xy.pixels[i] / w - dx * dy, -variances / 2, variances / 2);
     const float index = (2 * mx * my + c1) * (2 * covariance + c2) / ((mx * mx + my * my + c1) * (variances + c2));

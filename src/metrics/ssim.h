@@ -11,10 +11,10 @@ namespace penumbra::metrics {
 // with means, variances and covariance under a Gaussian window of 11 × 11 pixels, σ = 1.5. The peak signal is 1. Of
 // three channels the luma (Rec. 709 weights) is compared.
 //
-// A window has receivers inside the picture alone: the others weigh nothing and the rest still sums to 1. So pixels by
-// the border are measured as well, which the paper leaves out. A test value that is not finite stands for 0 or 1,
-// whichever is farther from the reference. NaN without receivers. Throws Error as check() does, and for channels other
-// than 1 and 3.
+// A window includes only receivers inside the picture: other pixels have weight 0, and the remaining weights are
+// renormalised to sum to 1. So pixels near the border are measured too, which the paper leaves out. A test value that
+// is not finite counts as 0 or 1, whichever is farther from the reference. NaN without receivers. Throws Error as
+// check() does, and for channels other than 1 and 3.
 double ssim(const ImageView& test, const ImageView& reference, Receivers receivers = {});
 
 }  // namespace penumbra::metrics

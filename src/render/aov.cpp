@@ -22,9 +22,9 @@ struct Picture {
 // A frame, or one pixel of it.
 struct Source {
   const FrameParts& frame;
-  std::optional<glm::ivec2> pixel = {};  // from the upper left
+  std::optional<glm::ivec2> pixel = {};  // counted from the upper left; absent: the whole frame
 
-  // Of an array the first layer: of the mask that is the frame's first light.
+  // Of an array texture, only the first layer is read: of the mask, that is the first light.
   Picture read(const gl::Texture& texture, int channels) const;
   Picture read_bits(const gl::Texture& texture) const;
 };
@@ -46,14 +46,14 @@ Picture Source::read(const gl::Texture& texture, int channels) const {
   return {channels, rows_top_down(gl::read_floats(texture, channels), row)};
 }
 
-// Small whole numbers, which floats hold exactly.
+// Small integers, which floats represent exactly.
 Picture Source::read_bits(const gl::Texture& texture) const {
   const std::vector<unsigned> bits =
       pixel ? gl::read_uint_texel(texture, 1, pixel->x, texture.height() - 1 - pixel->y) : gl::read_uints(texture, 1);
   return {1, rows_top_down(bits, pixel ? 1 : static_cast<std::size_t>(texture.width()))};
 }
 
-// Each pixel of `picture` by a function that appends its values.
+// Converts each pixel of `picture` by a function that appends the result's values.
 template <class Convert>
 std::vector<float> each(const Picture& picture, Convert convert) {
   std::vector<float> result;

@@ -37,7 +37,7 @@ std::size_t index_of(int x, int y, int width, int channels) {
 
 std::size_t pixel_values(int width, int height, int channels) { return index_of(0, height, width, channels); }
 
-// Each value of `pixels` as a byte, `encode` deciding how.
+// Converts each value of `pixels` to a byte by `encode`.
 template <class Encode>
 ByteImage each(int channels, const std::vector<float>& pixels, Encode encode) {
   ByteImage bytes{channels, std::vector<std::uint8_t>(pixels.size())};
@@ -74,7 +74,7 @@ ByteImage label_bytes(int channels, const std::vector<float>& pixels) {
   return bytes;
 }
 
-// PNG has no two-channel colour: the third is middle grey's.
+// PNG has no two-channel colour, so a third channel of middle grey is added.
 ByteImage with_third(const ByteImage& two) {
   ByteImage three{3, {}};
   for (std::size_t i = 0; i < two.pixels.size(); i += 2)
@@ -82,7 +82,7 @@ ByteImage with_third(const ByteImage& two) {
   return three;
 }
 
-// The pixels that one is made of.
+// The block of source pixels that one result pixel is computed from.
 struct Block {
   const std::vector<float>& pixels;
   int width, channels, factor;  // width: of `pixels`

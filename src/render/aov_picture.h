@@ -15,23 +15,23 @@ struct ByteImage {
   std::vector<std::uint8_t> pixels;
 };
 
-// Supersampling: each pixel of `reduced` is made of factor × factor of `pixels`, an image `factor` times as large as
-// width × height.
+// Reduces a supersampled image: each result pixel is computed from factor × factor pixels of `pixels`, whose size is
+// `factor` times width × height.
 std::vector<float> reduced(const std::vector<float>& pixels, int width, int height, int channels, int factor,
                            Reduction reduction);
 
-// A display-referred RGB picture, 8 bits a channel, `factor` times as large as width × height, at its own size. The
-// mean of a block is taken of linearised display values: what an eye far away would see, and no firefly outshines a
-// block.
+// Reduces a display-referred RGB picture (8 bits a channel, `factor` times width × height) to width × height. Blocks
+// are averaged after decoding sRGB to linear display values, as the eye averages them from afar. Averaging tone-mapped
+// values also limits what one firefly adds to a block.
 ByteImage display_bytes(std::vector<std::uint8_t> rgb, int width, int height, int factor);
 
-// The colour of a label, 0, 1, …, in pictures of AOVs: 8-bit sRGB, eight of them in turn. What is no label, as the -1
-// of the sky, is black.
+// The colour of a label 0, 1, … in pictures of AOVs: 8-bit sRGB, eight colours that repeat. Negative values, as the -1
+// of the sky, are black.
 std::array<std::uint8_t, 3> label_color(float label);
 
-// An AOV as a picture to look at: visibility and material as they are; albedo encoded as sRGB; normals and motion about
-// middle grey; cascades in colours; depth from near to far as white to black, middle grey the picture's median; all
-// else relative to the picture's largest value.
+// An AOV as a picture for people: visibility and material unchanged; albedo sRGB-encoded; normals and motion centred at
+// middle grey; cascades as label colours; depth from white (near) to black (far), with the median at middle grey;
+// everything else scaled by the picture's largest value.
 ByteImage aov_bytes(std::string_view name, int channels, const std::vector<float>& pixels);
 
 }  // namespace penumbra::render

@@ -4,7 +4,8 @@ namespace penumbra::render {
 
 namespace {
 
-// Shadows of forward surfaces are a technique's function: a generated file puts it before the shading.
+// A forward-shaded surface calls a GLSL function of the shadow technique. The generated shader includes that function
+// before the shading code.
 std::string put_fragment_shader(gl::ShaderFiles& files, const std::string& forward_include) {
   std::string name = "generated/blended/" + forward_include;
   if (!files.has_generated(name)) {

@@ -8,8 +8,8 @@ namespace {
 
 constexpr GLuint exposure_binding = 0;
 
-// A white surface in the mean light of the picture, and how far the automatic goes from white in the sun: half a stop
-// down, and two and a half up for what lies in shade.
+// Luminance of a white surface in the average light of the picture, and the range of automatic exposure relative to
+// white in the sun: half a stop darker, and up to two and a half stops brighter for pictures in shade.
 constexpr float white = 0.8f;
 constexpr float least = 0.7f, most = 6.0f;
 

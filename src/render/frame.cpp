@@ -1,11 +1,11 @@
-// The frame, top to bottom.
+// The steps of a frame, in order.
 #include "render/frame.h"
 
 namespace penumbra::render {
 
 namespace {
 
-// Read by every pass that draws geometry or casts rays.
+// Every pass that draws geometry or casts rays reads this block.
 void bind_view(gl::Device& device, const glsl::ViewBlock& view) {
   const gl::Buffer& block = device.scratch("view", sizeof(glsl::ViewBlock));
   gl::write_value(block, view);

@@ -5,7 +5,7 @@
 
 namespace penumbra::render {
 
-// All that a frame made, for the picture and the inspector.
+// Everything that a frame produced, for the picture and the inspector.
 struct FrameParts {
   glsl::ViewBlock view;
   Camera camera;
@@ -19,7 +19,7 @@ struct FrameParts {
 FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, scene::GpuScene& scene,
                       const FrameInputs& inputs, const ParamSet& params);
 
-// An AOV of a frame, as Renderer::read_aov(); of one pixel, if one is given.
+// An AOV of a frame, as Renderer::read_aov(); of a single pixel if one is given.
 std::vector<float> read_aov(const FrameParts& frame, std::string_view name, std::optional<glm::ivec2> pixel = {});
 
 }  // namespace penumbra::render

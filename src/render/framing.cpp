@@ -27,8 +27,8 @@ Corners corners_of(const glm::vec3& low, const glm::vec3& high) {
   return corners;
 }
 
-// How far back from the box's centre an eye that looks along -back has to be, so that planes through it at an angle of
-// this tangent hold the corners.
+// The least distance from the box's centre, back along the view axis, at which all corners are within planes through
+// the eye at an angle of that tangent to the axis.
 float distance_for(const Corners& corners, const glm::vec3& axis, const glm::vec3& back, float tangent) {
   float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
   for (const glm::vec3& corner : corners) {
@@ -38,8 +38,9 @@ float distance_for(const Corners& corners, const glm::vec3& axis, const glm::vec
   return (high - low) * 0.5f / tangent;
 }
 
-// Where along the axis an eye at that distance has as much of the box on one side as on the other. In perspective that
-// is no mean: the sum of the outermost slopes falls steadily as the eye moves, so halving finds its zero.
+// How far to shift the eye along `axis`, at that distance, so that the box's projection is centred. In perspective this
+// is not a simple mean: the sum of the outermost slopes falls monotonically as the eye moves, so bisection finds its
+// zero.
 float centered(const Corners& corners, const glm::vec3& axis, const glm::vec3& back, float distance) {
   float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
   for (const glm::vec3& corner : corners) {
@@ -59,13 +60,13 @@ float centered(const Corners& corners, const glm::vec3& axis, const glm::vec3& b
   return (low + high) * 0.5f;
 }
 
-// Flat scenes are seen from higher up.
+// Flat scenes are viewed from a higher elevation.
 float elevation_for(const glm::vec3& half) {
   const float flatness = half.y / std::max({half.x, half.y, half.z});
   return glm::radians(glm::mix(36.0f, 16.0f, glm::clamp(flatness * 1.5f, 0.0f, 1.0f)));
 }
 
-// What of the picture is covered, -1 to 1 each way.
+// The part of the picture that is covered, in NDC: -1 to 1 on both axes.
 struct Cover {
   glm::vec2 low{1.0f}, high{-1.0f};
 
@@ -88,7 +89,7 @@ std::vector<glm::vec4> clipped(const std::vector<glm::vec4>& polygon, const glm:
   return kept;
 }
 
-// Adds what of the box's faces is in the picture.
+// Adds the visible parts of the box's faces.
 void add_faces(Cover& cover, const Corners& corners, const glm::mat4& to_clip) {
   static constexpr std::array<glm::vec4, 6> inner{
       {{1, 0, 0, 1}, {-1, 0, 0, 1}, {0, 1, 0, 1}, {0, -1, 0, 1}, {0, 0, -1, 1}, {0, 0, 1, 0}}};
@@ -106,7 +107,8 @@ bool holds(const scene::Bounds& box, const glm::vec3& point) {
   return glm::all(glm::lessThanEqual(box.min, point)) && glm::all(glm::lessThanEqual(point, box.max));
 }
 
-// Adds the corners of what an orthographic camera sees that are within the box: its faces may all be out of sight.
+// Adds those corners of an orthographic view volume that are inside the box. Needed when the camera is inside the box,
+// whose faces may then all be outside the picture.
 void add_inside(Cover& cover, const glm::mat4& to_clip, const scene::Bounds& bounds) {
   const glm::mat4 to_world = glm::inverse(to_clip);
   for (const glm::vec3& corner : corners_of({-1, -1, 0}, {1, 1, 1})) {

@@ -11,14 +11,14 @@ namespace penumbra::render {
 
 namespace {
 
-constexpr int inner = 32;  // cells of the scene's outline, along a side
-constexpr int rim = 4;     // cells around it, and around what stands: as far as a shadow is sure to fall
+constexpr int inner = 32;  // cells along each side of the scene's footprint
+constexpr int rim = 4;     // cells around the footprint and around raised objects, on which their shadows are expected
 constexpr int cells = inner + 2 * rim;
-constexpr float enough = 0.6f;         // least part with a floor
-constexpr float low = 0.1f;            // part of the height that counts as the bottom
-constexpr float level = 0.7f;          // least share of a triangle's area seen from above
-constexpr float radii = 6.0f;          // half the ground's side in radii of the scene
-constexpr std::size_t copies = 10000;  // instances looked at
+constexpr float enough = 0.6f;         // least share of those cells that must have a floor
+constexpr float low = 0.1f;            // share of the scene's height that counts as the bottom
+constexpr float level = 0.7f;          // least share of a triangle's area that is visible from above
+constexpr float radii = 6.0f;          // half the side of the ground, in radii of the scene
+constexpr std::size_t copies = 10000;  // most instances that are examined
 
 constexpr std::size_t cell_index(int x, int y) {
   return static_cast<std::size_t>(y) * cells + static_cast<std::size_t>(x);
@@ -26,7 +26,7 @@ constexpr std::size_t cell_index(int x, int y) {
 
 using Cells = std::bitset<static_cast<std::size_t>(cells) * cells>;
 
-// The scene's outline on the ground, as cells.
+// The scene's outline on the ground, as a grid of cells.
 class Footprint {
  public:
   explicit Footprint(const scene::Bounds& bounds)
@@ -67,7 +67,7 @@ bool mostly(const Cells& marked, const Cells& of) {
   return static_cast<float>((marked & of).count()) >= enough * static_cast<float>(of.count());
 }
 
-// The cells around marked ones.
+// The unmarked cells within `rim` cells of marked ones.
 Cells rim_of(const Cells& marked) {
   Cells grown;
   for (int y = 0; y < cells; ++y) {
@@ -91,10 +91,10 @@ Cells outline() {
   return all;
 }
 
-// What lies low and level, and what stands above it.
+// The cells that have low, level triangles, and those that have triangles above `top`.
 struct Layers {
   Footprint footprint;
-  float top;  // of what is low
+  float top;  // height below which a triangle is low
   Cells floor, above;
 };
 
@@ -142,7 +142,7 @@ void add_ground(scene::Scene& scene, const scene::Bounds& bounds) {
   const float radius = bounds.empty ? 1.0f : std::max(bounds.radius(), 1e-6f);
   const float half = radii * radius;
   const glm::vec3 center = bounds.empty ? glm::vec3(0.0f) : bounds.center();
-  const float height = (bounds.empty ? 0.0f : bounds.min.y) - 1e-4f * radius;  // under floors of the scene's own
+  const float height = (bounds.empty ? 0.0f : bounds.min.y) - 1e-4f * radius;  // below floors of the scene
   scene::Primitive plane;
   for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(-1, 1), glm::vec2(1, 1), glm::vec2(1, -1)}) {
     plane.positions.emplace_back(center.x + half * corner.x, height, center.z + half * corner.y);

@@ -5,10 +5,10 @@
 
 namespace penumbra::render {
 
-// Of the plane that add_ground() adds, and of what lies around every scene.
+// Albedo of the plane that add_ground() adds, and of the ground that the sky model assumes around every scene.
 inline constexpr float ground_albedo = 0.5f;
 
-// Whether most of the scene stands on a floor of its own, wide enough to show its shadows.
+// Whether most of the scene already has a floor below it that is wide enough to show its shadows.
 bool has_ground(const scene::Scene& scene, const scene::Pose& pose, const scene::Bounds& bounds);
 
 }  // namespace penumbra::render

@@ -17,20 +17,21 @@ static_assert(LIGHTING_MAX_LIGHTS == max_lights);
 
 float luminance(const glm::vec3& color) { return glm::dot(color, {0.2126f, 0.7152f, 0.0722f}); }
 
-// What brings luminance to the scale of the picture: exposed by hand, EV at ISO 100 with the middle of a meter's range
-// at 1.2 · 2^EV (ISO 2720 with K = 12.5); else white in the sun becomes 1, and measure_exposure() sees to the rest.
+// The factor from luminance to picture values. With manual exposure, it follows EV at ISO 100, with the middle of a
+// light meter's range at 1.2 · 2^EV (ISO 2720 with K = 12.5). With automatic exposure, white in the sun becomes 1, and
+// measure_exposure() computes the remaining factor.
 float exposure_factor(const LightingInputs& inputs, float white) {
   if (!inputs.params.get_bool("exposure.auto"))
     return 1.0f / (1.2f * std::exp2(inputs.params.get_float("exposure.ev")));
   return white > 0.0f ? 1.0f / white : 1.0f;
 }
 
-// As shaders read a light, exposed.
+// The uniform block of a light, with its illuminance exposed.
 glsl::DirectLightBlock block_of(const Sun& sun, float exposure) {
   return {.to_light = sun.to_light, .pad_a = 0, .illuminance = sun.illuminance * exposure, .pad_b = 0};
 }
 
-// On a plane that faces the light, and on a level one; lux.
+// Illuminance in lux, first on a plane that faces the light, then on a horizontal one.
 glm::vec3 illuminance_of(const Sun& sun) { return sun.illuminance; }
 float level_share(const Sun& sun) { return std::max(sun.to_light.y, 0.0f); }
 

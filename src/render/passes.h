@@ -12,17 +12,17 @@
 
 namespace penumbra::render {
 
-// The passes of a frame: each a function from named inputs to a named output, in a file of its name.
+// The passes of a frame. Each is a function from named inputs to a named output, in the file that is named after it.
 
-// What the camera sees, before light.
+// The visible surfaces, before lighting.
 struct GBuffer {
-  const gl::Texture* albedo = nullptr;            // RGB10_A2: square root of linear
-  const gl::Texture* normal = nullptr;            // RG16: shading normal, world, octahedral, 0..1
-  const gl::Texture* geometric_normal = nullptr;  // RG32F: octahedral, -1..1
-  const gl::Texture* material = nullptr;          // RGBA8: metallic, roughness, occlusion, 1 for unlit
-  const gl::Texture* emission = nullptr;          // R11F_G11F_B10F: as the file gives it
-  const gl::Texture* motion = nullptr;            // RG32F: where it is minus where it was, NDC
-  const gl::Texture* depth = nullptr;             // 32F, reversed: 0 is the sky
+  const gl::Texture* albedo = nullptr;            // RGB10_A2: square root of the linear colour
+  const gl::Texture* normal = nullptr;            // RG16: shading normal, world space, octahedral, 0 to 1
+  const gl::Texture* geometric_normal = nullptr;  // RG32F: world space, octahedral, -1 to 1
+  const gl::Texture* material = nullptr;          // RGBA8: metallic, roughness, ambient occlusion, 1 for unlit
+  const gl::Texture* emission = nullptr;          // R11F_G11F_B10F: in the file's units
+  const gl::Texture* motion = nullptr;            // RG32F: present minus last position, NDC
+  const gl::Texture* depth = nullptr;             // 32F, reversed-Z: 0 is the sky
 };
 
 struct GBufferInputs {
@@ -32,16 +32,17 @@ struct GBufferInputs {
 GBuffer draw_gbuffer(gl::Device& device, const GBufferInputs& inputs);
 std::vector<gl::ProgramDesc> gbuffer_programs();
 
-// Which triangle a pixel shows, for techniques that trace rays from it; drawn on demand.
+// Inputs of the surface id pass, which stores the triangle that each pixel shows. Drawn only for techniques that trace
+// rays from it.
 struct SurfaceIdInputs {
   scene::GpuScene& scene;
   const glsl::ViewBlock& view;
 };
-// RG32UI: 1 + index in PosedGeometry::surfaces (0: sky), and triangle of that surface.
+// RG32UI: 1 + the index in PosedGeometry::surfaces (0: sky), and the index of the triangle in that surface.
 const gl::Texture& draw_surface_ids(gl::Device& device, const SurfaceIdInputs& inputs);
 std::vector<gl::ProgramDesc> surface_id_programs();
 
-// What shadow::Inputs::user points to in a frame of this renderer.
+// What shadow::Inputs::user points to when this renderer draws a frame.
 struct FrameScene {
   scene::GpuScene& scene;
   const glsl::ViewBlock& view;
@@ -54,21 +55,21 @@ struct ShadowMaskInputs {
   const Camera& camera;
   const Camera& last_camera;
   const glsl::ViewBlock& view;
-  int view_id = 0;  // as FrameInputs::view
+  int view_id = 0;  // same as FrameInputs::view
   double time = 0;
-  bool cut = false;  // as FrameInputs::cut
+  bool cut = false;  // same as FrameInputs::cut
   std::span<const Light> lights;
   const GBuffer& gbuffer;
   const ParamSet& params;
 };
-// One layer a light, in their order.
+// One layer for each light, in the order of the lights.
 shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs);
 
 struct LightingInputs {
   const GBuffer& gbuffer;
   const shadow::Mask& mask;
-  std::span<const Light> lights;  // of the mask's layers
-  bool emission_in_nits = true;   // else 1 is white in the sun
+  std::span<const Light> lights;  // one for each layer of the mask
+  bool emission_in_nits = true;   // false: 1 is the luminance of white in the sun
   const ParamSet& params;
 };
 const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inputs);  // RGBA16F, linear, exposed
@@ -84,7 +85,7 @@ struct BlendedInputs {
   const ParamSet& params;
   const gl::Texture& lit;
 };
-// Over `lit`. Of several lights the first is shadowed on blended surfaces, the others shine on them unhindered.
+// Draws blended surfaces over `lit`. Only the first light is shadowed on them; the others light them without shadows.
 void draw_blended(gl::Device& device, const BlendedInputs& inputs);
 std::vector<gl::ProgramDesc> blended_programs(gl::Device& device, const shadow::SoftShadows& soft_shadows,
                                               const ParamSet& defaults);
@@ -94,7 +95,8 @@ struct ExposureInputs {
   const gl::Texture& lit;
   const ParamSet& params;
 };
-const gl::Buffer& measure_exposure(gl::Device& device, const ExposureInputs& inputs);  // one float: a factor
+// One float: the factor by which the tone map multiplies colours.
+const gl::Buffer& measure_exposure(gl::Device& device, const ExposureInputs& inputs);
 std::vector<gl::ProgramDesc> exposure_programs();
 
 struct ToneMapInputs {
@@ -104,15 +106,15 @@ struct ToneMapInputs {
 const gl::Texture& tone_map(gl::Device& device, const ToneMapInputs& inputs);  // RGBA8, sRGB-encoded
 std::vector<gl::ProgramDesc> tone_map_programs();
 
-// Rows of the parameter table that these passes read.
+// The parameters that these passes read.
 std::vector<Param> render_params();
-// Which casters they choose.
+// The casters that these parameters choose.
 scene::CasterChoice caster_choice(const ParamSet& params);
 
-// Uniform blocks that several passes read: bound once a frame.
+// Binding of the uniform block of the view, which several passes read; bound once per frame.
 inline constexpr GLuint view_binding = 4;
 inline constexpr GLuint lighting_binding = 5;
-// The first texture unit of the passes; the shadow library has those below it.
+// The first texture unit of these passes; the shadow library uses the units below it.
 inline constexpr GLuint first_unit = 8;
 
 }  // namespace penumbra::render

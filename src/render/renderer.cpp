@@ -15,8 +15,8 @@ struct Renderer::State {
   shadow::SoftShadows soft_shadows;
   FrameParts parts;
   Frame frame;
-  std::uint64_t last_scene = 0;                // its id; 0: there is none
-  std::map<int, scene::CasterChoice> casters;  // of each view's last frame
+  std::uint64_t last_scene = 0;                // its id; 0: none was drawn
+  std::map<int, scene::CasterChoice> casters;  // by view: the choice of its last frame
 
   const FrameParts& drawn() const {
     if (parts.display == nullptr) fail("no frame was drawn that could be read");
@@ -39,14 +39,14 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   if (inputs.lights.empty() || inputs.lights.size() > max_lights)
     fail("a frame has {} lights; 1 to {} can be drawn", inputs.lights.size(), max_lights);
   gl::Device& device = state_->device;
-  // Until the end there is none: a frame that throws is no frame to go on from.
+  // Cleared until this frame is complete: if it throws, the next frame must not reuse its history.
   const std::uint64_t last_scene = std::exchange(state_->last_scene, 0);
   FrameInputs placed = inputs;
   const scene::CasterChoice casters = caster_choice(params);
   scene::CasterChoice& last_casters = state_->casters.try_emplace(inputs.view, casters).first->second;
   const bool others_cast = std::exchange(last_casters, casters) != casters;
   placed.cut = inputs.cut || last_scene != scene.id() || others_cast;
-  // What a frame that throws has dropped must not be read.
+  // If this frame throws, the textures of the last one are no longer valid and must not be read.
   state_->parts = {};
   device.shaders.next_frame();
   device.timers.begin_frame();

@@ -16,38 +16,38 @@
 
 namespace penumbra::render {
 
-// What one frame shows. Camera and time of the last frame come with it, for motion vectors; a first frame gives its
-// own.
+// What one frame shows. It includes the camera and time of the last frame, for motion vectors; the first frame repeats
+// its own values there.
 struct FrameInputs {
   int width = 1280, height = 720;
-  int view = 0;  // tells pictures apart that are drawn in turn: each has maps, a mask and a history of its own
+  int view = 0;  // identifies one of several views drawn in turn; each has its own maps, mask and history
   Camera camera, last_camera;
-  std::vector<Light> lights{Sun{}};  // 1 to max_lights; each has a layer of the mask, in this order
+  std::vector<Light> lights{Sun{}};  // 1 to max_lights; light i has layer i of the mask
   double time = 0, last_time = 0;    // seconds
-  // Nothing of the last frame belongs to this one: the view or the time jumps. What a technique remembers is dropped,
-  // so that the frame is that of a run which starts here. A scene other than the last frame's is a cut without being
-  // told.
+  // The view or the time jumps, so nothing of the last frame may be reused: techniques and denoisers drop their
+  // history, and the frame equals the first frame of a new run. A change of scene is always a cut, even if this is
+  // false.
   bool cut = false;
 };
 
-// What one pixel is made of where several were drawn for it.
+// With supersampling, how the samples of one pixel become its value.
 enum class Reduction {
-  mean,            // all of them
-  mean_of_valid,   // those that are not 0, which stands for "none"
-  nearest_center,  // the one at the middle: what has no mean, as labels, or none that is its own kind, as unit vectors
+  mean,            // the mean of all samples
+  mean_of_valid,   // the mean of the samples that are not 0, where 0 means "none"
+  nearest_center,  // the sample at the centre: for labels and unit vectors, whose mean would be neither
 };
 
-// A named picture of the frame for --aov and the inspector.
+// A named intermediate picture (AOV) of the frame, for --aov and the inspector.
 struct Aov {
   std::string name;                   // "shadow"
   std::string help;                   // meaning and unit
-  std::vector<std::string> channels;  // "R","G","B" or "V", …: EXR channel names after the layer's name
+  std::vector<std::string> channels;  // "R","G","B" or "V", …: EXR channel names without the layer's name
   Reduction reduction = Reduction::mean;
-  bool in_pixels = false;  // a length in drawn pixels
+  bool in_pixels = false;  // a length in drawn pixels, to be rescaled with supersampling
 };
 const std::vector<Aov>& aovs();
 
-// The finished frame; textures live until the next frame.
+// The finished frame. The textures are valid until the next frame.
 struct Frame {
   const gl::Texture* display = nullptr;  // RGBA8, sRGB-encoded, tone mapped
   const gl::Texture* color = nullptr;    // RGBA16F, linear, before the tone map and its automatic exposure
@@ -60,23 +60,24 @@ class Renderer {
   explicit Renderer(gl::Device& device, shadow::Registry registry = shadow::built_in_registry());
   ~Renderer();
 
-  // Rows of the shadow library and of the renderer (exposure, sky, …).
+  // The parameters of the shadow library and of the renderer (exposure, sky, …).
   static std::vector<Param> params(const shadow::Registry& registry);
 
-  // `params` holds at least the rows of params(). Throws Error for a frame without lights or with too many.
+  // `params` must have at least the parameters of params(). Throws Error for a frame without lights or with more than
+  // max_lights.
   const Frame& draw(scene::GpuScene& scene, const FrameInputs& inputs, const ParamSet& params);
-  // The last frame's AOV as floats, rows top to bottom, aov.channels.size() a pixel. Throws Error for unknown names.
+  // The last frame's AOV as floats, rows top to bottom, aov.channels.size() values for each pixel. Throws Error for
+  // unknown names.
   std::vector<float> read_aov(std::string_view name) const;
-  // The same of one pixel, counted from the upper left.
+  // The same for one pixel, counted from the upper left.
   std::vector<float> read_aov(std::string_view name, const glm::ivec2& pixel) const;
-  // The last frame as it is shown: RGB, 8 bits, sRGB, rows top to bottom.
+  // The last frame as it is displayed: RGB, 8 bits, sRGB-encoded, rows top to bottom.
   std::vector<std::uint8_t> read_display() const;
 
-  // Gives back what is kept for FrameInputs::view; its next frame is a cut. Nothing is to be read of its last one any
-  // more.
+  // Releases what is kept for that FrameInputs::view; its next frame is a cut. Its last frame can no longer be read.
   void forget_view(int id);
 
-  // Every program that any parameters can build (variants tool, tests).
+  // Every program that any choice of parameters can build, for the variants tool and tests.
   std::vector<gl::ProgramDesc> all_programs(const ParamSet& defaults);
 
   const shadow::Registry& registry() const;

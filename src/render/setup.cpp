@@ -14,7 +14,7 @@ namespace penumbra::render {
 
 namespace {
 
-// A camera of the file at a place in its scene.
+// A camera of the file and the world matrix that places it.
 struct PlacedCamera {
   std::string name;
   const scene::Camera* camera;
@@ -44,7 +44,7 @@ glm::mat4 view_of(const glm::mat4& world) {
   return glm::lookAt(eye, eye - glm::normalize(back), glm::normalize(up));
 }
 
-// Its lens: follow() puts it in its place.
+// The camera's projection; follow() sets its position.
 Camera camera_of(const PlacedCamera& placed) {
   const scene::Camera& file = *placed.camera;
   Camera camera{
@@ -70,7 +70,7 @@ const PlacedCamera& find_camera(const std::vector<PlacedCamera>& placed, const s
   fail_unknown("camera", wanted, names);
 }
 
-// The one that was asked for, else the first that sees the scene, else none.
+// The requested camera, else the first that sees the scene, else null.
 const PlacedCamera* choose_camera(const std::vector<PlacedCamera>& placed, const scene::Pose& pose,
                                   const scene::Bounds& bounds, const SetupRequest& request) {
   if (!request.camera.empty()) return &find_camera(placed, request.camera);
@@ -82,7 +82,7 @@ const PlacedCamera* choose_camera(const std::vector<PlacedCamera>& placed, const
   return nullptr;
 }
 
-// Halfway up the sky, to the side of the camera's shoulder, so that shadows fall across the picture.
+// 45 degrees above the horizon and to one side of the camera, so that shadows fall across the picture.
 Sun default_sun(const Camera& camera) {
   const glm::vec3 back(camera.view[0][2], camera.view[1][2], camera.view[2][2]);
   const float azimuth = std::atan2(back.x, back.z) - glm::radians(55.0f);
@@ -90,14 +90,15 @@ Sun default_sun(const Camera& camera) {
   return {.to_light = direction_to(azimuth, glm::radians(45.0f)), .illuminance = {104000.0f, 99500.0f, 93000.0f}};
 }
 
-// A unit vector towards a light on a node: it shines along its -Z. None where the node is flattened.
+// A unit vector towards a light that is attached to a node: it shines along its -Z. Nothing if the node's matrix is
+// singular.
 std::optional<glm::vec3> to_light_of(const glm::mat4& world) {
   const glm::vec3 back(world[2]);
   const float length = glm::length(back);
   return length > 0 && std::isfinite(length) ? std::optional(back / length) : std::nullopt;
 }
 
-// The first directional light that shines.
+// The node of the first directional light whose intensity is not 0.
 std::optional<std::size_t> find_sun(const scene::Scene& scene, const scene::Pose& pose) {
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const int light = scene.nodes[i].light;

@@ -13,40 +13,42 @@ namespace penumbra::render {
 
 enum class GroundChoice { automatic, on, off };
 
-// What the user left open is chosen from the scene.
+// What the user asked for; the rest is chosen from the scene.
 struct SetupRequest {
-  // Name or index of one of the file's. Empty: the first of them that sees the scene (within its bounds, or with the
-  // bounds over a tenth of the picture's width or height), else one that frames the scene.
+  // Name or index of one of the file's cameras. Empty: the first of them that sees the scene (it is inside the bounds,
+  // or the bounds cover at least a tenth of the picture's width or height); without one, a camera that frames the
+  // scene.
   std::string camera;
   GroundChoice ground = GroundChoice::automatic;
   float aspect = 16.0f / 9.0f;               // width / height of the picture
-  std::optional<scene::Bounds> bounds = {};  // to frame; absent: the scene's
+  std::optional<scene::Bounds> bounds = {};  // the bounds to frame; absent: those of the scene
 };
 
 struct Setup {
   Camera camera;
   Sun sun;
-  bool ground = false;  // add_ground() puts it there
-  // The nodes that camera and sun sit on and whose animation they follow; none: they stand still.
+  bool ground = false;  // the scene has no floor; add_ground() adds one
+  // The nodes that camera and sun are attached to, whose animation they follow. Absent: they do not move.
   std::optional<std::size_t> camera_node, sun_node;
 };
 
-// The cameras that stand in a scene, in the order of SetupRequest's indices; none has an empty name.
+// The names of the cameras that the scene places, in the order of SetupRequest's indices. None is empty.
 std::vector<std::string> camera_names(const scene::Scene& scene);
 
-// Throws Error, listing near names, for a camera that the file lacks.
+// Throws Error, which lists similar names, for a camera that the file lacks.
 Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const SetupRequest& request = {});
 
-// Camera and sun where `pose`, of the scene that they were chosen for, has their nodes.
+// Moves camera and sun to where `pose` puts their nodes. `pose` must be of the scene that they were chosen for.
 void follow(Setup& setup, const scene::Pose& pose);
 
-// The near plane for an eye in a scene of those bounds: close enough to cut nothing off.
+// The distance of the near plane for an eye in a scene of those bounds, metres: small enough to clip nothing visible.
 float near_plane_for(const scene::Bounds& bounds, const glm::vec3& eye);
 
-// A unit vector towards a light. Radians; azimuth from +Z towards +X, elevation over the horizon.
+// A unit vector towards a light. Angles in radians: azimuth from +Z towards +X, elevation above the horizon.
 glm::vec3 direction_to(float azimuth, float elevation);
 
-// Adds a grey plane under the scene, as wide as shadows and the horizon ask; part of the scene like all else.
+// Adds a grey plane under the scene, large enough to receive its shadows and to reach towards the horizon. It becomes
+// an ordinary part of the scene.
 void add_ground(scene::Scene& scene, const scene::Bounds& bounds);
 
 }  // namespace penumbra::render

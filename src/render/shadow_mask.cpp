@@ -15,7 +15,7 @@ shadow::Box moved_box(const scene::GpuScene& scene) {
 
 shadow::LightSource source_of(const Sun& sun) { return shadow::Sun{.to_light = sun.to_light}; }
 
-// Each light's place in the frame's list is its id, by which its maps and history are kept.
+// A light's index in the frame's list is its id, under which the shadow library keeps its maps and history.
 std::vector<shadow::Light> lights_of(std::span<const Light> lights) {
   std::vector<shadow::Light> all;
   for (const Light& light : lights) {

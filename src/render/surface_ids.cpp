@@ -23,7 +23,7 @@ const gl::Texture& draw_surface_ids(gl::Device& device, const SurfaceIdInputs& i
   const gl::Texture* ids = target("surface ids", GL_RG32UI);
   const gl::Texture* depth = target("surface ids' depth", GL_DEPTH_COMPONENT32F);
   const glm::vec4 nothing(0.0f);
-  // The G-buffer's own tests and order, so that of coplanar triangles the same one stays.
+  // Same depth test and draw order as the G-buffer, so that the same one of coplanar triangles is visible.
   gl::Pass pass(device, {.name = "surface ids",
                          .colors = {{.texture = ids, .clear = nothing}},
                          .depth = gl::Attachment{.texture = depth, .clear = nothing},

@@ -39,7 +39,7 @@ glm::mat4 projection_of(const Camera& camera, float aspect) {
 }
 
 glm::vec3 position_of(const Camera& camera) {
-  // The view is a rigid motion: its inverse is its transpose.
+  // The view matrix is rigid, so the inverse of its rotation is the transpose.
   return -(glm::transpose(glm::mat3(camera.view)) * glm::vec3(camera.view[3]));
 }
 

@@ -9,17 +9,17 @@
 
 namespace penumbra::render {
 
-// A camera at rest, in world space.
+// A camera at one moment, in world space.
 struct Camera {
   glm::mat4 view{1};  // world to view: right-handed, -Z forward
   bool orthographic = false;
-  float fov_y = 0.8f;        // radians, of the height
-  float half_height = 1.0f;  // orthographic
-  float near = 0.1f;         // the projection is reversed-Z with an infinite far plane (orthographic: `far`)
+  float fov_y = 0.8f;        // vertical field of view, radians; perspective only
+  float half_height = 1.0f;  // metres; orthographic only
+  float near = 0.1f;         // metres; the projection is reversed-Z with an infinite far plane (orthographic: `far`)
   float far = 1000.0f;
 };
 
-// A camera at `eye` that looks at `target`, upright; straight up and down included.
+// An upright camera at `eye` that looks at `target`. Also defined for looking straight up or down.
 Camera look_at(const glm::vec3& eye, const glm::vec3& target, float fov_y, float near);
 
 glm::mat4 projection_of(const Camera& camera, float aspect);
@@ -33,17 +33,17 @@ struct Sun {
 // The kinds of light that a frame can have.
 using Light = std::variant<Sun>;
 
-// Lights of one frame.
+// The most lights of one frame.
 inline constexpr int max_lights = 16;
 
-// What passes that draw geometry know of the camera.
+// The uniform block by which passes that draw geometry know the camera.
 glsl::ViewBlock view_block(const Camera& camera, const Camera& last_camera, int width, int height);
 
-// The sides of what a camera sees.
+// The planes that bound what a camera sees.
 class Frustum {
  public:
   explicit Frustum(const glm::mat4& world_to_clip);
-  bool holds(const scene::Bounds& box) const;  // false only if nothing in the box is seen
+  bool holds(const scene::Bounds& box) const;  // conservative: false only if the box is certainly outside
 
  private:
   std::array<glm::vec4, 6> planes_;  // normal and offset, pointing inwards

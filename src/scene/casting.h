@@ -13,19 +13,20 @@ namespace penumbra::scene {
 const std::vector<std::string>& casting_words();
 std::optional<Casting> casting_of(std::string_view word);
 
-// Sets how the materials of that name cast, over what nodes that draw them say. False: there is none.
+// Sets how the materials of that name cast shadows, overriding the nodes that draw them. Returns false if there is no
+// such material.
 bool set_casting(Scene& scene, std::string_view material, Casting casting);
 
-// What a frame's parameters say of all casters.
+// Which casters the parameters of a frame choose.
 struct CasterChoice {
   CasterFaces faces = CasterFaces::both;
-  bool skies = false;  // skies cast too
+  bool skies = false;  // whether skies cast shadows too
 
   bool operator==(const CasterChoice&) const = default;
 };
 
-// Which faces of a node's surface of this material cast; nothing: none does. `casters.faces` leaves double-sided
-// materials both faces: neither of theirs is a back.
+// Which faces cast shadows on a node's surface of this material; nothing if none does. The parameter `casters.faces`
+// does not affect double-sided materials, which always cast from both faces.
 std::optional<CasterFaces> casting_faces(const Node& node, const Material& material, const CasterChoice& choice);
 
 }  // namespace penumbra::scene

@@ -15,7 +15,7 @@
 
 namespace penumbra::scene {
 
-// Decides by an instance's world box whether it is drawn.
+// Decides from an instance's world-space box whether the instance is drawn.
 using BoxTest = std::function<bool(const Bounds&)>;
 
 // Which surfaces a pass draws.
@@ -29,7 +29,8 @@ enum class Casters {
   moved_last,     // those that moved, where they were; output 0 is 1
 };
 
-// A scene on the GPU: one set of vertex buffers, one of indices, one of instances. `scene` must outlive it unchanged.
+// A scene on the GPU: one set of vertex buffers, one index buffer and one instance buffer for all primitives. `scene`
+// must outlive this object and stay unchanged.
 class GpuScene {
  public:
   GpuScene(gl::Device& device, const Scene& scene);
@@ -37,47 +38,48 @@ class GpuScene {
   GpuScene(const GpuScene&) = delete;
   GpuScene& operator=(const GpuScene&) = delete;
 
-  // Takes the poses of the last and the present frame: matrices, skins and morphs. Work that is already done is kept.
+  // Uploads the poses of the last and the present frame: matrices, skins and morphs. Poses that are already on the GPU
+  // are not computed again.
   void pose(gl::Device& device, double last_time, double time);
 
-  // Which casters draw_casters(), the bounds of casters and posed_geometry() have from now on. At first: all, of both
-  // faces, but skies.
+  // Sets which casters draw_casters(), the bounds of casters and posed_geometry() include from now on. Initially:
+  // everything but skies, with both faces.
   void choose_casters(const CasterChoice& choice);
 
-  // Draws surfaces with a program that includes glsl/scene/surface.vert; the view's uniform block is bound.
+  // Draws surfaces with a program that includes glsl/scene/surface.vert; the caller has bound the view's uniform block.
   void draw_surfaces(gl::Device& device, gl::Pass& pass, Surfaces surfaces, const gl::ProgramDesc& program,
                      const BoxTest& visible);
-  // Draws BLEND surfaces from back to front as seen from `eye`.
+  // Draws BLEND surfaces back to front as seen from `eye`.
   void draw_blended(gl::Device& device, gl::Pass& pass, const gl::ProgramDesc& program, const glm::vec3& eye,
                     const BoxTest& visible);
-  // Draws what casts shadows: opaque surfaces, and of the others what their alpha leaves.
+  // Draws the shadow casters: opaque surfaces, and masked and blended ones where their alpha passes.
   void draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
                     const BoxTest& reaches);
-  // Draws the triangles of opaque and masked casters, the latter whole, both faces of each, with
-  // with_caster_vertices(stages).
+  // Draws the triangles of opaque and masked casters with with_caster_vertices(stages): both faces, and without the
+  // alpha test of masked surfaces.
   void draw_caster_geometry(gl::Device& device, gl::Pass& pass, const gl::ProgramDesc& stages,
                             const glm::mat4& world_to_clip, const BoxTest& reaches);
 
   const Scene& scene() const;
-  // Unlike that of any other scene of this process, those that are gone included; never 0.
+  // Unique among all scenes of this process, destroyed ones included; never 0.
   std::uint64_t id() const;
   bool has_blended() const;
-  bool moved() const;      // anything, between the two poses
+  bool moved() const;      // whether anything moved between the two poses
   Bounds casters() const;  // world bounds in the present pose
   Bounds receivers() const;
-  Bounds moved_bounds() const;  // of the casters that moved between the two poses, in both; empty: none did
-  bool lit_by_file() const;     // it brings a directional light, so its emission is in the same units
+  Bounds moved_bounds() const;  // of the casters that moved between the two poses, in both poses; empty if none did
+  bool lit_by_file() const;     // the file has a directional light, so its emission is in matching units
 
-  // The present pose's triangles as shaders get them. Refers to the scene; waits for the GPU.
+  // The triangles of the present pose as shaders read them. Refers to the scene; waits for the GPU.
   PosedGeometry posed_geometry() const;
 
-  // A program of geometry and fragment shaders with the vertex shader of casters, which writes gl_Position alone.
+  // Adds the casters' vertex shader, which writes only gl_Position, to a program of geometry and fragment shaders.
   static gl::ProgramDesc with_caster_vertices(gl::ProgramDesc stages);
 
   // Every program that draw_casters() and pose() use.
   static std::vector<gl::ProgramDesc> programs();
 
-  // Deformed positions as the last pose() left them, for tests: all vertices of skinned and morphed instances.
+  // For tests: the deformed positions of all skinned and morphed instances after the last pose().
   std::vector<glm::vec3> read_deformed() const;
 
  private:

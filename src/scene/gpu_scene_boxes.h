@@ -19,7 +19,7 @@ inline Bounds transformed(const Bounds& box, const glm::mat4& matrix) {
   return moved;
 }
 
-// Cofactors: what a matrix does to cross products, defined for flattening ones too.
+// The cofactor matrix: how a matrix transforms cross products. Also defined for singular matrices.
 inline glm::mat3 area_matrix(const glm::mat3& m) {
   return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }

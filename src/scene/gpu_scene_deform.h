@@ -16,21 +16,22 @@
 
 namespace penumbra::scene {
 
-// Skins and morphs of a scene: one job for each primitive of each node that deforms. Morphed vertices stay in their
-// node's space; skinned ones come out in world space.
+// Skinning and morphing of a scene: one job for each primitive of each deforming node. Morphed vertices stay in their
+// node's space; skinned vertices are written in world space.
 class Deformer {
  public:
   static bool deforms(const Node& node, const Primitive& primitive);
 
-  // Declares a job whose vertices begin at `target` of the results; returns its number. Then upload() once.
+  // Adds a job whose vertices begin at index `target` of the results; returns its number. Call upload() once after the
+  // last add().
   int add(const Scene& scene, int node, const Primitive& primitive, std::uint32_t target);
   void upload();
 
   bool skinned(int job) const { return jobs_[static_cast<std::size_t>(job)].block.joint_count != 0; }
-  // Whether its matrices turn counter-clockwise triangles clockwise.
+  // Whether the job's matrices turn counter-clockwise triangles clockwise.
   bool mirrored(int job, const Pose& pose) const;
   bool differs(int job, const Pose& a, const Pose& b) const;
-  // The bounding box of the deformed vertices, in the space of the results.
+  // The bounding box of the deformed vertices, in the space in which they are written.
   Bounds bounds(int job, const Pose& pose) const;
 
   std::size_t vertices() const { return vertices_; }
@@ -40,11 +41,11 @@ class Deformer {
   static gl::ProgramDesc program();
 
  private:
-  // A primitive at rest, which all nodes that draw it with as many joints share.
+  // An undeformed primitive. All nodes that draw it with the same number of joints share it.
   struct Source {
-    std::uint32_t vertices = 0, influences = 0, deltas = 0;  // where they begin
-    std::vector<Bounds> parts;       // by joint (one in all without a skin): vertices at rest that it moves
-    std::vector<glm::vec3> reaches;  // by target: how far it moves any vertex
+    std::uint32_t vertices = 0, influences = 0, deltas = 0;  // offsets of the first element of each
+    std::vector<Bounds> parts;       // per joint (without a skin: one): box of the undeformed vertices that it moves
+    std::vector<glm::vec3> reaches;  // per morph target: the most that it moves any vertex
   };
 
   struct Job {

@@ -13,12 +13,12 @@
 
 namespace penumbra::scene {
 
-// A scene's materials and textures on the GPU. Indices are the scene's; the last is glTF's default material.
+// A scene's materials and textures on the GPU. Indices are those of the scene; the last one is glTF's default material.
 class Materials {
  public:
   Materials(gl::Device& device, const Scene& scene);
 
-  void bind(int material) const;  // its block and textures
+  void bind(int material) const;  // binds its uniform block and textures
 
   // The scene's material, or the default for -1.
   static const Material& of(const Scene& scene, int material);
@@ -35,7 +35,7 @@ class Materials {
   Slots slots(gl::Device& device, const Scene& scene, const Material& material);
   void fill_empty_slots();
 
-  std::map<std::pair<int, bool>, gl::Texture> images_;  // by image and whether it is sRGB
+  std::map<std::pair<int, bool>, gl::Texture> images_;  // keys: image, and whether it is read as sRGB
   std::vector<Slots> textures_;                         // by material
   gl::Buffer blocks_;
 };

@@ -14,21 +14,21 @@
 
 namespace penumbra::scene {
 
-// A primitive at a place. Instances of one primitive follow one another, so that a run of them is one draw.
+// A primitive at one place. Instances of the same primitive are consecutive, so that one draw covers them.
 struct Instance {
   const Primitive* primitive = nullptr;
   int node = -1;
-  int copy = -1;  // of EXT_mesh_gpu_instancing
-  int job = -1;   // of the deformer; -1: none
+  int copy = -1;  // index of the EXT_mesh_gpu_instancing instance; -1: none
+  int job = -1;   // the deformer's job; -1: none
   Topology topology = Topology::triangles;
   AlphaMode alpha_mode = AlphaMode::opaque;
   Casts casts = Casts::always;
   int material = 0;
   bool double_sided = false;
-  // Which faces cast, by the present choice; nothing: none does.
+  // Which faces cast shadows by the present choice of casters; nothing if none does.
   std::optional<CasterFaces> faces = CasterFaces::both;
   std::uint32_t first_index = 0, index_count = 0, base_vertex = 0;
-  Bounds local;  // of what does not deform
+  Bounds local;  // bounds in node space, unless it deforms
 
   // In the present pose.
   glm::mat4 world{1};
@@ -36,11 +36,11 @@ struct Instance {
   Bounds box, last_box;
 };
 
-// Draws that share all state.
+// A run of instances that are drawn with the same state.
 struct Batch {
   bool deformed = false, mirrored = false, double_sided = false;
   Topology topology = Topology::triangles;
-  int material = -1;  // -1: none is read
+  int material = -1;  // -1: the draw reads no material
   std::size_t first = 0, count = 0;
 
   bool same_state(const Batch& other) const;
@@ -53,14 +53,14 @@ struct DrawList {
   void add(const Instance& instance, std::uint32_t index, Batch batch);
 };
 
-// Which casters a draw has, and how.
+// Which casters a draw includes, and what it writes.
 struct CasterDraw {
   bool still = false, moved = false;
-  bool marks = false;      // 1 in fragment output 0
-  bool last_pose = false;  // where they were
+  bool marks = false;      // writes 1 to fragment output 0
+  bool last_pose = false;  // draws the last pose instead of the present one
 };
 
-// A pose on the GPU: the deformed vertices of a moment.
+// A pose on the GPU: the deformed vertices at one time.
 struct PosedVertices {
   std::optional<double> time;
   Pose pose;
@@ -75,7 +75,7 @@ struct GpuScene::State {
   Materials materials;
   Deformer deformer;
   std::vector<Instance> instances;
-  gl::Buffer positions, frames, surfaces, indices;  // of all primitives, at rest
+  gl::Buffer positions, frames, surfaces, indices;  // of all primitives, undeformed
   gl::Buffer deformed_surfaces;
   gl::Buffer instance_numbers, instance_blocks;
   VertexArray rigid{"rigid vertices"}, deformed{"deformed vertices"};

@@ -9,18 +9,18 @@
 
 namespace penumbra::scene {
 
-// Normal and tangent, signed 16-bit: 3e-5 radians.
+// Normal and tangent, signed 16-bit: accurate to 3e-5 radians.
 struct VertexFrame {
   std::uint32_t normal_xy = 0, normal_z = 0, tangent_xy = 0, tangent_zw = 0;
 };
 
-// What does not move with the pose.
+// Vertex attributes that do not depend on the pose.
 struct VertexSurface {
   glm::vec2 uv[2]{};
   glm::u16vec4 color{0xffff};
 };
 
-// Vertices of many primitives, one after the other.
+// Vertices of many primitives in one set of arrays.
 struct VertexStreams {
   std::vector<glm::vec3> positions;
   std::vector<VertexFrame> frames;
@@ -30,13 +30,13 @@ struct VertexStreams {
   std::uint32_t append(const Primitive& primitive);
 };
 
-// The buffers that a draw reads its vertices from. `last_positions` is `positions` where nothing deforms.
+// The buffers that a draw reads its vertices from. Without deformation `last_positions` is `positions`.
 struct VertexSource {
   const gl::Buffer* positions = nullptr;
   const gl::Buffer* last_positions = nullptr;
   const gl::Buffer* frames = nullptr;
   const gl::Buffer* surfaces = nullptr;
-  const gl::Buffer* instances = nullptr;  // 0, 1, 2, …: a draw's base instance picks its first
+  const gl::Buffer* instances = nullptr;  // 0, 1, 2, …: a draw's base instance selects the first one that it reads
   const gl::Buffer* indices = nullptr;
 };
 

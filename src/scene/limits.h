@@ -9,24 +9,25 @@
 
 namespace penumbra::scene {
 
-// One limit of the reader, declared once: `--limit NAME=VALUE`, help and messages come from this row.
+// One limit of the scene reader. The option `--limit NAME=VALUE`, its help and the error messages all use this row.
 struct LimitRow {
   const char* name;  // "images"
   const char* help;  // what is counted
   std::size_t ReadLimits::*value;
-  bool bytes = false;  // else a count
+  bool bytes = false;  // the limit is in bytes; else it is a count
 };
 
 std::span<const LimitRow> limit_rows();
 
-// Sets the limit of that name. "images=2GiB", "vertices=100000000": a whole number, for bytes with KiB, MiB or GiB
-// behind it if you like. Throws Error that names the text and what is allowed.
+// Sets the limit that an assignment names: "images=2GiB", "vertices=100000000". The value is a whole number, for bytes
+// optionally followed by KiB, MiB or GiB. Throws Error that quotes the text and lists what is allowed.
 void set_limit(ReadLimits& limits, std::string_view assignment);
 
-// "1.5 GiB", "200 bytes".
+// A size as text: "1.5 GiB", "200 bytes".
 std::string bytes_text(std::size_t bytes);
 
-// Throws Error: "WHAT, over the limit of 1.5 GiB; --limit images=SIZE changes it". `value` says which limit.
+// Throws Error: "WHAT, over the limit of 1.5 GiB; --limit images=SIZE changes it". `value` is the member of the limit
+// that was exceeded.
 [[noreturn]] void fail_over_limit(const std::string& what, const ReadLimits& limits, std::size_t ReadLimits::*value);
 
 }  // namespace penumbra::scene

@@ -7,25 +7,26 @@
 
 namespace penumbra::scene {
 
-// The scene at a moment: what animation, hierarchy and skins make of it. All entries are finite.
+// The scene at one time: the result of animation, hierarchy and skinning. All values are finite.
 struct Pose {
   std::vector<glm::mat4> world;             // per node
-  std::vector<std::vector<float>> weights;  // per node: morph weights (empty without targets)
-  // Per node with a skin: world-space joint matrices (world of joint × inverse bind). They stand in for the node's own
-  // world matrix, which glTF ignores for skinned meshes.
+  std::vector<std::vector<float>> weights;  // per node: morph weights (empty without morph targets)
+  // Per node with a skin: world-space joint matrices (world of joint × inverse bind). They replace the node's own world
+  // matrix, which glTF ignores for skinned meshes.
   std::vector<std::vector<glm::mat4>> skin;
   std::vector<bool> drawn;  // per node: reachable from the scene's roots
 };
 
-// Which nodes the scene's roots reach.
+// Whether each node is reachable from the scene's roots.
 std::vector<bool> drawn_nodes(const Scene& scene);
 
 // The pose without animation.
 Pose rest_pose(const Scene& scene);
 
-// The pose at `seconds`, the file's animations played together, each looped over its own duration; with none, the rest
-// pose. At an animation's end its last key holds, and the loop starts after it. An animation that drives something an
-// earlier one drives already is left out: a file with many clips for one skeleton plays its first.
+// The pose at `seconds`. All animations of the file play at once, each looped over its own duration; without animations
+// it is the rest pose. At exactly an animation's end its last key applies, and the loop restarts after it. An animation
+// that drives a property which an earlier one already drives is not played: of a file with many clips for one skeleton
+// only the first plays.
 Pose pose_at(const Scene& scene, double seconds);
 
 struct Bounds {
@@ -35,14 +36,14 @@ struct Bounds {
   void add(const Bounds& other);
   glm::vec3 center() const { return (min + max) * 0.5f; }
   glm::vec3 extent() const { return max - min; }
-  float radius() const;  // of the sphere about the box
+  float radius() const;  // of the bounding box's circumscribed sphere
 };
 
-// World bounds of all drawn triangles (deformed and instanced), points and lines included only when there are no
-// triangles. Exact up to two million vertices; what goes beyond is bounded by boxes.
+// World bounds of all drawn triangles (deformed and instanced); points and lines count only if there are no triangles.
+// Exact up to two million vertices; the primitives beyond are bounded by their transformed boxes.
 Bounds bounds_of(const Scene& scene, const Pose& pose);
 
-// The same of each node by itself, triangles only; empty: it draws none.
+// The same for each node separately, triangles only; empty if the node draws none.
 std::vector<Bounds> node_bounds(const Scene& scene, const Pose& pose);
 
 // A transform as a matrix, and the transform nearest to a matrix (shear is lost).

@@ -16,21 +16,21 @@ enum class Casts {
              // of a half (BLEND)
 };
 
-// A primitive at a place, as it is drawn at a moment.
+// A primitive at one place, as it is drawn at one time.
 struct PosedSurface {
-  const Primitive* primitive = nullptr;  // indices, texture coordinates, colours, material; shared by its copies
-  std::span<const glm::vec3> positions;  // one a vertex: at rest, or as skins and morphs left them on the GPU
-  glm::mat4 world{1};                    // what takes them to world space
+  const Primitive* primitive = nullptr;  // indices, texture coordinates, colours, material; shared by all instances
+  std::span<const glm::vec3> positions;  // one per vertex: undeformed, or as skinned and morphed on the GPU
+  glm::mat4 world{1};                    // from the space of `positions` to world space
   Casts casts = Casts::always;
-  CasterFaces faces = CasterFaces::both;  // of it that cast
-  // Front faces are clockwise, as `positions` and `world` place them: glTF's rule for mirrored nodes.
+  CasterFaces faces = CasterFaces::both;  // the faces that cast shadows
+  // Whether front faces are clockwise as `positions` and `world` place them: glTF's rule for mirrored nodes.
   bool mirrored = false;
 };
 
-// All that is drawn at a moment, in the order of the GPU's instances, so that the index of a surface is what shaders
-// know as the instance. Refers to the scene that it was made of.
+// Everything that is drawn at one time, in the order of the GPU's instances, so that the index of a surface is the
+// instance index in shaders. Refers to the scene that it was made from.
 struct PosedGeometry {
-  std::vector<glm::vec3> deformed;  // what some positions refer to
+  std::vector<glm::vec3> deformed;  // memory of deformed positions, which some surfaces refer to
   std::vector<PosedSurface> surfaces;
 
   PosedGeometry() = default;

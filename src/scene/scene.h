@@ -11,9 +11,9 @@
 
 namespace penumbra::scene {
 
-// Plain scene data, as a glTF file says it: no GL, no files. Units: metres, seconds, radians. +Y up, right-handed.
-// Indices refer to the vectors of Scene; a reader guarantees that every index is in range, every vertex index is below
-// the vertex count, the node graph is a forest without cycles, and every number is finite.
+// Plain scene data as a glTF file describes it, without GL objects or files. Units: metres, seconds, radians. +Y up,
+// right-handed. Indices refer to the vectors of Scene. A reader guarantees that every index is in range, every vertex
+// index is below the vertex count, the node graph is a forest without cycles, and every number is finite.
 
 enum class Wrap : uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 enum class Filter : uint8_t { nearest, linear };
@@ -31,7 +31,7 @@ struct Texture {
   bool mipmapped = true;
 };
 
-// A texture used by a material: which UV set, and KHR_texture_transform as a 2×3 affine map.
+// A texture as a material uses it: the UV set, and KHR_texture_transform as a 2×3 affine matrix.
 struct TextureRef {
   int texture = -1;                            // -1: none
   int uv_set = 0;                              // 0 or 1
@@ -44,12 +44,12 @@ enum class AlphaMode : uint8_t { opaque, mask, blend };
 // all.
 enum class CasterFaces : uint8_t { both, front, back };
 
-// How the surfaces of a material or a node cast shadows; a node's stands over its material's.
+// How the surfaces of a material or a node cast shadows; a node's setting overrides its material's.
 enum class Casting : uint8_t {
-  automatic,  // as the renderer's parameters say, but not if they are a sky (Node::sky)
-  on,         // as the parameters say, a sky too
+  automatic,  // as the renderer's parameters say, but skies (Node::sky) cast none
+  on,         // as the parameters say, also for skies
   off,
-  both,  // these faces, whatever the parameters say; a sky too
+  both,  // these faces, whatever the parameters say; also for skies
   front,
   back,
 };
@@ -71,21 +71,21 @@ struct Material {
   bool double_sided = false;
   bool unlit = false;                    // KHR_materials_unlit
   Casting casting = Casting::automatic;  // extras: "penumbra_casts"
-  bool casting_over_nodes = false;       // that stands over what nodes say
+  bool casting_over_nodes = false;       // the material's setting overrides that of nodes
 };
 
 enum class Topology : uint8_t { points, lines, triangles };  // strips, fans and loops are expanded by the reader
 
 struct MorphTarget {
-  std::vector<glm::vec3> positions, normals, tangents;  // deltas; empty or one a vertex
+  std::vector<glm::vec3> positions, normals, tangents;  // offsets; empty or one for each vertex
 };
 
-// A drawable. Vertex attributes are empty or have one entry a vertex; positions and normals are never empty (flat
-// normals are generated, with vertices split, where the file has none); tangents (w = handedness) are generated where a
-// normal map needs them.
+// A drawable. Vertex attributes are empty or have one entry per vertex. Positions and normals are never empty: where
+// the file has no normals, the reader splits vertices and generates flat ones. Tangents (w = handedness) are generated
+// where a normal map needs them.
 struct Primitive {
   Topology topology = Topology::triangles;
-  std::vector<uint32_t> indices;  // always present
+  std::vector<uint32_t> indices;  // never empty
   std::vector<glm::vec3> positions, normals;
   std::vector<glm::vec4> tangents;
   std::array<std::vector<glm::vec2>, 2> uvs;
@@ -99,7 +99,7 @@ struct Primitive {
 struct Mesh {
   std::string name;
   std::vector<Primitive> primitives;
-  std::vector<float> default_weights;  // one a morph target
+  std::vector<float> default_weights;  // one for each morph target
 };
 
 struct Transform {
@@ -113,12 +113,12 @@ struct Node {
   int parent = -1;
   std::vector<int> children;
   Transform transform;              // used unless `matrix`
-  std::optional<glm::mat4> matrix;  // a file's matrix, kept as it is (it may hold shear)
+  std::optional<glm::mat4> matrix;  // the file's matrix, unchanged, since it may contain shear
   int mesh = -1, skin = -1, camera = -1, light = -1;
   Casting casting = Casting::automatic;  // extras: "penumbra_casts"
-  bool sky = false;                      // a shell about all that is drawn besides, as a sky dome: see sky.h
+  bool sky = false;                      // a shell, such as a sky dome, around everything else that is drawn: see sky.h
   std::vector<float> weights;            // overrides the mesh's default weights
-  std::vector<Transform> instances;      // EXT_mesh_gpu_instancing; empty: one, at the node
+  std::vector<Transform> instances;      // EXT_mesh_gpu_instancing; empty: a single instance at the node
 };
 
 struct Skin {
@@ -167,7 +167,7 @@ struct Animation {
 
 struct Scene {
   std::string name;
-  std::vector<std::filesystem::path> files;  // what it was read from: the file itself, buffers and images beside it
+  std::vector<std::filesystem::path> files;  // all files that it was read from: the glTF, its buffers and images
   std::vector<Image> images;
   std::vector<Texture> textures;
   std::vector<Material> materials;

@@ -9,7 +9,7 @@
 
 namespace penumbra::scene {
 
-// What `penumbra info` tells about a scene.
+// What `penumbra info` prints about a scene.
 
 struct MaterialInfo {
   std::string name;
@@ -32,20 +32,20 @@ struct AnimationInfo {
   std::string name;
   float duration = 0;  // seconds
   std::size_t channels = 0;
-  bool played = true;  // false: an earlier one drives the same targets
+  bool played = true;  // false: an earlier animation drives the same properties
 };
 
 struct SceneInfo {
   std::string name;
-  std::size_t nodes = 0, drawn_nodes = 0;  // drawn: part of the default scene
+  std::size_t nodes = 0, drawn_nodes = 0;  // drawn: reachable in the default scene
   std::size_t meshes = 0, primitives = 0, vertices = 0, morph_targets = 0;
-  std::size_t triangles = 0, lines = 0, points = 0;  // as drawn: instances counted each
+  std::size_t triangles = 0, lines = 0, points = 0;  // as drawn, counted for each instance
   std::size_t instances = 0;                         // of EXT_mesh_gpu_instancing
   std::size_t skins = 0, joints = 0;
   std::size_t textures = 0, images = 0, image_bytes = 0;  // decoded
   Bounds bounds;                                          // metres, at time 0
   std::vector<MaterialInfo> materials;
-  std::vector<LightInfo> lights;  // that the default scene places
+  std::vector<LightInfo> lights;  // those in the default scene
   std::vector<CameraInfo> cameras;
   std::vector<AnimationInfo> animations;
   std::vector<std::string> extensions;

@@ -7,14 +7,16 @@ namespace penumbra::truth {
 
 namespace {
 
-// Faster than the library's, which is a call for processors of old; for what is too large, 0 is as good.
+// The floor of x. Faster than std::floor, which is a function call on baseline x86-64. For values too large for an int,
+// 0 is an acceptable result.
 float whole_part(float x) {
   if (!(std::abs(x) < 1e9f)) return 0;
   const auto towards_zero = static_cast<float>(static_cast<int>(x));
   return towards_zero > x ? towards_zero - 1 : towards_zero;
 }
 
-// A coordinate in 0 to 1. What lies beyond a texel at the rim is then handled by wrapped_texel().
+// A texture coordinate, wrapped to 0 to 1. Texels beyond the border, which bilinear reads may need, are handled by
+// wrapped_texel().
 float wrapped(scene::Wrap wrap, float coordinate) {
   if (wrap == scene::Wrap::repeat) {
     coordinate -= whole_part(coordinate);
@@ -25,19 +27,19 @@ float wrapped(scene::Wrap wrap, float coordinate) {
   return coordinate > 0 ? std::min(coordinate, 1.0f) : 0.0f;  // 0 for NaN
 }
 
-// From −1 to `size`, of coordinates that wrapped() returned.
+// `texel` is from −1 to `size`, computed from coordinates that wrapped() returned.
 int wrapped_texel(scene::Wrap wrap, int texel, int size) {
   if (wrap != scene::Wrap::repeat) return std::clamp(texel, 0, size - 1);
   return texel < 0 ? texel + size : (texel >= size ? texel - size : texel);
 }
 
 float cutoff_of(const scene::Material& material) {
-  // As scene/gpu_scene_materials.cpp: a blended surface casts where it is more opaque than not.
+  // Same rule as scene/gpu_scene_materials.cpp: a blended surface casts a shadow where its alpha is above a half.
   if (material.alpha_mode == scene::AlphaMode::blend) return std::nextafter(0.5f, 1.0f);
   return material.alpha_cutoff;
 }
 
-// Vertex colours are 16-bit on the GPU.
+// On the GPU vertex colours have 16 bits, so alpha is rounded in the same way.
 float stored_alpha(float alpha) { return std::round(std::clamp(alpha, 0.0f, 1.0f) * 65535.0f) / 65535.0f; }
 
 }  // namespace
@@ -93,7 +95,7 @@ AlphaTest::AlphaTest(const scene::Material& material, const scene::Primitive& pr
 }
 
 bool AlphaTest::passes(std::size_t triangle, float u, float v) const {
-  // In terms of differences, so that a value that all corners have stays what it is.
+  // Interpolates by differences, so that a value which all corners share stays exact.
   const Corner* c = &corners_[3 * triangle];
   float alpha = c[0].alpha + u * (c[1].alpha - c[0].alpha) + v * (c[2].alpha - c[0].alpha);
   if (texture_ != nullptr) alpha *= texture_->at(c[0].uv + u * (c[1].uv - c[0].uv) + v * (c[2].uv - c[0].uv));

@@ -10,8 +10,8 @@
 
 namespace penumbra::truth {
 
-// The alpha channel of a texture's base level, read as GL reads a texture that is magnified: by its wrap modes, the
-// nearest texel or the four about a point.
+// The alpha channel of a texture's base level, sampled as OpenGL samples a magnified texture: with its wrap modes, and
+// nearest or bilinear filtering.
 class AlphaTexture {
  public:
   AlphaTexture(const scene::Texture& texture, const scene::Image& image);
@@ -28,27 +28,28 @@ class AlphaTexture {
   std::vector<std::uint8_t> alpha_;
 };
 
-// Which points of a surface are there: alpha of material × vertex colour × texture against the material's cutoff, as
-// the rasteriser's casters (glsl/scene/caster.frag) have it.
+// The alpha test of a surface: whether alpha of material × vertex colour × texture reaches the material's cutoff, as in
+// the rasterised casters (glsl/scene/caster.frag).
 class AlphaTest {
  public:
-  // Of some triangles of a primitive, which are known by their place in `triangles` from now on. `texture` is the
-  // material's base colour, or null if it has none; it must outlive this.
+  // Tests the triangles of a primitive that `triangles` lists; passes() takes an index into that list. `texture` is the
+  // material's base colour texture, or null if it has none; it must outlive this object.
   AlphaTest(const scene::Material& material, const scene::Primitive& primitive, const AlphaTexture* texture,
             std::span<const std::uint32_t> triangles);
 
-  // Whether the point corner 0 + u · (corner 1 − corner 0) + v · (corner 2 − corner 0) of a triangle is there.
+  // Whether the surface is opaque at the point corner 0 + u · (corner 1 − corner 0) + v · (corner 2 − corner 0) of a
+  // triangle.
   bool passes(std::size_t triangle, float u, float v) const;
 
  private:
   struct Corner {
     glm::vec2 uv{0};
-    float alpha = 1;  // of material and vertex
+    float alpha = 1;  // material alpha × vertex alpha
   };
 
   const AlphaTexture* texture_;
   float cutoff_;
-  std::vector<Corner> corners_;  // three a triangle
+  std::vector<Corner> corners_;  // three for each triangle
 };
 
 }  // namespace penumbra::truth

@@ -34,7 +34,7 @@ void BackgroundTracer::cancel() {
 
 void BackgroundTracer::stop() {
   cancel();
-  thread_ = {};  // told to stop, and joined
+  thread_ = {};  // requests stop and joins
 }
 
 std::optional<double> BackgroundTracer::share_done() const {
@@ -81,7 +81,7 @@ void BackgroundTracer::trace(PictureRequest& request, const std::stop_token& can
   }
 }
 
-// An exception of a cancelled picture is no error.
+// An exception that a cancelled picture throws is ignored.
 void BackgroundTracer::give_up(std::exception_ptr error, const std::stop_token& cancelled) {
   const std::lock_guard lock(mutex_);
   if (cancelled.stop_requested()) return;

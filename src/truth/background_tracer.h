@@ -11,27 +11,28 @@
 
 namespace penumbra::truth {
 
-// Traces one picture at a time on a thread of its own. All functions are for one other thread, and only stop() waits.
+// Traces one picture at a time on its own thread. One other thread may call its functions; of these only stop() blocks.
 class BackgroundTracer {
  public:
-  // From start() to stop() `tracer` is the thread's.
+  // Between start() and stop() only the background thread may use `tracer`.
   explicit BackgroundTracer(PictureTracer& tracer) : tracer_(tracer) {}
   ~BackgroundTracer() { stop(); }
   BackgroundTracer(const BackgroundTracer&) = delete;
   BackgroundTracer& operator=(const BackgroundTracer&) = delete;
 
-  // Starts this picture instead of the one before, whose error is forgotten. Progress is called on the
-  // tracer's thread; when it says to stop, that is an error. Throws Error if the system has no thread.
+  // Cancels the previous picture, discards its error, and starts this one. The progress callback is called on the
+  // background thread; if it returns false, take() throws Interrupted. Throws Error if the system can't create a
+  // thread.
   void start(PictureRequest request);
-  // Cancels the picture and returns at once; the thread may still read what the picture refers to for a while.
+  // Cancels the picture and returns at once; the thread may still read what the request refers to for a moment.
   void cancel();
-  // Cancels, and returns when nothing is read any more.
+  // Cancels the picture and waits until nothing that the request refers to is read any more.
   void stop();
 
-  // The share of the picture's work that is done; absent if none is being traced.
+  // The share of the picture that is traced, 0 to 1; absent if no picture is being traced.
   std::optional<double> share_done() const;
-  // The picture that was finished last, once; also one that was cancelled too late. Throws, once, what tracing threw:
-  // Error, also for too little memory, or Interrupted.
+  // Returns the last finished picture, once; this may be a picture that finished just before it was cancelled. Throws,
+  // once, what tracing threw: Error (including too little memory) or Interrupted.
   std::optional<TracedPicture> take();
 
  private:
@@ -41,10 +42,10 @@ class BackgroundTracer {
 
   PictureTracer& tracer_;
 
-  mutable std::mutex mutex_;  // of the following
+  mutable std::mutex mutex_;  // guards the members below
   std::condition_variable_any wake_;
   std::optional<PictureRequest> next_;
-  std::stop_source cancel_;  // of the picture that start() was last given
+  std::stop_source cancel_;  // of the picture that was last started
   std::optional<double> share_done_;
   std::optional<TracedPicture> finished_;
   std::exception_ptr error_;

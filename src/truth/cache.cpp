@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A file is this, then visibility, standard error and hard shadow as floats of this machine's byte order.
+// A file is this header, then visibility, standard error and hard shadow as floats in this machine's byte order.
 struct Header {
   std::array<char, 16> magic{'p', 'e', 'n', 'u', 'm', 'b', 'r', 'a', ' ', 't', 'r', 'u', 't', 'h', ' ', '2'};
   Key key, contents;
@@ -30,7 +30,7 @@ fs::path file_of(const fs::path& folder, const Key& key) { return folder / (key.
 
 std::uintmax_t bytes_of(std::size_t pixels) { return sizeof(Header) + layers.size() * pixels * sizeof(float); }
 
-// Whether the header is that of a file for `key`, and whole.
+// Whether the header belongs to a complete file for `key`.
 bool fits(const Header& header, const Key& key, std::size_t pixels, std::uintmax_t bytes) {
   return header.magic == Header{}.magic && header.key == key && header.pixels == pixels && bytes == bytes_of(pixels);
 }
@@ -53,13 +53,13 @@ std::optional<Traced> read(const fs::path& path, const Key& key, std::size_t pix
   return traced;
 }
 
-// A picture, or what a process that was killed left of one.
+// Whether a file is a cached picture, or the temporary that a killed process left behind.
 bool is_ours(const fs::path& path) {
   const std::string name = path.filename().string();
   return path.extension() == ".truth" || (name.starts_with('.') && name.find(".truth.") != std::string::npos);
 }
 
-// Makes room for `needed` of at most `largest` bytes.
+// Deletes files until `needed` more bytes fit within `largest`.
 void shrink(const fs::path& folder, std::uintmax_t needed, std::uintmax_t largest) {
   struct Entry {
     fs::file_time_type used;
@@ -71,7 +71,7 @@ void shrink(const fs::path& folder, std::uintmax_t needed, std::uintmax_t larges
   std::error_code end;
   for (fs::directory_iterator at(folder, end), none; !end && at != none; at.increment(end)) {
     if (!is_ours(at->path())) continue;
-    std::error_code gone_time, gone_size;  // another process may take it away
+    std::error_code gone_time, gone_size;  // another process may delete the file meanwhile
     const Entry found{at->last_write_time(gone_time), at->file_size(gone_size), at->path()};
     if (gone_time || gone_size) continue;
     entries.push_back(found);
@@ -85,7 +85,6 @@ void shrink(const fs::path& folder, std::uintmax_t needed, std::uintmax_t larges
   }
 }
 
-// Throws what writing throws.
 void write(const fs::path& path, const Header& header, const Traced& traced) {
   std::string contents(reinterpret_cast<const char*>(&header), sizeof(header));
   contents.reserve(bytes_of(traced.visibility.size()));

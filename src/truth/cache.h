@@ -11,28 +11,28 @@
 
 namespace penumbra::truth {
 
-// All that a traced picture depends on, as 128 bits.
+// A 128-bit hash of everything that a traced picture depends on.
 struct Key {
   std::uint64_t high = 0, low = 0;
   bool operator==(const Key&) const = default;
   std::string text() const;  // 32 hexadecimal digits
 };
 
-// The casters' part of the key: triangles, where they are, and what their alpha is made of.
+// The casters' part of the key: triangles, their transforms, and what determines their alpha.
 Key key_of(const scene::Scene& scene, const scene::PosedGeometry& geometry);
-// The picture's.
+// The key of a picture.
 Key key_of(const Key& casters, std::span<const Receiver> receivers, int width, const Light& light,
            const TraceOptions& options);
 
-// Of a picture's values, to know them again.
+// A checksum of a traced picture's values.
 Key key_of(const Traced& traced);
 
-// Traced pictures on disk: a file each, named by its key, that appears whole or not at all. What can't be read or is
-// damaged counts as absent, and what can't be written is told in a warning, for a cache is no result.
+// Cache of traced pictures on disk: one file each, named by its key and written atomically. A file that is damaged or
+// can't be read counts as absent. A failure to write is only a warning, because the picture itself is still valid.
 class Cache {
  public:
-  // `folder` is made when it is needed; empty: nothing is found or kept. Its files have no more than `largest` bytes
-  // together: those least recently used go first.
+  // `folder` is created when first needed; empty: nothing is found or kept. Its files take at most `largest` bytes
+  // together: the least recently used are deleted first.
   explicit Cache(std::filesystem::path folder, std::uintmax_t largest = 1ULL << 30)
       : folder_(std::move(folder)), largest_(largest) {}
 

@@ -19,23 +19,22 @@ namespace penumbra::truth {
 
 namespace {
 
-// Not AVX-512: in Debian's build of Embree 3.13.5 some traversals of 16 rays store 16 bits of a mask and read 64, so
-// that they never end if the stack happens to hold the wrong ones. Besides, all processors with AVX2 then give the same
-// bytes.
+// AVX-512 is disabled: in Debian's build of Embree 3.13.5 some traversals of 16 rays store a 16-bit mask and read 64
+// bits, so that they may loop forever, depending on what is on the stack. Without it, all processors with AVX2 also
+// give identical results.
 constexpr const char* device_options = "ignore_config_files=1,max_isa=avx2";
-constexpr std::size_t least_shared = 64;  // triangles: fewer take less memory than an instance of them
-
-// Where between two coordinates zero should be, so that all between them get smaller and none is rounded: a multiple of
-// the coarsest step between floats there, and no further out than twice the end that is nearer to zero.
+// Triangles: an instance of a smaller primitive takes more memory than a copy of its triangles.
+constexpr std::size_t least_shared = 64;
+// multiple of the coarsest float step in the range, and no further out than twice the end that is nearer to zero.
 double best_zero(float low, float high) {
   if (low <= 0 && high >= 0) return 0;
-  if (!(low <= high)) return 0;  // there is nothing between them
+  if (!(low <= high)) return 0;  // the range is empty
   if (high < 0) return -best_zero(-high, -low);
   const double step = double{std::nextafter(high, std::numeric_limits<float>::infinity())} - high;
   return std::floor(std::min(0.5 * (double{low} + high), 2.0 * low) / step) * step;
 }
 
-// Triangles that can be hit.
+// The triangles that rays can hit.
 std::vector<std::uint32_t> solid_triangles(const scene::PosedSurface& surface) {
   std::vector<std::uint32_t> solid;
   for (std::size_t i = 0; i < triangle_count(surface); ++i) {
@@ -44,7 +43,7 @@ std::vector<std::uint32_t> solid_triangles(const scene::PosedSurface& surface) {
   return solid;
 }
 
-// Whether rays can be turned to where the vertices are at rest without loss.
+// Whether rays can be transformed to the space of the untransformed vertices without loss of precision.
 bool turns_back(const glm::mat4& world) {
   const glm::dmat3 linear(world);
   const double volume = std::abs(glm::determinant(linear));
@@ -52,8 +51,8 @@ bool turns_back(const glm::mat4& world) {
   return std::isfinite(volume) && volume > 1e-2 * longest * longest * longest;
 }
 
-// Lets rays through where a surface casts nothing. They go to the light: where a ray leaves the surface by its front,
-// the front faces the light.
+// Embree filter callback: rejects hits where a surface casts no shadow (alpha, or a face that does not cast). Rays go
+// towards the light, so where a ray leaves a surface through its front, that front faces the light.
 void pass_through_holes(const RTCFilterFunctionNArguments* args) {
   const auto& test = *static_cast<const CasterTest*>(args->geometryUserPtr);
   const unsigned int count = args->N;
@@ -79,7 +78,7 @@ bool keep_to_limit(void* pointer, ssize_t bytes, bool /*already_done*/) {
   return bytes <= 0 || use.limit == 0 || held <= use.limit;
 }
 
-// On Embree's threads.
+// Embree calls this on its own threads.
 bool report_progress(void* pointer, double /*share_done*/) {
   return !static_cast<const BuildOptions*>(pointer)->stop.stop_requested();
 }
@@ -128,14 +127,15 @@ void EmbreeSceneBuilder::check() const {
 EmbreeObject EmbreeSceneBuilder::new_object() {
   EmbreeObject object(rtcNewScene(out_.device_.get()));
   check();
-  // Robust: a ray through a shared edge hits one of the triangles, and boxes lose no triangle to rounding.
+  // Robust mode: a ray through a shared edge hits one of its triangles, and rounding of bounding boxes misses no
+  // triangle.
   rtcSetSceneFlags(object.get(), RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(object.get(), RTC_BUILD_QUALITY_HIGH);
   rtcSetSceneProgressMonitorFunction(object.get(), report_progress, &options_);
   return object;
 }
 
-// Casters, those of the same vertices, material and casting faces together.
+// The casters, grouped by vertices, material and casting faces.
 std::vector<EmbreeSceneBuilder::Surfaces> EmbreeSceneBuilder::copies() {
   std::map<std::tuple<const scene::Primitive*, const glm::vec3*, scene::CasterFaces>, std::size_t> place;
   std::vector<Surfaces> all;
@@ -202,7 +202,7 @@ void EmbreeSceneBuilder::set_triangles(RTCGeometry geometry, const scene::Primit
   }
 }
 
-// A surface where it is drawn, relative to `origin`.
+// Adds a surface in world space, relative to `origin`.
 void EmbreeSceneBuilder::add(RTCScene object, const scene::PosedSurface& surface, const glm::dvec3& origin) {
   if (options_.stop.stop_requested()) throw Interrupted();
   const std::vector<std::uint32_t> solid = solid_triangles(surface);
@@ -230,12 +230,12 @@ void EmbreeSceneBuilder::add(RTCScene object, const scene::PosedSurface& surface
   out_.stats_.stored += solid.size();
 }
 
-// One object of the triangles at rest, and a copy of it at each place.
+// Adds one object of the untransformed triangles, and an instance of it for each copy.
 void EmbreeSceneBuilder::add_shared(const Surfaces& copies) {
   EmbreeObject object = new_object();
   scene::PosedSurface at_rest = *copies.front();
   at_rest.world = glm::mat4(1);
-  at_rest.mirrored = false;  // it is their places that mirror them
+  at_rest.mirrored = false;  // their instance matrices mirror them
   add(object.get(), at_rest, glm::dvec3(0));
   rtcCommitScene(object.get());
   check();

@@ -25,40 +25,40 @@ using EmbreeDevice = std::unique_ptr<RTCDeviceTy, Release<rtcReleaseDevice>>;
 using EmbreeObject = std::unique_ptr<RTCSceneTy, Release<rtcReleaseScene>>;
 using EmbreeGeometry = std::unique_ptr<RTCGeometryTy, Release<rtcReleaseGeometry>>;
 
-// What Embree holds, kept within a limit; its threads ask all at once.
+// Counts the memory that Embree allocates, against a limit; called by all of its threads.
 struct MemoryUse {
   std::atomic<std::ptrdiff_t> bytes = 0;
-  std::ptrdiff_t limit = 0;  // 0: none
+  std::ptrdiff_t limit = 0;  // bytes; 0: no limit
 };
 
-// Which hits of a geometry count: where its alpha leaves something, on the faces that cast.
+// Which hits on a geometry count: those where its alpha passes, on the faces that cast shadows.
 struct CasterTest {
-  std::unique_ptr<AlphaTest> alpha;  // null: it is there everywhere
+  std::unique_ptr<AlphaTest> alpha;  // null: opaque everywhere
   scene::CasterFaces faces = scene::CasterFaces::both;
   bool mirrored = false;  // front faces are clockwise, as Embree has them
 };
 
-// All casters of a posed scene in Embree. Keeps nothing of the scene but what it copies.
+// All casters of a posed scene in Embree. Copies what it needs from the scene.
 class EmbreeScene {
  public:
   // Throws Error if there is not enough memory, and Interrupted.
   EmbreeScene(const scene::Scene& scene, const scene::PosedGeometry& geometry, const BuildOptions& options);
 
   RTCScene get() const { return top_.get(); }
-  // Rays are given relative to this point, so that a scene far from the world's origin loses no precision.
+  // Rays are relative to this point (world space), so that a scene far from the world's origin loses no precision.
   const glm::dvec3& origin() const { return origin_; }
-  // Metres from there to the furthest point of a scene with shared triangles: rounding errors of the rays that are
-  // turned to where they lie grow with it. 0 if no triangles are shared.
+  // Metres from the origin to the furthest point of a scene with instanced triangles; 0 without instances. Rays are
+  // transformed to the space of an instance, with a rounding error that grows with this distance.
   double shared_reach() const { return shared_reach_; }
   const BuildStats& stats() const { return stats_; }
 
  private:
   friend class EmbreeSceneBuilder;
 
-  // Released in the reverse order.
+  // Members are destroyed in reverse order.
   std::unique_ptr<MemoryUse> memory_ = std::make_unique<MemoryUse>();
   EmbreeDevice device_;
-  std::vector<std::unique_ptr<AlphaTexture>> textures_;  // one a texture of the scene, null where none is needed
+  std::vector<std::unique_ptr<AlphaTexture>> textures_;  // per texture of the scene; null if no caster reads its alpha
   std::vector<std::unique_ptr<CasterTest>> tests_;
   std::vector<EmbreeObject> prototypes_;
   EmbreeObject top_;

@@ -14,10 +14,10 @@ namespace penumbra::truth {
 
 namespace {
 
-// Raise it when the same input gives another picture.
+// Increment it whenever the same input produces another picture, so that old cache files are ignored.
 constexpr int generation = 1;
 
-// XXH3 (Collet) of plain values, each without padding.
+// XXH3 (Collet) of plain values without padding.
 class Hash {
  public:
   Hash() {
@@ -34,7 +34,7 @@ class Hash {
   void add(const glm::vec<n, T>& value) {
     for (int i = 0; i < n; ++i) add(value[i]);
   }
-  // Elements without padding, their number included.
+  // Hashes elements without padding, and how many there are.
   template <class T>
   void add_all(std::span<const T> values) {
     add(values.size());
@@ -105,7 +105,8 @@ Key key_of(const scene::Scene& scene, const scene::PosedGeometry& geometry) {
   for (const scene::PosedSurface& surface : geometry.surfaces) {
     hash.add(surface.casts);
     if (surface.casts == scene::Casts::never) continue;
-    if (surface.faces != scene::CasterFaces::both) {  // else as ever, so that what was traced before stays known
+    // The default is not hashed, so that keys of older cache files stay valid.
+    if (surface.faces != scene::CasterFaces::both) {
       hash.add(surface.faces);
       hash.add(surface.mirrored);
     }

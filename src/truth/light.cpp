@@ -8,15 +8,16 @@ namespace penumbra::truth {
 
 namespace {
 
-// Rays end so much before the light: what models the lamp's own surface is not in its way.
+// Rays end at this fraction of the distance to the light, so that geometry which models the lamp's own surface does not
+// occlude it.
 constexpr float nearly_all_the_way = 0.9999f;
 
 struct Sides {
   glm::dvec3 x, y;
 };
 
-// Two unit vectors perpendicular to a unit vector and each other, the first one horizontal: shadow/cascades.cpp has the
-// same.
+// Two unit vectors perpendicular to a unit vector and to each other, the first one horizontal. Must match
+// shadow/cascades.cpp.
 Sides sides_about(const glm::dvec3& axis) {
   const glm::dvec3 z = -axis;
   const glm::dvec3 horizontal = glm::cross(z, glm::dvec3(0, 1, 0));

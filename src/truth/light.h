@@ -6,18 +6,18 @@
 
 namespace penumbra::truth {
 
-// A light without end distance: a disc of angular diameter `angle`, sampled uniformly over the disc of radius
-// tan(angle / 2) on the tangent plane at unit distance, or a square of half that side, two of whose sides are
-// horizontal, as in the shadow library's light space.
+// A directional light. As a disc it has angular diameter `angle` and is sampled uniformly over the disc of radius
+// tan(angle / 2) on the tangent plane at unit distance. As a square its half side is that radius, and two of its sides
+// are horizontal, as in the shadow library's light space.
 struct Sun {
-  glm::dvec3 to_light{0, 1, 0};  // world space, any length but 0
-  double angle = 0.00925;        // radians, full; 0 to below π
+  glm::dvec3 to_light{0, 1, 0};  // world space, of any length above 0
+  double angle = 0.00925;        // full angle, radians, 0 to below π
   bool square = false;
 };
 
-// A disc of `radius` metres about `position`. With an axis (spot and disc lights) it is perpendicular to that; without
-// (point lights: a sphere) it faces the receiver. Both of its sides shine everywhere: what is traced is visibility, and
-// cones and falloff are not.
+// A disc of `radius` metres about `position`. With an axis (spot and disc lights) the disc is perpendicular to it;
+// without one (point lights, which are spheres) the disc faces the receiver. Both sides emit in all directions: only
+// visibility is traced, not spot cones or falloff.
 struct LocalLight {
   glm::dvec3 position{0};  // world space
   double radius = 0;       // metres
@@ -26,8 +26,8 @@ struct LocalLight {
 
 using Light = std::variant<Sun, LocalLight>;
 
-// A light as seen from a point: rays to it have the directions center + x · side_x + y · side_y, with (x, y) in the
-// unit disc, or from −1 to 1 each if `square`, and end at `far` of that length.
+// A light as seen from a point. Rays to it have the directions center + x · side_x + y · side_y, with (x, y) in the
+// unit disc, or each from −1 to 1 if `square`. They end at `far` times that vector.
 struct SeenLight {
   glm::dvec3 center{0}, side_x{0}, side_y{0};
   float far = 0;

@@ -5,7 +5,7 @@ namespace penumbra::truth {
 TracedPicture PictureTracer::trace(const PictureRequest& request, const std::stop_token& stop) {
   TracedPicture picture{.key = request.key};
   if (!tracer_ || casters_ != request.casters) {
-    tracer_.reset();  // two would take twice the memory
+    tracer_.reset();  // released first, so that two tracers never exist at the same time
     tracer_.emplace(*request.scene, request.geometry, BuildOptions{.stop = stop});
     casters_ = request.casters;
     picture.build = tracer_->stats();

@@ -13,11 +13,11 @@ namespace penumbra::truth {
 
 namespace {
 
-constexpr std::size_t tile_size = 8;  // pixels: small enough that threads end at nearly the same time
+constexpr std::size_t tile_size = 8;  // pixels: small enough that all threads finish at nearly the same time
 constexpr int least_first_samples = 64;
 constexpr double allowed_over = 0.001;
-constexpr double agreeing_samples = 2;  // over the error: so many must agree beside a penumbra
-constexpr double fall_of_error = 0.75;  // it falls as samples^-0.75 across an edge
+constexpr double agreeing_samples = 2;  // divided by the error: samples that must agree in a pixel beside a penumbra
+constexpr double fall_of_error = 0.75;  // the error across an edge falls as samples^-0.75
 constexpr std::chrono::milliseconds report_interval(100);
 
 std::uint32_t points_for(int samples) {
@@ -88,13 +88,13 @@ void PictureTrace::trace_tile(std::size_t tile, PixelRays& rays) {
   }
 }
 
-// Estimates of what is left may grow; what is shown doesn't fall.
+// The estimate of the remaining work may grow; the reported share must not fall.
 bool PictureTrace::report(double share) {
   reported_ = std::max(reported_, share);
   return options_.progress(reported_);
 }
 
-// What each thread does in a round.
+// The work of one thread in a round.
 void PictureTrace::work(const Shares& shares, bool reports) {
   const std::size_t tiles = tiles_across(width_) * tiles_across(height_);
   PixelRays rays(scene_, light_);
@@ -118,7 +118,7 @@ void PictureTrace::run_round(const Shares& shares) {
   try {
     for (int i = 1; i < threads_; ++i) helpers.emplace_back([&] { work(shares, false); });
   } catch (const std::system_error&) {
-    // The system has no more threads: those that there are do the work.
+    // The system refuses another thread: the existing ones do the work.
   }
   try {
     work(shares, static_cast<bool>(options_.progress));
@@ -148,7 +148,7 @@ bool PictureTrace::resolved(std::size_t pixel) const {
   return !all_agree || samples * options_.error >= agreeing_samples || !differs_from_neighbour(pixel);
 }
 
-// Which pixels another round has to go on with; false if there are few enough.
+// Marks the pixels that need another round; false if few enough are left to stop.
 bool PictureTrace::choose_next() {
   std::size_t there = 0;
   std::size_t open = 0;
@@ -162,7 +162,7 @@ bool PictureTrace::choose_next() {
   return static_cast<double>(open) > allowed_over * static_cast<double>(there);
 }
 
-// From how many samples each pixel should need in the end.
+// Estimates the shares of the next round from the number of samples that each pixel will probably need.
 PictureTrace::Shares PictureTrace::shares_of_next() const {
   double done = 0;
   double next = 0;

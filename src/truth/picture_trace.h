@@ -11,13 +11,13 @@
 
 namespace penumbra::truth {
 
-// The tracing of one picture.
+// Traces one picture.
 class PictureTrace {
  public:
   PictureTrace(const EmbreeScene& scene, std::span<const Receiver> receivers, int width, const Light& light,
                const TraceOptions& options);
 
-  // Call it once. Throws Interrupted.
+  // May be called once. Throws Interrupted.
   Traced trace();
 
  private:
@@ -43,7 +43,7 @@ class PictureTrace {
   const TraceOptions& options_;
   int threads_;
 
-  // In a round each pixel belongs to one thread.
+  // Within a round only one thread writes a given pixel.
   Traced out_;
   std::vector<LitCounts> lit_;         // one a pixel, if there may be another round
   std::vector<std::uint32_t> points_;  // traced so far, of each scrambling

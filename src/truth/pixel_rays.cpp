@@ -11,10 +11,10 @@ static_assert(packet_width == 8);
 
 namespace {
 
-// Half a unit in the last place of a float, relative to it.
+// Half a unit in the last place of a float, as a relative error.
 constexpr double rounding = 0x1p-24;
-// What a ray's start is off its plane, in roundings of the numbers that Embree's test of that plane has: those of the
-// start itself, of three differences with the corners, and of products of two.
+// How far a ray starts off its plane, in rounding errors of the numbers in Embree's test of that plane: those of the
+// start, of three differences with the corners, and of products of two such differences.
 constexpr double clearance = 8;
 
 }  // namespace
@@ -38,7 +38,7 @@ void PixelRays::start_at(const Receiver& receiver) {
   cosine_y_ = glm::dot(receiver.normal, seen_.side_y);
 }
 
-// Returns how many of the rays are to be traced: the light's points before the surface.
+// Returns how many rays have to be traced: those to points of the light that are above the surface.
 long PixelRays::aim(const PacketPoints& points) {
   const glm::vec3 center(seen_.center);
   const glm::vec3 side_x(seen_.side_x);
@@ -60,7 +60,7 @@ long PixelRays::aim(const PacketPoints& points) {
 
 void PixelRays::count_lit(LitCounts& lit) const {
   for (std::size_t i = 0; i < packet_width; ++i) {
-    lit[i] += valid_[i] != 0 && rays_.tfar[i] >= 0 ? 1 : 0;  // −∞: occluded
+    lit[i] += valid_[i] != 0 && rays_.tfar[i] >= 0 ? 1 : 0;  // Embree sets tfar to −∞ for an occluded ray
   }
 }
 

@@ -12,21 +12,21 @@
 
 namespace penumbra::truth {
 
-// Of each scrambling's points, how many are lit.
+// For each scrambling, how many of its points are lit.
 using LitCounts = std::array<std::uint32_t, scrambling_count>;
 
-// Traces one pixel's rays at a time, in packets. One a thread.
+// Traces the rays of one pixel at a time, in packets. Each thread has its own.
 class PixelRays {
  public:
   PixelRays(const EmbreeScene& scene, const Light& light);
 
-  // The rays from here on start at this receiver.
+  // Sets the receiver at which the following rays start.
   void start_at(const Receiver& receiver);
 
-  // Adds the points from `first` up to `last` (not included) of each scrambling.
+  // Traces the points from `first` to `last` (exclusive) of each scrambling and adds the lit ones to `lit`.
   void trace(const PixelPoints& pixel, std::uint32_t first, std::uint32_t last, LitCounts& lit);
 
-  // Whether the light's centre is seen.
+  // Whether the light's centre is visible from the receiver.
   bool center_lit();
 
   long long traced() const { return traced_; }
@@ -39,10 +39,11 @@ class PixelRays {
   const Light& light_;
   long long traced_ = 0;
   SeenLight seen_;
-  // Cosines to the receiver's normal, times the length: a ray's is center + x · side_x + y · side_y.
+  // Dot products with the receiver's normal of center, side_x and side_y; that of a ray is center + x · side_x + y ·
+  // side_y.
   double cosine_center_ = 0, cosine_x_ = 0, cosine_y_ = 0;
   RTCRay8 rays_;
-  alignas(32) std::array<int, packet_width> valid_{};  // −1: to be traced
+  alignas(32) std::array<int, packet_width> valid_{};  // Embree's mask: −1 traces the ray, 0 skips it
 };
 
 }  // namespace penumbra::truth

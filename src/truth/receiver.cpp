@@ -16,18 +16,19 @@ struct Ray {
   glm::dvec3 origin{0}, direction{0};
 };
 
-// A picture's eye: a point, or a direction from everywhere.
+// The eye of a picture: a point (perspective), or a direction (orthographic).
 class Eye {
  public:
   explicit Eye(const EyeRays& rays) : rays_(rays) {
-    // Clip space's z axis runs through the eye, and where the eye is far away, along its rays.
+    // The world line of clip space's z axis passes through the eye (perspective) or is parallel to the rays
+    // (orthographic).
     const glm::dvec4 axis = rays.clip_to_world[2];
     perspective_ = axis.w != 0;
     if (perspective_) {
       origin_ = glm::dvec3(axis) / axis.w;
     } else {
-      // x right, y up and z towards the eye make a right-handed system: with z away from it, its determinant is
-      // negative.
+      // With x right, y up and z towards the eye the system is right-handed; with z away from the eye its determinant
+      // is negative.
       const double towards = glm::determinant(glm::dmat3(rays.clip_to_world)) < 0 ? -1 : 1;
       forward_ = glm::normalize(glm::dvec3(axis)) * -towards;
     }
@@ -38,11 +39,12 @@ class Eye {
     const glm::dvec4 place = rays_.clip_to_world * glm::dvec4(ndc, 0.5, 1);
     const glm::dvec3 point = glm::dvec3(place) / place.w;
     if (!perspective_) return {point, forward_};
-    // Half way between the near and the far plane is before the eye; at an infinite far plane too.
+    // The point half way between near and far plane in clip space is in front of the eye, also with an infinite far
+    // plane.
     return {origin_, glm::normalize(point - origin_)};
   }
 
-  // Only a point before a perspective's eye is seen.
+  // In perspective, points behind the eye are not visible.
   bool before(const Ray& ray, const glm::dvec3& point) const {
     return !perspective_ || glm::dot(point - ray.origin, ray.direction) > 0;
   }

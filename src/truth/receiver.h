@@ -9,28 +9,29 @@
 
 namespace penumbra::truth {
 
-// Where light is asked for.
+// A point whose visibility of the light is computed.
 struct Receiver {
   glm::dvec3 position{0};  // world space, metres
-  glm::dvec3 normal{0};    // unit: of the triangle itself, towards the eye
+  glm::dvec3 normal{0};    // unit length: the triangle's geometric normal, towards the eye
   bool there = false;      // false: no surface
-  double reach = 0;        // metres from the position to its triangle's furthest corner: scale of rounding errors there
+  double reach = 0;        // metres from the position to its triangle's furthest corner; rounding errors scale with it
 };
 
-// The rays of a picture's pixels: through their centres, NDC 2 (x + ½) / width − 1 and 2 (y + ½) / height − 1.
+// The rays of a picture's pixels. They pass through the pixel centres, NDC 2 (x + ½) / width − 1 and 2 (y + ½) / height
+// − 1.
 struct EyeRays {
   glm::dmat4 clip_to_world{1};  // any depth range, reversed or not; perspective or orthographic; x right, y up
   int width = 0, height = 0;
 };
 
-// In the place of the surface: nothing is drawn there.
+// Index of a pixel without a surface.
 constexpr std::uint32_t no_surface = 0xffffffff;
 
-// The receiver of each pixel, rows from the bottom. `drawn` says for each pixel which surface of `geometry`, and which
-// of its triangles, the rasteriser drew. The receiver is where the pixel's ray meets that triangle's plane, in double
-// precision, so it may lie outside the triangle by the part of a pixel to which the rasteriser rounds. Where the ray
-// runs within the plane, or meets it behind the eye or too far out for a double, it is the corner nearest to the ray.
-// Triangles without area, points and lines receive nothing: they are not there.
+// The receiver of each pixel, rows bottom to top. `drawn` gives, for each pixel, which surface of `geometry` and which
+// of its triangles the rasteriser drew. The receiver is where the pixel's ray meets that triangle's plane, in double
+// precision, so it may lie outside the triangle by the fraction of a pixel to which the rasteriser rounds. Where the
+// ray is parallel to the plane, or meets it behind the eye or too far away for a double, the receiver is the corner
+// nearest to the ray. Triangles without area, points and lines are no receivers.
 std::vector<Receiver> receivers_of(const scene::PosedGeometry& geometry, const EyeRays& rays,
                                    std::span<const glm::uvec2> drawn);
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
-// The same arithmetic for as many lanes at once as the processor has, chosen when the program starts. Not
-// under the thread sanitizer, whose calls in the function that chooses come before it is there.
+// Compiles a function for several vector widths; the processor's is chosen when the program starts. Disabled with the
+// thread sanitizer: the function that chooses runs before the sanitizer is initialised.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 #define TRUTH_WIDE_VECTORS __attribute__((target_clones("avx2", "default")))
 #else
@@ -26,7 +26,8 @@ constexpr std::uint32_t hash(std::uint32_t x) {
   return x ^ (x >> 15U);
 }
 
-// What a digit becomes depends on higher digits only; here digits are reversed, the highest in bit 0.
+// Owen scrambling: whether a digit is flipped depends only on the higher digits. Digits are reversed here, with the
+// highest in bit 0.
 constexpr std::uint32_t scrambled(std::uint32_t reversed, std::uint32_t seed) {
   reversed ^= reversed * 0x3d20adeaU;
   reversed += seed;
@@ -54,7 +55,7 @@ constexpr std::uint32_t second_dimension(std::uint32_t index) {
   return index ^ (index >> 16U);
 }
 
-// 24 bits, so that a float holds them and never rounds up to 1.
+// The upper 24 bits as a float in [0, 1), which represents them exactly.
 constexpr float unit(std::uint32_t bits) { return static_cast<float>(bits >> 8U) * 0x1p-24f; }
 
 }  // namespace
@@ -76,7 +77,7 @@ TRUTH_WIDE_VECTORS void PixelPoints::square(std::uint32_t index, PacketPoints& p
   }
 }
 
-// concentric_disc() of glsl/lib/disc.glsl without branches, so that it is done for several lanes at once.
+// concentric_disc() of glsl/lib/disc.glsl without branches, so that the compiler can vectorise it.
 TRUTH_WIDE_VECTORS void square_to_disc(PacketPoints& points) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const float px = 2 * points.x[lane] - 1;

@@ -5,27 +5,28 @@
 
 namespace penumbra::truth {
 
-// Independent scramblings of one point set in each pixel, whose means' spread tells the error of their mean.
+// Each pixel uses this many independent scramblings of one point set. The spread of their means estimates the standard
+// error of the overall mean.
 constexpr int scrambling_count = 8;
-// Rays that are traced together: a point of each scrambling.
+// Rays that are traced together: one point of each scrambling.
 constexpr int packet_width = scrambling_count;
 
-// Points of the unit square, or of the unit disc.
+// A point of each scrambling, in the unit square or the unit disc.
 struct PacketPoints {
   alignas(32) std::array<float, packet_width> x;
   alignas(32) std::array<float, packet_width> y;
 };
 
-// The points of one pixel: the first two dimensions of Sobol's sequence (Sobol' 1967), in which a nested uniform
-// scrambling (Owen 1995) permutes the digits. As many points of each scrambling as a power of two are one in each
-// elementary interval of that area. Scrambled by hashing (Burley 2020, "Practical hash-based Owen scrambling") with
-// Vegdahl's constants (2021, "Building a better LK hash").
+// The sample points of one pixel: the first two dimensions of Sobol's sequence (Sobol' 1967) with nested uniform
+// scrambling (Owen 1995). Of the first 2^k points of each scrambling, exactly one is in each elementary interval of
+// area 2^-k. The scrambling is computed by hashing (Burley 2020, "Practical hash-based Owen scrambling") with Vegdahl's
+// constants (2021, "Building a better LK hash").
 class PixelPoints {
  public:
   // Points of different pixels, scramblings and seeds are independent.
   PixelPoints(std::uint32_t seed, std::uint32_t pixel);
 
-  // Point number `index` of each scrambling, in the unit square, 1 excluded.
+  // Point number `index` of each scrambling, in the unit square [0, 1)².
   void square(std::uint32_t index, PacketPoints& points) const;
 
  private:
@@ -33,11 +34,11 @@ class PixelPoints {
   alignas(32) std::array<std::uint32_t, packet_width> seeds_y_;
 };
 
-// The unit square to the unit disc, equal areas to equal areas (Shirley and Chiu 1997, "A low distortion map between
-// disk and square").
+// Maps the unit square to the unit disc with equal areas (Shirley and Chiu 1997, "A low distortion map between disk and
+// square").
 void square_to_disc(PacketPoints& points);
 
-// The unit square to the one from −1 to 1.
+// Maps the unit square to the square from −1 to 1.
 void square_to_sides(PacketPoints& points);
 
 }  // namespace penumbra::truth

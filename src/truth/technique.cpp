@@ -47,7 +47,8 @@ Light light_of(const shadow::PassContext& frame, const TechniqueOptions& options
              .square = frame.params().get_word("sun.shape") == "square"};
 }
 
-// Of surfaces that the light only grazes, a part of it lies behind them.
+// 1 for receivers that have the whole light above their surface, else 0: part of a light at grazing angles is below the
+// surface.
 std::vector<float> before_light(std::span<const Receiver> receivers, const Light& light) {
   std::vector<float> before;
   before.reserve(receivers.size());
@@ -63,7 +64,7 @@ std::vector<float> before_light(std::span<const Receiver> receivers, const Light
   return before;
 }
 
-// 1 where the light's centre is before the surface, or nothing is there.
+// The mask without occlusion: 1 where the light's centre is above the surface or there is no surface, else 0.
 std::vector<float> unshadowed(std::span<const Receiver> receivers, const Light& light) {
   std::vector<float> facing;
   facing.reserve(receivers.size());
@@ -74,7 +75,7 @@ std::vector<float> unshadowed(std::span<const Receiver> receivers, const Light& 
   return facing;
 }
 
-// Visibility alone: a ray tells no penumbra radius.
+// Writes visibility only: ray tracing gives no penumbra radius.
 void fill_mask(const shadow::PassContext& frame, const std::vector<float>& visibility) {
   const gl::Texture& mask = frame.mask();
   [[maybe_unused]] const shadow::Rect whole{0, 0, mask.width(), mask.height()};
@@ -95,10 +96,11 @@ struct TruthTechnique::State {
   PictureTracer tracer;
   Last last;
 
-  // In the background. The cache stays with the frame's thread: file modes, as a new file gets them, are a process's.
+  // For background tracing. Only the frame's thread uses the cache, because creating files briefly changes the umask,
+  // which belongs to the whole process.
   BackgroundTracer worker{tracer};
   std::optional<Key> shown;    // the picture in `last`
-  std::optional<Key> awaited;  // by the last frame
+  std::optional<Key> awaited;  // the picture that the last frame requested
   std::optional<Key> failed;
 
   void resolve(const shadow::PassContext& frame);
@@ -131,7 +133,7 @@ void TruthTechnique::State::show(const PictureRequest& wanted, TracedPicture pic
   shown = wanted.key;
 }
 
-// In the cache.
+// Looks for the picture in the cache.
 bool TruthTechnique::State::find(const PictureRequest& wanted) {
   std::optional<Traced> kept = cache.find(wanted.key, wanted.receivers.size());
   if (kept) show(wanted, {.key = wanted.key, .traced = std::move(*kept), .build = {}}, /*from_cache=*/true);
@@ -146,7 +148,7 @@ void TruthTechnique::State::resolve_now(const shadow::PassContext& frame, const 
   fill_mask(frame, last.traced.visibility);
 }
 
-// What the worker has finished.
+// Collects a picture that the worker has finished.
 void TruthTechnique::State::take(const PictureRequest& wanted, const std::optional<Key>& waited) {
   try {
     std::optional<TracedPicture> picture = worker.take();
@@ -195,7 +197,8 @@ void TruthTechnique::State::stop() {
 
 TruthTechnique::TruthTechnique(TechniqueOptions options) : state_(std::make_shared<State>(std::move(options))) {}
 
-// After this there is no one left who could stop what a later frame starts.
+// Registries may outlive this object and share the state. Later frames trace synchronously, since nobody could stop a
+// background trace any more.
 TruthTechnique::~TruthTechnique() {
   state_->stop();
   state_->options.background = false;

@@ -12,23 +12,23 @@
 namespace penumbra::truth {
 
 struct TechniqueOptions {
-  std::filesystem::path cache = default_cache_folder();  // empty: nothing is found or kept
-  int threads = 0;                                       // 0: one a core
-  // As TraceOptions::progress. In the background it is called on a thread of the technique's; a frame whose
-  // picture was cancelled throws Interrupted.
+  std::filesystem::path cache = default_cache_folder();  // empty: no cache
+  int threads = 0;                                       // 0: one for each core
+  // Same as TraceOptions::progress. With background tracing it is called on the background thread. If it interrupts a
+  // picture, the frame throws Interrupted.
   std::function<bool(double share_done)> progress;
-  // In the place of the sun, at the seconds of the frame.
+  // If set, traces this light instead of the sun, at the time of the frame.
   std::function<LocalLight(double seconds)> local_light;
-  // A frame doesn't wait for its picture: until that is traced, the mask is 0 where the surface faces away from the
-  // light's centre, else 1. A frame that needs another picture stops the one that is being traced, so of two
-  // that take turns none is finished. What goes wrong (not enough memory) is thrown by the next frame, once; the same
-  // picture is then not tried again before another one was asked for, or stop().
+  // Frames don't wait for their picture. Until it is traced, the mask is 0 where the surface faces away from the
+  // light's centre, else 1. A frame that needs another picture cancels the one that is being traced, so two views drawn
+  // in turn never finish. The next frame throws an error of the tracing (such as not enough memory), once; the same
+  // picture is not tried again until another one is requested or stop() is called.
   bool background = false;
 };
 
-// The technique `truth`: the mask is ray traced from the triangles that the G-buffer shows. It needs a
-// render::Renderer's frame, whose scene it asks for; the Renderer, and all registries made here, may outlive it, and
-// then trace within the frame. One thread at a time.
+// The technique `truth`: the mask is ray traced from the triangles that the G-buffer shows. It works only in frames of
+// a render::Renderer, whose scene it reads. The Renderer and all registries made here may outlive this object; they
+// then trace synchronously. For one thread at a time.
 class TruthTechnique {
  public:
   explicit TruthTechnique(TechniqueOptions options = {});
@@ -36,29 +36,29 @@ class TruthTechnique {
   TruthTechnique(const TruthTechnique&) = delete;
   TruthTechnique& operator=(const TruthTechnique&) = delete;
 
-  // `base` and, last, `truth`.
+  // `base` with `truth` appended.
   shadow::Registry registry(const shadow::Registry& base = shadow::built_in_registry()) const;
 
   struct Pending {
-    double share_done;  // of the work, 0 to 1; doesn't fall while the frames ask for the same picture
+    double share_done;  // of the work, 0 to 1; never falls while frames request the same picture
   };
-  // In the background: set while the picture that the last frame asked for is being traced. Once it no longer is, the
-  // next frame has it.
+  // With background tracing: set while the picture that the last frame requested is being traced. When it is empty
+  // again, the next frame shows the picture.
   std::optional<Pending> pending() const;
 
-  // Cancels what is traced in the background. Returns at once; the scene may still be read for a moment.
+  // Cancels background tracing. Returns at once; the scene may still be read for a moment.
   void cancel();
-  // Stops what is traced in the background, and returns when nothing refers to the scene any more: to be called before
-  // the GpuScene of the last frames, or its scene::Scene, goes. The next frame starts again.
+  // Stops background tracing and waits until nothing refers to the scene any more. Call it before the GpuScene of the
+  // last frames, or its scene::Scene, is destroyed. The next frame starts tracing again.
   void stop();
 
-  // What the last frame drew by it that had its picture; rows from the bottom.
+  // The last traced picture that a frame of this technique showed; rows bottom to top.
   struct Last {
     Traced traced;
     std::vector<float>
-        receiver;  // a pixel: 1 where all of the light is before the surface (see docs/metrics.md), else 0
+        receiver;  // one value per pixel: 1 where all of the light is above the surface (see docs/metrics.md), else 0
     bool from_cache = false;
-    std::optional<BuildStats> build;  // where triangles had to be laid out for it
+    std::optional<BuildStats> build;  // set if a tracer had to be built for it
   };
   const Last& last() const;
 

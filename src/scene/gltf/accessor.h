@@ -13,8 +13,8 @@
 
 namespace penumbra::scene::gltf {
 
-// The elements of an accessor: where they are and how to read them. Elements 0 to count - 1 are known to lie inside
-// the bytes, so reading one can't leave them.
+// The elements of an accessor: where they are and how to read them. Elements 0 to count - 1 are already checked to be
+// inside `bytes`.
 struct AccessorView {
   std::string name;  // for messages
   int component_type = 0;
@@ -22,20 +22,20 @@ struct AccessorView {
   bool normalized = false;
   std::size_t count = 0, stride = 0;
   Bytes bytes;                   // empty: all elements are zero
-  std::vector<uint32_t> sparse;  // increasing: the elements that `sparse_bytes` replaces
+  std::vector<uint32_t> sparse;  // in increasing order: the elements that `sparse_bytes` replaces
   Bytes sparse_bytes;            // tightly packed
 
   std::size_t element_size() const;
-  // Null: zeros.
+  // Null if the element is all zeros.
   const std::byte* element(std::size_t index) const;
-  // A component as a number, integers normalized if the accessor says so.
+  // A component as a number; integers are normalized if the accessor says so.
   float number(const std::byte* element, int component) const;
   uint32_t integer(const std::byte* element, int component) const;
 };
 
 AccessorView view_accessor(Document& document, int accessor);
 
-// Which elements of accessors a primitive uses: all, or a list.
+// Which elements of its accessors a primitive uses: all, or a list.
 struct Selection {
   std::size_t count = 0;
   std::vector<uint32_t> elements;  // empty: all
@@ -44,7 +44,7 @@ struct Selection {
 
 std::size_t component_size(int component_type);
 
-// Throws unless the accessor has as many components as the reader wants.
+// Throws unless the accessor has that many components.
 void expect_components(const AccessorView& view, int components);
 [[noreturn]] void fail_not_finite(const AccessorView& view, std::size_t element);
 
@@ -65,7 +65,7 @@ std::vector<glm::vec<N, float>> read_vectors(const AccessorView& view, const Sel
   return vectors;
 }
 
-// The same, but vectors that are not finite become zero. Adds their number to `wrong`.
+// The same, but vectors that are not finite become zero, and their number is added to `wrong`.
 template <int N>
 std::vector<glm::vec<N, float>> read_finite_vectors(const AccessorView& view, const Selection& selection,
                                                     std::size_t& wrong) {

@@ -9,7 +9,7 @@
 
 namespace penumbra::scene::gltf {
 
-// Counts what a scene makes the reader allocate, before it is allocated.
+// Counts the memory that a scene makes the reader allocate, before it is allocated.
 class Budget {
  public:
   explicit Budget(const ReadLimits& limits) : limits_(limits) {}
@@ -22,7 +22,7 @@ class Budget {
     vertices_ += count;
   }
 
-  // `count` things of `size` bytes each.
+  // Counts `count` elements of `size` bytes each.
   void spend(std::size_t count, std::size_t size) {
     ReadLimits allowed = limits_;
     allowed.decoded_bytes = std::min(limits_.decoded_bytes + limits_.decoded_ratio * file_bytes_, limits_.decoded_most);
@@ -32,7 +32,7 @@ class Budget {
     spent_ += count * size;
   }
 
-  // An image's pixels, decoded.
+  // Counts an image's decoded pixels.
   void spend_image(std::size_t bytes) {
     if (bytes > limits_.image_bytes - std::min(image_bytes_, limits_.image_bytes))
       fail_over_limit("the images decode to more", limits_, &ReadLimits::image_bytes);

@@ -14,7 +14,7 @@
 
 namespace penumbra::scene::gltf {
 
-// EXT_meshopt_compression's stand-in for a bufferView.
+// A compressed bufferView (EXT_meshopt_compression).
 struct MeshoptStream {
   Bytes bytes;
   std::size_t count = 0, stride = 0;
@@ -24,7 +24,7 @@ struct MeshoptStream {
 // count × stride bytes; throws Error when the stream is damaged.
 std::vector<std::byte> decode_meshopt(const MeshoptStream& stream);
 
-// A primitive decompressed: a triangle list, and accessors by semantic that point into its own bytes.
+// A decompressed primitive: a triangle list, and accessors by semantic that refer to its own bytes.
 struct DracoMesh {
   std::vector<uint32_t> indices;
   std::map<std::string, AccessorView> attributes;

@@ -12,7 +12,7 @@ namespace penumbra::scene::gltf {
 
 using Bytes = std::span<const std::byte>;
 
-// A .gltf or .glb file taken apart, nothing in it believed yet beyond being well-formed.
+// A .gltf or .glb file split into its parts: well-formed, but not yet validated.
 struct Container {
   std::vector<std::byte> file;
   nlohmann::json json;
@@ -20,7 +20,8 @@ struct Container {
   bool has_binary = false;
 };
 
-// Tells GLB from JSON by content. Lengths, nesting and number of values are checked before anything is allocated.
+// Reads a file and detects from its content whether it is GLB or JSON. Lengths, nesting and number of values are
+// checked before anything is allocated.
 Container read_container(const std::filesystem::path& path, const ReadLimits& limits);
 
 }  // namespace penumbra::scene::gltf

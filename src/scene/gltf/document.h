@@ -22,21 +22,21 @@ struct ImageSource {
   int view = -1;
 };
 
-// A glTF with its data at hand. All indices of the model are in range, types and ranges are checked; what the numbers
-// mean together (accessors, hierarchy, animations) is checked where it is read. Elements that were left out for a fault
-// are stand-ins.
+// A glTF document with its data loaded. All indices of the model are in range, and types and ranges are checked. What
+// depends on several values (accessors, hierarchy, animations) is checked where it is read. Elements that were left out
+// because of a fault are placeholders.
 struct Document {
   std::filesystem::path folder;
-  std::vector<std::filesystem::path> files;  // those that the glTF names, whether anything uses them or not
-  tinygltf::Model model;                     // buffers and images are kept here instead:
-  std::vector<Bytes> views;                  // of each bufferView, decompressed; empty where its buffer has no data
+  std::vector<std::filesystem::path> files;  // all files that the glTF names, used or not
+  tinygltf::Model model;                     // without buffers and images, which the members below hold
+  std::vector<Bytes> views;                  // bytes of each bufferView, decompressed; empty if its buffer has no data
   std::vector<ImageSource> images;
   ReadOptions options;
   Budget budget;
   LeftOut left_out;
-  std::vector<std::vector<std::byte>> storage;  // what the views point into
+  std::vector<std::vector<std::byte>> storage;  // memory that `views` refer to
 
-  // Tells the caller, at most a hundred times a part.
+  // Reports progress to the caller, at most a hundred times for each part.
   void report(const ReadProgress& progress) const {
     const auto percent = [&](std::size_t done) { return done * 100 / progress.count; };
     const bool news = progress.done == 0 || percent(progress.done) != percent(progress.done - 1);
@@ -46,15 +46,15 @@ struct Document {
 
 Document read_document(const std::filesystem::path& path, const ReadOptions& options);
 
-// An extension's object, or null when `owner` has none.
+// An extension's object, or null if `owner` has none.
 template <class Owner>
 const tinygltf::Value* find_extension(const Owner& owner, const char* name) {
   const auto found = owner.extensions.find(name);
   return found == owner.extensions.end() ? nullptr : &found->second;
 }
 
-// What the extras of a node or a material say of its shadows: {"penumbra_casts": true, false, "both", "front" or
-// "back"}. Another value is warned of at `place`.
+// How the extras of a node or a material set its shadow casting: {"penumbra_casts": true, false, "both", "front" or
+// "back"}. Any other value causes a warning that names `place`.
 Casting casting_of_extras(const tinygltf::Value& extras, const std::string& place);
 
 // Members of an extension's object, which the schema has checked.

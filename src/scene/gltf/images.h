@@ -8,17 +8,17 @@
 
 namespace penumbra::scene::gltf {
 
-// Reads a document's images into a scene, each once. What they take is known from their headers before the first is
-// decoded; of images that nothing drawn uses, those with a fault, and those beyond the limit, are left out.
+// Reads a document's images into a scene, each once. Their sizes are checked by their headers before the first one is
+// decoded. Images that nothing drawn uses are left out if they have a fault or exceed the limit.
 class ImageReader {
  public:
   ImageReader(Document& document, const ImageDecoder& decode, Scene& scene);
 
-  // Asks for the file's image of that number; -1 asks for none.
+  // Requests the file's image of that index; -1 is ignored.
   void need(int number);
-  // Reads all that were asked for. Throws Error that names the image, or the limit.
+  // Reads all requested images. Throws Error that names the image or the limit.
   void read();
-  // The scene's number of the file's image; -1: it was left out.
+  // The scene's index of the file's image; -1 if it was left out.
   int number(int image) const { return numbers_[static_cast<std::size_t>(image)]; }
 
  private:

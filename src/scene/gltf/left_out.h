@@ -10,8 +10,8 @@
 
 namespace penumbra::scene::gltf {
 
-// The parts of a file that are left out for a fault, since nothing drawn uses them. Each is warned of once, with its
-// place; after the first few, only their number is told.
+// Records the parts of a file that are left out because of a fault, which is allowed since nothing drawn uses them.
+// Each causes one warning with its place; after the first few, only their number is printed.
 class LeftOut {
  public:
   LeftOut(std::string file, Used used) : file_(std::move(file)), used_(std::move(used)) {}
@@ -19,11 +19,11 @@ class LeftOut {
   const Used& used() const { return used_; }
   bool holds(std::string_view array, std::size_t index) const;
 
-  // Leaves an element out, or throws Error "meshes[3]: CAUSE" if something drawn uses it.
+  // Records an element as left out, or throws Error "meshes[3]: CAUSE" if something drawn uses it.
   void add(std::string_view array, std::size_t index, std::string_view cause);
-  // The same for a part that is no element of such an array; `place` begins the message.
+  // The same for a part that is not an element of such an array; the message begins with `place`.
   void add_part(const std::string& place, bool used, std::string_view cause);
-  // Says how many more there were than warnings.
+  // Warns of how many more parts were left out than were listed.
   void finish();
 
  private:

@@ -5,8 +5,8 @@
 
 namespace penumbra::scene::gltf {
 
-// Faults quote the file, which may hold anything: control characters and bytes outside ASCII become '?', and what is
-// too long is cut, so that the message stays one printable line.
+// Makes a message one printable line. Messages quote the file, which may contain anything: control characters and bytes
+// outside ASCII become '?', and long text is cut.
 std::string one_line(std::string_view text);
 
 }  // namespace penumbra::scene::gltf

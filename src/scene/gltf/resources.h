@@ -10,10 +10,10 @@
 
 namespace penumbra::scene::gltf {
 
-// %20 and the like become bytes; anything that is not such an escape stays.
+// Decodes percent escapes such as %20; anything that is not such an escape stays unchanged.
 std::string percent_decoded(std::string_view text);
 
-// Strict: throws Error on a character outside the alphabet or a wrong length.
+// Decodes base64. Throws Error for a character outside the alphabet or a wrong length.
 std::vector<std::byte> base64_decoded(std::string_view text);
 
 bool is_data_uri(std::string_view uri);
@@ -21,12 +21,12 @@ bool is_data_uri(std::string_view uri);
 // The data of a data URI (RFC 2397), in base64 or percent-encoded.
 std::vector<std::byte> data_uri_bytes(std::string_view uri);
 
-// A file's bytes. Throws Error for more than the limit of files.
+// A file's bytes. Throws Error if the file is larger than the limit.
 std::vector<std::byte> load_file(const std::filesystem::path& file, const ReadLimits& limits);
 
-// What a URI of the scene stands for: a data URI's bytes, or those of a file. Files must be regular and lie, links
-// followed, inside `folder`; other schemes are refused: a scene can't make the reader touch anything else. With
-// `follow_links` a file's name must lie inside, and links lead where they lead.
+// The bytes that a URI of the scene refers to: a data URI's, or those of a file. A file must be regular and, after
+// following links, lie inside `folder`, and other schemes are refused, so that a scene can't make the reader open
+// anything else. With `follow_links` only the file's name must lie inside; links may lead anywhere.
 std::vector<std::byte> load_uri(const std::filesystem::path& folder, std::string_view uri, const ReadOptions& options);
 
 }  // namespace penumbra::scene::gltf

@@ -6,10 +6,10 @@
 
 namespace penumbra::scene::gltf {
 
-// Checks every property that the reader uses, and the extensions it knows: type, range, allowed words, array length,
-// and that indices point at something. Throws Error naming the property. Afterwards the document can be read without
-// surprises. Integers written as floats (3.0), which glTF allows, become integers. Elements with a fault that nothing
-// drawn uses are left out: their stand-ins take their place.
+// Checks every property that the reader uses, and the extensions that it knows: types, ranges, allowed words, array
+// lengths and indices. Throws Error that names the property. Afterwards the document can be read without further checks
+// of these. Integers written as floats (3.0), which glTF allows, become integers. Elements with a fault that nothing
+// drawn uses are replaced by placeholders.
 void check_schema(nlohmann::json& document, LeftOut& left_out);
 
 }  // namespace penumbra::scene::gltf

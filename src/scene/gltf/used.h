@@ -9,16 +9,16 @@
 
 namespace penumbra::scene::gltf {
 
-// Which elements of a document's arrays the drawn scene needs: the default scene's nodes, and whatever they refer to,
-// directly or not. A fault of anything else is no reason to refuse a file.
+// Which elements of a document's arrays the drawn scene needs: the default scene's nodes, and everything they refer to,
+// directly or indirectly. A fault anywhere else is no reason to refuse a file.
 class Used {
  public:
-  // Takes a document that nothing is known of yet: what is not as it should be refers to nothing.
+  // The document need not be validated: malformed values count as referring to nothing.
   explicit Used(const nlohmann::json& document);
 
-  // `array` by its path: "nodes", "extensions.KHR_lights_punctual.lights".
+  // `array` is the path of the array: "nodes", "extensions.KHR_lights_punctual.lights".
   bool holds(std::string_view array, std::size_t index) const;
-  // Whether a node that is drawn gives the mesh a skin.
+  // Whether a drawn node gives the mesh a skin.
   bool skinned(std::size_t mesh) const;
 
  private:
@@ -29,7 +29,7 @@ class Used {
 
 constexpr const char* lights_array = "extensions.KHR_lights_punctual.lights";
 
-// The arrays whose elements can be left out, and what stands in for such an element: valid, and read by nobody.
+// The arrays whose elements can be left out, and the placeholder for such an element: valid, and never read.
 const std::map<std::string, nlohmann::json, std::less<>>& stand_ins();
 
 // The array at a path; null if there is none.
