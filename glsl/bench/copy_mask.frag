@@ -1,4 +1,4 @@
-// Reads a mask and writes it: the least that any pass from mask to mask does.
+// Copies a mask: the lower bound for the cost of any pass that reads and writes a mask.
 layout(binding = 8) uniform sampler2DArray source;
 
 layout(location = 0) out vec4 mask;

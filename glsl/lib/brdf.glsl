@@ -8,7 +8,7 @@ GLSL_BEGIN
 const float brdf_pi = 3.14159265f;
 
 // Share of facets that face the half vector (Walter et al. 2007, "Microfacet models for refraction"): GGX; alpha is
-// roughness squared. Written so that it keeps its digits where the lobe is narrow.
+// roughness squared. Written so that it stays accurate where the lobe is narrow.
 GLSL_FUNCTION float ggx_distribution(float n_dot_h, float alpha) {
   float a2 = alpha * alpha;
   float f = (n_dot_h * a2 - n_dot_h) * n_dot_h + 1.0f;

@@ -6,7 +6,7 @@
 GLSL_BEGIN
 
 // Radius of the penumbra at a receiver, metres, of a directional light (Fernando 2005, "Percentage-closer soft
-// shadows", with the light moved to infinity) and a blocker that lies so many metres before it along the light.
+// shadows", with the light moved to infinity) and a blocker at that distance from it along the light, metres.
 GLSL_FUNCTION float sun_penumbra_radius(float tan_half_angle, float blocker_distance) {
   return tan_half_angle * max(blocker_distance, 0.0f);
 }
@@ -21,7 +21,8 @@ GLSL_FUNCTION vec2 plane_gradient(vec3 normal, float max_slope) {
   return slope > max_slope ? gradient * (max_slope / slope) : gradient;
 }
 
-// What a shadow map shows about a receiver. Heights are those above the receiver's plane, metres along the light.
+// The surroundings of a receiver as the shadow map shows them. Heights are above the receiver's plane, metres along the
+// light.
 struct Surroundings {
   vec4 slopes;       // of lit faces beside it: how much higher they get per metre towards +x, +y, -x, -y; not negative
   float steepest;    // what comes nearer to the light by more than this per metre blocks even if it lies on those faces

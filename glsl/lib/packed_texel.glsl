@@ -7,8 +7,8 @@
 
 GLSL_BEGIN
 
-// The nearest half to a float that is not negative, ties to even; 65504 for all beyond, 0 for NaN. In integers, since
-// the rounding of packHalf2x16 differs from driver to driver.
+// The nearest half to a float that is not negative, ties to even; 65504 for all larger values, 0 for NaN. In integers,
+// since the rounding of packHalf2x16 differs from driver to driver.
 GLSL_FUNCTION uint half_bits(float value) {
   float v = value > 0.0f ? min(value, 65504.0f) : 0.0f;
   if (v < 6.103515625e-5f) return uint(roundEven(v * 16777216.0f));
@@ -29,13 +29,13 @@ GLSL_FUNCTION float texel_distance(uint texel) { return half_value(texel & 0xfff
 GLSL_FUNCTION float texel_visibility(uint texel) { return float((texel >> 16) & 0x7fffu) / 32767.0f; }
 GLSL_FUNCTION bool texel_invalid(uint texel) { return (texel & 0x80000000u) != 0u; }
 
-// Eight bits beside it: bits 0 to 3 cascade; 4 the kernel is smaller than a texel of the map; 5 to 7 what became of the
-// history.
+// The note stored with each packed texel, eight bits: bits 0 to 3 cascade; 4 the kernel is smaller than a texel of the
+// map; 5 to 7 whether the history was used, or why it was rejected.
 #define HISTORY_KEPT 0u
-#define HISTORY_NONE 1u            // nothing is kept: a first frame, a cut, a new size
+#define HISTORY_NONE 1u            // there is no history: a first frame, a cut, a new size
 #define HISTORY_OFF_SCREEN 2u      // the surface was outside of the picture
-#define HISTORY_OTHER_SURFACE 3u   // another one was there
-#define HISTORY_CASTER_MOVED 4u    // something that may hide the light did move
+#define HISTORY_OTHER_SURFACE 3u   // another surface was visible there
+#define HISTORY_CASTER_MOVED 4u    // a caster moved that may block the light
 
 GLSL_FUNCTION uint pack_notes(int cascade, bool under_texel, uint refusal) {
   return uint(cascade) | (under_texel ? 16u : 0u) | (refusal << 5);

@@ -1,5 +1,5 @@
-// Surfaces that let through what lies behind them, drawn over the lit picture. Included after a technique's forward
-// driver, which gives shadow_visibility().
+// Transparent (alpha-blended) surfaces, drawn over the lit picture. Included after a technique's forward driver, which
+// gives shadow_visibility().
 #include "scene/surface.glsl"
 #include "render/shade.glsl"
 
@@ -25,7 +25,7 @@ void main() {
     vec3 view_position = (world_to_view * vec4(surface.world, 1.0)).xyz;
     Reflection r = reflection_of(s);
     radiance = unshadowed_light(s, r);
-    // The forward driver has the maps of the first light.
+    // The forward driver reads the shadow map of the first light only.
     add_light(radiance, s, r, 0, shadow_visibility(view_position, geometric, gl_FragCoord.xy - 0.5));
     for (int i = 1; i < lighting.light_count; ++i) add_light(radiance, s, r, i, 1.0);
     radiance = storable(radiance);

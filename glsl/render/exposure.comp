@@ -1,5 +1,5 @@
-// Automatic exposure, as a meter held to the surfaces measures it: the geometric mean of their light over their colour,
-// so that dark materials stay dark. One group sums in a fixed order: one picture gives one exposure.
+// Automatic exposure from incident light: the geometric mean of each pixel's radiance divided by its albedo, so that
+// dark materials stay dark. A single work group sums in a fixed order, so that the result is deterministic.
 layout(local_size_x = 256) in;
 
 layout(binding = 8) uniform sampler2D lit;
@@ -7,9 +7,9 @@ layout(binding = 9) uniform sampler2D gbuffer_albedo;
 layout(binding = 12) uniform sampler2D gbuffer_depth;
 layout(std430, binding = 0) writeonly restrict buffer Exposure { float exposure; };
 
-uniform vec2 limits;   // of the exposure
-uniform float white;   // what a white surface in the mean light becomes
-uniform float factor;  // compensation
+uniform vec2 limits;   // of the exposure, lowest and highest
+uniform float white;   // value of a white surface in the mean light
+uniform float factor;  // exposure compensation
 
 shared float sums[256];
 shared float counts[256];

@@ -1,4 +1,4 @@
-// Surfaces to be lit later.
+// Writes the G-buffer.
 #include "lib/octahedral.glsl"
 #include "scene/surface.glsl"
 
@@ -13,13 +13,13 @@ void main() {
   vec4 color = base_color(surface.uv, surface.color);
   vec3 geometric = geometric_normal();
   vec3 properties = surface_properties(surface.uv);
-  out_albedo = vec4(sqrt(clamp(color.rgb, 0.0, 1.0)), 0.0);  // ten bits go further on a curve
+  out_albedo = vec4(sqrt(clamp(color.rgb, 0.0, 1.0)), 0.0);  // square root: less banding in ten bits
   out_normal = octahedral_encode(shading_normal(geometric)) * 0.5 + 0.5;
   out_geometric_normal = octahedral_encode(geometric);
   out_material = vec4(properties, is_unlit() ? 1.0 : 0.0);
   out_emission = min(emission(surface.uv), vec3(64000.0));
   out_motion = motion();
 #if MASKED
-  if (color.a < material.alpha_cutoff) discard;  // last: derivatives, which choose mip levels, need the whole quad
+  if (color.a < material.alpha_cutoff) discard;  // last: mip levels need the derivatives of the whole quad
 #endif
 }

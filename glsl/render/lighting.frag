@@ -1,4 +1,4 @@
-// Lights the G-buffer; sky where it is empty.
+// Computes the lighting of the G-buffer, and the sky where no surface is.
 #include "shared/view_block.h"
 #include "lib/octahedral.glsl"
 #include "render/shade.glsl"

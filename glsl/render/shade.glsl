@@ -1,4 +1,4 @@
-// Metallic-roughness shading as glTF 2.0, appendix B: direct light, and light from all around.
+// Metallic-roughness shading as in glTF 2.0, appendix B: direct light, and ambient light.
 #include "lib/brdf.glsl"
 #include "render/sky.glsl"
 
@@ -12,23 +12,23 @@ struct Shading {
   float occlusion;
 };
 
-// What a surface does with light.
+// The reflectance of a surface.
 struct Reflection {
-  vec3 diffuse;    // albedo of what enters it
-  vec3 at_normal;  // reflectance of its surface where the light falls straight onto it
+  vec3 diffuse;    // albedo of the diffuse part
+  vec3 at_normal;  // specular reflectance at normal incidence (F0)
 };
 
 Reflection reflection_of(Shading s) {
   return Reflection(s.albedo * (1.0 - s.metallic), mix(vec3(0.04), s.albedo, s.metallic));
 }
 
-// Radiance from a light that nothing hides.
+// Reflected radiance of an unshadowed light.
 vec3 direct_light(Shading s, Reflection r, DirectLightBlock light) {
   float n_dot_l = dot(s.normal, light.to_light);
   if (n_dot_l <= 0.0) return vec3(0.0);
   vec3 half_vector = normalize(light.to_light + s.to_eye);
   float n_dot_v = max(dot(s.normal, s.to_eye), 1e-4);
-  // No light is a point: below this its highlight would be smaller than itself.
+  // Lights are not points: with less roughness than this, a highlight would be smaller than the light's mirror image.
   float alpha = max(s.roughness * s.roughness, 0.005);
   vec3 fresnel = mix(r.at_normal, vec3(1.0), schlick_weight(dot(s.to_eye, half_vector)));
   float lobe = ggx_distribution(clamp(dot(s.normal, half_vector), 0.0, 1.0), alpha) *
@@ -45,13 +45,13 @@ vec3 skylight(Shading s, Reflection r) {
   return s.occlusion * (r.diffuse * all_around + (r.at_normal * scale_bias.x + scale_bias.y) * mirrored);
 }
 
-// What a surface sends to the eye whatever is in shadow.
+// Radiance that does not depend on shadows: ambient light and emission.
 vec3 unshadowed_light(Shading s, Reflection r) { return skylight(s, r) + s.emission * lighting.emission; }
 
-// Adds a light of which that share is seen.
+// Adds a light that is visible to the given degree, 0 to 1.
 void add_light(inout vec3 radiance, Shading s, Reflection r, int index, float visibility) {
   if (visibility > 0.0) radiance += visibility * direct_light(s, r, lighting.lights[index]);
 }
 
-// Half floats, which pictures are kept in, end there.
+// The largest half float: pictures are stored as half floats.
 vec3 storable(vec3 radiance) { return min(radiance, vec3(65000.0)); }

@@ -1,4 +1,4 @@
-// Which triangle of which surface a pixel shows.
+// Writes which triangle of which surface each pixel shows.
 #include "scene/surface.glsl"
 
 layout(location = 0) out uvec2 out_id;  // surface plus 1, triangle

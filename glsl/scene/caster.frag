@@ -1,4 +1,4 @@
-// What of a caster is there, and the mark of one that moved.
+// Alpha test of shadow casters, and the output that marks casters that moved.
 #if MASKED
 #include "scene/material.glsl"
 

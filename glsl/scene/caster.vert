@@ -1,4 +1,4 @@
-// What casts shadows: depth, and texture coordinates where alpha decides.
+// Shadow casters: position, and texture coordinates for alpha-tested materials.
 #include "scene/instance.glsl"
 
 #if LAST_POSE
@@ -12,7 +12,7 @@ layout(location = 6) in uint instance;
 
 uniform mat4 world_to_clip;
 
-// Passes that test against a shadow map's depth need its very positions.
+// Invariant, because later passes test against the shadow map's depth and must compute bit-identical positions.
 invariant gl_Position;
 
 #if MASKED

@@ -1,10 +1,10 @@
-// Morphs and skins one primitive: its vertices at rest to their pose.
+// Applies morph targets and skinning to the vertices of one primitive.
 #include "shared/scene_blocks.h"
 
 layout(local_size_x = 64) in;
 
-// A vertex at rest: position, normal, tangent; of a morph delta the same without handedness; of influences: four joints
-// and their weights. A posed frame is VertexFrame in C++: normal and tangent, signed 16-bit.
+// Layouts. Undeformed vertex: position, normal, tangent. Morph delta: the same, without the tangent's handedness.
+// Influences: four joints and their weights. Deformed frame: VertexFrame in C++, normal and tangent as signed 16-bit.
 layout(std430, binding = 0) readonly restrict buffer Rest { float rest[]; };
 layout(std430, binding = 1) readonly restrict buffer Influences { uint influences[]; };
 layout(std430, binding = 2) readonly restrict buffer Deltas { float deltas[]; };
@@ -55,7 +55,7 @@ void main() {
     mat3 turn = mat3(skin);
     mat3 area = mat3(cross(turn[1], turn[2]), cross(turn[2], turn[0]), cross(turn[0], turn[1]));
     position = (skin * vec4(position, 1.0)).xyz;
-    normal = area * normal;  // the instance's winding turns it round where the skin mirrors
+    normal = area * normal;  // where the skin mirrors, the instance's winding flips it
     tangent = turn * tangent;
   }
   normal = safe_normalize(normal);

@@ -1,7 +1,8 @@
-// The material of what is drawn, and its textures.
+// The material of the current draw, and its textures.
 #include "shared/scene_blocks.h"
 
-// A uniform block: storage reads may skip the helper pixels that texture coordinates' derivatives need.
+// A uniform block, because storage buffer reads may be skipped in helper invocations, whose texture coordinates are
+// needed for derivatives.
 layout(std140, binding = 6) uniform MaterialData { MaterialBlock material; };
 
 layout(binding = 8) uniform sampler2D base_color_texture;

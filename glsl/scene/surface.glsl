@@ -1,4 +1,4 @@
-// What a fragment shader knows of the surface: colour, normals, motion.
+// The surface in a fragment shader: colour, normals, motion.
 #include "shared/view_block.h"
 #include "scene/instance.glsl"
 #include "scene/material.glsl"
@@ -23,13 +23,14 @@ vec3 corner(uint index) {
   return vec3(positions[at], positions[at + 1u], positions[at + 2u]);
 }
 
-// From the eye to the surface.
+// Vector from the camera to the surface.
 vec3 view_ray() { return view.camera.w != 0.0 ? view.forward.xyz : surface.world - view.camera.xyz; }
 
 vec3 towards_eye(vec3 n) { return dot(n, view_ray()) > 0.0 ? -n : n; }
 
-// Of the triangle itself, in world space, facing the eye, not of unit length. From its corners: derivatives of the
-// position are too coarse for wide kernels, which multiply their error. Lines and points take their shading normal.
+// The triangle's geometric normal in world space, on the camera's side, not of unit length. Computed from the
+// triangle's vertices, because derivatives of the position are too inexact for wide kernels, which multiply the error.
+// Lines and points take their shading normal.
 vec3 geometric_normal() {
   InstanceBlock instance = instances[surface.instance];
   if ((instance.flags & INSTANCE_TRIANGLES) == 0u) return towards_eye(surface.normal);
@@ -45,7 +46,8 @@ vec3 geometric_normal() {
   return n * ((gl_FrontFacing ? instance.winding : -instance.winding) / size);
 }
 
-// With the normal map, of unit length. Back faces, seen only of double-sided materials, turn it round.
+// The shading normal, with the normal map applied, of unit length. It is flipped on back faces, which only double-sided
+// materials show.
 vec3 shading_normal(vec3 geometric) {
   float square = dot(surface.normal, surface.normal);
   if (!(square > 0.0)) return normalize(geometric);
@@ -54,7 +56,7 @@ vec3 shading_normal(vec3 geometric) {
     vec3 mapped = texture(normal_texture, texture_uv(TEXTURE_NORMAL, surface.uv)).xyz * 2.0 - 1.0;
     mapped.xy *= material.normal_scale;
     vec3 t = surface.tangent.xyz;
-    t *= inversesqrt(max(dot(t, t), 1e-30));  // without tangents: stays zero
+    t *= inversesqrt(max(dot(t, t), 1e-30));  // stays zero without tangents
     vec3 bent = mapped.x * t + mapped.y * surface.tangent.w * cross(n, t) + mapped.z * n;
     float bent_square = dot(bent, bent);
     if (bent_square > 1e-12) n = bent * inversesqrt(bent_square);
@@ -62,7 +64,7 @@ vec3 shading_normal(vec3 geometric) {
   return gl_FrontFacing ? n : -n;
 }
 
-// Where the surface is minus where it was, in NDC.
+// The motion vector: present minus last position, in NDC.
 vec2 motion() {
   if (!(surface.last_clip.z > 0.0)) return vec2(0.0);
   return surface.clip.xy / surface.clip.z - surface.last_clip.xy / surface.last_clip.z;

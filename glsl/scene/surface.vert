@@ -23,7 +23,7 @@ out Surface {
   flat uint instance;
 } surface;
 
-// Passes over the same surfaces see the same one nearest.
+// Invariant, so that all passes over the same surfaces find the same one nearest.
 invariant gl_Position;
 
 void main() {

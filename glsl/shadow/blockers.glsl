@@ -1,25 +1,26 @@
-// Percentage-closer soft shadows in parts (Fernando 2005): mean blocker depth, kernel, filter. For techniques that need
-// the "least_depth_pyramid" and have the sample sets "blocker", "filter" and "disocclusion".
+// The steps of percentage-closer soft shadows (Fernando 2005): mean blocker depth, kernel size, filter. For techniques
+// that need the "least_depth_pyramid" and have the sample sets "blocker", "filter" and "disocclusion".
 #include "shadow/search.glsl"
 #include "shadow/sampling.glsl"
 
 struct Blockers {
   float depth_sum;  // metres, relative to the receiver
-  float weight;     // share of the texels read that block
+  float weight;     // fraction of the texels read that are blockers
 };
 
-// Texels that are so near to the receiver, metres, may cover it though their centres lie outside of the light's cone.
+// A texel nearer to the receiver than this, metres, may cover it even if the texel's centre lies outside of the light's
+// cone.
 float footprint_margin(Receiver receiver, Light light) { return 1.5 * texel_size(receiver, light); }
 
-// Which texels lie within the cone that the light spans above the receiver: what is outside of it can't hide the light,
-// however wide the search.
+// Which texels lie within the cone from the receiver to the light: what is outside of it can't block the light, however
+// wide the search disc is.
 vec4 in_light_cone(Receiver receiver, Offsets at, vec4 blocker_distances, Light light) {
   vec4 radii = penumbra_radii(receiver, blocker_distances, light) + footprint_margin(receiver, light);
   return within_cone(radii, light.square, at.x, at.y);
 }
 
-// Adds the four texels about a point. A texel blocks when it lies before the receiver and its plane, and within the
-// light's cone.
+// Adds the four texels around a point. A texel is a blocker if it is nearer to the light than the receiver and its
+// plane, and within the light's cone.
 void add_blockers(inout Blockers blockers, Receiver receiver, vec2 offset, float bias, Light light) {
   Footprint footprint = fetch_footprint(receiver, offset, light);
   vec4 distance_to = receiver.position.z - footprint.depths;
@@ -35,14 +36,15 @@ Blockers find_blockers(Receiver receiver, float radius, int taps, float bias, Li
   for (int i = 0; i < taps; ++i) {
     add_blockers(blockers, receiver, radius * blocker_point(i, scramble, light), bias, light);
   }
-  // The cone is narrow over what lies near: taps over a wide disc can all miss the foot of a thing, but not this one.
+  // Near the receiver the cone is narrow, so all taps of a wide disc can miss a blocker that touches the receiver. This
+  // tap at the receiver itself can't.
   if (blockers.weight == 0.0) add_blockers(blockers, receiver, vec2(0.0), bias, light);
   return blockers;
 }
 
 float mean_distance(Blockers blockers) { return max(blockers.depth_sum / blockers.weight, 0.0); }
 
-// The filter's points: how many, and whether of the set for refused histories.
+// The filter's sample points: their number, and whether they come from the set "disocclusion" for rejected histories.
 struct FilterPoints {
   int count;
   bool disocclusion;
@@ -52,7 +54,7 @@ vec2 point_of(FilterPoints points, int index, Scramble scramble, Light light) {
   return points.disocclusion ? disocclusion_point(index, scramble, light) : filter_point(index, scramble, light);
 }
 
-// Share of light that passes a disc (or square) of that radius about the receiver.
+// Visibility averaged over a disc (or square) of that radius around the receiver.
 float filtered_share(Receiver receiver, float radius, FilterPoints points, float bias, Light light) {
   Scramble scramble = filter_scramble(receiver);
   float lit = 0.0;
@@ -62,15 +64,15 @@ float filtered_share(Receiver receiver, float radius, FilterPoints points, float
   return lit / float(points.count);
 }
 
-// The second step.
+// The second step: penumbra radius from the mean blocker distance, then the filter.
 Visibility filtered(Receiver receiver, float mean, FilterPoints points, float bias, Light light) {
   float radius = penumbra_radius(receiver, mean, light);
   return Visibility(filtered_share(receiver, radius, points, bias, light), radius, mean,
                     radius < texel_size(receiver, light));
 }
 
-// Both steps with so many taps each, and so many where the history is refused; neither where depth bounds, if asked,
-// rule blockers out.
+// Both steps with the given numbers of taps, and with another number where the history is rejected. With early exit,
+// both are skipped where the depth bounds rule out blockers.
 Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, int filter_taps, int disocclusion_taps,
                        bool early_exits) {
   float bias = depth_bias(receiver, light);

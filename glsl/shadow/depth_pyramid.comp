@@ -1,4 +1,5 @@
-// One level of the minimum depth pyramid: from the map's 4 × 4 texels, or from the level below's 2 × 2.
+// Computes one level of the minimum depth pyramid, from 4 × 4 texels of the shadow map or from 2 × 2 texels of the
+// finer level.
 #include "shared/language.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -10,7 +11,7 @@ layout(binding = 0, r32f) uniform readonly restrict image2DArray source;
 layout(binding = 1, r32f) uniform writeonly restrict image2DArray level;
 
 #if FROM_DEPTH
-// Beyond the map's edge there is nothing.
+// Texels outside of the map count as empty (depth 1).
 float least_depth(ivec3 at) {
   ivec2 size = textureSize(source, 0).xy;
   float least = 1.0;

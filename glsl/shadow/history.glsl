@@ -1,22 +1,23 @@
-// Where a receiver was in the last frame, and whether the surface that was seen there is its own (Nehab et al. 2007,
-// "Accelerating real-time shading with reverse reprojection caching"). Bilinear taps that show another surface don't
-// count.
+// Finds a receiver's position in the last frame, and whether the same surface was visible there (Nehab et al. 2007,
+// "Accelerating real-time shading with reverse reprojection caching"). Bilinear taps that show another surface get
+// weight 0.
 #include "shadow/drivers/gbuffer.glsl"
 #include "lib/packed_texel.glsl"
 
 layout(binding = 8) uniform sampler2D receiver_motion;
-// x: depth as the caller gave it, its bits; y: normal in light space, octahedral, SNORM16.
+// The surface at each pixel in the last frame. x: bits of the caller's depth; y: normal in light space, octahedral,
+// SNORM16.
 layout(binding = 9) uniform usampler2D last_surface;
 
 struct Reprojection {
-  uint refusal;  // HISTORY_KEPT, else why
-  ivec2 corner;  // the lowest of four pixels
+  uint refusal;  // HISTORY_KEPT, else why the history was rejected (packed_texel.glsl)
+  ivec2 corner;  // lower left of the four pixels of the bilinear footprint
   vec4 weights;  // of (0,0) (1,0) (0,1) (1,1); their sum is 1
 };
 
 Reprojection refused(uint why) { return Reprojection(why, ivec2(0), vec4(0.0)); }
 
-// NDC without jitter of a place in the viewport, pixels.
+// NDC, with jitter removed, of a position in the viewport given in pixels.
 vec2 ndc_at(vec2 place, vec2 jitter) { return place / shadow.viewport.zw * 2.0 - 1.0 - jitter; }
 
 uvec2 surface_bits(ivec2 pixel, Receiver receiver) {
@@ -24,17 +25,17 @@ uvec2 surface_bits(ivec2 pixel, Receiver receiver) {
                packSnorm2x16(octahedral_encode(shared_normal_of(receiver))));
 }
 
-// Of a pixel at that place in view space, metres.
+// Width of a pixel at a position in view space, metres.
 float pixel_width(vec3 position) {
   return max(shadow.pixel_size.x, shadow.pixel_size.y) * abs(shadow.pixel_size.z * position.z + shadow.pixel_size.w);
 }
 
-// What a surface must lie within to be the receiver's own.
+// The tolerances within which a surface of the last frame counts as the receiver's.
 struct Likeness {
   vec3 position;      // view space
   vec3 normal;        // the same
-  float distance_to;  // from the plane, metres
-  float cosine;       // of the angle between normals
+  float distance_to;  // from the receiver's plane, metres, at most
+  float cosine;       // of the angle between the normals, at least
 };
 
 bool is_own(Likeness like, Receiver receiver, ivec2 tap) {
@@ -50,7 +51,7 @@ bool is_own(Likeness like, Receiver receiver, ivec2 tap) {
          dot(octahedral_decode(unpackSnorm2x16(stored.y)), shared_normal_of(receiver)) >= like.cosine;
 }
 
-// Where motion says that a receiver was, and where it was if only the camera moved.
+// A receiver's last position by its motion vector, and its last position if only the camera had moved.
 struct LastPlace {
   vec2 ndc, at_rest;  // without jitter
   bool before_camera;
@@ -66,7 +67,8 @@ LastPlace last_place(ivec2 pixel, vec3 position) {
   return last;
 }
 
-// A receiver that itself moved may be as far from its plane in the last frame as it went across the picture.
+// If the receiver itself moved, its distance from its plane in the last frame may be as large as its motion across the
+// picture.
 Likeness likeness_of(Receiver receiver, vec3 position, LastPlace last) {
   float width = pixel_width(position);
   float way = length((last.ndc - last.at_rest) * 0.5 * shadow.viewport.zw) * width;
@@ -82,7 +84,7 @@ Reprojection reproject(Receiver receiver, ivec2 pixel) {
   bool inside = all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, shadow.viewport.zw));
   if (!inside || !last.before_camera) return refused(HISTORY_OFF_SCREEN);
 
-  // What rounding alone moved stays on its pixel: else a still picture would blur.
+  // Offsets caused by rounding alone snap to the pixel: else a still picture would blur.
   vec2 at = place - 0.5;
   at = mix(at, round(at), lessThan(abs(at - round(at)), vec2(1.0 / 256.0)));
   ivec2 corner = ivec2(floor(at));

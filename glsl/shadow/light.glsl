@@ -1,4 +1,4 @@
-// What every technique does with a light's map: compare texels with a receiver.
+// Functions that all techniques share: compare texels of a light's shadow map with a receiver.
 #include "shadow/light_projection.glsl"
 #include "lib/hash.glsl"
 #include "lib/disc.glsl"
@@ -12,7 +12,7 @@ struct Visibility {
 
 Visibility fully_lit() { return Visibility(1.0, 0.0, 0.0, false); }
 
-// A receiver as the layer's bias rules move it: along its normal by a part of a texel's shadow on it.
+// Applies the normal offset bias: moves a receiver along its normal by a fraction of a texel's footprint on it.
 Receiver offset_receiver(Receiver receiver, Light light) {
   float cosine = light_cosine(receiver);
   float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
@@ -25,19 +25,20 @@ float depth_bias(Receiver receiver, Light light) {
   return depth_rounding(light) + texel_size(receiver, light) * (bias_constant + bias_slope * length(receiver.gradient));
 }
 
-// How far four texels lie before the receiver's plane, metres along the light.
+// How much nearer to the light than the receiver's plane four texels are, metres.
 vec4 heights_above(Receiver receiver, vec4 depths, Offsets at) {
   return receiver.position.z + plane_depths(receiver, at) - depths;
 }
 
-// A surface that the map shows on one side of a receiver.
+// A lit face beside a receiver, reconstructed from the map's texels on one side.
 struct Face {
   float rise;    // of its height above the receiver's plane with each texel away from the receiver; 0: there is no face
   float height;  // continued to the receiver, along the texels' row or column
 };
 
-// The face that the three texels next to the receiver's own show. Their heights rise, about evenly or more and more, as
-// those of a face or of the foot of one do; less and less they rise behind the edge of something before the receiver.
+// The face shown by the three texels next to the receiver's own. Heights that increase evenly, or by growing steps,
+// belong to a face or its foot. Heights that increase by shrinking steps belong to the edge of an object in front of
+// the receiver.
 Face face_beside(Receiver receiver, ivec2 at, ivec2 side, float bias, Light light) {
   vec2 first = texel_offset(receiver, at + side, light);
   vec2 next = vec2(side) * texel_size(receiver, light);
@@ -50,9 +51,9 @@ Face face_beside(Receiver receiver, ivec2 at, ivec2 side, float bias, Light ligh
   return Face(rise, heights.z - rise * (2.0 + dot(first, next) / dot(next, next)));
 }
 
-// Where lit faces meet each lies before the other's plane, and yet neither hides the other: a receiver next to another
-// face must not be shadowed by what lies on that face. Their slopes along x and y; 0 for a face that, continued to the
-// receiver, passes before it, and so hides it.
+// Slopes of the lit faces beside a receiver, along x and y. Where two lit faces meet, each lies in front of the other's
+// plane, yet neither blocks the other: texels on such a face must not shadow the receiver. The slope is 0 for a face
+// that, extended to the receiver, passes in front of it and so does block it.
 vec4 lit_slopes(Receiver receiver, float bias, Light light) {
   ivec2 at = ivec2(floor(map_place(receiver.position, light.layer)));
   Face right = face_beside(receiver, at, ivec2(1, 0), bias, light);
@@ -66,19 +67,20 @@ vec4 lit_slopes(Receiver receiver, float bias, Light light) {
   return step(heights, vec4(bias)) * vec4(right.rise, up.rise, left.rise, down.rise) / texel_size(receiver, light);
 }
 
-// Texels' widths by which a plane may be off before a texel that lies before it counts as something else than the same
-// surface, where that is bent within less than a texel.
+// Tolerance in texel widths: a texel that is in front of the receiver's plane by less still counts as the same surface,
+// which may bend within a texel.
 const float unresolved_bend = 0.15;
 
-// A receiver that knows what the map shows about it. What comes nearer to the light than by `steepest` metres with each
-// metre blocks even if it lies on a face beside the receiver.
+// The receiver with the lit faces beside it filled in from the map. Whatever rises towards the light by more than
+// `steepest` metres per metre is a blocker even if it lies on one of these faces.
 Receiver with_surroundings(Receiver receiver, float bias, float steepest, Light light) {
   Footprint footprint = fetch_footprint(receiver, vec2(0.0), light);
   vec4 heights = heights_above(receiver, footprint.depths, footprint.offsets);
   float least = min(min(heights.x, heights.y), min(heights.z, heights.w));
   float most = max(max(heights.x, heights.y), max(heights.z, heights.w));
   float texel = texel_size(receiver, light);
-  // Four texels that all lie before the plane and show one surface: it covers the receiver, which lies between them.
+  // If all four texels are in front of the plane and show one surface, that surface covers the receiver, which lies
+  // between them.
   bool one_surface = abs(heights.x + heights.z - heights.y - heights.w) <= 0.25 * least + bias;
   bool nearer = any(lessThan(footprint.depths, vec4(receiver.position.z - bias)));
   float bend = unresolved_bend * texel * length(receiver.gradient);
@@ -89,7 +91,7 @@ Receiver with_surroundings(Receiver receiver, float bias, float steepest, Light 
   return receiver;
 }
 
-// Depths before which texels at those offsets block.
+// Depths below which texels at those offsets are blockers.
 vec4 blocking_depths_at(Receiver receiver, Offsets at, float bias) {
   return blocking_depths(receiver.position.z, plane_depths(receiver, at), receiver.surroundings, at.x, at.y, bias);
 }
@@ -104,8 +106,8 @@ float bilinear(vec4 texels, vec2 weight) {
   return mix(rows.x, rows.y, weight.y);
 }
 
-// Share of light that passes a point of the map: percentage-closer filtering of the four texels about it (Reeves et al.
-// 1987, "Rendering antialiased shadows with depth maps").
+// Visibility at a point of the map: percentage-closer filtering of the four texels around it (Reeves et al. 1987,
+// "Rendering antialiased shadows with depth maps").
 float lit_share(Receiver receiver, vec2 offset, float bias, Light light) {
   Footprint footprint = fetch_footprint(receiver, offset, light);
   return 1.0 - bilinear(blocking_texels(receiver, footprint, bias), footprint.weight);

@@ -1,32 +1,33 @@
-// The only file that knows what kind of light there is and how its shadow map is projected: where a position lies in
-// the map, what depth in metres a stored one means, how wide a texel is, and how wide a penumbra. There is one kind: a
-// sun, with parallel rays and orthographic cascades as layers. All else works in light space:
-//   - z is the depth along the light, metres, growing away from it; it is what the map stores. x and y lie across it.
-//   - Offsets and radii are metres across the light at the receiver's depth, whatever the projection makes of them.
-//   - A light's shadow map has layers, of which a receiver reads one, or two where they overlap and fade.
+// The only GLSL file that depends on the kind of light and the projection of its shadow map. It converts positions to
+// map coordinates and stored depths to metres, and gives the sizes of texels and penumbrae. There is one kind of light:
+// a sun, with parallel rays and orthographic cascades as layers. All other files work in light space:
+//   - z is the depth along the light's rays, metres, growing away from the light; the map stores it. x and y are
+//     perpendicular to z.
+//   - Offsets and radii are metres in x and y at the receiver's depth, for every kind of projection.
+//   - A light's shadow map has layers; a receiver reads one of them, or two where it blends between layers.
 #include "shared/shadow_block.h"
 #include "lib/kernel.glsl"
 
 layout(std140, binding = 1) uniform ShadowData { ShadowBlock shadow; };
 
-layout(binding = 0) uniform sampler2DArray shadow_depth;  // as stored, one layer a layer of the light
+layout(binding = 0) uniform sampler2DArray shadow_depth;  // stored depths; one array layer for each layer of the light
 
 // A point to be shaded, in light space.
 struct Receiver {
   vec3 position;
   vec3 normal;    // geometric
-  vec2 gradient;  // of its plane: change of depth per metre across the light
+  vec2 gradient;  // of its plane: change of depth per metre in x and y
   Surroundings surroundings;
   vec2 pixel;     // seeds the noise
-  bool history_refused;  // there is a history, and it does not hold here: more taps are worth it
+  bool history_refused;  // there is a history, but it is invalid here: techniques take more taps
 };
 
 struct Light {
-  float extent;  // of a sun: the tangent of half the angle that it spans
+  float extent;  // of a sun: the tangent of half its angular diameter
   bool square;   // else a disc
   int layers;
   int layer;          // the one to read
-  float read_radius;  // metres: what the technique said that it reads
+  float read_radius;  // metres: the technique's read_radius()
 };
 
 const float max_plane_slope = 1000.0;
@@ -43,7 +44,7 @@ vec3 view_direction(vec3 light_space_direction) { return light_space_direction *
 vec3 light_position(vec3 view_position) { return mat3(shadow.view_to_light) * view_position; }
 vec3 view_position_of(Receiver receiver) { return receiver.position * mat3(shadow.view_to_light); }
 
-// A receiver's normal in view space, and in axes that all layers share and that stay while the light does.
+// A receiver's normal in view space, and in axes that are the same for all layers and constant while the light is.
 vec3 view_normal_of(Receiver receiver) { return view_direction(receiver.normal); }
 vec3 shared_normal_of(Receiver receiver) { return receiver.normal; }
 
@@ -64,8 +65,8 @@ float light_cosine(Receiver receiver) { return -receiver.normal.z; }
 
 // Penumbrae.
 
-// Radius, metres, of the penumbra at a receiver of a blocker that lies so far before it along the light. So it is also
-// that of the disc outside of which such a blocker hides nothing of the light.
+// Radius, metres, of the penumbra at a receiver whose blocker is at that distance from it along the light. It is also
+// the radius of the disc outside of which a blocker at that distance blocks no light from the receiver.
 float penumbra_radius(Receiver receiver, float blocker_distance, Light light) {
   return sun_penumbra_radius(light.extent, blocker_distance);
 }
@@ -74,12 +75,13 @@ vec4 penumbra_radii(Receiver receiver, vec4 blocker_distances, Light light) {
   return light.extent * max(blocker_distances, 0.0);
 }
 
-// Slope against the light above which a surface beside the receiver lies within the cone that the light spans there.
+// Slope (depth per metre) above which a surface that rises beside the receiver enters the cone from the receiver to the
+// light.
 float cone_slope(Receiver receiver, Light light) { return 1.0 / max(light.extent, 1.0 / max_plane_slope); }
 
-// A packed texel holds a blocker distance, and filters need the penumbra's radius: from one to the other and back, for
-// a receiver at that position in light space. For a light without extent the slope between them is not 0, so that
-// distances stay within the range of a half float.
+// Conversion between the blocker distance in a packed texel and the penumbra radius that filters need, for a receiver
+// at that position in light space. The factor has a lower bound, so that also for a light without extent distances stay
+// within the range of a half float.
 const float least_packed_slope = 1e-4;
 
 float packed_radius(vec3 position, float blocker_distance) {
@@ -90,7 +92,7 @@ float packed_distance(vec3 position, float radius) { return radius / max(shadow.
 
 // The map.
 
-// Light-space depth of a stored one, metres.
+// Light-space depth, metres, for a depth as stored in the map.
 float stored_depth(float stored, int layer) {
   return shadow.layers[layer].near_depth + shadow.layers[layer].depth_range * stored;
 }
@@ -102,10 +104,10 @@ vec4 stored_depths(vec4 stored, int layer) {
 float texel_size_at(vec3 position, int layer) { return shadow.layers[layer].texel; }
 float texel_size(Receiver receiver, Light light) { return texel_size_at(receiver.position, light.layer); }
 
-// What rounding in the map and in light space can be off by along the light, metres.
+// Upper bound of the error along the light that rounding in the map and in light space causes, metres.
 float depth_rounding(Light light) { return shadow.layers[light.layer].rounding; }
 
-// Where a position lies in a layer's map, texels: a texel's centre is at half.
+// Map coordinates of a position in a layer, in texels; texel centres are at half-integers.
 vec2 map_place(vec3 position, int layer) {
   LayerBlock map = shadow.layers[layer];
   return ((position.xy - map.center) * map.widths_per_metre + 0.5) * shadow.map_size;
@@ -113,7 +115,7 @@ vec2 map_place(vec3 position, int layer) {
 
 ivec2 last_texel() { return ivec2(shadow.map_size) - 1; }
 
-// Depth that a texel of the light's layer holds, metres; beyond the map that of its rim.
+// Depth in a texel of the light's layer, metres; coordinates outside of the map are clamped to its border.
 float depth_at(ivec2 texel, Light light) {
   ivec2 within = clamp(texel, ivec2(0), last_texel());
   return stored_depth(texelFetch(shadow_depth, ivec3(within, light.layer), 0).x, light.layer);
@@ -131,14 +133,14 @@ struct Offsets {
   vec4 x, y;
 };
 
-// Four texels about a point of the map, in the order of textureGather: (0,1) (1,1) (1,0) (0,0).
+// Four texels around a point of the map, in the order of textureGather: (0,1) (1,1) (1,0) (0,0).
 struct Footprint {
   vec4 depths;  // metres
   Offsets offsets;
   vec2 weight;  // bilinear, of the texels with the higher coordinate
 };
 
-// As stored, of the four texels about a place of the map.
+// Stored depths of the four texels around map coordinates.
 vec4 gather_stored(vec2 place, int layer) {
   return textureGather(shadow_depth, vec3(place / shadow.map_size, float(layer)));
 }
@@ -161,8 +163,8 @@ vec4 plane_depths(Receiver receiver, Offsets at) { return receiver.gradient.x * 
 
 // Layers.
 
-// Largest distance of a disc's rim from the middle of a layer's map along either axis, in half widths; over 1 it is not
-// within the map.
+// Largest distance of a disc's rim from the centre of a layer along either axis, in units of half the layer's width;
+// above 1 the disc is not completely within the layer.
 float layer_edge(int layer, vec3 position, float radius) {
   LayerBlock map = shadow.layers[layer];
   vec2 d = abs(position.xy - map.center);
@@ -170,7 +172,7 @@ float layer_edge(int layer, vec3 position, float radius) {
   return position.z - map.near_depth > map.depth_range * 1.0001 ? 2.0 : inside;
 }
 
-// The finest layer that holds the whole disc; the last one holds what no other does.
+// The finest layer that contains the whole disc, or the last layer if none does.
 int finest_layer(Receiver receiver, float radius, Light light) {
   int layer = 0;
   while (layer < light.layers - 1 && layer_edge(layer, receiver.position, radius) > 1.0) ++layer;
@@ -179,11 +181,11 @@ int finest_layer(Receiver receiver, float radius, Light light) {
 
 struct LayerChoice {
   int layer;
-  bool outside;  // no layer holds the position: the light is not hidden there
+  bool outside;  // no layer contains the position: it counts as lit
   float fade;    // 0 to 1: weight of the next layer beside this one
 };
 
-// Which layer a receiver reads a disc from.
+// Chooses the layer from which a receiver reads a disc.
 LayerChoice choose_layer(Receiver receiver, float radius, Light light) {
   int layer = finest_layer(receiver, radius, light);
   bool last = layer == light.layers - 1;
@@ -194,7 +196,7 @@ LayerChoice choose_layer(Receiver receiver, float radius, Light light) {
   return LayerChoice(layer, last && layer_edge(layer, receiver.position, 0.0) > 1.0, fade);
 }
 
-// The layer that sees every caster which can hide the light from a receiver, and the least depth that it can hold.
+// The layer that contains every caster which can block light from a receiver, and the least depth that it can store.
 int widest_layer(Receiver receiver, Light light) { return light.layers - 1; }
 float least_depth(int layer) { return shadow.layers[layer].near_depth; }
 
@@ -205,7 +207,7 @@ int pyramid_level(vec3 position, float radius, int layer, float base, int levels
   return covering_level(radius, base * texel_size_at(position, layer), levels);
 }
 
-// What those 2 × 2 texels hold, of which `last` is the last of the level.
+// The values of those 2 × 2 texels; `last` is the last texel of the level.
 vec4 pyramid_texels(sampler2DArray pyramid, vec3 position, float radius, int layer, float base, int level, ivec2 last) {
   LayerBlock map = shadow.layers[layer];
   float texel = base * map.texel * exp2(float(level));

@@ -1,4 +1,4 @@
-// Whether casters moved: the pyramid over the movement map, of either form.
+// Looks up in the pyramid of the movement map, of either form, whether casters moved.
 #include "shadow/light.glsl"
 
 layout(binding = 10) uniform sampler2DArray shadow_movement;

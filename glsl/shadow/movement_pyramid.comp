@@ -1,5 +1,5 @@
-// Two levels of a movement map's pyramid from the one below them: a texel of the second and its texels of the first are
-// one invocation.
+// Computes two levels of a movement map's pyramid from the next finer one. Each invocation computes one texel of the
+// second level and the texels of the first that it covers.
 layout(local_size_x = 8, local_size_y = 8) in;
 #if AVERAGE
 layout(binding = 0, r16) uniform readonly image2DArray source;
@@ -17,12 +17,12 @@ uniform vec4 regions[8];  // by layer: lowest and highest texel of level 0 betwe
 
 int size_of(int level) { return max(size >> level, 1); }
 
-// The texel of a level that has a texel of level 0.
+// The texel of a level that covers a texel of level 0.
 ivec2 texel_at(ivec2 base, int level) { return min(base >> level, size_of(level) - 1); }
 
 #if ANY_SIZE
-// The last texels of a level have what a size that is no power of two leaves over: up to 3 × 3 of the level below, and
-// themselves more of level 0 than others.
+// If the size is not a power of two, the last texels of a level also cover the remainder: up to 3 × 3 texels of the
+// finer level, and so more of level 0 than others.
 struct Range {
   ivec2 low, high;
 };
@@ -33,7 +33,7 @@ Range children(ivec2 at, int level) {
   return Range(min(at * 2, ivec2(last)), ivec2(at.x == end ? last : at.x * 2 + 1, at.y == end ? last : at.y * 2 + 1));
 }
 
-// Texels of level 0 that a texel has.
+// Number of level-0 texels that a texel covers.
 float area(ivec2 at, int level) {
   int end = size_of(level) - 1;
   ivec2 rest = size - (at << level);
@@ -114,5 +114,5 @@ void main() {
   ivec3 at = ivec3(low, 0) + ivec3(gl_GlobalInvocationID);
   if (region.z < region.x || any(greaterThan(at.xy, high))) return;
   float value = second_texel(at);
-  if (size >> (below + 2) != 0) imageStore(second, at, vec4(value));  // else the first is the last of all
+  if (size >> (below + 2) != 0) imageStore(second, at, vec4(value));  // else the first level is the last one
 }

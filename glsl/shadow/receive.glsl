@@ -1,10 +1,10 @@
-// From a receiver to its visibility: choose the layer, ask the technique, fade across layers. Included after a
-// technique, which defines
+// Computes a receiver's visibility: chooses the layer of the shadow map, calls the technique, blends between layers.
+// Included after a technique, which defines
 //   float read_radius(Receiver, Light)      radius in metres of the disc that visibility() will read
 //   Visibility visibility(Receiver, Light)  with light.layer chosen
 #include "shadow/shadowed.glsl"
 
-// The light of the frame, with what the technique will read of it for a receiver.
+// The frame's light, with the read radius of the technique for a receiver.
 Light light_for(Receiver receiver) {
   Light light = frame_light();
   if (faces_light(receiver)) light.read_radius = read_radius(receiver, light);

@@ -1,13 +1,13 @@
-// What sample points are made of. The points themselves are functions of a technique's sample sets, generated before
-// its file: for a set "blocker"
+// Helpers for sample points. The library generates the functions that return the points, one pair for each of a
+// technique's sample sets, and includes them before its file: for a set "blocker"
 //   vec2 blocker_point(int index, Scramble scramble, Light light)
 //   Scramble blocker_scramble(Receiver receiver)
 #include "shadow/light.glsl"
 
 layout(binding = 1) uniform sampler2D sample_noise;  // two values a pixel; repeats; a power of two wide and high
 
-// Points of the light's shape, -1..1, from the tables. A disc's points are rotated, or like a square's shifted on the
-// torus and then mapped.
+// Points of the light's shape, -1..1, from the tables. Points on a disc are either rotated, or shifted toroidally in
+// the unit square like a square's and then mapped to the disc.
 struct Scramble {
   vec2 value;  // rotation: cosine, sine; shift: of the unit square
 };
@@ -26,7 +26,7 @@ vec2 shape_point(vec4 table, int index, Scramble scramble, Light light) {
 const int blocker_step = 0;
 const int filter_step = 1;
 
-// By the tile of noise, each step from another part of it.
+// From the noise texture; each step reads a different part of it.
 Scramble scramble_of(Receiver receiver, int step) {
   ivec2 mask = textureSize(sample_noise, 0) - 1;
   ivec2 at = ivec2(receiver.pixel) + (mask + 1) / 2 * step;

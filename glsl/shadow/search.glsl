@@ -1,4 +1,4 @@
-// How far blockers can be: the least depth over a disc, from the pyramid.
+// Bounds for the blocker search: the least depth over a disc, read from the pyramid.
 #include "shadow/light.glsl"
 
 // Minimum over 4 · 2^level texels squared: the product of that name.
@@ -14,13 +14,14 @@ float nearest_depth(vec3 position, float radius, int layer) {
   return stored_depth(min(min(stored.x, stored.y), min(stored.z, stored.w)), layer);
 }
 
-// Where blockers can be.
+// Bounds on where blockers can be.
 struct Search {
-  float radius;   // of the disc that holds every caster which can hide a part of the light, metres
+  float radius;   // of the disc that contains every caster which can block a part of the light, metres
   float nearest;  // least depth in it, metres
 };
 
-// One step: all casters lie within `limit` metres; those that do bound the depth, and the depth bounds the radius.
+// One refinement step: all casters lie within a disc of `limit` metres; their least depth bounds the blocker distance,
+// which bounds the radius.
 Search narrow_search(Receiver receiver, Light light, int layer, float limit) {
   float footprint = 1.5 * texel_size_at(receiver.position, layer);
   float nearest = nearest_depth(receiver.position, limit + footprint, layer);
@@ -28,7 +29,7 @@ Search narrow_search(Receiver receiver, Light light, int layer, float limit) {
   return Search(min(limit, radius), nearest);
 }
 
-// The first step: the widest layer sees every caster, and none is nearer to the light than its map begins.
+// The first step: the widest layer contains every caster, and none is nearer to the light than its near plane.
 float search_radius(Receiver receiver, Light light) {
   int widest = widest_layer(receiver, light);
   float all = penumbra_radius(receiver, receiver.position.z - least_depth(widest), light);

@@ -1,4 +1,4 @@
-// What a receiver sees of the light, and by which layer of its map.
+// A receiver's visibility, and the layer of the shadow map from which it was computed.
 #include "shadow/light.glsl"
 
 struct Shadowed {

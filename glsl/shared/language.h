@@ -1,4 +1,4 @@
-// Lets C++ read GLSL structs and plain GLSL functions: the same names for the same types.
+// Lets C++ compile GLSL structs and plain GLSL functions by giving GLSL's types and functions the same names in C++.
 #ifndef PENUMBRA_LANGUAGE_H
 #define PENUMBRA_LANGUAGE_H
 

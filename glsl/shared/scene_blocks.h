@@ -1,4 +1,4 @@
-// What shaders read of a scene. Read by C++ and GLSL; std430, the material std140.
+// The scene's data in shader buffers. Shared by C++ and GLSL; std430, but std140 for the material.
 #ifndef PENUMBRA_SCENE_BLOCKS_H
 #define PENUMBRA_SCENE_BLOCKS_H
 
@@ -9,11 +9,11 @@ GLSL_BEGIN
 // InstanceBlock::flags
 #define INSTANCE_TRIANGLES 1u
 
-// A primitive at a place.
+// One instance of a primitive.
 struct InstanceBlock {
   mat4 world;
   mat4 last_world;   // in the last frame
-  mat4 area;         // cofactors of world: takes cross products along
+  mat4 area;         // cofactor matrix of world: transforms cross products, and so normals
   uint first_index;  // of the primitive, in the index buffer
   uint base_vertex;  // added to each index
   uint flags;
@@ -28,14 +28,14 @@ struct InstanceBlock {
 #define TEXTURE_EMISSIVE 4
 #define TEXTURE_COUNT 5
 
-// MaterialBlock::flags: bit i says that texture i is there, bit 8 + i that it uses the second UV set.
+// MaterialBlock::flags: bit i: texture i exists; bit 8 + i: it uses the second UV set.
 #define MATERIAL_SECOND_UV 8
 #define MATERIAL_UNLIT 0x10000u
 
 struct MaterialBlock {
   vec4 base_color;
   vec3 emissive;
-  float alpha_cutoff;  // alpha below it is not there; for blended materials, what casts a shadow
+  float alpha_cutoff;  // lower alpha is discarded; blended materials: lower alpha casts no shadow
   float metallic;
   float roughness;
   float normal_scale;
@@ -50,8 +50,8 @@ struct MaterialBlock {
 
 // One primitive to be skinned or morphed. Counts are in vertices, offsets in elements of their buffers.
 struct DeformBlock {
-  uint source;      // first vertex at rest
-  uint target;      // first vertex of the result
+  uint source;      // first vertex of the undeformed primitive
+  uint target;      // first vertex of the deformed result
   uint count;
   uint influences;  // first joint record; only with joints
   uint joints;      // first joint matrix

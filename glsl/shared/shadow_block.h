@@ -1,4 +1,4 @@
-// What the shadow passes know of the view and of one light. Read by C++ and GLSL; std140.
+// The uniforms of the shadow passes: the view and one light. Shared by C++ and GLSL; std140.
 #ifndef PENUMBRA_SHADOW_BLOCK_H
 #define PENUMBRA_SHADOW_BLOCK_H
 
@@ -8,14 +8,14 @@ GLSL_BEGIN
 
 #define SHADOW_MAX_LAYERS 8
 
-// Where one layer of a light's shadow map lies, and what its depths mean. Only glsl/shadow/light_projection.glsl reads
-// it.
+// The placement of one layer of a light's shadow map, and the range of its depths. Only
+// glsl/shadow/light_projection.glsl reads it.
 struct LayerBlock {
   vec2 center;             // of the map, light space, metres
   float widths_per_metre;  // map widths
   float texel;             // width of a texel, metres
   float near_depth;        // light-space depth that the map stores as 0, metres
-  float depth_range;       // from there to what it stores as 1, metres
+  float depth_range;       // from near_depth to the depth that the map stores as 1, metres
   float rounding;          // bias along the light that covers rounding, metres
   float pad;
 };
@@ -23,13 +23,13 @@ struct LayerBlock {
 struct ShadowBlock {
   mat4 clip_to_view;
   mat4 view_to_light;      // orthogonal, determinant -1 (light space is left-handed); its origin is the camera
-  mat4 world_to_light;     // its rotation alone
+  mat4 world_to_light;     // the rotation part of view_to_light, from world space
   mat4 view_to_last_clip;  // from this frame's view space
   mat4 last_clip_to_view;  // and back
   vec4 viewport;           // xy: its lowest pixel; zw: size, pixels
   vec4 jitter;             // NDC; xy: of this frame; zw: of the last one
   vec4 pixel_size;         // xy: metres that a pixel spans where clip w is 1; zw: clip w is z · view z + w
-  vec4 noise_shift;        // on the torus; xy: of the blocker step; zw: of the filter step
+  vec4 noise_shift;        // toroidal shift of the noise; xy: blocker step; zw: filter step
   vec2 depth_to_ndc;       // x: scale; y: offset
   float sky_depth;         // stored depth of pixels that show nothing
   int octahedral_normals;  // 1: normals are octahedral; 0: xyz
@@ -37,7 +37,7 @@ struct ShadowBlock {
   int light_is_square;     // 1: square; 0: disc
   int layer_count;         // of the shadow map
   float map_size;          // side of each layer, texels
-  int history_valid;       // 1: the last frame's shadow may be used
+  int history_valid;       // 1: the last frame's history is valid
   int has_motion;          // 1: the caller brings motion vectors
   int casters_moved;       // 1: casters moved, and the movement map shows where
   float moved_depth;       // least light-space depth of what moved, metres

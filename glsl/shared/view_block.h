@@ -1,4 +1,4 @@
-// What passes that draw geometry know of the camera. Read by C++ and GLSL; std140.
+// The camera, for passes that draw geometry. Shared by C++ and GLSL; std140.
 #ifndef PENUMBRA_VIEW_BLOCK_H
 #define PENUMBRA_VIEW_BLOCK_H
 
@@ -10,9 +10,9 @@ struct ViewBlock {
   mat4 world_to_clip;
   mat4 last_world_to_clip;
   vec4 camera;    // xyz: position, world, metres; w: 1 for orthographic
-  vec4 forward;   // xyz: where it looks, world, unit; w: near plane, metres
-  vec4 ray_x;     // xyz: how a ray turns with x in NDC: it is forward + x ray_x + y ray_y; 0 if orthographic
-  vec4 ray_y;     // the same with y
+  vec4 forward;   // xyz: view direction, world, unit; w: near plane, metres
+  vec4 ray_x;     // xyz: the ray through NDC (x, y) is forward + x ray_x + y ray_y; 0 if orthographic
+  vec4 ray_y;     // xyz: see ray_x
   vec4 viewport;  // xy: size, pixels; zw: its reciprocal
 };
 

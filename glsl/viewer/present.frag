@@ -1,4 +1,4 @@
-// What the viewer shows: one of two pictures, both, or how they differ.
+// The viewer's image: one of two pictures, both side by side, or their difference.
 const int comparison_a = 0;
 const int comparison_b = 1;
 const int comparison_wipe = 2;
@@ -9,9 +9,9 @@ layout(binding = 0) uniform sampler2D picture_a;
 layout(binding = 1) uniform sampler2D picture_b;
 
 uniform int comparison;
-uniform float wipe;         // where the second picture begins, 0..1 of the window's width
+uniform float wipe;         // x where the second picture begins, 0..1 of the window's width
 uniform float gain;         // of the difference
-uniform float zoom;         // window pixels a picture's pixel
+uniform float zoom;         // window pixels for each pixel of the picture
 uniform vec2 center;        // the picture's point in the middle of the window, pixels from its lower left
 uniform vec2 picture_size;  // pixels at full resolution, however large the textures are
 uniform vec2 window_size;   // pixels

@@ -11,7 +11,7 @@
 
 namespace penumbra {
 
-// A parameter's value: switch, count, quantity or one of a list of words.
+// A parameter's value: a switch, an integer, a real number or one of a list of words.
 using ParamValue = std::variant<bool, int, float, std::string>;
 
 // How a value reaches GLSL. Either way the shader reads an identifier of the parameter's name with '.'
@@ -30,7 +30,7 @@ struct Param {
   std::string help;  // one sentence
   ParamBinding binding = ParamBinding::uniform;
   std::vector<std::string> choices;  // the allowed words when default_value is a string
-  // Names that it had in earlier versions: whoever still uses one is told the present name.
+  // Names that it had in earlier versions: the error for using one of them gives the present name.
   std::vector<std::string> former_names = {};
 };
 

@@ -12,9 +12,9 @@ namespace penumbra::gl {
 
 using GetProcAddress = void* (*)(const char* name);
 
-// Loads Penumbra's OpenGL entry points from the driver of the current context. The contexts below do it themselves; an
-// engine with a context of its own calls it once before anything else here. Throws Error naming what is missing of
-// OpenGL 4.5 core: a function, the version, the core profile, or any context at all.
+// Loads Penumbra's OpenGL entry points from the driver of the current context. The contexts below do this themselves;
+// an engine with its own context calls it once before anything else here. Throws Error that names what OpenGL 4.5 core
+// lacks here: a function, the version, the core profile, or a current context.
 void load_api(GetProcAddress get_proc_address);
 
 enum class Backend { egl, osmesa, window };
@@ -33,8 +33,8 @@ struct ContextOptions {
 };
 
 // An OpenGL 4.5 core context. Making it current also loads Penumbra's entry points from its driver. GL objects must be
-// destroyed before their context, while it is current. The entry points are global to the process, so contexts can only
-// be used in turn, on one thread.
+// destroyed before their context, while it is current. The entry points are global to the process, so several contexts
+// can only be used alternately, on one thread.
 class Context {
  public:
   virtual ~Context() = default;
@@ -48,7 +48,7 @@ std::unique_ptr<Context> make_egl_context(const ContextOptions& options = {});
 std::unique_ptr<Context> make_osmesa_context(const ContextOptions& options = {});  // loads libOSMesa at run time
 std::unique_ptr<Context> make_window_context(const ContextOptions& options = {});  // GLFW
 
-// The window of a context that make_window_context() made, for the caller to read events from and to swap buffers; null
+// The window of a context that make_window_context() made, with which the caller polls events and swaps buffers; null
 // for other backends. It is destroyed with its context.
 GLFWwindow* window_of(const Context& context);
 

@@ -67,7 +67,8 @@ const char* error_name(GLenum error) {
   }
 }
 
-// Empties the driver's error flags. A lost context has one without end.
+// Reads, and thereby clears, the driver's error flags. Stops at GL_CONTEXT_LOST, which a lost context returns without
+// end.
 std::vector<GLenum> take_error_flags() {
   std::vector<GLenum> flags;
   for (GLenum flag = glGetError(); flag != GL_NO_ERROR; flag = glGetError()) {

@@ -17,25 +17,26 @@ void enable_debug_output();
 bool debug_enabled();
 
 // Throws Error with the first GL error or debug message of type error since the last call. In a debug context, a Pass
-// calls it after each step; elsewhere the frame's owner may. `where` names the place when no debug group was open.
+// calls it after each step; in other contexts the code that renders the frame may call it. `where` names the place when
+// no debug group was open.
 void check_errors(std::string_view where);
 // Tells whether a call that allocates storage ran out of memory. OpenGL keeps an error flag until it is read, and
-// drivers keep few of them, so a flag of an earlier call, the caller's perhaps, would hide ours. The constructor
-// therefore reads the flags that are there. The caller's own glGetError() will not see those any more, so they are
-// logged as warnings, by name; in a debug context check_errors() throws them as usual.
+// drivers keep few of them, so a flag raised by an earlier call, perhaps the caller's, would hide this one's. The
+// constructor therefore reads all flags that are set. The caller's own glGetError() will not see those any more, so
+// they are logged as warnings, by name; in a debug context check_errors() throws them as usual.
 class StorageCheck {
  public:
   // `what`: "texture 'mask'"; it must outlive the check.
   explicit StorageCheck(std::string_view what);
-  // To be called once, after the allocation. Its other errors are logged or thrown likewise.
+  // To be called once, after the allocation. Other errors of the allocation are logged or thrown in the same way.
   bool ran_out();
 
  private:
   std::string_view what_;
-  std::string earlier_;  // the message that check_errors() is to throw
+  std::string earlier_;  // an earlier error's message, for check_errors() to throw
 };
 
-// A debug group in a scope.
+// Opens a debug group and closes it at the end of the scope.
 class DebugGroup {
  public:
   explicit DebugGroup(std::string_view name);

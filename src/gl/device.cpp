@@ -19,7 +19,7 @@ void delete_vertex_array(GLuint id) { glDeleteVertexArrays(1, &id); }
 
 // What identifies a framebuffer's attachment; zeros: none. Penumbra's own textures are identified by serial, as a
 // driver reuses ids and a framebuffer keeps drawing to the deleted texture. Foreign textures have no serial: they are
-// attached for every pass anew, so only what decides about completeness is compared.
+// attached again for every pass, so only what affects framebuffer completeness is compared.
 struct AttachmentKey {
   std::uint64_t serial = 0;
   GLenum target = 0, format = 0;
@@ -142,7 +142,7 @@ const Buffer& Device::scratch(std::string_view name, std::size_t bytes) {
   return buffer;
 }
 
-// Called in every frame, mostly for what is not there: so it visits nothing but what it deletes.
+// Called in every frame, mostly with prefixes that match nothing, so it visits only the entries that it deletes.
 void Device::drop(std::string_view prefix) {
   const auto has_prefix = [prefix](const auto& entry) { return entry->first.starts_with(prefix); };
   auto target = impl_->targets.lower_bound(prefix);

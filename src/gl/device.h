@@ -26,15 +26,15 @@ class Device {
   ShaderLibrary shaders;
   Timers timers;
 
-  // The texture of that name, made again when the description changes. The reference stays valid; contents persist
-  // until then.
+  // The texture of that name; created on first use, and again when the description changes. The reference stays valid;
+  // contents persist until the texture is created again.
   const Texture& target(std::string_view name, const TextureDesc& desc);
-  // A buffer of at least `bytes`, likewise (grows, never shrinks).
+  // A buffer of at least `bytes` of that name, kept in the same way (grows, never shrinks).
   const Buffer& scratch(std::string_view name, std::size_t bytes);
   const Sampler& sampler(const SamplerDesc& desc);
   // Deletes the targets and buffers whose names start with `prefix`; references to them become invalid.
   void drop(std::string_view prefix);
-  // All textures, in the order of their names; the pointers are valid as long as the references are.
+  // All textures, in the order of their names; the pointers are valid as long as references from target() are.
   struct NamedTarget {
     std::string_view name;
     const Texture* texture = nullptr;
@@ -47,7 +47,7 @@ class Device {
   friend class Pass;
   GLuint framebuffer(std::string_view name, std::span<const Attachment> colors, const Attachment* depth);
   GLuint empty_vertex_array();
-  // Whether the context has the debug callback; asked of OpenGL once.
+  // Whether the context has the debug callback; queried from OpenGL once.
   bool is_debugged();
 
   struct Impl;

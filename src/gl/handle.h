@@ -6,8 +6,8 @@
 
 namespace penumbra::gl {
 
-// One GL object name; move-only. Owned, so that Deleter, a function that deletes one name, is called in the end; or
-// that of an object of somebody else's, which is left alone.
+// One GL object name; move-only. If owned, the destructor calls Deleter, a function that deletes one name; if not, the
+// object belongs to other code and is not deleted.
 template <void (*Deleter)(GLuint)>
 class Handle {
  public:

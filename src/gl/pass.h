@@ -30,10 +30,10 @@ struct IndirectCommands {
   std::size_t count = 1;
 };
 
-// A pass in a scope. With attachments it binds a framebuffer, the viewport of the first attachment's level, and the
-// described state; without any (compute) it is a debug group and a timer. In a debug context every step throws Error
-// for the GL errors so far. Those of the caller's own draw calls after the last step are thrown by the first step of
-// the next pass, with this pass's name.
+// A render or compute pass that lasts for a scope. With attachments it binds a framebuffer, the viewport of the first
+// attachment's level, and the described state; without any (compute) it is a debug group and a timer. In a debug
+// context every step throws Error for the GL errors so far. Errors of the caller's own draw calls after the last step
+// are thrown by the next pass's first step, with this pass's name.
 class Pass {
  public:
   // Throws Error when the driver refuses the attachments, or a stencil is described and the depth texture has none.
@@ -48,21 +48,21 @@ class Pass {
   void set_front_clockwise(bool clockwise);     // mirrored instances
   void set_viewport(int x, int y, int width, int height);
 
-  // Draws what a buffer of commands asks for, with the vertex array that is bound. `mode`: GL_TRIANGLES…; `index_type`:
-  // GL_UNSIGNED_INT, GL_UNSIGNED_SHORT. The timers count the draws, but not their triangles, which only the buffer
-  // knows.
+  // Runs the draw commands in a buffer, with the vertex array that is bound. `mode`: GL_TRIANGLES…; `index_type`:
+  // GL_UNSIGNED_INT, GL_UNSIGNED_SHORT. The timers count the draws, but not their triangles, whose number only the
+  // GPU's buffer contains.
   void draw_arrays_indirect(GLenum mode, const IndirectCommands& draws);
   void draw_elements_indirect(GLenum mode, GLenum index_type, const IndirectCommands& draws);
   // Groups of the current compute program that cover width × height × layers invocations; then a barrier().
   void dispatch(int width, int height, int layers = 1);
-  // As many groups as the DispatchCommand at an offset in bytes (a multiple of 4) says; then a barrier().
+  // Dispatches the number of groups in the DispatchCommand at an offset in bytes (a multiple of 4); then a barrier().
   void dispatch_indirect(const Buffer& command, std::size_t offset = 0);
   // Makes what shaders have written to images and storage buffers visible to all later commands: texture and image
   // reads, storage and uniform buffers, vertices and indices, indirect commands, copies and read-backs, attachments. To
   // be called after draws whose shaders write to these; dispatches do it themselves.
   void barrier();
 
-  // Adds the caller's own draw calls to what the timers count.
+  // Adds the caller's own draw calls to the timers' counts.
   void count_draws(std::size_t draws, std::size_t triangles) { device_.timers.count({draws, triangles, 0}); }
 
  private:
@@ -75,7 +75,7 @@ class Pass {
   bool debug_;
   const Program* program_ = nullptr;
   GLuint framebuffer_ = 0;
-  std::vector<GLenum> foreign_;  // attachment points of the framebuffer that hold foreign textures
+  std::vector<GLenum> foreign_;  // attachment points that hold textures which Penumbra did not make
 };
 
 // Unbinds textures and samplers from the first `count` units.

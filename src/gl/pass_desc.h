@@ -32,7 +32,7 @@ enum class Blend { off, premultiplied_over, min, max, add };
 enum class StencilTest { always, never, less, less_equal, equal, not_equal, greater_equal, greater };
 enum class StencilOp { keep, zero, replace, increment, increment_wrap, decrement, decrement_wrap, invert };
 
-// What triangles that face one way do to the stencil.
+// Stencil test and operations for front- or back-facing triangles.
 struct StencilFace {
   StencilTest test = StencilTest::always;
   StencilOp fail = StencilOp::keep;        // the stencil test failed

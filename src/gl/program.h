@@ -14,8 +14,8 @@ namespace penumbra::gl {
 
 void delete_program(GLuint id);
 
-// What a program is made of: file names under glsl/. Either vertex with, if wanted, geometry and, unless depth only,
-// fragment; or compute.
+// What a program is made of: file names under glsl/. Either a vertex shader, with an optional geometry shader and a
+// fragment shader (none if only depth is written); or a compute shader.
 struct ProgramDesc {
   std::string name;  // the object's label and the name in messages
   std::string vertex, geometry, fragment, compute;

@@ -13,10 +13,10 @@
 namespace penumbra::gl {
 
 // Compiles programs on first use and keeps them. When a file changes, changed() marks the programs that depend on it,
-// and reload(), or the next get(), compiles them again in the same way as the first time. As long as that fails, the
-// last good program is used. Each value of a compiled-in parameter makes a program of its own; where the caller counts
-// frames with next_frame(), programs that were not used for more than `idle_after` of them are idle: reload() leaves
-// them out, their next get() compiles them, and beyond `most_idle` of them the least recently used are deleted.
+// and reload(), or the next get(), compiles them again in the same way as the first time. As long as that fails, get()
+// returns the last program that compiled. Each value of a compiled-in parameter needs a separate program. If the caller
+// counts frames with next_frame(), programs not used for more than `idle_after` frames are idle: reload() skips them,
+// their next get() compiles them, and if there are more than `most_idle` of them, the least recently used are deleted.
 class ShaderLibrary {
  public:
   static constexpr std::size_t most_idle = 64;

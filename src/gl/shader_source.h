@@ -11,8 +11,8 @@
 
 namespace penumbra::gl {
 
-// Shader files by name, names relative to glsl/ ("lib/kernel.glsl"). Built-in ones are embedded in the library; a
-// directory given by the user overlays them.
+// Shader files by name, names relative to glsl/ ("lib/kernel.glsl"). Built-in ones are embedded in the library; files
+// in a directory given by the user replace them.
 class ShaderFiles {
  public:
   ShaderFiles() = default;  // built-in only

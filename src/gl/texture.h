@@ -25,9 +25,8 @@ struct TextureDesc {
   bool operator==(const TextureDesc&) const = default;
 };
 
-// A labelled texture with immutable storage. Throws Error when it is larger than the device allows or memory runs
-// out.
-// Sampled with nearest filtering and clamp-to-edge unless a Sampler says otherwise.
+// A labelled texture with immutable storage. Throws Error when it is larger than the device allows or memory runs out.
+// Sampled with nearest filtering and clamp-to-edge unless a Sampler is bound.
 class Texture {
  public:
   Texture() = default;

@@ -64,7 +64,7 @@ class Timers {
   // Waits for what is outstanding. Rows in the order of their first appearance; the last row is "frame".
   std::vector<Row> rows();
 
-  // Removes and returns the frames whose times are complete, without waiting: for programs that run for long.
+  // Removes and returns the frames whose times are complete, without waiting: for programs that run for a long time.
   struct Taken {
     std::size_t first = 0;         // number of the frame that each row begins with
     std::vector<Row> rows;         // all of one length
@@ -109,7 +109,7 @@ class Timers {
   double cpu_started_ = 0, cpu_waited_ = 0;  // of the open frame, milliseconds
   std::vector<double> cpu_;
   std::map<std::string, std::size_t, std::less<>> row_indices_;
-  std::map<std::string, Work> open_work_, work_;  // of the frame that is open, of the one before
+  std::map<std::string, Work> open_work_, work_;  // of the open frame, and of the last one that ended
 };
 
 }  // namespace penumbra::gl

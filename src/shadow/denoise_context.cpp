@@ -37,7 +37,8 @@ PackedMask DenoiseContext::evaluate_packed(const gl::Texture* last_surfaces) con
   return packed;
 }
 
-// The technique's visibility(), or what its `resolve` left in the mask. The latter in a fragment shader always.
+// Runs the technique's visibility(), or packs the mask that its `resolve` filled. The latter always in a fragment
+// shader.
 void DenoiseContext::run_mask_pass(const PackedMask& packed, const gl::Texture* last_surfaces) const {
   const Technique& technique = work_.technique;
   const bool resolved = static_cast<bool>(technique.resolve);

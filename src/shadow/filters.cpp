@@ -96,7 +96,6 @@ void run_pass(const LightWork& work, const Step& step, const FilterInputs& sourc
 
 }  // namespace
 
-// What "none" is where texels have to become a mask all the same.
 const Filter& unfiltered() {
   static const Filter filter{.name = std::string(unpack_name),
                              .summary = "Leaves visibility as it is.",

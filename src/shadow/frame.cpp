@@ -30,7 +30,7 @@ MovementForm movement_form(const ParamSet& params) {
   return params.get_word("movement.map") == "average" ? MovementForm::average : MovementForm::maximum;
 }
 
-// Whether the denoiser wants a map of what moved, and the parameters do not refuse it.
+// Whether the denoiser needs a movement map, and the parameters do not turn it off.
 bool asks_for_movement(const LightWork& work) {
   const auto listed = [&] {
     const std::vector<std::string>& needs = work.denoiser->needs;
@@ -39,7 +39,8 @@ bool asks_for_movement(const LightWork& work) {
   return !work.remembered.empty() && work.params().get_word("movement.map") != "none" && listed();
 }
 
-// What of the last frame may be used in this one: nothing where casters may have moved and no map can show which.
+// Decides whether the history of the last frame may be used: not if casters may have moved and no movement map can show
+// where.
 void plan_history(const LightWork& work, bool has_shadow_map) {
   LightFrame& frame = work.frame;
   frame.history = work.state.age > 0 && !work.remembered.empty();
@@ -54,7 +55,7 @@ void plan_history(const LightWork& work, bool has_shadow_map) {
   if (asks && !work.inputs.draw && !none_moved) frame.history = false;
 }
 
-// The shadow map, drawn or as the caller brings it, and where casters moved.
+// The shadow map, drawn or supplied by the caller, and the movement map.
 void draw_maps(const LightWork& work) {
   const Inputs& inputs = work.inputs;
   LightFrame& frame = work.frame;
@@ -90,7 +91,7 @@ void upload_samples(const LightWork& work, const Technique& technique, const cha
   tables.buffer->write(std::as_bytes(std::span(points)));
 }
 
-// What every program reads of the parameters, the view and the light.
+// Uploads the uniforms that every program reads: the parameters, the view and the light.
 void upload_blocks(const LightWork& work) {
   LightState& state = work.state;
   const int age = static_cast<int>(state.age);
@@ -119,7 +120,7 @@ void draw_layer(const LightWork& work) {
   }
 }
 
-// The memory of what this frame did not use and the last one did.
+// Releases the targets that the last frame used and this one did not.
 void give_back_unused(const LightWork& work) {
   LightState& state = work.state;
   std::erase_if(state.kept, [&](const auto& entry) {

@@ -9,7 +9,7 @@ namespace penumbra::shadow {
 
 namespace {
 
-// Matrices that a caller has stored or made again: equal but for rounding.
+// Whether two matrices are equal up to rounding, since the caller may have computed them again.
 bool same_matrix(const glm::mat4& a, const glm::mat4& b) {
   constexpr float rounding = 1e-5f;
   for (int column = 0; column < 4; ++column) {
@@ -22,14 +22,14 @@ bool same_matrix(const glm::mat4& a, const glm::mat4& b) {
   return true;
 }
 
-// Whether the parameter belongs to a choice that was not made: another technique's, or another denoiser's.
+// Whether the parameter belongs to a technique or denoiser that is not the chosen one.
 bool is_of_other(const std::string& name, const ParamSet& params, const char* choice) {
   const std::string owner = name.substr(0, name.find('.'));
   const std::vector<std::string>& choices = params.row(choice).choices;
   return owner != params.get_word(choice) && std::ranges::find(choices, owner) != choices.end();
 }
 
-// Whether all that the technique and the denoiser can see is the same.
+// Whether all parameters that the technique and the denoiser can read are the same.
 bool same_values(const ParamSet& a, const ParamSet& b) {
   if (!a.contains("technique")) return false;
   return std::ranges::all_of(b.rows(), [&](const Param& row) {

@@ -13,10 +13,10 @@ namespace penumbra::shadow {
 
 namespace {
 
-// Sets that a step takes in turn.
+// Number of point sets through which a step cycles.
 constexpr int set_count = 16;
 
-// How SampleSet::Step is called in the names of parameters and in GLSL.
+// The name of a SampleSet::Step in parameter names and in GLSL.
 const char* name_of(SampleSet::Step step) { return step == SampleSet::Step::blocker ? "blocker" : "filter"; }
 
 void append_table(std::vector<glm::vec4>& tables, std::size_t size, const std::vector<glm::vec2>& points) {
@@ -54,7 +54,7 @@ const std::vector<std::string>& scramble_names() {
 
 bool rotates_samples(const Technique& technique, const ParamSet& params) {
   const std::string& scramble = technique.scramble.empty() ? params.get_word("sampling.scramble") : technique.scramble;
-  // A rotated square would be another light.
+  // A square must not be rotated: that would be a different light.
   return scramble == "rotate" && params.get_word("sun.shape") == "disc";
 }
 

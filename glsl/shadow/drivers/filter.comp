@@ -1,4 +1,4 @@
-// A pass of a filter whose groups share what they read. Included after the filter.
+// A filter pass whose work groups load what they read into shared memory. Included after the filter.
 #include "shadow/drivers/filter.glsl"
 #include "shadow/drivers/filter_output.glsl"
 
@@ -12,7 +12,7 @@ uniform int mask_layer;
 layout(binding = 0, r32ui) uniform writeonly restrict uimage2D texels;
 #endif
 
-// The group's pixels with an apron of the filter's reach.
+// The group's pixels, with a border as wide as the filter's reach.
 const ivec2 reach_of = ivec2(REACH_X, REACH_Y);
 const ivec2 tile_size = ivec2(GROUP_X, GROUP_Y) + 2 * reach_of;
 shared uint tile_texels[tile_size.x * tile_size.y];
@@ -30,7 +30,7 @@ int tile_index(ivec2 pixel) {
 uint texel_at(ivec2 pixel) { return tile_texels[tile_index(pixel)]; }
 float stored_depth_at(ivec2 pixel) { return tile_depths[tile_index(pixel)]; }
 
-// Outside of the viewport nothing is read, here and later.
+// Pixels outside of the viewport are never read, neither here nor by the filter.
 void load_tile() {
   for (int i = int(gl_LocalInvocationIndex); i < tile_size.x * tile_size.y; i += GROUP_X * GROUP_Y) {
     ivec2 pixel = tile_corner() + ivec2(i % tile_size.x, i / tile_size.x);

@@ -1,11 +1,11 @@
-// What filters are written in: each one's file includes this and defines
+// Functions for filters. Each filter's file includes this one and defines
 //   uint filtered(ivec2 pixel);
 #include "shadow/drivers/gbuffer.glsl"
 #include "lib/packed_texel.glsl"
 #include "lib/projection.glsl"
 
-// Of pixels within the viewport and within Filter::reach of the filtered one: the packed texel, and the depth as
-// stored. The drivers define them.
+// The packed texel and the stored depth of a pixel, which must be within the viewport and within Filter::reach of the
+// filtered one. The drivers define these functions.
 uint texel_at(ivec2 pixel);
 float stored_depth_at(ivec2 pixel);
 
@@ -21,14 +21,14 @@ uint with_visibility(uint texel, float visibility) {
   return (texel & 0x8000ffffu) | (pack_texel(0.0, visibility, false) & 0x7fff0000u);
 }
 
-// The plane of a pixel's receiver, as its neighbours are measured against it.
+// The plane of a pixel's receiver, for measuring its neighbours' distances from it.
 struct Surface {
   vec3 position;    // light space
   float depth;      // as stored
   vec3 above;       // see plane_distance()
   vec3 inverse_w;   // the same
   float own_inverse_w;
-  vec2 pixels;      // that a metre on the plane takes along x and along y
+  vec2 pixels;      // per metre on the plane, along x and along y
 };
 
 // A point q that is seen at clip-space position c has q = Q.xyz / Q.w with Q = clip_to_view · c, so its distance from
@@ -39,7 +39,7 @@ Surface surface_at(ivec2 pixel) {
   vec3 normal = view_direction(light_normal_at(pixel));
   float clip_w = shadow.pixel_size.z * at.z + shadow.pixel_size.w;
   vec2 size = abs(shadow.pixel_size.xy * clip_w);
-  // The view ray: where the point goes as depth changes.
+  // The view ray: the direction in which the point moves as depth changes.
   vec3 ray = shadow.clip_to_view[2].xyz - at * shadow.clip_to_view[2].w;
   vec3 step_of = vec3(2.0 / shadow.viewport.zw, shadow.depth_to_ndc.x);
   vec3 above = (vec4(normal, -dot(normal, at)) * shadow.clip_to_view).xyz * step_of;
@@ -50,20 +50,22 @@ Surface surface_at(ivec2 pixel) {
                       pixels_a_metre(vec3(0.0, size.y, 0.0), ray, normal)));
 }
 
-// How far a neighbour lies off the receiver's plane, in units of filter.edge pixels at the receiver. Not for the sky.
+// Distance of a neighbour from the receiver's plane, in units of filter.edge pixels at the receiver. Not for sky
+// pixels.
 float plane_distance(Surface surface, ivec2 offset, float depth) {
   vec3 from_receiver = vec3(vec2(offset), depth - surface.depth);
   return dot(surface.above, from_receiver) / (surface.own_inverse_w + dot(surface.inverse_w, from_receiver));
 }
 
-// Mean blocker distance that the size of a pixel's kernel is taken from, metres; 0: nothing is to be filtered. A pixel
-// that met no blocker may lie in a penumbra all the same, and few blocker taps miss often where little light is lost:
-// then those of its neighbours that met one decide.
+// Mean blocker distance from which a pixel's kernel size is computed, metres; 0: the pixel is not filtered. A pixel
+// that found no blocker may still lie in a penumbra, since few taps often miss a blocker that covers little of the
+// light; then the neighbours that found one decide.
 float kernel_distance(ivec2 pixel, uint texel) {
   float own = texel_distance(texel);
   float sum = own;
   float found = own > 0.0 ? 1.0 : 0.0;
-  // Not a constant, so that compilers keep the loop: unrolled, its reads would cost something where it is not run.
+  // Not a constant, so that compilers do not unroll the loop: unrolled, its reads would cost time even where it is
+  // skipped.
   ivec2 move = ivec2(1, 2);
   int count = own > 0.0 || is_sky_depth(stored_depth_at(pixel)) ? 0 : 8;
   for (int i = 0; i < count; ++i) {
@@ -85,14 +87,14 @@ vec2 kernel_sigma(Surface surface, float distance_to) {
 const float least_sigma = 0.3;
 
 // Taps on a line of pixels through the filtered one: itself, and others evenly spaced over `radius`, at most
-// filter.taps to a side, within the viewport. Noise that differs from pixel to pixel comes down by the root of their
-// number, with 6 to a tenth over both axes, below what blurring itself is off by. What blue noise is better by than
-// white comes only from reading all pixels. Spaced alike for every pixel they would leave their lattice in the picture,
-// so each pixel shifts them.
+// filter.taps to a side, within the viewport. Per-pixel noise falls with the square root of their number: 6 taps to a
+// side reduce it to a tenth over both axes, less than the error of blurring itself. Blue noise is better than white
+// only if all pixels are read. With the same offsets at every pixel their lattice would be visible, so each pixel
+// shifts them.
 struct TapLine {
   int first, last;
   float spacing;  // pixels, at least 1
-  float shift;    // pixels, less than half the spacing; 0 where none are left out
+  float shift;    // pixels, less than half the spacing; 0 where no pixels are skipped
   float radius;   // pixels
 };
 
@@ -111,7 +113,7 @@ TapLine taps_along(int axis, ivec2 pixel, float radius) {
   return TapLine(-min(side, below), min(side, above), spacing, shift, radius);
 }
 
-// Within the radius, shifted or not: no more is shared by a group.
+// Stays within the radius even when shifted, because a work group shares no pixels beyond it.
 int tap_offset(TapLine taps, int index) {
   float offset = float(index) * taps.spacing + taps.shift;
   return index == 0 ? 0 : int(roundEven(clamp(offset, -taps.radius, taps.radius)));

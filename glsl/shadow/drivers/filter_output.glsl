@@ -1,4 +1,4 @@
-// What a filter's last pass leaves of a texel. Included by the drivers.
+// The output of a filter's last pass for a texel. Included by the drivers.
 layout(binding = 13) uniform usampler2D source_notes;
 
 // See Mask.

@@ -1,14 +1,14 @@
-// The receivers of the caller's depth and normals: what a pass of a technique's own needs to go on from a pixel.
+// Reads receivers from the caller's depth and normals, for a technique's own passes.
 #include "shadow/light.glsl"
 #include "lib/octahedral.glsl"
 
 layout(binding = 2) uniform sampler2D receiver_depth;
 layout(binding = 3) uniform sampler2D receiver_normal;
 
-// Whether there is nothing but sky.
+// Whether the pixel shows only sky.
 bool is_sky(ivec2 pixel) { return texelFetch(receiver_depth, pixel, 0).x == shadow.sky_depth; }
 
-// View space (metres) of a pixel that is not sky.
+// View-space position (metres) of a pixel that is not sky.
 vec3 view_position_at(ivec2 pixel) {
   float depth = texelFetch(receiver_depth, pixel, 0).x;
   vec2 ndc = (vec2(pixel) + 0.5 - shadow.viewport.xy) / shadow.viewport.zw * 2.0 - 1.0 - shadow.jitter.xy;

@@ -1,4 +1,4 @@
-// Blends a pixel with what the last frame's history holds of it: exponential smoothing (Deligiannis 2019, 2.28).
+// Blends a pixel with its history from the last frame: exponential smoothing (Deligiannis 2019, 2.28).
 #include "shadow/history.glsl"
 
 layout(binding = 11) uniform usampler2D last_texels;
@@ -19,8 +19,8 @@ float last_visibility(Reprojection last) {
   return sum;
 }
 
-// Least mean blocker distance, metres, about a pixel: the narrowest penumbra there is what must not be blurred. At a
-// rim, where few blocker taps meet none, a neighbour's stands in.
+// Least mean blocker distance, metres, among a pixel and its neighbours, because the narrowest penumbra must not be
+// blurred. At a penumbra's rim, where few blocker taps may find no blocker, a neighbour's distance is used.
 float penumbra_distance(ivec2 pixel, uint texel) {
   const ivec2 moves[4] = ivec2[4](ivec2(2, 1), ivec2(-1, 2), ivec2(-2, -1), ivec2(1, -2));
   ivec2 low = ivec2(shadow.viewport.xy);
@@ -33,9 +33,10 @@ float penumbra_distance(ivec2 pixel, uint texel) {
   return least;
 }
 
-// Weight of the present frame. Each bilinear look-up blurs by a variance of x(1 − x) pixels squared, with x the
-// fraction of a pixel that was moved by, and a weight of α lets (1 − α)/α of that add up: no more than a kernel of the
-// visibility filter's size blurs by. So narrow penumbrae, which have little noise, stay sharp while the camera moves.
+// Weight of the present frame. Each bilinear look-up blurs with a variance of x(1 − x) pixels squared, x being the
+// fractional part of the motion in pixels; with a weight of α this accumulates to (1 − α)/α times as much. α is chosen
+// so that the accumulated blur is no wider than the visibility filter's kernel: narrow penumbrae, which have little
+// noise, stay sharp while the camera moves.
 float present_weight(Reprojection last, Receiver receiver, float distance_to) {
   vec2 part = vec2(last.weights.y + last.weights.w, last.weights.z + last.weights.w);
   vec2 blur = part * (1.0 - part);
@@ -51,7 +52,7 @@ Kept blend(ivec2 pixel) {
   Receiver receiver = receiver_at(pixel);
   uvec2 surface = surface_bits(pixel, receiver);
   if (texel_invalid(now)) return Kept(now, surface);
-  // The mask found it kept; another program's rounding may not.
+  // The mask pass accepted the history, but this program may round differently and reject it.
   Reprojection last = reproject(receiver, pixel);
   if (last.refusal != HISTORY_KEPT) return Kept(now, surface);
   float weight = present_weight(last, receiver, penumbra_distance(pixel, now));

@@ -1,4 +1,4 @@
-// What a pixel of the mask holds. Included after a technique.
+// Computes a pixel of the mask. Included after a technique.
 #include "shadow/receive.glsl"
 #include "shadow/drivers/gbuffer.glsl"
 #if PACKED

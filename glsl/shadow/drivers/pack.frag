@@ -1,4 +1,4 @@
-// What a technique's own passes left in the mask, as the packed texels and notes that denoisers read.
+// Converts a mask that a technique's own passes filled to the packed texels and notes that denoisers read.
 #include "shadow/drivers/gbuffer.glsl"
 #include "shadow/drivers/packed.glsl"
 

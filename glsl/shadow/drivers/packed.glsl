@@ -1,4 +1,4 @@
-// A pixel of a mask that goes through history and filters: what it holds, and whether its history holds.
+// Writes a pixel of a mask for a denoiser: its packed texel, and whether its history is valid.
 #include "shadow/shadowed.glsl"
 #include "lib/packed_texel.glsl"
 #if HISTORY
@@ -13,7 +13,7 @@ struct PackedPixel {
 
 PackedPixel packed_pixel(Shadowed shadowed, Receiver receiver, uint refusal) {
   Visibility seen = shadowed.visibility;
-  // Kernels take their size from the distance, also those of techniques that give the size alone.
+  // Filters derive kernel sizes from the distance, so it is computed from the radius, which some techniques give alone.
   float distance_to = packed_distance(receiver.position, seen.penumbra_radius);
   return PackedPixel(pack_texel(distance_to, seen.visibility, refusal != HISTORY_KEPT),
                      pack_notes(shadowed.layer, seen.under_texel, refusal));
@@ -21,14 +21,14 @@ PackedPixel packed_pixel(Shadowed shadowed, Receiver receiver, uint refusal) {
 
 #if HISTORY
 
-// In the finest map that holds the disc: what is thinner than a texel of a coarser one may be missing there.
+// Looks in the finest layer that contains the disc, since coarser layers may miss casters thinner than a texel.
 bool movement_within(Receiver receiver, float radius, Light light) {
   int layer = finest_layer(receiver, radius, light);
   return movement_seen(receiver.position, radius + 1.5 * texel_size_at(receiver.position, layer), layer);
 }
 
-// Whether something moved that hides, or hid, a part of the light. The radius that the technique reads follows from the
-// casters of this frame; one that has left may have stood higher.
+// Whether something moved that blocks, or blocked, a part of the light. The technique's read radius depends on this
+// frame's casters only; one that has disappeared may have been nearer to the light.
 bool caster_moved(Receiver receiver, Light light) {
   float of_moved = penumbra_radius(receiver, receiver.position.z - shadow.moved_depth, light);
   return movement_within(receiver, light.read_radius, light) ||

@@ -1,6 +1,6 @@
 // Bilateral filter (2.42 of Deligiannis 2019) over the whole kernel: a Gaussian times exp(−½ (d/e)²), with d a
 // neighbour's distance from the receiver's plane and e the width of filter.edge pixels at the receiver. Not the
-// distance from the receiver itself, which would shut out a floor that is seen at a grazing angle. Sky never counts.
+// distance from the receiver itself, which would reject a floor seen at a grazing angle. Sky pixels have weight 0.
 #include "shadow/drivers/filter.glsl"
 
 uint filtered(ivec2 pixel) {

@@ -1,5 +1,6 @@
-// The bilateral filter along x, then along y, each with the pixel's own σ (Pham and van Vliet 2005). It is not the full
-// one, since the second pass cannot tell which of a neighbour's own neighbours were across an edge from this pixel.
+// The bilateral filter along x, then along y, each with the pixel's own σ (Pham and van Vliet 2005). This only
+// approximates the full filter, since the second pass does not know which of the pixels averaged into a neighbour lay
+// across an edge from this pixel.
 #include "shadow/drivers/filter.glsl"
 
 uint filtered(ivec2 pixel) {

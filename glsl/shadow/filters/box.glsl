@@ -1,5 +1,5 @@
 // Mean along x, then along y (Deligiannis 2019, section 2.7.1). Half its width is σ·√3, so that its variance is that of
-// the Gaussian; its ends count by the part of them that is within.
+// the Gaussian; the pixels at its ends are weighted by the part of them that lies within.
 #include "shadow/drivers/filter.glsl"
 
 uint filtered(ivec2 pixel) {

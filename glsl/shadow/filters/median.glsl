@@ -1,14 +1,14 @@
 // Median of the mean blocker distances of 3 × 3 pixels, before the size of a kernel is taken from them (Deligiannis
-// 2019, section 3.4). Few blocker taps miss a blocker that covers little of the disc, so single pixels of a penumbra
-// hold no distance. "None" is the distance 0 and takes part, but where most met no blocker and the pixel itself did, it
-// keeps its own: it has lost light, and without a kernel it would stay a dark dot. Halves that are not negative are in
-// the order of their bits.
+// 2019, section 3.4). With few taps, the blocker search misses blockers that cover little of the disc, so single pixels
+// of a penumbra have no distance. Such pixels take part with distance 0. But if most of the nine found no blocker and
+// the pixel itself did, it keeps its own distance: it is darkened, and without a kernel it would remain a dark dot.
+// Non-negative half floats are compared by their bits, which are in the same order.
 #include "shadow/drivers/filter.glsl"
 #include "lib/median.glsl"
 
-// The distances of two opposite neighbours. One of another surface says nothing of this one's penumbra, and must not
-// outvote it along an edge: the opposite one stands for it, and the pixel itself for both, so that there are always
-// nine.
+// The distances of two opposite neighbours. A neighbour on another surface says nothing about this pixel's penumbra and
+// must not affect the median along an edge: it is replaced by the opposite neighbour, or, if both are on other
+// surfaces, by the pixel itself, so that there are always nine values.
 uvec2 opposite_distances(ivec2 pixel, ivec2 offset, uint own, Surface surface) {
   ivec2 low = lowest_pixel();
   ivec2 high = highest_pixel();

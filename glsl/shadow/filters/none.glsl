@@ -1,4 +1,4 @@
-// For masks that are only to be unpacked.
+// No filter: used where the mask only has to be unpacked.
 #include "shadow/drivers/filter.glsl"
 
 uint filtered(ivec2 pixel) { return texel_at(pixel); }

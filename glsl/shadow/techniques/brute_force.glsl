@@ -1,11 +1,11 @@
-// The thesis's reference: PCSS with so many taps that noise is gone, or with every texel of the disc.
+// The thesis's reference: PCSS with so many taps that no noise is visible, or with every texel of the disc.
 #include "shadow/blockers.glsl"
 
 float read_radius(Receiver receiver, Light light) { return search_radius(receiver, light); }
 
 #if brute_force_every_texel
 
-// Texels of the square about the receiver that is `radius` wide to each side.
+// The texels of the square around the receiver that extends `radius` to each side.
 struct Region {
   ivec2 low, high;
 };

@@ -17,7 +17,7 @@ std::vector<Param> rows() {
   };
 }
 
-// What is kept of a frame for the next one: what was seen, and what of it was lit.
+// The textures that are kept for the next frame: the visible surfaces, and their visibility.
 struct Memory {
   History surfaces, texels;
 };
@@ -41,7 +41,7 @@ const gl::Texture& blend(const DenoiseContext& context, const Memory& memory, co
   return memory.texels.now;
 }
 
-// What is kept for the next frame has not gone through the visibility filter, so that no blur comes on top of another.
+// The history is stored before the visibility filter, so that blur does not accumulate from frame to frame.
 void denoise(const DenoiseContext& context) {
   const std::string& penumbra_filter = context.params().get_word("filter.penumbra");
   const std::string& visibility_filter = context.params().get_word("filter.visibility");
