@@ -11,9 +11,9 @@ GLSL_FUNCTION float sun_penumbra_radius(float tan_half_angle, float blocker_dist
   return tan_half_angle * max(blocker_distance, 0.0f);
 }
 
-// How light-space depth changes along x and y over the plane with that normal (light space, z away from the light), as
-// in Isidoro 2006, "Shadow mapping: GPU-based tips and techniques". The slope is limited: planes that the light grazes
-// have no finite one.
+// Gradient of light-space depth along x and y on the plane with that normal (light space, z away from the light), as in
+// Isidoro 2006, "Shadow mapping: GPU-based tips and techniques". The slope is clamped, because it is infinite for
+// planes parallel to the light.
 GLSL_FUNCTION vec2 plane_gradient(vec3 normal, float max_slope) {
   float facing = max(-normal.z, 1e-6f);
   vec2 gradient = vec2(normal.x, normal.y) / facing;
@@ -25,13 +25,13 @@ GLSL_FUNCTION vec2 plane_gradient(vec3 normal, float max_slope) {
 // light.
 struct Surroundings {
   vec4 slopes;       // of lit faces beside it: how much higher they get per metre towards +x, +y, -x, -y; not negative
-  float steepest;    // what comes nearer to the light by more than this per metre blocks even if it lies on those faces
+  float steepest;    // what rises towards the light by more than this per metre blocks even if it lies on those faces
   float covered;     // metres; not 0 if something covers the receiver: texels so near block wherever before the plane
-  float unresolved;  // what is not higher doesn't block: the map can't tell it from the receiver's own surface
+  float unresolved;  // what is not higher than this is no blocker: it may be the receiver's own surface
 };
 
-// Depths before which four texels block: the nearest of the receiver, its plane and the faces beside it at the texels'
-// centres, less the bias. `plane`: how much deeper than the receiver its plane lies there, metres.
+// Depths below which four texels are blockers: the least depth of the receiver, its plane and the faces beside it at
+// the texels' centres, minus the bias. `plane`: how much deeper than the receiver its plane lies there, metres.
 GLSL_FUNCTION vec4 blocking_depths(float receiver_depth, vec4 plane, Surroundings about, vec4 x, vec4 y, float bias) {
   vec4 distance_to = max(abs(x), abs(y));
   vec4 faces = max(about.slopes.x * x, -about.slopes.z * x) + max(about.slopes.y * y, -about.slopes.w * y);
@@ -40,8 +40,8 @@ GLSL_FUNCTION vec4 blocking_depths(float receiver_depth, vec4 plane, Surrounding
   return receiver_depth + min(before_faces, before_receiver) - (bias + about.unresolved);
 }
 
-// 1 for each texel that can hide a part of the light, else 0: it is at most `radius` from the receiver, the light's
-// cross section at the texel's depth and what a texel covers.
+// 1 for each texel that can block a part of the light, else 0: those at most `radius` from the receiver, which is the
+// radius of the light's cone at the texel's depth plus the extent of a texel.
 GLSL_FUNCTION vec4 within_cone(vec4 radius, bool square, vec4 x, vec4 y) {
   vec4 beyond = square ? max(abs(x), abs(y)) - radius : x * x + y * y - radius * radius;
   return step(beyond, vec4(0.0f));

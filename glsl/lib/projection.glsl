@@ -5,9 +5,9 @@
 
 GLSL_BEGIN
 
-// How many pixels along an axis of the picture a metre on a plane takes. `across`: from one pixel's point to that of
-// the next, metres, parallel to the image plane. The next pixel sees the plane where its ray meets it, `across` less as
-// much of the ray as leads back to the plane:
+// Number of pixels along an axis of the picture that one metre on a plane covers. `across`: step from one pixel's point
+// to the next pixel's, metres, parallel to the image plane. The next pixel sees the point where its ray meets the
+// plane, which is `across` moved along the ray back to the plane:
 //   on_plane = across − ray · (n·across / n·ray),   pixels = 1 / |on_plane|.
 // For a plane that faces the camera that is height / (2 · tan(fov/2) · z); it goes to 0 where the view grazes the
 // plane. Lengths of ray and normal do not matter.

@@ -26,7 +26,7 @@ Sphere sphere_about(const Box& box) {
   return {glm::dvec3(box.min) + half, glm::length(half)};
 }
 
-// Rows: x horizontal, y up as far as the light allows, z along the rays: left-handed.
+// The axes of light space as rows: x horizontal, y as close to up as possible, z along the rays; left-handed.
 glm::dmat3 light_axes(const glm::dvec3& to_light) {
   const glm::dvec3 z = -glm::normalize(to_light);
   const glm::dvec3 horizontal = glm::cross(z, glm::dvec3(0, 1, 0));
@@ -44,7 +44,7 @@ double step_down(double value, double steps_an_octave) {
   return value <= 0 ? 0 : std::exp2(std::floor(std::log2(value) * steps_an_octave + 1e-9) / steps_an_octave);
 }
 
-// Part of the view's depth, metres before the camera, in which receivers lie.
+// The range of view depths, metres in front of the camera, in which receivers lie.
 Range view_range(const CascadeInputs& in) {
   Range range{1e30, -1e30};
   for (const glm::dvec3& corner : in.receivers.corners()) {
@@ -65,7 +65,7 @@ glm::dvec3 frustum_corner(const glm::dmat4& projection, double depth, double ndc
   return {(ndc_x + shift_x) / projection[0][0] * scale, (ndc_y + shift_y) / projection[1][1] * scale, -depth};
 }
 
-// The smallest sphere with its centre on the frustum's axis that holds the part between two depths.
+// The smallest sphere, with its centre on the frustum's axis, that contains the part of the frustum between two depths.
 Sphere frustum_sphere(const CascadeInputs& in, double near, double far) {
   const glm::dmat4 projection(in.projection);
   std::array<glm::dvec3, 8> corners;
@@ -101,14 +101,14 @@ std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, const gl
 }
 
 // A square column along the light, or a pyramid that widens towards it: `half` wide at the depth `base`, and `slope`
-// more with each metre before it.
+// more for each metre towards the light.
 struct Column {
   glm::dvec2 center{0};
   double half = 0;
   double base = 0, slope = 0;
 };
 
-// Depths, light space, that a world box takes within a column.
+// The range of light-space depths of the part of a world box within a column.
 Range range_within(const Column& column, const std::array<glm::dvec3, 8>& corners) {
   static constexpr std::array<std::array<int, 4>, 6> faces = {
       {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
@@ -163,8 +163,9 @@ Cascades fit_cascades(const CascadeInputs& in) {
     const glm::dvec3 anchor = cascades.world_to_light * cascades.anchor;
     const glm::dvec3 center = world_center - anchor;
 
-    // Room for the discs of receivers at the rim, as wide as the light makes them: casters lie within the light's cone
-    // above the deepest receiver. A finer cascade may leave some discs to the next, the last one holds all.
+    // Margin for the search discs of receivers at the border: their radius follows from the light's size and the height
+    // of casters above the deepest receiver. A finer cascade may leave some discs to the next one; the last one
+    // contains all.
     const double deepest = center.z + sphere.radius;
     const double nearest = range_within({center, sphere.radius, deepest, in.tan_half_angle}, corners).min;
     const double all_discs = in.tan_half_angle * std::max(deepest - nearest, 0.0);

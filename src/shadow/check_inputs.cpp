@@ -49,7 +49,8 @@ bool holds_depth(unsigned texture) {
          level_parameter(texture, GL_TEXTURE_RED_TYPE) == GL_FLOAT;
 }
 
-// So many channels of signed numbers: nothing says how an unsigned format's values would map to -1..1.
+// At least that many signed channels. Unsigned formats are refused, since nothing defines how their values map to
+// -1..1.
 bool holds_signed(unsigned texture, int channels) {
   constexpr GLenum types[] = {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE, GL_TEXTURE_BLUE_TYPE};
   for (int i = 0; i < channels; ++i) {
@@ -87,7 +88,7 @@ void check_depth(const TextureView& view, TextureChecks& checks) {
   checks.add(key);
 }
 
-// A texture of signed numbers for each receiver; `texels`: what messages call them.
+// Checks a texture of signed values with one texel for each receiver; `texels`: what messages call it.
 struct ReceiverTexture {
   std::string_view name, texels;
   const TextureView& view;

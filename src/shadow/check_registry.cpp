@@ -12,7 +12,7 @@ namespace penumbra::shadow {
 
 namespace {
 
-// OpenGL 4.5 promises uniform blocks of 16 KiB.
+// OpenGL 4.5 guarantees uniform blocks of at least 16 KiB.
 constexpr std::size_t most_table_bytes = 16384;
 
 void check_names(std::string_view kinds, std::vector<std::string> names) {

@@ -23,7 +23,7 @@ struct Group {
   int tile_bytes = 0;
 };
 
-// The shape with the least to load for each pixel.
+// The shape that loads the fewest texels for each filtered pixel.
 Group group_for(const glm::ivec2& reach) {
   constexpr std::array shapes{glm::ivec2(16, 16), glm::ivec2(64, 8), glm::ivec2(8, 64)};
   constexpr int bytes = sizeof(unsigned) + sizeof(float);
@@ -35,7 +35,7 @@ Group group_for(const glm::ivec2& reach) {
   return {best, loads(best) * bytes};
 }
 
-// OpenGL 4.5 promises groups 32 KiB.
+// OpenGL 4.5 guarantees 32 KiB of shared memory for a work group.
 bool has_compute_form(const Filter& filter) {
   if (filter.reach.size() != static_cast<size_t>(filter.passes)) return false;
   for (const glm::ivec2& reach : filter.reach) {
@@ -72,7 +72,7 @@ std::string_view pass_name(const Filter& filter) {
   return filters ? std::string_view("filter") : filter.name;
 }
 
-// One pass, from texels to `target`: texels, or a layer of the mask. Notes are for the latter alone.
+// One pass, from texels to `target`: texels, or a layer of the mask. Notes are needed only for the mask.
 void run_pass(const LightWork& work, const Step& step, const FilterInputs& source, const gl::Texture& texels,
               const gl::Texture& target) {
   const LightFrame& frame = work.frame;

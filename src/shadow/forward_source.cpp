@@ -12,7 +12,7 @@ namespace {
 
 enum class Kind { name, other };
 
-// A piece of the text; comments, blanks and numbers are `other` as well.
+// A token of the text; comments, white space and numbers count as `other`.
 struct Token {
   Kind kind = Kind::other;
   std::string_view text;
@@ -25,14 +25,14 @@ bool is_blank(std::string_view text) {
          text.starts_with("//") || text.starts_with("/*");
 }
 
-// Length of the token that the text begins with.
+// Length of the first token in the text.
 std::size_t token_length(std::string_view text) {
   const auto up_to = [&](std::string_view end) {
     return std::min(text.find(end, 2), text.size() - end.size()) + end.size();
   };
   if (text.starts_with("//")) return std::min(text.find('\n'), text.size());
   if (text.starts_with("/*")) return text.size() < 4 ? text.size() : up_to("*/");
-  // A number takes its suffix and exponent along: they are no names.
+  // A number includes its suffix and exponent, which must not be taken for names.
   const bool word = continues_name(text.front());
   std::size_t length = 1;
   while (word && length < text.size() &&

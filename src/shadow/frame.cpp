@@ -15,7 +15,7 @@ namespace penumbra::shadow {
 
 namespace {
 
-constexpr const char* movement_map_name = "movement map";  // of its target
+constexpr const char* movement_map_name = "movement map";  // name of its target
 
 LightProjection projection_of(const Inputs& inputs, const Light& light, const ParamSet& params) {
   if (light.maps) return light.maps->projection;
@@ -47,7 +47,7 @@ void plan_history(const LightWork& work, bool has_shadow_map) {
   const bool asks = has_shadow_map && asks_for_movement(work);
   const bool none_moved = nothing_moved(work.inputs.moved);
   if (asks && work.inputs.draw) {
-    // Whether or not something moved in this frame, so that memory stays the same.
+    // Allocated whether or not something moved in this frame, so that memory use stays constant.
     frame.movement = &movement_target(work.device, work.prefix() + movement_map_name, frame.projection.size(),
                                       frame.projection.layers(), movement_form(work.params()));
     frame.casters_moved = work.state.age > 0 && !none_moved;
@@ -136,7 +136,7 @@ void give_back_unused(const LightWork& work) {
   state.was_denoised = denoised;
 }
 
-// One light, from its parameters to its layer of the mask.
+// Runs all steps for one light, from its parameters to its layer of the mask.
 LightFrame draw_light(const MaskInputs& from, const Light& light, const ViewState& view, LightState& state,
                       LightFrame frame, const gl::Texture& mask) {
   const bool same_params = take_params(state, from.defaults, from.params, light);
@@ -161,7 +161,8 @@ LightFrame draw_light(const MaskInputs& from, const Light& light, const ViewStat
                        .denoiser = denoiser,
                        .remembered = remembered_by(denoiser, state.params)};
   const Wanted wanted = wanted_of(work);
-  // Passes of a technique's own may read casters without the map; what moved is told by it alone.
+  // A technique's own passes may draw casters without a shadow map, but only the movement map, which is drawn with the
+  // shadow map, shows where casters moved.
   const bool has_shadow_map = wanted.shadow_map || (technique.resolve && asks_for_movement(work));
   plan_history(work, has_shadow_map);
   if (has_shadow_map) draw_maps(work);

@@ -18,7 +18,7 @@ static_assert(SHADOW_MAX_LAYERS == max_layers && max_cascades <= max_layers);
 glsl::LayerBlock layer_block(const Cascade& cascade, int size, const glm::dvec3& shift) {
   const float range = cascade.far_z - cascade.near_z;
   const float texel = 2.0f * cascade.half_extent / static_cast<float>(size);
-  // A few units in the last place of what a map stores and a rasteriser interpolates.
+  // A few units in the last place of the map's stored and the rasteriser's interpolated depths.
   const float rounding = 4e-7f * (range + 2.0f * cascade.half_extent);
   return {.center = cascade.center + glm::vec2(shift),
           .widths_per_metre = 0.5f / cascade.half_extent,
@@ -29,7 +29,7 @@ glsl::LayerBlock layer_block(const Cascade& cascade, int size, const glm::dvec3&
           .pad = 0.0f};
 }
 
-// Least depth along the rays, from the camera, of what lies in a box.
+// Least depth along the rays, relative to the camera, of a box.
 float least_depth(const glm::dmat3& world_to_light, const Box& box, const glm::dvec3& eye) {
   const glm::dvec3 along = glm::transpose(world_to_light)[2];
   const glm::dvec3 low = glm::dvec3(box.min) - eye;
@@ -85,7 +85,7 @@ void LightProjection::write(glsl::ShadowBlock& block, const glm::dmat4& view_to_
   block.world_to_light = glm::mat4(glm::dmat4(world_to_light));
   block.layer_count = layers();
   block.map_size = static_cast<float>(size());
-  // What is not known may be as near to the light as the last map begins, which sees every caster.
+  // If it is unknown what moved, assume the near plane of the last layer, which contains every caster.
   const double nearest = cascades_.items.empty() ? 0.0 : cascades_.items.back().near_z + shift.z;
   block.moved_depth = moved ? least_depth(world_to_light, *moved, eye) : static_cast<float>(nearest);
   for (size_t i = 0; i < cascades_.items.size(); ++i) {

@@ -51,7 +51,7 @@ void bind_light(gl::Device& device, const LightFrame& frame, const LightState& s
   if (owner.technique != nullptr && !owner.technique->samples.empty()) {
     state.samples.at(owner.technique->name).buffer->bind_uniform(block_samples);
   }
-  // Beyond a map there is nothing, which is at depth 1.
+  // Outside of the map there are no casters: depth 1.
   device.sampler({.wrap_s = GL_CLAMP_TO_BORDER, .wrap_t = GL_CLAMP_TO_BORDER}).bind(unit_shadow_map);
   gl::glBindTextureUnit(unit_shadow_map, frame.depth);
   device.sampler({}).bind(unit_noise);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int levels_a_step = 2;  // of movement_pyramid.comp
 
-// Lowest and highest texel of a layer between which something can have moved; none when they cross.
+// The texels of a layer, lowest and highest, in which something may have moved; empty if lowest > highest.
 using Region = glm::vec4;
 constexpr Region no_region{1, 1, 0, 0};
 
@@ -34,7 +34,7 @@ void draw_pose(gl::Device& device, const MovementInputs& inputs, CasterKind kind
   const bool last = kind == CasterKind::moved_last;
   gl::PassDesc desc{.name = last ? "movement map, last" : "movement map",
                     .colors = {{.texture = &inputs.map, .layer = layer}},
-                    // Where it was may lie before the present scene, to which the map's range is fitted.
+                    // The last position may be in front of the near plane, which is fitted to the present scene.
                     .depth_clamp = last};
   if (clear) desc.colors[0].clear = glm::vec4(0);
   if (inputs.depth != nullptr) {

@@ -9,9 +9,10 @@
 
 // Minimises Georgiev and Fajardo's energy, the sum over all pairs of pixels of
 //   exp(-|pᵢ - qᵢ|²/σᵢ² - |pₛ - qₛ|^(d/2)/σₛ²)
-// with distances of pixels on the torus and of their d values, σᵢ = 2.1 and σₛ = 1. The tile is cut into blocks of
-// 8 × 8 pixels. Blocks of one parity are further apart than the Gaussian reaches, so all cores can swap pixels within
-// them at once, and the result doesn't depend on how many cores there are. The cuts move from turn to turn.
+// with distances of pixels on the torus and of their d values, σᵢ = 2.1 and σₛ = 1. The tile is cut into blocks of 8 ×
+// 8 pixels. Blocks of the same parity are further apart than the Gaussian's radius, so threads can swap pixels within
+// different blocks in parallel, and the result doesn't depend on the number of threads. The block boundaries move from
+// turn to turn.
 namespace penumbra::shadow {
 
 namespace {
@@ -21,9 +22,9 @@ constexpr int block_side = 8;  // over `reach`
 constexpr int turns = 1600;    // of all four parities
 constexpr double coldest = 1e-3;
 
-// Sums are of whole numbers from tables, so that they don't depend on their order, nor swaps on the last digits of a
-// machine's exp(). Only the distance of two values is a float: of squares added in one order, and cut to a whole
-// number.
+// Energies are sums of integers from tables, so that they don't depend on the order of summation, nor swaps on how a
+// platform rounds exp(). Only the distance of two values is a float; its squares are added in a fixed order, and it is
+// truncated to an integer.
 class Energy {
  public:
   explicit Energy(const NoiseTile& tile) : tile_(tile) {
@@ -61,7 +62,7 @@ class Energy {
     return values;
   }
 
-  // Energy of `pixel` with its neighbours, but for `other`, if it had those values.
+  // Energy between `pixel` and its neighbours except `other`, if `pixel` had those values.
   std::int64_t about(int pixel, int other, const Values& values) const {
     const int size = tile_.size;
     const int* column = &wrapped_[static_cast<std::size_t>(pixel % size + reach)];
@@ -86,7 +87,7 @@ class Energy {
   std::vector<std::int64_t> similarity_;  // by distance of values, in ranks
 };
 
-// Where a turn cuts the tile, and how hot it is.
+// A turn's block boundaries and annealing temperature.
 struct Turn {
   int shift_x = 0, shift_y = 0;
   double temperature = 0;
@@ -109,7 +110,7 @@ class Annealer {
     number_ = turn;
   }
 
-  // The share of one of `workers` in the blocks of one parity.
+  // Processes one worker's part of the blocks of one parity.
   void swap_in_blocks(int parity, int worker, int workers) {
     const int across = tile_.size / (2 * block_side);
     for (int i = worker; i < across * across; i += workers) {
@@ -154,7 +155,7 @@ class Annealer {
   std::uint64_t seed_;
   Energy energy_;
   Random random_;
-  std::array<double, 4096> hotness_{};  // -log of a uniform number
+  std::array<double, 4096> hotness_{};  // -log of a uniform random number
   double hottest_ = 0;
   Turn turn_;
   int number_ = 0;
@@ -167,7 +168,7 @@ void anneal(NoiseTile& tile, std::uint64_t seed, int threads, const NoiseProgres
   const int blocks = tile.size * tile.size / (4 * block_side * block_side);
   const int cores = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
   const int workers = std::clamp(cores, 1, blocks);
-  // After each parity all wait; after the last one the next turn begins.
+  // A barrier after each parity; after the last parity the next turn begins.
   int phase = 0;
   annealer.begin_turn(0);
   std::barrier turn_over(workers, [&]() noexcept {

@@ -8,8 +8,8 @@ namespace penumbra::shadow {
 
 namespace {
 
-// A binary picture on the torus, and at each pixel the sum of Gaussians about the pixels that are set. Sums are of
-// whole numbers: they don't depend on the order of their terms.
+// A tileable binary image, and at each pixel the sum of Gaussians centred at the pixels that are set. Sums are
+// integers, so they don't depend on the order of summation.
 class Clusters {
  public:
   explicit Clusters(int size) : size_(size), set_(pixels(), 0), energy_(pixels(), 0), gaussian_(pixels()) {
@@ -38,7 +38,7 @@ class Clusters {
     }
   }
 
-  // The set pixel with the most set pixels about it, or the unset one with the fewest.
+  // The set pixel in the tightest cluster (largest sum), or the unset one in the largest void (smallest sum).
   std::size_t tightest_cluster() const {
     return extreme(1, [](auto a, auto b) { return a > b; });
   }
@@ -64,8 +64,8 @@ class Clusters {
   std::vector<std::int64_t> gaussian_;
 };
 
-// A tenth of the pixels set at random, then moved from the tightest cluster to the largest void until that is one
-// place.
+// A tenth of the pixels set at random, then moved one by one from the tightest cluster to the largest void, until a
+// move would put the pixel back.
 Clusters prototype(int size, std::uint64_t seed) {
   Clusters clusters(size);
   Random random(seed);

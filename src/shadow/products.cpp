@@ -18,7 +18,7 @@ Wanted wanted_of(const LightWork& work) {
   ask(work.forward.needs);
   if (work.denoiser != nullptr) ask(work.denoiser->needs);
   Wanted wanted;
-  // What a recipe needs comes before it, so that backwards nothing is missed.
+  // A recipe's needs come before it in the registry, so a backward pass finds all of them.
   for (const Recipe& recipe : work.registry.recipes() | std::views::reverse) {
     if (!asked(recipe.name)) continue;
     wanted.recipes.insert(wanted.recipes.begin(), &recipe);

@@ -10,7 +10,7 @@ namespace penumbra::shadow {
 
 namespace {
 
-// Parameters that between them build every variant of the programs of a technique, recipe or denoiser.
+// Parameter sets that together produce every variant of the programs of a technique, recipe or denoiser.
 std::vector<ParamSet> compiled_variants(const std::string& owner, const ParamSet& defaults) {
   std::vector<ParamSet> variants{defaults};
   for (const Param& param : defaults.rows()) {
@@ -46,7 +46,7 @@ std::string unit_defines(const std::vector<std::string>& needs) {
   return text;
 }
 
-// What the generated files of a registry are made from: registries that differ in none of it share them.
+// All that the generated files of a registry depend on: registries for which this text is equal share the files.
 std::string declarations(const Registry& registry, const ParamSet& params) {
   std::string text;
   for (const Technique& technique : registry.techniques()) {
@@ -87,7 +87,7 @@ Programs::Programs(gl::Device& device, const Registry& registry) : device_(devic
   for (const Technique& technique : registry_.techniques()) {
     put_preamble(owner_of(technique), params);
     if (technique.glsl.empty()) continue;
-    // Drivers know no technique: a generated file puts a technique's function before each.
+    // Drivers are the same for all techniques: a generated file includes the technique's GLSL in front of the driver.
     for (const char* driver : {"mask.frag", "mask.comp", "forward.glsl"}) {
       files.put(driver_file(technique, driver),
                 fmt::format("#include \"{}/preamble.glsl\"\n#include \"{}\"\n#include \"shadow/drivers/{}\"\n",

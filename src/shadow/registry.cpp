@@ -9,7 +9,7 @@
 
 namespace penumbra::shadow {
 
-// One line a technique; each is defined in techniques/<name>.cpp.
+// One line for each technique; each is defined in techniques/<name>.cpp.
 #define PENUMBRA_TECHNIQUES(X) \
   X(none)                      \
   X(hard)                      \
@@ -17,7 +17,7 @@ namespace penumbra::shadow {
   X(pcss)                      \
   X(brute_force)
 
-// One line a filter; each is defined in filters/<name>.cpp.
+// One line for each filter; each is defined in filters/<name>.cpp.
 #define PENUMBRA_FILTERS(X) \
   X(median)                 \
   X(box)                    \
@@ -25,10 +25,10 @@ namespace penumbra::shadow {
   X(bilateral)              \
   X(bilateral_separable)
 
-// One line a denoiser; each is defined in denoisers/<name>.cpp.
+// One line for each denoiser; each is defined in denoisers/<name>.cpp.
 #define PENUMBRA_DENOISERS(X) X(history_and_filters)
 
-// One line a product; each is defined in products/<name>.cpp. What one is made of comes before it.
+// One line for each product; each is defined in products/<name>.cpp. A product comes after those that it is made from.
 #define PENUMBRA_PRODUCTS(X) X(least_depth_pyramid)
 
 using MakeTechnique = Technique();

@@ -17,7 +17,7 @@ using Points = std::vector<glm::vec2>;
 
 constexpr double golden_ratio = 0.61803398874989484820;
 
-// The point as floats that stay under 1.
+// The point as floats, kept below 1 despite rounding.
 glm::vec2 in_square(double x, double y) {
   const float below_one = std::nextafter(1.0f, 0.0f);
   return {std::min(static_cast<float>(x), below_one), std::min(static_cast<float>(y), below_one)};
@@ -59,7 +59,7 @@ double toroidal_distance(const glm::vec2& a, const glm::vec2& b) {
   return std::sqrt(dx * dx + dy * dy);
 }
 
-// Throws darts, of which those stay that keep `radius` from all before; after many misses the radius shrinks.
+// Dart throwing: keeps random points at least `radius` from all earlier ones; after many misses the radius shrinks.
 Points throw_darts(int count, double radius, int misses_allowed, double shrinkage, std::uint64_t seed) {
   Random random(seed);
   Points points;

@@ -30,12 +30,12 @@ struct SoftShadows::State {
     return forward.params;
   }
 
-  const int number = next_number();  // tells the facades of a device apart
+  const int number = next_number();  // unique for each SoftShadows object of a device
   const ParamSet defaults;
   Programs programs;
   Samples samples;
   std::map<int, ViewState> views;
-  LightState forward;  // the parameters that a forward program was asked for last
+  LightState forward;  // the parameters of the last forward program that was requested
 };
 
 SoftShadows::SoftShadows(gl::Device& device, Registry registry)
