@@ -17,7 +17,7 @@ MemoryInput::MemoryInput(const char* format, std::span<const std::byte> bytes, c
     : memory_(const_cast<std::byte*>(bytes.data()), bytes.size()), input_(OIIO::ImageInput::create(format)) {
   if (!input_) fail("no decoder: {}", cause(OIIO::geterror()));
   OIIO::ImageSpec request;
-  request.attribute("oiio:UnassociatedAlpha", 1);  // the library would multiply alpha into the colour
+  request.attribute("oiio:UnassociatedAlpha", 1);  // otherwise the library multiplies colour by alpha
   if (!input_->set_ioproxy(&memory_) || !input_->open(name, spec_, request)) fail("{}", cause(input_->geterror()));
   if (spec_.width <= 0 || spec_.height <= 0 || spec_.depth > 1 || spec_.nchannels < 1) fail("an image without pixels");
   check_pixels(spec_.width, spec_.height, max_pixels);

@@ -20,10 +20,10 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-// Of a file: 16 float values a pixel, as many as an EXR may have, and what surrounds them.
+// Bounds of a file's size: 16 float values a pixel, as many as an EXR may have, and everything else.
 constexpr std::size_t bytes_per_pixel = 64, other_bytes = std::size_t{1} << 20;
 
-// "a.b.R" is channel R of layer a.b.
+// The layer of a channel: "a.b.R" is channel R of layer a.b.
 std::string layer_of(const std::string& channel) {
   const std::size_t dot = channel.rfind('.');
   return dot == std::string::npos ? std::string() : channel.substr(0, dot);
@@ -51,7 +51,7 @@ std::string chosen_layer(const Names& layers, const std::string& wanted) {
   fail_unknown("layer", wanted, named);
 }
 
-// Indices in the file of the channels to read, in the order red, green, blue for colours.
+// The file's indices of the channels to read; colours in the order red, green, blue.
 std::vector<int> chosen_channels(const Names& channels, const std::string& layer) {
   std::vector<int> all;
   std::array<int, 3> color{-1, -1, -1};
@@ -74,7 +74,8 @@ std::vector<float> read_channel(MemoryInput& input, int channel) {
   return values;
 }
 
-// Interleaved. Neighbours in the file, as they nearly always are, in one go: each read decodes the whole file.
+// The values of the chosen channels, interleaved. Channels that are adjacent in the file, as they nearly always are,
+// are read at once, because each read decodes the whole file.
 std::vector<float> read_channels(MemoryInput& input, const std::vector<int>& chosen) {
   std::vector<float> pixels(input.pixels() * chosen.size());
   const auto jump = [](int a, int b) { return b != a + 1; };

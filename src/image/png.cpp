@@ -16,7 +16,7 @@
 namespace penumbra::image {
 namespace {
 
-// What libpng's callbacks see.
+// What libpng's callbacks read from.
 struct Source {
   std::span<const std::byte> rest;
   std::string fault;
@@ -27,7 +27,7 @@ struct Source {
   png_longjmp(png, 1);
 }
 
-// A file that can be read all the same is no news.
+// Warnings are ignored: the file can still be read.
 void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
 void read_bytes(png_structp png, png_bytep to, std::size_t count) {
@@ -37,8 +37,8 @@ void read_bytes(png_structp png, png_bytep to, std::size_t count) {
   rest = rest.subspan(count);
 }
 
-// libpng's reader. Its faults leave libpng by longjmp, which runs no destructor: each function that calls it holds
-// nothing that has one while it does.
+// RAII wrapper of libpng's reader. libpng reports errors by longjmp, which runs no destructors, so functions here that
+// call libpng have no local objects with destructors during the call.
 class Reader {
  public:
   explicit Reader(std::span<const std::byte> encoded) : source_{encoded, {}} {
@@ -72,7 +72,7 @@ class Reader {
 
  private:
   bool read_header() {
-    if (setjmp(png_jmpbuf(png_)) != 0) return false;  // NOLINT(cert-err52-cpp): libpng knows nothing else
+    if (setjmp(png_jmpbuf(png_)) != 0) return false;  // NOLINT(cert-err52-cpp): libpng has no other error handling
     png_read_info(png_, info_);
     png_set_expand(png_);
     if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);

@@ -14,7 +14,7 @@ constexpr std::size_t values_per_pixel = 16;
 constexpr std::int64_t largest_side = 1 << 15, largest_tile = 1 << 14;
 constexpr std::size_t line_values = std::size_t{1} << 20;  // the library decodes up to 256 lines at once
 
-// Reads the header from front to back; no read leaves the file.
+// Reads the header from front to back and checks that no read exceeds the file.
 class Reader {
  public:
   explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -86,7 +86,7 @@ void check_exr_header(std::span<const std::byte> encoded, std::size_t max_pixels
   if ((version & (deep | multipart)) != 0) fail("EXR of several parts or with deep data, which is not read");
   Header header;
   for (std::string name = reader.name(); !name.empty(); name = reader.name()) {
-    reader.name();  // the type, which the name implies
+    reader.name();  // the type of the attribute, which its name implies
     const std::int32_t size = reader.number();
     if (size < 0) fail("EXR attribute '{}' has a size of {} bytes", name, size);
     read_attribute(header, name, Reader(reader.take(static_cast<std::size_t>(size))));

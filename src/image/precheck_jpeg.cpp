@@ -10,8 +10,9 @@ namespace {
 
 constexpr std::size_t most_scans = 100;
 
-// Tables, frame headers and scans; and of the application segments those two that say how colours are stored, JFIF's
-// and Adobe's. What else an application writes is metadata: EXIF, IPTC, profiles, thumbnails, comments.
+// Whether a segment is needed to decode pixels: tables, frame headers and scans, and the two application segments that
+// define how colours are stored, JFIF's and Adobe's. All other application segments are metadata: EXIF, IPTC, profiles,
+// thumbnails, comments.
 bool carries_pixels(const JpegSegment& segment) {
   switch (segment.marker) {
     case jpeg::start_of_image:

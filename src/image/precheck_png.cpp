@@ -48,7 +48,7 @@ std::vector<std::byte> pixel_chunks_of_png(std::span<const std::byte> encoded) {
     std::memcpy(type.data(), chunk.data() + 4, type.size());
     const std::string_view name(type.data(), type.size());
     if ((at == png_signature.size()) != (name == "IHDR")) fail("PNG does not begin with its header");
-    const bool optional = name[0] >= 'a' && name[0] <= 'z';  // PNG's rule: others must be understood
+    const bool optional = name[0] >= 'a' && name[0] <= 'z';  // by PNG's rule; decoders must understand all others
     if (carries_pixels(name) || !optional) {
       if (crc32(chunk.subspan(4, length + 4)) != big_endian(chunk, length + 8, 4))
         fail("PNG chunk {} is damaged", name);

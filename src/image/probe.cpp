@@ -10,7 +10,7 @@
 namespace penumbra::image {
 namespace {
 
-constexpr std::uint32_t longest_side = 0x7FFFFFFF;  // PNG's own limit; a JPEG's side has 16 bits
+constexpr std::uint32_t longest_side = 0x7FFFFFFF;  // PNG's own limit; JPEG stores a side in 16 bits
 
 scene::ImageHeader header_of(std::uint32_t width, std::uint32_t height, int channels) {
   if (width == 0 || height == 0) fail("an image without pixels");

@@ -14,7 +14,8 @@
 namespace penumbra::image {
 namespace {
 
-// One or two channels are grey; a missing alpha is opaque. `value(i)` is value number i of the pixels' channels.
+// Converts to RGBA. One or two channels are grey; a missing alpha is opaque. `value(i)` is the value at index i of the
+// pixels' channels.
 template <class Values>
 std::vector<std::uint8_t> to_rgba(std::size_t count, std::size_t channels, const Values& value) {
   std::vector<std::uint8_t> rgba(count * 4, 255);
@@ -52,7 +53,7 @@ scene::Image read_jpeg(std::span<const std::byte> encoded, const std::string& na
 }  // namespace
 
 scene::Image read_image(std::span<const std::byte> encoded, const std::string& name, std::size_t max_pixels) {
-  // Only the formats that glTF knows: others that the library could read would only be more code to attack.
+  // Only the formats that glTF allows: the library's other decoders would only add attack surface.
   if (starts_with(encoded, png_signature)) return read_png(encoded, name, max_pixels);
   if (starts_with(encoded, jpeg_signature)) return read_jpeg(encoded, name, max_pixels);
   fail("neither PNG nor JPEG");

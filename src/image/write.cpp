@@ -19,7 +19,7 @@ OIIO::ImageSpec image_spec(int width, int height, int channels, const OIIO::Type
   return spec;
 }
 
-// By way of memory: OpenImageIO doesn't notice when a disk is full.
+// Encodes to memory first, because OpenImageIO doesn't report a full disk.
 std::vector<std::byte> encode(const std::string& name, const char* format, const OIIO::ImageSpec& spec,
                               const void* pixels) {
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
@@ -42,8 +42,8 @@ std::vector<std::byte> png_bytes(const std::string& name, int width, int height,
   assert(pixels.size() == static_cast<size_t>(width) * static_cast<size_t>(height) * static_cast<size_t>(channels));
   OIIO::ImageSpec spec = image_spec(width, height, channels, OIIO::TypeDesc::UINT8, metadata);
   spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("png:compressionLevel", 4);    // a third of the default's time for 5 % more bytes
-  spec.attribute("oiio:UnassociatedAlpha", 1);  // the bytes go out as they are
+  spec.attribute("png:compressionLevel", 4);    // takes a third of the default's time for 5 % more bytes
+  spec.attribute("oiio:UnassociatedAlpha", 1);  // the values are written unchanged
   return encode(name, "png", spec, pixels.data());
 }
 
@@ -67,7 +67,7 @@ void write_exr(const std::filesystem::path& path, int width, int height, std::sp
   OIIO::ImageSpec spec = image_spec(width, height, static_cast<int>(channels), OIIO::TypeDesc::FLOAT, metadata);
   spec.attribute("oiio:ColorSpace", "Linear");
   spec.attribute("compression", "zip");
-  spec.attribute("DateTime", "");  // without it OpenImageIO writes the present time
+  spec.attribute("DateTime", "");  // otherwise OpenImageIO writes the present time
 
   spec.channelnames.clear();
   std::vector<float> pixels(pixel_count * channels);

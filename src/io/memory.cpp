@@ -16,7 +16,7 @@ constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
 std::size_t left(std::size_t limit, std::size_t used) { return limit > used ? limit - used : 0; }
 
-// The number behind `label` in a file of lines "label: number kB".
+// The number after `label` in a file with lines "label: number kB".
 std::optional<std::size_t> kilobytes(const char* file, const std::string& label) {
   std::ifstream stream(file);
   for (std::string word; stream >> word; stream.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
@@ -33,7 +33,7 @@ std::optional<std::size_t> number_in(const char* file) {
   return {};  // missing, or "max"
 }
 
-// Inside a container its own control group is the root that it sees.
+// Memory left in the control group. Inside a container, the container's group is visible as the root group.
 std::size_t left_of_group() {
   std::size_t least = unlimited;
   constexpr const char* files[][2] = {

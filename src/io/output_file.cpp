@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Names of temporaries in fixed memory, so that a signal handler can remove the files without locks or allocation. A
-// slot is free while `used` is false; the handler reads `name` only where `ready` is true.
+// Names of temporaries in static memory, so that a signal handler can remove the files without locks or allocation. A
+// slot is free while `used` is false; the handler reads `name` only if `ready` is true.
 struct Slot {
   std::atomic<bool> used = false, ready = false;
   std::array<char, PATH_MAX> name{};
@@ -60,24 +60,25 @@ void forget(const fs::path& path) {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-// /proc/self/fd/1, which /dev/stdout leads to, is a link that can name a pipe or a file that somebody has open.
+// Whether a folder is on procfs. /proc/self/fd/1, which /dev/stdout leads to, is a link that can lead to a pipe or to a
+// file that a process has open.
 bool on_procfs(const fs::path& folder) {
   constexpr auto procfs = 0x9FA0;  // PROC_SUPER_MAGIC of linux/magic.h
   struct statfs about {};
   return statfs(folder.c_str(), &about) == 0 && about.f_type == procfs;
 }
 
-// What a path's last component leads to, link by link, whether that exists or not. Links in its folders are left to the
-// system. `fault` gets what is wrong, or stays empty.
+// Follows the symbolic links of a path's last component, whether the final target exists or not. Links in its folders
+// are left to the system. `fault` is set to what is wrong, or stays empty.
 fs::path linked_from(fs::path path, std::string& fault) {
-  constexpr int most_links = 40;  // as Linux
+  constexpr int most_links = 40;  // same as Linux
   std::error_code error;
   for (int i = 0; i < most_links; ++i) {
     if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
     if (on_procfs(folder_of(path))) return fault = "it stands for an open file or pipe, not for a file's name", path;
     const fs::path next = fs::read_symlink(path, error);
     if (error) return fault = error.message(), path;
-    path = folder_of(path) / next;  // `next` alone where it is absolute
+    path = folder_of(path) / next;  // is `next` itself if that is absolute
   }
   return fault = std::strerror(ELOOP), path;
 }
@@ -89,7 +90,7 @@ fs::path target_of(const fs::path& path) {
   return target;
 }
 
-// A new, empty file beside `target`, which only this user may read.
+// Creates an empty file beside `target` that only this user may read and write.
 fs::path make_temporary(const fs::path& path, const fs::path& target) {
   constexpr size_t longest = 200;  // bytes of the name, so that it and its ending fit a file system's 255
   const std::string name = fmt::format(".{}.XXXXXX", target.filename().string().substr(0, longest));
@@ -100,7 +101,8 @@ fs::path make_temporary(const fs::path& path, const fs::path& target) {
   return pattern;
 }
 
-// Owner and permissions of the file that is replaced, as far as this user may set them; of a new file, the usual ones.
+// Gives the temporary the owner and permissions of the file that it replaces, as far as this user may set them; a new
+// file gets default permissions.
 void take_permissions(const fs::path& temporary, const fs::path& target) {
   struct stat old {};
   if (stat(target.c_str(), &old) != 0) {
@@ -112,11 +114,11 @@ void take_permissions(const fs::path& temporary, const fs::path& target) {
   mode_t mode = old.st_mode & 0777;
   const bool same_group = chown(temporary.c_str(), old.st_uid, old.st_gid) == 0 ||
                           chown(temporary.c_str(), static_cast<uid_t>(-1), old.st_gid) == 0;
-  if (!same_group) mode &= ~S_IRWXG | (mode & S_IRWXO) << 3;  // another group may do no more than all others
+  if (!same_group) mode &= ~S_IRWXG | (mode & S_IRWXO) << 3;  // a different group gets no more rights than everybody
   chmod(temporary.c_str(), mode);
 }
 
-// What is there is replaced as a whole: a device or a pipe would be one no more.
+// Throws for anything but a regular file: replacing a device or a pipe would turn it into a file.
 void refuse_all_but_files(const fs::path& path, const fs::path& target) {
   std::error_code error;
   const fs::file_status there = fs::status(target, error);
@@ -126,7 +128,7 @@ void refuse_all_but_files(const fs::path& path, const fs::path& target) {
   if (access(target.c_str(), W_OK) != 0) fail_write(path, std::strerror(errno));
 }
 
-// The folders that are missing above a file at `path`, the outermost first.
+// The missing folders above a file at `path`, outermost first.
 std::vector<fs::path> missing_folders(const fs::path& path) {
   std::vector<fs::path> missing;
   std::error_code error;
@@ -135,7 +137,7 @@ std::vector<fs::path> missing_folders(const fs::path& path) {
   return missing;
 }
 
-// Signals that end the program wait while this lives.
+// Blocks signals that end the program while it exists.
 class HeldSignals {
  public:
   HeldSignals() {
@@ -178,7 +180,7 @@ OutputFile::~OutputFile() {
   remove_made_folders();
 }
 
-// Those that are empty: another may have written there by now.
+// Removes only empty folders: another program may have written into them meanwhile.
 void OutputFile::remove_made_folders() noexcept {
   for (; !made_.empty(); made_.pop_back()) rmdir(made_.back().c_str());
 }
@@ -225,7 +227,7 @@ void write_text(const fs::path& path, std::string_view text) {
 
 void write_files(const fs::path& folder, std::span<const std::pair<std::string, std::string>> files) {
   const HeldSignals held;
-  // From the last to the first, so that the folders that the first ones made are empty when they go.
+  // Destroyed from last to first, so that the folders that the first outputs created are empty when they are removed.
   struct Outputs {
     std::vector<std::unique_ptr<OutputFile>> files;
     ~Outputs() {

@@ -37,7 +37,7 @@ std::string read_text(const std::filesystem::path& path) {
   return text;
 }
 
-// A leaf of the file: a parameter's name and what was written there.
+// A value of the file: a parameter's name and the TOML node.
 struct Entry {
   std::string name;
   const toml::node* node;
@@ -54,7 +54,7 @@ void collect(const toml::table& table, const std::string& prefix, std::vector<En
   }
 }
 
-// A table's order is alphabetical; messages are about the first fault in the file.
+// The TOML library orders tables alphabetically; sorted by position, messages are about the first fault in the file.
 void sort_as_written(std::vector<Entry>& entries) {
   const auto position = [](const Entry& entry) {
     const toml::source_position at = entry.node->source().begin;
@@ -64,7 +64,7 @@ void sort_as_written(std::vector<Entry>& entries) {
                    [&](const Entry& a, const Entry& b) { return position(a) < position(b); });
 }
 
-// The node as a typed value; `kind` names its type for messages.
+// A TOML value as a parameter value; `kind` is set to the name of its type, for messages.
 std::optional<ParamValue> scalar(const toml::node& node, std::string_view& kind) {
   if (const auto flag = node.value_exact<bool>()) return kind = "a bool", ParamValue(*flag);
   if (const auto word = node.value_exact<std::string>()) return kind = "a string", ParamValue(*word);
@@ -82,7 +82,7 @@ std::optional<ParamValue> scalar(const toml::node& node, std::string_view& kind)
   return ParamValue(static_cast<int>(std::clamp(*whole, least, most)));
 }
 
-// Its range is ParamSet::set()'s to check.
+// Only the type is checked here; ParamSet::set() checks the range.
 ParamValue value_of(const Param& param, const toml::node& node) {
   std::string_view kind;
   const std::optional<ParamValue> value = scalar(node, kind);
@@ -94,7 +94,7 @@ ParamValue value_of(const Param& param, const toml::node& node) {
 
 void apply(const Entry& entry, ParamSet& params, const SelectTechnique& select) {
   if (entry.name != technique_key) {
-    // All names would make a long line.
+    // A list of all names would make the line too long.
     const bool known = params.contains(entry.name) || params.renamed_from(entry.name) != nullptr;
     if (!known && near_names(entry.name, params.names()).empty())
       fail("unknown parameter '{}'; see penumbra list params", entry.name);
@@ -106,7 +106,7 @@ void apply(const Entry& entry, ParamSet& params, const SelectTechnique& select) 
   select(params, *name);
 }
 
-// The value as TOML, a float with a point so that it reads as one.
+// The value as TOML; a float gets a decimal point, so that it is read as a float again.
 std::string toml_value(const ParamValue& value) {
   std::string text = to_text(value);
   if (std::holds_alternative<std::string>(value)) return "\"" + text + "\"";

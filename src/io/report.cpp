@@ -19,10 +19,10 @@ double median_of(std::vector<double> values) {
   return values.size() % 2 != 0 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-// A float's own digits: 0.53f is 0.53 and not the double 0.5299999713897705.
+// The shortest digits of the float: 0.53f becomes 0.53 and not the double 0.5299999713897705.
 Json number(float value) { return std::stod(to_text(ParamValue(value))); }
 
-// Microseconds are as fine as the clock deserves.
+// Rounds to microseconds, the useful precision of the timer.
 double rounded(double milliseconds) { return std::round(milliseconds * 1000.0) / 1000.0; }
 
 }  // namespace
@@ -32,7 +32,7 @@ std::vector<PassCost> pass_costs(std::span<const gl::Timers::Row> rows, std::siz
   for (const gl::Timers::Row& row : rows) {
     const auto first = row.milliseconds.size() - std::min(frames, row.milliseconds.size());
     std::vector<double> drawn(row.milliseconds.begin() + static_cast<std::ptrdiff_t>(first), row.milliseconds.end());
-    std::erase(drawn, 0.0);  // a frame without this pass
+    std::erase(drawn, 0.0);  // frames without this pass
     if (drawn.empty()) continue;
     const auto [min, max] = std::minmax_element(drawn.begin(), drawn.end());
     costs.push_back({row.name, median_of(drawn), *min, *max, drawn.size()});

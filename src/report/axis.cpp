@@ -10,9 +10,9 @@ namespace penumbra::report {
 
 namespace {
 
-constexpr double margin = 0.06;  // of the range, on both sides
+constexpr double margin = 0.06;  // share of the range, on both sides
 
-// The round step that is nearest to `rough` from above.
+// The smallest round step that is at least `rough`.
 double round_step(double rough) {
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
   for (const double factor : {1.0, 2.0, 5.0}) {
@@ -69,7 +69,7 @@ Scale::Scale(const Axis& axis, std::span<const double> values, double from, doub
     const double room = single ? (log_ ? 0.3 : std::max(0.5 * std::abs(low), 0.5)) : margin * (high - low);
     low_ = low - room;
     high_ = high + room;
-    // An axis from nothing starts there: no margin into values that can't be.
+    // If no value is negative, the margin must not extend below 0.
     if (!log_ && low >= 0 && low_ < 0) low_ = 0;
   }
   ticks_ = log_ ? log_ticks(std::pow(10.0, low_), std::pow(10.0, high_)) : linear_ticks(low_, high_, 6);

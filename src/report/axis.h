@@ -18,18 +18,18 @@ struct Tick {
   std::string label;
 };
 
-// Round values (1, 2 or 5 times a power of ten) from low to high, about `about` of them, labelled with just the digits
-// that tell them apart.
+// Round values (1, 2 or 5 times a power of ten) from low to high, about `about` of them, labelled with as many digits
+// as are needed to distinguish them.
 std::vector<Tick> linear_ticks(double low, double high, int about);
-// Powers of ten; with less than three of them also their double and fivefold, and with less than three of those as
-// linear_ticks(). Both ends are positive.
+// Powers of ten; if there are fewer than three, also their multiples by 2 and 5, and if there are still fewer than
+// three, linear_ticks(). Both ends must be positive.
 std::vector<Tick> log_ticks(double low, double high);
 
-// Places values of an axis on a plot.
+// Maps values of an axis to positions in a plot.
 class Scale {
  public:
-  // Holds all finite values that the axis can show, with a margin; position `from` is the low end, `to` the high end.
-  // Without any value it is 0 to 1 (1 to 10).
+  // The scale covers all finite values that the axis can show, with a margin; position `from` is the low end, `to` the
+  // high end. Without any such value it covers 0 to 1 (logarithmic: 1 to 10).
   Scale(const Axis& axis, std::span<const double> values, double from, double to);
 
   // Whether the axis can show it: finite, and positive where the axis is logarithmic.
@@ -41,7 +41,7 @@ class Scale {
   double measure(double value) const;
 
   bool log_;
-  double low_ = 0, high_ = 1;  // of measure()
+  double low_ = 0, high_ = 1;  // in units of measure()
   double from_, to_;
   std::vector<Tick> ticks_;
 };

@@ -15,7 +15,7 @@ namespace {
 
 using Rgb = std::array<double, 3>;
 
-// Dark to light is more to less, in even steps of lightness, so it also reads in grey.
+// From light for low to dark for high values, in even steps of lightness, so that it also reads in grey.
 constexpr std::array<Rgb, 5> ramp{{{255, 247, 224}, {253, 208, 137}, {240, 138, 84}, {178, 64, 86}, {72, 22, 74}}};
 
 Rgb colour_at(double share) {
@@ -35,7 +35,7 @@ double luminance(const Rgb& colour) {
   return 0.2126 * linear(colour[0]) + 0.7152 * linear(colour[1]) + 0.0722 * linear(colour[2]);
 }
 
-// Where a value lies between the least and the most.
+// The range of the values, and where a value is in it.
 struct Range {
   double low, high;
   bool log;

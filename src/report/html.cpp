@@ -7,7 +7,7 @@ namespace penumbra::report {
 
 namespace {
 
-// The length of the UTF-8 sequence that `text` begins with, 0 for none (RFC 3629, section 4).
+// The length of the UTF-8 sequence at the start of `text`; 0 if there is no valid one (RFC 3629, section 4).
 std::size_t sequence_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);

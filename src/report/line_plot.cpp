@@ -14,13 +14,13 @@ constexpr double dot_radius = 3.2;
 constexpr double name_gap = 10;
 constexpr int colours = 8;  // .line-0 to .line-7 in page.css
 
-// A line's name, at the height of its end.
+// The label of a line, at the height of the line's end.
 struct Name {
   std::size_t line;
   double y;
 };
 
-// Pushes names that would overlap apart, each as little as it takes, and keeps them within the plot.
+// Moves overlapping labels apart by as little as possible, and keeps them within the plot.
 void part(std::vector<Name>& names, const Box& area) {
   constexpr double step = 1.25 * font_size;
   std::ranges::stable_sort(names, {}, &Name::y);
@@ -45,7 +45,7 @@ std::string dot_svg(const LinePlot& plot, const Line& line, const Point& point, 
                      escape(tooltip));
 }
 
-// Its path and dots; `end` becomes the height of its last point.
+// SVG of a line's path and dots; `end` is set to the height of its last point.
 std::string line_svg(const LinePlot& plot, const PlotFrame& frame, std::size_t index, double& end) {
   const Line& line = plot.lines[index];
   std::string path, dots;

@@ -16,7 +16,7 @@ std::string not_finite(double value) {
   return value > 0 ? "∞" : std::string(minus) + "∞";
 }
 
-// Of digits: "-0.00" is "0.00", and a hyphen becomes a minus.
+// Formats digits: "-0.00" becomes "0.00", and a hyphen becomes a minus sign.
 std::string with_minus(std::string digits) {
   if (digits.empty() || digits[0] != '-') return digits;
   const bool zero = digits.find_first_of("123456789") == std::string::npos;

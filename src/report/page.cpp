@@ -73,7 +73,7 @@ Html body(const Page& page) {
   return html;
 }
 
-// The first to show a picture holds it; the others take it from there, by page.js.
+// The first <img> of a picture holds its data; page.js copies it to the others.
 std::string with_pictures(const Html& html) {
   std::map<std::string_view, std::size_t> numbers;  // by the pictures' bytes
   std::string text;

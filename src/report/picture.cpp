@@ -8,8 +8,8 @@ namespace penumbra::report {
 
 namespace {
 
-// A picture's frame: it keeps the picture's shape while that loads, takes the keyboard's arrows, and clips what zoom
-// pushes out.
+// A picture's frame: it reserves the picture's shape while that loads, receives arrow keys, and clips what zooming
+// moves outside.
 std::string open_pane(const EncodedPicture& picture, std::string_view kind, std::string_view label) {
   return fmt::format(
       "<div class='pane{}' style='aspect-ratio:{}/{}'>"

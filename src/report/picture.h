@@ -7,22 +7,22 @@
 
 namespace penumbra::report {
 
-// Zoom and place are the page's: all of its pictures show the same part, so that one compares like with like.
+// Zoom and position belong to the page: all of its pictures show the same part, so that like is compared with like.
 
-// A picture with what it shows in words, for those who can't see it.
+// A picture with a text alternative for readers who can't see it.
 struct Figure {
   std::string label;  // "pcss": a few words, shown over the picture
   std::string alt;    // a sentence
   EncodedPicture picture;
 };
 
-// Two pictures of one size, one over the other, parted by a handle: `left` shows to its left.
+// Two pictures of equal size on top of each other with a divider that the reader drags: `left` is visible to its left.
 Html picture_slider(const Figure& left, const Figure& right);
 
-// One picture, which zooms with the others.
+// One picture, which zooms together with the others.
 Html picture(const Figure& figure);
 
-// The meaning of a picture's colours: a bar from `low` to `high`.
+// Explains a picture's colours by a labelled colour bar.
 struct Legend {
   std::string title;                 // "visibility minus truth"
   std::vector<std::string> colours;  // from low to high at even steps, "#rrggbb"
@@ -30,7 +30,7 @@ struct Legend {
 };
 Html legend(const Legend& legend);
 
-// A picture of errors, with what its colours mean under it.
+// A picture of errors with its legend below.
 Html error_map(const Figure& figure, const Legend& legend);
 
 // Side by side where there is room, each under its title and over its note, which may be empty.

@@ -14,21 +14,21 @@ struct Point {
   double x = 0, y = 0;
 };
 
-// The points that no other betters, where less is better in both: indices by rising x (and falling y). Of points at the
-// same place each is one; what is not finite is none.
+// The Pareto front: the points that no other point improves on, where less is better in both coordinates, as indices in
+// order of rising x (and falling y). Equal points are all included; points that are not finite are excluded.
 std::vector<std::size_t> pareto_front(std::span<const Point> points);
 
 // One dot of a scatter plot.
 struct Dot {
-  std::string label;    // beside it, where there is room
-  std::string tooltip;  // more than the label and its values; may be empty
+  std::string label;    // drawn beside the dot, where there is room
+  std::string tooltip;  // added to the label and the values; may be empty
   Point at;
 };
 
-// Dots with their labels, and the Pareto front (less is better in both) as a stair. What an axis can't show is named
-// under the plot.
+// Dots with their labels, and the Pareto front (less is better in both) as a step line. Dots that an axis can't show
+// are listed below the plot.
 struct ScatterPlot {
-  std::string title;  // what it shows, also for those who can't see it
+  std::string title;  // what it shows; also the text alternative of the plot
   Axis x, y;
   std::vector<Dot> dots;
 };
@@ -36,8 +36,8 @@ Html to_html(const ScatterPlot& plot);
 
 struct Line {
   std::string label;
-  std::vector<Point> points;  // by rising x; a point that an axis can't show parts the line
-  bool guide = false;         // dashed and grey, without dots: a slope or a limit to compare with
+  std::vector<Point> points;  // in order of rising x; a point that an axis can't show interrupts the line
+  bool guide = false;         // dashed and grey, without dots: a reference slope or limit
 };
 
 // Lines with their names at their ends.

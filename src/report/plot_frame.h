@@ -7,7 +7,7 @@
 
 namespace penumbra::report {
 
-// A box in the units of a plot's drawing, y downwards.
+// A box in the coordinates of a plot's drawing, y downwards.
 struct Box {
   double left = 0, top = 0, right = 0, bottom = 0;
 
@@ -20,20 +20,20 @@ struct Box {
 };
 
 constexpr double font_size = 13;
-// About how wide a text is: an SVG is drawn before its font is known.
+// The estimated width of a text: the SVG is laid out before its font is known.
 double text_width(std::string_view text);
 
-// What plots have in common: the drawing's size, its axes with grid and labels.
+// What all plots share: the size of the drawing, and axes with grid and labels.
 class PlotFrame {
  public:
-  // `room` is what stays free to the right of the axes.
+  // `room` is the width that stays free to the right of the axes.
   PlotFrame(std::string title, const Axis& x, const Axis& y, std::span<const double> xs, std::span<const double> ys,
             double room);
 
   const Scale& x() const { return x_; }
   const Scale& y() const { return y_; }
   const Box& area() const { return area_; }
-  // The svg element with the axes and `drawn` over them.
+  // The <svg> element with the axes and, over them, `drawn`.
   std::string svg(const std::string& drawn) const;
 
  private:

@@ -23,7 +23,7 @@ struct Spot {
 
 Box around(const Spot& spot, double reach) { return {spot.x - reach, spot.y - reach, spot.x + reach, spot.y + reach}; }
 
-// Where a label of that width can stand about a dot, best first.
+// Positions for a label of that width around a dot, best first.
 std::vector<Box> places(const Spot& spot, double width) {
   constexpr double gap = radius + 5, ascent = 0.8 * font_size, height = 1.15 * font_size;
   const double middle = spot.y - height / 2;
@@ -41,7 +41,7 @@ std::vector<Box> places(const Spot& spot, double width) {
   return boxes;
 }
 
-// The front's stair as thin boxes.
+// The step line of the front as thin boxes.
 std::vector<Box> boxes_of_front(const std::vector<Spot>& front, const Box& area) {
   std::vector<Box> boxes;
   for (std::size_t i = 0; i < front.size(); ++i) {
@@ -56,8 +56,8 @@ bool overlaps_any(const Box& box, const std::vector<Box>& others) {
   return std::ranges::any_of(others, [&](const Box& other) { return box.overlaps(other); });
 }
 
-// For every dot a place for its label that covers neither dots nor other labels, and the front only if it must; none
-// where there is no room.
+// For each dot a position for its label that overlaps neither dots nor other labels, and the front only if unavoidable;
+// nothing where there is no room.
 std::vector<std::optional<Box>> place_labels(const std::vector<Spot>& spots, const std::vector<std::string>& labels,
                                              const std::vector<Box>& front, const Box& area) {
   std::vector<Box> taken;
@@ -85,7 +85,8 @@ std::string tooltip_of(const ScatterPlot& plot, const Dot& dot) {
   return escape(dot.tooltip.empty() ? values : values + "\n" + dot.tooltip);
 }
 
-// From each point of the front right to the next one's cost, then down to its error: what can be had at a cost.
+// From each point of the front to the right up to the next point's cost, then down to its error: the least error that
+// is possible at each cost.
 std::string front_path(const std::vector<Spot>& front, const Box& area) {
   if (front.empty()) return "";
   std::string path = fmt::format("M{:.1f} {:.1f}V{:.1f}", front[0].x, area.top, front[0].y);

@@ -12,7 +12,7 @@ namespace penumbra::report {
 
 namespace {
 
-// Less is better.
+// A value's distance from the best by the column's rule: less is better.
 double badness(Best best, double value) {
   switch (best) {
     case Best::highest:
@@ -24,7 +24,7 @@ double badness(Best best, double value) {
   }
 }
 
-// The best value of a column as badness; none where all are alike or none counts.
+// The best value of a column, as badness; nothing if all values are equal or none counts.
 std::optional<double> best_of(const Table& table, std::size_t column) {
   const Best best = table.columns[column].best;
   std::vector<double> all;
@@ -50,7 +50,7 @@ std::string head_cell(const Table& table, std::size_t i) {
                      is_numeric(table, i) ? " class='number'" : "", help, escape(column.title), unit);
 }
 
-// JavaScript's spelling of a number.
+// A number as JavaScript spells it.
 std::string sort_key(double value) {
   if (std::isnan(value)) return "NaN";
   return std::isinf(value) ? (value > 0 ? "Infinity" : "-Infinity") : fmt::format("{}", value);

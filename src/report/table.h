@@ -13,20 +13,20 @@ enum class Best { none, lowest, highest, nearest_zero };
 
 struct Column {
   std::string title;
-  std::string unit;  // under the title
+  std::string unit;  // shown below the title
   std::string help;  // one sentence: the title's tooltip
   Best best = Best::none;
 };
 
 struct Cell {
   std::string text;
-  std::optional<double> value = {};  // what the column is sorted by, infinities included; cells without one by text
+  std::optional<double> value = {};  // the key for sorting, may be infinite; absent: sorted by the text
 };
 
-// A number with so many decimals; "–", which is sorted last, where there is none.
+// A number with `decimals` decimals; a missing one is shown as "–" and sorted last.
 Cell cell_of(std::optional<double> value, int decimals);
 
-// A table that its reader sorts by a click on a column's title.
+// A table that the reader can sort by clicking on a column's title.
 struct Table {
   std::string caption;
   std::vector<Column> columns;
@@ -34,15 +34,15 @@ struct Table {
 };
 Html to_html(const Table& table);
 
-// Values over two parameters, each cell coloured by its value, darker for more.
+// Values over two parameters; the larger the value, the darker the cell.
 struct HeatMap {
   std::string caption;
   std::string row_title, column_title;  // what the names below are of
   std::vector<std::string> row_names, column_names;
-  std::vector<double> values;  // row by row; not finite: "–"
+  std::vector<double> values;  // row by row; values that are not finite are shown as "–"
   std::string unit;
   int decimals = 2;
-  bool log = false;  // colours by the logarithm; values are then positive
+  bool log = false;  // colours follow the logarithm; values must then be positive
 };
 Html to_html(const HeatMap& map);
 

@@ -4,7 +4,7 @@
 
 namespace penumbra::report {
 
-// src/report/web, embedded by cmake/EmbedWeb.cmake.
+// The files of src/report/web, which cmake/EmbedWeb.cmake embeds.
 std::string_view page_css();
 std::string_view page_js();
 

@@ -17,8 +17,8 @@ void store_unit(std::vector<float>& value) {
   for (int c = 0; c < 4; ++c) value[static_cast<std::size_t>(c)] = static_cast<float>(unit[c]);
 }
 
-// Between keys `key` and the next; s from 0 to 1. Between equal values nothing changes, not even by rounding: what
-// rests must not count as moving.
+// Interpolates between `key` and the next; s from 0 to 1. Equal values stay exact, without rounding, because a still
+// object must not count as moving.
 std::vector<float> linear(const AnimationChannel& channel, std::size_t key, float s) {
   const auto width = static_cast<std::size_t>(channel.components);
   const float* const a = &channel.values[key * width];
@@ -84,7 +84,8 @@ std::vector<float> sample(const AnimationChannel& channel, double time) {
 
 namespace {
 
-// Whether the channel ends with the values that it starts with, but for rounding: 0.01 % of its largest, 0.2 degrees.
+// Whether the channel ends with the values that it starts with, up to rounding: 0.01 % of its largest value, 0.2
+// degrees.
 bool closes(const AnimationChannel& channel, double duration) {
   const std::vector<float> a = sample(channel, 0), b = sample(channel, duration);
   if (channel.path == Path::rotation) return std::abs(glm::dot(quaternion(a.data()), quaternion(b.data()))) > 1 - 1e-6f;
@@ -94,7 +95,7 @@ bool closes(const AnimationChannel& channel, double duration) {
                     [&](float x, float y) { return std::abs(x - y) <= 1e-4f * largest; });
 }
 
-// Which of its endless loops an animation is in at `seconds`, the first being 0.
+// The number of the loop that an animation is in at `seconds`, counted from 0.
 double loop_at(double seconds, double duration) {
   return std::round((seconds - looped_time(seconds, duration)) / duration);
 }

@@ -7,7 +7,7 @@
 namespace penumbra::scene {
 namespace {
 
-// Vertices that one call transforms one by one; of further primitives only the corners of their boxes.
+// Up to this many vertices are transformed one by one; of further primitives only the corners of their boxes.
 constexpr std::size_t most_exact = 2'000'000;
 
 glm::vec3 transformed(const glm::mat4& matrix, const glm::vec3& point) { return {matrix * glm::vec4(point, 1)}; }
@@ -44,7 +44,7 @@ std::vector<glm::vec3> corners(const Bounds& box) {
   return points;
 }
 
-// The boxes of a primitive's positions and of each target's offsets.
+// Bounding boxes of a primitive's positions and of each morph target's offsets.
 struct Boxes {
   Bounds positions;
   std::vector<Bounds> offsets;
@@ -93,7 +93,7 @@ class Bounder {
     Bounds bounds;
     if (exact && is_skinned) {
       for (std::size_t v = 0; v < points.size(); ++v) bounds.add(skinned(primitive, matrices, v, points[v]));
-    } else {  // a skinned vertex lies between where its joints would put it
+    } else {  // a skinned vertex is a weighted mean of its positions under each joint
       for (const glm::mat4& matrix : matrices)
         for (const glm::vec3& point : points) bounds.add(transformed(matrix, point));
     }
@@ -107,7 +107,7 @@ class Bounder {
     return matrices;
   }
 
-  // A box that contains the morphed primitive: every target at its own extreme.
+  // A box that contains the morphed primitive: every target at its own extremes.
   Bounds morphed_box(const Primitive& primitive, const std::vector<float>& weights) {
     const auto [found, is_new] = boxes_.try_emplace(&primitive);
     Boxes& boxes = found->second;

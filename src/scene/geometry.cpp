@@ -8,7 +8,7 @@ namespace {
 
 constexpr glm::vec3 up{0, 1, 0};
 
-// In double, since products of large or tiny coordinates leave float's range.
+// In double precision: products of large or tiny coordinates exceed float's range.
 glm::vec3 unit_or(const glm::dvec3& vector, const glm::vec3& otherwise) {
   const double length = glm::length(vector);
   return length > 0 && std::isfinite(length) ? glm::vec3(vector / length) : otherwise;
@@ -33,7 +33,7 @@ void gather(std::vector<T>& values, std::span<const uint32_t> indices) {
   values = std::move(gathered);
 }
 
-// Each index gets a vertex of its own.
+// Gives each index its own vertex.
 void split_vertices(Primitive& primitive) {
   const std::span<const uint32_t> indices = primitive.indices;
   gather(primitive.positions, indices);
@@ -51,7 +51,7 @@ void split_vertices(Primitive& primitive) {
   for (std::size_t i = 0; i < primitive.indices.size(); ++i) primitive.indices[i] = static_cast<uint32_t>(i);
 }
 
-// Of a primitive whose vertices are its corners in order.
+// The flat normals of a primitive whose vertices are the triangles' corners in order.
 std::vector<glm::vec3> flat_normals(std::span<const glm::vec3> corners) {
   std::vector<glm::vec3> normals;
   normals.reserve(corners.size());
@@ -74,7 +74,7 @@ TangentSums sum_tangents(const Primitive& primitive, const std::vector<glm::vec2
     const glm::dvec2 uv1 = glm::dvec2(uvs[corner[1]]) - glm::dvec2(uvs[corner[0]]);
     const glm::dvec2 uv2 = glm::dvec2(uvs[corner[2]]) - glm::dvec2(uvs[corner[0]]);
     const double sign = uv1.x * uv2.y - uv2.x * uv1.y < 0 ? -1 : 1;
-    // Weighted by the triangle's area, whatever its share of the texture: hence the unit vectors.
+    // Weighted by the triangle's area in space, not in the texture: hence the unit vectors.
     const double area = glm::length(glm::cross(edge1, edge2));
     const glm::dvec3 along_u = glm::dvec3(unit_or((edge1 * uv2.y - edge2 * uv1.y) * sign, glm::vec3(0))) * area;
     const glm::dvec3 along_v = glm::dvec3(unit_or((edge2 * uv1.x - edge1 * uv2.x) * sign, glm::vec3(0))) * area;
@@ -108,7 +108,7 @@ std::vector<uint32_t> expanded_indices(int mode, std::span<const uint32_t> in) {
       for (std::size_t i = 0; i + 1 < count; ++i) out.insert(out.end(), {in[i], in[i + 1]});
       if (mode == 2 && count > 1) out.insert(out.end(), {in[count - 1], in[0]});
       break;
-    case 5:  // every second triangle of a strip is turned over
+    case 5:  // every second triangle of a strip has the opposite winding
       for (std::size_t i = 0; i + 2 < count; ++i) out.insert(out.end(), {in[i], in[i + 1 + i % 2], in[i + 2 - i % 2]});
       break;
     case 6:
@@ -126,7 +126,7 @@ void make_flat_normals(Primitive& primitive) {
     return;
   }
   split_vertices(primitive);
-  primitive.tangents.clear();  // they belong to the normals that are missing
+  primitive.tangents.clear();  // tangents without normals are meaningless
   primitive.normals = flat_normals(primitive.positions);
   for (MorphTarget& target : primitive.targets) {
     target.tangents.clear();

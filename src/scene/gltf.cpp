@@ -30,7 +30,7 @@ void check_drawn(const Scene& scene, const ReadLimits& limits) {
     fail_over_limit(fmt::format("{} vertices of skinned and morphed meshes", deformed), limits, &ReadLimits::vertices);
 }
 
-// Float arithmetic on what lies further out would overflow in the passes.
+// Float arithmetic in the passes would overflow on coordinates further out.
 void check_extent(const Scene& scene, double limit) {
   const Pose pose = rest_pose(scene);
   const Bounds bounds = bounds_of(scene, pose);
@@ -48,7 +48,7 @@ std::string quoted_or(const std::string& name, const std::string& otherwise) {
   return name.empty() ? otherwise : "'" + name + "'";
 }
 
-// Marks the nodes that are skies, and warns of those that cast no shadow for it.
+// Marks the nodes that are skies, and warns of those that therefore cast no shadow.
 void mark_skies(const std::filesystem::path& path, Scene& scene) {
   for (const int number : find_skies(scene, rest_pose(scene))) {
     Node& node = scene.nodes[static_cast<std::size_t>(number)];
@@ -95,7 +95,7 @@ Scene read_gltf(const std::filesystem::path& path, const ImageDecoder& decode, c
     fail("{}: {}", path.string(), gltf::one_line(e.what()));
   } catch (const std::bad_alloc&) {
     fail("{}: not enough memory to read it", path.string());
-  } catch (const std::exception& e) {  // of a library below
+  } catch (const std::exception& e) {  // thrown by a library
     fail("{}: {}", path.string(), gltf::one_line(e.what()));
   }
 }

@@ -13,10 +13,10 @@ namespace penumbra::scene {
 
 namespace {
 
-// Where a primitive's indices, and its vertices at rest, lie in the shared buffers.
+// Offsets of a primitive's indices and undeformed vertices in the shared buffers.
 struct Placed {
   std::uint32_t first_index = 0;
-  std::optional<std::uint32_t> base_vertex;  // without one: only deformed instances use it
+  std::optional<std::uint32_t> base_vertex;  // absent if only deformed instances use it
   Bounds bounds;
 };
 
@@ -85,7 +85,7 @@ class Builder {
       if (!placed.base_vertex) placed.base_vertex = rigid.append(primitive);
       instance.base_vertex = *placed.base_vertex;
     }
-    // Skinned vertices are in world space already: what would place copies does not apply to them.
+    // Skinned vertices are already in world space, so instance transforms do not apply to them.
     const bool copied = !node.instances.empty() && !(instance.job >= 0 && deformer_.skinned(instance.job));
     for (std::size_t copy = 0; copy < (copied ? node.instances.size() : 1); ++copy) {
       instance.copy = copied ? static_cast<int>(copy) : -1;

@@ -10,7 +10,7 @@ namespace penumbra::scene {
 
 namespace {
 
-// As glsl/scene/deform.comp declares.
+// Must match glsl/scene/deform.comp.
 enum Binding : GLuint {
   binding_rest,
   binding_influences,
@@ -163,7 +163,7 @@ Bounds Deformer::bounds(int job, const Pose& pose) const {
     Bounds part = source.parts[joint];
     part.add(part.min - reach);
     part.add(part.max + reach);
-    // A skinned vertex is a mean of where its joints would put it.
+    // A skinned vertex is a weighted mean of its positions under each joint, so it is inside the union of the boxes.
     bounds.add(skinned(job) ? transformed(part, pose.skin[static_cast<std::size_t>(own.node)][joint]) : part);
   }
   return bounds;

@@ -9,7 +9,7 @@ namespace penumbra::scene {
 
 namespace {
 
-// As glsl/scene declares.
+// Must match glsl/scene.
 constexpr GLuint instances_binding = 0;
 constexpr GLuint indices_binding = 2;
 constexpr GLuint positions_binding = 3;
@@ -36,7 +36,7 @@ gl::ProgramDesc caster_program(bool masked, bool marks_moved, bool last_pose) {
   return program;
 }
 
-// All that shading reads of an instance.
+// The state that shading reads of an instance.
 Batch shaded_batch(const Instance& instance) {
   return {.deformed = instance.job >= 0,
           .mirrored = instance.mirrored,
@@ -50,8 +50,8 @@ Batch shaded_batch(const Instance& instance) {
 // determinant.
 bool turns_round(const glm::mat4& world_to_clip) { return glm::determinant(world_to_clip) > 0; }
 
-// Casters of both faces without a material all share one draw. Where only one face casts, the other is culled as back
-// faces are.
+// All casters of both faces without a material share one draw. Where only one face casts, the other face is culled like
+// back faces.
 Batch caster_batch(const Instance& instance, bool masked, bool flips) {
   Batch batch{.deformed = instance.job >= 0, .double_sided = true, .material = masked ? instance.material : -1};
   if (instance.faces == CasterFaces::both) return batch;
@@ -168,7 +168,7 @@ void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, Casters casters,
       draw({.still = true, .moved = true});
       break;
     case Casters::all_and_moved:
-      // Casters at rest only occlude, so they need no fragment stage: drawn first, they write no mark.
+      // Casters that did not move only occlude, so they need no fragment stage: they are drawn first and write no mark.
       gl::glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
       draw({.still = true});
       gl::glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

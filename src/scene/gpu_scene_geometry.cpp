@@ -1,4 +1,4 @@
-// What is drawn, brought back from the GPU.
+// Reads the drawn geometry back from the GPU.
 #include "gl/api.h"
 #include "scene/gpu_scene.h"
 #include "scene/gpu_scene_state.h"

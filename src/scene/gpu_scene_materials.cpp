@@ -11,7 +11,7 @@ static_assert(sizeof(glsl::MaterialBlock) == 256);
 
 namespace {
 
-constexpr GLuint material_binding = 6;  // as glsl/scene/material.glsl declares
+constexpr GLuint material_binding = 6;  // must match glsl/scene/material.glsl
 constexpr GLuint first_unit = 8;
 
 std::array<const TextureRef*, TEXTURE_COUNT> references(const Material& material) {
@@ -22,7 +22,7 @@ std::array<const TextureRef*, TEXTURE_COUNT> references(const Material& material
 bool holds_color(std::size_t which) { return which == TEXTURE_BASE_COLOR || which == TEXTURE_EMISSIVE; }
 
 float cutoff_of(const Material& material) {
-  // A blended surface casts where it is more opaque than not.
+  // A blended surface casts a shadow where its alpha is above a half.
   if (material.alpha_mode == AlphaMode::blend) return std::nextafter(0.5f, 1.0f);
   return material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : -1.0f;
 }
@@ -120,8 +120,8 @@ Materials::Slot Materials::slot(gl::Device& device, const Scene& scene, const Te
   return {&entry->second, &device.sampler(sampler_of(texture))};
 }
 
-// Flags keep shaders from reading what a material lacks. One of its neighbours' textures is bound there all the same:
-// a software driver compiles a shader anew for each combination of texture states that it is drawn with.
+// Flags keep shaders from sampling textures that a material lacks. Another texture of the material is bound there
+// anyway: a software driver recompiles a shader for each combination of texture states that it is drawn with.
 void Materials::fill_empty_slots() {
   for (std::size_t i = 0; i < TEXTURE_COUNT; ++i) {
     const auto filled =

@@ -45,7 +45,7 @@ glm::u16vec4 pack_color(const glm::vec4& color) {
   return glm::u16vec4(glm::round(glm::clamp(color, 0.0f, 1.0f) * 65535.0f));
 }
 
-// Normals of files may have any length.
+// Normals in a file may have any length.
 glm::vec3 unit(const glm::vec3& v) {
   const float length = glm::length(v);
   return length > 0.0f ? v / length : glm::vec3(0.0f);

@@ -69,7 +69,7 @@ void set_limit(ReadLimits& limits, std::string_view assignment) {
   const LimitRow& row = row_named(assignment.substr(0, equals));
   limits.*row.value = number_of(row, assignment.substr(equals + 1));
   if (row.value != &ReadLimits::decoded_bytes) return;
-  limits.decoded_ratio = 0;  // that much, whatever files and machine hold
+  limits.decoded_ratio = 0;  // an explicit limit applies whatever the size of files and memory
   limits.decoded_most = limits.decoded_bytes;
 }
 

@@ -7,13 +7,13 @@
 namespace penumbra::scene {
 namespace {
 
-// What animation changes of a node.
+// The properties of a node that animation changes.
 struct Local {
   Transform transform;
   std::vector<float> weights;
 };
 
-// Transforms can multiply beyond float's range in an animation; such a node collapses to nothing.
+// Products of animated transforms can exceed float's range; such a node is collapsed to a point.
 glm::mat4 finite_or_collapsed(const glm::mat4& matrix) {
   for (glm::length_t c = 0; c < 4; ++c)
     for (glm::length_t r = 0; r < 4; ++r)
@@ -53,7 +53,7 @@ void apply(const AnimationChannel& channel, double time, Local& local) {
   }
 }
 
-// From the roots of the forest downwards, without recursion: hierarchies can be deep.
+// From the roots of the forest downwards, without recursion, because hierarchies can be deep.
 void place_nodes(const Scene& scene, const std::vector<Local>& locals, Pose& pose) {
   pose.world.assign(scene.nodes.size(), glm::mat4(1));
   std::vector<int> open;
@@ -104,10 +104,10 @@ Transform to_transform(const glm::mat4& matrix) {
   transform.translation = glm::vec3(matrix[3]);
   glm::mat3 axes(matrix);
   for (glm::length_t c = 0; c < 3; ++c) transform.scale[c] = glm::length(axes[c]);
-  // A mirrored matrix is a rotation with one axis turned round.
+  // A mirroring matrix is a rotation with one axis negated.
   if (glm::determinant(axes) < 0) transform.scale.x = -transform.scale.x;
   for (glm::length_t c = 0; c < 3; ++c) {
-    if (transform.scale[c] == 0) return transform;  // flattened: the rotation is lost
+    if (transform.scale[c] == 0) return transform;  // singular: the rotation is undefined
     axes[c] /= transform.scale[c];
   }
   transform.rotation = glm::normalize(glm::quat_cast(axes));

@@ -13,12 +13,12 @@
 namespace penumbra::scene {
 namespace {
 
-constexpr std::size_t most_triangles = 200'000;  // a shell of more is no plain sky
+constexpr std::size_t most_triangles = 200'000;  // a shell with more is not a simple sky
 constexpr std::size_t most_skies = 8;
 constexpr int direction_count = 128;  // over the whole sphere, spread evenly
-constexpr float lowest = 0.1f;        // sine of the height that a dome must reach down to
-constexpr double filled = 0.97;       // share of the directions, for seams and a hole for the sun
-constexpr float far_off = 2;          // times the radius of all else
+constexpr float lowest = 0.1f;        // sine of the elevation that a dome must reach down to
+constexpr double filled = 0.97;       // least share of covered directions; allows for seams and a hole for the sun
+constexpr float far_off = 2;          // times the radius of everything else
 constexpr std::array<std::string_view, 4> names = {"sky", "backdrop", "panorama", "hdri"};
 
 // A spiral of equal areas from the zenith to the nadir.
@@ -32,10 +32,10 @@ std::array<glm::vec3, direction_count> make_directions() {
   return directions;
 }
 
-// What a ray from the middle meets.
+// What a ray from the centre hits.
 struct Seen {
   float nearest = std::numeric_limits<float>::infinity();  // metres
-  bool front = false;                                      // some triangle shows its front, or is double-sided
+  bool front = false;                                      // it hits a triangle's front, or one that is double-sided
 };
 using View = std::array<Seen, direction_count>;
 
@@ -44,7 +44,7 @@ struct Hit {
   bool front;
 };
 
-// Moeller and Trumbore 1997, both faces.
+// Ray-triangle intersection, both faces (Möller and Trumbore 1997).
 std::optional<Hit> hit_of(const glm::vec3& a, const glm::vec3& ab, const glm::vec3& ac, const glm::vec3& direction) {
   const glm::vec3 p = glm::cross(direction, ac);
   const float determinant = glm::dot(ab, p);
@@ -52,7 +52,7 @@ std::optional<Hit> hit_of(const glm::vec3& a, const glm::vec3& ab, const glm::ve
   const float u = glm::dot(-a, p) / determinant;
   const glm::vec3 q = glm::cross(-a, ab);
   const float v = glm::dot(direction, q) / determinant, distance = glm::dot(ac, q) / determinant;
-  constexpr float seam = 1e-4f;  // neighbours must leave no gap between them
+  constexpr float seam = 1e-4f;  // tolerance, so that adjacent triangles leave no gap
   if (!(u >= -seam && v >= -seam && u + v <= 1 + seam && distance > 0)) return {};
   return Hit{distance, determinant > 0};
 }
@@ -86,7 +86,7 @@ class SkyFinder {
     return scene_.meshes[static_cast<std::size_t>(scene_.nodes[node].mesh)];
   }
 
-  // The box of all nodes but one: of those before it, and of those behind it.
+  // For each node, the box of all other nodes is the union of the boxes before it and behind it in the list.
   std::optional<int> outermost() const {
     const std::size_t count = boxes_.size();
     std::vector<Bounds> behind(count + 1);
@@ -168,7 +168,7 @@ class SkyFinder {
 
   const Scene& scene_;
   const Pose& pose_;
-  std::vector<Bounds> boxes_;  // of the triangles of each node; empty: none, or a sky that was found
+  std::vector<Bounds> boxes_;  // per node, of its triangles; empty if it has none or was found to be a sky
   std::array<glm::vec3, direction_count> directions_;
 };
 

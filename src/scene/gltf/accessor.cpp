@@ -35,7 +35,7 @@ int component_count(int type) {
 Bytes checked_range(const Document& document, int view, std::size_t offset, std::size_t count, std::size_t stride,
                     std::size_t size) {
   const Bytes bytes = document.views[static_cast<std::size_t>(view)];
-  if (bytes.empty()) return {};  // its buffer has no data: zeros
+  if (bytes.empty()) return {};  // its buffer has no data, so all elements are zero
   // count is below 2^31 and stride below 2^8: no overflow.
   if (offset > bytes.size() || stride * (count - 1) + size > bytes.size() - offset)
     fail("{} elements of {} bytes from byte {} don't fit the {} bytes of bufferView {}", count, size, offset,

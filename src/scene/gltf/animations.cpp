@@ -14,7 +14,7 @@ std::optional<Path> to_path(const std::string& name) {
   if (name == "rotation") return Path::rotation;
   if (name == "scale") return Path::scale;
   if (name == "weights") return Path::weights;
-  return std::nullopt;  // KHR_animation_pointer's, and whatever is invented next
+  return std::nullopt;  // KHR_animation_pointer or a future extension
 }
 
 Interpolation to_interpolation(const std::string& name) {
@@ -29,7 +29,7 @@ int component_count(const Scene& scene, const Node& node, Path path) {
   return static_cast<int>(scene.meshes[static_cast<std::size_t>(node.mesh)].default_weights.size());
 }
 
-// Keys at the same time, which some exporters write for a jump: the last one holds.
+// Of keys at the same time, which some exporters write for a jump, only the last one is kept.
 void keep_last_of_equal_keys(AnimationChannel& channel) {
   const std::size_t keys = channel.times.size(), width = channel.values.size() / keys;
   std::size_t kept = 0;
@@ -61,7 +61,7 @@ void read_keys(Document& document, const tinygltf::AnimationSampler& sampler, An
   keep_last_of_equal_keys(channel);
 }
 
-// Nothing when the channel has no target that this program knows.
+// Nothing if the channel has no target that this program supports.
 std::optional<AnimationChannel> read_channel(Document& document, const Scene& scene,
                                              const tinygltf::Animation& animation,
                                              const tinygltf::AnimationChannel& in) {
@@ -103,7 +103,7 @@ Animation read_animation(Document& document, const Scene& scene, std::size_t num
 void read_animations(Document& document, Scene& scene) {
   for (std::size_t i = 0; i < document.model.animations.size(); ++i)
     scene.animations.push_back(read_animation(document, scene, i));
-  // Animation moves a node's translation, rotation and scale, which a matrix does not have apart.
+  // Animation changes a node's translation, rotation and scale separately, which a matrix can't provide.
   for (const Animation& animation : scene.animations)
     for (const AnimationChannel& channel : animation.channels) {
       Node& node = scene.nodes[static_cast<std::size_t>(channel.node)];

@@ -14,7 +14,8 @@
 namespace penumbra::scene::gltf {
 namespace {
 
-// The functions of libmeshoptimizer, loaded when the first file needs them: a program without it reads all others.
+// The functions of libmeshoptimizer, which is loaded when the first file needs it: a program without the library can
+// still read all other files.
 struct Meshopt {
   decltype(&meshopt_decodeVertexBuffer) decode_vertices = nullptr;
   decltype(&meshopt_decodeIndexBuffer) decode_triangles = nullptr;
@@ -39,7 +40,7 @@ const Meshopt& meshopt() {
   return functions;
 }
 
-// meshoptimizer asserts on sizes it does not handle, so they are refused before it sees them.
+// meshoptimizer asserts on sizes that it does not support, so these are refused first.
 void check_meshopt_sizes(const MeshoptStream& s) {
   const bool attributes = s.mode == "ATTRIBUTES";
   if (s.bytes.empty()) fail("EXT_meshopt_compression without data");
@@ -53,9 +54,10 @@ void check_meshopt_sizes(const MeshoptStream& s) {
 }
 
 constexpr uint8_t sequential = 0;     // Draco's encoder methods
-constexpr std::size_t densest = 256;  // faces a byte: well beyond what real meshes reach
+constexpr std::size_t densest = 256;  // faces per byte: far more than real meshes reach
 
-// Draco allocates what its header declares before it finds the data missing, so the header is read here first.
+// Draco allocates what its header declares before it notices that the data are missing, so the header is checked here
+// first.
 void check_draco_header(const char* data, std::size_t size) {
   draco::DecoderBuffer buffer;
   buffer.Init(data, size);

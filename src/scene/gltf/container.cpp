@@ -51,8 +51,8 @@ GlbChunks split_glb(Bytes file) {
   return chunks;
 }
 
-// Recursive parsers and documents of many small values are what a hostile JSON text exploits, so both are counted
-// beforehand, without recursion or memory.
+// Malicious JSON exploits recursive parsers by nesting and memory by many small values, so both are counted first,
+// without recursion or allocation.
 void check_json_size(std::string_view text, const ReadLimits& limits) {
   std::size_t depth = 0, values = 0;
   bool in_string = false;
@@ -114,7 +114,7 @@ Container read_container(const std::filesystem::path& path, const ReadLimits& li
   } else {
     if (!looks_like_json(file)) fail("neither a GLB nor a glTF file");
     container.json = parse_json(file, limits);
-    // A .gltf's data lies elsewhere; only a GLB's chunk refers to the file's bytes later on.
+    // The data of a .gltf are in other files, so only the BIN chunk of a GLB needs the file's bytes later.
     container.file = {};
   }
   return container;

@@ -93,7 +93,7 @@ std::vector<Bytes> load_buffers(Document& document, const Container& container) 
   return buffers;
 }
 
-// The bytes that a bufferView or its compressed stand-in cuts out of a buffer.
+// The bytes of a buffer that a bufferView, or its compressed form, refers to.
 Bytes cut(const std::vector<Bytes>& buffers, const Json& view) {
   const Bytes buffer = buffers[view["buffer"].get<std::size_t>()];
   const auto offset = view.value("byteOffset", std::size_t{0}), length = view["byteLength"].get<std::size_t>();
@@ -162,8 +162,8 @@ void spend_array(Budget& budget, const Json& owner, const char* key) {
   if (owner.contains(key)) budget.spend(owner[key].size(), sizeof(T));
 }
 
-// tinygltf's structures are large, even for an empty object of two characters. Nothing is known of the JSON's types
-// yet, but the sizes of what is no array are harmless.
+// tinygltf's structures are large, even for an empty object of two characters, so they count against the memory limit.
+// The JSON's types are not checked yet, but the size of a value that is not an array is harmless.
 void spend_model(Document& document, const Json& json) {
   Budget& budget = document.budget;
   if (json.contains("nodes") && json["nodes"].size() > document.options.limits.nodes)
@@ -188,8 +188,9 @@ void spend_model(Document& document, const Json& json) {
   }
 }
 
-// tinygltf reads files itself, refuses index accessors without a bufferView (Draco's and sparse ones have none) and
-// buffers without data, so it is given the document without buffers and images and with a bufferView everywhere.
+// tinygltf would read files itself, and refuses index accessors without a bufferView (Draco's and sparse ones have
+// none) and buffers without data. So it gets the document without buffers and images, and with a bufferView in every
+// accessor.
 tinygltf::Model parse_model(Json json) {
   json.erase("buffers");
   json.erase("images");

@@ -23,7 +23,7 @@ void ImageReader::need(int number) {
   needed_[image] = !document_.left_out.holds("images", image);
 }
 
-// Only what a URI names: bytes of a bufferView are at hand.
+// Loads the data of a URI; bytes of a bufferView are in memory already.
 std::vector<std::byte> ImageReader::load(const ImageSource& source) const {
   if (source.view >= 0) return {};
   return load_uri(document_.folder, source.uri, document_.options);
@@ -45,7 +45,7 @@ std::size_t ImageReader::decoded_size(std::size_t image) {
 void ImageReader::check_sizes() {
   const ReadLimits& limits = document_.options.limits;
   std::size_t total = 0, count = 0;
-  for (const bool of_used : {true, false})  // what is drawn comes first
+  for (const bool of_used : {true, false})  // images of drawn parts first
     for (std::size_t i = 0; i < needed_.size(); ++i) {
       if (!needed_[i] || used(i) != of_used) continue;
       try {

@@ -21,7 +21,7 @@ bool LeftOut::holds(std::string_view array, std::size_t index) const {
 
 void LeftOut::add(std::string_view array, std::size_t index, std::string_view cause) {
   if (holds(array, index)) return;
-  // The schema's messages begin with the place already.
+  // Messages of the schema already begin with the place.
   const bool placed = cause.starts_with(fmt::format("{}[{}]", array, index));
   add_part(placed ? "" : place_of(array, index), used_.holds(array, index), cause);
   elements_.emplace(array, index);

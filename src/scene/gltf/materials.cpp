@@ -23,7 +23,7 @@ glm::mat3x2 uv_matrix(const Value& transform) {
           static_cast<float>(c * scale[1]), static_cast<float>(offset[0]),     static_cast<float>(offset[1])};
 }
 
-// While a material is read, uv_set holds the file's number of the set.
+// While a material is being read, uv_set is the file's number of the UV set.
 TextureRef reference(int texture, int uv_set, const Value* transform) {
   TextureRef ref{.texture = texture, .uv_set = uv_set};
   if (transform == nullptr || !transform->IsObject()) return ref;
@@ -37,7 +37,7 @@ TextureRef reference(const TextureInfo& info) {
   return reference(info.index, info.texCoord, find_extension(info, "KHR_texture_transform"));
 }
 
-// The same from an extension's object.
+// The same, from an extension's object.
 TextureRef reference(const Value& object, const char* key) {
   if (!object.Has(key)) return {};
   const Value& info = object.Get(key);
@@ -47,7 +47,8 @@ TextureRef reference(const Value& object, const char* key) {
   return reference(index_or(info, "index", -1), index_or(info, "texCoord", 0), transform);
 }
 
-// The retired workflow has no exact counterpart: its diffuse part is kept, its specular colour dropped.
+// The deprecated specular-glossiness workflow has no exact equivalent: its diffuse part is kept, its specular colour is
+// dropped.
 void read_specular_glossiness(const Value& old, Material& material) {
   material.base_color = to_vec4(numbers_or(old, "diffuseFactor", {1, 1, 1, 1}));
   material.base_color_texture = reference(old, "diffuseTexture");
@@ -61,7 +62,7 @@ std::array<TextureRef*, 5> references(Material& m) {
           &m.emissive_texture};
 }
 
-// Gives the first two UV sets that the material uses its two slots.
+// Assigns the first two UV sets that the material uses to its two slots.
 void assign_uv_slots(MaterialUse& use) {
   std::vector<int> sets;
   for (const TextureRef* ref : references(use.material))
@@ -94,7 +95,7 @@ MaterialUse read_material(const tinygltf::Material& in, std::size_t number) {
   out.emissive = glm::vec3(in.emissiveFactor[0], in.emissiveFactor[1], in.emissiveFactor[2]);
   if (const Value* strength = find_extension(in, "KHR_materials_emissive_strength"); strength && strength->IsObject())
     out.emissive *= static_cast<float>(number_or(*strength, "emissiveStrength", 1));
-  // Far beyond any display, and still finite after lighting.
+  // Clamped to far more than any display shows, but still finite after lighting.
   out.emissive = glm::min(out.emissive, glm::vec3(1e9f));
   out.emissive_texture = reference(in.emissiveTexture);
   if (in.alphaMode == "MASK") out.alpha_mode = AlphaMode::mask;
@@ -129,7 +130,7 @@ Texture read_texture(const Document& document, const tinygltf::Texture& in) {
   return out;
 }
 
-// The file's number of a reference's image; -1 for none.
+// The file's index of a reference's image; -1 for none.
 int image_of(const Document& document, const TextureRef& ref) {
   return document.model.textures[static_cast<std::size_t>(ref.texture)].source;
 }

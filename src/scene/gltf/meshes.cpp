@@ -15,7 +15,8 @@ namespace {
 
 constexpr int max_joint_sets = 8;
 
-// The vertices that a primitive uses. Files often cut one large vertex array into many primitives; each takes its own.
+// The vertices that a primitive uses. Files often divide one large vertex array among many primitives; each copies only
+// its own.
 Selection select_vertices(std::vector<uint32_t>& indices, std::size_t count) {
   if (indices.size() * 2 >= count) return {.count = count};
   std::vector<uint32_t> used = indices;
@@ -29,7 +30,7 @@ Selection select_vertices(std::vector<uint32_t>& indices, std::size_t count) {
 
 class PrimitiveReader {
  public:
-  // `place`: "meshes[1].primitives[0]". `skinned`: a node that is drawn gives the mesh a skin.
+  // `place`: "meshes[1].primitives[0]". `skinned`: whether a drawn node gives the mesh a skin.
   PrimitiveReader(Document& document, const std::vector<MaterialUse>& materials, const tinygltf::Primitive& in,
                   std::string place, bool skinned)
       : document_(document),
@@ -42,7 +43,7 @@ class PrimitiveReader {
       draco_ = decode_draco(document, in, *extension);
   }
 
-  // Nothing when there is nothing to draw.
+  // Nothing if the primitive has nothing to draw.
   std::optional<Primitive> read() {
     const auto positions = attribute("POSITION");
     if (!positions) return std::nullopt;
@@ -107,7 +108,7 @@ class PrimitiveReader {
     return view ? read_checked<N>(*view) : std::vector<glm::vec<N, float>>();
   }
 
-  // What can be computed from the rest is no reason to refuse a file: zeros stand in, and count as wrong.
+  // A fault in data that can be recomputed does not refuse a file: faulty vectors become zero and are counted.
   template <int N>
   std::vector<glm::vec<N, float>> read_repairable(const AccessorView& view, std::size_t& wrong) {
     if (view.count != count_) fail("{} has {} elements for {} vertices", view.name, view.count, count_);
@@ -146,7 +147,7 @@ class PrimitiveReader {
   void read_vertices(const AccessorView& positions) {
     out_.positions = read_checked<3>(positions);
     if (const auto normals = attribute("NORMAL")) {
-      std::size_t wrong = 0;  // counted with those of no length when they are repaired
+      std::size_t wrong = 0;  // unused here: the zeros are counted when normals are repaired
       out_.normals = read_repairable<3>(*normals, wrong);
     }
     read_tangents();
@@ -169,7 +170,7 @@ class PrimitiveReader {
     uint32_t joint;
   };
 
-  // Keeps the four heaviest influences of each vertex over all sets.
+  // Keeps the four largest weights of each vertex over all sets.
   void read_joints() {
     std::vector<AccessorView> joints, weights;
     for (int set = 0; set < max_joint_sets; ++set) {
@@ -220,7 +221,7 @@ class PrimitiveReader {
       joints[c] = static_cast<uint16_t>(influences[k].joint);
       weights[c] = static_cast<float>(influences[k].weight / sum);
     }
-    if (kept == 0) weights[0] = 1;  // nothing moves the vertex: it goes with the first joint
+    if (kept == 0) weights[0] = 1;  // no influence: the vertex follows the first joint
     out_.joints.push_back(joints);
     out_.weights.push_back(weights);
   }
@@ -269,7 +270,7 @@ class PrimitiveReader {
   const std::string place_;
   const bool skinned_;
   std::optional<DracoMesh> draco_;
-  std::size_t count_ = 0;  // of the file's vertices, of which `selection_` are read
+  std::size_t count_ = 0;  // vertices in the file, of which `selection_` are read
   Selection selection_;
   Primitive out_;
 };

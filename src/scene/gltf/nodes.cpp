@@ -97,7 +97,8 @@ MeshFacts facts_of(const Mesh& mesh) {
   return facts;
 }
 
-// A node's mesh, skin and weights must fit each other, and a pose holds joints and weights for each node.
+// A node's mesh, skin and weights must fit together. A pose needs memory for joints and weights of each node, which is
+// counted here.
 void check_attachments(Document& document, const Scene& scene, const std::vector<MeshFacts>& facts, Node& node) {
   if (node.mesh < 0) {
     node.skin = -1;
@@ -121,7 +122,8 @@ void check_attachments(Document& document, const Scene& scene, const std::vector
   document.budget.spend(joints, 2 * sizeof(glm::mat4));
 }
 
-// First the children of what is drawn, so that of two parents the one that nothing drawn uses is at fault.
+// Visits the children of drawn nodes first: if a node has two parents, the fault is reported at the parent that nothing
+// drawn uses.
 void link_parents(Document& document, Scene& scene) {
   for (const bool of_used : {true, false})
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -141,7 +143,7 @@ void link_parents(Document& document, Scene& scene) {
     }
 }
 
-// With one parent each, nodes that no root reaches go round in a cycle.
+// Every node has at most one parent, so nodes that no root reaches form a cycle.
 void check_forest(Document& document, Scene& scene) {
   const ReadLimits& limits = document.options.limits;
   std::vector<std::pair<int, std::size_t>> open;  // node and depth
@@ -160,12 +162,12 @@ void check_forest(Document& document, Scene& scene) {
     if (reached[i]) continue;
     document.left_out.add_part(fmt::format("nodes[{}]", i), document.left_out.used().holds("nodes", i),
                                "belongs to a cycle");
-    scene.nodes[i].parent = -1;  // so do all others of the cycle, which nothing drawn uses either
+    scene.nodes[i].parent = -1;  // the loop also does this for the other nodes of the cycle, which nothing drawn uses
     scene.nodes[i].children.clear();
   }
 }
 
-// The default scene, or the first; a file without scenes is a library of parts, and all of it is drawn.
+// The default scene, or the first one. A file without scenes is a library of parts; all of its nodes are drawn.
 void read_roots(const Document& document, Scene& scene) {
   if (document.model.scenes.empty()) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i)

@@ -46,8 +46,9 @@ bool lies_inside(const std::filesystem::path& file, const std::filesystem::path&
   return in_folder == folder.end() && in_file != file.end();
 }
 
-// A relative name below the folder, decoded as the standard says, or as written, as many exporters write it. Where it
-// leads is judged of files that don't exist too, so that a scene can't find out which do.
+// The path of a relative URI below the folder: percent-decoded as the standard says, or unchanged, as many exporters
+// write it. Whether it leaves the folder is checked for files that don't exist too, so that a scene can't find out
+// which files do.
 std::filesystem::path resolve(const std::filesystem::path& folder, std::string_view uri, bool follow_links) {
   std::error_code code;
   const auto base = std::filesystem::canonical(folder.empty() ? "." : folder, code);
@@ -71,7 +72,7 @@ bool equals_ignoring_case(std::string_view text, std::string_view lower) {
                             [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
 }
 
-// Each byte as it is, or as '%' and two hexadecimal digits.
+// Decodes bytes that are given directly, or as '%' and two hexadecimal digits.
 std::vector<std::byte> percent_decoded_bytes(std::string_view text) {
   for (std::size_t i = text.find('%'); i != std::string_view::npos; i = text.find('%', i + 1))
     if (i + 2 >= text.size() || hex_digit(text[i + 1]) < 0 || hex_digit(text[i + 2]) < 0)

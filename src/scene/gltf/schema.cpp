@@ -64,7 +64,7 @@ class Walker {
     }
   }
 
-  // One that can be left out.
+  // An element that can be left out.
   void element(Json& value, std::string_view rest, const std::string& array, std::size_t index) {
     if (left_out_.holds(array, index)) return;
     try {

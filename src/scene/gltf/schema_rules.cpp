@@ -5,7 +5,7 @@
 namespace penumbra::scene::gltf {
 namespace {
 
-constexpr double most_bytes = 2147483647.0;  // tinygltf keeps some offsets as int
+constexpr double most_bytes = 2147483647.0;  // tinygltf stores some offsets as int
 constexpr double tiny = 1e-30, half_pi = 1.5707963267948966;
 
 Check boolean() { return {.type = Type::boolean}; }

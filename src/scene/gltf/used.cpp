@@ -28,7 +28,7 @@ const std::map<std::string, Json, std::less<>>& stand_ins() {
 
 namespace {
 
-// Null where a member is missing or its owner is no object.
+// Null if a member is missing or its owner is not an object.
 const Json* member(const Json* value, std::string_view key) {
   if (value == nullptr || !value->is_object()) return nullptr;
   const auto found = value->find(key);
@@ -49,7 +49,7 @@ const Json* array_at(const Json& document, std::string_view path) {
   return value != nullptr && value->is_array() ? value : nullptr;
 }
 
-// Follows references from the drawn nodes on, without recursion: chains can be long.
+// Follows references from the drawn nodes, without recursion, because chains can be long.
 class UsedFinder {
  public:
   UsedFinder(const Json& document, Used& used) : document_(document), used_(used) {
@@ -74,7 +74,7 @@ class UsedFinder {
     for (const Json& element : *elements) action(element);
   }
 
-  // The element that a number stands for.
+  // The index of the element that a number refers to.
   std::size_t index_in(std::string_view array, const Json* number) const {
     const std::size_t size = used_.marks_.find(array)->second.size();
     if (number == nullptr || !number->is_number()) return size;
@@ -108,7 +108,7 @@ class UsedFinder {
 
   void mark_roots() {
     const Json* scenes = array_at(document_, "scenes");
-    if (scenes == nullptr || scenes->empty()) {  // all that there is is drawn
+    if (scenes == nullptr || scenes->empty()) {  // without scenes, all nodes are drawn
       for (std::size_t i = 0; i < parents_.size(); ++i) mark("nodes", i);
       return;
     }
@@ -148,7 +148,7 @@ class UsedFinder {
     }
   }
 
-  // A joint's place depends on them, whether they are drawn or not.
+  // A joint's transform depends on its ancestors, whether they are drawn or not.
   void mark_with_ancestors(const Json& joint) {
     for (std::size_t i = index_in("nodes", &joint); i < parents_.size(); i = parents_[i]) {
       if (used_.marks_["nodes"][i]) return;
@@ -182,7 +182,7 @@ class UsedFinder {
   void mark_members(const std::string& array, const Json* object) {
     if (object == nullptr || !object->is_object()) return;
     for (const auto& [key, value] : object->items())
-      if (!key.starts_with('_')) mark(array, &value);  // an application's own attribute, which is not read
+      if (!key.starts_with('_')) mark(array, &value);  // an application-specific attribute is not read
   }
 
   void visit_primitive(const Json& primitive) {
@@ -204,7 +204,7 @@ class UsedFinder {
     texture(extension(&material, "KHR_materials_pbrSpecularGlossiness"), "diffuseTexture");
   }
 
-  // An animation is used if it moves a node that is.
+  // An animation is used if it moves a used node.
   void mark_animation(const Json& animation) {
     const Json* samplers = member(&animation, "samplers");
     bool used = false;

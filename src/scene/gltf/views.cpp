@@ -5,7 +5,7 @@
 #include "core/log.h"
 #include "scene/gltf/read.h"
 
-// What looks at and lights the scene: cameras and punctual lights.
+// Reads cameras and punctual lights.
 
 namespace penumbra::scene::gltf {
 namespace {
