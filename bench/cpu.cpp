@@ -1,5 +1,5 @@
-// What the CPU does before and beside a frame: reading glTF, baking noise, building the tracer's tree, tracing,
-// metrics.
+// Benchmarks of CPU work outside and beside the frame: reading glTF, baking noise, building the tracer's acceleration
+// structure, tracing, metrics.
 //   bench_cpu --benchmark_filter=read_gltf
 
 #include <benchmark/benchmark.h>

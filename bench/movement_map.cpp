@@ -1,5 +1,6 @@
-// What a movement map costs: the second target of the shadow pass against a pass of its own, the last position, and the
-// pyramid, in both forms, with and without the bounds of what moved. Frames of all ways alternate in one run.
+// Measures the cost of a movement map: as a second target of the shadow pass against a separate pass, with the last
+// positions and the pyramid, in both forms, with and without the bounds of what moved. The frames of all variants
+// alternate in one run.
 //   movement_map [SCENE.glb] [FRAMES]
 
 #include "shadow/movement_map.h"

@@ -95,7 +95,8 @@ void run(gl::Device& device, const gl::ProgramDesc& program) {
   pass.draw_full_screen();
 }
 
-// In a child: compiles variants from `first` on, telling each one's number before it starts. Returns the refused ones.
+// Runs in a child process: compiles variants from `first` on, and writes the number of each to the file descriptor
+// `progress` before it starts. Returns how many variants the driver refused.
 int compile_from(gl::Device& device, const std::vector<Variant>& variants, std::size_t first, int progress) {
   const std::unique_ptr<gl::Context> context = gl::make_context("auto", {});
   int refused = 0;

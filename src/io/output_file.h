@@ -22,7 +22,7 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  // Where to write; exists and is empty.
+  // The temporary file to write to; it exists and is empty.
   const std::filesystem::path& temporary() const { return temporary_; }
   // Writes `text` as the content of the temporary. Throws Error if the disk is full or the file exceeds a limit.
   void write(std::string_view text);

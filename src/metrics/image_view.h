@@ -19,9 +19,9 @@ struct ImageView {
 // are measured.
 using Receivers = std::span<const std::uint8_t>;
 
-// How every metric takes values that are no numbers: a test value that is NaN or infinite is at the error 1, on the
-// side of the reference where there is more room. Sky and other pixels that are no receivers may hold anything.
-float signed_error(float test, float reference);  // test − reference
+// The error of one value, test − reference. In every metric a test value that is NaN or infinite counts as an error of
+// 1: +1 for references up to 0.5, else −1. Sky and other pixels that are no receivers may have any value.
+float signed_error(float test, float reference);
 
 // Throws Error if the two differ in size or channels, if `receivers` is neither empty nor one byte a pixel, or if the
 // reference is not finite at a receiver.

@@ -21,12 +21,14 @@ using BoxTest = std::function<bool(const Bounds&)>;
 // Which surfaces a pass draws.
 enum class Surfaces { opaque, masked };
 
+// Which casters a pass draws, and what it writes.
 enum class Casters {
-  all,            // depth only
-  all_and_moved,  // and 1 in fragment output 0, which was clear, where those that moved since the last frame are
-                  // nearest
-  moved_now,      // those that moved, where they are; output 0 is 1
-  moved_last,     // those that moved, where they were; output 0 is 1
+  all,  // all casters, depth only
+  // All casters. Also writes 1 to fragment output 0, which the caller has cleared, where the nearest caster moved since
+  // the last frame.
+  all_and_moved,
+  moved_now,   // casters that moved, at their present position; writes 1 to output 0
+  moved_last,  // casters that moved, at their last position; writes 1 to output 0
 };
 
 // A scene on the GPU: one set of vertex buffers, one index buffer and one instance buffer for all primitives. `scene`

@@ -1,12 +1,12 @@
 "use strict";
 
-// Pictures that the page shows several times are in it once.
+// A picture that the page shows several times is stored once; the other <img> elements copy its source.
 for (const image of document.querySelectorAll("img[data-same-as]")) {
   image.src = document.getElementById(image.dataset.sameAs).src;
 }
 
-// Zoom and place, the same for all pictures: x and y are what lies to the left of and above the view, as parts of a
-// picture. The style reads them from the root.
+// Zoom and position, the same for all pictures: x and y are the parts of a picture that are to the left of and above
+// the visible part. The style sheet reads them from the root element.
 const view = { zoom: 1, x: 0, y: 0 };
 
 function showView() {
@@ -21,7 +21,7 @@ function showView() {
   }
 }
 
-// The point of the picture at (x, y), parts of the view's size, stays where it is.
+// Zooms about the point (x, y), given as fractions of the visible part: it stays where it is.
 function zoomTo(zoom, x = 0.5, y = 0.5) {
   view.x += x / view.zoom - x / zoom;
   view.y += y / view.zoom - y / zoom;
