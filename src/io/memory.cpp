@@ -33,15 +33,34 @@ std::optional<std::size_t> number_in(const char* file) {
   return {};  // missing, or "max"
 }
 
-// Memory left in the control group. Inside a container, the container's group is visible as the root group.
+// The number behind `label` in a file of lines "label number".
+std::size_t count_in(const char* file, const std::string& label) {
+  std::ifstream stream(file);
+  std::size_t count = 0;
+  for (std::string word; stream >> word >> count;) {
+    if (word == label) return count;
+  }
+  return 0;
+}
+
+// Memory left in the control group. Inside a container, the container's group is visible as the root group. Its usage
+// includes the page cache, which the kernel frees when a process needs memory.
 std::size_t left_of_group() {
+  struct Files {
+    const char *limit, *used, *statistics, *inactive_cache, *active_cache;
+  };
+  constexpr Files versions[] = {
+      {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current", "/sys/fs/cgroup/memory.stat", "inactive_file",
+       "active_file"},
+      {"/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes",
+       "/sys/fs/cgroup/memory/memory.stat", "total_inactive_file", "total_active_file"}};
   std::size_t least = unlimited;
-  constexpr const char* files[][2] = {
-      {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current"},
-      {"/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes"}};
-  for (const auto& [limit_file, used_file] : files) {
-    const auto limit = number_in(limit_file);
-    if (limit) least = std::min(least, left(*limit, number_in(used_file).value_or(0)));
+  for (const Files& files : versions) {
+    const auto limit = number_in(files.limit);
+    if (!limit) continue;
+    const std::size_t cache =
+        count_in(files.statistics, files.inactive_cache) + count_in(files.statistics, files.active_cache);
+    least = std::min(least, left(*limit, left(number_in(files.used).value_or(0), cache)));
   }
   return least;
 }

@@ -47,7 +47,7 @@ void check_sample_set(const std::string& of, const SampleSet& set, const ParamSe
     fail("{}: the sample set '{}' is counted by '{}', which is no parameter", of, set.name, set.count_parameter);
   }
   const Param& count = params.row(set.count_parameter);
-  if (!std::holds_alternative<int>(count.default_value) || count.min < 0) {
+  if (!std::holds_alternative<int>(count.default_value) || count.min < 0 || count.max < 1) {
     fail("{}: the sample set '{}' is counted by '{}', which is no number of points", of, set.name, count.name);
   }
   if (count.max > most_points) {

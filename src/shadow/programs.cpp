@@ -51,7 +51,10 @@ std::string declarations(const Registry& registry, const ParamSet& params) {
   std::string text;
   for (const Technique& technique : registry.techniques()) {
     text += fmt::format("// {}: {}\n", technique.glsl, fmt::join(technique.needs, ", "));
-    for (const SampleSet& set : technique.samples) text += fmt::format("//   {}: {}\n", set.name, set.count_parameter);
+    for (const SampleSet& set : technique.samples) {
+      text += fmt::format("//   {}: step {}, up to {} points\n", set.name, static_cast<int>(set.step),
+                          params.row(set.count_parameter).max);
+    }
   }
   for (const Denoiser& denoiser : registry.denoisers()) {
     text += fmt::format("// {}: {}\n", denoiser.name, fmt::join(denoiser.needs, ", "));

@@ -53,17 +53,22 @@ std::filesystem::path resolve(const std::filesystem::path& folder, std::string_v
   std::error_code code;
   const auto base = std::filesystem::canonical(folder.empty() ? "." : folder, code);
   if (code) fail("the scene's folder can't be resolved: {}", code.message());
+  std::error_code cause;  // why a name that may exist can't be read
   for (const std::string& name : {percent_decoded(uri), std::string(uri)}) {
+    code.clear();
     if (name.find('\0') != std::string::npos) fail("'{}' holds a zero byte", shortened(uri));
     if (std::filesystem::path(name).is_absolute()) fail("'{}' is an absolute path", shortened(uri));
     const auto named = (base / name).lexically_normal();
     if (!lies_inside(named, base)) fail("'{}' leads out of the scene's folder", shortened(uri));
-    const auto file = follow_links ? named : std::filesystem::weakly_canonical(base / name, code);
+    auto file = follow_links ? named : std::filesystem::weakly_canonical(base / name, code);
+    if (code) cause = code;
     if (code) continue;
     if (!lies_inside(file, base))
       fail("'{}' leads out of the scene's folder by a symbolic link; --follow-links allows it", shortened(uri));
     if (std::filesystem::exists(file, code)) return file;
+    if (code && code != std::errc::no_such_file_or_directory) cause = code;
   }
+  if (cause) fail("'{}' can't be read: {}", shortened(uri), cause.message());
   fail("'{}' not found", shortened(uri));
 }
 
