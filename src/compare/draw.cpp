@@ -140,7 +140,7 @@ std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamS
   for (int frame = range.first; frame <= range.last; ++frame) {
     const render::FrameInputs inputs = scene.path.frame(frame);
     renderer.draw(scene.scene, inputs, params);
-    const render::Sun& sun = std::get<render::Sun>(inputs.lights.front());
+    const auto& sun = std::get<render::Sun>(inputs.lights.front());
     frames.push_back(
         {renderer.read_aov("shadow"), render::receivers_of(renderer, sun.to_light, params.get_float("sun.angle"))});
     scene.drawn();
