@@ -32,7 +32,7 @@ void end_on_signals() {
 // The document of the command line.
 Document document_of(const ViewOptions& options) {
   Document document;
-  document.options = options;
+  document.options = static_cast<const cli::SceneOptions&>(options);
   document.options.frames = cli::FrameRange{};
   document.params = cli::resolve_params(options, session::all_techniques());
   return document;
