@@ -38,7 +38,7 @@ TEST_F(ShadowUnchanged, ATextureIsCheckedAgainWhenItIsAnother) {
 
 TEST_F(ShadowUnchanged, MakesNoParameterSet) {
   const ParamSet given = renderer_->params();
-  const ParamSet defaults = given;
+  const ParamSet defaults = renderer_->params();
   shadow::LightState state;
   shadow::Light light;
   EXPECT_FALSE(shadow::take_params(state, defaults, given, light)) << "the first";
