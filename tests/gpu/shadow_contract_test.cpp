@@ -280,7 +280,7 @@ class ShadowContract : public GpuTest {
   static float error(const std::vector<float>& columns) {
     float most = 0;
     for (int x = 0; x < side; ++x) {
-      const float expected = disc_share(static_cast<float>(x) - 0.5f * side + 0.5f);
+      const float expected = disc_share(static_cast<float>(x) - 0.5f * static_cast<float>(side) + 0.5f);
       most = std::max(most, std::abs(columns[static_cast<size_t>(x)] - expected));
     }
     return most;
