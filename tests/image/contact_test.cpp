@@ -66,7 +66,7 @@ double rmse_of(const Picture& picture, const Picture& truth) {
 void expect_truth(const std::string& scene, const Bounds& bounds) {
   SceneRun run(scene, width, height);
   for (const std::string technique : {"hard", "pcss", "brute_force"}) {
-    SCOPED_TRACE(scene + ", " + technique);
+    SCOPED_TRACE(testing::Message() << scene << ", " << technique);
     run.choose(technique);
     if (technique == "hard") run.params().set("sun.angle", 0.0f);
     const Picture truth = run.draw_truth(technique == "hard" ? 8 : 32);
