@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Records golden pictures anew, in tests/image/golden, with the renderer of this machine:
+# Records golden pictures again, in tests/image/golden, with the renderer of this machine:
 #   scripts/goldens.sh           all of them
 #   scripts/goldens.sh NAME...   these
 # Look at what `git diff` shows before you commit it; tests/image/goldens.cpp lists them.

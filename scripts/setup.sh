@@ -80,7 +80,7 @@ ensure_packages() {
   ((${#packages[@]} == 0)) || die "still not found after installing: ${missing[*]}"
 }
 
-# Compilers of this code take up to 1.5 GiB each: as many jobs as the cores and the free memory carry.
+# A compiler process takes up to 1.5 GiB on this code: as many jobs as the cores and the free memory allow.
 build_jobs() {
   local cores kib jobs
   cores=$(nproc)

@@ -18,7 +18,7 @@ namespace penumbra::bench {
 
 namespace {
 
-// As a user would type it, with file names instead of paths: folders do not matter for the measurement.
+// The command as a user would type it, with file names instead of paths: folders do not matter for the measurement.
 std::string command_of(const std::string& name, const cli::Arguments& arguments) {
   std::vector<std::string> shown_arguments;
   for (const std::string& argument : arguments) {

@@ -19,7 +19,7 @@ using scene::Transform;
 constexpr int around = 25, across = 20;  // faces of the torus: 2 · 25 · 20 triangles
 constexpr float field = 20.0F;           // metres, side of the grid
 
-// Of radius 1 about +Y and tube 0.4, on the plane y = -0.4.
+// A torus about +Y with radius 1 and tube radius 0.4, which touches the plane y = -0.4.
 Primitive torus() {
   constexpr float tube = 0.4F;
   Primitive mesh;
@@ -74,7 +74,7 @@ long long triangles_of(const scene::Mesh& mesh) {
 
 bool repeats(const Node& node) { return node.mesh >= 0 && node.skin < 0; }
 
-// The same node at every offset in the world, which its own matrix turns back into places of its own.
+// Copies the node's instances to every offset. Offsets are in world space, instances in the node's space.
 void repeat(Node& node, const glm::mat4& world, const std::vector<glm::vec3>& offsets) {
   if (node.instances.empty()) node.instances.emplace_back();
   const std::vector<Transform> own = std::exchange(node.instances, {});

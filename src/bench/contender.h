@@ -18,17 +18,17 @@ struct Entry {
   ParamSet params;
 };
 
-// An entry while it is measured in turn with others. Each has a device of its own, so that timers, programs and
-// histories are separate.
+// Draws one entry; several are drawn alternately while they are measured. Each has its own device, so that timers,
+// programs and histories are separate.
 class Contender {
  public:
-  // `scene` outlives this.
+  // `scene` must outlive this object.
   Contender(const Entry& entry, const scene::Scene& scene, const cli::DeviceOptions& options, bool with_floor);
 
-  // Draws one frame, and after it one of its floor. `params` are of the entry's technique.
+  // Draws one frame, then one frame of its floor (floor.h). `params` are those of the entry's technique.
   void draw(const render::FrameInputs& inputs, const ParamSet& params);
 
-  // Appends the last `count` frames. Waits until they are measured.
+  // Appends the times of the last `count` frames. Waits until they are measured.
   void keep(PassTimes& own, PassTimes& floor, std::size_t count);
   // The cost of the floor, and its ratio to the technique's.
   std::optional<FloorCost> floor_cost(const PassTimes& own, const PassTimes& floor) const;

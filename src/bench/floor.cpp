@@ -30,7 +30,7 @@ std::vector<Param> floor_rows() {
   };
 }
 
-// The mask whose G is the radius of the technique's filter; copies it once besides.
+// The technique's mask, whose channel G is the radius of its filter. Building it also copies the mask once.
 shadow::Recipe kernel_radii(const gl::Texture& kernels) {
   return {.name = "kernel_radii",
           .summary = "A mask of the technique that is measured.",

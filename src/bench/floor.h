@@ -11,18 +11,19 @@
 
 namespace penumbra::bench {
 
-// Frames that draw, instead of a technique, only what it could not do without: in the pass "shadow mask" its fetches
-// alone, as many from the same discs of the same map, and in the pass "mask copy" one read and one write of the mask.
+// Measures a lower bound (floor) of a technique's cost with frames that do only the work that the technique can't
+// avoid: the pass "shadow mask" does nothing but its fetches, as many from the same discs of the same map, and the pass
+// "mask copy" reads and writes the mask once.
 //
-// Techniques that say nothing of taps have no fetch floor. A technique that leaves out fetches where it knows their
-// result can be under its floor: switch that off to compare like with like (pcss.early_exit=off).
+// Techniques that do not declare their taps have no fetch floor. A technique that skips fetches whose result it knows
+// can cost less than its floor: switch that off for a fair comparison (pcss.early_exit=off).
 class Floor {
  public:
-  // `technique` is copied; `scene` outlives this.
+  // `technique` is copied; `scene` must outlive this object.
   Floor(const shadow::Technique& technique, const scene::Scene& scene, gl::ShaderFiles shaders,
         gl::Timers::Mode timing);
 
-  // Takes the radii of the technique's filter from a mask of its own.
+  // Copies the filter radii of each pixel from a mask that the technique has drawn.
   void take_kernels(const gl::Texture& mask);
   // `params`: the technique's.
   void draw(const render::FrameInputs& inputs, const ParamSet& params);
@@ -35,7 +36,7 @@ class Floor {
 
   shadow::Technique technique_;
   bool has_fetches_;
-  std::unique_ptr<gl::Texture> kernels_;  // its address is the floor technique's for good
+  std::unique_ptr<gl::Texture> kernels_;  // the registered floor technique keeps a reference to it
   gl::Device device_;
   scene::GpuScene scene_;
   render::Renderer renderer_;

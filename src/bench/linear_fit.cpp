@@ -42,8 +42,8 @@ double mean_of(std::span<const double> values) {
   return sum / static_cast<double>(values.size());
 }
 
-// A coordinate of all points, less its mean, scaled to unit length: taps and texels differ by powers of ten, and the
-// normal equations would square that.
+// One coordinate of all points, with its mean subtracted and scaled to unit length: taps and texels differ by powers of
+// ten, and the normal equations would square that ratio.
 struct Coordinate {
   std::vector<double> values;
   double mean = 0, length = 0;

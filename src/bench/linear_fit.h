@@ -9,12 +9,12 @@ namespace penumbra::bench {
 struct LinearFit {
   double constant = 0;
   std::vector<double> slopes;
-  // Share of the variance of y that the fit explains: 1 for an exact one. 1 too where all y are the same.
+  // The share of the variance of y that the fit explains: 1 for an exact fit, and if all y are equal.
   double r_squared = 0;
 };
 
-// Of as many ys as xs; each of xs has the same number of coordinates. Throws Error where the points do not settle the
-// coefficients: fewer than those, or all in a line or a plane.
+// Fits as many ys as xs; each of xs has the same number of coordinates. Throws Error if the points do not determine the
+// coefficients: there are fewer points than coefficients, or all lie on a line or a plane.
 LinearFit fit_linear(std::span<const std::vector<double>> xs, std::span<const double> ys);
 
 }  // namespace penumbra::bench

@@ -4,14 +4,14 @@
 
 namespace penumbra::bench {
 
-// What a measurement records about the machine: neither its name nor a path.
+// What a measurement records about the machine. It has neither the machine's name nor a path.
 struct Machine {
-  std::string cpu;  // "AMD EPYC 7B13", "unknown" where the system does not tell
+  std::string cpu;  // "AMD EPYC 7B13"; "unknown" if the system does not report it
   int cores = 0;    // that the system offers
 };
 Machine machine();
 
-// The commit that this program was built from, "-changed" behind it where files differed; "unknown" outside of a
+// The commit that this program was built from, followed by "-changed" if files differed from it; "unknown" outside of a
 // checkout.
 const char* commit();
 

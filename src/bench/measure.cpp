@@ -89,8 +89,8 @@ class Bench {
     return limits;
   }
 
-  // Points take turns, so that a machine that slows down meanwhile slows all of them; but not where each is a scene to
-  // be made again.
+  // Points are measured alternately, so that a machine that slows down during the run slows all of them alike. Where
+  // each point needs its own scene they are measured one after the other, to build each scene once.
   int visit_count() const {
     constexpr int most = 4;
     const Sweep& sweep = results_.sweep;
@@ -106,7 +106,7 @@ class Bench {
     results_.timing = device_.software ? "CPU clock, a finish around each pass" : "GPU timestamps, read late";
   }
 
-  // Scenes stay loaded from visit to visit, unless each point has its own.
+  // Scenes stay loaded between visits, unless each point has its own scene.
   void prepare(const Point& point) {
     if (prepared_ && !point.triangles) return;
     contenders_.clear();

@@ -6,7 +6,7 @@
 
 namespace penumbra::bench {
 
-// Does all that the options ask for on the context that is current. Throws Error.
+// Measures everything that the options ask for, on the current context. Throws Error.
 Results measure(const Options& options, const scene::ImageDecoder& decode);
 
 }  // namespace penumbra::bench

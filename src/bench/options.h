@@ -18,18 +18,18 @@ struct Options : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions {
   std::string sweep;                 // empty: none
   std::vector<std::string> outputs;  // .json, .csv, .html
   bool quiet = false;
-  std::string command;  // to show again: files by their names alone
+  std::string command;  // for reports: files by their names without folders
 };
 
 void add_options(CLI::App& app, Options& options);
 
-// Throws UsageError where options that are right alone don't go together.
+// Throws UsageError for options that can't be combined.
 void check_together(const Options& options);
 
-// What takes turns: one entry a technique asked for, in that order. Throws as cli::resolve_params().
+// What is measured: one entry for each requested technique, in that order. Throws as cli::resolve_params() does.
 std::vector<Entry> entries_of(const Options& options, const shadow::Registry& registry);
 
-// The frames of a point that count, and those before them. A software rasteriser gets fewer.
+// How many frames of a point are measured, and how many are drawn before them. Both are fewer on a software rasteriser.
 struct FrameCounts {
   int measured = 0, warmup = 0;
 };

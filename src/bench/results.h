@@ -22,13 +22,13 @@ struct Measured {
   std::vector<Cost> costs;  // in the order of Results::entries
 };
 
-// What a sweep found of one entry.
+// How the cost of one entry depends on the axes of a sweep.
 struct Model {
   std::string label;
-  LinearFit fit;  // of milliseconds, by the axes
+  LinearFit fit;  // milliseconds as a function of the axes
 };
 
-// All that a run found, with all that one must know of how.
+// All results of a run, and how they were measured.
 struct Results {
   std::string version, commit, command;
   Machine machine;
@@ -51,8 +51,8 @@ std::string subject_of(const Sweep& sweep);
 std::string setting_of(const Results& results);
 
 std::string json_of(const Results& results);
-// One row a pass of a contender at a point, with all that tells rows of many runs apart; the sum of passes, the shadow
-// passes, the frame and its CPU time are rows too.
+// One row for each pass of a contender at a point, with columns that identify the run, so that files of several runs
+// can be joined. The sum of all passes, the shadow passes, the frame and its CPU time are rows too.
 std::string csv_of(const Results& results);
 std::string html_of(const Results& results);
 // For the terminal.

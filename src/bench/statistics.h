@@ -6,20 +6,20 @@
 
 namespace penumbra::bench {
 
-// A figure as reports write it, to tenths of a microsecond of milliseconds: CSV and JSON say the same.
+// A figure as reports write it, rounded to four decimals (0.1 µs for milliseconds), so that CSV and JSON agree.
 double rounded(double value);
 
-// What measured times have in common. All 0 where there are none.
+// A summary of measured times. All members are 0 if there are none.
 struct Summary {
   double median = 0, min = 0, max = 0;
   std::size_t count = 0;
 };
 
-// Of an even number the median is the mean of the middle two.
+// The median of an even number of values is the mean of the middle two.
 Summary summary_of(std::vector<double> values);
 
-// The median of values[i] / to[i]: what drifts while both are measured in turn falls out. Pairs with a 0 below are left
-// out; 0 where none is left. Both are equally long.
+// The median of values[i] / to[i]. If both are measured alternately, slow changes of the machine's speed cancel out.
+// Pairs where to[i] is not positive are left out; returns 0 if none is left. Both must have the same length.
 double paired_ratio(std::span<const double> values, std::span<const double> to);
 
 }  // namespace penumbra::bench

@@ -30,7 +30,7 @@ Sweep taps() {
   return sweep;
 }
 
-// Parts and multiples of the size that was asked for.
+// Fractions and multiples of the requested size.
 Sweep resolution(const SweepLimits& limits) {
   constexpr std::array factors{0.25, 0.5, 1.0, 1.5, 2.0, 3.0};
   constexpr double largest_in_software = 1.0;

@@ -10,45 +10,45 @@
 
 namespace penumbra::bench {
 
-// What one measurement of a sweep differs in from the others.
+// One measurement of a sweep: the settings in which it differs from the others.
 struct Point {
   std::vector<double> at;          // along each axis, in its unit
-  std::vector<std::string> names;  // the same as one says it: "1280x720"
-  // Values of parameters; a name that begins with '.' is the technique's own.
+  std::vector<std::string> names;  // the same as text: "1280x720"
+  // Values of parameters. A name that begins with '.' is a parameter of the technique (".blocker_taps").
   std::vector<std::pair<std::string, ParamValue>> values;
   std::optional<cli::Size> size;
   std::optional<long long> triangles;  // of the casters
 };
 
-// Cost grows about linearly with what an axis counts.
+// A quantity that a sweep varies. Cost is expected to grow about linearly with it.
 struct Axis {
   std::string name;  // "blocker_taps"
   std::string unit;  // "taps"
-  bool log = false;  // how its values are best shown
+  bool log = false;  // plot it on a logarithmic scale
 };
 
 struct Sweep {
-  std::string name;  // empty: one point that differs in nothing
-  std::string pass;  // the one that it is about; empty: all that are there for shadows
+  std::string name;  // empty: no sweep, a single point
+  std::string pass;  // the pass that is plotted and fitted; empty: all shadow passes
   std::vector<Axis> axes;
   std::vector<Point> points;
 };
 
 const std::vector<std::string>& sweep_names();
 
-// What a sweep is held to.
+// What limits the points of a sweep.
 struct SweepLimits {
-  bool software = false;  // ends where patience does
+  bool software = false;  // a software rasteriser: leave out points that would take too long
   cli::Size size;         // that the command line asks for
   int max_texture = 16384;
-  int cascades = 4;             // the most of any entry
-  long long own_triangles = 0;  // of the scene that casters are copies of; 0: there is none
+  int cascades = 4;             // the largest count of any entry
+  long long own_triangles = 0;  // triangles of the scene that casters are copies of; 0: no such scene
 };
 
 // `name` is empty or one of sweep_names().
 Sweep make_sweep(const std::string& name, const SweepLimits& limits);
 
-// The values of an entry at a point. Throws UsageError where its technique does not have what is swept.
+// The values of an entry at a point. Throws UsageError if its technique lacks the swept parameter.
 ParamSet params_at(const Point& point, const ParamSet& params);
 
 }  // namespace penumbra::bench

@@ -11,36 +11,36 @@
 
 namespace penumbra::bench {
 
-// Milliseconds of the frames of one contender that count.
+// Times in milliseconds of the measured frames of one contender.
 struct PassTimes {
-  std::vector<gl::Timers::Row> passes;  // one entry a frame, 0 where it was not drawn
+  std::vector<gl::Timers::Row> passes;  // one value per frame, 0 if the pass was not drawn in it
   std::vector<double> frames;
   std::vector<double> cpu;  // see gl::Timers::cpu_milliseconds()
 
-  // The last `count` frames of a device's timers: its rows and its times of the CPU.
+  // Appends the last `count` frames of a device's timers: the rows of passes and the CPU times.
   void append(const std::vector<gl::Timers::Row>& rows, const std::vector<double>& cpu_times, std::size_t count);
-  // Every frame's time of one pass; zeros where there is none of that name.
+  // The time of one pass in every frame; zeros if there is no pass of that name.
   std::vector<double> of(std::string_view pass) const;
-  // Every frame's sum of the passes that make the shadow mask, and of all passes. A pass within another is a part of it
-  // and not counted twice.
+  // For every frame, the sum of the passes that draw the shadow mask, and the sum of all passes. A nested pass is part
+  // of the one around it and not counted twice.
   std::vector<double> shadow_sums() const;
   std::vector<double> sums() const;
 };
 
-// Whether a pass is there for the shadow mask: all that is not the renderer's own.
+// Whether a pass serves the shadow mask: every pass that is not one of the renderer's.
 bool is_shadow_pass(std::string_view name);
 
 struct PassCost {
   std::string name;
   Summary ms;        // over the frames that drew it
-  double share = 0;  // of the frame, medians
+  double share = 0;  // of the frame's time, by medians
   bool shadow = false;
 };
 
-// What a technique could not do without, in milliseconds.
+// The lower bound of a technique's cost, in milliseconds: see Floor.
 struct FloorCost {
-  std::optional<Summary> fetch;      // its fetches alone; none for techniques that say nothing of taps
-  std::optional<double> mask_ratio;  // its mask pass over that, paired
+  std::optional<Summary> fetch;      // its fetches alone; absent if the technique does not declare its taps
+  std::optional<double> mask_ratio;  // paired ratio of its mask pass to `fetch`
   Summary copy;                      // one read and one write of the mask
 };
 
@@ -49,20 +49,20 @@ struct Cost {
   std::string label;  // "thesis_8x8"
   std::vector<PassCost> passes;
   Summary frame;
-  Summary cpu;           // that the drawing thread spent on the frame: a part of it, or beside it where a GPU draws
-  Summary passes_sum;    // of the sums of each frame
-  double sum_ratio = 0;  // of that sum to the frame, paired
-  Summary shadow;        // of the sums of the shadow passes
-  Summary swept;         // of what a sweep is about: all shadow passes, or one
-  double of_first = 1;   // its shadow passes over the first contender's, paired
+  Summary cpu;           // of the drawing thread; on a GPU it overlaps the frame's time, else it is part of it
+  Summary passes_sum;    // sum of all passes in each frame
+  double sum_ratio = 0;  // paired ratio of that sum to the frame
+  Summary shadow;        // sum of the shadow passes in each frame
+  Summary swept;         // what a sweep plots and fits: all shadow passes, or one pass
+  double of_first = 1;   // paired ratio of its shadow passes to the first contender's
   std::size_t target_bytes = 0;
   std::optional<FloorCost> floor;
 
-  // Whether the passes make up the frame within a tenth.
+  // Whether the sum of the passes is within 10 % of the frame's time.
   bool adds_up() const { return sum_ratio > 0.9 && sum_ratio < 1.1; }
 };
 
-// The cost of `times` beside those of the first contender; label, memory, floor and `swept` are the caller's.
+// The cost from `times`, and its ratio to the first contender's. The caller fills in label, memory, floor and `swept`.
 Cost cost_of(const PassTimes& times, const PassTimes& first);
 
 }  // namespace penumbra::bench

@@ -23,7 +23,7 @@ namespace penumbra::cli {
 
 namespace {
 
-// By name. "quiet" is more than any message's level, so none is shown.
+// Log levels by name. "quiet" is above the level of every message, so none is printed.
 const std::map<std::string, int>& log_levels() {
   static const std::map<std::string, int> levels{{"debug", static_cast<int>(LogLevel::debug)},
                                                  {"info", static_cast<int>(LogLevel::info)},
@@ -59,7 +59,8 @@ void log_from(const std::string& name) {
   fail_unknown_usage("option", name, names);
 }
 
-// What is neither an option nor wanted. CLI11 leaves the mark "--" among it, behind which nothing is an option.
+// Arguments that are neither options nor expected by the command. CLI11 leaves the separator "--" among them; arguments
+// after it are never options.
 void refuse_extras(const CLI::App& options) {
   bool only_positional = false;
   for (const std::string& extra : options.remaining()) {
@@ -73,7 +74,7 @@ void refuse_extras(const CLI::App& options) {
   }
 }
 
-// A file whose name begins with a dash, which was taken for options.
+// Explains the error if an argument that the parser took for an option is the name of a file.
 void hint_at_file(const Arguments& arguments) {
   for (const std::string& argument : arguments) {
     if (argument == "--") return;
@@ -97,7 +98,7 @@ std::string one_line(const CLI::ParseError& error) {
 
 constexpr const char no_output[] = "cannot write to standard output";
 
-// What the system or the standard library throws; the rest is a bug of Penumbra's.
+// Exceptions of the system and the standard library. Any other exception is a bug in Penumbra.
 std::string sentence_of(const std::exception& error) {
   const bool no_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
   // A container that was asked to be larger than any can be.
@@ -133,7 +134,7 @@ int run_guarded(const std::function<int()>& program) {
   } catch (const Error& error) {
     return report(error.what(), 1);
   } catch (const std::exception& error) {
-    // Then fmt::print threw a system_error, which knows no more than that.
+    // Here fmt::print threw a system_error, which does not hold the cause.
     if (std::ferror(stdout) != 0) return report(no_output, 1);
     return report(sentence_of(error), 1);
   }
@@ -152,7 +153,7 @@ bool parse(CLI::App& options, const Arguments& arguments) {
     return false;
   } catch (const CLI::RequiredError& error) {
     hint_at_file(arguments);
-    refuse_extras(options);  // an unknown option is why the scene is missing, as often as not
+    refuse_extras(options);  // reported first, since a mistyped option often is why the scene seems to be missing
     throw UsageError(one_line(error));
   } catch (const CLI::ParseError& error) {
     hint_at_file(arguments);

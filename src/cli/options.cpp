@@ -142,7 +142,7 @@ void check_known(const ParamSet& params, const std::string& name) {
     fail("unknown parameter '{}'; see penumbra list params", name);
 }
 
-// What the maps of a light and their pyramids take is 4.3 bytes a texel.
+// A light's shadow maps and their pyramids take 4.3 bytes per texel.
 void check_map_memory(const ParamSet& params) {
   const long long size = params.get_int("cascades.size"), count = params.get_int("cascades.count");
   if (size * size * count > largest_maps)

@@ -56,16 +56,16 @@ void add_technique_option(CLI::App& app, ShadowOptions& options);
 void add_shadow_options(CLI::App& app, ShadowOptions& options);
 void add_device_options(CLI::App& app, DeviceOptions& options);
 
-// Throw UsageError where options that are right alone don't go together, and Error for a --glsl that is no folder.
+// Throw UsageError for options that can't be combined, and Error if --glsl does not name a folder.
 void check_together(const SceneOptions& options);
 void check_together(const DeviceOptions& options);
 
 // The values to render with: defaults, then the preset files, then --technique, --sun-angle and --exposure, then every
-// --set in the order given. The order of different options on the command line does not matter. Throws UsageError for
-// the command line's faults and Error for a preset's.
+// --set in the order given. The order of different options on the command line does not matter. Throws UsageError if
+// the command line is wrong, and Error if a preset is.
 ParamSet resolve_params(const ShadowOptions& options, const shadow::Registry& registry);
 
-// Sets "NAME=VALUE". Throws UsageError, with near names for an unknown one or else where to find the list.
+// Sets "NAME=VALUE". Throws UsageError; for an unknown name it suggests similar names, or how to list all of them.
 void assign(ParamSet& params, const std::string& assignment);
 
 // Adds an option whose text `set` parses. An empty text is refused.

@@ -24,7 +24,7 @@ class OutputNames {
   int digits_ = -1;                         // -1: not numbered
 };
 
-// Throws UsageError if the file `result`, which `option` asks for, would take the place of one of a scene's files.
+// Throws UsageError if the file `result`, which `option` asks for, would overwrite one of a scene's files.
 void check_spared(const std::vector<std::filesystem::path>& scene_files, std::string_view option,
                   const std::filesystem::path& result);
 

@@ -5,8 +5,8 @@
 
 namespace penumbra::cli {
 
-// A line of progress on the terminal, "frame 12 of 100, 1:14 left", written anew as parts are done and removed at the
-// end. Nothing is written when stderr is no terminal or there is one part alone. Only the constructor throws.
+// A line of progress on the terminal, "frame 12 of 100, 1:14 left", rewritten as parts are done and removed at the end.
+// Nothing is written if stderr is not a terminal or if there is only one part. Only the constructor throws.
 class Progress {
  public:
   // `part` names one of the `count` parts ("frame"). Without a name the line has a percentage: "12 %, 0:08 left".

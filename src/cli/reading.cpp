@@ -28,7 +28,7 @@ void add_limit(ReadingOptions& options, const std::string& text) {
   options.limits.push_back(text);
 }
 
-// Materials' names may hold '=', the words don't.
+// Splits at the last '=': the name of a material may contain one, the words after it do not.
 void add_caster(ReadingOptions& options, const std::string& text) {
   const auto equals = text.rfind('=');
   if (equals == std::string::npos || equals == 0) fail_usage("--casters: '{}' is not MATERIAL=HOW", text);
@@ -36,7 +36,7 @@ void add_caster(ReadingOptions& options, const std::string& text) {
   options.casters.emplace_back(text.substr(0, equals), *scene::casting_of(word));
 }
 
-// Scenes that are read at once show nothing.
+// Shows progress only once reading has taken a second.
 class ReadingProgress {
  public:
   void operator()(const scene::ReadProgress& at) {

@@ -11,19 +11,19 @@ namespace penumbra::cli {
 
 // How scene files are read.
 struct ReadingOptions {
-  std::vector<std::string> limits;                              // "images=4GiB", each right by itself
+  std::vector<std::string> limits;                              // "images=4GiB"; each is valid
   std::vector<std::pair<std::string, scene::Casting>> casters;  // by material
   bool follow_links = false;
-  bool progress = false;  // on the terminal; no option of the command line
+  bool progress = false;  // show it on the terminal; set by the program, not by an option
 };
 
 void add_reading_options(CLI::App& app, ReadingOptions& options);
 
-// The limits: of the memory that the machine has left, two fifths for decoded images, since drawing needs as much again
-// and a third for mip levels, and half for all other data; over these, what --limit says.
+// The limits on what a scene may take. By default decoded images may take two fifths of the free memory, because
+// drawing needs as much again and a third more for mip levels, and all other data half of it. --limit overrides these.
 scene::ReadLimits limits_of(const ReadingOptions& options);
 
-// Reads a scene. Throws Error, also for a material of --casters that it lacks.
+// Reads a scene. Throws Error, also if --casters names a material that the scene lacks.
 scene::Scene read_scene(const std::string& file, const ReadingOptions& options, const scene::ImageDecoder& decode);
 
 // The options as arguments of a command line.

@@ -17,13 +17,13 @@ namespace penumbra::cli {
 
 namespace {
 
-// Mesa's software rasteriser with LLVM and a picture of 640 x 360 take up to 700 MiB of address space; with less they
-// end in a segmentation fault, in LLVM's abort, or never.
+// Mesa's software rasteriser, LLVM and a picture of 640 x 360 together take up to 700 MiB of address space. With less,
+// the process ends in a segmentation fault or in LLVM's abort, or hangs.
 constexpr std::size_t least_address_space = std::size_t{768} << 20;
-constexpr int most_rasteriser_threads = 32;  // of Mesa, whatever the cores
+constexpr int most_rasteriser_threads = 32;  // Mesa starts no more, however many cores there are
 constexpr int other_threads = 3;             // the scene's loader and the driver's compiler and cache
 
-// How many threads can be started beside those that run, up to `wanted`.
+// How many more threads can be started, up to `wanted`.
 int startable_threads(int wanted) {
   std::atomic<bool> over = false;
   std::vector<std::jthread> threads;
@@ -31,7 +31,7 @@ int startable_threads(int wanted) {
   try {
     while (static_cast<int>(threads.size()) < wanted) threads.emplace_back([&over] { over.wait(false); });
   } catch (const std::exception&) {
-    // What was started is the answer.
+    // The limit is reached: the threads started so far are the answer.
   }
   over = true;
   over.notify_all();

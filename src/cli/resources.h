@@ -4,10 +4,10 @@
 
 namespace penumbra::cli {
 
-// OpenGL drivers crash or hang where they get too little memory or too few threads. Throws Error, before one is asked
-// for anything, when this process's limits leave less address space (ulimit -v) than the smallest picture takes, or
-// fewer threads (ulimit -u, a container's limit) than a software rasteriser starts. `threads` are those that the
-// rasteriser may use; 0: one a core.
+// OpenGL drivers crash or hang if they get too little memory or too few threads. Call this before a driver is loaded:
+// it throws Error if this process's limits leave less address space (ulimit -v) than the smallest picture takes, or
+// fewer threads (ulimit -u, or a container's limit) than a software rasteriser starts. `threads` is the number that the
+// rasteriser may use; 0 means one per core.
 void check_resources(int threads);
 
 // Why memory or a thread was refused, as one sentence that names the limit in force.

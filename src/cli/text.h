@@ -6,7 +6,8 @@
 
 namespace penumbra::cli {
 
-// `text` with control characters as spaces: names in a file can't break a line or steer the terminal.
+// `text` with control characters replaced by spaces, so that names from a file can neither break a line nor send escape
+// sequences to the terminal.
 std::string printable(std::string text);
 
 // "512 B", "3.4 KiB", "12.0 MiB"

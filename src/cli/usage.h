@@ -10,7 +10,7 @@
 
 namespace penumbra::cli {
 
-// The command line is wrong whatever the files hold. Ends the program with exit code 2.
+// The command line is wrong, whatever the contents of the files. Ends the program with exit code 2.
 struct UsageError : Error {
   using Error::Error;
 };
@@ -32,11 +32,11 @@ struct Size {
 constexpr int largest_side = 16384;
 constexpr long long largest_area = 1LL << 26;
 
-// Texels of all of a light's shadow maps.
+// The most texels of all shadow maps of a light together.
 constexpr long long largest_maps = 1LL << 28;
 
 struct FrameRange {
-  int first = 0, last = 0;  // both drawn
+  int first = 0, last = 0;  // inclusive
   int count() const { return last - first + 1; }
 };
 
@@ -46,8 +46,8 @@ struct Direction {
   float elevation = 0;  // over the horizon
 };
 
-// Values of options as the user writes them. All are strict: the whole text is one finite number in range, or
-// UsageError names the option, the text and what it takes.
+// Parse the values of options. All are strict: unless the whole text is valid, finite and in range, UsageError names
+// the option, the text and what the option takes.
 double parse_number(std::string_view option, std::string_view text, double min, double max);
 int parse_count(std::string_view option, std::string_view text, int min, int max);
 Size parse_size(std::string_view option, std::string_view text);            // "1280x720"
@@ -55,7 +55,7 @@ glm::vec3 parse_point(std::string_view option, std::string_view text);      // "
 FrameRange parse_frames(std::string_view option, std::string_view text);    // "A:B"
 Direction parse_direction(std::string_view option, std::string_view text);  // "azimuth,elevation", degrees
 
-// The text, which is one of the choices, else fail_unknown_usage().
+// Returns the text if it is one of the choices, else calls fail_unknown_usage().
 std::string one_of(std::string_view kind, const std::string& text, std::span<const std::string> choices);
 
 }  // namespace penumbra::cli

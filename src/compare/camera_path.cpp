@@ -38,7 +38,7 @@ CameraPath::CameraPath(const CompareOptions& options, const session::PreparedSce
   if (options.orbit && range_.count() > 1) cut_ = options.cut_at.value_or(range_.first + range_.count() / 2);
 }
 
-// The orbit passes through the view that was asked for in its first and in its last frame.
+// The first and the last frame of the orbit show the requested view.
 void CameraPath::orbit(render::Camera& camera, int frame) const {
   if (!options_.orbit) return;
   const bool after_cut = cut_ && frame >= *cut_;

@@ -9,7 +9,7 @@
 namespace penumbra::compare {
 
 // The camera and the time of each frame of a comparison: the file's animation, or an orbit about the target. The orbit
-// starts at the view that was asked for; halfway it jumps, so that it ends at that view again.
+// starts at the requested view; halfway it jumps, so that it also ends at that view.
 class CameraPath {
  public:
   CameraPath(const CompareOptions& options, const session::PreparedScene& prepared);

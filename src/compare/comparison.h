@@ -17,11 +17,11 @@ namespace penumbra::compare {
 // A technique's errors over all frames, see metrics/. Figures that could not be measured are NaN.
 struct ComparedFigures {
   double rmse = 0, psnr = 0;                    // all receivers
-  double rmse_penumbra = 0, psnr_penumbra = 0;  // reference in the penumbra
+  double rmse_penumbra = 0, psnr_penumbra = 0;  // pixels that are in the penumbra in the reference
   double bias = 0, max = 0, p99 = 0;
   double ssim = 0, flip = 0, width_error = 0;  // means over the frames
   double width_lost = 0;                       // share of penumbra pixels in which the shadow has no width to measure
-  std::optional<metrics::SequenceFigures> sequence;  // of more than one frame
+  std::optional<metrics::SequenceFigures> sequence;  // set if there is more than one frame
 };
 
 // Milliseconds that the passes between G-buffer and lighting took in a frame.
@@ -34,7 +34,7 @@ struct ShadowCost {
 struct ComparedPictures {
   std::vector<std::uint8_t> display;  // RGB, sRGB
   std::vector<float> visibility;
-  std::vector<float> error;  // visibility minus the reference's; NaN where no receiver is
+  std::vector<float> error;  // visibility minus the reference's; NaN where there is no receiver
 };
 
 struct ComparedTechnique {
@@ -56,7 +56,7 @@ struct ComparedScene {
   std::vector<ComparedTechnique> techniques;
 };
 
-// A direction as --sun takes it, degrees.
+// A direction in the form that --sun takes, in degrees.
 struct Angles {
   double azimuth = 0;    // from +Z towards +X
   double elevation = 0;  // over the horizon
@@ -70,7 +70,7 @@ struct Comparison {
   std::vector<ComparedScene> scenes;
 };
 
-// Draws and measures all of it. Throws Error.
+// Draws and measures the whole comparison. Throws Error.
 Comparison compare(const CompareOptions& options, const ComparedValues& values);
 
 }  // namespace penumbra::compare

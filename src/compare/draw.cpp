@@ -14,14 +14,14 @@ namespace penumbra::compare {
 
 namespace {
 
-constexpr int usual_warmup = 32;  // then e^-3 of the first frame is left in a history of the default weight
+constexpr int usual_warmup = 32;  // with the default history weight, e^-3 of the first frame is left after these
 
-// Nested passes are in the time of the one around them.
+// Leaves out nested passes: the time of the pass around them includes theirs.
 bool is_shadow_row(const std::string& name) {
   return name != "frame" && name.find('/') == std::string::npos && bench::is_shadow_pass(name);
 }
 
-// The cost over these of the device's frames.
+// The cost over `frames`, which are indices of the device's timed frames.
 ShadowCost shadow_cost(gl::Timers& timers, const std::vector<std::size_t>& frames) {
   std::vector<double> sums(frames.size(), 0.0);
   for (const gl::Timers::Row& row : timers.rows()) {
@@ -53,7 +53,7 @@ std::size_t frames_drawn(gl::Timers& timers) {
   return rows.empty() ? 0 : rows.back().milliseconds.size();
 }
 
-// One contender while they take turns. It has a renderer of its own, so that no history is shared.
+// The state of one contender. Each has its own renderer, so that no history is shared.
 struct ContenderRun {
   ContenderRun(const DrawnScene& scene, const ParamSet& own)
       : params(own),

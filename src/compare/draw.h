@@ -28,11 +28,12 @@ struct ReferenceFrame {
   std::vector<std::uint8_t> receivers;  // 1: geometric normal · to light > sin(θ / 2)
 };
 
-// The reference's frames; `last` becomes the last one's pictures.
+// Draws the reference's frames; `last` receives the pictures of the last one.
 std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamSet& params, ComparedPictures& last);
 
-// Draws the contenders over all frames and measures them against the reference; `params` are theirs, in order. They
-// take turns, frame by frame, so that a machine that slows down meanwhile slows all of them alike.
+// Draws the contenders over all frames and measures them against the reference; `params` has one set for each, in
+// order. They are drawn alternately, frame by frame, so that a machine that slows down during the run slows all of them
+// alike.
 std::vector<ComparedTechnique> draw_techniques(const DrawnScene& scene, const std::vector<ParamSet>& params,
                                                const std::vector<ReferenceFrame>& reference);
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// The mean of squares that metrics::psnr_of() made a figure of.
+// The mean squared error from its PSNR in dB: the inverse of metrics::psnr_of().
 double mean_squared(double psnr) { return std::pow(10.0, -psnr / 10.0); }
 
 }  // namespace

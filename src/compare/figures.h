@@ -10,8 +10,8 @@
 
 namespace penumbra::compare {
 
-// Accumulates the figures of a technique frame by frame: errors are taken over the receivers of all frames together;
-// SSIM, FLIP and penumbra widths, which are no means over pixels, are averaged over the frames.
+// Accumulates the figures of a technique frame by frame. RMSE and PSNR are taken over the receivers of all frames
+// together; SSIM, FLIP and penumbra widths, which are not means over pixels, are averaged over the frames.
 class FigureSums {
  public:
   FigureSums(int width, int height) : width_(width), height_(height) {}
@@ -22,7 +22,7 @@ class FigureSums {
   ComparedFigures figures() const;
 
  private:
-  // A mean over values some of which may be missing (NaN).
+  // A mean that leaves out missing values (NaN).
   struct Mean {
     double sum = 0;
     std::size_t count = 0;
@@ -34,7 +34,7 @@ class FigureSums {
   std::size_t frames_ = 0;
   Mean squared_, squared_penumbra_, bias_, ssim_, flip_, width_error_, p99_;
   double max_ = 0;
-  metrics::PenumbraWidth widths_;  // its counts alone, over all frames
+  metrics::PenumbraWidth widths_;  // only its counts are used, summed over all frames
   metrics::SequenceMetrics sequence_;
 };
 

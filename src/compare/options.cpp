@@ -14,7 +14,7 @@ namespace {
 using cli::add_value;
 using cli::fail_usage;
 
-// Of all reference pictures, which are kept until the last technique is drawn.
+// The most bytes of all reference pictures, which are kept until the last technique is drawn.
 constexpr long long largest_reference = 2LL << 30;
 constexpr long long reference_bytes = sizeof(float) + 1;  // a pixel: visibility, and whether it is a receiver
 
@@ -83,12 +83,12 @@ void check_together(const CompareOptions& o) {
                o.size.width, o.size.height);
 }
 
-// All contenders are of a technique of their own.
+// The technique of a contender is its name, so no assignment may change it.
 void check_assignment(const std::string& assignment) {
   if (assignment.starts_with("technique=")) fail_usage("'{}' can't be set here: see --technique", assignment);
 }
 
-// And all under the reference's sun, with its casters.
+// All contenders are drawn with the reference's sun and casters, so no assignment of one contender may change those.
 void check_own_assignment(const std::string& assignment) {
   check_assignment(assignment);
   if (assignment.starts_with("sun."))
@@ -97,7 +97,7 @@ void check_own_assignment(const std::string& assignment) {
     fail_usage("'{}' would give a technique other casters than the reference's: see --set", assignment);
 }
 
-// Each value by itself: together they are right or wrong only with what presets say.
+// Checks each value alone. Whether they can be combined also depends on preset files, which are not read yet.
 void check_values(const CompareOptions& options, const shadow::Registry& registry) {
   auto own = static_cast<const cli::ShadowOptions&>(options);
   own.presets.clear();

@@ -9,9 +9,9 @@
 
 namespace penumbra::compare {
 
-// What is compared: a technique or a preset, and parameter values of its own.
+// One of the things compared: a technique or a preset, with parameter values that only it uses.
 struct Contender {
-  std::string label;  // as it was asked for: "pcss:pcss.filter_taps=64"
+  std::string label;  // as the user wrote it: "pcss:pcss.filter_taps=64"
   std::string name;
   std::vector<std::string> assignments;  // "pcss.filter_taps=64"
 };
@@ -36,12 +36,13 @@ struct CompareOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOption
 // depend on the contents of preset files and scenes, before any of them is read.
 bool parse_compare(const cli::Arguments& arguments, CompareOptions& options);
 
-// "a,b:p=1,q=2,c" is a, b with two values of its own, and c. Throws UsageError for an empty name.
+// "a,b:p=1,q=2,c" means a, then b with two parameter values that only it uses, then c. Throws UsageError for an empty
+// name.
 std::vector<Contender> parse_contenders(const std::string& text);
 
 // The values that the reference and the contenders are drawn with. A sampled reference gets another seed than the
-// contenders, so that their errors are independent. Throws UsageError for the command line's faults and Error for a
-// preset's.
+// contenders, so that their errors are independent. Throws UsageError if the command line is wrong, and Error if a
+// preset is.
 struct ComparedValues {
   ParamSet reference;
   std::vector<ParamSet> contenders;

@@ -166,7 +166,7 @@ std::string scene_name(const std::string& path) { return std::filesystem::path(p
 
 std::string point_text(const glm::vec3& v) { return fmt::format("{:.6g},{:.6g},{:.6g}", v.x, v.y, v.z); }
 
-// In the words of the options, for it to be drawn again should the file's camera or sun change.
+// The view as command-line options, so that it can be drawn again even if the file's camera or sun changes.
 std::string view_text(const ComparedScene& scene) {
   const render::Camera& camera = scene.camera;
   const Angles sun = angles_of(scene.sun.to_light);

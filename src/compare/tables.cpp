@@ -55,7 +55,7 @@ std::string csv_number(double value) {
   return std::isinf(value) ? (value > 0 ? "inf" : "-inf") : fmt::format("{:.6g}", value);
 }
 
-// Six digits: more say nothing.
+// Six digits; more are not meaningful.
 Json rounded(double value) {
   return io::json_number(std::isfinite(value) ? std::stod(fmt::format("{:.6g}", value)) : value);
 }

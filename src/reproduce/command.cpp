@@ -28,9 +28,9 @@ constexpr std::array figures{
     Entry{figure_4_3, 4},   Entry{figure_4_4, 4},  Entry{figure_4_5, 4},
     Entry{figure_4_6, 2},   Entry{figure_4_7, 12}, Entry{figure_4_8, 3},
     Entry{figure_4_9, 5},   Entry{figure_4_10, 3}, Entry{figure_4_11, 1},
-    Entry{figure_4_12, 40}, Entry{figure_4_13, 0},  // which tells its own time
+    Entry{figure_4_12, 40}, Entry{figure_4_13, 0},  // which shows its own progress
 };
-constexpr int references = 8;  // what truth and converged PCSS take
+constexpr int references = 8;  // cost of truth and converged PCSS, in the same unit
 
 // The scene that comes with the program, in the source tree or the installation.
 std::string default_scene() {

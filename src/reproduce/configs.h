@@ -12,8 +12,8 @@ struct Taps {
 };
 constexpr Taps few_taps{16, 8}, some_taps{32, 32}, many_taps{64, 64};  // of figures 4.2 to 4.9
 
-// PCSS as section 4.1 of the thesis has it: one pattern for both steps, moved on the torus from pixel to pixel by that
-// noise; no history and no filter. Its name is "poisson 16×8 with white noise".
+// PCSS as in section 4.1 of the thesis: both steps use the same pattern, which the noise offsets on the torus from
+// pixel to pixel; no history and no filter. Its name is "poisson 16×8 with white noise".
 NamedConfig sampled(const std::string& noise, const std::string& pattern, const Taps& taps);
 
 // The same through a visibility filter, "bilateral_separable" or "gaussian", of "a fixed kernel size" (section 4.1 of

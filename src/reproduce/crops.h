@@ -18,7 +18,8 @@ struct Crop {
 
 // Of all crops of the report's size, the one with the greatest sum of `weights`, a value a pixel.
 Crop best_crop(const Workbench& bench, std::span<const double> weights);
-// Where one tap is noisiest: V (1 − V) is the variance of a share V that is seen or not.
+// The crop where a single tap is noisiest: the weights are V (1 − V), the variance of a tap that is lit with
+// probability V.
 Crop noisiest_crop(const Workbench& bench);
 
 // Values from 0 to 1 as grey, enlarged without interpolation to about the width of a tile.

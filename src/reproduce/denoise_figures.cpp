@@ -1,4 +1,4 @@
-// Figures 4.8 to 4.11: what filters make of the noise.
+// Figures 4.8 to 4.11: how filters reduce the noise.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -43,7 +43,7 @@ Finding finding_of(Workbench& bench, const char* id, const char* title, const st
   return finding;
 }
 
-// Receivers whose visibility differs by what 8 bits show.
+// Receivers whose visibility differs by an amount that is visible with 8 bits.
 std::vector<std::uint8_t> differing(const MeasuredPicture& a, const MeasuredPicture& b) {
   std::vector<std::uint8_t> mask(a.visibility.size());
   for (std::size_t i = 0; i < mask.size(); ++i)

@@ -5,7 +5,8 @@
 
 namespace penumbra::reproduce {
 
-// Each makes our version of one figure of the thesis. What they need is drawn when they ask for it.
+// Each function makes our version of one figure of the thesis. The workbench draws the pictures when they are first
+// needed.
 using MakeFigure = Finding (*)(Workbench& bench);
 
 // Points and noise: no scene.

@@ -16,7 +16,7 @@ Quantity limit_of(const Quantity& a, double limit) {
   return {.name = {}, .value = limit, .unit = a.unit, .decimals = a.decimals};
 }
 
-// As far as the digits that are shown tell: a reader sees why a claim holds.
+// The value as it is printed. Claims are decided by printed values, so that a reader can check the decision.
 double shown(const Quantity& quantity) {
   const double scale = std::pow(10.0, quantity.decimals);
   return std::round(quantity.value * scale) / scale;

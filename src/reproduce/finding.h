@@ -23,11 +23,11 @@ class Finding {
  public:
   std::string id;     // "4.3"
   std::string title;  // "Uniform sampling"
-  std::string claim;  // what the thesis says of it, in a sentence
-  std::string test;   // what is measured in place of the eye
+  std::string claim;  // what the thesis claims about it, in a sentence
+  std::string test;   // what is measured to test the claim, which the thesis judges by eye
   report::Html body;  // our version
 
-  // Each records the quantities and whether the claim holds in this respect. The sentence then says so.
+  // Each records the quantities and whether the claim holds for them, for the verdict and its sentence.
   void expect_below(const Quantity& a, const Quantity& b);
   void expect_above(const Quantity& a, const Quantity& b);
   void expect_above_by(double margin, const Quantity& a, const Quantity& b);  // at least

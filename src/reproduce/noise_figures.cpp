@@ -1,4 +1,5 @@
-// Figures 2.11 and 2.12: noise that differs from pixel to pixel, and what a blur leaves of a picture dithered by it.
+// Figures 2.11 and 2.12: noise that differs from pixel to pixel, and pictures that are dithered with it and then
+// blurred.
 #include <cmath>
 
 #include "metrics/convolve.h"

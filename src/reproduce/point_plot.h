@@ -15,7 +15,7 @@ struct PointSet {
   std::size_t highlighted = 0;
 };
 
-// Drawn as vectors, under `alt` for those who can't see it. `second` is drawn as rings over the first.
+// Drawn as vectors, with `alt` as its alternative text. `second` is drawn as rings over the first.
 report::Html point_plot(const std::string& alt, const PointSet& set, std::span<const glm::vec2> second = {});
 
 }  // namespace penumbra::reproduce

@@ -11,9 +11,9 @@
 
 namespace penumbra::reproduce {
 
-// All findings as a page, JSON, comma-separated values and lines for a terminal. They hold the same figures. Only those
-// whose names speak of costs differ from run to run on one machine. In JSON, what is infinite (nothing differs) is
-// "inf" and what could not be measured is null.
+// All findings as a page, JSON, comma-separated values and lines for a terminal, with the same figures. On one machine
+// only the figures of costs differ from run to run. In JSON, infinite figures (nothing differs) are "inf" and figures
+// that could not be measured are null.
 penumbra::report::Page page_of(std::span<const Finding> findings, const Workbench& bench,
                                const cli::Arguments& arguments);
 io::Json json_of(std::span<const Finding> findings, const Workbench& bench);

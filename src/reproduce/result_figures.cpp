@@ -1,4 +1,4 @@
-// Figures 4.12 and 4.13: the method against brute force, and what taps cost.
+// Figures 4.12 and 4.13: the method compared with brute force, and the cost of taps.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ bench::Options sweep_options(const Options& options) {
   static_cast<cli::SceneOptions&>(sweep) = static_cast<const cli::SceneOptions&>(options);
   static_cast<cli::DeviceOptions&>(sweep) = static_cast<const cli::DeviceOptions&>(options);
   sweep.techniques = {"pcss"};
-  sweep.assignments = {"pcss.early_exit=off"};  // else taps that are left out cost nothing
+  sweep.assignments = {"pcss.early_exit=off"};  // with it, skipped taps would cost nothing
   sweep.sweep = "taps";
   sweep.quiet = options.quiet;
   if (options.quick) {

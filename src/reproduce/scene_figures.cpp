@@ -13,7 +13,7 @@ namespace {
 
 using Window = std::array<float, 9>;
 
-// Each pixel from the 3 × 3 about it; at the border the nearest stand in.
+// Filters each pixel with its 3 × 3 neighbourhood; beyond the border the nearest pixel is used.
 template <class Reduce>
 std::vector<float> filtered(const std::vector<float>& pixels, int width, int height, Reduce reduce) {
   std::vector<float> result(pixels.size());
@@ -41,7 +41,7 @@ float median_of(Window window) {
   return window[4];
 }
 
-// One pixel in twenty black or white.
+// Sets one pixel in twenty to black or white.
 std::vector<float> with_salt_and_pepper(std::vector<float> pixels) {
   Random random(1);
   for (float& value : pixels) {

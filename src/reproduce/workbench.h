@@ -23,7 +23,7 @@ struct Options : cli::SceneOptions, cli::DeviceOptions, session::CacheOptions {
   bool quick = false, quiet = false;
 
   int truth_samples() const { return quick ? 64 : 256; }
-  // Frames that a cost is the median of.
+  // The number of frames whose median is a cost.
   int cost_frames() const { return quick ? 3 : 5; }
 };
 
@@ -39,8 +39,8 @@ struct ShadowConfig {
 struct MeasuredPicture {
   std::vector<float> visibility;
   double psnr_pcss = 0, psnr_truth = 0;  // in the penumbra, dB
-  // The same against converged PCSS where errors are blurred first: what remains for a viewer or a
-  // denoiser that averages neighbours. Grain disappears, bands and blotches remain.
+  // The PSNR against converged PCSS with the errors blurred first: the error that remains for a viewer or a denoiser
+  // that averages neighbouring pixels. Grain disappears, bands and blotches remain.
   double psnr_blurred = 0;
   double flip = 0;        // against converged PCSS
   double width_bias = 0;  // of penumbra widths, against converged PCSS; a share of the width
@@ -55,8 +55,8 @@ class Workbench {
 
   // Valid as long as the workbench.
   const MeasuredPicture& draw(const ShadowConfig& config);
-  // Median of the passes between G-buffer and lighting, ms. The configurations take turns, so that a machine that
-  // slows down meanwhile slows all of them.
+  // Median time of the passes between G-buffer and lighting, ms. The configurations are drawn alternately, so that a
+  // machine that slows down during the run slows all of them alike.
   std::vector<double> costs(const std::vector<ShadowConfig>& configs);
   // RGB, 8 bits.
   std::vector<std::uint8_t> display(const ShadowConfig& config);
@@ -73,7 +73,7 @@ class Workbench {
   double sun_angle() const;  // full angle, degrees
 
   ShadowConfig truth_config() const;
-  // With another seed than the measured pictures have, so that their errors are independent.
+  // Uses another seed than the measured pictures, so that their errors are independent.
   static ShadowConfig pcss_config();
 
  private:

@@ -13,7 +13,7 @@ struct CacheOptions {
   std::optional<std::string> cache;
   bool no_cache = false;
 
-  std::filesystem::path folder() const;  // empty: they are not kept
+  std::filesystem::path folder() const;  // empty: nothing is kept
 };
 
 void add_cache_options(CLI::App& app, CacheOptions& options);

@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of folders on the way to a file only the names matter: others write to /tmp all the time.
+// In folders along the path to a file only created, deleted and renamed entries matter, not the contents of files:
+// other programs write to /tmp all the time.
 constexpr std::uint32_t names_change = IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO;
 constexpr std::uint32_t texts_change = IN_MODIFY | IN_CLOSE_WRITE | IN_ATTRIB;
 
@@ -64,7 +65,7 @@ void FileWatch::set_files(std::vector<fs::path> files) {
   refresh();
 }
 
-// Walks the path as the system does, and notes each entry that the way leads through, links included.
+// Resolves the path as the system does, and records each entry along it, symbolic links included.
 void FileWatch::survey_path(Survey& survey, const fs::path& path, const fs::path& told_as) {
   constexpr int most_links = 40;
   std::deque<std::string> parts;
@@ -140,7 +141,7 @@ FileWatch::Survey FileWatch::survey() const {
   return survey;
 }
 
-// True where a folder was not watched before.
+// Returns whether a folder is watched that was not watched before.
 bool FileWatch::watch_places() {
   std::map<int, fs::path> descriptors;
   for (const auto& [folder, place] : known_.places) {
@@ -153,7 +154,7 @@ bool FileWatch::watch_places() {
     } else if (errno == ENOSPC || errno == ENOMEM) {
       fail("cannot watch {}: the limit of inotify watches is reached (sysctl fs.inotify.max_user_watches)",
            io::quoted(folder));
-    }  // else it is gone again, or not ours to read: what lies in it can still be named
+    }  // else it was removed, or may not be read; files in it may still be accessible by their paths
   }
   bool grown = false;
   for (const auto& [descriptor, folder] : descriptors) {
@@ -167,7 +168,7 @@ bool FileWatch::watch_places() {
   return grown;
 }
 
-// Files are listed once more after the last folder is watched: what was made in between is seen either way.
+// Lists the files again after the last folder is watched, so that files created between listing and watching are found.
 void FileWatch::refresh() {
   do {
     known_ = survey();
@@ -233,8 +234,8 @@ void FileWatch::note(int descriptor, std::uint32_t mask, const char* name) {
   pending_ |= !place.prefixes.empty() || single != place.names.end();
 }
 
-// What was touched, and what differs: files in folders that came and went as a whole have no events of their own. What
-// was made and removed again in between, as editors do, is no change.
+// Files with events, and files whose stamps differ: there are no events for the files in a folder that was moved or
+// removed as a whole. A file that was created and removed again in between, as editors do, is not a change.
 std::vector<fs::path> FileWatch::take_changes() {
   pending_ = false;
   const bool all = std::exchange(lost_, false);

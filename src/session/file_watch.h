@@ -12,11 +12,11 @@
 
 namespace penumbra::session {
 
-// Finds out which files were saved, by inotify: a descriptor that poll() reads, without a thread. A change is reported
+// Reports which files were saved, using inotify; poll() reads the events, so no thread is needed. A change is reported
 // once nothing more has changed for a while, so that a half-written file or a burst of saves is one change. It does not
 // matter how an editor saves: in place, by renaming over the file, or by deleting and creating it. Paths are resolved
-// through symbolic links, and every folder on the way is watched, so that links may change and folders be removed and
-// created again.
+// through symbolic links, and every folder along a path is watched, so changed links and folders that are removed and
+// created again are noticed too.
 class FileWatch {
  public:
   using Clock = std::chrono::steady_clock;
@@ -24,14 +24,14 @@ class FileWatch {
   // A change is reported after `idle` without another event, and at the latest `longest_wait` after its first event.
   static constexpr std::chrono::milliseconds idle{50}, longest_wait{300};
 
-  // Throws Error where the system's limit of inotify instances is reached.
+  // Throws Error if the system's limit on inotify instances is reached.
   FileWatch();
   ~FileWatch();
   FileWatch(const FileWatch&) = delete;
   FileWatch& operator=(const FileWatch&) = delete;
 
-  // All files in a folder and its sub-folders, later ones included; hidden sub-folders (".git") are left out. Neither a
-  // folder nor a file has to exist yet. Throws Error where the system's limit of watches is reached.
+  // Watches all files in a folder and its sub-folders, including those created later, except in hidden sub-folders
+  // (".git"). Neither a folder nor a file has to exist yet. Throws Error if the system's limit on watches is reached.
   void add_folder(const std::filesystem::path& folder);
   void add_file(const std::filesystem::path& file);
   // The single files to watch from now on, instead of all that add_file() named. Throws Error likewise.
@@ -51,7 +51,7 @@ class FileWatch {
     std::uint32_t mode = 0;
     auto operator<=>(const Stamp&) const = default;
   };
-  // A real folder, and what matters of its entries.
+  // A folder, with symbolic links resolved, and the entries of it that are watched.
   struct Place {
     std::set<std::filesystem::path> prefixes;  // names under which a watched folder's entries are reported
     std::map<std::string, std::set<std::filesystem::path>> names;  // single entries, and the files that each one is

@@ -15,8 +15,8 @@ struct PreparedScene {
   render::Setup setup;   // at --time
 };
 
-// Adds the ground and chooses camera and sun. What depends on the scene's bounds is chosen at --time, so that it is the
-// same in all frames of a sequence, whichever is drawn first. Throws Error.
+// Adds the ground and chooses camera and sun. Choices that depend on the scene's bounds use the bounds at --time, so
+// that they are the same in all frames of a sequence, whichever is drawn first. Throws Error.
 PreparedScene prepare_scene(scene::Scene scene, const cli::SceneOptions& options);
 
 // Reads the scene and sets it up. Throws Error.
@@ -28,16 +28,16 @@ void update_view(PreparedScene& prepared, const cli::SceneOptions& options);
 // The setup at a time: a camera and a sun of the file follow its animation.
 render::Setup setup_at(const PreparedScene& prepared, double seconds);
 
-// When a frame is, and what came before it.
+// The time of a frame, and of the frame before it.
 struct FrameTime {
   double time = 0, last_time = 0;  // seconds
-  bool cut = false;                // it follows no frame
+  bool cut = false;                // there is no frame before it, so it starts without history
 };
 // The inputs of a frame of `pixels`: camera and sun at its time, motion since the last one, and a cut where an
 // animation jumps in between.
 render::FrameInputs frame_inputs(const PreparedScene& prepared, const cli::Size& pixels, const FrameTime& when);
 
-// When a frame is, seconds: frames count from 0 at --time; a single picture is frame 0.
+// The time of a frame in seconds. Frame 0 is at --time; a single picture is frame 0.
 double time_of(const cli::SceneOptions& options, int frame);
 
 }  // namespace penumbra::session

@@ -13,8 +13,8 @@ namespace penumbra::session {
 
 namespace {
 
-// A software rasteriser runs commands late and has no timer of its own work: there the CPU's clock is read around each
-// pass and its finish.
+// A software rasteriser runs commands some time after they are submitted and has no GPU timer for them. There, each
+// pass is followed by glFinish() and timed with the CPU's clock.
 gl::Timers::Mode timing_of(const gl::DeviceInfo& device) {
   return device.software ? gl::Timers::Mode::finish : gl::Timers::Mode::query;
 }

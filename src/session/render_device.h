@@ -8,21 +8,21 @@
 
 namespace penumbra::session {
 
-// Holds the software rasteriser of contexts opened later to --threads. It sets the environment, which other threads may
-// be reading: call it before there are any.
+// Limits the software rasteriser of contexts that are opened later to --threads. Call it before any thread is started:
+// it sets an environment variable, and other threads may read the environment at the same time.
 void limit_threads(const cli::DeviceOptions& options);
 
-// Whether every step is checked for GL errors: --debug, or PENUMBRA_DEBUG=1.
+// Whether GL errors are checked after every step: --debug, or PENUMBRA_DEBUG=1.
 bool debug_wanted(const cli::DeviceOptions& options);
 
-// Opens the context that the options ask for, and makes it current. Throws Error, also where it can't draw a picture of
-// the scene options' size.
+// Opens the context that the options ask for, and makes it current. Throws Error, also if it can't draw a picture of
+// the size in the scene options.
 std::unique_ptr<gl::Context> open_context(const cli::DeviceOptions& options, const cli::SceneOptions& scene);
 
-// The current context as every command that draws uses it: its properties, the shaders (those of --glsl before the
-// built-in ones), and timers of the kind that gives true times there.
+// The current context as every command that draws uses it: its properties, the shaders (files of --glsl replace
+// built-in ones of the same name), and timers in the mode that measures correctly on this driver.
 struct RenderDevice {
-  // `timed` false: no pass is timed, which on a software rasteriser saves a finish for each.
+  // With `timed` false no pass is timed; on a software rasteriser this saves a glFinish() per pass.
   explicit RenderDevice(const cli::DeviceOptions& options, bool timed = true);
 
   gl::DeviceInfo info;

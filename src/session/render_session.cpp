@@ -10,7 +10,7 @@ namespace penumbra::session {
 
 namespace {
 
-// A pass of so many takes seconds, and a frame has several.
+// On a software rasteriser a pass over this many triangles takes seconds, and a frame has several passes.
 void warn_of_many(const scene::Scene& scene, const gl::DeviceInfo& device) {
   constexpr std::size_t many_triangles = 20'000'000, many_vertices = 10'000'000;
   if (!device.software) return;

@@ -11,11 +11,11 @@
 
 namespace penumbra::session {
 
-// What the frames of one command are drawn with: a context, a device, a scene and a renderer.
+// Owns what a command draws its frames with: a context, a device, a scene on the GPU and a renderer.
 class RenderSession {
  public:
-  // `options` and `prepared` are the caller's, and outlive the session. `device_options` says which shaders replace the
-  // built-in ones. `timed`: each pass is.
+  // `options` and `prepared` must outlive the session. `device_options` names the folder of shaders that replace
+  // built-in ones. `timed`: whether each pass is timed.
   RenderSession(const cli::SceneOptions& options, const cli::DeviceOptions& device_options,
                 std::unique_ptr<gl::Context> context, const PreparedScene& prepared, shadow::Registry techniques,
                 bool timed);
@@ -23,13 +23,14 @@ class RenderSession {
   // Draws frame `frame`, with the motion since the frame before it. Techniques keep their history if that one was the
   // last drawn and no animation jumps in between.
   void draw(int frame, const ParamSet& params);
-  // Draws the last frame once more, while time stands still: what a technique with a history costs from then on.
+  // Draws the last frame again without advancing time. Used to measure what a technique with a history costs once the
+  // history exists.
   void redraw(const ParamSet& params);
 
   // The next frame starts without history, as the first of a run. Call it when shaders have changed.
   void cut() { drawn_time_.reset(); }
-  // Draws another scene from now on, with the same context and programs; a cut. `prepared` outlives the session. Throws
-  // Error; then the old scene stays.
+  // Draws another scene from now on, with the same context and programs; the next frame starts without history.
+  // `prepared` must outlive the session. If it throws Error, the old scene is kept.
   void show(const PreparedScene& prepared);
 
   // Camera and sun of the last frame.
@@ -42,7 +43,7 @@ class RenderSession {
  private:
   void draw_at(double time, double last_time, bool cut, const ParamSet& params);
 
-  // In the order of their making: what is made last goes first.
+  // In order of construction, because members are destroyed in reverse order.
   const cli::SceneOptions& options_;
   const PreparedScene* prepared_;
   std::unique_ptr<gl::Context> context_;

@@ -13,12 +13,12 @@ bool lies_in(const std::filesystem::path& file, const std::filesystem::path& fol
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
-// With a slash at the end a folder has one part more, which is empty.
+// A path with a slash at its end has one more component, which is empty.
 std::filesystem::path without_slash(const std::filesystem::path& folder) {
   return folder.has_filename() || !folder.has_relative_path() ? folder : folder.parent_path();
 }
 
-// Below the heading, which names the program.
+// The lines after the heading, which names the program.
 std::string_view faults_of(std::string_view error) { return error.substr(std::min(error.find('\n'), error.size())); }
 
 }  // namespace

@@ -21,16 +21,17 @@ struct ShaderReload {
   bool redraws() const { return rebuilt > 0; }
 };
 
-// Messages of all programs that draw with their last good version, whenever they failed: a heading, then lines
-// "file:line: fault" with the file's line below. Of programs that fail for the same lines the first alone.
+// The messages of all programs whose current source does not compile, so that their last good version is in use: a
+// heading, then lines "file:line: fault" with the source line below. If several programs fail with the same lines, only
+// the first is listed.
 std::vector<std::string> shader_faults(const gl::ShaderLibrary& library);
 
-// Recompiles for the files that a FileWatch on the library's overlay folder has returned: written, created (they hide
-// the built-in ones) or deleted (the built-in ones are back). Programs that are made of them are compiled now. Files
-// elsewhere are ignored. The context is current. Never throws for a shader's faults.
+// Recompiles the programs that use the files which a FileWatch on the library's overlay folder has returned. Such a
+// file was written, created (it then replaces the built-in one) or deleted (the built-in one is used again). Files
+// outside of the folder are ignored. The context must be current. Faults in shaders are returned and never thrown.
 //
-// Afterwards the caller draws a cut, because histories came from other shaders. A program that is used for the first
-// time while its file is broken throws Error from the draw; once the file is mended, drawing again works.
+// The caller must draw the next frame without history, because the history came from other shaders. If a program is
+// used for the first time while its file has a fault, the draw throws Error; it works again once the file is fixed.
 ShaderReload reload_shaders(gl::ShaderLibrary& library, std::span<const std::filesystem::path> changed);
 
 }  // namespace penumbra::session

@@ -9,11 +9,11 @@
 
 namespace penumbra::session {
 
-// The program's techniques, to look up and to list: the library's and `truth`.
+// All techniques of the program, for look-ups and lists: the library's and `truth`.
 const shadow::Registry& all_techniques();
 
-// How users call what the parameters select: the preset whose values they all have ("thesis"), the most specific one if
-// several fit, else the technique.
+// The name for what the parameters select: the preset whose values they all match ("thesis"; the most specific one if
+// several match), else the technique.
 std::string technique_label(const ParamSet& params);
 
 // The technique `truth` as the options have it: where its pictures are kept, how many threads trace. `more` has the

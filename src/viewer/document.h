@@ -14,7 +14,7 @@ namespace penumbra::viewer {
 // The highest frame number that --frames takes.
 constexpr int last_frame = 999'999;
 
-// What the viewer shows, as `penumbra render` would be told: its options and the values of the parameters. The time is
+// What the viewer shows, in the terms of `penumbra render`: its options and the values of the parameters. The time is
 // that of frame `frame`, counted from --time at --fps.
 struct Document {
   cli::SceneOptions options;

@@ -44,8 +44,8 @@ struct FramePlan {
   bool idle = false;          // both pictures are finished
 };
 
-// A finished picture has exactly the frames that `penumbra render` would draw for it, whatever happens to the other
-// one. A GPU goes on drawing finished pictures, except ray-traced ones.
+// A picture is finished after exactly the frames that `penumbra render` would draw for it, whatever happens to the
+// other one. A GPU continues to draw finished pictures, except ray-traced ones.
 FramePlan plan_frame(FramePacing& pacing, const FrameState& state);
 
 }  // namespace penumbra::viewer

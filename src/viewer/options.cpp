@@ -24,7 +24,7 @@ void add_view_command_options(CLI::App& app, ViewOptions& options) {
   cli::add_value(app, "--layout", "FILE",
                  "Write the rectangles of all widgets as JSON, for scripts that drive the window",
                  [&options](const auto& text) { options.layout = text; });
-  // Options of `render` that a window refuses: not in --help, but with a message of their own.
+  // Options of `render` that a window refuses: not in --help, but with a specific message.
   for (const char* name : {"--frames", "--backend", "--egl-device"}) app.get_option(name)->group("");
 }
 

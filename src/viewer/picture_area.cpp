@@ -38,8 +38,8 @@ void drag_sun(const Panel& panel, const glm::vec2& by) {
   place_sun(panel.state.document, turned_light(to_light, by.x * light_per_pixel, -by.y * light_per_pixel));
 }
 
-// Magnifies about the cursor: the point of the picture under it stays there. `halves`: side by side, each half of the
-// window has a centre of its own.
+// Magnifies about the cursor: the point of the picture under it stays there. `halves`: the pictures are side by side,
+// and each half of the window has its own centre.
 void magnify(Zoom& zoom, float notches, const PictureArea& area, bool halves) {
   const float before = zoom.factor;
   glm::vec2 middle = area.size * 0.5f;

@@ -110,7 +110,7 @@ bool Viewer::draw_side(const SideWork& work, int divisor) {
   Side& side = work.side;
   bool drawn = false;
   guarded([&] {
-    // Costs of another size are no costs of this one.
+    // Costs that were measured at another size do not apply to this one.
     if (std::exchange(side.divisor, divisor) != divisor) side.costs.clear();
     cost_reader_.start(device_.device.timers, side.costs);
     side.renderer.draw(*scene_, work.document, divisor);

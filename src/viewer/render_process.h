@@ -7,7 +7,7 @@
 
 namespace penumbra::viewer {
 
-// Runs `penumbra render` in a process of its own: the window stays responsive, and the files are those that the same
+// Runs `penumbra render` in a separate process: the window stays responsive, and the files are those that the same
 // command writes in a shell.
 class RenderProcess {
  public:

@@ -10,7 +10,7 @@
 
 namespace penumbra::viewer {
 
-// Reads scenes on threads of their own, so that the window stays responsive.
+// Reads scenes on background threads, so that the window stays responsive.
 class SceneLoader {
  public:
   SceneLoader() = default;

@@ -16,7 +16,7 @@ namespace penumbra::viewer {
 struct Playback {
   bool playing = false;
   float speed = 1;
-  double carried = 0;  // the fraction of a frame that is due
+  double carried = 0;  // the fraction of a frame that has elapsed since the last whole one
 };
 
 // One line for the user, shown over the picture for a while.

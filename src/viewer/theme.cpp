@@ -42,7 +42,7 @@ void set_theme(float scale) {
   colors[ImGuiCol_Tab] = grey(0.16f);
   colors[ImGuiCol_TabHovered] = grey(0.30f);
   colors[ImGuiCol_TabActive] = grey(0.26f);
-  // Dark enough for the value's text, which stands over it.
+  // Dark enough to read the value's text, which is drawn over it.
   colors[ImGuiCol_SliderGrab] = {0.55f, 0.38f, 0.13f, 1};
   colors[ImGuiCol_SliderGrabActive] = {0.66f, 0.46f, 0.16f, 1};
   colors[ImGuiCol_CheckMark] = accent(1.0f);

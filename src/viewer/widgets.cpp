@@ -33,7 +33,7 @@ std::string tooltip_of(const Param& param) {
   return text;
 }
 
-// Ranges over several powers of ten are for a slider that has as much room for each.
+// A range over several powers of ten gets a logarithmic slider, which has the same room for each power.
 bool is_wide(const Param& param) { return param.min >= 0 && param.max >= 100 * std::max(param.min, 1.0); }
 
 std::string unit_after(const Param& param) {
@@ -94,8 +94,8 @@ void WidgetMap::mark(std::string_view name, const ImVec2& low, const ImVec2& hig
 }
 
 void WidgetMap::write_changes(const std::filesystem::path& file) {
-  // A popup takes a frame to find its size, so rectangles have to hold for two frames. That the viewer is no longer
-  // idle is written at once, lest a script takes an old picture for the finished one.
+  // ImGui needs a frame to compute the size of a popup, so rectangles are written once they are the same in two frames.
+  // The end of "idle" is written at once, so that a script does not take an old picture for the finished one.
   const bool idle_ends = written_.contains(idle) && !boxes_.contains(idle);
   if (!idle_ends && (boxes_ != last_ || boxes_ == written_)) return;
   io::Json json = io::Json::object();

@@ -24,7 +24,8 @@ namespace {
 
 constexpr float text_size = 15.0f;  // pixels, at a scale of 1
 
-// Where distributions put a font that has every letter of a file's name; ImGui's own has Latin ones alone.
+// The path of an installed font that covers more scripts than ImGui's built-in one, which has only Latin letters; file
+// names may need them.
 const char* font_file() {
   static constexpr std::array places{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                                      "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
@@ -95,7 +96,7 @@ void Window::set_up_interface() {
   io.IniFilename = nullptr;  // the viewer keeps its own settings
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   ImGui_ImplGlfw_InitForOpenGL(window_, /* install_callbacks= */ true);
-  // In the place of the interface's own, which would take characters before the keys that came first.
+  // Replaces ImGui's callback, which would handle a character at once, before key presses that are still queued.
   glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
     static_cast<Window*>(glfwGetWindowUserPointer(window))
         ->changes_.push_back({.of = Change::Of::text, .code = static_cast<int>(character)});
@@ -123,7 +124,7 @@ void Window::apply_scale(float scale) {
     config.SizePixels = size;
     io.Fonts->AddFontDefault(&config);
   }
-  ImGui_ImplOpenGL3_DestroyDeviceObjects();  // the next frame makes them again, with these letters
+  ImGui_ImplOpenGL3_DestroyDeviceObjects();  // the next frame creates them again, with the new font
   set_theme(scale);
 }
 
@@ -152,8 +153,9 @@ void Window::apply(const Change& change) {
   }
 }
 
-// What goes down together has a frame, then what goes up, so that nothing is both in one, and a key goes down with its
-// modifiers. A button ends its frame: the pointer is in one place.
+// Presses go into one frame and releases into another, so that nothing is pressed and released in the same frame, and a
+// key is pressed together with its modifiers. A mouse button ends its frame, because ImGui has one pointer position per
+// frame.
 void Window::play_keys() {
   const auto changes_state = [](const Change& change) { return change.of != Change::Of::text; };
   const auto first = std::find_if(changes_.begin(), changes_.end(), changes_state);
@@ -167,8 +169,9 @@ void Window::play_keys() {
   }
 }
 
-// Letters come as characters, as many as there are. A key that edits, or one with Ctrl, has a frame to itself after the
-// characters before it: a field takes characters first, and none with Ctrl.
+// All pending characters go into one frame. An editing key, or a key with Ctrl, gets a separate frame after the
+// characters before it, because an ImGui text field handles the characters of a frame first, and ignores them while
+// Ctrl is down.
 void Window::play_text() {
   const auto is_letter = [&](const Change& change) {
     const bool modified = keys_[GLFW_KEY_LEFT_CONTROL] || keys_[GLFW_KEY_RIGHT_CONTROL];

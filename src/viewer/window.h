@@ -73,7 +73,7 @@ class Window {
   std::vector<std::string> dropped_;
   glm::vec2 pointer_{0};          // at the last recorded event
   std::deque<Change> changes_;    // recorded, not given to ImGui yet
-  std::array<bool, 512> keys_{};  // which are down as far as ImGui was told; it knows 512 keys
+  std::array<bool, 512> keys_{};  // the keys that ImGui considers pressed; it has 512
   std::array<bool, 5> buttons_{};
 };
 

@@ -8,7 +8,7 @@ import subprocess
 from support import PROGRAM, ROOT, TestCase, main, read_png
 
 EMBEDDED = ROOT / "src" / "shadow" / "noise"
-NOWHERE = "/dev/null/tile.exr"  # what is wrong with a command line is told before what is wrong with files
+NOWHERE = "/dev/null/tile.exr"  # faults of the command line are reported before faults of files
 
 
 class Noise(TestCase):

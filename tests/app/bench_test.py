@@ -41,7 +41,7 @@ class Bench(TestCase):
             self.assertEqual(cost["cpu"]["frames"], 2)
             self.assertGreater(cost["cpu"]["min_ms"], 0)
             self.assertLessEqual(cost["cpu"]["min_ms"], cost["cpu"]["median_ms"])
-            # A field tells it: a busy machine is no fault.
+            # Only checks that the field is consistent: on a busy machine the passes may not add up to the frame.
             self.assertEqual(cost["adds_up"], 0.9 < cost["passes_sum_over_frame"] < 1.1)
             for each in cost["passes"]:
                 self.assertAlmostEqual(each["share"], each["median_ms"] / frame["median_ms"], delta=0.001)

@@ -241,7 +241,7 @@ class Refusals(TestCase):
 
     def test_scenes_that_are_not_there(self):
         self.assertIn("nothing.glb", self.refused("--technique", "pcss", code=1, of=self.folder / "nothing.glb"))
-        # The second too is told before the first is drawn.
+        # A fault of the second scene is also reported before the first is drawn.
         scenes = (POSTS, self.folder / "none.glb")
         line = self.refuse("compare", *scenes, "-o", self.folder / "report", "--technique", "pcss")
         self.assertIn("none.glb", line)

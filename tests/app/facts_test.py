@@ -25,7 +25,7 @@ class Doctor(TestCase):
             self.assertIn(word, text)
 
     def test_advice_when_nothing_works(self):
-        # Neither a driver for EGL nor OSMesa is found where the loader is told to look first; no display either.
+        # The loader searches an empty folder first, so it finds neither an EGL driver nor OSMesa. There is no display.
         nothing = self.folder / "empty"
         nothing.mkdir()
         for name in ("libEGL.so.1", "libEGL.so", "libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"):

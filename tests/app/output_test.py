@@ -158,7 +158,7 @@ class Output(TestCase):
             for place in ("/proc/none/x.png", self.folder / "file" / "x.png", self.folder):
                 with self.subTest(f"{option} {place}"):
                     others = [] if option == "-o" else ["-o", self.folder / "x.png"]
-                    # The scene does not exist either: what is said first is what was checked first.
+                    # The scene does not exist either: the error shows which check comes first.
                     error = self.refuse("render", "none.glb", option, place, *others,
                                         code=2 if option == "-o" and place == self.folder else 1)
                     self.assertNotIn("none.glb", error)

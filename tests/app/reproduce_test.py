@@ -51,7 +51,7 @@ class Reproduce(TestCase):
         for figure in self.data["figures"]:
             for a, negated, word, b in relation.findall(figure["sentence"]):
                 a, b = (float(text.replace("−", "-")) for text in (a, b))
-                if a != b:  # as far as the digits tell
+                if a != b:  # equal printed values count as a tie
                     self.assertEqual(a > b, (word == "above") != bool(negated), figure["sentence"])
                     found += 1
         self.assertGreater(found, 10)

@@ -75,7 +75,7 @@ class Hand(WindowTest):
         eye, target, sun = self.dragged(LEFT, "eye")
         self.assertEqual((target, sun), (self.TARGET, self.SUN))
         self.assertAlmostEqual(math.dist(eye, target), math.dist(self.EYE, self.TARGET), places=3)
-        self.assertLess(eye[0], self.EYE[0])  # what is in front follows the hand
+        self.assertLess(eye[0], self.EYE[0])  # the scene in front follows the pointer
         self.assertGreater(eye[1], self.EYE[1])
 
     def test_the_middle_button_shifts_the_camera(self):
@@ -84,7 +84,7 @@ class Hand(WindowTest):
         shift = [now - then for now, then in zip(eye, self.EYE)]
         for now, then, by in zip(target, self.TARGET, shift):
             self.assertAlmostEqual(now - then, by, places=4)
-        self.assertLess(shift[0], 0)  # the scene follows the hand
+        self.assertLess(shift[0], 0)  # the scene follows the pointer
         self.assertGreater(shift[1], 0)
 
     def test_the_right_button_moves_the_sun(self):

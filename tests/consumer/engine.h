@@ -1,7 +1,7 @@
 #pragma once
 
-// A little engine with habits of its own: its own context, its own GL loader, OpenGL's default depth (near 0, far 1,
-// clip space -1..1) and normals stored as they are. Nothing here knows Penumbra.
+// A small engine that does not use Penumbra. It has its own context and GL loader, OpenGL's default depth (near 0, far
+// 1, clip space -1..1), and stores normals without an encoding.
 #include <GL/glcorearb.h>
 
 #include <glm/glm.hpp>
@@ -21,7 +21,8 @@ constexpr float floor_half = 6.0f;
 void make_context();  // throws std::runtime_error
 void* proc_address(const char* name);
 
-// A fragment shader's end, for a function that gives it shadows; and whether the driver takes the whole.
+// The end of a fragment shader, to be appended to a function that returns shadows; and whether the driver compiles the
+// whole shader.
 extern const char* const forward_fragment_text;
 bool compiles(const std::string& fragment_text);
 

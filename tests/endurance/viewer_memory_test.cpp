@@ -19,7 +19,7 @@ std::size_t resident() {
   return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-// A sanitizer keeps freed memory for a while; at the end it finds what nobody can reach any more.
+// Not checked with the address sanitizer, which keeps freed memory for a while; it reports leaks when the process ends.
 void expect_no_more_than([[maybe_unused]] std::size_t bytes) {
 #ifndef __SANITIZE_ADDRESS__
   EXPECT_LT(resident(), bytes);
@@ -49,7 +49,7 @@ class ViewerMemory : public GpuTest {
 
   void draw(viewer::LoadedScene& scene, int frames, int divisor = 1) {
     for (int i = 0; i < frames; ++i) {
-      document_.params.set("sampling.seed", i % 2);  // something changes, as under a hand
+      document_.params.set("sampling.seed", i % 2);  // changes the document, as a user would
       renderer_of_a_.draw(scene, document_, divisor);
       device_.timers.take();
     }

@@ -5,13 +5,14 @@
 
 namespace penumbra::test {
 
-// Counts calls of OpenGL while it lives: Penumbra's entry points of a kind are replaced by ones that count and go on to
-// the real ones. One at a time; the context of its beginning stays current.
+// Counts OpenGL calls during its lifetime: it replaces Penumbra's entry points of a kind by functions that count and
+// then call the real ones. Only one may exist at a time, and the context that was current at its start must stay
+// current.
 class GlCalls {
  public:
   enum class Kind {
-    queries,    // what asks OpenGL for something: glGet…, glIs…, glCheck…
-    creations,  // what makes an object: glCreate…, glGen… (each call is one, however many objects it makes)
+    queries,    // functions that query OpenGL: glGet…, glIs…, glCheck…
+    creations,  // functions that create objects: glCreate…, glGen… (one per call, however many objects)
   };
   explicit GlCalls(Kind kind);
   ~GlCalls();

@@ -118,7 +118,7 @@ TEST_F(GlTexture, OneThatDoesNotFitIntoMemoryIsNamedOnce) {
   EXPECT_NO_THROW(gl::check_errors("afterwards"));
 }
 
-// The flag of an earlier call that nobody has read yet.
+// An earlier call has set the error flag, which was not read yet.
 TEST_F(GlTexture, AnEarlierErrorNeitherHidesRunningOutOfMemoryNorIsLost) {
   const gl::TextureDesc huge{
       .target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA32F, .width = 16384, .height = 16384, .layers = 2048};

@@ -29,7 +29,7 @@ gl::ShaderFiles shader_files(std::initializer_list<std::pair<const char*, const 
 // A pass that does nothing but set its state and clear.
 inline void clear(gl::Device& device, const gl::PassDesc& desc) { const gl::Pass pass(device, desc); }
 
-// The message of the penumbra::Error that `call` throws; fails the test when it throws none.
+// The message of the penumbra::Error that `call` throws; fails the test if it throws none.
 template <class Call>
 std::string message_of(Call&& call) {
   try {

@@ -1,4 +1,4 @@
-// What a technique remembers goes on from frame to frame of one scene, and no further.
+// A technique's history is kept between the frames of one scene, and discarded at a cut.
 
 #include <limits>
 

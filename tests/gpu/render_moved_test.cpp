@@ -1,5 +1,5 @@
-// What the scene's casters tell of their movement: which fragments moved, where they are and were, and within which
-// box.
+// What the scene's casters report about their movement: which fragments moved, where they are and were, and within
+// which box.
 #include <algorithm>
 
 #include "render_scenes.h"
@@ -31,7 +31,7 @@ bool any_holds(const std::vector<Rectangle>& rectangles, int texel) {
   return std::any_of(rectangles.begin(), rectangles.end(), [&](const Rectangle& r) { return r.holds(texel); });
 }
 
-// Squares that move, deform or stand still within a second: each is drawn by another path.
+// Squares that move, deform or do not move within a second; each uses another code path.
 class MovedCasters : public RenderTest {
  protected:
   MovedCasters() {

@@ -31,7 +31,7 @@ inline scene::Node& add_node(scene::Scene& scene, scene::Primitive primitive, co
   return scene.nodes.back();
 }
 
-// A renderer and small pictures of scenes made by hand.
+// A renderer, and small pictures of scenes that a test builds.
 class RenderTest : public GpuTest {
  protected:
   static constexpr int width = 64, height = 48;

@@ -1,4 +1,4 @@
-// A frame in which nothing changed makes no OpenGL object and asks OpenGL nothing.
+// A frame in which nothing changed creates no OpenGL object and makes no OpenGL query.
 #include <memory>
 #include <utility>
 
@@ -10,7 +10,7 @@ namespace {
 
 using Counts = std::map<std::string, int>;
 
-// A renderer on a context as programs have it: a debug context asks for errors after every step.
+// A renderer on a context without debugging, as applications use: a debug context queries errors after every step.
 class RenderSteadyFrame : public GpuTest {
  protected:
   RenderSteadyFrame() : context(gl::make_context(backend_name(), {.debug = false})) {

@@ -1,4 +1,4 @@
-// Shadows on surfaces that an engine draws forward, in a shader of its own with names of its own.
+// Shadows on surfaces that an engine draws forward, in the engine's shader, which declares names of its own.
 
 #include <string>
 

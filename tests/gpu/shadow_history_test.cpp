@@ -107,7 +107,7 @@ TEST_F(ShadowHistory, JitterMovesNothing) {
   EXPECT_LT(most_off(*renderer_, params, {0, 0, 64, 64}), 0.004);
 }
 
-// Ground and caster move together by three pixels a frame: the shadow stands still on the ground. How far the blend is
+// Ground and caster move together by three pixels a frame: the shadow does not move on the ground. How far the blend is
 // off at most, if the motion vectors say that all moved by so many pixels.
 double off_by_motion(TriangleRenderer& renderer, float pixels) {
   constexpr int side = 64;

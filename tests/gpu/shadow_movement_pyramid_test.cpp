@@ -12,7 +12,7 @@ namespace {
 
 using shadow::MovementForm;
 
-// A map with marks that nobody drew, and the pyramid over it.
+// A movement map whose marks the test uploads instead of drawing them, and the pyramid over it.
 class MovementPyramid : public GpuTest {
  protected:
   const gl::Texture& pyramid_of(const std::vector<std::vector<float>>& layers, int size, MovementForm form) {

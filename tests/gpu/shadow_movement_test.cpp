@@ -190,7 +190,7 @@ TEST_F(ShadowMovement, WhatDidNotMoveCostsNothing) {
     EXPECT_EQ(passes_of(shadow::CasterKind::depth), 3u);
     EXPECT_EQ(drawn.size(), 3u) << "no pass of the movement map";
     EXPECT_EQ(count_of(all_levels_of(map), 0), all_levels_of(map).size());
-    // Nor do casters that moved mark what is not there: the same where nobody says so.
+    // The map is also clear if the inputs do not say that casters moved.
     EXPECT_EQ(count_of(all_levels_of(movement_of(scene, cascades, {.second_target = second})), 0),
               all_levels_of(map).size());
   }

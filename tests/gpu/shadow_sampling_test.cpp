@@ -41,7 +41,7 @@ class ShadowSampling : public TriangleTest {
   }
 
   Shadowed draw() { return renderer_->render(wide_penumbra(), *params_); }
-  // The next frame of a camera that stands still.
+  // The next frame of a camera that does not move.
   Shadowed draw_next() {
     return renderer_->render(wide_penumbra(), *params_, [](shadow::Inputs& inputs) {
       inputs.view.last_view = inputs.view.view;

@@ -1,4 +1,5 @@
-// The library in an engine: whatever state it comes in, the mask is the same, and what is left is what the header says.
+// The library in an engine: the mask does not depend on the OpenGL state before the call, and the state after it is
+// what the header promises.
 
 #include <algorithm>
 #include <array>
@@ -223,7 +224,7 @@ class ShadowState : public GpuTest {
     GpuTest::TearDown();
   }
 
-  // The same frame in a clean state and among what an engine leaves, each on a renderer of its own.
+  // Draws the same frame in a clean OpenGL state and in one that an engine has changed, each with a separate renderer.
   void expect_promises(TriangleRenderer& clean, TriangleRenderer& disturbed, const ParamSet& params) {
     const auto with_memory = [&](shadow::Inputs& inputs) {
       inputs.view.last_view = scene.view;
@@ -268,8 +269,8 @@ TEST_F(ShadowState, EveryTechniqueInheritsNothingAndLeavesWhatIsDocumented) {
   }
 }
 
-// Every switch and every word of the library's own, which between them choose each filter, noise, pattern, map of
-// movement and driver.
+// Every switch and every choice among the library's parameters; together they select each filter, noise, pattern,
+// movement map and driver.
 TEST_F(ShadowState, SoDoesEveryChoiceOfTheLibrary) {
   TriangleRenderer clean, disturbed;
   const std::vector<std::string> techniques = clean.shadows().registry().names();

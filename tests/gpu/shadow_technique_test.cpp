@@ -1,4 +1,4 @@
-// A technique as a program with techniques of its own would write it: a product of a recipe, visibility() that reads
+// A technique as an application would add it: a product of a recipe, visibility() that reads
 // it, a `resolve` of several passes, and a history.
 
 #include <glm/gtc/matrix_transform.hpp>

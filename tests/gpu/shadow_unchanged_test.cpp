@@ -1,4 +1,5 @@
-// What a frame in which nothing changed does not do again. That it asks OpenGL nothing: render_steady_frame_test.cpp.
+// Work that a frame in which nothing changed does not repeat. render_steady_frame_test.cpp tests that such a frame
+// makes no OpenGL query.
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -11,7 +12,7 @@ namespace {
 
 class ShadowUnchanged : public TriangleTest {
  protected:
-  // The next frame of a camera that stands still.
+  // The next frame of a camera that does not move.
   void frame(const ParamSet& params, const TriangleRenderer::Adjust& adjust = {}) {
     renderer_->render(scene_, params, [&](shadow::Inputs& inputs) {
       inputs.view.last_view = inputs.view.view;

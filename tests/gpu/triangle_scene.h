@@ -18,7 +18,7 @@ struct Triangle {
   glm::vec3 moved_by{0};  // since the last frame
 };
 
-// A few triangles, a camera and a sun: enough to hand the shadow library its inputs as an engine would.
+// A few triangles, a camera and a sun: enough to fill the inputs of the shadow library as an engine would.
 struct TriangleScene {
   std::vector<Triangle> triangles;
   glm::mat4 view{1}, projection{1};
@@ -52,11 +52,11 @@ class Geometry {
   GLsizei count_ = 0;
 };
 
-// A box of 2 m on a ground of 10 m, so many pixels wide and high.
+// A box of 2 m on a ground of 10 m; the picture is `side` pixels wide and high.
 TriangleScene box_on_ground(int side = 64);
 
-// A half-plane 5 m up whose edge stands over the middle of a ground of 4 m, under a sun at the zenith, seen from
-// between them, so many pixels wide and high; the projection is left to be set.
+// A half-plane 5 m above the ground, whose edge is over the middle of the ground (4 m wide), under a sun at the zenith.
+// The camera is between them; the picture is `side` pixels wide and high. The caller sets the projection.
 TriangleScene half_plane_over_ground(int side);
 
 // Reversed-Z, z in 0..1.
@@ -64,7 +64,7 @@ glm::mat4 orthographic(float half_width, float half_height, float near, float fa
 glm::mat4 perspective(float fov_y, float aspect, float near);
 glm::vec3 sun_direction(float azimuth_degrees, float elevation_degrees);
 
-// What the library made of the scene, row by row from the bottom.
+// The library's result for a scene, in rows from bottom to top.
 struct Shadowed {
   int width = 0, height = 0;
   std::vector<float> mask;        // 4 a pixel: visibility, penumbra radius, blocker distance, cascade
@@ -88,7 +88,7 @@ class TriangleRenderer {
   explicit TriangleRenderer(shadow::Registry registry = shadow::built_in_registry());
   // Parameters at their defaults; change and pass them to render().
   ParamSet params() const { return ParamSet(shadows_.registry().params()); }
-  // `adjust` has the last word on what the library is given, `after` is called when the library has just returned.
+  // `adjust` may change the inputs just before the call of the library; `after` is called as soon as it has returned.
   using Adjust = std::function<void(shadow::Inputs&)>;
   Shadowed render(const TriangleScene& scene, const ParamSet& params, const Adjust& adjust = {},
                   const std::function<void()>& after = {});
@@ -102,7 +102,7 @@ class TriangleRenderer {
   shadow::Mask mask_;
 };
 
-// A test with a renderer of its own.
+// A test fixture with its own renderer.
 class TriangleTest : public GpuTest {
  protected:
   void SetUp() override {

@@ -41,7 +41,7 @@ scene::Primitive box(const glm::vec3& half, bool inwards) {
 
 struct Means {
   double lit = 0;        // share of receivers that the shadow map has lit
-  double different = 0;  // share of receivers of which rays say something else
+  double different = 0;  // share of receivers at which the shadow map and rays disagree
 };
 
 // A crate on a floor, with an outline as an inverted hull, in a sky. The crate and its hull are mirrored.

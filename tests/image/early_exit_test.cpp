@@ -16,7 +16,7 @@ namespace {
 
 using EarlyExit = GpuTest;
 
-// What the mask holds of the next frame, which starts anew.
+// The mask of the next frame, which starts without history.
 std::vector<std::vector<float>> mask(SceneRun& run, bool early_exit) {
   run.params().set("pcss.early_exit", early_exit);
   const Picture visibility = run.draw(/*cut=*/true);

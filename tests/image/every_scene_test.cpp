@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A renderer on a backend of its own; contexts take turns.
+// A renderer with its own context on a backend. Only one of the contexts is current at a time.
 struct Machine {
   explicit Machine(const std::string& backend)
       : context(gl::make_context(backend, {.debug = true})),

@@ -71,7 +71,7 @@ std::string recorded_version() {
   return line;
 }
 
-// The tolerance on this renderer; none where the goldens say nothing about it.
+// The tolerance on this renderer; none if the goldens have none for it.
 std::optional<Tolerance> tolerance_here(const Golden& golden) {
   if (renderer_version() == recorded_version()) return *golden.tolerance;
   if (!gl::device_info().software) return {};

@@ -5,8 +5,8 @@
 
 namespace penumbra::test {
 
-// How far a picture may be from its golden one, on the renderer that this was recorded with: no channel of a pixel by
-// more than `steps` of 255, except in `share` of the pixels.
+// How far a picture may differ from its golden picture on the renderer that recorded it: no channel by more than
+// `steps` of 255, except in a share `share` of the pixels.
 struct Tolerance {
   int steps;
   double share;
@@ -14,7 +14,7 @@ struct Tolerance {
 };
 
 // A golden picture: an AOV of 160 × 90 pixels, kept with 8 bits a channel in tests/image/golden/NAME.png. One line of
-// goldens.cpp makes one; scripts/goldens.sh records them anew.
+// goldens.cpp makes one; scripts/goldens.sh records them again.
 struct Golden {
   const char* name;                   // of the file
   const char* scene;                  // of scenes/, without .glb

@@ -1,4 +1,4 @@
-// What history gives and where it must not be trusted: figures against brute_force.
+// How much history improves the mask, and where it must be rejected; measured against brute_force.
 
 #include <gtest/gtest.h>
 
@@ -64,8 +64,8 @@ class Trail {
 // A caster that moves and stops, under a movement map.
 struct Stop {
   double moving = 0;   // mean error of the trail while it moves
-  double at_rest = 0;  // of the same pixels in a run that rests
-  int recovered = -1;  // frames after the stop until the trail is as good as at rest, to within 1/255
+  double at_rest = 0;  // mean error of the same pixels in a run without motion
+  int recovered = -1;  // frames after the motion stops until the error is within 1/255 of `at_rest`
 };
 
 Stop stop_under(const std::string& map, const std::string& present) {

@@ -25,7 +25,7 @@ class SceneRun {
   void choose(const std::string& technique);
   ParamSet& params() { return params_; }
 
-  // Draws the next frame. Its history goes on from the last one unless `cut`.
+  // Draws the next frame, with the history of the last one unless `cut`.
   Picture draw(bool cut = false);
   // The same frame by brute_force, or by `truth` with so many rays a pixel.
   Picture draw_reference();

@@ -71,7 +71,7 @@ TEST_F(TruthImage, IsTheExactPenumbraOfAnEdge) {
   }
 }
 
-// Share of receivers of which the shadow map and the ray to the sun's centre say different things.
+// Share of receivers at which the shadow map and the ray to the sun's centre disagree.
 double disagreement(SceneRun& run) {
   run.choose("hard");
   const Picture hard = run.draw(/*cut=*/true);

@@ -29,7 +29,7 @@ build() { :; }
 """
 
 
-# What goes on until Ctrl-C, which ends it with exit code 130.
+# Commands that run until Ctrl-C, which ends them with exit code 130.
 ENDLESS = ("./run.sh watch ", "./run.sh view ")
 
 

@@ -20,7 +20,7 @@
 
 namespace penumbra::test {
 
-// A folder for one test's files, gone with the object.
+// A folder for one test's files; the destructor removes it.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -119,7 +119,7 @@ inline std::string one_mesh(const std::string& primitive, const std::string& mor
 
 inline scene::Image no_image(std::span<const std::byte>, const std::string& name) { fail("no decoder for {}", name); }
 
-// Stands in for a decoder where pixels don't matter.
+// Replaces a decoder in tests that do not need the pixels.
 inline scene::Image any_image(std::span<const std::byte>, const std::string& name) {
   return {.name = name, .width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
 }

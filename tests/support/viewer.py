@@ -144,7 +144,7 @@ class Viewer:
         """From a pixel of the window, to and fro with rests and the button down until the condition holds."""
         self.move(x, y)
         self._desktop.xdotool("mousedown", button)
-        self.follow()  # else it would be down where the hand is by then
+        self.follow()  # else the viewer would see the press at a later position of the pointer
         way = itertools.cycle([*range(1, 21), *[20] * 20, *range(19, 9, -1), *[10] * 20, *range(9, -1, -1)])
 
         def moved():

@@ -61,7 +61,7 @@ TEST(CasterGrid, HasTheTrianglesThatWereAskedFor) {
     EXPECT_EQ(bench::drawn_triangles(bench::caster_grid(triangles)), triangles + plane);
 }
 
-// The grid is as wide whatever the number, and stands on the plane.
+// The width of the grid does not depend on the number of casters, and they touch the plane.
 TEST(CasterGrid, KeepsItsSize) {
   for (const long long triangles : {1'000LL, 100'000LL, 1'000'000LL}) {
     scene::Scene scene = bench::caster_grid(triangles);

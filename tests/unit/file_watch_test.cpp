@@ -37,7 +37,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using Paths = std::vector<fs::path>;
 
-// Each case has a folder of its own, watched under names that lead through it.
+// Each test has its own folder, and the paths that it watches lead through it.
 class FileWatchTest : public testing::Test {
  protected:
   FileWatchTest() {
@@ -267,7 +267,7 @@ TEST_F(FileWatchTest, ALimitThatIsReachedLosesNoChange) {
   EXPECT_EQ(next(watch), Paths{glsl() / "a.glsl"});
 }
 
-#ifndef __SANITIZE_ADDRESS__  // a sanitizer looks at memory through descriptors of its own
+#ifndef __SANITIZE_ADDRESS__  // the address sanitizer needs file descriptors itself
 TEST_F(FileWatchTest, TheLimitOfDescriptorsIsOneClearError) {
   rlimit before{};
   getrlimit(RLIMIT_NOFILE, &before);

@@ -48,7 +48,7 @@ TEST(Noise, IsTheSameOnEveryMachineAndForEveryNumberOfThreads) {
   EXPECT_EQ(digest(make_noise("void_and_cluster", 16, 2, 5)), 15497227018239437017U);
 }
 
-// Whoever changes how noise is made changes the digests above, and bakes these anew.
+// After a change to how noise is made, update the digests above and bake these tiles again.
 TEST(Noise, TheBuiltInTilesAreThoseOfToday) {
   EXPECT_EQ(digest(built_in_noise("blue")), 1577704634477514093U);
   EXPECT_EQ(digest(built_in_noise("void_and_cluster")), 6682990548504888333U);

@@ -12,7 +12,7 @@ namespace {
 
 Technique technique(const char* name) { return {.name = name, .glsl = "shadow/techniques/none.glsl"}; }
 
-// What a registry of a good technique and one that was changed says; empty: it is taken.
+// The error of a registry with a valid technique and a changed copy of it; empty if the registry accepts both.
 std::string complaint(const std::function<void(Technique&)>& change) {
   Technique changed = technique("changed");
   change(changed);
@@ -114,7 +114,7 @@ Recipe recipe(const char* name, std::vector<std::string> needs = {}) {
   return {.name = name, .needs = std::move(needs), .build = make_nothing};
 }
 
-// What a registry says of these recipes, and of a technique that needs those of that name.
+// The error of a registry with these recipes and a technique that needs the named ones; empty if it accepts them.
 std::string complaint(std::vector<Recipe> recipes, std::vector<std::string> needs) {
   Technique asking = technique("asking");
   asking.needs = std::move(needs);

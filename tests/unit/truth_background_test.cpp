@@ -1,4 +1,4 @@
-// Pictures that are traced on a thread of their own: which one is finished, and what stops them.
+// Pictures that are traced on a background thread: which one is finished, and what cancels them.
 
 #include <gtest/gtest.h>
 

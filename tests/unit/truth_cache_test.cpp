@@ -1,4 +1,4 @@
-// The cache of traced pictures: what it tells apart, what it believes, and how much it keeps.
+// The cache of traced pictures: which inputs are part of its key, which files it accepts, and how much it keeps.
 
 #include <gtest/gtest.h>
 #include <unistd.h>

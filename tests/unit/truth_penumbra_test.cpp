@@ -1,5 +1,5 @@
-// Traced penumbrae against closed forms: how far off, how fast that falls, and whether the error that is told is the
-// one that is made.
+// Traced penumbrae against closed forms: the size of the error, how fast it falls with the number of rays, and whether
+// the reported error is the actual one.
 
 #include <gtest/gtest.h>
 
@@ -130,7 +130,7 @@ TEST(TruthPenumbra, StandardErrorIsHonest) {
   }
 }
 
-// A square sun has two horizontal sides, wherever it stands.
+// A square sun has two horizontal sides, whatever its direction.
 TEST(TruthPenumbra, SquareSunHasHorizontalSides) {
   TruthScene scene;
   scene.add_quad({-100, 0, -100}, {0, 0, 200}, {200, 0, 0});

@@ -115,7 +115,7 @@ TEST(TruthReceivers, OfNothingPointsAndFlatTrianglesAreNotThere) {
   for (std::size_t i = 1; i < 6; ++i) EXPECT_FALSE(receivers[i].there) << i;
 }
 
-// A triangle seen along its plane, or behind the eye, has no point on the ray: its nearest corner stands in.
+// A triangle seen along its plane, or behind the eye, has no point on the ray: its nearest corner is used instead.
 TEST(TruthReceivers, FallBackToTheNearestCorner) {
   TruthScene scene;
   scene.add_triangles({{1, 5, -3}, {-2, 5, -8}, {6, 5, -9}});

@@ -14,7 +14,7 @@ namespace penumbra::test {
 
 constexpr double pi = 3.14159265358979323846;
 
-// A few surfaces in memory, posed by hand.
+// A few surfaces in memory, which the test places.
 class TruthScene {
  public:
   scene::Scene scene;

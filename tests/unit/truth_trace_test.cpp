@@ -226,7 +226,7 @@ TEST(TruthTrace, FirstSamplesThatAgreeProveNothingBesideAPenumbra) {
     ++count;
   }
   ASSERT_GT(count, 50);
-  // Without their neighbours' word they would be off by more than twice as much.
+  // Without the estimates of their neighbours the error would be more than twice as large.
   EXPECT_LT(std::sqrt(squares / count), 1.25 * error);
 }
 

@@ -1,4 +1,4 @@
-// What a hand does with the camera and the sun.
+// How the user moves the camera and the sun.
 #include "viewer/camera_rig.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What the viewer says of costs. tests/gpu/viewer_cost_reader_test.cpp has where the times come from.
+// The costs that the viewer shows. tests/gpu/viewer_cost_reader_test.cpp tests how the times are read.
 #include "viewer/costs.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What the viewer keeps between runs, and that no file of its own can harm it.
+// The settings that the viewer keeps between runs, and that a damaged settings file does no harm.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>

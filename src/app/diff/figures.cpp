@@ -30,7 +30,7 @@ metrics::ImageView view(const image::Picture& picture) {
   return {picture.width, picture.height, picture.pixels, static_cast<int>(picture.channels.size())};
 }
 
-// What a picture's values mean, as far as metrics care.
+// The properties of a picture's values that decide which metrics apply to it.
 struct Kind {
   bool unit_range = false;  // 0 to 1
   bool one_channel = false;
@@ -95,7 +95,7 @@ void check_comparable(const image::Picture& test, const image::Picture& referenc
   };
   if (test.width != reference.width || test.height != reference.height) refuse("they differ in size");
   if (test.channels.size() != reference.channels.size()) refuse("they differ in channels");
-  // Of one channel both hold the value itself, as visibility does.
+  // Pictures of one channel store the value itself (a visibility, for example), whichever kind they claim to be.
   if (test.display != reference.display && test.channels.size() != 1) refuse("one holds display values, one linear");
   const auto bad = find_value(reference, receivers, [](float v) { return !std::isfinite(v); });
   if (!bad) return;
@@ -147,7 +147,7 @@ Difference difference_of(const image::Picture& test, const image::Picture& refer
 }
 
 std::string text_of(const Figure& figure) {
-  // 0 has no sign, whatever rounds to it.
+  // Prints "0" instead of "-0" for small negative values.
   if (*figure.metric->unit != '\0')
     return fmt::format("{:.2f} {}", std::round(figure.value * 100) / 100 + 0.0, figure.metric->unit);
   return fmt::format("{:.5g}", figure.value);

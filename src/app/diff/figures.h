@@ -17,7 +17,7 @@ struct Metric {
   const char* name;
   const char* help;
   const char* unit;       // empty for none
-  bool higher_is_better;  // so its limit is a least value
+  bool higher_is_better;  // then a limit on it is a minimum, else a maximum
 };
 std::span<const Metric> diff_metrics();
 // Throws UsageError with near names for an unknown name.
@@ -26,31 +26,32 @@ const Metric& find_diff_metric(const std::string& name);
 struct Figure {
   const Metric* metric = nullptr;
   double value = std::numeric_limits<double>::quiet_NaN();  // infinite for the PSNR of equal pictures
-  std::string unfit;  // why these pictures have no such figure; empty if they have
+  std::string unfit;  // why the metric does not apply to these pictures; empty if it does
 };
 
-// All figures of two pictures of one size, and the errors pixel by pixel.
+// All figures of two pictures of the same size, and the error of each pixel.
 struct Difference {
-  std::vector<Figure> figures;  // one a metric, in their order
+  std::vector<Figure> figures;  // one per metric, in the order of diff_metrics()
   std::size_t samples = 0, penumbra_samples = 0;
-  std::size_t not_finite = 0;                                    // values of the test
+  std::size_t not_finite = 0;                                    // values of the test picture
   double width_lost = std::numeric_limits<double>::quiet_NaN();  // metrics::PenumbraWidth::lost_share()
-  std::vector<float> errors;                                     // a pixel: the greatest |e| of its channels
-  std::vector<float> flip_map;                                   // empty where FLIP is unfit
+  std::vector<float> errors;                                     // one per pixel: the largest |error| of its channels
+  std::vector<float> flip_map;                                   // empty if FLIP does not apply
 
   const Figure& figure(const Metric& metric) const;
 };
 
-// Throws Error if the pictures can't be compared; the texts name `test_name` and `reference_name`.
+// Throws Error if the pictures can't be compared; the message names `test_name` and `reference_name`.
 void check_comparable(const image::Picture& test, const image::Picture& reference, metrics::Receivers receivers,
                       const std::string& test_name, const std::string& reference_name);
 Difference difference_of(const image::Picture& test, const image::Picture& reference, metrics::Receivers receivers);
 
-// "rmse 0.0123, psnr 38.20 dB, …": what fits these pictures. The share of lost widths comes after their error.
+// "rmse 0.0123, psnr 38.20 dB, …": every figure that applies to these pictures. The share of penumbra pixels without a
+// measurable width follows the width error.
 std::string text_of(const Difference& difference);
 std::string text_of(const Figure& figure);  // with its unit; "inf" for an infinite one
-// The figures by name, and penumbra_width_lost; infinite ones are "inf" and those of an empty penumbra null, unfit ones
-// are left out.
+// The figures by name, and penumbra_width_lost. Infinite figures are "inf", figures of an empty penumbra are null, and
+// figures that do not apply are left out.
 io::Json to_json(const Difference& difference);
 
 }  // namespace penumbra::app

@@ -46,7 +46,7 @@ void write_all(int pipe, const std::string& text) {
 }
 
 [[noreturn]] void run_child(int pipe, const std::function<Json()>& work) {
-  // Messages of a driver on stderr are no part of the report.
+  // Keeps the driver's messages on stderr out of the report.
   if (std::freopen("/dev/null", "w", stderr) == nullptr) std::fclose(stderr);
   Json result;
   try {

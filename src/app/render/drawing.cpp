@@ -9,7 +9,7 @@ namespace penumbra::app {
 
 namespace {
 
-// A frame while the time stands still: the first is drawn at its time, the others repeat it.
+// Draws a warm-up frame without advancing time: the first is drawn at its time, the others repeat it.
 void draw_still(session::RenderSession& session, int frame, const ParamSet& params, bool first) {
   if (first) {
     session.draw(frame, params);

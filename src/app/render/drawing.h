@@ -13,12 +13,13 @@ namespace penumbra::app {
 
 // What `render` and `watch` share.
 
-// Draws the frames of a range after the options' warm-up, and gives each to `drawn`.
+// Draws the warm-up frames that the options ask for, then the frames of `range`, and calls `drawn` after each frame of
+// the range.
 void draw_frames(const RenderOptions& options, session::RenderSession& session, const ParamSet& params,
                  const cli::FrameRange& range, const std::function<void(int frame)>& drawn);
 
-// How many of the last frames count for costs. Draws a single picture again to measure it; of a sequence it counts what
-// was drawn. The first draw compiles shaders and never counts.
+// Returns how many of the last drawn frames the costs are taken from. A single picture is drawn again, as often as
+// --stats-frames says; a sequence is not drawn again. The first draw never counts, because it compiles shaders.
 std::size_t measure(const RenderOptions& options, session::RenderSession& session, const ParamSet& params,
                     const cli::FrameRange& range);
 

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Pictures that are links by now are written where they lead.
+// A picture whose file is a symbolic link is written to the file that the link names.
 std::vector<fs::path> linked_places(const RenderOptions& options, const cli::OutputNames& names) {
   std::vector<fs::path> places;
   const auto add = [&](const fs::path& picture) {

@@ -8,11 +8,11 @@
 
 namespace penumbra::app {
 
-// Before minutes of drawing: is what was named there, can every result be written, and does none take the place of
-// another or of what is read? Throws Error, UsageError where no file could make it right.
+// Called before drawing, which can take minutes. Checks that the results can be written and that none would overwrite
+// another one, the scene or a preset that is only read. Throws Error, or UsageError if the command line is wrong.
 void check_files(const RenderOptions& options, const cli::OutputNames& names);
 
-// Once the scene is read: throws UsageError if a result would take the place of one of its files.
+// Called once the scene is read. Throws UsageError if a result would overwrite one of its files.
 void check_scene_files(const std::vector<std::filesystem::path>& files, const RenderOptions& options,
                        const cli::OutputNames& names);
 

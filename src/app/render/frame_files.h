@@ -7,8 +7,8 @@
 
 namespace penumbra::app {
 
-// Writes the last frame drawn as the options ask: one PNG and one an AOV, or one EXR. The colour picture is always
-// among them.
+// Writes the last drawn frame as the options ask: one PNG for the colour picture and one for each AOV, or one EXR with
+// all of them.
 void write_frame(const session::RenderSession& session, const RenderOptions& options, const ParamSet& params,
                  const cli::OutputNames& names, int frame);
 

@@ -12,7 +12,7 @@ namespace penumbra::app {
 struct RenderOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions, session::CacheOptions {
   std::string output;
   int warmup = 0;
-  bool warmup_still = false;  // at the time of the first frame, all of them
+  bool warmup_still = false;  // all warm-up frames are drawn at the time of the first frame
   std::string save_preset;
   std::vector<std::string> aovs;
   std::string stats;
@@ -22,7 +22,7 @@ struct RenderOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions
 
 void add_render_options(CLI::App& app, RenderOptions& options);
 
-// Throws UsageError where options that are right alone don't go together.
+// Throws UsageError for options that can't be combined.
 void check_together(const RenderOptions& options);
 
 }  // namespace penumbra::app

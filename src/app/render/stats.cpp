@@ -15,7 +15,7 @@ using io::Json;
 
 Json json_of(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
-// Kilobytes, the system's count for this process.
+// Kilobytes, as the system counts them for this process.
 long peak_resident() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

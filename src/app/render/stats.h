@@ -7,8 +7,8 @@
 
 namespace penumbra::app {
 
-// What --stats writes: what was drawn (of a sequence the last frame), with what, on what, and what each pass cost over
-// the last `measured` frames.
+// What --stats writes: the picture that was drawn (the last frame of a sequence), its parameters, the device, and what
+// each pass cost over the last `measured` frames.
 io::Json stats_of(const RenderOptions& options, const session::PreparedScene& prepared, const ParamSet& params,
                   session::RenderSession& session, std::size_t measured);
 

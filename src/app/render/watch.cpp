@@ -64,7 +64,7 @@ std::string names_of(const Paths& files) {
   return text;
 }
 
-// Of display values, 0 to 255.
+// Describes how far two pictures of display values (0 to 255) differ.
 std::string difference(const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& now) {
   double sum = 0;
   int most = 0;
@@ -107,7 +107,7 @@ class Watch {
   truth::TruthTechnique truth_;
   std::unique_ptr<session::PreparedScene> prepared_;
   std::unique_ptr<session::RenderSession> session_;
-  // What has changed, but could not be read or drawn since.
+  // What has changed and is not yet read or drawn, because it is new or because the last attempt failed.
   bool params_due_ = false, scene_due_ = false, picture_due_ = true;
   std::vector<std::uint8_t> shown_;  // the last picture that was written
 };
@@ -120,7 +120,7 @@ Watch::Watch(const RenderOptions& options)
   check_files(options_, names_);
   files_.set_files(inputs());
   if (!options_.glsl.empty()) files_.add_folder(options_.glsl);
-  params_ = cli::resolve_params(options_, session::all_techniques());  // what changed before they were watched counts
+  params_ = cli::resolve_params(options_, session::all_techniques());  // files may have changed before the watch began
   prepared_ = std::make_unique<session::PreparedScene>(
       session::load_scene(options_, image::image_decoder(cli::limits_of(options_.reading))));
   check_scene_files(prepared_->scene.files, options_, names_);
@@ -129,7 +129,7 @@ Watch::Watch(const RenderOptions& options)
                                                       *prepared_, truth_.registry(), /* timed= */ true);
 }
 
-// Single files: the scene's, whether they could be read or not, and the presets.
+// The single files to watch: the scene's, including those that could not be read, and the presets.
 Paths Watch::inputs() const {
   Paths files{options_.scene};
   if (prepared_) files.insert(files.end(), prepared_->scene.files.begin(), prepared_->scene.files.end());
@@ -146,7 +146,7 @@ void Watch::run() {
   while (true) {
     try {
       take(files_.poll(std::chrono::hours(1)));
-    } catch (const Error& error) {  // of the system's limits of what is watched: what was watched before still is
+    } catch (const Error& error) {  // the system's limit of watches is reached: the earlier watches remain
       print_error(error.what());
     }
   }

@@ -8,8 +8,9 @@
 
 namespace penumbra::app {
 
-// A point or spot light of the scene by name or index, `radius` metres wide, where its node is at a moment (seconds).
-// Throws Error, listing near names, where there is none. `scene` must outlive the function.
+// Finds a point or spot light of the scene by name or index. The returned function gives the light, a disc of `radius`
+// metres, at the position of its node at a time in seconds; `scene` must outlive it. Throws Error, with similar names,
+// if there is no such light.
 std::function<truth::LocalLight(double)> local_light(const scene::Scene& scene, const std::string& name, double radius);
 
 }  // namespace penumbra::app

@@ -60,7 +60,7 @@ void add_truth_options(CLI::App& app, TruthOptions& o) {
   cli::add_device_options(app, o);
 }
 
-// The short options stand before every --set, as --sun-angle does.
+// The short options are applied before every --set, as --sun-angle is.
 ParamSet params_of(const TruthOptions& options, const shadow::Registry& registry) {
   auto all = static_cast<const cli::ShadowOptions&>(options);
   all.technique = "truth";
@@ -75,7 +75,7 @@ ParamSet params_of(const TruthOptions& options, const shadow::Registry& registry
   return cli::resolve_params(all, registry);
 }
 
-// Of rows from the bottom.
+// Reverses the order of rows that are stored from bottom to top.
 std::vector<float> from_top(const std::vector<float>& rows, int width) {
   std::vector<float> flipped;
   flipped.reserve(rows.size());
@@ -86,7 +86,7 @@ std::vector<float> from_top(const std::vector<float>& rows, int width) {
   return flipped;
 }
 
-// The error that 99.9 % of the receivers stay below.
+// The standard error that 99.9 % of the receivers stay below.
 float error_of_most(const truth::TruthTechnique::Last& last) {
   std::vector<float> errors;
   for (std::size_t i = 0; i < last.receiver.size(); ++i) {
