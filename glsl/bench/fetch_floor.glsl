@@ -11,7 +11,7 @@ float read_radius(Receiver receiver, Light light) {
 
 vec4 fetch(Receiver receiver, vec2 offset, Light light) {
   vec3 at = vec3(receiver.position.xy + offset, receiver.position.z);
-  return gather_stored(map_place(at, light.layer), light.layer);
+  return gather_stored(map_place(at, light), light);
 }
 
 Visibility visibility(Receiver receiver, Light light) {

@@ -30,41 +30,33 @@ vec4 heights_above(Receiver receiver, vec4 depths, Offsets at) {
   return receiver.position.z + plane_depths(receiver, at) - depths;
 }
 
-// A lit face beside a receiver, reconstructed from the map's texels on one side.
-struct Face {
-  float rise;    // of its height above the receiver's plane with each texel away from the receiver; 0: there is no face
-  float height;  // continued to the receiver, along the texels' row or column
-};
-
-// The face shown by the three texels next to the receiver's own. Heights that increase evenly, or by growing steps,
-// belong to a face or its foot. Heights that increase by shrinking steps belong to the edge of an object in front of
-// the receiver.
-Face face_beside(Receiver receiver, ivec2 at, ivec2 side, float bias, Light light) {
-  vec2 first = texel_offset(receiver, at + side, light);
-  vec2 next = vec2(side) * texel_size(receiver, light);
-  Offsets offsets = Offsets(first.x + next.x * vec4(0.0, 1.0, 2.0, 2.0), first.y + next.y * vec4(0.0, 1.0, 2.0, 2.0));
-  vec3 depths = vec3(depth_at(at + side, light), depth_at(at + 2 * side, light), depth_at(at + 3 * side, light));
-  vec3 heights = heights_above(receiver, depths.xyzz, offsets).xyz;
-  float near = heights.y - heights.x;
-  float rise = heights.z - heights.y;
-  if (rise <= bias || near < 0.25 * rise || near > 1.25 * rise + bias) return Face(0.0, 0.0);
-  return Face(rise, heights.z - rise * (2.0 + dot(first, next) / dot(next, next)));
+// Depths of the texels so many texels away from a texel, towards +x, +y, -x and -y.
+vec4 depths_beside(ivec2 texel, int distance_to, Light light) {
+  return vec4(depth_at(texel + ivec2(distance_to, 0), light), depth_at(texel + ivec2(0, distance_to), light),
+              depth_at(texel - ivec2(distance_to, 0), light), depth_at(texel - ivec2(0, distance_to), light));
 }
 
-// Slopes of the lit faces beside a receiver, along x and y. Where two lit faces meet, each lies in front of the other's
-// plane, yet neither blocks the other: texels on such a face must not shadow the receiver. The slope is 0 for a face
-// that, extended to the receiver, passes in front of it and so does block it.
+// Slopes of the lit faces beside a receiver, towards +x, +y, -x and -y, as the three texels on each side show them.
+// Where two lit faces meet, each lies in front of the other's plane, yet neither blocks the other: texels on such a face
+// must not shadow the receiver. A slope is 0 where there is no such face:
+//   - Heights above the receiver's plane that increase evenly, or by growing steps, belong to a face or its foot. Those
+//     that increase by shrinking steps belong to the edge of an object in front of the receiver.
+//   - A face that, extended to the receiver, passes in front of it does block it.
 vec4 lit_slopes(Receiver receiver, float bias, Light light) {
-  ivec2 at = ivec2(floor(map_place(receiver.position, light.layer)));
-  Face right = face_beside(receiver, at, ivec2(1, 0), bias, light);
-  Face up = face_beside(receiver, at, ivec2(0, 1), bias, light);
-  Face left = face_beside(receiver, at, ivec2(-1, 0), bias, light);
-  Face down = face_beside(receiver, at, ivec2(0, -1), bias, light);
-  // From the row of texels to the receiver's, and from their column to the receiver's.
-  vec2 to_receiver = -texel_offset(receiver, at, light) / texel_size(receiver, light);
-  vec2 across = vec2(right.rise - left.rise, up.rise - down.rise) * to_receiver;
-  vec4 heights = vec4(right.height, up.height, left.height, down.height) + across.yxyx;
-  return step(heights, vec4(bias)) * vec4(right.rise, up.rise, left.rise, down.rise) / texel_size(receiver, light);
+  ivec2 at = ivec2(floor(map_place(receiver.position, light)));
+  float texel = texel_size(receiver, light);
+  vec4 first = depths_beside(at, 1, light), second = depths_beside(at, 2, light), third = depths_beside(at, 3, light);
+  // All below in texels along x and y: how much deeper the receiver's plane gets with each texel, how much higher above
+  // it the surface gets from the first to the second and from the second to the third texel.
+  vec4 plane = texel * vec4(receiver.gradient, -receiver.gradient);
+  vec4 near = plane + first - second, rise = plane + second - third;
+  rise *= step(bias, rise) * step(0.25 * rise, near) * step(near, 1.25 * rise + bias);
+  // From the centre of the receiver's texel to the receiver; then the faces' heights there.
+  vec2 inside = -texel_offset(receiver, at, light) / texel;
+  vec4 third_height = receiver.position.z - dot(plane.xy, inside) + 3.0 * plane - third;
+  vec2 across = (rise.xy - rise.zw) * inside;
+  vec4 height = third_height - rise * (3.0 - vec4(inside, -inside)) + across.yxyx;
+  return step(height, vec4(bias)) * rise / texel;
 }
 
 // Tolerance in texel widths: a texel that is in front of the receiver's plane by less still counts as the same surface,

@@ -26,14 +26,23 @@ struct Light {
   float extent;  // of a sun: the tangent of half its angular diameter
   bool square;   // else a disc
   int layers;
-  int layer;          // the one to read
+  int layer;          // the one to read; see with_layer()
+  LayerBlock map;     // its placement
   float read_radius;  // metres: the technique's read_radius()
 };
 
 const float max_plane_slope = 1000.0;
 
 Light frame_light() {
-  return Light(shadow.light_extent, shadow.light_is_square != 0, shadow.layer_count, 0, 0.0);
+  return Light(shadow.light_extent, shadow.light_is_square != 0, shadow.layer_count, 0, shadow.layers[0], 0.0);
+}
+
+// The light with another layer to read. The layer's placement is loaded once here rather than for each texel that is
+// read, because the index differs from pixel to pixel, so that each load is slow.
+Light with_layer(Light light, int layer) {
+  light.layer = layer;
+  light.map = shadow.layers[layer];
+  return light;
 }
 
 // Light space and back. Directions of light space are unit where those of the world are.
@@ -93,24 +102,20 @@ float packed_distance(vec3 position, float radius) { return radius / max(shadow.
 // The map.
 
 // Light-space depth, metres, for a depth as stored in the map.
-float stored_depth(float stored, int layer) {
-  return shadow.layers[layer].near_depth + shadow.layers[layer].depth_range * stored;
-}
-vec4 stored_depths(vec4 stored, int layer) {
-  return shadow.layers[layer].near_depth + shadow.layers[layer].depth_range * stored;
-}
+float stored_depth(float stored, LayerBlock map) { return map.near_depth + map.depth_range * stored; }
+vec4 stored_depths(vec4 stored, LayerBlock map) { return map.near_depth + map.depth_range * stored; }
+float stored_depth_in(int layer, float stored) { return stored_depth(stored, shadow.layers[layer]); }
 
 // Width of a layer's texel at a position's depth, metres.
 float texel_size_at(vec3 position, int layer) { return shadow.layers[layer].texel; }
-float texel_size(Receiver receiver, Light light) { return texel_size_at(receiver.position, light.layer); }
+float texel_size(Receiver receiver, Light light) { return light.map.texel; }
 
 // Upper bound of the error along the light that rounding in the map and in light space causes, metres.
-float depth_rounding(Light light) { return shadow.layers[light.layer].rounding; }
+float depth_rounding(Light light) { return light.map.rounding; }
 
-// Map coordinates of a position in a layer, in texels; texel centres are at half-integers.
-vec2 map_place(vec3 position, int layer) {
-  LayerBlock map = shadow.layers[layer];
-  return ((position.xy - map.center) * map.widths_per_metre + 0.5) * shadow.map_size;
+// Map coordinates of a position in the light's layer, in texels; texel centres are at half-integers.
+vec2 map_place(vec3 position, Light light) {
+  return ((position.xy - light.map.center) * light.map.widths_per_metre + 0.5) * shadow.map_size;
 }
 
 ivec2 last_texel() { return ivec2(shadow.map_size) - 1; }
@@ -118,13 +123,12 @@ ivec2 last_texel() { return ivec2(shadow.map_size) - 1; }
 // Depth in a texel of the light's layer, metres; coordinates outside of the map are clamped to its border.
 float depth_at(ivec2 texel, Light light) {
   ivec2 within = clamp(texel, ivec2(0), last_texel());
-  return stored_depth(texelFetch(shadow_depth, ivec3(within, light.layer), 0).x, light.layer);
+  return stored_depth(texelFetch(shadow_depth, ivec3(within, light.layer), 0).x, light.map);
 }
 
 // Offset of a texel's centre from the receiver.
 vec2 texel_offset(Receiver receiver, ivec2 texel, Light light) {
-  LayerBlock map = shadow.layers[light.layer];
-  vec2 center = (vec2(texel) + 0.5) * map.texel - 0.5 / map.widths_per_metre + map.center;
+  vec2 center = (vec2(texel) + 0.5) * light.map.texel - 0.5 / light.map.widths_per_metre + light.map.center;
   return center - receiver.position.xy;
 }
 
@@ -141,16 +145,16 @@ struct Footprint {
 };
 
 // Stored depths of the four texels around map coordinates.
-vec4 gather_stored(vec2 place, int layer) {
-  return textureGather(shadow_depth, vec3(place / shadow.map_size, float(layer)));
+vec4 gather_stored(vec2 place, Light light) {
+  return textureGather(shadow_depth, vec3(place * light.map.texel_uv, float(light.layer)));
 }
 
 Footprint fetch_footprint(Receiver receiver, vec2 offset, Light light) {
-  vec2 at = map_place(vec3(receiver.position.xy + offset, receiver.position.z), light.layer) - 0.5;
+  vec2 at = map_place(vec3(receiver.position.xy + offset, receiver.position.z), light) - 0.5;
   vec2 first = floor(at);
   float texel = texel_size(receiver, light);
   Footprint footprint;
-  footprint.depths = stored_depths(gather_stored(first + 1.0, light.layer), light.layer);
+  footprint.depths = stored_depths(gather_stored(first + 1.0, light), light.map);
   footprint.weight = at - first;
   vec2 low = offset - footprint.weight * texel;
   vec2 high = low + texel;

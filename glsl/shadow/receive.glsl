@@ -23,8 +23,9 @@ Shadowed shadow_of(Receiver receiver, Light light) {
   }
   Visibility mixed = Visibility(0.0, 0.0, 0.0, false);
   int last = fade > 0.0 ? first + 1 : first;
-  for (light.layer = first; light.layer <= last; ++light.layer) {
-    float weight = light.layer == first ? 1.0 - fade : fade;
+  for (int layer = first; layer <= last; ++layer) {
+    light = with_layer(light, layer);
+    float weight = layer == first ? 1.0 - fade : fade;
     Visibility one = visibility(offset_receiver(receiver, light), light);
     mixed.visibility += weight * one.visibility;
     mixed.penumbra_radius += weight * one.penumbra_radius;

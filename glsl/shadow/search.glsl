@@ -11,7 +11,7 @@ float nearest_depth(vec3 position, float radius, int layer) {
   int level = pyramid_level(position, radius, layer, base, textureQueryLevels(shadow_pyramid));
   ivec2 last = max(last_texel(), 0) >> (level + 2);
   vec4 stored = pyramid_texels(shadow_pyramid, position, radius, layer, base, level, last);
-  return stored_depth(min(min(stored.x, stored.y), min(stored.z, stored.w)), layer);
+  return stored_depth_in(layer, min(min(stored.x, stored.y), min(stored.z, stored.w)));
 }
 
 // Bounds on where blockers can be.

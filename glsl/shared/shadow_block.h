@@ -17,7 +17,7 @@ struct LayerBlock {
   float near_depth;        // light-space depth that the map stores as 0, metres
   float depth_range;       // from near_depth to the depth that the map stores as 1, metres
   float rounding;          // bias along the light that covers rounding, metres
-  float pad;
+  float texel_uv;          // width of a texel in texture coordinates
 };
 
 struct ShadowBlock {

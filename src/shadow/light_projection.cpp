@@ -26,7 +26,7 @@ glsl::LayerBlock layer_block(const Cascade& cascade, int size, const glm::dvec3&
           .near_depth = cascade.near_z + static_cast<float>(shift.z),
           .depth_range = range,
           .rounding = rounding,
-          .pad = 0.0f};
+          .texel_uv = 1.0f / static_cast<float>(size)};
 }
 
 // Least depth along the rays, relative to the camera, of a box.
