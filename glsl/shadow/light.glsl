@@ -37,8 +37,8 @@ vec4 depths_beside(ivec2 texel, int distance_to, Light light) {
 }
 
 // Slopes of the lit faces beside a receiver, towards +x, +y, -x and -y, as the three texels on each side show them.
-// Where two lit faces meet, each lies in front of the other's plane, yet neither blocks the other: texels on such a face
-// must not shadow the receiver. A slope is 0 where there is no such face:
+// Where two lit faces meet, each lies in front of the other's plane, yet neither blocks the other: texels on such a
+// face must not shadow the receiver. A slope is 0 where there is no such face:
 //   - Heights above the receiver's plane that increase evenly, or by growing steps, belong to a face or its foot. Those
 //     that increase by shrinking steps belong to the edge of an object in front of the receiver.
 //   - A face that, extended to the receiver, passes in front of it does block it.

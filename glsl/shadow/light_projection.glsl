@@ -204,6 +204,9 @@ LayerChoice choose_layer(Receiver receiver, float radius, Light light) {
 int widest_layer(Receiver receiver, Light light) { return light.layers - 1; }
 float least_depth(int layer) { return shadow.layers[layer].near_depth; }
 
+// Upper bound, metres, of the distance from a receiver to what moved since the last frame, along the light.
+float most_moved_distance(Receiver receiver) { return receiver.position.z - shadow.moved_depth; }
+
 // Pyramids over the map, whose level 0 has one texel for `base` texels of the map along each axis.
 
 // The finest level of so many at which a disc touches at most 2 × 2 texels.

@@ -239,10 +239,10 @@ std::string glsl_declarations(const ParamSet& params, int binding_point) {
   return fmt::format("{}layout(std140, binding = {}) uniform Params {{\n{}}};\n", constants, binding_point, members);
 }
 
-std::vector<GlslConstant> compiled_constants(const ParamSet& params, std::string_view prefix) {
+std::vector<GlslConstant> compiled_constants(const ParamSet& params, std::span<const Param> rows) {
   std::vector<GlslConstant> constants;
-  for (const Param& param : params.rows()) {
-    if (param.binding != ParamBinding::compiled || !param.name.starts_with(prefix)) continue;
+  for (const Param& param : rows) {
+    if (param.binding != ParamBinding::compiled) continue;
     constants.push_back({glsl_name(param), glsl_literal(param, params.value(param.name))});
   }
   return constants;

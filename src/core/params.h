@@ -96,11 +96,11 @@ std::string glsl_name(const Param& param);
 // at `binding_point` for the uniform rows.
 std::string glsl_declarations(const ParamSet& params, int binding_point);
 
-// The compiled rows whose name starts with `prefix`, as preprocessor constants.
+// The values that `params` has for those of `rows` that are compiled, as preprocessor constants.
 struct GlslConstant {
   std::string name, value;
 };
-std::vector<GlslConstant> compiled_constants(const ParamSet& params, std::string_view prefix);
+std::vector<GlslConstant> compiled_constants(const ParamSet& params, std::span<const Param> rows);
 
 // The bytes of the block `Params`, std140: every uniform row is a 4-byte scalar, in row order.
 std::vector<std::byte> uniform_bytes(const ParamSet& params);

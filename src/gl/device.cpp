@@ -143,15 +143,20 @@ const Buffer& Device::scratch(std::string_view name, std::size_t bytes) {
 }
 
 // Called in every frame, mostly with prefixes that match nothing, so it visits only the entries that it deletes.
-void Device::drop(std::string_view prefix) {
-  const auto has_prefix = [prefix](const auto& entry) { return entry->first.starts_with(prefix); };
-  auto target = impl_->targets.lower_bound(prefix);
-  while (target != impl_->targets.end() && has_prefix(target)) {
-    impl_->drop_framebuffers_of(target->second);
-    target = impl_->targets.erase(target);
-  }
-  auto buffer = impl_->buffers.lower_bound(prefix);
-  while (buffer != impl_->buffers.end() && has_prefix(buffer)) buffer = impl_->buffers.erase(buffer);
+void Device::drop(std::string_view prefix, const std::set<std::string, std::less<>>& kept) {
+  const auto drop_from = [&](auto& items, const auto& before) {
+    auto item = items.lower_bound(prefix);
+    while (item != items.end() && item->first.starts_with(prefix)) {
+      if (kept.contains(item->first)) {
+        ++item;
+        continue;
+      }
+      before(item->second);
+      item = items.erase(item);
+    }
+  };
+  drop_from(impl_->targets, [&](const Texture& texture) { impl_->drop_framebuffers_of(texture); });
+  drop_from(impl_->buffers, [](const Buffer& /*buffer*/) {});
 }
 
 const Sampler& Device::sampler(const SamplerDesc& desc) {

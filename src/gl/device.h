@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
+#include <set>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,8 +35,8 @@ class Device {
   // A buffer of at least `bytes` of that name, kept in the same way (grows, never shrinks).
   const Buffer& scratch(std::string_view name, std::size_t bytes);
   const Sampler& sampler(const SamplerDesc& desc);
-  // Deletes the targets and buffers whose names start with `prefix`; references to them become invalid.
-  void drop(std::string_view prefix);
+  // Deletes the targets and buffers whose names start with `prefix`, except `kept`; references to them become invalid.
+  void drop(std::string_view prefix, const std::set<std::string, std::less<>>& kept = {});
   // All textures, in the order of their names; the pointers are valid as long as references from target() are.
   struct NamedTarget {
     std::string_view name;

@@ -21,6 +21,19 @@ void check_names(std::string_view kinds, std::vector<std::string> names) {
   if (twice != names.end()) fail("two {} have the name '{}'", kinds, *twice);
 }
 
+// Whether a name can be a part of GLSL identifiers, file names and the names of textures.
+bool is_identifier(const std::string& name) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
+  return !name.empty() && letter(name[0]) &&
+         std::ranges::all_of(name, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+void check_identifiers(std::string_view kind, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    if (!is_identifier(name)) fail("'{}' can't be the name of a {}: not lower-case letters, digits and _", name, kind);
+  }
+}
+
 template <class T>
 std::vector<std::string> names_of(std::span<const T> pieces) {
   std::vector<std::string> names;
@@ -37,12 +50,7 @@ void check_word(std::string_view technique, std::string_view kind, const std::st
 
 // `of`: "technique 'pcss'".
 void check_sample_set(const std::string& of, const SampleSet& set, const ParamSet& params) {
-  const auto identifier = [](const std::string& name) {
-    const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
-    return !name.empty() && letter(name[0]) &&
-           std::ranges::all_of(name, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
-  };
-  if (!identifier(set.name)) fail("{}: '{}' can't be the name of a sample set in GLSL", of, set.name);
+  if (!is_identifier(set.name)) fail("{}: '{}' can't be the name of a sample set in GLSL", of, set.name);
   if (!params.contains(set.count_parameter)) {
     fail("{}: the sample set '{}' is counted by '{}', which is no parameter", of, set.name, set.count_parameter);
   }
@@ -100,6 +108,10 @@ void check_contents(const Registry& registry) {
   check_names("filters", names_of(registry.filters()));
   check_names("denoisers", names_of(registry.denoisers()));
   check_names("recipes", names_of(registry.recipes()));
+  check_identifiers("technique or preset", registry.names());
+  check_identifiers("filter", names_of(registry.filters()));
+  check_identifiers("denoiser", names_of(registry.denoisers()));
+  check_identifiers("recipe", names_of(registry.recipes()));
   for (const Technique& technique : registry.techniques()) check(technique, registry);
   std::vector<std::string> known{"shadow_map"};
   for (const Recipe& recipe : registry.recipes()) {

@@ -53,7 +53,7 @@ void DenoiseContext::run_mask_pass(const PackedMask& packed, const gl::Texture* 
     device().sampler({}).bind(unit_texels);
     mask().bind(unit_texels);
   } else {
-    const bool rotated = rotates_samples(technique, params());
+    const bool rotated = rotates_samples(technique, params(), frame().shape);
     pass.use(work_.programs.mask(technique, params(),
                                  {.rotated = rotated, .compute = compute, .packed = true, .history = history}));
     bind_inputs(work_, owner_of(technique));
@@ -83,7 +83,7 @@ const gl::Texture& DenoiseContext::filter(std::string_view filter, const gl::Tex
   return run_filter(work_, {.filter = work_.registry.find_filter(filter),
                             .texels = source,
                             .notes = source,
-                            .prefix = full_name(""),
+                            .context = *this,
                             .to_mask = false});
 }
 
@@ -91,7 +91,7 @@ void DenoiseContext::filter_to_mask(std::string_view filter, const PackedMask& s
   run_filter(work_, {.filter = filter == "none" ? unfiltered() : work_.registry.find_filter(filter),
                      .texels = source.texels,
                      .notes = source.notes,
-                     .prefix = full_name(""),
+                     .context = *this,
                      .to_mask = true});
 }
 

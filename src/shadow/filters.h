@@ -13,10 +13,10 @@ const Filter& unfiltered();
 
 struct FilterInputs {
   const Filter& filter;
-  const gl::Texture& texels;  // packed, see PackedMask
-  const gl::Texture& notes;   // read only by passes that fill the mask
-  std::string prefix;         // of the names of its targets
-  bool to_mask = false;       // the last pass fills the mask's layer; else packed texels
+  const gl::Texture& texels;   // packed, see PackedMask
+  const gl::Texture& notes;    // read only by passes that fill the mask
+  const PassContext& context;  // whose targets hold what a pass leaves to the next one
+  bool to_mask = false;        // the last pass fills the mask's layer; else packed texels
 };
 
 // Runs all passes of a filter; returns the texture that the last one filled.

@@ -15,7 +15,8 @@ namespace penumbra::shadow {
 
 namespace {
 
-constexpr const char* movement_map_name = "movement map";  // name of its target
+constexpr const char* movement_map_name = "movement map";  // names of their targets
+constexpr const char* shadow_map_name = "shadow map";
 
 LightProjection projection_of(const Inputs& inputs, const Light& light, const ParamSet& params) {
   if (light.maps) return light.maps->projection;
@@ -64,7 +65,7 @@ void draw_maps(const LightWork& work) {
       frame.casters_moved && !finished && work.params().get_word("movement.present") == "shadow_pass";
   const gl::Texture* depth = nullptr;
   if (!finished) {
-    depth = &draw_shadow_map(work.device, {.name = work.prefix() + "shadow map",
+    depth = &draw_shadow_map(work.device, {.name = work.prefix() + shadow_map_name,
                                            .projection = frame.projection,
                                            .draw = inputs.draw,
                                            .moved = in_one_pass ? frame.movement : nullptr,
@@ -83,11 +84,12 @@ void draw_maps(const LightWork& work) {
 
 void upload_samples(const LightWork& work, const Technique& technique, const char* name) {
   if (technique.samples.empty()) return;
-  const int set = set_number(work.params(), static_cast<int>(work.state.age));
+  const Samples::Tables wanted{.set = set_number(work.params(), static_cast<int>(work.state.age)),
+                               .rotated = rotates_samples(technique, work.params(), work.frame.shape)};
   LightState::SampleTables& tables = work.state.samples[technique.name];
-  if (tables.buffer != nullptr && tables.set == set && work.state.uploaded) return;
-  const std::vector<glm::vec4> points = work.samples.tables(technique, work.params(), set);
-  tables = {.buffer = &work.device.scratch(work.prefix() + name, sizeof(glm::vec4) * points.size()), .set = set};
+  if (tables.buffer != nullptr && tables.holds == wanted && work.state.uploaded) return;
+  const std::vector<glm::vec4> points = work.samples.tables(technique, work.params(), wanted);
+  tables = {.buffer = &work.device.scratch(work.prefix() + name, sizeof(glm::vec4) * points.size()), .holds = wanted};
   tables.buffer->write(std::as_bytes(std::span(points)));
 }
 
@@ -120,28 +122,36 @@ void draw_layer(const LightWork& work) {
   }
 }
 
-// Releases the targets that the last frame used and this one did not.
-void give_back_unused(const LightWork& work) {
+// Releases the maps and histories that the last frame used and this one did not, and, after a change of parameters, all
+// other targets of techniques, recipes and denoisers that this frame did not use.
+void release_unused(const LightWork& work, bool draws_shadow_map) {
   LightState& state = work.state;
   std::erase_if(state.kept, [&](const auto& entry) {
     const bool unused = entry.second.filled != state.frames;
-    if (unused) work.device.drop(work.prefix() + kept_prefix(entry.first));
+    if (unused) work.device.drop(entry.first + "/");
     return unused;
   });
   const bool has_movement_map = work.frame.movement != nullptr;
   if (state.had_movement_map && !has_movement_map) work.device.drop(work.prefix() + movement_map_name);
   state.had_movement_map = has_movement_map;
-  const bool denoised = work.denoiser != nullptr;
-  if (state.was_denoised && !denoised) work.device.drop(fmt::format("{}{}", work.prefix(), denoise_prefix));
-  state.was_denoised = denoised;
+  if (state.had_shadow_map && !draws_shadow_map) work.device.drop(work.prefix() + shadow_map_name);
+  state.had_shadow_map = draws_shadow_map;
+  if (!state.changed) return;
+  for (const char* owners : {"techniques/", "recipes/", "denoisers/"}) {
+    work.device.drop(work.prefix() + owners, state.used);
+  }
+  state.changed = false;
+  state.used.clear();
 }
 
 // Runs all steps for one light, from its parameters to its layer of the mask.
 LightFrame draw_light(const MaskInputs& from, const Light& light, const ViewState& view, LightState& state,
                       LightFrame frame, const gl::Texture& mask) {
-  const bool same_params = take_params(state, from.defaults, from.params, light);
+  const bool same_params =
+      take_params(state, {.registry = from.registry, .defaults = from.defaults, .values = from.params}, light);
   frame.projection = projection_of(from.inputs, light, state.params);
   frame.shape = shape_of(light.source, state.params);
+  take_shape(state, frame.shape);
   begin_frame(state, light, frame.projection.layers(), same_params);
 
   const Technique& technique = from.registry.find(state.params.get_word("technique"));
@@ -161,15 +171,16 @@ LightFrame draw_light(const MaskInputs& from, const Light& light, const ViewStat
                        .denoiser = denoiser,
                        .remembered = remembered_by(denoiser, state.params)};
   const Wanted wanted = wanted_of(work);
-  // A technique's own passes may draw casters without a shadow map, but only the movement map, which is drawn with the
-  // shadow map, shows where casters moved.
-  const bool has_shadow_map = wanted.shadow_map || (technique.resolve && asks_for_movement(work));
+  // A technique's own passes and recipes may draw casters without a shadow map, but only the movement map, which is
+  // drawn with the shadow map, shows where casters moved.
+  const bool may_draw_casters = technique.resolve || !wanted.recipes.empty();
+  const bool has_shadow_map = wanted.shadow_map || (may_draw_casters && asks_for_movement(work));
   plan_history(work, has_shadow_map);
   if (has_shadow_map) draw_maps(work);
   upload_blocks(work);
   build_products(work, wanted.recipes);
   draw_layer(work);
-  give_back_unused(work);
+  release_unused(work, has_shadow_map && !light.maps);
   state.drawn = true;
   return frame;
 }

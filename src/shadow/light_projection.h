@@ -37,6 +37,8 @@ using LightSource = std::variant<Sun>;
 struct LightShape {
   float extent = 0;     // of a sun: the tangent of half its angular diameter
   bool square = false;  // else a disc
+
+  bool operator==(const LightShape&) const = default;
 };
 
 // Lowest and highest texel of a layer, both included.

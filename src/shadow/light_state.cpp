@@ -1,7 +1,5 @@
 #include "light_state.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -22,19 +20,11 @@ bool same_matrix(const glm::mat4& a, const glm::mat4& b) {
   return true;
 }
 
-// Whether the parameter belongs to a technique or denoiser that is not the chosen one.
-bool is_of_other(const std::string& name, const ParamSet& params, const char* choice) {
-  const std::string owner = name.substr(0, name.find('.'));
-  const std::vector<std::string>& choices = params.row(choice).choices;
-  return owner != params.get_word(choice) && std::ranges::find(choices, owner) != choices.end();
-}
-
-// Whether all parameters that the technique and the denoiser can read are the same.
-bool same_values(const ParamSet& a, const ParamSet& b) {
+// Whether all parameters that concern the technique and the denoiser are the same.
+bool same_values(const Registry& registry, const ParamSet& a, const ParamSet& b) {
   if (!a.contains("technique")) return false;
   return std::ranges::all_of(b.rows(), [&](const Param& row) {
-    return a.value(row.name) == b.value(row.name) || is_of_other(row.name, b, "technique") ||
-           is_of_other(row.name, b, "denoiser");
+    return a.value(row.name) == b.value(row.name) || !registry.concerns(row.name, b);
   });
 }
 
@@ -69,20 +59,27 @@ void begin_frame(ViewState& view, const Inputs& inputs) {
   view.drawn = false;  // until the end: after a frame that throws nothing is kept
 }
 
-bool take_params(LightState& state, const ParamSet& defaults, const ParamSet& given, const Light& light) {
+bool take_params(LightState& state, const GivenParams& given, const Light& light) {
   const bool first = !state.params.contains("technique");
-  if (!first && state.given == given && state.overrides == light.overrides) return true;
-  ParamSet own = defaults;
-  for (const Param& row : own.rows()) own.set(row.name, given.value(row.name));
+  if (!first && state.given == given.values && state.overrides == light.overrides) return true;
+  ParamSet own = given.defaults;
+  for (const Param& row : own.rows()) own.set(row.name, given.values.value(row.name));
   for (const std::string& assignment : light.overrides) own.assign(assignment);
-  const bool same = same_values(state.params, own);
-  state.given = given;
+  const bool same = same_values(given.registry, state.params, own);
+  state.given = given.values;
   state.overrides = light.overrides;
   state.params = std::move(own);
   state.programs.clear();
   state.samples.clear();
   state.uploaded = false;
+  state.changed = true;
   return same;
+}
+
+void take_shape(LightState& state, const LightShape& shape) {
+  if (state.shape == shape) return;
+  state.shape = shape;
+  state.programs.clear();
 }
 
 void begin_frame(LightState& state, const Light& light, int layers, bool same_params) {
@@ -92,9 +89,5 @@ void begin_frame(LightState& state, const Light& light, int layers, bool same_pa
   state.source = light.source;
   state.layers = layers;
 }
-
-std::string kept_prefix(std::string_view name) { return fmt::format("history {}/", name); }
-
-std::string product_prefix(std::string_view recipe) { return fmt::format("products/{}/", recipe); }
 
 }  // namespace penumbra::shadow

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,7 +11,8 @@
 #include "check_inputs.h"
 #include "inputs.h"
 #include "light_frame.h"
-#include "technique.h"
+#include "registry.h"
+#include "samples.h"
 
 namespace penumbra::shadow {
 
@@ -28,15 +30,22 @@ struct LightState {
   // The sample points that a technique's programs read.
   struct SampleTables {
     const gl::Buffer* buffer = nullptr;
-    int set = 0;  // see set_number()
+    Samples::Tables holds;
   };
   std::map<std::string, SampleTables, std::less<>> samples;  // by technique: the light's technique and its stand-in
   bool uploaded = false;  // `params_block` and `samples` are up to date with `params`
+  // A parameter has changed since the last complete frame; `used`: the names that this frame's passes have used since,
+  // of which all others are then released.
+  bool changed = false;
+  std::set<std::string, std::less<>> used;
   const gl::Texture* noise = nullptr;
   const gl::Buffer* params_block = nullptr;
   const gl::Buffer* shadow_block = nullptr;
 
+  gl::Texture receiver_depth;  // refers to the caller's depth texture
+
   LightSource source;
+  LightShape shape;
   int layers = 0;              // of the shadow map
   bool drawn = false;          // in this frame
   bool uninterrupted = false;  // the previous frame of the view drew this light
@@ -49,10 +58,8 @@ struct LightState {
     int now = 0;
     std::uint64_t filled = 0;  // value of `frames` when it was last written
   };
-  std::map<std::string, KeptTexture, std::less<>> kept;
-  // What the last frame made, so that what this frame no longer makes can be released.
-  std::vector<std::string> products;
-  bool had_movement_map = false, was_denoised = false;
+  std::map<std::string, KeptTexture, std::less<>> kept;   // by the beginning of the textures' names
+  bool had_movement_map = false, had_shadow_map = false;  // which the library drew in the last frame
 };
 
 // The state of a view that is kept between frames.
@@ -70,16 +77,18 @@ struct ViewState {
 
 // Decides whether the history of the view's last frame is valid in this one.
 void begin_frame(ViewState& view, const Inputs& inputs);
-// Sets the light's parameters for this frame: the caller's values of the library's parameters, with the light's
-// overrides applied. Returns whether all those that the chosen technique and denoiser can read have the values of the
-// last frame.
-bool take_params(LightState& state, const ParamSet& defaults, const ParamSet& given, const Light& light);
+// The caller's values of the parameters.
+struct GivenParams {
+  const Registry& registry;
+  const ParamSet& defaults;  // the registry's parameters with their default values
+  const ParamSet& values;
+};
+// Sets the light's parameters for this frame, with the light's overrides applied. Returns whether all those that
+// concern the chosen technique and denoiser have the values of the last frame.
+bool take_params(LightState& state, const GivenParams& given, const Light& light);
+// Sets the light's size and shape, which programs and sample points depend on.
+void take_shape(LightState& state, const LightShape& shape);
 // Decides whether the history of the light's last frame is valid in this one.
 void begin_frame(LightState& state, const Light& light, int layers, bool same_params);
-
-// Prefixes of target names, after the light's own prefix: of a history texture, of a product, of a denoiser's targets.
-std::string kept_prefix(std::string_view name);
-std::string product_prefix(std::string_view recipe);
-constexpr std::string_view denoise_prefix = "denoise/";
 
 }  // namespace penumbra::shadow

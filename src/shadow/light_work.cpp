@@ -32,17 +32,25 @@ PassOwner owner_of(const Technique& technique) {
   return {.kind = PassOwner::Kind::technique,
           .name = technique.name,
           .needs = technique.needs,
+          .params = technique.params,
           .programs = technique.programs,
           .technique = &technique};
 }
 
 PassOwner owner_of(const Recipe& recipe) {
-  return {.kind = PassOwner::Kind::recipe, .name = recipe.name, .needs = recipe.needs, .programs = recipe.programs};
+  return {.kind = PassOwner::Kind::recipe,
+          .name = recipe.name,
+          .needs = recipe.needs,
+          .params = recipe.params,
+          .programs = recipe.programs};
 }
 
 PassOwner owner_of(const Denoiser& denoiser) {
-  return {
-      .kind = PassOwner::Kind::denoiser, .name = denoiser.name, .needs = denoiser.needs, .programs = denoiser.programs};
+  return {.kind = PassOwner::Kind::denoiser,
+          .name = denoiser.name,
+          .needs = denoiser.needs,
+          .params = denoiser.params,
+          .programs = denoiser.programs};
 }
 
 void bind_light(gl::Device& device, const LightFrame& frame, const LightState& state, const PassOwner& owner) {

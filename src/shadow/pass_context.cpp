@@ -46,15 +46,18 @@ const gl::Texture& PassContext::product(std::string_view recipe) const {
 }
 
 std::string PassContext::full_name(std::string_view name) const {
-  switch (owner_.kind) {
-    case PassOwner::Kind::recipe:
-      return fmt::format("{}{}{}", work_.prefix(), product_prefix(owner_.name), name);
-    case PassOwner::Kind::denoiser:
-      return fmt::format("{}{}{}", work_.prefix(), denoise_prefix, name);
-    case PassOwner::Kind::technique:
-      break;
+  std::string full = fmt::format("{}{}s/{}/{}", work_.prefix(), name_of(owner_.kind), owner_.name, name);
+  if (work_.state.changed) work_.state.used.insert(full);
+  return full;
+}
+
+const gl::Texture& PassContext::receiver_depth() const {
+  const TextureView& depth = work_.inputs.depth;
+  gl::Texture& known = work_.state.receiver_depth;
+  if (known.id() != depth.id || known.width() != depth.width || known.height() != depth.height) {
+    known = gl::Texture::wrap(depth.id, gl::describe("soft shadows: depth", depth.id));
   }
-  return fmt::format("{}{}", work_.prefix(), name);
+  return known;
 }
 
 const gl::Texture& PassContext::target(std::string_view name, const gl::TextureDesc& desc) const {
@@ -67,15 +70,13 @@ const gl::Buffer& PassContext::scratch(std::string_view name, std::size_t bytes)
 
 History PassContext::history(std::string_view name, const gl::TextureDesc& desc) const {
   LightState& state = work_.state;
-  // A denoiser's names can be those of the technique that it follows.
-  const std::string key =
-      owner_.kind == PassOwner::Kind::denoiser ? std::string(name) : fmt::format("{} {}", owner_.name, name);
-  LightState::KeptTexture& kept = state.kept[key];
+  const std::string kept_name = fmt::format("history {}", name);
+  LightState::KeptTexture& kept = state.kept[full_name(kept_name)];
   assert(kept.filled != state.frames);
   const bool valid = state.age > 0 && kept.desc == desc && kept.filled + 1 == state.frames;
   kept = {.desc = desc, .now = 1 - kept.now, .filled = state.frames};
   const auto texture = [&](int index) -> const gl::Texture& {
-    return work_.device.target(fmt::format("{}{}{}", work_.prefix(), kept_prefix(key), index), desc);
+    return target(fmt::format("{}/{}", kept_name, index), desc);
   };
   return {texture(1 - kept.now), texture(kept.now), valid};
 }
@@ -85,7 +86,7 @@ const gl::ProgramDesc& PassContext::own_program(std::string_view program) const 
   const std::string key = fmt::format("{} {}", name_of(owner_.kind), owner_.name);
   auto own = state.programs.find(key);
   if (own == state.programs.end()) {
-    const bool rotated = owner_.technique != nullptr && rotates_samples(*owner_.technique, params());
+    const bool rotated = owner_.technique != nullptr && rotates_samples(*owner_.technique, params(), work_.frame.shape);
     own = state.programs.emplace(key, work_.programs.own(owner_, params(), rotated)).first;
   }
   const std::string name = Programs::own_name(owner_, program);
@@ -116,7 +117,7 @@ void PassContext::evaluate(const gl::Texture& target, int layer) const {
   gl::PassDesc desc{.name = "shadow mask"};
   if (!uses_compute()) desc.colors = {{.texture = &target, .layer = layer}};
   gl::Pass pass(work_.device, desc);
-  const bool rotated = rotates_samples(work_.technique, params());
+  const bool rotated = rotates_samples(work_.technique, params(), work_.frame.shape);
   const gl::Program& program =
       pass.use(work_.programs.mask(work_.technique, params(), {.rotated = rotated, .compute = uses_compute()}));
   bind_inputs(work_, owner_of(work_.technique));

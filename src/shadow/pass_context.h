@@ -28,6 +28,7 @@ struct PassOwner {
   Kind kind = Kind::technique;
   const std::string& name;
   const std::vector<std::string>& needs;
+  const std::vector<Param>& params;
   const std::function<std::vector<gl::ProgramDesc>(const ParamSet&)>& programs;
   const Technique* technique = nullptr;  // whose sample points its programs read; none for other kinds
 };
@@ -56,9 +57,14 @@ class PassContext {
   // The texture that a recipe in the owner's `needs` made.
   const gl::Texture& product(std::string_view recipe) const;
 
+  // The caller's depth texture, to attach it to a pass: for a stencil test, if its format has stencil bits. OpenGL is
+  // asked for its format only when the texture is another one than in the last frame.
+  const gl::Texture& receiver_depth() const;
+
   // A texture or buffer of this light in this view, allocated on first use and again only when the description changes.
   // Contents last until the name is next used in a later frame, but only history() reports whether they are still
-  // valid. All techniques share one set of names; each recipe has its own.
+  // valid. Each technique, recipe and denoiser has its own names. When a parameter has changed, the first frame that
+  // does not use a name releases its memory.
   const gl::Texture& target(std::string_view name, const gl::TextureDesc& desc) const;
   const gl::Buffer& scratch(std::string_view name, std::size_t bytes) const;
   // To be called at most once a frame for each name. A frame that does not call it releases the memory, and the history
@@ -87,6 +93,7 @@ class PassContext {
  protected:
   const gl::ProgramDesc& own_program(std::string_view program) const;
   void check_draws() const;
+  // The name of a target or buffer within the device. Notes that this frame uses it.
   std::string full_name(std::string_view name) const;
 
   const LightWork& work_;

@@ -33,12 +33,6 @@ void build_products(const LightWork& work, const std::vector<const Recipe*>& rec
     const gl::Texture& texture = recipe->build(PassContext(work, owner_of(*recipe)));
     work.frame.products.push_back({.name = recipe->name, .texture = &texture, .sampler = recipe->sampler});
   }
-  for (const std::string& last : work.state.products) {
-    const bool made = std::ranges::any_of(recipes, [&](const Recipe* recipe) { return recipe->name == last; });
-    if (!made) work.device.drop(work.prefix() + product_prefix(last));
-  }
-  work.state.products.clear();
-  for (const Recipe* recipe : recipes) work.state.products.push_back(recipe->name);
 }
 
 }  // namespace penumbra::shadow

@@ -14,7 +14,7 @@ struct Wanted {
 };
 Wanted wanted_of(const LightWork& work);
 
-// Makes the products, each by its own passes, and releases those that the last frame made and this one does not need.
+// Makes the products, each by its own passes.
 void build_products(const LightWork& work, const std::vector<const Recipe*>& recipes);
 
 }  // namespace penumbra::shadow

@@ -10,11 +10,12 @@ namespace penumbra::shadow {
 
 namespace {
 
-// Parameter sets that together produce every variant of the programs of a technique, recipe or denoiser.
-std::vector<ParamSet> compiled_variants(const std::string& owner, const ParamSet& defaults) {
+// Parameter sets that together produce every variant of the programs of a technique, recipe or denoiser with these
+// parameters.
+std::vector<ParamSet> compiled_variants(const std::vector<Param>& own, const ParamSet& defaults) {
   std::vector<ParamSet> variants{defaults};
-  for (const Param& param : defaults.rows()) {
-    if (param.binding != ParamBinding::compiled || !param.name.starts_with(owner + ".")) continue;
+  for (const Param& param : own) {
+    if (param.binding != ParamBinding::compiled) continue;
     std::vector<ParamSet> grown;
     for (const ParamSet& variant : variants) {
       for (const ParamValue& value : representative_values(param)) {
@@ -65,9 +66,9 @@ std::string declarations(const Registry& registry, const ParamSet& params) {
   return text + glsl_declarations(params, block_params);
 }
 
-std::vector<gl::Define> compiled_defines(const std::string& owner, const ParamSet& params) {
+std::vector<gl::Define> compiled_defines(const std::vector<Param>& own, const ParamSet& params) {
   std::vector<gl::Define> defines;
-  for (GlslConstant& constant : compiled_constants(params, owner + ".")) {
+  for (GlslConstant& constant : compiled_constants(params, own)) {
     defines.push_back({std::move(constant.name), std::move(constant.value)});
   }
   return defines;
@@ -134,7 +135,7 @@ std::string Programs::including(const std::string& folder, const std::vector<std
 }
 
 std::vector<gl::Define> Programs::defines(const Technique& technique, const ParamSet& params, bool rotated) {
-  std::vector<gl::Define> defines = compiled_defines(technique.name, params);
+  std::vector<gl::Define> defines = compiled_defines(technique.params, params);
   defines.insert(defines.begin(), {"SAMPLE_ROTATE", rotated ? "1" : "0"});
   return defines;
 }
@@ -181,7 +182,7 @@ std::vector<gl::ProgramDesc> Programs::own(const PassOwner& owner, const ParamSe
   if (!owner.programs) return {};
   std::vector<gl::ProgramDesc> programs = owner.programs(params);
   const std::vector<gl::Define> constants =
-      owner.technique != nullptr ? defines(*owner.technique, params, rotated) : compiled_defines(owner.name, params);
+      owner.technique != nullptr ? defines(*owner.technique, params, rotated) : compiled_defines(owner.params, params);
   const std::string folder = folder_of(owner);
   for (gl::ProgramDesc& program : programs) {
     program.name = own_name(owner, program.name);
@@ -195,14 +196,14 @@ std::vector<gl::ProgramDesc> Programs::own(const PassOwner& owner, const ParamSe
 
 std::vector<std::vector<gl::Define>> Programs::all_defines(const Technique& technique, const ParamSet& defaults) const {
   std::vector<std::vector<gl::Define>> all;
-  for (const ParamSet& params : compiled_variants(technique.name, defaults)) {
+  for (const ParamSet& params : compiled_variants(technique.params, defaults)) {
     for (const bool rotated : {true, false}) all.push_back(defines(technique, params, rotated));
   }
   return all;
 }
 
 void Programs::add_own(std::vector<gl::ProgramDesc>& programs, const PassOwner& owner, const ParamSet& defaults) const {
-  for (const ParamSet& params : compiled_variants(owner.name, defaults)) {
+  for (const ParamSet& params : compiled_variants(owner.params, defaults)) {
     for (gl::ProgramDesc& program : own(owner, params, /*rotated=*/true)) programs.push_back(std::move(program));
     if (owner.technique == nullptr) continue;
     for (gl::ProgramDesc& program : own(owner, params, /*rotated=*/false)) programs.push_back(std::move(program));
@@ -218,7 +219,7 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
   for (const Recipe& recipe : registry_.recipes()) add_own(programs, owner_of(recipe), defaults);
   for (const Denoiser& denoiser : registry_.denoisers()) add_own(programs, owner_of(denoiser), defaults);
   for (const Technique& technique : registry_.techniques()) {
-    for (const ParamSet& params : compiled_variants(technique.name, defaults)) {
+    for (const ParamSet& params : compiled_variants(technique.params, defaults)) {
       for (const bool rotated : {true, false}) {
         for (const MaskForm& form : mask_forms(rotated)) {
           if (!technique.glsl.empty()) programs.push_back(mask(technique, params, form));

@@ -162,6 +162,19 @@ const Denoiser* Registry::find_denoiser(std::string_view name) const {
   return name == "none" ? nullptr : &named("denoiser", denoisers(), name);
 }
 
+bool Registry::concerns(std::string_view param, const ParamSet& chosen) const {
+  const auto lists = [param](const auto& piece) {
+    return std::ranges::find(piece.params, param, &Param::name) != piece.params.end();
+  };
+  const std::string& technique = chosen.get_word("technique");
+  const std::vector<SampleSet>& samples = find(technique).samples;
+  if (std::ranges::find(samples, param, &SampleSet::count_parameter) != samples.end()) return true;
+  const auto of_other = [&](const auto& pieces, const std::string& name) {
+    return std::ranges::any_of(pieces, [&](const auto& piece) { return piece.name != name && lists(piece); });
+  };
+  return !of_other(techniques(), technique) && !of_other(denoisers(), chosen.get_word("denoiser"));
+}
+
 void Registry::select(ParamSet& params, std::string_view name) const {
   for (const Preset& preset : presets()) {
     if (preset.name != name) continue;

@@ -40,7 +40,7 @@ class Registry {
   };
 
   // Throws Error, in one line that names the entry and the fault, for
-  //   - two entries of one kind with the same name;
+  //   - two entries of one kind with the same name, or a name that is no lower-case identifier;
   //   - techniques that can't be evaluated: without glsl and resolve, without glsl for blended surfaces (their own or a
   //     stand-in's), or with an unknown stand_in, pattern or scramble;
   //   - sample sets whose count parameter is unknown, not an integer, or may exceed most_points; more sample points
@@ -64,6 +64,9 @@ class Registry {
   const Recipe& find_recipe(std::string_view name) const;
   // Null for "none".
   const Denoiser* find_denoiser(std::string_view name) const;
+  // Whether the mask can depend on a parameter under the technique and the denoiser that `chosen` selects: not on those
+  // that only another technique or denoiser lists in its `params`.
+  bool concerns(std::string_view param, const ParamSet& chosen) const;
   // Sets "technique" and, for a preset, its assignments.
   void select(ParamSet& params, std::string_view name) const;
   // The parameters of the library, and of every denoiser, recipe and technique.

@@ -52,10 +52,10 @@ const std::vector<std::string>& scramble_names() {
   return names;
 }
 
-bool rotates_samples(const Technique& technique, const ParamSet& params) {
+bool rotates_samples(const Technique& technique, const ParamSet& params, const LightShape& shape) {
   const std::string& scramble = technique.scramble.empty() ? params.get_word("sampling.scramble") : technique.scramble;
   // A square must not be rotated: that would be a different light.
-  return scramble == "rotate" && params.get_word("sun.shape") == "disc";
+  return scramble == "rotate" && !shape.square;
 }
 
 glm::vec4 noise_shift(const ParamSet& params, int frame) {
@@ -87,15 +87,14 @@ std::string sample_declarations(const Technique& technique, const ParamSet& para
       static_cast<unsigned>(block_samples), members, functions);
 }
 
-std::vector<glm::vec4> Samples::tables(const Technique& technique, const ParamSet& params, int set) {
-  const bool disc = rotates_samples(technique, params);
+std::vector<glm::vec4> Samples::tables(const Technique& technique, const ParamSet& params, const Tables& of) {
   std::vector<glm::vec4> tables;
   for (const SampleSet& samples : technique.samples) {
     const std::string pattern_row = fmt::format("sampling.{}_pattern", name_of(samples.step));
     const std::string& pattern = technique.pattern.empty() ? params.get_word(pattern_row) : technique.pattern;
-    const auto seed = static_cast<std::uint64_t>(changes(params, samples.step, "set") ? set : 0);
+    const auto seed = static_cast<std::uint64_t>(changes(params, samples.step, "set") ? of.set : 0);
     const int count = params.get_int(samples.count_parameter);
-    append_table(tables, table_size(samples, params), points({pattern, count, disc, seed}));
+    append_table(tables, table_size(samples, params), points({pattern, count, of.rotated, seed}));
   }
   return tables;
 }

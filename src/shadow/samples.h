@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "../gl/pass.h"
+#include "light_projection.h"
 #include "sampling.h"
 #include "technique.h"
 
@@ -18,7 +19,7 @@ const std::vector<std::string>& scramble_names();
 
 // Whether a technique's sample points differ from pixel to pixel by a rotation (points on a disc) or by a toroidal
 // shift (points in the unit square).
-bool rotates_samples(const Technique& technique, const ParamSet& params);
+bool rotates_samples(const Technique& technique, const ParamSet& params, const LightShape& shape);
 
 // The toroidal shift of a frame's noise texture: xy for the blocker step, zw for the filter step. Each seed and, for
 // steps that shift from frame to frame, each frame adds a point of a lattice (Roberts 2018, "The unreasonable
@@ -42,7 +43,13 @@ class Samples {
   Samples(gl::Device& device, std::string prefix) : device_(device), prefix_(std::move(prefix)) {}
 
   // The contents of the uniform block in sample_declarations().
-  std::vector<glm::vec4> tables(const Technique& technique, const ParamSet& params, int set);
+  struct Tables {
+    int set = 0;           // see set_number()
+    bool rotated = false;  // see rotates_samples()
+
+    bool operator==(const Tables&) const = default;
+  };
+  std::vector<glm::vec4> tables(const Technique& technique, const ParamSet& params, const Tables& of);
   // The noise texture of that kind: RG16, 64 × 64, tileable; "none": one texel of value 0.
   const gl::Texture& noise(const std::string& kind);
 

@@ -9,12 +9,14 @@
 
 namespace penumbra::shadow {
 
-// The point sets, by name.
-//   vogel the golden-ratio lattice, which maps to Vogel's spiral on a disc (Vogel 1979) regular the centres of a grid's
-//   cells, as square as the count allows uniform independent and uniform poisson dart throwing on the torus (Cook
-//   1986): no two points closer than a radius poisson_hierarchical the same, with a radius that shrinks after many
-//   misses: each prefix is well spread hammersley (k/n, Φ2(k)), centred in its strata halton (Φ2(k), Φ3(k)): each
-//   prefix is well spread
+// The point sets, by name:
+//   - vogel: the golden-ratio lattice, which maps to Vogel's spiral on a disc (Vogel 1979);
+//   - regular: the centres of a grid's cells, which are as square as the count allows;
+//   - uniform: independent and uniform;
+//   - poisson: dart throwing on the torus (Cook 1986), no two points closer than a radius;
+//   - poisson_hierarchical: the same with a radius that shrinks after many misses, so that each prefix is well spread;
+//   - hammersley: (k/n, Φ2(k)), centred in its strata;
+//   - halton: (Φ2(k), Φ3(k)), of which each prefix is well spread.
 const std::vector<std::string>& pattern_names();
 
 // The radical inverse: k's digits in that base, mirrored at the radix point, in 0..1 (van der Corput 1935).

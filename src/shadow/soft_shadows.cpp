@@ -23,11 +23,13 @@ struct SoftShadows::State {
   State(gl::Device& device, const Registry& registry)
       : defaults(registry.params()), programs(device, registry), samples(device, fmt::format("shadow {}/", number)) {}
 
-  // The library's rows alone, in the order that GLSL was told of, with the caller's values and the light's own.
-  // Until it is asked for others.
-  const ParamSet& params_of(const ParamSet& params, const Light& light) {
-    take_params(forward, defaults, params, light);
-    return forward.params;
+  // The registry's parameters with the caller's values and the light's overrides. Valid until the next call.
+  const ParamSet& params_of(const Registry& registry, const ParamSet& params, const Light& light) {
+    constexpr std::size_t most_lights = 16;
+    if (forward.size() >= most_lights && !forward.contains(light.id)) forward.clear();
+    LightState& state = forward[light.id];
+    take_params(state, {.registry = registry, .defaults = defaults, .values = params}, light);
+    return state.params;
   }
 
   const int number = next_number();  // unique for each SoftShadows object of a device
@@ -35,7 +37,7 @@ struct SoftShadows::State {
   Programs programs;
   Samples samples;
   std::map<int, ViewState> views;
-  LightState forward;  // the parameters of the last forward program that was requested
+  std::map<int, LightState> forward;  // the parameters of the last forward programs, by the light's id
 };
 
 SoftShadows::SoftShadows(gl::Device& device, Registry registry)
@@ -72,9 +74,10 @@ void SoftShadows::bind_forward(const Mask& mask, size_t light) {
 void SoftShadows::unbind_forward() { gl::unbind_textures(first_pass_unit); }
 
 ForwardProgram SoftShadows::forward_program(const ParamSet& params, const Light& light) const {
-  const ParamSet& own = state_->params_of(params, light);
+  const ParamSet& own = state_->params_of(registry_, params, light);
   const Technique& technique = forward_technique(registry_, own);
-  return {state_->programs.forward_file(technique), Programs::defines(technique, own, rotates_samples(technique, own))};
+  const bool rotated = rotates_samples(technique, own, shape_of(light.source, own));
+  return {state_->programs.forward_file(technique), Programs::defines(technique, own, rotated)};
 }
 
 std::string SoftShadows::forward_source(const ParamSet& params, const Light& light) const {

@@ -133,18 +133,19 @@ std::string about_target(std::string_view name) {
     const char* text;
   };
   static constexpr std::array list{
-      About{"/denoise/texels", "The shadow mask with its history, before the first filter: packed texels."},
+      About{"/history_and_filters/texels", "The shadow mask with its history, before the first filter: packed texels."},
       About{
-          "/denoise/notes",
+          "/history_and_filters/notes",
           "Beside the packed mask: the cascade, whether the kernel is under a texel, and why the history was refused."},
-      About{"/denoise/", "The shadow mask after this filter's step: packed texels."},
-      About{"/history texels", "The packed mask that the next frame blends with; two textures take turns."},
-      About{"/history surfaces",
+      About{"/history_and_filters/history texels",
+            "The packed mask that the next frame blends with; two textures take turns."},
+      About{"/history_and_filters/history surfaces",
             "Depth and normal, by which the next frame tells whether a pixel shows the same surface."},
+      About{"/history_and_filters/", "The shadow mask after this filter's step: packed texels."},
       About{"/movement map",
             "How much of the area around a texel has moving casters: 0 none, 1 all. Of the last frame with motion."},
       About{"/shadow map", "Depth from the light, 0 to 1, a layer each cascade."},
-      About{"/products/least_depth_pyramid/", "The least depth from the light that a texel of each mip level covers."},
+      About{"/recipes/least_depth_pyramid/", "The least depth from the light that a texel of each mip level covers."},
       About{"/noise/", "The tile of noise that rotates or shifts the sample points of each pixel."},
       About{"/mask", "What lighting reads: visibility in red."}};
   const auto found =

@@ -35,7 +35,7 @@ std::string about_target(std::string_view name);
 // The texture that Inspection::what names, if it exists.
 std::optional<gl::Device::NamedTarget> inspected_target(const Inspection& inspection, const gl::Device& device);
 
-// The title of the legend: "depth", "denoise/texels: visibility".
+// The title of the legend: "depth", "denoisers/history_and_filters/texels: visibility".
 std::string title_of(const Inspection& inspection, const gl::Device& device);
 
 // Throws Error for an unknown name.

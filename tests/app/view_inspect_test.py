@@ -39,7 +39,7 @@ class Inspect(WindowTest):
             colored = viewer.rest()
             self.assertFalse(is_grey(colored))
             viewer.open_tab("Inspect", "show=picture")
-            raw = self.look_at(viewer, f"{LIGHT}denoise/texels")
+            raw = self.look_at(viewer, f"{LIGHT}denoisers/history_and_filters/texels")
             self.assertTrue(is_grey(raw))
             self.assertGreater(len(raw.colors()), 30)
             viewer.choose("part", "mean blocker distance")

@@ -50,7 +50,8 @@ TEST_F(GlTimers, RowsNestInOrderAndPassesFillTheFrameWithoutExceedingIt) {
 TEST_F(GlTimers, TheCpusTimeOfAFrameIsThatOfTheThreadAndLeavesOutWaiting) {
   for (const gl::Timers::Mode mode : {gl::Timers::Mode::finish, gl::Timers::Mode::query}) {
     gl::Device timed(test::pass_files(), mode);
-    frames(timed, 1);  // compiles the shaders
+    frames(timed, 1);     // compiles the shaders
+    timed.timers.rows();  // waits, so that take() removes this frame
     timed.timers.take();
     static PFNGLFINISHPROC real = nullptr;
     real = gl::glFinish;

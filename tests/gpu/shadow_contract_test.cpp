@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "gpu/gl_calls.h"
 #include "gpu/gpu_test.h"
 #include "gpu/triangle_scene.h"
 #include "shadow/denoise_context.h"
@@ -85,7 +86,7 @@ layout(binding = 0, r32f) uniform writeonly restrict image2D radius;
 void main() { imageStore(radius, ivec2(0), vec4(float(blur_radius_pixels))); }
 )";
 
-// The mean of all frames, and how many there were.
+// The mean of the last frames, and of how many.
 constexpr const char* mean_text = R"(
 #include "lib/packed_texel.glsl"
 layout(binding = 8) uniform usampler2D now;
@@ -97,7 +98,7 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec2 before = has_last != 0 ? texelFetch(last, pixel, 0).xy : vec2(0.0);
   uint seen = texelFetch(now, pixel, 0).x;
-  float frames = before.y + 1.0;
+  float frames = min(before.y + 1.0, float(mean_most_frames));
   mean = vec2(mix(before.x, texel_visibility(seen), 1.0 / frames), frames);
   texel = pack_texel(texel_distance(seen), mean.x, false);
 }
@@ -109,13 +110,17 @@ struct Projection {
 };
 
 gl::TextureDesc of_mask(const shadow::PassContext& context, GLenum format) {
-  return {.format = format, .width = context.mask().width(), .height = context.mask().height()};
+  const gl::Texture& depth = context.receiver_depth();
+  EXPECT_EQ(depth.desc().format, GLenum{GL_DEPTH_COMPONENT32F});
+  return {.format = format, .width = depth.width(), .height = depth.height()};
 }
+
+// The names of these targets and buffers are also names of the library's own: neither may disturb the other.
 
 // What the casters cover of the ground is 1 in the stencil.
 void mark_covered(const shadow::PassContext& context, const gl::Texture& stencil) {
   const shadow::View& view = context.inputs().view;
-  const gl::Buffer& projection = context.scratch("projection", sizeof(Projection));
+  const gl::Buffer& projection = context.scratch("params", sizeof(Projection));
   gl::write_value(projection, Projection{view.projection * view.view,
                                          glm::vec4(std::get<shadow::Sun>(context.light().source).to_light, 0)});
   const gl::StencilFace marks{.pass = gl::StencilOp::replace};
@@ -128,7 +133,7 @@ void mark_covered(const shadow::PassContext& context, const gl::Texture& stencil
 
 // 1 where nothing is marked.
 const gl::Texture& lit_pixels(const shadow::PassContext& context, const gl::Texture& stencil) {
-  const gl::Texture& lit = context.target("lit", of_mask(context, GL_R16F));
+  const gl::Texture& lit = context.target("samples", of_mask(context, GL_R16F));
   const gl::StencilFace unmarked{.test = gl::StencilTest::equal};
   gl::Pass pass(context.device(), {.name = "planar light",
                                    .colors = {{.texture = &lit, .clear = glm::vec4(0)}},
@@ -140,7 +145,7 @@ const gl::Texture& lit_pixels(const shadow::PassContext& context, const gl::Text
 }
 
 void blur(const shadow::PassContext& context, const gl::Texture& lit) {
-  const gl::Buffer& command = context.scratch("command", sizeof(gl::DispatchCommand));
+  const gl::Buffer& command = context.scratch("light", sizeof(gl::DispatchCommand));
   gl::Pass pass(context.device(), {.name = "planar blur"});
   command.bind_storage(0);
   context.use(pass, "command");
@@ -162,7 +167,7 @@ shadow::Technique planar() {
           .samples = {{.name = "around", .count_parameter = "planar.points"}},
           .resolve =
               [](const shadow::PassContext& context) {
-                const gl::Texture& stencil = context.target("stencil", of_mask(context, GL_DEPTH24_STENCIL8));
+                const gl::Texture& stencil = context.target("shadow map", of_mask(context, GL_DEPTH24_STENCIL8));
                 mark_covered(context, stencil);
                 blur(context, lit_pixels(context, stencil));
               },
@@ -202,7 +207,7 @@ shadow::Recipe blur_radius() {
 void average(const shadow::DenoiseContext& context) {
   const shadow::PackedMask seen = context.evaluate_packed();
   const shadow::History means = context.remembered("mean");
-  const gl::Texture& texels = context.target("averaged", of_mask(context, GL_R32UI));
+  const gl::Texture& texels = context.target("samples", of_mask(context, GL_R32UI));
   {
     gl::Pass pass(context.device(), {.name = "average", .colors = {{.texture = &means.now}, {.texture = &texels}}});
     context.use(pass, "mean").set("has_last", means.valid ? 1 : 0);
@@ -216,9 +221,10 @@ void average(const shadow::DenoiseContext& context) {
 
 shadow::Denoiser averaging() {
   return {.name = "averaging",
-          .summary = "The mean of all frames.",
+          .summary = "The mean of the last frames.",
           .source = "made up",
           .needs = {"blur_radius"},
+          .params = {{"mean.most_frames", 1000, 1, 1000, "", "Frames at most.", ParamBinding::compiled}},
           .remembers =
               [](const ParamSet&) {
                 return std::vector<shadow::Denoiser::Remembered>{{"mean", GL_RG32F}};
@@ -231,9 +237,15 @@ shadow::Denoiser averaging() {
               }};
 }
 
+// Reads a product, and neither the shadow map nor passes of its own.
+shadow::Technique planar_read() {
+  return {.name = "planar_read", .glsl = "test/planar.glsl", .needs = {"blur_radius"}};
+}
+
 shadow::Registry with_planar() {
   const shadow::Registry& built_in = shadow::built_in_registry();
-  shadow::Registry::Contents contents{.techniques = {planar(), built_in.find("none"), built_in.find("pcss")}};
+  shadow::Registry::Contents contents{
+      .techniques = {planar(), planar_read(), built_in.find("none"), built_in.find("pcss")}};
   contents.denoisers.push_back(averaging());
   contents.recipes.push_back(blur_radius());
   return shadow::Registry(std::move(contents));
@@ -346,8 +358,9 @@ TEST_F(ShadowContract, AProductIsMadeOnceForAllThatAskAndGivenBackWithTheLast) {
   columns();
   EXPECT_EQ(builds, 1) << "nobody asks";
   for (const gl::Device::NamedTarget& target : renderer.device().targets()) {
-    EXPECT_EQ(target.name.find("products/"), std::string_view::npos) << target.name;
-    EXPECT_EQ(target.name.find("denoise/"), std::string_view::npos) << target.name;
+    for (const char* owner : {"techniques/", "recipes/", "denoisers/"}) {
+      EXPECT_EQ(target.name.find(owner), std::string_view::npos) << target.name;
+    }
   }
   params.set("technique", std::string("planar"));
   params.set("denoiser", std::string("averaging"));
@@ -355,7 +368,46 @@ TEST_F(ShadowContract, AProductIsMadeOnceForAllThatAskAndGivenBackWithTheLast) {
   EXPECT_EQ(renderer.device().target_bytes("shadow"), bytes);
 }
 
-TEST_F(ShadowContract, AnotherTechniquesParametersDoNotEndADenoisersHistory) {
+TEST_F(ShadowContract, TargetsOfAFilterThatIsNoLongerChosenAreReleased) {
+  const auto holds = [&](std::string_view name) {
+    return std::ranges::any_of(renderer.device().targets(), [&](const gl::Device::NamedTarget& target) {
+      return target.name.find(name) != std::string_view::npos;
+    });
+  };
+  params.set("technique", std::string("pcss"));
+  params.set("denoiser", std::string("history_and_filters"));
+  params.set("filter.visibility", std::string("bilateral_separable"));
+  columns();
+  EXPECT_TRUE(holds("denoisers/history_and_filters/bilateral_separable"));
+  EXPECT_TRUE(holds("light 0/shadow map"));
+  params.set("filter.visibility", std::string("box"));
+  columns();
+  EXPECT_FALSE(holds("bilateral_separable"));
+  EXPECT_TRUE(holds("denoisers/history_and_filters/texels"));
+  params.set("technique", std::string("none"));
+  columns();
+  EXPECT_FALSE(holds("light 0/shadow map"));
+}
+
+TEST_F(ShadowContract, TheCallersDepthIsDescribedOnce) {
+  columns();
+  const auto frame = [&] { renderer.render(scene, params, [&](shadow::Inputs& inputs) { inputs.view.cut = true; }); };
+  frame();
+  const GlCalls queries(GlCalls::Kind::queries);
+  frame();
+  const std::map<std::string, int> calls = queries.counts();
+  for (const auto& [name, count] : calls) EXPECT_EQ(name.find("TextureLevelParameter"), std::string::npos) << name;
+}
+
+TEST_F(ShadowContract, HistoriesOfTechniquesThatReadCastersWithoutAShadowMapGetAMovementMap) {
+  params.set("technique", std::string("planar_read"));
+  params.set("denoiser", std::string("history_and_filters"));
+  params.set("history.reuse", true);
+  columns();
+  EXPECT_NE(renderer.mask().lights[0].movement, nullptr);
+}
+
+TEST_F(ShadowContract, ParametersOfOthersDoNotEndADenoisersHistoryWhateverTheirNames) {
   params.set("denoiser", std::string("averaging"));
   params.set("planar.points", 1);
   const auto frames_seen = [&] {
@@ -371,6 +423,14 @@ TEST_F(ShadowContract, AnotherTechniquesParametersDoNotEndADenoisersHistory) {
   EXPECT_EQ(frames_seen(), 2);
   params.set("pcss.blocker_taps", 3);
   EXPECT_EQ(frames_seen(), 3) << "another technique's";
+  params.set("history.alpha", 0.5f);
+  EXPECT_EQ(frames_seen(), 4) << "another denoiser's";
+  params.set("mean.most_frames", 500);
+  frames_seen();
+  EXPECT_EQ(frames_seen(), 2) << "its own";
+  params.set("mean.most_frames", 2);
+  for (int i = 0; i < 3; ++i) frames_seen();
+  EXPECT_EQ(frames_seen(), 2) << "its own, as a constant of its program";
 }
 
 TEST_F(ShadowContract, EveryProgramIsListedForTheChecks) {

@@ -38,18 +38,19 @@ TEST_F(ShadowUnchanged, ATextureIsCheckedAgainWhenItIsAnother) {
 }
 
 TEST_F(ShadowUnchanged, MakesNoParameterSet) {
-  const ParamSet given = renderer_->params();
+  const ParamSet values = renderer_->params();
   const ParamSet defaults = renderer_->params();
+  const shadow::GivenParams given{.registry = renderer_->shadows().registry(), .defaults = defaults, .values = values};
   shadow::LightState state;
   shadow::Light light;
-  EXPECT_FALSE(shadow::take_params(state, defaults, given, light)) << "the first";
+  EXPECT_FALSE(shadow::take_params(state, given, light)) << "the first";
   const ParamValue* const value = &state.params.value("sun.angle");
   state.uploaded = true;
-  EXPECT_TRUE(shadow::take_params(state, defaults, given, light));
+  EXPECT_TRUE(shadow::take_params(state, given, light));
   EXPECT_EQ(&state.params.value("sun.angle"), value) << "the same set";
   EXPECT_TRUE(state.uploaded);
   light.overrides = {"sun.angle=2"};
-  EXPECT_FALSE(shadow::take_params(state, defaults, given, light));
+  EXPECT_FALSE(shadow::take_params(state, given, light));
   EXPECT_EQ(state.params.get_float("sun.angle"), 2.0f);
   EXPECT_FALSE(state.uploaded);
 }

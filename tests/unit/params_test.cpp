@@ -133,8 +133,13 @@ TEST(Params, UniformBytesFollowTheBlock) {
   EXPECT_EQ(kind, 1);
 }
 
-TEST(Params, CompiledConstantsAreThoseOfThePrefix) {
-  const std::vector<GlslConstant> constants = compiled_constants(sample(), "a.");
+TEST(Params, CompiledConstantsAreThoseOfTheGivenRows) {
+  const ParamSet params = sample();
+  std::vector<Param> rows;
+  for (const Param& row : params.rows()) {
+    if (row.name.starts_with("a.")) rows.push_back(row);
+  }
+  const std::vector<GlslConstant> constants = compiled_constants(params, rows);
   ASSERT_EQ(constants.size(), 2u);
   EXPECT_EQ(constants[0].name, "a_flag");
   EXPECT_EQ(constants[0].value, "1");

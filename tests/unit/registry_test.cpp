@@ -1,5 +1,7 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <stdexcept>
 
@@ -49,6 +51,34 @@ TEST(Registry, RefusesTechniquesThatCanNotBeEvaluated) {
   EXPECT_EQ(complaint([](Technique& t) { t.stand_in = "god"; }), "unknown technique 'god'; did you mean 'good'?");
 }
 
+TEST(Registry, RefusesNamesThatAreNoIdentifiers) {
+  for (const char* name : {"", "2", "my-shadow", "Pcss", "a b", "a/b"}) {
+    EXPECT_EQ(
+        complaint([&](Technique& t) { t.name = name; }),
+        fmt::format("'{}' can't be the name of a technique or preset: not lower-case letters, digits and _", name));
+  }
+  Recipe with_space = {.name = "moments 4"};
+  EXPECT_THROW(Registry({.techniques = {technique("good")}, .recipes = {with_space}}), Error);
+}
+
+TEST(Registry, KnowsWhichParametersConcernATechnique) {
+  Technique one = technique("one"), two = technique("two");
+  one.params = {{"shared.points", 1, 1, 4, "taps", "How many."}, {"two.sharpness", 1, 1, 4, "", "How sharp."}};
+  two.params = {{"one.width", 1, 1, 4, "", "How wide."}};
+  two.samples = {{.name = "around", .count_parameter = "shared.points"}};
+  const Registry registry({.techniques = {one, two}});
+  ParamSet params(registry.params());
+  for (const char* name : {"shared.points", "two.sharpness", "sun.angle"}) EXPECT_TRUE(registry.concerns(name, params));
+  EXPECT_FALSE(registry.concerns("one.width", params)) << "the owner lists it, whatever its name";
+  params.set("technique", std::string("two"));
+  EXPECT_TRUE(registry.concerns("one.width", params));
+  EXPECT_FALSE(registry.concerns("two.sharpness", params));
+  EXPECT_TRUE(registry.concerns("shared.points", params)) << "it counts a sample set";
+  EXPECT_TRUE(registry.concerns("history.alpha", params));
+  params.set("denoiser", std::string("none"));
+  EXPECT_FALSE(registry.concerns("history.alpha", params));
+}
+
 TEST(Registry, RefusesUnknownPatternsAndScrambles) {
   EXPECT_EQ(complaint([](Technique& t) { t.pattern = "vogle"; }),
             "unknown pattern of technique 'changed' 'vogle'; did you mean 'vogel'?");
@@ -71,7 +101,7 @@ TEST(Registry, RefusesPresetsAndDefaultsOfNothing) {
 
 // A technique with a row of so many points at most and a set of them.
 void with_points(Technique& technique, int most) {
-  technique.params = {{"changed.points", 1, 0, static_cast<double>(most), "taps", "How many."}};
+  technique.params = {{"changed.points", std::min(1, most), 0, static_cast<double>(most), "taps", "How many."}};
   technique.samples = {{.name = "around", .count_parameter = "changed.points"}};
 }
 
@@ -99,6 +129,9 @@ TEST(Registry, RefusesSampleSetsThatNothingCounts) {
             "technique 'changed': the sample set 'around' is counted by 'changed.points', which is no parameter");
   EXPECT_EQ(complaint([](Technique& t) { t.samples = {{.name = "around", .count_parameter = "sun.angle"}}; }),
             "technique 'changed': the sample set 'around' is counted by 'sun.angle', which is no number of points");
+  EXPECT_EQ(
+      complaint([](Technique& t) { with_points(t, 0); }),
+      "technique 'changed': the sample set 'around' is counted by 'changed.points', which is no number of points");
   EXPECT_EQ(complaint([](Technique& t) { t.samples = {{.name = "2", .count_parameter = "sampling.seed"}}; }),
             "technique 'changed': '2' can't be the name of a sample set in GLSL");
   EXPECT_EQ(complaint([](Technique& t) {

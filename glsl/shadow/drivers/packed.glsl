@@ -30,7 +30,7 @@ bool movement_within(Receiver receiver, float radius, Light light) {
 // Whether something moved that blocks, or blocked, a part of the light. The technique's read radius depends on this
 // frame's casters only; one that has disappeared may have been nearer to the light.
 bool caster_moved(Receiver receiver, Light light) {
-  float of_moved = penumbra_radius(receiver, receiver.position.z - shadow.moved_depth, light);
+  float of_moved = penumbra_radius(receiver, most_moved_distance(receiver), light);
   return movement_within(receiver, light.read_radius, light) ||
          movement_within(receiver, max(light.read_radius, of_moved), light);
 }
