@@ -29,4 +29,12 @@ function(penumbra_layer name)
                                                      PRIVATE ${CMAKE_SOURCE_DIR}/glsl)
   target_link_libraries(penumbra_${name} PUBLIC ${arg_LINK} PRIVATE $<BUILD_INTERFACE:penumbra_options> ${arg_PRIVATE})
   penumbra_precompile(penumbra_${name} library)
+  # Each file that declares a command line compiles most of CLI11 for itself: 21 files take a fifth of a clean build, and
+  # a third less time with -O1. They run once a command, and leave the work to other files.
+  foreach(source IN LISTS sources)
+    file(STRINGS "${source}" command_line REGEX "^#include <CLI/CLI\\.hpp>" LIMIT_COUNT 1)
+    if(command_line)
+      set_source_files_properties("${source}" PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
+    endif()
+  endforeach()
 endfunction()
