@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <array>
@@ -19,6 +18,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "io/stream_output.h"
 
 namespace penumbra::io {
 
@@ -60,22 +60,14 @@ void forget(const fs::path& path) {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-// Whether a folder is on procfs. /proc/self/fd/1, which /dev/stdout leads to, is a link that can lead to a pipe or to a
-// file that a process has open.
-bool on_procfs(const fs::path& folder) {
-  constexpr auto procfs = 0x9FA0;  // PROC_SUPER_MAGIC of linux/magic.h
-  struct statfs about {};
-  return statfs(folder.c_str(), &about) == 0 && about.f_type == procfs;
-}
-
-// Follows the symbolic links of a path's last component, whether the final target exists or not. Links in its folders
-// are left to the system. `fault` is set to what is wrong, or stays empty.
+// Follows the symbolic links of a path's last component, up to a link to an open file, whether the final target exists
+// or not. Links in its folders are left to the system. `fault` is set to what is wrong, or stays empty.
 fs::path linked_from(fs::path path, std::string& fault) {
   constexpr int most_links = 40;  // same as Linux
   std::error_code error;
   for (int i = 0; i < most_links; ++i) {
     if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
-    if (on_procfs(folder_of(path))) return fault = "it stands for an open file or pipe, not for a file's name", path;
+    if (is_open_file(path)) return path;
     const fs::path next = fs::read_symlink(path, error);
     if (error) return fault = error.message(), path;
     path = folder_of(path) / next;  // is `next` itself if that is absolute
@@ -118,13 +110,13 @@ void take_permissions(const fs::path& temporary, const fs::path& target) {
   chmod(temporary.c_str(), mode);
 }
 
-// Throws for anything but a regular file: replacing a device or a pipe would turn it into a file.
+// Throws for anything but a regular file: replacing a device would turn it into a file.
 void refuse_all_but_files(const fs::path& path, const fs::path& target) {
   std::error_code error;
   const fs::file_status there = fs::status(target, error);
   if (!path.has_filename() || fs::is_directory(there)) fail_write(path, "it is a folder");
   if (!fs::exists(there)) return;
-  if (!fs::is_regular_file(there)) fail_write(path, "it is a device or a pipe");
+  if (!fs::is_regular_file(there)) fail_write(path, "it is not a file");
   if (access(target.c_str(), W_OK) != 0) fail_write(path, std::strerror(errno));
 }
 
@@ -158,7 +150,13 @@ class HeldSignals {
 
 std::string quoted(const fs::path& path) { return fmt::format("'{}'", path.string()); }
 
-OutputFile::OutputFile(fs::path path) : path_(std::move(path)), target_(target_of(path_)) {
+OutputFile::OutputFile(fs::path path) : path_(std::move(path)), target_(target_of(path_)), stream_(is_stream(target_)) {
+  if (stream_) {
+    check_stream(target_, path_);
+    temporary_ = make_temporary(path_, fs::temp_directory_path() / target_.filename());
+    remember(temporary_);
+    return;
+  }
   refuse_all_but_files(path_, target_);
   made_ = missing_folders(target_);
   std::error_code error;
@@ -193,6 +191,7 @@ void OutputFile::write(std::string_view text) {
 }
 
 void OutputFile::commit() {
+  if (stream_) return write_to_stream(target_, path_, temporary_);
   take_permissions(temporary_, target_);
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_write(path_, std::strerror(errno));
   committed_ = true;
@@ -200,6 +199,7 @@ void OutputFile::commit() {
 
 void check_writable(const fs::path& path) {
   const fs::path target = target_of(path);
+  if (is_stream(target)) return check_stream(target, path);
   refuse_all_but_files(path, target);
   fs::path folder = folder_of(target);
   std::error_code error;

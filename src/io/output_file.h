@@ -11,8 +11,9 @@ namespace penumbra::io {
 
 // A file that is written atomically: under a temporary name in its own folder, then renamed. If `path` is a symbolic
 // link, the link stays and the file that it leads to is written. A replaced file keeps its permissions, and its owner
-// and group where this user may set them. Folders, devices, pipes, files that this user may not write, and links to
-// open files of a process (/dev/stdout) are refused, because they can't be replaced atomically.
+// and group where this user may set them. Character devices, pipes and links to open files of a process (/dev/stdout)
+// can't be replaced: commit() writes the temporary's content to them (see stream_output.h). Folders, other devices and
+// files that this user may not write are refused.
 class OutputFile {
  public:
   // Creates missing folders, and removes them again unless the file is committed. Throws Error that names the file if
@@ -26,13 +27,15 @@ class OutputFile {
   const std::filesystem::path& temporary() const { return temporary_; }
   // Writes `text` as the content of the temporary. Throws Error if the disk is full or the file exceeds a limit.
   void write(std::string_view text);
-  // Puts the temporary in place of the file. Throws Error if the system refuses.
+  // Puts the temporary in place of the file, or writes its content to a device, a pipe or an open file. Throws Error if
+  // the system refuses.
   void commit();
 
  private:
   void remove_made_folders() noexcept;
 
   std::filesystem::path path_, target_, temporary_;
+  bool stream_ = false;  // the target is written to instead of being replaced
   std::vector<std::filesystem::path> made_;
   bool committed_ = false;
 };
