@@ -18,14 +18,14 @@ class Noise(TestCase):
         return path.read_bytes(), said
 
     def test_the_same_command_gives_the_same_bytes(self):
-        for kind in ("white", "blue", "void_and_cluster"):
-            for extension in ("exr", "png", "u16"):
-                command = ("--kind", kind, "--size", "16", "--seed", "7")
-                first, _ = self.bake(f"a.{extension}", *command, "--threads", "1")
-                again, _ = self.bake(f"b.{extension}", *command, "--threads", "3")
-                self.assertEqual(first, again, f"{kind} {extension}")
-                other, _ = self.bake(f"c.{extension}", "--kind", kind, "--size", "16", "--seed", "8")
-                self.assertNotEqual(first, other, f"{kind} {extension}")
+        # Each kind, and each extension once: how noise is made does not depend on where it is written to.
+        for kind, extension in (("white", "exr"), ("white", "png"), ("blue", "u16"), ("void_and_cluster", "u16")):
+            command = ("--kind", kind, "--size", "16", "--seed", "7")
+            first, _ = self.bake(f"a.{extension}", *command, "--threads", "1")
+            again, _ = self.bake(f"b.{extension}", *command, "--threads", "3")
+            self.assertEqual(first, again, f"{kind} {extension}")
+            other, _ = self.bake(f"c.{extension}", "--kind", kind, "--size", "16", "--seed", "8")
+            self.assertNotEqual(first, other, f"{kind} {extension}")
 
     def test_the_tile_that_the_library_embeds_is_what_the_command_makes(self):
         baked, said = self.bake("tile.u16", "--kind", "void_and_cluster")

@@ -170,7 +170,7 @@ class Bench(TestCase):
         run = subprocess.Popen([PROGRAM, "bench", SCENE, "--size", "64x36", "--frames", "100000", "-o",
                                 self.folder / "bench.json"], stderr=subprocess.PIPE, stdout=subprocess.PIPE)
         wait_until_it_catches(signal.SIGINT, run)
-        time.sleep(2)  # it most often measures by then; nothing must be left in any case
+        time.sleep(1)  # it most often measures by then; nothing must be left in any case
         run.send_signal(signal.SIGINT)
         out, _ = run.communicate(timeout=60)
         self.assertEqual(run.returncode, 130)

@@ -228,7 +228,7 @@ class Truth(TestCase):
                        self.cache]
             process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
             wait_until_it_catches(number, process)
-            time.sleep(2)  # it most often traces by then; nothing must be left in any case
+            time.sleep(1)  # it most often traces by then; nothing must be left in any case
             process.send_signal(number)
             self.assertEqual(process.wait(timeout=60), 128 + number)
             self.assertEqual([path for path in self.folder.rglob("*") if path.is_file()], [])

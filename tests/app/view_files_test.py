@@ -51,19 +51,20 @@ class Files(WindowTest):
         home = self.folder / "home"
         home.mkdir()
         size = (700, 500)
-        with self.view(STEPS, home=home, size=size) as viewer:
+        last = {"home": home, "maps": ()}  # parameters of the command line would take the place of those that were kept
+        with self.view(STEPS, **last, size=size) as viewer:
             before = viewer.rest()
             viewer.choose("technique", "none")
             wanted = viewer.changed(before)
             viewer.open_tab("Scene", "eye")
             viewer.tap("Escape")
             self.assertEqual(viewer.exit_code(), 0)
-        with self.view(home=home, size=None) as viewer:
+        with self.view(**last, size=None) as viewer:
             self.assertEqual(self.desktop.client.size(viewer.window), size)
             self.assertTrue(viewer.has("eye"))
             self.assertEqual(viewer.rest(), wanted)
             self.assertEqual(viewer.signal(signal.SIGTERM), 128 + signal.SIGTERM)
-        with self.view(home=home, size=None) as viewer:
+        with self.view(**last, size=None) as viewer:
             self.assertEqual(viewer.rest(), wanted)
 
 

@@ -8,7 +8,9 @@ from support import PROGRAM, main
 from window import STEPS, WindowTest, read
 
 MOVING, POSTS = pictures.scene("moving"), pictures.scene("posts")
-THESIS = ("--technique", "thesis", "--set", "sun.angle=4")
+# A finished picture takes 32 frames, so each is cheap.
+THESIS = ("--technique", "thesis", "--set", "sun.angle=4", "--set", "pcss.blocker_taps=6", "--set", "pcss.filter_taps=6")
+NARROW = {"size": (640, 600)}
 LIGHT = "target shadow 1/view 0/light 0/"
 
 
@@ -35,7 +37,7 @@ class Inspect(WindowTest):
         return viewer.changed(before)
 
     def test_steps_of_the_mask_are_looked_at_part_by_part(self):
-        with self.view(STEPS, *THESIS) as viewer:
+        with self.view(STEPS, *THESIS, **NARROW) as viewer:
             colored = viewer.rest()
             self.assertFalse(is_grey(colored))
             viewer.open_tab("Inspect", "show=picture")
@@ -53,7 +55,7 @@ class Inspect(WindowTest):
             self.assertGreater(mask.differing(raw), 0)  # the filters' work
 
     def test_noise_is_shown_texel_by_texel(self):
-        with self.view(STEPS, *THESIS) as viewer:
+        with self.view(STEPS, *THESIS, **NARROW) as viewer:
             viewer.open_tab("Inspect", "show=picture")
             noise = self.look_at(viewer, "target shadow 1/noise/blue")
             self.assertTrue(is_grey(noise))
@@ -78,7 +80,7 @@ class Compare(WindowTest):
 
 
     def test_the_truth_is_traced_at_rest_and_measured(self):
-        with self.view(STEPS, "--technique", "thesis", "--set", "truth.samples=8") as viewer:
+        with self.view(STEPS, *THESIS, "--set", "truth.samples=8", **NARROW) as viewer:
             viewer.open_tab("Compare", "compare")
             viewer.click("compare", lambda: viewer.has("b"), "the choice of B")
             viewer.choose("b", "truth")
@@ -186,13 +188,13 @@ class Open(WindowTest):
 
 class Animation(WindowTest):
     def test_a_moment_that_was_stepped_to_is_the_copied_commands(self):
-        with self.view(MOVING, *THESIS, size=(640, 600)) as viewer:
-            shown = viewer.rest()
+        with self.view(MOVING, *THESIS, **NARROW) as viewer:
+            start = viewer.rest()
             viewer.open_tab("Scene", "step")
             for _ in range(3):
                 before = viewer.seen("frame")
                 viewer.click("step", lambda before=before: viewer.seen("frame") != before, "the next frame")
-                shown = viewer.changed(shown)
+            shown = viewer.changed(start)
             command = viewer.copied()
             self.assertIn("--warmup-still", command)
             subprocess.run([PROGRAM, *command[1:]], cwd=self.folder, check=True, capture_output=True)

@@ -6,7 +6,7 @@ import signal
 
 from desktop import LEFT, MIDDLE, RIGHT, WHEEL_DOWN, WHEEL_UP
 from support import main
-from window import STEPS, WindowTest, read
+from window import SMALL_MAPS, STEPS, WindowTest, read
 
 
 class Picture(WindowTest):
@@ -41,7 +41,7 @@ class Picture(WindowTest):
             shown = viewer.rest()
             self.assertGreater(len(shown.colors()), 30)
             left, top, right, bottom = viewer.box("picture")
-        self.succeed("render", STEPS, *options, "--size", f"{right - left}x{bottom - top}", "-o",
+        self.succeed("render", STEPS, *options, *SMALL_MAPS, "--size", f"{right - left}x{bottom - top}", "-o",
                      self.folder / "written.png", "--quiet")
         written = read(self.folder / "written.png")
         written = written.crop(0, written.height // 3, written.width, written.height * 3 // 4)

@@ -7,6 +7,7 @@ finds the program built already.
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 
@@ -29,18 +30,42 @@ build() { :; }
 """
 
 
-# Commands that run until Ctrl-C, which ends them with exit code 130.
+# Commands that run until Ctrl-C.
 ENDLESS = ("./run.sh watch ", "./run.sh view ")
+INTERRUPTED = """
+# interrupted CONDITION COMMAND...: starts an endless command, sends it the signal of Ctrl-C once the condition holds, and
+# fails if that does not end it with exit code 130.
+interrupted() {
+  local condition=$1 code=0
+  shift
+  set -m  # without job control a command in the background would ignore the signal
+  timeout --preserve-status --signal=INT 240 "$@" &
+  until eval "$condition" >/dev/null 2>&1; do
+    kill -0 $! || return 1
+    sleep 0.1
+  done
+  kill -INT $!
+  wait $! || code=$?
+  set +m
+  ((code == 130))
+}
+"""
+
+
+def interrupted(line):
+    """Once `watch` has written its picture, or `view` has the scene in its window."""
+    words = shlex.split(line)
+    if "-o" in words:
+        condition = f"test -e {words[words.index('-o') + 1]}"
+    else:
+        scene = next(pathlib.Path(word).name for word in words if word.endswith(".glb"))
+        condition = f"xdotool search --name '^{scene} - Penumbra$'"
+    return f'interrupted "{condition}" {line}'
 
 
 def commands(block):
-    lines = []
-    for line in block.splitlines():
-        if line.startswith(ENDLESS):
-            line = f"code=0; timeout --preserve-status --signal=INT 20 {line} || code=$?; test $code = 130"
-        if not line.startswith(LEFT_OUT):
-            lines.append(line + "\n")
-    return "".join(lines)
+    lines = [interrupted(line) if line.startswith(ENDLESS) else line for line in block.splitlines()]
+    return INTERRUPTED + "".join(f"{line}\n" for line in lines if not line.startswith(LEFT_OUT))
 
 
 class Readme(support.TestCase):

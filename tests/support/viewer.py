@@ -2,6 +2,7 @@
 
 import itertools
 import json
+import os
 import pathlib
 import shlex
 import tempfile
@@ -13,6 +14,12 @@ FEWEST_COLORS = 5  # of a picture that shows a scene, even without shadows
 # A click is down in one frame and up in the next, what it opens takes one to find its size, and the layout is written
 # after a second one that is the same.
 FRAMES_OF_A_CLICK = 5
+
+
+def shader_cache():
+    """Where Mesa keeps compiled shaders for all programs of this user: compiling them again takes each viewer seconds."""
+    cache = os.environ.get("XDG_CACHE_HOME") or str(pathlib.Path.home() / ".cache")
+    return os.environ.get("MESA_SHADER_CACHE_DIR") or cache
 
 
 class Viewer:
@@ -31,7 +38,7 @@ class Viewer:
         self._errors = open(f"{self._folder.name}/stderr", "w+", encoding="utf-8")
         home = self._home or self._folder.name
         environment = {**self._desktop.environment(), "XDG_CONFIG_HOME": f"{home}/config",
-                       "XDG_CACHE_HOME": f"{home}/cache"}
+                       "XDG_CACHE_HOME": f"{home}/cache", "MESA_SHADER_CACHE_DIR": shader_cache()}
         self.process = start([PROGRAM, "view", *self._arguments, *self._size, "--layout", self._layout],
                              stderr=self._errors, env=environment, cwd=self._start_folder)
         try:
