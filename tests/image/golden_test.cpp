@@ -1,37 +1,27 @@
 // Golden pictures: what techniques, filters and AOVs draw is what they drew when somebody last looked at it.
 // goldens.cpp lists them; this draws them, compares, and with PENUMBRA_GOLDENS=record (scripts/goldens.sh) records
-// them.
+// them. It also shows that each of them would notice the loss of what it shows.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <regex>
-#include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "gl/context.h"
 #include "gpu/gpu_test.h"
+#include "image/golden_picture.h"
+#include "image/golden_renderer.h"
 #include "image/goldens.h"
-#include "image/picture.h"
-#include "image/read.h"
-#include "image/write.h"
-#include "metrics/heat_color.h"
-#include "render/renderer.h"
-#include "render/setup.h"
-#include "scene/gltf.h"
-#include "truth/technique.h"
+#include "lib/packed_texel.glsl"
+#include "support/temp_folder.h"
 
 namespace penumbra::test {
 
@@ -43,12 +33,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int width = 160, height = 90, frames_a_second = 24;
-
 fs::path folder() { return fs::path(PENUMBRA_ROOT) / "tests/image/golden"; }
-fs::path results() { return PENUMBRA_GOLDEN_RESULTS; }
 fs::path file_of(const Golden& golden) { return folder() / (std::string(golden.name) + ".png"); }
-fs::path record_file() { return folder() / "recorded_with.txt"; }
+fs::path versions_file() { return folder() / "recorded_with.txt"; }
 
 bool recording() {
   const char* wish = std::getenv("PENUMBRA_GOLDENS");
@@ -56,7 +43,7 @@ bool recording() {
 }
 
 // "llvmpipe (LLVM 15.0.6), Mesa 22.3.6": without the width of the processor's registers, which decides no pixel.
-std::string renderer_version() {
+std::string version_here() {
   const gl::DeviceInfo info = gl::device_info();
   std::smatch mesa;
   const bool is_mesa = std::regex_search(info.version, mesa, std::regex("Mesa [0-9.]+"));
@@ -64,264 +51,135 @@ std::string renderer_version() {
          (is_mesa ? mesa.str() : info.version);
 }
 
-std::string recorded_version() {
-  std::ifstream file(record_file());
-  std::string line;
-  std::getline(file, line);
-  return line;
-}
-
-// The tolerance on this renderer; none if the goldens have none for it.
-std::optional<Tolerance> tolerance_here(const Golden& golden) {
-  if (renderer_version() == recorded_version()) return *golden.tolerance;
-  if (!gl::device_info().software) return {};
-  return Tolerance{16, 0.05, "another version than that which recorded them rasterises and rounds differently"};
-}
-
-struct Bytes {
-  int channels = 1;
-  std::vector<std::uint8_t> pixels;  // rows top to bottom
-};
-
-// What all goldens share. Scenes stay read, and programs compiled, from one to the next.
-class GoldenRenderer {
- public:
-  ParamSet params_of(const Golden& golden) const {
-    ParamSet params(render::Renderer::params(registry_));
-    registry_.select(params, golden.technique);
-    for (const char* setting : golden.settings) params.assign(setting);
-    return params;
-  }
-
-  Bytes draw(const Golden& golden) {
-    Loaded& loaded = load(golden.scene);
-    const ParamSet params = params_of(golden);
-    for (int i = 0; i < golden.frames; ++i) {
-      const double time = static_cast<double>(i) / frames_a_second;
-      renderer_.draw(*loaded.gpu,
-                     {.width = width,
-                      .height = height,
-                      .camera = loaded.setup.camera,
-                      .last_camera = loaded.setup.camera,
-                      .lights = {loaded.setup.sun},
-                      .time = time,
-                      .last_time = i == 0 ? time : time - 1.0 / frames_a_second,
-                      .cut = i == 0},
-                     params);
-    }
-    return to_bytes(golden, renderer_.read_aov(golden.aov));
-  }
-
- private:
-  struct Loaded {
-    scene::Scene scene;
-    render::Setup setup;
-    std::optional<scene::GpuScene> gpu;
-  };
-
-  Loaded& load(const std::string& name) {
-    const auto found = scenes_.find(name);
-    if (found != scenes_.end()) return found->second;
-    Loaded& loaded = scenes_[name];
-    loaded.scene = scene::read_gltf(fs::path(PENUMBRA_ROOT) / "scenes" / (name + ".glb"), image::image_decoder());
-    constexpr float aspect = static_cast<float>(width) / height;
-    loaded.setup = render::choose_setup(loaded.scene, scene::pose_at(loaded.scene, 0), {.aspect = aspect});
-    loaded.gpu.emplace(device_, loaded.scene);
-    return loaded;
-  }
-
-  static Bytes to_bytes(const Golden& golden, const std::vector<float>& values) {
-    const std::size_t channels = values.size() / (width * height);
-    Bytes bytes{.channels = channels == 1 ? 1 : 3, .pixels = {}};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const float share = (values[i] - golden.black) / (golden.white - golden.black);
-      bytes.pixels.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f))));
-      if (channels == 2 && i % 2 == 1) bytes.pixels.push_back(0);  // PNG has no two channels without alpha
-    }
-    return bytes;
-  }
-
-  gl::Device device_{gl::ShaderFiles(), gl::Timers::Mode::off};
-  std::map<std::string, Loaded> scenes_;
-  truth::TruthTechnique truth_{{.cache = {}}};
-  shadow::Registry registry_ = truth_.registry();
-  render::Renderer renderer_{device_, registry_};
-};
-
-Bytes read(const fs::path& path) {
-  const image::Picture picture = image::read_picture(path);
-  Bytes bytes{.channels = static_cast<int>(picture.channels.size()), .pixels = {}};
-  for (const float value : picture.pixels) bytes.pixels.push_back(static_cast<std::uint8_t>(std::lround(255 * value)));
-  return bytes;
-}
-
-// Of each pixel: the greatest difference of a channel.
-std::vector<int> differences(const Bytes& a, const Bytes& b) {
-  std::vector<int> result(static_cast<std::size_t>(width) * height);
-  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    int& greatest = result[i / static_cast<std::size_t>(a.channels)];
-    greatest = std::max(greatest, std::abs(a.pixels[i] - b.pixels[i]));
-  }
-  return result;
-}
-
-// False colour: black for none, the brightest for 32 of 255 and more.
-Bytes false_color(const std::vector<int>& differences) {
-  Bytes picture{.channels = 3, .pixels = {}};
-  for (const int difference : differences) {
-    const std::array<std::uint8_t, 3> color = metrics::heat_color(static_cast<float>(difference) / 32);
-    picture.pixels.insert(picture.pixels.end(), color.begin(), color.end());
-  }
-  return picture;
-}
-
-void write(const fs::path& path, const Bytes& bytes, int columns = width) {
-  image::write_png(path, columns, height, bytes.channels, bytes.pixels);
-}
-
-Bytes side_by_side(const std::array<Bytes, 3>& pictures) {
-  Bytes all{.channels = 3, .pixels = {}};
-  for (std::size_t y = 0; y < height; ++y) {
-    for (const Bytes& picture : pictures) {
-      const auto channels = static_cast<std::size_t>(picture.channels);
-      for (std::size_t i = y * width * 3; i < (y + 1) * width * 3; ++i)
-        all.pixels.push_back(picture.pixels[i / 3 * channels + (channels == 3 ? i % 3 : 0)]);
-    }
-  }
-  return all;
-}
-
 std::string command_of(const Golden& golden) {
   std::string command = fmt::format("build/release/penumbra render scenes/{}.glb --size {}x{} --technique {}",
-                                    golden.scene, width, height, golden.technique);
+                                    golden.scene, golden_width, golden_height, golden.technique);
+  if (golden.view != nullptr) {
+    command += fmt::format(" --eye={} --target={} --fov {}", fmt::join(golden.view->eye, ","),
+                           fmt::join(golden.view->target, ","), golden.view->fov);
+  }
   for (const char* setting : golden.settings) command += fmt::format(" --set {}", setting);
-  if (golden.frames > 1) command += fmt::format(" --frames 0:{} --fps {}", golden.frames - 1, frames_a_second);
+  if (golden.frames > 1) command += fmt::format(" --frames 0:{} --fps 24", golden.frames - 1);
   return command + fmt::format(" --aov {} -o {}.exr", golden.aov, golden.name);
-}
-
-// Writes what is needed to judge a failed golden, and says how to see it.
-std::string report(const Golden& golden, const Bytes& picture, const Bytes& reference,
-                   const std::vector<int>& difference) {
-  fs::create_directories(results());
-  const std::string base = (results() / golden.name).string();
-  const Bytes colored = false_color(difference);
-  write(base + "_picture.png", picture);
-  write(base + "_reference.png", reference);
-  write(base + "_difference.png", colored);
-  write(base + ".png", side_by_side({picture, reference, colored}), 3 * width);
-  return fmt::format(
-      "picture, reference and difference (brightest: 32 of 255) are {0}_picture.png, …_reference.png and "
-      "…_difference.png\n  see them side by side: xdg-open {0}.png\n  draw it by:            {1}\n"
-      "  if it is right:        scripts/goldens.sh {2}",
-      base, command_of(golden), golden.name);
 }
 
 class GoldenPictures : public GpuTest, public testing::WithParamInterface<Golden> {
  protected:
   GoldenPictures() {
-    if (renderer_) return;
-    renderer_ = std::make_unique<GoldenRenderer>();
-    if (recording()) {
-      fs::create_directories(folder());
-      std::ofstream(record_file()) << renderer_version() << "\n";
-    }
-    const bool same = renderer_version() == recorded_version();
-    if (!same) fmt::print("the golden pictures are of {}; this is {}\n", recorded_version(), renderer_version());
+    if (!renderer_) renderer_ = std::make_unique<GoldenRenderer>();
   }
   static void TearDownTestSuite() { renderer_.reset(); }
+
+  const Golden& golden() const { return GetParam(); }
+  GoldenPicture draw(const std::vector<const char*>& more = {}) const {
+    renderer_->draw(golden(), more);
+    return renderer_->picture(golden());
+  }
+  std::string recorded_version() const {
+    const GoldenVersions versions = read_versions(versions_file());
+    const auto found = versions.find(golden().name);
+    return found == versions.end() ? "an unknown renderer" : found->second;
+  }
+  // The tolerance on this renderer; none if the golden picture has none for it.
+  std::optional<Tolerance> tolerance_here() const {
+    if (version_here() == recorded_version()) return *golden().tolerance;
+    if (!gl::device_info().software) return {};
+    return tolerance_of_other_versions();
+  }
 
   static inline std::unique_ptr<GoldenRenderer> renderer_;
 };
 
 TEST_P(GoldenPictures, IsAsRecorded) {
-  const Golden& golden = GetParam();
-  const std::optional<Tolerance> tolerance = tolerance_here(golden);
-  if (!tolerance) GTEST_SKIP() << "skipped: golden pictures are of a software renderer, this is " << renderer_version();
-  const Bytes picture = renderer_->draw(golden);
   if (recording()) {
-    write(file_of(golden), picture);
+    write_golden(file_of(golden()), draw());
+    note_version(versions_file(), golden().name, version_here());
     return;
   }
-  ASSERT_TRUE(fs::exists(file_of(golden))) << file_of(golden) << " is missing; scripts/goldens.sh " << golden.name;
-  const Bytes reference = read(file_of(golden));
+  const std::optional<Tolerance> tolerance = tolerance_here();
+  if (!tolerance) GTEST_SKIP() << "skipped: golden pictures are of a software renderer, this is " << version_here();
+  ASSERT_TRUE(fs::exists(file_of(golden())))
+      << file_of(golden()) << " is missing; scripts/goldens.sh " << GetParam().name;
+  const GoldenPicture picture = draw();
+  const GoldenPicture reference = read_golden(file_of(golden()));
   ASSERT_EQ(picture.channels, reference.channels);
   ASSERT_EQ(picture.pixels.size(), reference.pixels.size());
-  const std::vector<int> difference = differences(picture, reference);
-  const auto off = std::ranges::count_if(difference, [&](int steps) { return steps > tolerance->steps; });
-  EXPECT_LE(static_cast<double>(off), tolerance->share * width * height)
-      << off << " pixels differ by more than " << tolerance->steps << " of 255, at most "
-      << *std::ranges::max_element(difference) << " (" << tolerance->reason << ")\n"
-      << report(golden, picture, reference, difference);
+  const GoldenComparison comparison = compare(picture, reference, *tolerance);
+  if (comparison.alike()) return;
+  const fs::path results = PENUMBRA_GOLDEN_RESULTS;
+  write_comparison(results, golden().name, picture, reference, comparison.differences);
+  ADD_FAILURE() << fmt::format(
+      "{} pixels differ by more than {} of 255, at most {} may; the greatest difference is {} ({})\n"
+      "  recorded with {}; this is {}\n"
+      "  picture, reference and difference (brightest: 32 of 255) are {}_picture.png, …_reference.png and "
+      "…_difference.png\n  see them side by side: xdg-open {}.png\n  draw it by:            {}\n"
+      "  if it is right:        scripts/goldens.sh {}",
+      comparison.off, tolerance->steps, comparison.allowed, *std::ranges::max_element(comparison.differences),
+      tolerance->reason, recorded_version(), version_here(), (results / golden().name).string(),
+      (results / golden().name).string(), command_of(golden()), golden().name);
+}
+
+// The picture with the background's colour in these pixels.
+GoldenPicture without(GoldenPicture picture, std::span<const std::size_t> pixels) {
+  const GoldenColor background = background_of(picture);
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  for (const std::size_t pixel : pixels) std::copy_n(background.begin(), channels, &picture.pixels[pixel * channels]);
+  return picture;
+}
+
+TEST_P(GoldenPictures, NoticesTheLossOfAThirdOfWhatItShows) {
+  if (recording()) return;
+  const GoldenPicture reference = read_golden(file_of(golden()));
+  for (const Tolerance& tolerance : {*golden().tolerance, tolerance_of_other_versions()}) {
+    EXPECT_TRUE(compare(reference, reference, tolerance).alike());
+    const std::vector<std::size_t> shown = shown_in(reference, tolerance.steps);
+    EXPECT_GE(shown.size(), 200u) << "it shows too little: choose another scene, camera or scale";
+    const std::size_t third = shown.size() / 3;
+    for (std::size_t first = 0; first + third <= shown.size(); first += third) {
+      const GoldenPicture lost = without(reference, std::span(shown).subspan(first, third));
+      EXPECT_FALSE(compare(lost, reference, tolerance).alike()) << first / third << ", " << tolerance.reason;
+    }
+  }
+}
+
+TEST_P(GoldenPictures, NoticesTheLossOfWhatItIsFor) {
+  if (recording()) return;
+  const GoldenPicture reference = read_golden(file_of(golden()));
+  for (const char* setting : golden().without) {
+    const GoldenPicture lost = draw({setting});
+    ASSERT_EQ(lost.pixels.size(), reference.pixels.size());
+    const GoldenComparison here = compare(lost, reference, *golden().tolerance);
+    EXPECT_GT(here.off, 2 * here.allowed) << "with " << setting << " it passes as the golden picture, or nearly so";
+    const GoldenComparison other = compare(lost, reference, tolerance_of_other_versions());
+    const bool first = setting == golden().without.front();
+    EXPECT_TRUE(!first || !other.alike())
+        << "with " << setting << " it passes on other versions of the renderer: " << other.off << " of "
+        << other.allowed;
+  }
+}
+
+TEST_P(GoldenPictures, ShowsTheHistoryThatItIsFor) {
+  if (recording() || !shows_history(golden(), truth::TruthTechnique({.cache = {}}).registry())) return;
+  renderer_->draw(golden());
+  const std::vector<float> visibility = renderer_->aov("shadow"), history = renderer_->aov("history");
+  int blended = 0;
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    const bool in_penumbra = visibility[i] > 0 && visibility[i] < 1;
+    if (in_penumbra && history[i] == static_cast<float>(HISTORY_KEPT)) ++blended;
+  }
+  EXPECT_GE(blended, 500) << "few pixels in a penumbra are blended with the last frames";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, GoldenPictures, testing::ValuesIn(goldens().begin(), goldens().end()),
                          [](const auto& golden) { return std::string(golden.param.name); });
 
-// The scenes on which a golden of this technique or preset shows the AOV "shadow".
-std::size_t scenes_of_technique(const std::string& name) {
-  std::set<std::string> scenes;
-  for (const Golden& golden : goldens()) {
-    if (golden.technique == name && golden.aov == std::string("shadow")) scenes.insert(golden.scene);
-  }
-  return scenes.size();
-}
-
-// The scenes on which a golden is denoised with this setting, by itself or by its preset.
-std::size_t scenes_with(const shadow::Registry& registry, const std::string& param, const std::string& word) {
-  std::set<std::string> scenes;
-  for (const Golden& golden : goldens()) {
-    ParamSet params(render::Renderer::params(registry));
-    registry.select(params, golden.technique);
-    for (const char* setting : golden.settings) params.assign(setting);
-    const shadow::Denoiser* denoiser = registry.find_denoiser(params.get_word("denoiser"));
-    const bool denoised = denoiser != nullptr && (!denoiser->applies || denoiser->applies(params));
-    if (denoised && params.get_word(param) == word) scenes.insert(golden.scene);
-  }
-  return scenes.size();
-}
-
-TEST(Goldens, EachTechniqueAndPresetHasTwoScenes) {
-  const truth::TruthTechnique truth{{.cache = {}}};
-  for (const std::string& name : truth.registry().names())
-    EXPECT_GE(scenes_of_technique(name), 2U) << name << " lacks golden pictures: add lines to tests/image/goldens.cpp";
-}
-
-TEST(Goldens, EachFilterHasOne) {
-  const truth::TruthTechnique truth{{.cache = {}}};
-  const shadow::Registry registry = truth.registry();
-  for (const shadow::Filter& filter : registry.filters()) {
-    const char* param = filter.of == shadow::Filter::Of::penumbra ? "filter.penumbra" : "filter.visibility";
-    EXPECT_GE(scenes_with(registry, param, filter.name), 1U) << filter.name << " lacks a golden picture";
-  }
-}
-
-TEST(Goldens, EachDenoiserHasTwoScenes) {
-  const truth::TruthTechnique truth{{.cache = {}}};
-  const shadow::Registry registry = truth.registry();
-  for (const shadow::Denoiser& denoiser : registry.denoisers()) {
-    EXPECT_GE(scenes_with(registry, "denoiser", denoiser.name), 2U)
-        << denoiser.name << " lacks golden pictures: add lines to tests/image/goldens.cpp";
-  }
-}
-
-TEST(Goldens, EachAovHasOne) {
-  for (const render::Aov& aov : render::aovs()) {
-    EXPECT_TRUE(std::ranges::any_of(goldens(), [&](const Golden& golden) { return golden.aov == aov.name; }))
-        << aov.name << " lacks a golden picture: add a line to tests/image/goldens.cpp";
-  }
-}
-
-TEST(Goldens, EachFileHasALineAndShowsSomething) {
-  std::set<std::string> names;
-  for (const Golden& golden : goldens()) EXPECT_TRUE(names.insert(golden.name).second) << golden.name << " twice";
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder())) {
-    if (entry.path().extension() != ".png") continue;
-    const std::string name = entry.path().stem();
-    EXPECT_TRUE(names.contains(name)) << entry.path() << " is of no line in tests/image/goldens.cpp: delete it";
-    const Bytes bytes = read(entry.path());
-    const auto [least, most] = std::ranges::minmax_element(bytes.pixels);
-    EXPECT_TRUE(*least < *most || name.starts_with("none_")) << name << " is of one grey";
-  }
+TEST(GoldenVersions, RecordingOnePictureKeepsTheVersionsOfTheOthers) {
+  const TempFolder temp;
+  const fs::path file = temp.path() / "recorded_with.txt";
+  note_version(file, "b", "llvmpipe, Mesa 22");
+  note_version(file, "a", "llvmpipe, Mesa 22");
+  note_version(file, "b", "llvmpipe, Mesa 23: new");
+  EXPECT_EQ(read_versions(file), (GoldenVersions{{"a", "llvmpipe, Mesa 22"}, {"b", "llvmpipe, Mesa 23: new"}}));
 }
 
 }  // namespace
