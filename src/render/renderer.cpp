@@ -86,11 +86,18 @@ std::vector<gl::ProgramDesc> Renderer::all_programs(const ParamSet& defaults) {
                    tone_map_programs()}) {
     std::move(programs.begin(), programs.end(), std::back_inserter(all));
   }
+  const auto of_casters = [](const gl::ProgramDesc& program) {
+    return program.vertex.empty() && program.compute.empty();
+  };
+  std::vector<gl::ProgramDesc> complete;
   for (gl::ProgramDesc& program : all) {
-    const bool of_casters = program.vertex.empty() && program.compute.empty();
-    if (of_casters) program = scene::GpuScene::with_caster_vertices(std::move(program));
+    if (of_casters(program)) {
+      std::ranges::move(scene::GpuScene::caster_geometry_programs(program), std::back_inserter(complete));
+    } else {
+      complete.push_back(std::move(program));
+    }
   }
-  return all;
+  return complete;
 }
 
 void Renderer::forget_view(int id) {

@@ -25,6 +25,9 @@ std::vector<shadow::Light> lights_of(std::span<const Light> lights) {
   return all;
 }
 
+// Homogeneous coordinates: a direction, or a position.
+glm::vec4 towards(const shadow::Sun& sun) { return {sun.to_light, 0}; }
+
 scene::Casters casters_of(shadow::CasterKind kind) {
   switch (kind) {
     case shadow::CasterKind::moved_now:
@@ -50,7 +53,8 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
   const auto draw = [&](const shadow::CasterPass& casters, gl::Pass& pass) {
     const auto reaches = [&](const scene::Bounds& box) { return casters.cull.holds(box_of(box)); };
     if (casters.kind == shadow::CasterKind::geometry) {
-      inputs.scene.draw_caster_geometry(device, pass, casters.program, casters.world_to_clip, reaches);
+      const glm::vec4 light = std::visit([](const auto& kind) { return towards(kind); }, casters.source);
+      inputs.scene.draw_caster_geometry(device, pass, casters.program, casters.world_to_clip, light, reaches);
     } else {
       inputs.scene.draw_casters(device, pass, casters_of(casters.kind), casters.world_to_clip, reaches);
     }

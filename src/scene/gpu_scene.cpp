@@ -181,6 +181,12 @@ void GpuScene::pose(gl::Device& device, double last_time, double time) {
 }
 
 void GpuScene::State::set_vertex_arrays() const {
+  unindexed.set({.positions = &positions,
+                 .last_positions = &positions,
+                 .frames = &frames,
+                 .surfaces = &surfaces,
+                 .instances = &instance_numbers,
+                 .indices = &indices});
   rigid.set({.positions = &positions,
              .last_positions = &positions,
              .frames = &frames,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
@@ -57,10 +58,11 @@ class GpuScene {
   // Draws the shadow casters: opaque surfaces, and masked and blended ones where their alpha passes.
   void draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
                     const BoxTest& reaches);
-  // Draws the triangles of opaque and masked casters with with_caster_vertices(stages): both faces, and without the
-  // alpha test of masked surfaces.
+  // Draws the triangles of opaque and masked casters with caster_geometry_programs(stages), without the alpha test of
+  // masked surfaces. Where only one face casts, a triangle whose other face is towards the light has all corners in one
+  // place. `light`: homogeneous world coordinates, with w = 0 for a direction to the light, else 1.
   void draw_caster_geometry(gl::Device& device, gl::Pass& pass, const gl::ProgramDesc& stages,
-                            const glm::mat4& world_to_clip, const BoxTest& reaches);
+                            const glm::mat4& world_to_clip, const glm::vec4& light, const BoxTest& reaches);
 
   const Scene& scene() const;
   // Unique among all scenes of this process, destroyed ones included; never 0.
@@ -75,8 +77,9 @@ class GpuScene {
   // The triangles of the present pose as shaders read them. Refers to the scene; waits for the GPU.
   PosedGeometry posed_geometry() const;
 
-  // Adds the casters' vertex shader, which writes only gl_Position, to a program of geometry and fragment shaders.
-  static gl::ProgramDesc with_caster_vertices(gl::ProgramDesc stages);
+  // The programs that a program of geometry and fragment shaders becomes with the casters' vertex shaders, which write
+  // only gl_Position: for surfaces of which both faces cast shadows, and for those of which one does.
+  static std::array<gl::ProgramDesc, 2> caster_geometry_programs(const gl::ProgramDesc& stages);
 
   // Every program that draw_casters() and pose() use.
   static std::vector<gl::ProgramDesc> programs();

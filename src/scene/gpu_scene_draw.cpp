@@ -60,6 +60,14 @@ Batch caster_batch(const Instance& instance, bool masked, bool flips) {
   return batch;
 }
 
+// The same draws for a vertex shader that reads the index buffer itself, at gl_VertexID.
+std::vector<gl::DrawArraysCommand> without_indices(std::span<const gl::DrawElementsCommand> commands) {
+  std::vector<gl::DrawArraysCommand> result;
+  for (const gl::DrawElementsCommand& command : commands)
+    result.push_back({command.index_count, command.instance_count, command.first_index, command.base_instance});
+  return result;
+}
+
 std::size_t triangles_of(const DrawList& list, const Batch& batch) {
   std::size_t triangles = 0;
   for (std::size_t i = batch.first; i < batch.first + batch.count; ++i)
@@ -93,21 +101,28 @@ void DrawList::add(const Instance& instance, std::uint32_t index, Batch batch) {
   ++batches.back().count;
 }
 
-void GpuScene::State::draw(gl::Device& device, gl::Pass& pass, const DrawList& list) const {
+void GpuScene::State::draw(gl::Device& device, gl::Pass& pass, const DrawList& list, bool indexed) const {
   if (list.commands.empty()) return;
-  constexpr std::size_t command_bytes = sizeof(gl::DrawElementsCommand);
-  const gl::Buffer& commands = device.scratch("draw commands", list.commands.size() * command_bytes);
-  commands.write(std::as_bytes(std::span(list.commands)));
+  const std::vector<gl::DrawArraysCommand> unindexed_commands =
+      indexed ? std::vector<gl::DrawArraysCommand>() : without_indices(list.commands);
+  const auto bytes = indexed ? std::as_bytes(std::span(list.commands)) : std::as_bytes(std::span(unindexed_commands));
+  const std::size_t command_bytes = bytes.size() / list.commands.size();
+  const gl::Buffer& commands = device.scratch("draw commands", bytes.size());
+  commands.write(bytes);
   instance_blocks.bind_storage(instances_binding);
   indices.bind_storage(indices_binding);
   for (const Batch& batch : list.batches) {
-    (batch.deformed ? deformed : rigid).bind();
+    (!indexed ? unindexed : batch.deformed ? deformed : rigid).bind();
     (batch.deformed ? now->positions : positions).bind_storage(positions_binding);
     pass.set_cull_back(!batch.double_sided);
     pass.set_front_clockwise(batch.mirrored);
     if (batch.material >= 0) materials.bind(batch.material);
-    pass.draw_elements_indirect(mode_of(batch.topology), GL_UNSIGNED_INT,
-                                {commands, batch.first * command_bytes, batch.count});
+    const gl::IndirectCommands draws{commands, batch.first * command_bytes, batch.count};
+    if (indexed) {
+      pass.draw_elements_indirect(mode_of(batch.topology), GL_UNSIGNED_INT, draws);
+    } else {
+      pass.draw_arrays_indirect(mode_of(batch.topology), draws);
+    }
     pass.count_draws(0, batch.topology == Topology::triangles ? triangles_of(list, batch) : 0);
   }
 }
@@ -183,30 +198,45 @@ void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, Casters casters,
   }
 }
 
-void GpuScene::State::draw_caster_geometry(gl::Device& device, gl::Pass& pass, const gl::Program& program,
-                                           const glm::mat4& world_to_clip, const BoxTest& reaches) const {
+// The casters of which these faces cast shadows.
+DrawList GpuScene::State::caster_geometry(std::optional<CasterFaces> faces, const BoxTest& reaches) const {
   DrawList list;
   for (std::uint32_t i = 0; i < instances.size(); ++i) {
     const Instance& instance = instances[i];
     const bool whole = instance.casts == Casts::always ||
                        (instance.casts == Casts::by_alpha && instance.alpha_mode == AlphaMode::mask);
-    if (!instance.faces || !whole || !reaches(instance.box)) continue;
+    if (instance.faces != faces || !whole || !reaches(instance.box)) continue;
     list.add(instance, i, {.deformed = instance.job >= 0, .double_sided = true});
   }
-  program.set("world_to_clip", world_to_clip);
-  draw(device, pass, list);
+  return list;
 }
 
 void GpuScene::draw_caster_geometry(gl::Device& device, gl::Pass& pass, const gl::ProgramDesc& stages,
-                                    const glm::mat4& world_to_clip, const BoxTest& reaches) {
-  state_->draw_caster_geometry(device, pass, pass.use(with_caster_vertices(stages)), world_to_clip, reaches);
+                                    const glm::mat4& world_to_clip, const glm::vec4& light, const BoxTest& reaches) {
+  const auto [both_faces, one_face] = caster_geometry_programs(stages);
+  if (const DrawList list = state_->caster_geometry(CasterFaces::both, reaches); !list.commands.empty()) {
+    pass.use(both_faces).set("world_to_clip", world_to_clip);
+    state_->draw(device, pass, list);
+  }
+  for (const CasterFaces faces : {CasterFaces::front, CasterFaces::back}) {
+    const DrawList list = state_->caster_geometry(faces, reaches);
+    if (list.commands.empty()) continue;
+    const gl::Program& program = pass.use(one_face);
+    program.set("world_to_clip", world_to_clip);
+    program.set("caster_light", light);
+    program.set("caster_side", faces == CasterFaces::front ? 1.0f : -1.0f);
+    state_->draw(device, pass, list, /*indexed=*/false);
+  }
 }
 
-gl::ProgramDesc GpuScene::with_caster_vertices(gl::ProgramDesc stages) {
+std::array<gl::ProgramDesc, 2> GpuScene::caster_geometry_programs(const gl::ProgramDesc& stages) {
   const gl::ProgramDesc caster = caster_program(/*masked=*/false, /*marks_moved=*/false, /*last_pose=*/false);
-  stages.vertex = caster.vertex;
-  stages.defines.insert(stages.defines.end(), caster.defines.begin(), caster.defines.end());
-  return stages;
+  gl::ProgramDesc both_faces = stages;
+  both_faces.vertex = caster.vertex;
+  both_faces.defines.insert(both_faces.defines.end(), caster.defines.begin(), caster.defines.end());
+  gl::ProgramDesc one_face = stages;
+  one_face.vertex = "scene/caster_face.vert";
+  return {both_faces, one_face};
 }
 
 std::vector<gl::ProgramDesc> GpuScene::programs() {

@@ -78,7 +78,7 @@ struct GpuScene::State {
   gl::Buffer positions, frames, surfaces, indices;  // of all primitives, undeformed
   gl::Buffer deformed_surfaces;
   gl::Buffer instance_numbers, instance_blocks;
-  VertexArray rigid{"rigid vertices"}, deformed{"deformed vertices"};
+  VertexArray rigid{"rigid vertices"}, deformed{"deformed vertices"}, unindexed{"instance numbers", /*vertices=*/false};
 
   std::array<PosedVertices, 2> posed;
   const PosedVertices* now = nullptr;
@@ -94,11 +94,11 @@ struct GpuScene::State {
   void update_instances();
   void choose_faces();
   void update_caster_bounds();
-  void draw(gl::Device& device, gl::Pass& pass, const DrawList& list) const;
+  // `indexed`: false for vertex shaders that read the index buffer themselves.
+  void draw(gl::Device& device, gl::Pass& pass, const DrawList& list, bool indexed = true) const;
   void draw_casters(gl::Device& device, gl::Pass& pass, const CasterDraw& which, const glm::mat4& world_to_clip,
                     const BoxTest& reaches) const;
-  void draw_caster_geometry(gl::Device& device, gl::Pass& pass, const gl::Program& program,
-                            const glm::mat4& world_to_clip, const BoxTest& reaches) const;
+  DrawList caster_geometry(std::optional<CasterFaces> faces, const BoxTest& reaches) const;
 };
 
 }  // namespace penumbra::scene

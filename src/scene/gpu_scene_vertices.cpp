@@ -72,12 +72,13 @@ std::uint32_t VertexStreams::append(const Primitive& primitive) {
   return static_cast<std::uint32_t>(first);
 }
 
-VertexArray::VertexArray(std::string_view label) {
+VertexArray::VertexArray(std::string_view label, bool vertices) {
   GLuint id = 0;
   gl::glCreateVertexArrays(1, &id);
   handle_ = gl::Handle<delete_vertex_array>(id);
   gl::label(GL_VERTEX_ARRAY, id, label);
   for (const Attribute& attribute : attributes) {
+    if (!vertices) break;
     gl::glEnableVertexArrayAttrib(id, attribute.location);
     gl::glVertexArrayAttribFormat(id, attribute.location, attribute.components, attribute.type,
                                   attribute.normalized ? GL_TRUE : GL_FALSE, static_cast<GLuint>(attribute.offset));

@@ -42,10 +42,11 @@ struct VertexSource {
 
 void delete_vertex_array(GLuint id);
 
-// The vertex format of glsl/scene/surface.vert and caster.vert.
+// The vertex format of glsl/scene/surface.vert and caster.vert. Without `vertices` it has the instance numbers alone,
+// for vertex shaders that read the rest from storage buffers.
 class VertexArray {
  public:
-  explicit VertexArray(std::string_view label);
+  explicit VertexArray(std::string_view label, bool vertices = true);
   void set(const VertexSource& source) const;
   void bind() const;
 

@@ -57,19 +57,21 @@ enum class CasterKind {
   moved_now,        // casters that moved, at their present positions; output 0 is 1
   moved_last,       // casters that moved, at their last positions; output 0 is 1
   geometry,         // triangles for the technique's own shaders: see CasterPass::program. Opaque casters, and
-                    // alpha-tested ones as whole triangles; no blended surfaces
+                    // alpha-tested ones as whole triangles; no blended surfaces. A triangle that casts no shadow,
+                    // because only the surface's other face does, is left out or has all corners in one place
 };
 
 // One call to the caller's code: draw these casters with these matrices. The framebuffer, viewport, depth test and
 // culling state are set; the callback binds its own programs and vertex arrays. Both sides of every triangle cast
-// shadows, and polygon offset stays off. A caster that is drawn in several of these passes must get bit-identical
-// depths in each, so compute positions by the same expressions (`invariant gl_Position`). The kinds from
-// depth_and_moved to moved_last are requested only when the denoiser keeps a history.
+// shadows unless the caller decides otherwise, and polygon offset stays off. A caster that is drawn in several of these
+// passes must get bit-identical depths in each, so compute positions by the same expressions (`invariant gl_Position`).
+// The kinds from depth_and_moved to moved_last are requested only when the denoiser keeps a history.
 struct CasterPass {
   CasterKind kind = CasterKind::depth;
   int layer = 0;               // of the light's shadow map; 0 for kind `geometry`
   glm::mat4 world_to_clip{1};  // of this frame, also for moved_last
   CullVolume cull;
+  LightSource source;  // of the light: where only one face of a surface casts shadows, which one faces the light
   // For kind `geometry`: the technique's geometry and fragment shaders and their defines, without a vertex shader. The
   // callback adds its own vertex shader, which writes gl_Position = world_to_clip * world position (the matrix may be
   // the identity) and no other output that later stages read, and draws each triangle once, as GL_TRIANGLES. It must

@@ -139,7 +139,8 @@ void PassContext::draw_casters(gl::Pass& pass, CasterKind kind, int layer) const
   work_.inputs.draw({.kind = kind,
                      .layer = layer,
                      .world_to_clip = projection.world_to_clip(layer),
-                     .cull = projection.cull_volume(layer)},
+                     .cull = projection.cull_volume(layer),
+                     .source = light().source},
                     pass);
 }
 
@@ -150,6 +151,7 @@ void PassContext::draw_caster_geometry(gl::Pass& pass, std::string_view program,
                      .layer = 0,
                      .world_to_clip = world_to_clip,
                      .cull = work_.frame.projection.cull_volume_of_all(),
+                     .source = light().source,
                      .program = own_program(program)},
                     pass);
 }

@@ -87,7 +87,8 @@ class PassContext {
   void draw_casters(gl::Pass& pass, CasterKind kind, int layer) const;
   // Draws the triangles of the caller's casters with the geometry and fragment shaders of one of the owner's
   // `programs`: gl_in[].gl_Position is world_to_clip times the world position. Binds the same inputs as use(). Casters
-  // that can't shadow any receiver of the view are culled. Throws Error without Inputs::draw.
+  // that can't shadow any receiver of the view are culled; a triangle that casts no shadow because of its facing may
+  // arrive with all three corners in one place. Throws Error without Inputs::draw.
   void draw_caster_geometry(gl::Pass& pass, std::string_view program, const glm::mat4& world_to_clip) const;
 
  protected:
