@@ -26,24 +26,25 @@ Pass::Pass(Device& device, const PassDesc& desc)
   check();
 }
 
-// No framebuffer keeps a foreign texture beyond the pass, so that its memory is freed when its owner deletes it.
-Pass::~Pass() {
-  for (const GLenum point : foreign_) glNamedFramebufferTexture(framebuffer_, point, 0, 0);
+Pass::ForeignAttachments::~ForeignAttachments() {
+  if (framebuffer == 0) return;
+  for (const GLenum point : points) glNamedFramebufferTexture(framebuffer, point, 0, 0);
 }
 
 void Pass::bind(const PassDesc& desc) {
-  framebuffer_ = device_.framebuffer(desc.name, desc.colors, desc.depth ? &*desc.depth : nullptr);
   for (std::size_t i = 0; i < desc.colors.size(); ++i) {
-    if (desc.colors[i].texture->is_foreign()) foreign_.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i));
+    if (desc.colors[i].texture->is_foreign()) foreign_.points.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i));
   }
   if (desc.depth && desc.depth->texture->is_foreign()) {
-    foreign_.push_back(depth_attachment_point(*desc.depth->texture));
+    foreign_.points.push_back(depth_attachment_point(*desc.depth->texture));
   }
+  const GLuint framebuffer = device_.framebuffer(desc.name, desc.colors, desc.depth ? &*desc.depth : nullptr);
+  foreign_.framebuffer = framebuffer;
   const Attachment& first = desc.colors.empty() ? *desc.depth : desc.colors.front();
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   set_viewport(0, 0, std::max(1, first.texture->width() >> first.level),
                std::max(1, first.texture->height() >> first.level));
-  begin_raster_state(framebuffer_, desc);
+  begin_raster_state(framebuffer, desc);
   glBindVertexArray(device_.empty_vertex_array());
 }
 

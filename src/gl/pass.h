@@ -38,7 +38,6 @@ class Pass {
  public:
   // Throws Error when the driver refuses the attachments, or a stencil is described and the depth texture has none.
   Pass(Device& device, const PassDesc& desc);
-  ~Pass();
   Pass(const Pass&) = delete;
   Pass& operator=(const Pass&) = delete;
 
@@ -66,6 +65,19 @@ class Pass {
   void count_draws(std::size_t draws, std::size_t triangles) { device_.timers.count({draws, triangles, 0}); }
 
  private:
+  // The attachment points of a framebuffer that hold textures which Penumbra did not make. They are detached at the
+  // end, so that no framebuffer keeps a foreign texture's memory beyond the pass; also when the pass throws while it
+  // begins.
+  struct ForeignAttachments {
+    ForeignAttachments() = default;
+    ~ForeignAttachments();
+    ForeignAttachments(const ForeignAttachments&) = delete;
+    ForeignAttachments& operator=(const ForeignAttachments&) = delete;
+
+    GLuint framebuffer = 0;
+    std::vector<GLenum> points;
+  };
+
   void bind(const PassDesc& desc);
   void check() const;
 
@@ -74,8 +86,7 @@ class Pass {
   Timers::Scope timer_;
   bool debug_;
   const Program* program_ = nullptr;
-  GLuint framebuffer_ = 0;
-  std::vector<GLenum> foreign_;  // attachment points that hold textures which Penumbra did not make
+  ForeignAttachments foreign_;
 };
 
 // Unbinds textures and samplers from the first `count` units.

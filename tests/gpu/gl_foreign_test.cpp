@@ -21,6 +21,24 @@ class GlForeign : public test::GlPassTest {
     }
     return id;
   }
+
+  // How many framebuffers have the texture attached, as colour or as depth.
+  static int framebuffers_with(GLuint id) {
+    int count = 0;
+    for (GLuint framebuffer = 1; framebuffer < 50; ++framebuffer) {
+      if (gl::glIsFramebuffer(framebuffer) == GL_FALSE) continue;
+      for (const GLenum point : {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_DEPTH_ATTACHMENT}) {
+        GLint type = 0, name = 0;
+        gl::glGetNamedFramebufferAttachmentParameteriv(framebuffer, point, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE,
+                                                       &type);
+        if (type != GL_TEXTURE) continue;
+        gl::glGetNamedFramebufferAttachmentParameteriv(framebuffer, point, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME,
+                                                       &name);
+        if (static_cast<GLuint>(name) == id) ++count;
+      }
+    }
+    return count;
+  }
 };
 
 TEST_F(GlForeign, TheCallersDepthTextureIsTestedAgainstAtItsLevelAndLayer) {
@@ -53,17 +71,33 @@ TEST_F(GlForeign, ItOutlivesItsWrapperAndNoFramebufferKeepsIt) {
     draw({.name = "p", .colors = {{.texture = &engine}}}, glm::vec4(3));
   }
   EXPECT_TRUE(gl::glIsTexture(id));
-  for (GLuint framebuffer = 1; framebuffer < 50; ++framebuffer) {
-    if (gl::glIsFramebuffer(framebuffer) == GL_FALSE) continue;
-    GLint attached = 0;
-    gl::glGetNamedFramebufferAttachmentParameteriv(framebuffer, GL_COLOR_ATTACHMENT0,
-                                                   GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &attached);
-    if (attached != GL_TEXTURE) continue;
-    gl::glGetNamedFramebufferAttachmentParameteriv(framebuffer, GL_COLOR_ATTACHMENT0,
-                                                   GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME, &attached);
-    EXPECT_NE(static_cast<GLuint>(attached), id);
-  }
+  EXPECT_EQ(framebuffers_with(id), 0);
   gl::glDeleteTextures(1, &id);
+}
+
+TEST_F(GlForeign, APassThatThrowsWhileItBeginsKeepsNone) {
+  const GLuint color_id = make(GL_TEXTURE_2D, GL_R32F, 1), depth_id = make(GL_TEXTURE_2D, GL_DEPTH_COMPONENT24, 1);
+  const gl::Texture engine_color = gl::Texture::wrap(color_id, gl::describe("color", color_id));
+  const gl::Texture engine_depth = gl::Texture::wrap(depth_id, gl::describe("depth", depth_id));
+  const gl::PassDesc desc{
+      .name = "p", .colors = {{.texture = &engine_color}}, .depth = gl::Attachment{.texture = &engine_depth}};
+  {
+    const gl::Pass pass(device, desc);
+    EXPECT_EQ(framebuffers_with(color_id), 1);
+    EXPECT_EQ(framebuffers_with(depth_id), 1);
+  }
+  gl::PassDesc without_stencil = desc;
+  without_stencil.stencil = gl::Stencil{};
+  EXPECT_EQ(message_of([&] { test::clear(device, without_stencil); }),
+            "pass 'p': it tests stencil, and its depth texture has none");
+  EXPECT_EQ(framebuffers_with(color_id), 0) << "refused by the pass";
+  EXPECT_EQ(framebuffers_with(depth_id), 0) << "refused by the pass";
+  gl::glEnable(GL_TEXTURE_2D_ARRAY);  // an error of the caller's, which the pass finds while it begins
+  EXPECT_NE(message_of([&] { test::clear(device, desc); }), "");
+  EXPECT_EQ(framebuffers_with(color_id), 0) << "an earlier error";
+  EXPECT_EQ(framebuffers_with(depth_id), 0) << "an earlier error";
+  gl::glDeleteTextures(1, &color_id);
+  gl::glDeleteTextures(1, &depth_id);
 }
 
 TEST_F(GlForeign, ATextureThatReusesTheIdIsDrawnTo) {
