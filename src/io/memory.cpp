@@ -26,43 +26,22 @@ std::optional<std::size_t> kilobytes(const char* file, const std::string& label)
   return {};
 }
 
-std::optional<std::size_t> number_in(const char* file) {
+// Nothing for a file that is missing or contains "max".
+std::optional<std::size_t> number_in(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::size_t number = 0;
   if (stream >> number) return number;
-  return {};  // missing, or "max"
+  return {};
 }
 
 // The number behind `label` in a file of lines "label number".
-std::size_t count_in(const char* file, const std::string& label) {
+std::size_t count_in(const std::filesystem::path& file, const std::string& label) {
   std::ifstream stream(file);
   std::size_t count = 0;
   for (std::string word; stream >> word >> count;) {
     if (word == label) return count;
   }
   return 0;
-}
-
-// Memory left in the control group. Inside a container, the container's group is visible as the root group. Its usage
-// includes the page cache, which the kernel frees when a process needs memory.
-std::size_t left_of_group() {
-  struct Files {
-    const char *limit, *used, *statistics, *inactive_cache, *active_cache;
-  };
-  constexpr Files versions[] = {
-      {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current", "/sys/fs/cgroup/memory.stat", "inactive_file",
-       "active_file"},
-      {"/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes",
-       "/sys/fs/cgroup/memory/memory.stat", "total_inactive_file", "total_active_file"}};
-  std::size_t least = unlimited;
-  for (const Files& files : versions) {
-    const auto limit = number_in(files.limit);
-    if (!limit) continue;
-    const std::size_t cache =
-        count_in(files.statistics, files.inactive_cache) + count_in(files.statistics, files.active_cache);
-    least = std::min(least, left(*limit, left(number_in(files.used).value_or(0), cache)));
-  }
-  return least;
 }
 
 }  // namespace
@@ -73,9 +52,29 @@ std::size_t available_address_space() {
   return left(limit.rlim_cur, kilobytes("/proc/self/status", "VmSize:").value_or(0));
 }
 
+// Inside a container, the container's group is visible as the root group.
+std::size_t available_in_group(const std::filesystem::path& root) {
+  struct Files {
+    const char *limit, *used, *statistics, *inactive_cache, *active_cache;
+  };
+  constexpr Files versions[] = {{"memory.max", "memory.current", "memory.stat", "inactive_file", "active_file"},
+                                {"memory/memory.limit_in_bytes", "memory/memory.usage_in_bytes", "memory/memory.stat",
+                                 "total_inactive_file", "total_active_file"}};
+  const std::filesystem::path folder = root / "sys/fs/cgroup";
+  std::size_t least = unlimited;
+  for (const Files& files : versions) {
+    const auto limit = number_in(folder / files.limit);
+    if (!limit) continue;
+    const std::filesystem::path statistics = folder / files.statistics;
+    const std::size_t cache = count_in(statistics, files.inactive_cache) + count_in(statistics, files.active_cache);
+    least = std::min(least, left(*limit, left(number_in(folder / files.used).value_or(0), cache)));
+  }
+  return least;
+}
+
 std::size_t available_memory() {
-  return std::min(
-      {kilobytes("/proc/meminfo", "MemAvailable:").value_or(unlimited), available_address_space(), left_of_group()});
+  return std::min({kilobytes("/proc/meminfo", "MemAvailable:").value_or(unlimited), available_address_space(),
+                   available_in_group()});
 }
 
 }  // namespace penumbra::io

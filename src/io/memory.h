@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 
 namespace penumbra::io {
 
@@ -9,9 +10,13 @@ namespace penumbra::io {
 // Bytes of address space left under the process's own limit (ulimit -v).
 std::size_t available_address_space();
 
+// Bytes that the process's control group (a container's limit) leaves, by cgroup v1 or v2. What the kernel counts as
+// used includes the page cache, which it frees when a process needs memory, so the cache does not count here. `root`:
+// the folder in which sys/fs/cgroup is looked up.
+std::size_t available_in_group(const std::filesystem::path& root = "/");
+
 // Bytes of memory that this process can still use before the system or a limit refuses more: the least of what the
-// machine has left (MemAvailable in /proc/meminfo), available_address_space(), and what its control group leaves (a
-// container's limit).
+// machine has left (MemAvailable in /proc/meminfo), available_address_space() and available_in_group().
 std::size_t available_memory();
 
 }  // namespace penumbra::io
