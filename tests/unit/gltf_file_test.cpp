@@ -4,6 +4,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdlib>
+#include <utility>
+
 #include "support/gltf_files.h"
 
 namespace penumbra::test {
@@ -156,6 +159,60 @@ TEST(GltfFile, ReadsNothingOutsideTheScenesFolder) {
   for (const char* uri : {"link.bin", "up/secret.bin"})
     expect_refused(folder.write("scene.gltf", triangle_with_buffer(uri)),
                    "leads out of the scene's folder by a symbolic link; --follow-links allows it");
+}
+
+// While it lives, the process has no rights but those of everyone. Without effect for other users than root.
+class WithoutRights {
+ public:
+  WithoutRights() : was_root_(geteuid() == 0 && seteuid(65534) == 0) {}
+  ~WithoutRights() {
+    if (was_root_ && seteuid(0) != 0) std::abort();
+  }
+  WithoutRights(const WithoutRights&) = delete;
+  WithoutRights& operator=(const WithoutRights&) = delete;
+
+ private:
+  bool was_root_;
+};
+
+TEST(GltfFile, SaysWhyAFileOfTheSceneCantBeRead) {
+  const ScratchFolder folder;
+  folder.write("locked.bin", triangle_bytes);
+  folder.write("closed/data.bin", triangle_bytes);
+  std::filesystem::create_directories(folder.scene() / "folder.bin");
+  ASSERT_EQ(mkfifo((folder.scene() / "pipe.bin").c_str(), 0600), 0);
+  std::filesystem::create_symlink("loop.bin", folder.scene() / "loop.bin");
+  std::filesystem::create_symlink("nowhere.bin", folder.scene() / "dangling.bin");
+  ASSERT_EQ(chmod((folder.scene() / "locked.bin").c_str(), 0), 0);
+  ASSERT_EQ(chmod((folder.scene() / "closed").c_str(), 0), 0);
+  const std::string longest(300, 'a');
+  const std::pair<std::string, std::string> causes[] = {
+      {"missing.bin", "'missing.bin' not found"},
+      {"missing/data.bin", "'missing/data.bin' not found"},
+      {"dangling.bin", "'dangling.bin' not found"},
+      {"folder.bin", "'folder.bin': not a regular file"},
+      {"pipe.bin", "'pipe.bin': not a regular file"},
+      {"locked.bin", "'locked.bin': can't be read: Permission denied"},
+      {"closed/data.bin", "'closed/data.bin' can't be read: Permission denied"},
+      {"locked.bin/data.bin", "'locked.bin/data.bin' not found"},
+      {"loop.bin", "'loop.bin' can't be read: Too many levels of symbolic links"},
+      {longest, "' can't be read: File name too long"},
+      {"../data.bin", "'../data.bin' leads out of the scene's folder"},
+      {"/etc/passwd", "'/etc/passwd' is an absolute path"},
+      {"a%00.bin", "'a%00.bin' holds a zero byte"},
+      {"http://localhost/a.bin", "'http://localhost/a.bin' is not a file beside the scene"},
+      {"", "an empty URI"},
+  };
+  for (const bool follow_links : {false, true}) {
+    for (const auto& [uri, cause] : causes) {
+      const auto scene = folder.write("scene.gltf", triangle_with_buffer(uri));
+      const WithoutRights everyone;
+      const std::string message = error_of([&] { scene::read_gltf(scene, no_image, {.follow_links = follow_links}); });
+      EXPECT_EQ(message.find(scene.string() + ": buffers[0]: "), 0u) << message;
+      EXPECT_NE(message.find(cause), std::string::npos) << message << (follow_links ? ", follows links" : "");
+    }
+  }
+  chmod((folder.scene() / "closed").c_str(), 0700);
 }
 
 TEST(GltfFile, FollowsLinksOnlyIfAsked) {
