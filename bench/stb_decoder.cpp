@@ -21,11 +21,35 @@ namespace {
 
 constexpr int rgba = 4;
 
-scene::ImageHeader probe(std::span<const std::byte> encoded) {
-  if (encoded.size() > INT_MAX) fail("{} bytes are too many for an image", encoded.size());
+// A file that stb_image reads from its beginning.
+struct Cursor {
+  const scene::ReadAt& file;
+  std::size_t offset = 0, count = 0;  // where it reads next, and what it has read
+  bool ended = false;
+
+  static constexpr std::size_t most = std::size_t{32} << 20;  // bytes: no header is that far away
+
+  static int read(void* user, char* data, int size) {
+    Cursor& at = *static_cast<Cursor*>(user);
+    const auto wanted = at.count < most ? static_cast<std::size_t>(size) : 0;
+    const std::size_t got = at.file(at.offset, std::as_writable_bytes(std::span(data, wanted)));
+    at.offset += got;
+    at.count += got;
+    at.ended = got < static_cast<std::size_t>(size);
+    return static_cast<int>(got);
+  }
+  static void skip(void* user, int size) {
+    Cursor& at = *static_cast<Cursor*>(user);
+    at.offset = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at.offset) + size);
+  }
+  static int eof(void* user) { return static_cast<Cursor*>(user)->ended ? 1 : 0; }
+};
+
+scene::ImageHeader probe(const scene::ReadAt& file) {
+  constexpr stbi_io_callbacks callbacks{.read = Cursor::read, .skip = Cursor::skip, .eof = Cursor::eof};
+  Cursor cursor{file};
   scene::ImageHeader header;
-  if (stbi_info_from_memory(reinterpret_cast<const stbi_uc*>(encoded.data()), static_cast<int>(encoded.size()),
-                            &header.width, &header.height, &header.channels) == 0)
+  if (stbi_info_from_callbacks(&callbacks, &cursor, &header.width, &header.height, &header.channels) == 0)
     fail("neither PNG nor JPEG");
   if (header.width < 1 || header.height < 1) fail("an image without pixels");
   header.decoded_bytes = static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height) * rgba;
@@ -33,7 +57,8 @@ scene::ImageHeader probe(std::span<const std::byte> encoded) {
 }
 
 scene::Image decoded(std::span<const std::byte> encoded, const std::string& name, std::size_t max_pixels) {
-  scene::ImageHeader header = probe(encoded);
+  if (encoded.size() > INT_MAX) fail("{} bytes are too many for an image", encoded.size());
+  scene::ImageHeader header = probe(scene::reader_of(encoded));
   const auto columns = static_cast<std::size_t>(header.width), rows = static_cast<std::size_t>(header.height);
   if (rows > max_pixels / columns)
     fail("{} x {} pixels, over the limit of {}", header.width, header.height, max_pixels);

@@ -10,7 +10,10 @@
 
 namespace penumbra {
 
-std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t limit) {
+namespace {
+
+// The size of a regular file; throws Error for others.
+std::size_t size_of(const std::filesystem::path& path, std::size_t limit) {
   std::error_code code;
   const auto status = std::filesystem::status(path, code);
   if (code && code != std::errc::no_such_file_or_directory) fail("can't be read: {}", code.message());
@@ -20,6 +23,13 @@ std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t 
   const auto size = std::filesystem::file_size(path, code);
   if (code) fail("can't be read: {}", code.message());
   if (size > limit) fail("{} bytes, over the limit of {}", size, limit);
+  return size;
+}
+
+}  // namespace
+
+std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t limit) {
+  const std::size_t size = size_of(path, limit);
   std::ifstream stream(path, std::ios::binary);
   if (!stream) fail("can't be read: {}", std::strerror(errno));
   std::vector<std::byte> bytes;
@@ -31,6 +41,20 @@ std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t 
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (stream.gcount() != static_cast<std::streamsize>(bytes.size())) fail("can't be read to its end");
   return bytes;
+}
+
+FileParts::FileParts(const std::filesystem::path& path, std::size_t limit) {
+  size_of(path, limit);
+  stream_.rdbuf()->pubsetbuf(nullptr, 0);  // reads no more than it is asked for
+  stream_.open(path, std::ios::binary);
+  if (!stream_) fail("can't be read: {}", std::strerror(errno));
+}
+
+std::size_t FileParts::read(std::size_t offset, std::span<std::byte> to) {
+  stream_.clear();
+  stream_.seekg(static_cast<std::streamoff>(offset));
+  stream_.read(reinterpret_cast<char*>(to.data()), static_cast<std::streamsize>(to.size()));
+  return static_cast<std::size_t>(stream_.gcount());
 }
 
 }  // namespace penumbra

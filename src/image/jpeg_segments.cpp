@@ -12,9 +12,6 @@ constexpr std::byte marker_prefix{0xFF}, stuffing{0x00};
 
 bool is_restart(std::byte marker) { return marker >= std::byte{0xD0} && marker <= std::byte{0xD7}; }
 
-// TEM, RST0 to RST7, SOI and EOI have no length.
-bool stands_alone(std::uint8_t marker) { return marker == 0x01 || (marker >= 0xD0 && marker <= 0xD9); }
-
 }  // namespace
 
 JpegSegment JpegSegments::next() {
@@ -26,7 +23,7 @@ JpegSegment JpegSegments::next() {
   if (rest_.size() < 2) return {};
   const auto marker = std::to_integer<std::uint8_t>(rest_[1]);
   std::size_t size = 2;
-  if (!stands_alone(marker)) {
+  if (!jpeg::stands_alone(marker)) {
     if (rest_.size() < 4) fail("JPEG ends inside a segment");
     size += big_endian(rest_, 2, 2);
     if (size < 4) fail("JPEG has a segment of a wrong length");

@@ -36,6 +36,9 @@ constexpr std::uint8_t app0 = 0xE0, app14 = 0xEE;
 constexpr bool is_frame_header(std::uint8_t marker) {
   return marker >= 0xC0 && marker <= 0xCF && marker != huffman && marker != arithmetic && marker != 0xC8;
 }
+
+// TEM, RST0 to RST7, SOI and EOI have no length.
+constexpr bool stands_alone(std::uint8_t marker) { return marker == 0x01 || (marker >= 0xD0 && marker <= 0xD9); }
 }  // namespace jpeg
 
 }  // namespace penumbra::image

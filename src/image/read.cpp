@@ -63,7 +63,7 @@ scene::ImageDecoder image_decoder(const scene::ReadLimits& limits) {
   return {[max_pixels = limits.image_pixels](std::span<const std::byte> encoded, const std::string& name) {
             return read_image(encoded, name, max_pixels);
           },
-          probe};
+          [](const scene::ReadAt& file) { return probe(file); }};
 }
 
 }  // namespace penumbra::image

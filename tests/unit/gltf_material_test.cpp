@@ -3,7 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <utility>
 
+#include "image/read.h"
 #include "support/gltf_files.h"
 #include "support/scene_faults.h"
 
@@ -162,7 +167,7 @@ TEST(GltfMaterial, KnowsWhatAllImagesTakeBeforeTheFirstIsDecoded) {
         ++decoded;
         return any_image(bytes, name);
       },
-      [](std::span<const std::byte>) {
+      [](const scene::ReadAt&) {
         return scene::ImageHeader{.width = 1 << 12, .height = 1 << 12, .channels = 3, .decoded_bytes = 64 << 20};
       });
   const std::string message =
@@ -177,6 +182,36 @@ TEST(GltfMaterial, KnowsWhatAllImagesTakeBeforeTheFirstIsDecoded) {
   EXPECT_EQ(decoded, 0);
   EXPECT_NO_THROW(scene::read_gltf(file, counting, {.limits = {.image_bytes = 128 << 20}}));
   EXPECT_EQ(decoded, 2);
+}
+
+// Bytes that this process has read from files; nothing without /proc.
+std::optional<std::size_t> bytes_read() {
+  std::ifstream stream("/proc/self/io");
+  std::string label;
+  std::size_t count = 0;
+  if (stream >> label >> count && label == "rchar:") return count;
+  return {};
+}
+
+TEST(GltfMaterial, ReadsNoMoreThanTheHeadersOfImagesThatAreTooLarge) {
+  using namespace std::string_literals;
+  constexpr std::uintmax_t size = 900 << 20;  // the rest is a hole in the file
+  const std::string png = "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\x01\0\0\0\x01\0\0\x08\x06\0\0\0"s;
+  const std::string jpeg =
+      "\xff\xd8\xff\xe1\xff\xff"s + std::string(65533, 'x') + "\xff\xc0\0\x0b\x08\xff\xff\xff\xff\x01\x01\x11\0"s;
+  for (const auto& [name, head] : {std::pair("a.png", png), {"b.jpg", jpeg}}) {
+    const ScratchFolder folder;
+    std::filesystem::resize_file(folder.write(name, head), size);
+    std::string text = with_material(R"("emissiveTexture":{"index":0})");
+    const std::string data = "data:;base64,AAAA";
+    const auto file = folder.write("scene.gltf", text.replace(text.find(data), data.size(), name));
+    const std::optional<std::size_t> before = bytes_read();
+    const std::string message = error_of([&] { scene::read_gltf(file, image::image_decoder()); });
+    EXPECT_NE(message.find("pixels, over the limit of"), std::string::npos) << message;
+    if (before) {
+      EXPECT_LT(*bytes_read() - *before, 1u << 20) << name;
+    }
+  }
 }
 
 }  // namespace

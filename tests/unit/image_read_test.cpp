@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "image/bytes.h"
 #include "image/precheck.h"
 #include "image/probe.h"
@@ -161,6 +164,54 @@ TEST(ImageProbe, RefusesWhatHasNoSize) {
   flat[19] = std::byte{0};
   EXPECT_EQ(error_of([&] { image::probe(flat); }), "an image without pixels");
   EXPECT_EQ(error_of([] { image::probe(bytes_of("GIF89a, and so on")); }), "neither PNG nor JPEG");
+}
+
+// A JPEG with so many segments of 64 KiB before its header, whose contents no memory holds; counts the bytes that are
+// read of it.
+struct SegmentedJpeg {
+  std::size_t segments = 0;
+  std::size_t read = 0;
+
+  scene::ReadAt reader() {
+    return [this](std::size_t offset, std::span<std::byte> to) {
+      const std::string frame = jpeg_8x8().substr(jpeg_8x8().find("\xff\xc0"));
+      const std::size_t end = 2 + segments * 65537 + frame.size();
+      const std::size_t count = std::min(to.size(), end - std::min(offset, end));
+      for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<std::byte>(at(offset + i, frame));
+      read += count;
+      return count;
+    };
+  }
+  char at(std::size_t i, const std::string& frame) const {
+    if (i < 2) return "\xff\xd8"[i];
+    const std::size_t in_segments = i - 2;
+    if (in_segments >= segments * 65537) return frame[in_segments - segments * 65537];
+    constexpr std::string_view head = "\xff\xe2\xff\xff";
+    return in_segments % 65537 < head.size() ? head[in_segments % 65537] : 'x';
+  }
+};
+
+TEST(ImageProbe, SkipsWhatLiesBeforeAJpegsHeader) {
+  SegmentedJpeg jpeg{.segments = 10'000};  // 625 MiB
+  const scene::ImageHeader header = image::probe(jpeg.reader());
+  EXPECT_EQ(header.width, 8);
+  EXPECT_EQ(header.height, 8);
+  EXPECT_LT(jpeg.read, 8u << 20);
+}
+
+TEST(ImageProbe, GivesUpOnAHeaderThatIsTooFarAway) {
+  SegmentedJpeg segments{.segments = 1 << 20};
+  EXPECT_EQ(error_of([&] { image::probe(segments.reader()); }), "JPEG has too much before its header");
+  EXPECT_LT(segments.read, 33u << 20);
+  std::size_t read = 0;
+  const scene::ReadAt endless = [&](std::size_t offset, std::span<std::byte> to) {
+    std::ranges::fill(to, std::byte{0});
+    if (offset == 0) std::ranges::copy(bytes_of("\xff\xd8\xff"), to.begin());
+    read += to.size();
+    return to.size();
+  };
+  EXPECT_EQ(error_of([&] { image::probe(endless); }), "JPEG has too much before its header");
+  EXPECT_LT(read, 33u << 20);
 }
 
 // The checksum of a PNG's chunk, bit by bit (PNG specification, annex D).

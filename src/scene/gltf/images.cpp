@@ -29,13 +29,17 @@ std::vector<std::byte> ImageReader::load(const ImageSource& source) const {
   return load_uri(document_.folder, source.uri, document_.options);
 }
 
-// From the image's header.
+ReadAt ImageReader::open(const ImageSource& source) const {
+  if (source.view >= 0) return reader_of(document_.views[static_cast<std::size_t>(source.view)]);
+  return open_uri(document_.folder, source.uri, document_.options);
+}
+
+// From the image's header: files that are too large are not read.
 std::size_t ImageReader::decoded_size(std::size_t image) {
-  const ImageSource& source = document_.images[image];
-  const std::vector<std::byte> file = load(source);
-  const Bytes bytes = source.view >= 0 ? document_.views[static_cast<std::size_t>(source.view)] : Bytes(file);
-  if (bytes.empty()) fail("has no data");
-  const ImageHeader header = decode_.probe()(bytes);
+  const ReadAt file = open(document_.images[image]);
+  std::byte first{};
+  if (file(0, {&first, 1}) == 0) fail("has no data");
+  const ImageHeader header = decode_.probe()(file);
   const ReadLimits& limits = document_.options.limits;
   if (static_cast<std::size_t>(header.height) > limits.image_pixels / static_cast<std::size_t>(header.width))
     fail_over_limit(fmt::format("{} x {} pixels", header.width, header.height), limits, &ReadLimits::image_pixels);

@@ -24,6 +24,7 @@ class ImageReader {
  private:
   std::vector<std::byte> load(const ImageSource& source) const;
   bool used(std::size_t image) const { return document_.left_out.used().holds("images", image); }
+  ReadAt open(const ImageSource& source) const;
   std::size_t decoded_size(std::size_t image);
   void check_sizes();
   void decode(std::size_t image);

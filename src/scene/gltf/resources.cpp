@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <system_error>
 
@@ -87,6 +88,26 @@ std::vector<std::byte> percent_decoded_bytes(std::string_view text) {
   return {bytes.begin(), bytes.end()};
 }
 
+void check_size(const std::filesystem::path& file, const ReadLimits& limits) {
+  std::error_code code;
+  const auto size = std::filesystem::is_regular_file(file, code) ? std::filesystem::file_size(file, code) : 0;
+  if (!code && size > limits.file_bytes)
+    fail_over_limit(fmt::format("{} bytes", size), limits, &ReadLimits::file_bytes);
+}
+
+// What `load` returns for the file that a URI names; an Error begins with the URI.
+template <class Load>
+auto of_file(const std::filesystem::path& folder, std::string_view uri, const ReadOptions& options, const Load& load) {
+  if (uri.empty()) fail("an empty URI");
+  if (has_scheme(uri)) fail("'{}' is not a file beside the scene", shortened(uri));
+  const auto file = resolve(folder, uri, options.follow_links);
+  try {
+    return load(file, options.limits);
+  } catch (const Error& e) {
+    fail("'{}': {}", shortened(uri), e.what());
+  }
+}
+
 }  // namespace
 
 std::string percent_decoded(std::string_view text) {
@@ -140,23 +161,25 @@ std::vector<std::byte> data_uri_bytes(std::string_view uri) {
 }
 
 std::vector<std::byte> load_file(const std::filesystem::path& file, const ReadLimits& limits) {
-  std::error_code code;
-  const auto size = std::filesystem::is_regular_file(file, code) ? std::filesystem::file_size(file, code) : 0;
-  if (!code && size > limits.file_bytes)
-    fail_over_limit(fmt::format("{} bytes", size), limits, &ReadLimits::file_bytes);
+  check_size(file, limits);
   return read_file(file, limits.file_bytes);
 }
 
+ReadAt open_file(const std::filesystem::path& file, const ReadLimits& limits) {
+  check_size(file, limits);
+  const auto parts = std::make_shared<FileParts>(file, limits.file_bytes);
+  return [parts](std::size_t offset, std::span<std::byte> to) { return parts->read(offset, to); };
+}
+
 std::vector<std::byte> load_uri(const std::filesystem::path& folder, std::string_view uri, const ReadOptions& options) {
-  if (uri.empty()) fail("an empty URI");
   if (is_data_uri(uri)) return data_uri_bytes(uri);
-  if (has_scheme(uri)) fail("'{}' is not a file beside the scene", shortened(uri));
-  const auto file = resolve(folder, uri, options.follow_links);
-  try {
-    return load_file(file, options.limits);
-  } catch (const Error& e) {
-    fail("'{}': {}", shortened(uri), e.what());
-  }
+  return of_file(folder, uri, options, load_file);
+}
+
+ReadAt open_uri(const std::filesystem::path& folder, std::string_view uri, const ReadOptions& options) {
+  if (!is_data_uri(uri)) return of_file(folder, uri, options, open_file);
+  const auto bytes = std::make_shared<std::vector<std::byte>>(data_uri_bytes(uri));
+  return [bytes](std::size_t offset, std::span<std::byte> to) { return reader_of(*bytes)(offset, to); };
 }
 
 }  // namespace penumbra::scene::gltf

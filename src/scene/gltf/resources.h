@@ -24,9 +24,14 @@ std::vector<std::byte> data_uri_bytes(std::string_view uri);
 // A file's bytes. Throws Error if the file is larger than the limit.
 std::vector<std::byte> load_file(const std::filesystem::path& file, const ReadLimits& limits);
 
+// Reads parts of a file, on request. Throws Error if the file is larger than the limit.
+ReadAt open_file(const std::filesystem::path& file, const ReadLimits& limits);
+
 // The bytes that a URI of the scene refers to: a data URI's, or those of a file. A file must be regular and, after
 // following links, lie inside `folder`, and other schemes are refused, so that a scene can't make the reader open
 // anything else. With `follow_links` only the file's name must lie inside; links may lead anywhere.
 std::vector<std::byte> load_uri(const std::filesystem::path& folder, std::string_view uri, const ReadOptions& options);
+// The same, without reading the file before the result is called.
+ReadAt open_uri(const std::filesystem::path& folder, std::string_view uri, const ReadOptions& options);
 
 }  // namespace penumbra::scene::gltf
