@@ -1,6 +1,6 @@
-// Shadow casters of which one face casts shadows, for geometry shaders, which run before faces are culled. Drawn without
-// an index buffer: the shader reads the three corners of its triangle, and where the other face is towards the light it
-// puts all of them in one place.
+// Shadow casters of which one face casts shadows, for geometry shaders, which run before faces are culled. Drawn
+// without an index buffer: the shader reads the three corners of its triangle, and where the other face is towards the
+// light it puts all of them in one place.
 #include "scene/instance.glsl"
 
 layout(location = 6) in uint instance;
