@@ -60,8 +60,8 @@ void build_tree(benchmark::State& state, const char* name) {
 }
 BENCHMARK_CAPTURE(build_tree, courtyard, "courtyard")->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// Adds receivers on a triangle, as many as its area requires. `wanted` passes the fraction of a point that is left over
-// on to the next triangle.
+// Adds receivers on a triangle, in proportion to its area. `wanted` carries the fraction of a receiver that is left
+// over to the next triangle.
 void add_receivers(std::vector<truth::Receiver>& receivers, const std::array<glm::dvec3, 3>& corners, double density,
                    double& wanted) {
   const glm::dvec3 u = corners[1] - corners[0], v = corners[2] - corners[0], cross = glm::cross(u, v);

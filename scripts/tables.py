@@ -1,6 +1,6 @@
-"""The tables of docs/techniques.md, from the program's own rows.
+"""The tables of docs/techniques.md, made from what `penumbra list` prints.
 
-  tables.py PROGRAM           exits 1 if the file says something else than the program
+  tables.py PROGRAM           exits 1 if the tables differ from the program
   tables.py PROGRAM --write   puts the tables into the file
 """
 

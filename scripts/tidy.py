@@ -6,7 +6,8 @@ A result is kept under the hash of all that it depends on: the file, the project
 command line, the configuration and clang-tidy's version. So a second run checks only what changed.
 
 Most of the time goes into headers of other projects, which every file includes. So several files are checked as one
-translation unit, one after the other. A unit with findings is taken apart: what is reported is said of one file alone.
+translation unit, one after the other. The files of a unit with findings are then
+checked one by one, so that each finding is reported for one file.
 """
 
 import argparse

@@ -95,7 +95,9 @@ int bake_noise(const Arguments& arguments) {
       ->capture_default_str();
   app.add_option("--size", size, "Side in pixels, a multiple of 16")->type_name("N")->capture_default_str();
   app.add_option("--channels", channels, "Values per pixel, 1 to 3")->type_name("N")->capture_default_str();
-  app.add_option("--threads", threads, "0: one a core; the result is the same")->type_name("N")->capture_default_str();
+  app.add_option("--threads", threads, "Threads that compute; 0: one per core. The result is the same")
+      ->type_name("N")
+      ->capture_default_str();
   if (!cli::parse(app, arguments)) return 0;
   const std::string format = format_of(common.output, {".exr", ".png", ".u16"});
   cli::one_of("noise", kind, shadow::noise_kinds());
@@ -157,12 +159,14 @@ int bake_points(const Arguments& arguments) {
 
 int run_bake(const Arguments& arguments) {
   const std::vector<std::string> kinds{"noise", "points"};
-  if (arguments.empty()) cli::fail_usage("bake what? {}", fmt::join(kinds, " or "));
+  if (arguments.empty()) cli::fail_usage("what to bake is missing: {}", fmt::join(kinds, " or "));
   const Arguments rest(arguments.begin() + 1, arguments.end());
   if (arguments.front() == "noise") return bake_noise(rest);
   if (arguments.front() == "points") return bake_points(rest);
   if (arguments.front() == "--help" || arguments.front() == "-h") {
-    fmt::print("usage: penumbra bake noise|points [OPTIONS] -o FILE; each has a --help of its own\n");
+    fmt::print(
+        "usage: penumbra bake noise|points [OPTIONS] -o FILE; see penumbra bake noise --help and penumbra bake points "
+        "--help\n");
     return 0;
   }
   cli::fail_unknown_usage("thing to bake", arguments.front(), kinds);

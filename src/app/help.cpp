@@ -104,11 +104,11 @@ bool explain_product(const std::string& name) {
 const char* to_text(render::Reduction reduction) {
   switch (reduction) {
     case render::Reduction::mean:
-      return "the mean of the pixels drawn for one";
+      return "the mean of the pixels that are drawn for each pixel of the picture";
     case render::Reduction::mean_of_valid:
-      return "the mean of the pixels drawn for one that are not 0";
+      return "the mean of those that are not 0, of the pixels that are drawn for each pixel of the picture";
     case render::Reduction::nearest_center:
-      return "the middle one of the pixels drawn for one";
+      return "the middle one of the pixels that are drawn for each pixel of the picture";
   }
   return "";
 }

@@ -24,10 +24,10 @@ constexpr std::array table{
 #ifdef PENUMBRA_VIEWER
     Command{"view", "Show a scene in a window and tune its shadows", viewer::run},
 #endif
-    Command{"truth", "Ray trace the shadows of a scene, for techniques to be measured against", run_truth},
+    Command{"truth", "Ray trace the shadows of a scene, as a reference for techniques", run_truth},
     Command{"info", "Print what is in a scene", run_info},
     Command{"list", "List techniques, filters, denoisers, products, params, aovs or backends", run_list},
-    Command{"diff", "Compare two pictures, and fail past a limit", run_diff},
+    Command{"diff", "Compare two pictures, and fail if they differ by more than a limit", run_diff},
     Command{"compare", "Compare techniques with the truth: tables and an HTML page", compare::run},
     Command{"bench", "Measure what shadows cost, pass by pass", run_bench},
     Command{"reproduce", "Draw and measure the figures of the thesis again: an HTML page", reproduce::run},
@@ -40,12 +40,12 @@ std::string overview() {
   std::string text = "Penumbra renders soft shadows.\n\nusage: penumbra COMMAND [OPTIONS]\n\n";
   for (const Command& command : table) text += fmt::format("  {:<9} {}\n", command.name, command.summary);
   return text +
-         "\npenumbra COMMAND --help lists its options, penumbra list what has a name, and penumbra help NAME explains "
-         "it.\n"
+         "\npenumbra COMMAND --help lists a command's options. penumbra list lists techniques, parameters and the "
+         "like,\n"
+         "and penumbra help NAME explains one.\n"
          "penumbra --version prints the version.\n\n"
-         "Exit codes: 0 done; 2 the command line is wrong, whatever the files hold; 1 all else, as a file that can't "
-         "be\n"
-         "read, a camera that the scene lacks, or a machine without OpenGL.\n";
+         "Exit codes: 0 done; 2 the command line is wrong, whatever the files hold; 1 any other failure: a file that\n"
+         "can't be read, a camera that the scene lacks, a machine without OpenGL.\n";
 }
 
 const Command& find_command(const std::string& name) {

@@ -45,7 +45,7 @@ std::unique_ptr<gl::Context> open_hardware(const Options& options) {
       std::unique_ptr<gl::Context> context = session::open_context(one, one);
       if (!gl::device_info().software) return context;
     } catch (const Error& error) {
-      log(LogLevel::debug, error.what());  // a device that can't be opened is no reason not to try the next
+      log(LogLevel::debug, error.what());  // the next device may work
     }
   }
   return nullptr;

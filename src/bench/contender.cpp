@@ -17,7 +17,7 @@ Contender::Contender(const Entry& entry, const scene::Scene& scene, const cli::D
 void Contender::draw(const render::FrameInputs& inputs, const ParamSet& params) {
   const render::Frame& frame = renderer_.draw(scene_, inputs, params);
   if (!floor_) return;
-  // Between the two frames, so that no pass's time includes it.
+  // Copied between the two frames, so that the time of no pass includes it.
   floor_->take_kernels(*frame.mask.texture);
   floor_->draw(inputs, params);
 }

@@ -34,15 +34,16 @@ report::Table overview(const Measured& point) {
   report::Table table{.caption = "Shadow passes of each technique, which took turns frame by frame",
                       .columns = {{.title = "technique"},
                                   {.title = "shadow passes", .unit = "ms", .help = "Median", .best = Best::lowest},
-                                  {.title = "of the first", .help = "Median of the frames' own ratios"},
+                                  {.title = "of the first", .help = "Median of the ratios of single frames"},
                                   {.title = "frame", .unit = "ms", .help = "Median"},
                                   {.title = "CPU", .unit = "ms", .help = cpu_help},
                                   {.title = "memory", .unit = "MiB", .help = "All targets of the frame"}}};
   const bool floor = point.costs.front().floor.has_value();
   if (floor) {
     table.columns.push_back({.title = "fetches alone", .unit = "ms", .help = "As many, from the same discs and map"});
-    table.columns.push_back(
-        {.title = "mask over fetches", .help = "Distance to the machine's limit: 1 is reached", .best = Best::lowest});
+    table.columns.push_back({.title = "mask over fetches",
+                             .help = "How near the mask's pass is to the machine's limit: 1 is at the limit",
+                             .best = Best::lowest});
     table.columns.push_back({.title = "mask copy", .unit = "ms", .help = "One read and one write of the mask"});
   }
   for (const Cost& cost : point.costs) {

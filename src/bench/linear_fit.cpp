@@ -23,7 +23,7 @@ std::vector<double> solved(Rows rows) {
     for (std::size_t i = column + 1; i < n; ++i) {
       if (std::abs(rows[i][column]) > std::abs(rows[pivot][column])) pivot = i;
     }
-    if (!(std::abs(rows[pivot][column]) > least_pivot)) fail("the points do not settle a linear fit");
+    if (!(std::abs(rows[pivot][column]) > least_pivot)) fail("the points do not determine a linear fit");
     std::swap(rows[column], rows[pivot]);
     for (std::size_t i = 0; i < n; ++i) {
       if (i == column) continue;
@@ -58,7 +58,7 @@ Coordinate coordinate_of(std::span<const std::vector<double>> xs, std::size_t in
     coordinate.length += value * value;
   }
   coordinate.length = std::sqrt(coordinate.length);
-  if (!(coordinate.length > 0)) fail("the points do not settle a linear fit");
+  if (!(coordinate.length > 0)) fail("the points do not determine a linear fit");
   for (double& value : coordinate.values) value /= coordinate.length;
   return coordinate;
 }
@@ -85,7 +85,7 @@ double explained(const LinearFit& fit, std::span<const std::vector<double>> xs, 
 LinearFit fit_linear(std::span<const std::vector<double>> xs, std::span<const double> ys) {
   assert(xs.size() == ys.size());
   const std::size_t count = xs.empty() ? 0 : xs.front().size();
-  if (xs.size() < count + 1 || count == 0) fail("{} points do not settle a linear fit", xs.size());
+  if (xs.size() < count + 1 || count == 0) fail("{} points do not determine a linear fit", xs.size());
   std::vector<Coordinate> coordinates;
   for (std::size_t i = 0; i < count; ++i) coordinates.push_back(coordinate_of(xs, i));
 

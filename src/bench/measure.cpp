@@ -103,7 +103,8 @@ class Bench {
     results_.command = options_.command;
     results_.machine = machine();
     results_.device = device_;
-    results_.timing = device_.software ? "CPU clock, a finish around each pass" : "GPU timestamps, read late";
+    results_.timing =
+        device_.software ? "CPU clock, a finish around each pass" : "GPU timestamps, read some frames later";
   }
 
   // Scenes stay loaded between visits, unless each point has its own scene.
@@ -175,9 +176,9 @@ class Bench {
   const scene::ImageDecoder& decode_;
   gl::DeviceInfo device_;
   Results results_;
-  std::optional<scene::Scene> model_;  // that casters are copies of
+  std::optional<scene::Scene> model_;  // the scene that a sweep of casters copies
   std::optional<session::PreparedScene> prepared_;
-  Contenders contenders_;                // after the prepared that they draw
+  Contenders contenders_;                // destroyed before the scenes that they draw
   std::vector<std::vector<Kept>> kept_;  // by point, by entry
 };
 

@@ -65,7 +65,7 @@ void add_bench_options(CLI::App& app, Options& o) {
 }  // namespace
 
 void add_options(CLI::App& app, Options& options) {
-  app.add_option("SCENE", options.scene, "glTF file, .gltf or .glb; a sweep of casters makes one of its own")
+  app.add_option("SCENE", options.scene, "glTF file, .gltf or .glb; a sweep of casters generates its scene")
       ->type_name("");
   add_bench_options(app, options);
   add_value(app, "--size", "WIDTHxHEIGHT", "Pixels (1280x720)",

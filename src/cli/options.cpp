@@ -51,7 +51,7 @@ void add_supersample_option(CLI::App& app, SceneOptions& o) {
 void add_view_options(CLI::App& app, SceneOptions& o) {
   add_value(
       app, "--camera", "NAME|INDEX",
-      "A camera of the scene; else its first that sees the scene over a tenth of the picture, else one that frames it",
+      "A camera of the scene; without this option its first that sees the scene, or else one that shows all of it",
       [&o](const auto& text) { o.camera = text; });
   add_value(app, "--eye", "X,Y,Z", "Position of the camera, metres",
             [&o](const auto& text) { o.eye = parse_point("--eye", text); });
@@ -62,7 +62,8 @@ void add_view_options(CLI::App& app, SceneOptions& o) {
   add_value(app, "--sun", "AZIMUTH,ELEVATION",
             "Direction to the sun, degrees: azimuth from +Z towards +X, elevation over the horizon",
             [&o](const auto& text) { o.sun = parse_direction("--sun", text); });
-  add_value(app, "--ground", "auto|on|off", "A plane under the scene; auto: where there is nothing to cast on",
+  add_value(app, "--ground", "auto|on|off",
+            "A plane under the scene; auto: only where shadows would have nothing to fall on",
             [&o](const auto& text) { o.ground = ground_choice(text); });
   add_reading_options(app, o.reading);
 }

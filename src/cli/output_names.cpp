@@ -45,7 +45,7 @@ OutputNames::OutputNames(const std::string& output, bool sequence) {
 
   const std::vector<Place> places = places_in(stem);
   if (!sequence) {
-    if (!places.empty()) fail_usage("-o '{}' has a place for a frame's number: it goes with --frames", output);
+    if (!places.empty()) fail_usage("-o '{}' has a place for a frame's number, which needs --frames", output);
     return;
   }
   if (places.empty() && stem.find('%') == std::string::npos) {

@@ -104,7 +104,7 @@ scene::Scene read_scene(const std::string& file, const ReadingOptions& options, 
     std::vector<std::string> names;
     for (const scene::Material& candidate : scene.materials) names.push_back(candidate.name);
     const std::vector<std::string> near = near_names(material, names);
-    fail("{}: no material is named '{}', as --casters has it{}", io::quoted(file), material,
+    fail("{}: no material is named '{}' (--casters){}", io::quoted(file), material,
          near.empty() ? "" : fmt::format("; did you mean '{}'?", near.front()));
   }
   return scene;

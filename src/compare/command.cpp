@@ -25,7 +25,7 @@ Outputs outputs_of(const CompareOptions& options) {
   return {folder / "index.html", folder / "results.csv", folder / "results.json"};
 }
 
-// Before minutes of drawing.
+// Called before drawing, which can take minutes.
 void check_files(const CompareOptions& options, const Outputs& outputs) {
   for (const std::string& scene : options.scenes) {
     if (!std::filesystem::exists(scene)) fail("cannot read {}: there is no such file", io::quoted(scene));

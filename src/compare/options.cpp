@@ -75,7 +75,7 @@ void check_together(const CompareOptions& o) {
   if (o.reference == "truth" && std::ranges::any_of(o.contenders, [](const auto& c) { return c.name == "truth"; }))
     fail_usage("--technique truth is the reference already; see --reference");
   if (o.samples && o.reference != "truth") fail_usage("--spp is not for --reference {}", o.reference);
-  if (o.warmup && o.frames) fail_usage("--warmup is for single pictures: of --frames each is measured");
+  if (o.warmup && o.frames) fail_usage("--warmup is for single pictures: with --frames every frame is measured");
   check_orbit(o);
   const long long pixels = 1LL * o.size.width * o.size.height, frames = o.frames ? o.frames->count() : 1;
   if (frames * pixels > largest_reference / reference_bytes)
@@ -148,7 +148,7 @@ std::vector<Contender> parse_contenders(const std::string& text) {
     const std::size_t colon = part.find(':');
     if (colon == std::string::npos && part.find('=') != std::string::npos) {
       if (list.empty() || list.back().assignments.empty())
-        fail_usage("--technique: '{}' follows no technique with a ':'", part);
+        fail_usage("--technique: '{}' sets a value, but follows no technique of the form NAME:PARAM=VALUE", part);
       list.back().label += "," + part;
       list.back().assignments.push_back(part);
       continue;

@@ -44,7 +44,7 @@ std::vector<report::Column> columns_of(bool sequence) {
       {"FLIP", "", "How different the two look to a viewer who flips between them, 0 to 1.", Best::lowest},
       {"Width error", "%", "How much wider or narrower penumbrae are, on average.", Best::lowest},
       {"Width lost", "%",
-       "Share of penumbra pixels where the shadow has no edge to measure; they count in no other width.",
+       "Share of penumbra pixels where the shadow has no edge to measure; the width error leaves them out.",
        Best::lowest}};
   if (sequence) {
     columns.push_back({"Flicker", "visibility", "Mean change of the error from frame to frame.", Best::lowest});

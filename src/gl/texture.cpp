@@ -55,7 +55,7 @@ std::uint64_t next_serial() {
 
 // How client memory is laid out for uploads or for read-backs.
 struct PixelStore {
-  GLenum buffer, binding;        // target of a buffer that stands for client memory, and its query
+  GLenum buffer, binding;        // target of the buffer that replaces client memory while one is bound, and its query
   std::array<GLenum, 7> layout;  // the first is the alignment
 };
 

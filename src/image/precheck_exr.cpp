@@ -53,7 +53,7 @@ struct Header {
 std::size_t checked_channels(Reader value) {
   std::size_t count = 0;
   for (std::string name = value.name(); !name.empty(); name = value.name()) {
-    value.take(8);  // type, and how the eye sees the channel
+    value.take(8);  // pixel type, and the flag pLinear
     if (value.number() != 1 || value.number() != 1) fail("EXR channel '{}' has fewer pixels than the picture", name);
     ++count;
   }
@@ -93,7 +93,7 @@ void check_exr_header(std::span<const std::byte> encoded, std::size_t max_pixels
   }
   if (header.width < 1 || header.height < 1) fail("an image without pixels");
   if (header.channels == 0) fail("EXR without channels");
-  if (((version & tiled) != 0) != header.has_tiles) fail("EXR contradicts itself about tiles");
+  if (((version & tiled) != 0) != header.has_tiles) fail("EXR whose version field and header disagree about tiles");
   if (header.width > largest_side || header.height > largest_side)
     fail("{} x {} pixels, over the limit of {} a side", header.width, header.height, largest_side);
   check_pixels(header.width, header.height, max_pixels);

@@ -64,7 +64,7 @@ void SequenceMetrics::begin(Event event) {
   for (Pixel& pixel : pixels_) pixel.since_shadow = pixel.since_change = never;
 }
 
-// Whatever `pixel` says of the present frame but its error is set.
+// `pixel` holds the present frame already, except its error, which this sets.
 void SequenceMetrics::add_receiver(const Pixel& last, Pixel& pixel, float test) {
   pixel.error = signed_error(test, pixel.reference);
   const double error = std::abs(pixel.error);

@@ -169,7 +169,8 @@ const std::vector<Row>& rows() {
       {{"material", "Metallic, roughness, occlusion.", rgb, mean}, material},
       {{"emission", "Emitted light as the file gives it.", rgb, mean}, emission},
       {{.name = "motion",
-        .help = "Where a surface is minus where it was in the last frame, pixels, x to the right and y down.",
+        .help = "Motion vector: where a surface is minus where it was in the last frame, pixels, x to the right and y "
+                "down.",
         .channels = {"X", "Y"},
         .reduction = nearest_center,
         .in_pixels = true},
@@ -180,8 +181,8 @@ const std::vector<Row>& rows() {
       {{"under_texel", "1 where the penumbra is narrower than the shadow map can show.", v, nearest_center},
        under_texel},
       {{"history",
-        "What became of the last frames' shadow: 0 kept, 1 there is none, 2 it was off screen, 3 another surface was "
-        "there, 4 a caster moved; -1 for the sky.",
+        "Why the shadow of the last frames is refused: 0 it is used, 1 there is none, 2 the surface was off screen, 3 "
+        "another surface was there, 4 a caster moved; -1 for the sky.",
         v, nearest_center},
        history},
   };

@@ -5,13 +5,14 @@ namespace penumbra::render {
 std::vector<Param> render_params() {
   using enum ParamBinding;
   return {
-      {"exposure.auto", true, 0, 1, "", "Exposes for what the picture shows; off: exposure.ev holds.", host},
+      {"exposure.auto", true, 0, 1, "", "Chooses the exposure by the picture's brightness; off: uses exposure.ev.",
+       host},
       {"exposure.ev", 15.0f, -16, 24, "EV", "Exposure value at ISO 100 when exposure.auto is off.", host},
       {"exposure.compensation", 0.0f, -8, 8, "stops", "Added to the automatic exposure; positive is brighter.", host},
       {"render.sky_light", 0.2f, 0, 4, "",
-       "Illuminance of a level plane by the sky, as a part of what the sun gives a plane that faces it.", host},
+       "Illuminance of a level plane by the sky, as a fraction of the sun's on a plane that faces it.", host},
       {"render.ground_light", 0.5f, 0, 1, "",
-       "Part of the light of the ground around a scene that reaches its surfaces.", host},
+       "Fraction of the light from the ground around a scene that reaches its surfaces.", host},
       {"casters.faces",
        "both",
        0,
@@ -23,7 +24,7 @@ std::vector<Param> render_params() {
        host,
        {"both", "front", "back"}},
       {"casters.skies", false, 0, 1, "",
-       "Shells that enclose the scene, as sky domes, cast too; they are named when the scene is read.", host},
+       "Lets shells that enclose the scene, such as sky domes, cast shadows; without it, a warning names them.", host},
   };
 }
 

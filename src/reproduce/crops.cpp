@@ -29,7 +29,7 @@ Crop crop_size(const Workbench& bench) {
 Crop best_crop(const Workbench& bench, std::span<const double> weights) {
   const Crop size = crop_size(bench);
   const int stride = bench.width() + 1;
-  // Of all pixels above and to the left.
+  // Summed-area table: sum(x, y) is the sum over all pixels above y and to the left of x.
   std::vector<double> sums(static_cast<std::size_t>(stride * (bench.height() + 1)), 0.0);
   const auto sum = [&](int x, int y) -> double& { return sums[static_cast<std::size_t>(y * stride + x)]; };
   for (int y = 0; y < bench.height(); ++y) {

@@ -25,7 +25,7 @@ Crop noisiest_crop(const Workbench& bench);
 // Values from 0 to 1 as grey, enlarged without interpolation to about the width of a tile.
 report::EncodedPicture enlarged(std::span<const float> pixels, int width, int height);
 report::EncodedPicture enlarged(std::span<const float> pixels, int width, const Crop& crop);
-// At their own size.
+// Values from 0 to 1 as grey, at their own size.
 report::EncodedPicture grey_picture(std::span<const float> pixels, int width, int height);
 report::EncodedPicture colour_picture(const std::vector<std::uint8_t>& rgb, int width, int height);
 

@@ -96,9 +96,9 @@ std::string Finding::joined(bool holding) const {
 
 std::string Finding::sentence() const {
   const std::string of = verdict(), held = joined(true), failed = joined(false);
-  if (of == "confirmed") return "Ours confirms the thesis: " + held + ".";
-  if (of == "not confirmed") return "Ours does not confirm the thesis: " + failed + ".";
-  return "Ours confirms the thesis in part: " + held + ", but " + failed + ".";
+  if (of == "confirmed") return "Our measurement confirms the thesis: " + held + ".";
+  if (of == "not confirmed") return "Our measurement does not confirm the thesis: " + failed + ".";
+  return "Our measurement confirms the thesis in part: " + held + ", but " + failed + ".";
 }
 
 }  // namespace penumbra::reproduce

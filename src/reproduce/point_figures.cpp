@@ -28,7 +28,7 @@ constexpr const char* test =
 
 std::span<const glm::vec2> prefix(const Points& points) { return std::span(points).first(prefix_count); }
 
-// Of the patterns that draw random numbers; the others have a single one.
+// The point sets of a pattern: `set_count` of a random pattern, one of any other.
 const std::vector<Points>& sets_of(const std::string& pattern) {
   static std::map<std::string, std::vector<Points>> known;
   std::vector<Points>& sets = known[pattern];
@@ -144,7 +144,8 @@ Finding figure_2_13(Workbench&) {
       "borders.";
   finding.test =
       "The least distance between two of 64 Poisson points on the torus, before and after a move by (0.05, 0.05): it "
-      "may change by rounding alone. Discrepancy, which knows a corner, need not stay; it is among the figures.";
+      "may change by rounding alone. The star discrepancy may change, since it depends on where the origin is; it is "
+      "listed too.";
   finding.body = report::tiles(
       {{.title = "Dots: original; rings: moved by (0.05, 0.05)",
         .note = "64 points of a Poisson disk",

@@ -122,8 +122,8 @@ Finding figure_4_1(Workbench& bench) {
   finding.claim =
       "The penumbra of a distant caster covers most of the picture, which makes it an expensive case (chapter 4).";
   finding.test =
-      "The share of receivers with a visibility from 0.02 to 0.98, ray traced: the claim holds from a half on. What "
-      "PCSS itself is off by, however many taps it takes, stands below: no figure of the thesis shows it.";
+      "The share of receivers with a visibility from 0.02 to 0.98, ray traced: the claim holds from a half on. "
+      "The error that PCSS has with any number of taps is given below: no figure of the thesis shows it.";
   finding.body = report::tiles(
       {{.title = "The scene",
         .note = "hard shadows against the ray-traced truth",

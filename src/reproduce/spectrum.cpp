@@ -9,7 +9,7 @@ namespace {
 
 using Values = std::vector<std::complex<double>>;
 
-// Of each row, written as a column.
+// The Fourier transform of each row, written as a column.
 Values transformed_rows(const Values& rows, int size) {
   Values result(rows.size());
   const auto at = [size](int row, int column) { return static_cast<std::size_t>(row * size + column); };

@@ -60,7 +60,7 @@ void mark_skies(const std::filesystem::path& path, Scene& scene) {
       warn("{}: {}", path.string(),
            gltf::one_line(fmt::format(
                "node {} (material {}) encloses the scene as a sky does, and casts no shadow; --set casters.skies=on "
-               "lets it",
+               "makes it cast",
                quoted_or(node.name, std::to_string(number)), quoted_or(material.name, "without a name"))));
   }
 }

@@ -35,7 +35,7 @@ glm::dmat3 light_axes(const glm::dvec3& to_light) {
   return glm::transpose(glm::dmat3(x, y, z));
 }
 
-// Distance at which one step of a geometric ladder lies, so that ranges and sizes stay put while the camera moves.
+// Rounds up to a power of 2^(1 / steps_an_octave), so that ranges and sizes seldom change while the camera moves.
 double step_up(double value, double steps_an_octave) {
   return value <= 0 ? 0 : std::exp2(std::ceil(std::log2(value) * steps_an_octave - 1e-9) / steps_an_octave);
 }
@@ -191,7 +191,7 @@ Cascades fit_cascades(const CascadeInputs& in) {
 CullVolume cull_volume(const Cascades& cascades, int index) {
   const Cascade& cascade = cascades.items.at(static_cast<size_t>(index));
   const glm::dmat3 axes = glm::transpose(cascades.world_to_light);
-  // Before it: what lies no farther than `limit` from the anchor along a direction.
+  // A plane; in front of it lies what is no farther than `limit` from the anchor along `direction`.
   const auto side = [&](const glm::dvec3& direction, double limit) {
     return glm::dvec4(-direction, glm::dot(direction, cascades.anchor) + limit);
   };

@@ -26,13 +26,13 @@ void check_matrix(std::string_view name, const glm::mat4& matrix) {
 
 void check_finite(std::string_view name, const Box& box) {
   if (!all_finite(glm::value_ptr(box.min), 3) || !all_finite(glm::value_ptr(box.max), 3)) {
-    fail("soft shadows: the box of the {} is not finite", name);
+    fail("soft shadows: the bounding box of the {} is not finite", name);
   }
 }
 
 void check_box(std::string_view name, const Box& box) {
   check_finite(name, box);
-  if (glm::any(glm::greaterThan(box.min, box.max))) fail("soft shadows: the box of the {} is empty", name);
+  if (glm::any(glm::greaterThan(box.min, box.max))) fail("soft shadows: the bounding box of the {} is empty", name);
 }
 
 GLint level_parameter(unsigned texture, GLenum name) {

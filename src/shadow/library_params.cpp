@@ -41,13 +41,14 @@ std::vector<Param> map_rows() {
       {"cascades.count", 4, 1, max_cascades, "", "Cascades of the sun's shadow map.", host},
       {"cascades.size", 2048, 16, 8192, "texels", "Side of each cascade's map.", host},
       {"cascades.split", 0.75f, 0, 1, "", "Spacing of the cascades: 0 uniform, 1 logarithmic.", host},
-      {"cascades.distance", 0.0f, 0, 1e7, "m", "Range of the last cascade; 0 takes what the view sees of the scene.",
+      {"cascades.distance", 0.0f, 0, 1e7, "m", "Range of the last cascade; 0: as far as the view sees the scene.",
        host},
       with_default(word("cascades.seam", {"none", "fade", "dither"}, "Transition between cascades.", uniform), "fade"),
-      {"cascades.blend", 0.1f, 0.001, 0.5, "", "Width of the transition, as a part of the cascade's half width."},
+      {"cascades.blend", 0.1f, 0.001, 0.5, "", "Width of the transition, as a fraction of the cascade's half width."},
       {"bias.constant", 0.02f, 0, 10, "texels",
        "Distance along the light that a texel may lie before a receiver without blocking it."},
-      {"bias.slope", 0.02f, 0, 10, "texels", "The same for each unit of the receiver's slope against the light."},
+      {"bias.slope", 0.02f, 0, 10, "texels",
+       "Added to bias.constant for each unit of the receiver's slope against the light."},
       {"bias.normal_offset", 0.0f, 0, 10, "texels", "Shift of receivers along their normal."},
   };
 }
@@ -55,16 +56,19 @@ std::vector<Param> map_rows() {
 std::vector<Param> sampling_rows() {
   const std::vector<std::string> sequences{"still", "shift", "set"};
   return {
-      word("sampling.blocker_pattern", pattern_names(), "Points at which blockers are looked for."),
-      word("sampling.filter_pattern", pattern_names(), "Points that the filter compares."),
+      word("sampling.blocker_pattern", pattern_names(), "Pattern of the points that the blocker search reads."),
+      word("sampling.filter_pattern", pattern_names(), "Pattern of the points that the filter compares."),
       word("sampling.scramble", scramble_names(),
            "What differs from pixel to pixel: a rotation of the points (disc suns) or a shift on the torus."),
-      with_default(word("sampling.noise", {"none", "white", "blue", "void_and_cluster"},
-                        "What decides the rotation or shift of a pixel: a tile of 64 × 64 pixels, or nothing."),
-                   "blue"),
+      with_default(
+          word(
+              "sampling.noise", {"none", "white", "blue", "void_and_cluster"},
+              "Tile of 64 × 64 pixels that sets each pixel's rotation or shift; none: all pixels use the same points."),
+          "blue"),
       word("sampling.blocker_sequence", sequences,
-           "From frame to frame the blocker step's points stay, shift, or change."),
-      word("sampling.filter_sequence", sequences, "The same for the filter's points."),
+           "The blocker search's points from frame to frame: the same (still), shifted, or the next of 16 sets."),
+      word("sampling.filter_sequence", sequences,
+           "The filter's points from frame to frame: the same (still), shifted, or the next of 16 sets."),
       {"sampling.seed", 0, 0, 65535, "", "Shifts the noise: another number rotates or shifts all points differently.",
        ParamBinding::host},
   };
@@ -83,13 +87,16 @@ std::vector<std::string> names_of(std::span<const Filter> filters, Filter::Of of
 std::vector<Param> filter_params(std::span<const Filter> filters) {
   return {
       word("filter.penumbra", names_of(filters, Filter::Of::penumbra),
-           "Filter of the blocker distances, before penumbrae get their width from them."),
-      word("filter.visibility", names_of(filters, Filter::Of::visibility), "Filter of the mask."),
-      {"filter.width", 0.1f, 0, 1, "", "Its standard deviation, as a part of the penumbra's width."},
-      {"filter.max_sigma", 24.0f, 0, 24, "px", "The most that may be."},
-      {"filter.taps", 6, 1, 48, "taps", "The most that it reads to each side along an axis; wider kernels space them."},
+           "Filter of the blocker distances, from which the penumbrae's widths are then computed."),
+      word("filter.visibility", names_of(filters, Filter::Of::visibility), "Filter of the shadow mask."),
+      {"filter.width", 0.1f, 0, 1, "",
+       "Standard deviation of filter.visibility, as a fraction of the penumbra's width."},
+      {"filter.max_sigma", 24.0f, 0, 24, "px", "Largest standard deviation of filter.visibility."},
+      {"filter.taps", 6, 1, 48, "taps",
+       "Most pixels that filter.visibility reads to each side along an axis; in wider kernels they are spaced out."},
       {"filter.edge", 0.25f, 0.01, 100, "px",
-       "Distance from the receiver's plane, in widths of a pixel, at which a neighbour's weight is e^-1/2."},
+       "Distance from the receiver's plane, in widths of a pixel, at which a bilateral filter weights a neighbour by "
+       "e^-1/2."},
   };
 }
 
@@ -104,17 +111,20 @@ Param denoiser_param(std::span<const Denoiser> denoisers) {
   std::vector<std::string> choices;
   for (const Denoiser& denoiser : denoisers) choices.push_back(denoiser.name);
   choices.emplace_back("none");
-  return word("denoiser", std::move(choices), "What follows the technique: filters, and blends with earlier frames.");
+  return word("denoiser", std::move(choices),
+              "What runs after the technique: filters, and a blend with earlier frames.");
 }
 
 std::vector<Param> movement_params() {
   return {
-      with_default(word("movement.map", {"none", "average", "maximum"},
-                        "Pyramid over what moved in the shadow map: where it shows in a receiver's kernel, the history "
-                        "is refused."),
-                   "maximum"),
+      with_default(
+          word("movement.map", {"none", "average", "maximum"},
+               "How a pyramid combines the shadow map's texels that show moved casters. Where a receiver's disc "
+               "covers one, the history is refused. none: no pyramid."),
+          "maximum"),
       word("movement.present", {"own_pass", "shadow_pass"},
-           "What moved is drawn, where it is, in a pass of its own or as a second target of the shadow map's."),
+           "Draws moved casters at their present position in a pass of their own, or as a second target of the shadow "
+           "pass."),
   };
 }
 

@@ -4,14 +4,15 @@ namespace penumbra::shadow {
 
 namespace {
 
-// As std140 lays them out; a test asks the driver too.
+// Offsets by the rules of std140; a test compares them with the driver's.
 static_assert(sizeof(glsl::LayerBlock) == 32);
 static_assert(offsetof(glsl::ShadowBlock, viewport) == 320);
 static_assert(offsetof(glsl::ShadowBlock, depth_to_ndc) == 384);
 static_assert(offsetof(glsl::ShadowBlock, light_extent) == 400);
 static_assert(offsetof(glsl::ShadowBlock, layers) == 432);
 
-// Of a pixel in the plane of the image, for each unit of clip-space w; and how w follows from view-space z.
+// ShadowBlock::pixel_size: metres that a pixel spans where clip w is 1, then factor and offset that give clip w from
+// view-space z.
 glm::vec4 pixel_size(const glm::mat4& projection, const Rect& viewport) {
   return {2.0f / (projection[0][0] * static_cast<float>(viewport.width)),
           2.0f / (projection[1][1] * static_cast<float>(viewport.height)), projection[2][3], projection[3][3]};

@@ -37,12 +37,13 @@ const std::vector<std::string>& noise_kinds();
 // that calls it.
 using NoiseProgress = std::function<void(double)>;
 
-// Noise of that kind: the same for the same arguments, whatever the machine and the number of threads (0: one a core).
-// The size is a multiple of 16 from 16 to 256. Throws Error on another size, kind or number of channels.
-//   white a random permutation blue neighbours differ in all channels together: Georgiev and Fajardo 2016, "Blue-noise
-//   dithered
-//                     sampling", by swaps under simulated annealing
-//   void_and_cluster  each channel by itself: Ulichney 1993, "The void-and-cluster method for dither array generation"
+// Noise of that kind: the same for the same arguments, whatever the machine and the number of threads (0: one per
+// core). The size is a multiple of 16 from 16 to 256. Throws Error on another size, kind or number of channels.
+// - white: a random permutation of the ranks.
+// - blue: neighbours differ in all channels together (Georgiev and Fajardo 2016, "Blue-noise dithered sampling"), by
+//   swaps under simulated annealing.
+// - void_and_cluster: each channel separately (Ulichney 1993, "The void-and-cluster method for dither array
+//   generation").
 NoiseTile make_noise(std::string_view kind, int size, int channels, std::uint64_t seed, int threads = 0,
                      const NoiseProgress& progress = {});
 

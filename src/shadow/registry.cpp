@@ -83,11 +83,13 @@ std::vector<Preset> presets() {
                                             "filter.visibility=bilateral_separable"};
   std::vector<Preset> all{
       {"thesis", "pcss", "The method of Deligiannis 2019: few taps, a history with a movement map, filters.", thesis},
-      {"thesis_8x8", "pcss", "Its fast form, of figure 4.12: 8/8 taps and a filter, no history.", thesis_8x8}};
+      {"thesis_8x8", "pcss", "The fast form of the thesis's method, figure 4.12: 8/8 taps and filters, no history.",
+       thesis_8x8}};
   for (Preset& preset : all) preset.assignments.emplace_back("driver=fragment");
   for (const Preset& preset :
        std::vector{Preset{"pcss", "pcss", "", {}}, Preset{"brute_force", "brute_force", "", {}}, all[0], all[1]}) {
-    all.push_back({preset.name + "_compute", preset.technique, "The same in compute shaders.", preset.assignments});
+    all.push_back(
+        {preset.name + "_compute", preset.technique, preset.name + " in compute shaders.", preset.assignments});
     all.back().assignments.emplace_back("driver=compute");
   }
   return all;

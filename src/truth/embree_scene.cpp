@@ -23,9 +23,11 @@ namespace {
 // bits, so that they may loop forever, depending on what is on the stack. Without it, all processors with AVX2 also
 // give identical results.
 constexpr const char* device_options = "ignore_config_files=1,max_isa=avx2";
-// Triangles: an instance of a smaller primitive takes more memory than a copy of its triangles.
+// In triangles: an instance of a smaller primitive takes more memory than a copy of its triangles.
 constexpr std::size_t least_shared = 64;
-// multiple of the coarsest float step in the range, and no further out than twice the end that is nearer to zero.
+
+// The new zero for coordinates from `low` to `high` such that subtracting it makes all of them smaller and rounds none:
+// a multiple of the coarsest float step in the range, and no further out than twice the end that is nearer to zero.
 double best_zero(float low, float high) {
   if (low <= 0 && high >= 0) return 0;
   if (!(low <= high)) return 0;  // the range is empty

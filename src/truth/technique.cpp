@@ -209,7 +209,7 @@ shadow::Registry TruthTechnique::registry(const shadow::Registry& base) const {
   shadow::Registry::Contents contents = base.contents();
   contents.techniques.push_back({
       .name = "truth",
-      .summary = "Ray traced: the share of the light that a receiver sees. What the others are measured against.",
+      .summary = "Ray traced: the share of the light that a receiver sees. The reference for all other techniques.",
       .source = "the visibility integral, Deligiannis 2019, 2.6; Owen-scrambled Sobol points, Embree",
       .needs = {},
       .params =
@@ -217,7 +217,8 @@ shadow::Registry TruthTechnique::registry(const shadow::Registry& base) const {
               {"truth.samples", 256, 8, max_samples, "rays",
                "Rays of each pixel, rounded up to a multiple of eight; eight times a power of two is best.", host},
               {"truth.error", 0.0f, 0, 1, "",
-               "Standard error to reach in 99.9 % of pixels; truth.samples are then the first round. 0: one round.",
+               "Standard error to reach in 99.9 % of pixels; truth.samples are then the first round. 0: no further "
+               "rounds.",
                host},
               {"truth.seed", 0, 0, 1 << 30, "", "Seed of the sample points.", host},
           },

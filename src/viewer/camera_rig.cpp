@@ -53,7 +53,7 @@ void CameraRig::pan(const glm::vec2& heights) {
 }
 
 void CameraRig::dolly(float factor) {
-  // Any nearer, eye and target would be the same in single precision.
+  // At a smaller distance, eye and target would be equal in single precision.
   const float least = 1e-4f * (1.0f + glm::length(target)), now = distance();
   eye = target + (eye - target) * (std::max(now * factor, least) / now);
 }

@@ -127,7 +127,7 @@ void fly(const Panel& panel, float seconds) {
 void take_time_keys(const Panel& panel) {
   UiState& state = panel.state;
   const bool moves = panel.status.scene != nullptr && !panel.status.scene->prepared.scene.animations.empty();
-  // The same keys walk from widget to widget.
+  // While the user moves through the widgets by keyboard, ImGui uses the same keys.
   if (!moves || ImGui::GetIO().NavVisible) return;
   if (ImGui::IsKeyPressed(GLFW_KEY_SPACE, false)) state.playback.playing = !state.playback.playing;
   if (ImGui::IsKeyPressed(GLFW_KEY_RIGHT)) state.document.step(1);

@@ -16,7 +16,7 @@ struct Settings {
   std::optional<cli::Size> window;  // its last size; absent if it was never saved
   bool panel = true, vsync = true;
   std::string tab;  // the open one of the side panel; empty: the first
-  ParamSet params;  // every parameter of all techniques; those of read_settings() have their defaults at least
+  ParamSet params;  // all parameters; read_settings() sets those that the file lacks to their defaults
 };
 
 constexpr std::size_t most_recent = 10;

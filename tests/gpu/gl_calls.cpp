@@ -12,7 +12,7 @@
 namespace penumbra::test {
 namespace {
 
-// A counting function for the entry point that is kept in *slot.
+// A function that counts a call and then calls the entry point whose pointer *slot held.
 template <auto slot>
 struct Counting;
 
@@ -231,7 +231,7 @@ std::span<const Entry> entries_of(GlCalls::Kind kind) {
   return kind == GlCalls::Kind::queries ? std::span<const Entry>(queries) : std::span<const Entry>(creations);
 }
 
-// Every entry point of the kind is counted, those of later versions too once Penumbra loads them.
+// Every loaded entry point of the kind is counted, so functions that Penumbra starts to use later are counted too.
 void check_list(GlCalls::Kind kind) {
   std::set<std::string_view> counted;
   for (const Entry& entry : entries_of(kind)) counted.insert(entry.name);

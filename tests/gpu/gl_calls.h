@@ -19,7 +19,7 @@ class GlCalls {
   GlCalls(const GlCalls&) = delete;
   GlCalls& operator=(const GlCalls&) = delete;
 
-  // Calls so far, by function; those without any are left out.
+  // Calls so far, by function; functions that were not called are left out.
   std::map<std::string, int> counts() const;
   void reset();
 

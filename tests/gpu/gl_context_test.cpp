@@ -32,7 +32,7 @@ void expect_core_4_5_that_draws(const gl::Context& context) {
   EXPECT_NO_THROW(gl::check_errors("context"));
 }
 
-// An environment variable unset for a scope.
+// Unsets an environment variable, and restores it in the destructor.
 class Unset {
  public:
   explicit Unset(const char* name) : name_(name) {

@@ -10,7 +10,7 @@ using test::message_of;
 
 class GlForeign : public test::GlPassTest {
  protected:
-  // A texture as an engine makes it, in whatever way.
+  // Creates a texture of 4 × 4 texels with two levels, as an engine would.
   GLuint make(GLenum target, GLenum format, int layers) {
     GLuint id = 0;
     gl::glCreateTextures(target, 1, &id);

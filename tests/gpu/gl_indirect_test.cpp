@@ -6,7 +6,7 @@
 namespace penumbra {
 namespace {
 
-// Commands that are not at the start of their buffer.
+// A buffer of commands in which something else comes before the commands.
 struct Commands {
   std::uint32_t unused = 12345;
   gl::DispatchCommand dispatch;
@@ -53,7 +53,7 @@ class GlIndirect : public test::GlPassTest {
     return buffer;
   }
 
-  // What each of the first vertices was drawn as, by `draw`.
+  // The marks that the first vertices left when `draw` drew them.
   template <class Draw>
   std::vector<unsigned> marks(Draw draw) {
     constexpr std::size_t vertices = 8;

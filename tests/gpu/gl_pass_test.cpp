@@ -110,7 +110,7 @@ TEST_F(GlPass, BlendsAsNamed) {
 }
 
 TEST_F(GlPass, CullingTakesCounterClockwiseAsFront) {
-  // The test's triangle runs counter-clockwise on the screen.
+  // The test's triangle is counter-clockwise on the screen.
   const auto red = [&](bool clockwise) {
     gl::Pass pass(device, {.name = "p", .colors = {{.texture = &color, .clear = glm::vec4(0)}}, .cull_back = true});
     pass.use(color_program).set("value", glm::vec4(1));

@@ -1,4 +1,4 @@
-// Stencil: what passes test, write, clear and keep of it.
+// Stencil: passes test, write, clear or keep it as their PassDesc says.
 #include "gl/api.h"
 #include "gl/pass.h"
 #include "gl_pass.h"

@@ -38,7 +38,7 @@ TEST_F(GlTexture, EveryLevelAndLayerReadsBackWhatWasUploaded) {
   }
 }
 
-// Pixel-store state of an engine's, each value another than the initial one and than that of tight packing.
+// Pixel-store state that an engine may have set: each value differs from the initial one and from tight packing.
 struct Layout {
   GLenum name;
   GLint value, initial;
@@ -118,7 +118,7 @@ TEST_F(GlTexture, OneThatDoesNotFitIntoMemoryIsNamedOnce) {
   EXPECT_NO_THROW(gl::check_errors("afterwards"));
 }
 
-// An earlier call has set the error flag, which was not read yet.
+// An earlier call has set the error flag, and nobody has read it yet.
 TEST_F(GlTexture, AnEarlierErrorNeitherHidesRunningOutOfMemoryNorIsLost) {
   const gl::TextureDesc huge{
       .target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA32F, .width = 16384, .height = 16384, .layers = 2048};

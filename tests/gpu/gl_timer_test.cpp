@@ -51,7 +51,7 @@ TEST_F(GlTimers, TheCpusTimeOfAFrameIsThatOfTheThreadAndLeavesOutWaiting) {
   for (const gl::Timers::Mode mode : {gl::Timers::Mode::finish, gl::Timers::Mode::query}) {
     gl::Device timed(test::pass_files(), mode);
     frames(timed, 1);     // compiles the shaders
-    timed.timers.rows();  // waits, so that take() removes this frame
+    timed.timers.rows();  // waits for its times, so that take() removes this frame
     timed.timers.take();
     static PFNGLFINISHPROC real = nullptr;
     real = gl::glFinish;
@@ -67,7 +67,7 @@ TEST_F(GlTimers, TheCpusTimeOfAFrameIsThatOfTheThreadAndLeavesOutWaiting) {
     ASSERT_EQ(cpu.size(), 3u);
     for (const double milliseconds : cpu) EXPECT_GT(milliseconds, 0.0);
     if (mode != gl::Timers::Mode::finish) continue;
-    // A frame has a dozen finishes, so what they take is most of it.
+    // A frame has a dozen calls of glFinish(), which take most of its time.
     for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(cpu[i], 0.5 * rows.back().milliseconds[i]);
   }
 }

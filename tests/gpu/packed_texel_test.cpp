@@ -1,4 +1,4 @@
-// The driver's packed texel is C++'s, bit for bit.
+// The driver packs texels to the same bits as the same functions compiled as C++.
 
 #include "lib/packed_texel.glsl"
 
@@ -50,7 +50,8 @@ class PackedTexelGpu : public GpuTest {
   gl::Device device_{gl::ShaderFiles(), gl::Timers::Mode::off};
 };
 
-// Every half, both sides of the middle to the next, and numbers from everywhere; visibilities from 0 to 1.
+// Every half float, floats just below and above the middle between it and the next, and random floats; visibilities
+// from 0 to 1.
 std::vector<glm::vec4> inputs() {
   std::vector<glm::vec4> values;
   Random random(1);
@@ -81,7 +82,7 @@ TEST_F(PackedTexelGpu, IsThatOfCpp) {
   }
 }
 
-// The format keeps what is written, also patterns that are no number as floats.
+// The texture returns the bits that were written, also those that would be NaN as floats.
 TEST_F(PackedTexelGpu, TexturesKeepEveryBit) {
   const gl::Texture texture("texels", {.format = GL_R32UI, .width = 4, .height = 2});
   const std::array<unsigned, 8> texels{0xffff7bffu, 0x7f800001u, 0xff800001u, 0x7fc00000u,

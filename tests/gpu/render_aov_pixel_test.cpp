@@ -1,4 +1,4 @@
-// One pixel of an AOV is that pixel of the whole picture.
+// Reading one pixel of an AOV gives the value that the whole AOV has there.
 #include <algorithm>
 
 #include "render_scenes.h"
@@ -8,7 +8,7 @@ namespace {
 
 class AovPixelTest : public RenderTest {
  protected:
-  // A wall with sky above it, and a square before it that casts on it and moves: every AOV has something to show.
+  // A wall with sky above it, and a moving square that shadows it: every AOV has values other than its default.
   AovPixelTest() {
     scene_.materials.push_back({.base_color = {0.8f, 0.4f, 0.2f, 1},
                                 .metallic = 0.3f,
@@ -23,10 +23,10 @@ class AovPixelTest : public RenderTest {
     sun().to_light = glm::normalize(glm::vec3(0.5f, 0.6f, 1));
     params.set_text("technique", "pcss");
     params.set_text("sun.angle", "4");
-    params.set_text("cascades.size", "64");  // so coarse that penumbrae get lost
+    params.set_text("cascades.size", "64");  // so coarse that penumbrae are narrower than a texel
   }
 
-  // The corners, both sides of an odd row and column, and pixels all over.
+  // The corners, pixels beside the middle row and column, and pixels all over the picture.
   static std::vector<glm::ivec2> pixels() {
     std::vector<glm::ivec2> all{{0, 0}, {width - 1, 0}, {0, height - 1}, {width - 1, height - 1}};
     for (int i = 0; i < 40; ++i) all.emplace_back(i * 37 % width, i * 29 % height);

@@ -57,7 +57,7 @@ shadow::Registry with_collecting() {
   return shadow::Registry(std::move(contents));
 }
 
-// A triangle's nine coordinates, each by its nearest thousandth.
+// A triangle's nine coordinates, in rounded thousandths.
 using Corners = std::array<long, 9>;
 
 std::vector<Corners> sorted(std::vector<Corners> triangles) {
@@ -90,7 +90,7 @@ bool casts(const scene::PosedSurface& surface, const std::array<glm::vec3, 3>& c
   return front == (surface.faces == scene::CasterFaces::front);
 }
 
-// The triangles of all surfaces but lines and those of a material, from the CPU's side.
+// The triangles that cast shadows in that light, except those of one material, computed on the CPU.
 std::vector<Corners> expected(const scene::GpuScene& scene, int without, const glm::vec3& to_light) {
   std::vector<Corners> triangles;
   const scene::PosedGeometry posed = scene.posed_geometry();
@@ -132,7 +132,8 @@ class RenderCasterGeometry : public RenderTest {
   static scene::Primitive with_material(int material) {
     scene::Primitive primitive = square();
     primitive.material = material;
-    primitive.colors = {{1, 1, 1, 1}, {1, 1, 1, 0.75f}, {1, 1, 1, 0.25f}, {1, 1, 1, 0}};  // parts cast, parts do not
+    primitive.colors = {
+        {1, 1, 1, 1}, {1, 1, 1, 0.75f}, {1, 1, 1, 0.25f}, {1, 1, 1, 0}};  // a part casts, the rest does not
     return primitive;
   }
 

@@ -13,7 +13,7 @@ float read_radius(Receiver receiver, Light light) { return 0.0; }
 Visibility visibility(Receiver receiver, Light light) { return Visibility(1.0, 0.0, 0.0, false); }
 )";
 
-// How many frames in a row this pixel has been seen in.
+// Counts the frames in a row that have had a history at this pixel.
 constexpr const char* count_text = R"(
 layout(binding = 8) uniform sampler2D last;
 uniform int has_last;
@@ -57,7 +57,7 @@ class RenderCut : public RenderTest {
     add_node(scene, square(), glm::mat4(1));
   }
 
-  // Draws the next frame; how many the technique has seen in a row.
+  // Draws the next frame; returns how many frames in a row the technique has counted.
   float count(scene::GpuScene& drawn) {
     const render::Frame& frame = counter.draw(drawn, inputs, counter_params);
     return gl::read_floats(*frame.mask.texture, 1)[0];

@@ -1,4 +1,4 @@
-// Skins and morphs on the GPU against the same sums on the CPU.
+// Skinning and morphing on the GPU, compared with the same computation on the CPU.
 #include <cstdint>
 #include <random>
 
@@ -120,7 +120,7 @@ TEST_F(DeformTest, MotionFollowsTheMorph) {
       {.name = "slide",
        .channels = {{.node = 0, .path = scene::Path::weights, .times = {0, 1}, .values = {0, 1}, .components = 1}},
        .duration = 1});
-  // In either order of poses, and after a jump in time.
+  // Whatever the order of the two poses, and after a jump in time.
   for (const auto& [last, now] : {std::pair(0.25, 0.5), std::pair(0.5, 0.25), std::pair(0.75, 0.5)}) {
     inputs.last_time = last;
     inputs.time = now;

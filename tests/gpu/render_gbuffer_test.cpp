@@ -1,4 +1,4 @@
-// What the camera sees: depth, normals, motion, culling, cut-outs, copies.
+// The G-buffer: depth, normals, motion, culling, alpha masks, instances.
 #include <cmath>
 
 #include "render_scenes.h"

@@ -1,4 +1,4 @@
-// Structs that C++ and GLSL share lie alike in both.
+// Structs that C++ and GLSL share have the same layout in both.
 #include <cstddef>
 #include <map>
 

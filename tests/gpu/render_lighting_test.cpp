@@ -1,4 +1,4 @@
-// Light on surfaces, and what becomes of it in the picture.
+// Lighting of surfaces, exposure and tone mapping.
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -16,7 +16,7 @@ class LightingTest : public RenderTest {
     sun() = {.to_light = {0, 0, 1}, .illuminance = glm::vec3(1000)};
   }
 
-  // EV at which a luminance of 1 stays 1.
+  // The EV at which a luminance of 1 has the value 1 in the picture.
   static float unit_ev() { return -std::log2(1.2f); }
 };
 

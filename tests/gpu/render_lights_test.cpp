@@ -1,4 +1,5 @@
-// Several lights in one frame: each has a layer of the mask, and the picture is the sum of what each gives alone.
+// Several lights in one frame: each has a layer of the mask, and the picture is the sum of the pictures with one light
+// each.
 #include <cmath>
 
 #include "render_scenes.h"
@@ -14,9 +15,9 @@ class LightsTest : public RenderTest {
     params.set("render.sky_light", 0.0f);
     params.set("render.ground_light", 0.0f);
     params.set("exposure.auto", false);
-    params.set("exposure.ev", -std::log2(1.2f));  // a luminance of 1 stays 1
+    params.set("exposure.ev", -std::log2(1.2f));  // a luminance of 1 has the value 1 in the picture
     inputs.camera = inputs.last_camera = render::look_at({0, 0, 8}, {0, 0, 0}, 0.5f, 0.01f);
-    // A square that hides another part of a wall from each of two suns.
+    // A square that hides from each of two suns a different part of a wall.
     scene_.materials.push_back({.base_color = {0.8f, 0.4f, 0.2f, 1}, .metallic = 0, .roughness = 1});
     scene::Primitive quad = square();
     quad.material = 0;
@@ -65,7 +66,7 @@ TEST_F(LightsTest, EachLightHasItsOwnLayerOfTheMask) {
   EXPECT_EQ(both.masks[1], b.masks[0]);
   EXPECT_EQ(turned.masks[0], b.masks[0]);
   EXPECT_EQ(turned.masks[1], a.masks[0]);
-  // Pixels that only one of them reaches, of either kind.
+  // There are pixels that only the first sun reaches, and pixels that only the second reaches.
   int only_a = 0, only_b = 0;
   for (std::size_t i = 0; i < both.masks[0].size(); ++i) {
     only_a += both.masks[0][i] == 1 && both.masks[1][i] == 0 ? 1 : 0;

@@ -1,5 +1,5 @@
-// What the scene's casters report about their movement: which fragments moved, where they are and were, and within
-// which box.
+// How the scene draws casters that moved: which fragments are marked, at the present and at the last position, and the
+// bounding box of both.
 #include <algorithm>
 
 #include "render_scenes.h"
@@ -13,7 +13,7 @@ struct Drawn {
   std::vector<float> marks, depth;
 };
 
-// What of the plane a square covers.
+// A part of the plane. Its texels are those whose centres lie in it.
 struct Rectangle {
   glm::vec2 low, high;
 
@@ -24,7 +24,7 @@ struct Rectangle {
 };
 
 Rectangle square_at(const glm::vec2& center) { return {center - 1.0f, center + 1.0f}; }
-// Of the square whose left half has no alpha.
+// What is left of a square whose left half has an alpha of 0.
 Rectangle right_half_at(const glm::vec2& center) { return {{center.x, center.y - 1}, center + 1.0f}; }
 
 bool any_holds(const std::vector<Rectangle>& rectangles, int texel) {
@@ -42,7 +42,7 @@ class MovedCasters : public RenderTest {
       return static_cast<int>(scene.nodes.size()) - 1;
     };
     place(square(), {-2.5f, 2.5f});
-    place(square(), {0, -2}, 1);  // hides half of where the next one is
+    place(square(), {0, -2}, 1);  // hides half of the next one
 
     const int slides = place(square(), {-2, -2});
     animate({.node = slides, .times = {0, 1}, .values = {-2, -2, 0, -1, -2, 0}});

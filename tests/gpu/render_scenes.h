@@ -43,7 +43,7 @@ class RenderTest : public GpuTest {
     params.set_text("technique", "none");
   }
 
-  // The frame's light.
+  // The light of the frames.
   render::Sun& sun() { return std::get<render::Sun>(inputs.lights.front()); }
 
   const render::Frame& draw(const scene::Scene& scene) {

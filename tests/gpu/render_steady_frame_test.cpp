@@ -40,7 +40,7 @@ class RenderSteadyFrame : public GpuTest {
     renderer->draw(*gpu_scene, inputs, params);
   }
 
-  // What a frame calls of a kind, once everything is there.
+  // The calls of a kind that a frame makes once everything has been allocated.
   Counts steady(GlCalls::Kind kind) {
     for (int i = 0; i < 3; ++i) draw();
     const GlCalls calls(kind);

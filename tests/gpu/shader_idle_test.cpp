@@ -1,5 +1,5 @@
-// Programs of parameter values that are no longer used, as while a slider is dragged, are neither kept for ever nor
-// compiled again with each save.
+// Programs of parameter values that are no longer used, as while a slider is dragged, are deleted at
+// some point, and are not compiled again when a shader is saved.
 #include "gl/shader_library.h"
 
 #include "gl/api.h"

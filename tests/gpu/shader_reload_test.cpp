@@ -143,7 +143,7 @@ std::set<GLuint> live_names() {
 
 TEST_F(ShaderReloadTest, ManySavesLeaveNoObjectsBehind) {
   const auto own_names = [&] { return std::set<GLuint>{library.get(a).id(), library.get(b).id()}; };
-  // Of other tests: a driver may keep a program that is no longer used until another one takes its place.
+  // Programs of earlier tests: a driver may keep the program that was current last until another one is made current.
   std::set<GLuint> others = live_names();
   for (const GLuint id : own_names()) others.erase(id);
   std::minstd_rand random(1);

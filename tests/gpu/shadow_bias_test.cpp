@@ -1,4 +1,4 @@
-// What must not be there: acne on lit planes, gaps at contacts; and what must be the same: drivers, a point-like sun.
+// Bias: no acne on lit planes, no gaps at contacts, and the same result with both drivers and with a very small sun.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using ShadowBias = TriangleTest;
 
-// A plane of 40 m, seen from near its rim towards its middle; tilted about an oblique axis when asked.
+// A plane of 40 m, seen from near its edge towards its middle, and optionally tilted about an oblique axis.
 TriangleScene lone_plane(bool tilted) {
   TriangleScene scene;
   const glm::mat4 turn =
@@ -64,8 +64,8 @@ TEST_F(ShadowBias, LitPlanesDoNotShadowThemselves) {
   }
 }
 
-// A wall on the ground; how far from its foot the ground is lit on the side away from the sun, in texels of the map as
-// the light projects them onto the ground.
+// The gap between a wall and its shadow: how far from the wall's foot the ground is lit on the side away from the sun,
+// in texels of the map as the light projects them onto the ground.
 double gap_in_texels(TriangleRenderer& renderer, const std::string& technique, float elevation, float height) {
   TriangleScene scene;
   scene.add_quad({-10, 0, 10}, {20, 0, 0}, {0, 0, -20});

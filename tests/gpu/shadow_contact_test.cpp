@@ -1,4 +1,4 @@
-// What lies close to the ground keeps its shadow where something tall makes the search wide.
+// An object close to the ground keeps its shadow where a tall caster makes the blocker search wide.
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -11,7 +11,7 @@ namespace {
 using ShadowContact = TriangleTest;
 
 // A slab 5 cm over the ground, and the edge of a roof 20 m up that hides nothing of it. Under a sun of 8 degrees the
-// roof asks for a disc of 1.4 m, and the light's cone is 7 mm wide where the slab is.
+// roof requires a search disc of 1.4 m, and the light's cone is 7 mm wide where the slab is.
 TEST_F(ShadowContact, AFootKeepsItsShadowUnderAWideSun) {
   TriangleScene scene;
   scene.add_quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8});
@@ -19,7 +19,7 @@ TEST_F(ShadowContact, AFootKeepsItsShadowUnderAWideSun) {
   scene.add_quad({1.24f, 20, 20}, {20, 0, 0}, {0, 0, -40});
   scene.receivers = shadow::Box{{-4, 0, -4}, {4, 0.06f, 4}};
   scene.width = scene.height = 128;
-  // From below the slab's edge: the ground under it is seen.
+  // The camera is below the slab's edge and sees the ground under it.
   scene.view = glm::lookAt(glm::vec3(-0.3f, 0.04f, 2), glm::vec3(-0.3f, 0, 0), glm::vec3(0, 1, 0));
   scene.projection = perspective(0.25f, 1, 0.01f);
   for (const int taps : {8, 16}) {

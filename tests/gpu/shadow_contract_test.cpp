@@ -23,7 +23,7 @@ float read_radius(Receiver receiver, Light light) { return 0.0; }
 Visibility visibility(Receiver receiver, Light light) { return fully_lit(); }
 )";
 
-// Triangles onto the ground, along the light; what lies there itself casts nothing on it.
+// Projects triangles onto the ground along the light; triangles that lie on the ground cast nothing on it.
 constexpr const char* ground_text = R"(
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
@@ -45,7 +45,7 @@ layout(location = 0) out float lit;
 void main() { lit = 1.0; }
 )";
 
-// As many groups as cover the mask.
+// Writes the number of work groups that covers the mask.
 constexpr const char* command_text = R"(
 layout(local_size_x = 1) in;
 layout(std430, binding = 0) buffer Command { uint groups[3]; };
@@ -86,7 +86,7 @@ layout(binding = 0, r32f) uniform writeonly restrict image2D radius;
 void main() { imageStore(radius, ivec2(0), vec4(float(blur_radius_pixels))); }
 )";
 
-// The mean of the last frames, and of how many.
+// The mean of the last frames, and the number of these frames.
 constexpr const char* mean_text = R"(
 #include "lib/packed_texel.glsl"
 layout(binding = 8) uniform usampler2D now;
@@ -115,9 +115,9 @@ gl::TextureDesc of_mask(const shadow::PassContext& context, GLenum format) {
   return {.format = format, .width = depth.width(), .height = depth.height()};
 }
 
-// The names of these targets and buffers are also names of the library's own: neither may disturb the other.
+// The library has targets and buffers with these names too: they must be separate ones.
 
-// What the casters cover of the ground is 1 in the stencil.
+// The stencil is 1 where casters cover the ground.
 void mark_covered(const shadow::PassContext& context, const gl::Texture& stencil) {
   const shadow::View& view = context.inputs().view;
   const gl::Buffer& projection = context.scratch("params", sizeof(Projection));
@@ -131,7 +131,7 @@ void mark_covered(const shadow::PassContext& context, const gl::Texture& stencil
   context.draw_caster_geometry(pass, "ground", glm::mat4(1));
 }
 
-// 1 where nothing is marked.
+// Visibility is 1 where the stencil is not marked.
 const gl::Texture& lit_pixels(const shadow::PassContext& context, const gl::Texture& stencil) {
   const gl::Texture& lit = context.target("samples", of_mask(context, GL_R16F));
   const gl::StencilFace unmarked{.test = gl::StencilTest::equal};
@@ -237,7 +237,7 @@ shadow::Denoiser averaging() {
               }};
 }
 
-// Reads a product, and neither the shadow map nor passes of its own.
+// A technique that reads a product, but no shadow map, and has no passes of its own.
 shadow::Technique planar_read() {
   return {.name = "planar_read", .glsl = "test/planar.glsl", .needs = {"blur_radius"}};
 }
@@ -251,7 +251,7 @@ shadow::Registry with_planar() {
   return shadow::Registry(std::move(contents));
 }
 
-// Share of a disc about a point that lies beyond a line at that distance.
+// The share of a disc that lies beyond a line at a given distance from its centre.
 float disc_share(float distance) {
   const float t = std::clamp(distance / radius, -1.0f, 1.0f);
   return 1 - (std::acos(t) - t * std::sqrt(1 - t * t)) / std::numbers::pi_v<float>;

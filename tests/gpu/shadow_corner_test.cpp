@@ -1,5 +1,5 @@
-// Hard shadows against rays, where faces meet: neither may lit corners darken, nor may shadows that fall into them
-// fail.
+// Hard shadows compared with rays where faces meet: lit corners must not be dark, and shadows that fall into corners
+// must not be missing.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 using ShadowCorner = TriangleTest;
 
-// A box of that size, its foot's centre moved and turned.
+// Adds a box of that size; `place` transforms it, with the origin at the centre of its base.
 void add_turned_box(TriangleScene& scene, const glm::vec3& size, const glm::mat4& place) {
   TriangleScene box;
   box.add_box({-size.x / 2, 0, -size.z / 2}, {size.x / 2, size.y, size.z / 2});
@@ -100,8 +100,8 @@ struct Wrong {
   int dark = 0, lit = 0, all = 0;  // pixels
 };
 
-// Pixels that are wrong though all rays within `reach` pixels of them agree: off the edges of shadows, whose place the
-// map's texels decide.
+// Pixels that are wrong though all rays within `reach` pixels of them agree: away from the edges of shadows, whose
+// exact place depends on the map's texels.
 Wrong compare(const TriangleScene& scene, const Shadowed& shadowed) {
   constexpr int reach = 4;
   const std::vector<int> lit = lit_by_rays(scene, shadowed);

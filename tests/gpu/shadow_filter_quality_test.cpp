@@ -19,7 +19,7 @@ const std::vector<std::string> all_filters{"none", "box", "gaussian", "bilateral
 constexpr int side = 128;
 
 // A half-plane 5 m up over a ground: under a sun of 8 degrees a penumbra of 0.7 m in the middle of the picture, of
-// whose width `part` is seen.
+// whose width the picture shows `part`.
 TriangleScene half_plane(float part) {
   constexpr float radius = 5 * 0.0699268f;
   TriangleScene scene = half_plane_over_ground(side);
@@ -60,7 +60,7 @@ class ShadowFilterQuality : public TriangleTest {
     set("filter.visibility", filter);
     return renderer_->render(scene, *params_);
   }
-  // The same as a part of larger textures, with something beside it.
+  // Draws the same into a part of larger textures, with other values beside it.
   std::vector<float> draw_part(const TriangleScene& scene, const shadow::Rect& part) {
     renderer_->render(scene, *params_, [&](shadow::Inputs& in) {
       in.depth = larger(in.depth, "large depth", GL_DEPTH_COMPONENT32F, part);
@@ -101,7 +101,7 @@ TriangleScene odd_box() {
 }
 
 TEST_F(ShadowFilterQuality, FragmentAndComputeGiveTheSameMask) {
-  params_->set("filter.width", 0.4f);  // spaced taps too
+  params_->set("filter.width", 0.4f);  // so wide that taps are spaced out
   const shadow::Rect part{13, 5, 75, 53};
   for (const std::string& filter : all_filters) {
     for (const std::string median : {"none", "median"}) {
@@ -119,7 +119,7 @@ TEST_F(ShadowFilterQuality, FragmentAndComputeGiveTheSameMask) {
 TEST_F(ShadowFilterQuality, NothingBesideTheViewportIsRead) {
   params_->set("filter.width", 0.4f);
   set("filter.penumbra", "median");
-  set("sampling.noise", "none");  // which differs from texel to texel of the textures
+  set("sampling.noise", "none");  // noise depends on the position in the textures
   for (const std::string driver : {"fragment", "compute"}) {
     set("driver", driver);
     for (const std::string& filter : all_filters) {
@@ -129,7 +129,7 @@ TEST_F(ShadowFilterQuality, NothingBesideTheViewportIsRead) {
   }
 }
 
-// Mean of each column.
+// The mean of each column of the mask.
 std::vector<double> profile(const Shadowed& shadowed) {
   std::vector<double> means(side, 0.0);
   for (int x = 0; x < side; ++x) {
@@ -138,7 +138,7 @@ std::vector<double> profile(const Shadowed& shadowed) {
   return means;
 }
 
-// Where a rising profile first reaches a value, pixels.
+// The position at which a rising profile first reaches a value, pixels.
 double crossing(const std::vector<double>& profile, double value) {
   for (size_t x = 1; x < profile.size(); ++x) {
     if (profile[x] >= value) {

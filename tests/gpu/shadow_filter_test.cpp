@@ -1,4 +1,5 @@
-// Filters of the mask, over made-up masks: how wide they blur, what they keep apart, what they leave alone.
+// Filters of the mask, on constructed masks: how wide they blur, which edges they keep, which pixels they do not
+// change.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@
 namespace penumbra::test {
 namespace {
 
-// Two values of visibility and blocker distance, and which pixels have the other one.
+// Two pairs of visibility and blocker distance, and which pixels have the second one.
 constexpr const char* pattern_text = R"(
 #include "shadow/light.glsl"
 
@@ -62,7 +63,7 @@ shadow::Technique pattern() {
                      number("pattern.marked_distance", 4)}};
 }
 
-// Another filter is one value and one file.
+// A filter that a program adds is one value and one GLSL file.
 shadow::Filter inverse() {
   return {.name = "inverse",
           .summary = "Light for shadow.",
@@ -115,7 +116,7 @@ TriangleScene ground(int side, float elevation_degrees, bool in_perspective) {
   return scene;
 }
 
-// Standard deviation, pixels, of what made a step of the picture's middle row, or column, a slope.
+// Standard deviation, pixels, of the kernel that blurred a step along the picture's middle row or column.
 double blur_of(const Shadowed& shadowed, bool of_column) {
   const int side = shadowed.width;
   double sum = 0;
@@ -213,7 +214,7 @@ TEST_F(ShadowFilter, AConstantMaskStaysConstant) {
     for (const std::string filter : {"box", "gaussian", "bilateral", "bilateral_separable"}) {
       const TriangleScene scene = ground(70, 40, true);
       for (const float visibility : draw(scene, "none", filter).visibilities()) {
-        ASSERT_NEAR(visibility, 0.37f, 3e-4f) << filter;  // halves of the mask
+        ASSERT_NEAR(visibility, 0.37f, 3e-4f) << filter;  // the mask stores half floats
       }
     }
   }
@@ -277,7 +278,7 @@ TEST_F(ShadowFilter, TheMedianKeepsEdges) {
       if (marks == "low") {
         EXPECT_EQ(filtered, raw) << "the slab's corners are the slab's";
       } else {
-        // Where a mark's edge ends at another surface's, it may be rounded off.
+        // Corners where the edge of a mark meets that of another surface may be rounded.
         int differ = 0;
         for (size_t i = 0; i < raw.size(); ++i) differ += filtered[i] != raw[i] ? 1 : 0;
         EXPECT_LE(differ, 8) << marks;

@@ -8,7 +8,7 @@
 namespace penumbra::test {
 namespace {
 
-// Names that the library has as well, at global scope.
+// Declares names at global scope that the library's GLSL declares too.
 constexpr const char* engine_before = R"(
 struct Light { vec3 color; };
 struct Receiver { float gloss; };
@@ -44,7 +44,7 @@ void main() {
 }
 )";
 
-// The engine's pass: visibility of every pixel, by the library's function.
+// The engine's pass: it calls the library's function for every pixel.
 std::vector<float> drawn_forward(TriangleRenderer& renderer, const ParamSet& params, const shadow::Light& light = {}) {
   gl::Device& device = renderer.device();
   const TriangleScene scene = box_on_ground();
@@ -79,7 +79,7 @@ double mean_difference(const std::vector<float>& a, const std::vector<float>& b)
   return sum / static_cast<double>(a.size());
 }
 
-// The engine reconstructs positions in other steps than the library: a tap may flip.
+// The engine computes positions by other operations than the library, so the result of a tap may change.
 constexpr double rounding = 0.001;
 
 using ShadowForward = GpuTest;
@@ -122,7 +122,7 @@ TEST_F(ShadowForward, ALightsOverridesCount) {
   EXPECT_LT(mean_difference(drawn_forward(renderer, params, lights[0]), mask), rounding);
 }
 
-// A technique that is only passes: blended surfaces get their shadows of another one.
+// A technique that consists only of passes: another one computes the shadows of blended surfaces.
 shadow::Technique painted() {
   return {.name = "painted",
           .summary = "Half light everywhere.",
@@ -166,7 +166,7 @@ TEST_F(ShadowForward, RegistriesOnOneDeviceDoNotDisturbEachOther) {
   const std::vector<float> alone = renderer.render(box_on_ground(), params).mask;
   const shadow::SoftShadows other(renderer.device(), with_painted());
   ParamSet more = ParamSet(other.registry().params());
-  // Another program of the same technique is compiled now, with the other registry's files there.
+  // Another program of the same technique is compiled now, while the files of the other registry exist.
   params.set("pcf.filter_taps", 17);
   const std::vector<float> beside = renderer.render(box_on_ground(), params).mask;
   TriangleRenderer fresh;

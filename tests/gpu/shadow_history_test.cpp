@@ -1,4 +1,4 @@
-// A surface that appears from behind another takes nothing of it along.
+// History: a surface that appears from behind another one does not use the other's history.
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,8 @@ namespace {
 
 constexpr float pixel = 0.1f;  // of the wall, metres
 
-// A screen before a wall, twice as near. A caster out of view darkens all of the screen and nothing else that is seen.
+// A screen in front of a wall, at half the wall's distance. A caster out of view shadows all of the screen and no other
+// visible surface.
 TriangleScene screen_before_wall(float eye_x) {
   TriangleScene scene;
   scene.add_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
@@ -29,7 +30,8 @@ TriangleScene screen_before_wall(float eye_x) {
 
 class ShadowHistory : public TriangleTest {
  protected:
-  // Pixels that are neither dark nor lit after some steps to the side, each of so many pixels of the wall.
+  // The number of pixels that are neither dark nor lit after some steps of the camera to the side; each step moves
+  // the wall by `step` pixels.
   int mixed_pixels(const ParamSet& params, float step) {
     int mixed = 0;
     glm::mat4 last_view(1);
@@ -58,7 +60,7 @@ TEST_F(ShadowHistory, NothingTrailsBehindAnEdge) {
   EXPECT_GT(mixed_pixels(params, 1), 20) << "the picture shows no trail at all";
 }
 
-// A penumbra over all of the picture, every texel of it read: a smooth function of the place and nothing else.
+// A penumbra over the whole picture. Every texel is read, so it is a smooth function of the position.
 TriangleScene wide_penumbra() {
   TriangleScene scene = half_plane_over_ground(64);
   scene.view = glm::lookAt(glm::vec3(0, 2.5f, 0.4f), glm::vec3(0), glm::vec3(0, 0, -1));
@@ -66,7 +68,8 @@ TriangleScene wide_penumbra() {
   return scene;
 }
 
-// Two frames under a jitter each: how far the blend is at most from what the second frame shows alone.
+// Draws two frames, each with its own jitter. Returns the largest difference of the blend from the second frame without
+// history.
 double most_off(TriangleRenderer& renderer, const ParamSet& plain, const shadow::Rect& viewport) {
   ParamSet blended = plain;
   blended.set("history.reuse", true);
@@ -107,8 +110,8 @@ TEST_F(ShadowHistory, JitterMovesNothing) {
   EXPECT_LT(most_off(*renderer_, params, {0, 0, 64, 64}), 0.004);
 }
 
-// Ground and caster move together by three pixels a frame: the shadow does not move on the ground. How far the blend is
-// off at most, if the motion vectors say that all moved by so many pixels.
+// Ground and caster move together by three pixels a frame, so the shadow does not move on the ground. Returns the
+// largest error of the blend if the motion vectors say that everything moved by so many pixels.
 double off_by_motion(TriangleRenderer& renderer, float pixels) {
   constexpr int side = 64;
   constexpr float half = 0.3f;
@@ -153,7 +156,7 @@ TEST_F(ShadowHistory, FollowsReceiversByTheirMotion) {
   EXPECT_GT(off_by_motion(*renderer_, -3), 0.06);
 }
 
-// The maps of the last frame as an engine's own.
+// The maps of the last frame, passed in as maps that an engine has drawn.
 shadow::FinishedMaps finished(const shadow::LightFrame& light, const gl::Texture& copy) {
   gl::glCopyImageSubData(light.depth, GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, copy.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0,
                          copy.width(), copy.height(), 1);

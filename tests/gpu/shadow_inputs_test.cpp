@@ -1,4 +1,4 @@
-// What the library is handed: bad input is refused in one line that names it, and a view may be a part of its textures.
+// Inputs: bad input is refused with one line that names it, and a view may cover a part of its textures.
 
 #include <cmath>
 #include <limits>
@@ -13,7 +13,7 @@ constexpr float infinite = std::numeric_limits<float>::infinity();
 
 class ShadowInputs : public GpuTest {
  protected:
-  // The message that the inputs end with, once changed.
+  // The message with which inputs are refused after `change` has changed them.
   std::string refusal(const TriangleRenderer::Adjust& change) {
     return message_of([&] { renderer.render(box_on_ground(48), params, change); });
   }
@@ -38,11 +38,11 @@ TEST_F(ShadowInputs, MatricesAndBoxesAreChecked) {
   expect_refusal("the projection matrix is not finite", [](Inputs& in) { in.view.projection[0][0] = NAN; });
   expect_refusal("the projection matrix has no inverse", [](Inputs& in) { in.view.projection[0][0] = 0; });
   expect_refusal("the jitter is not finite", [](Inputs& in) { in.view.jitter.x = NAN; });
-  expect_refusal("the box of the casters is empty", [](Inputs& in) { in.casters = Inputs().casters; });
-  expect_refusal("the box of the receivers is empty", [](Inputs& in) { in.receivers.min.y = 100; });
-  expect_refusal("the box of the casters is not finite", [](Inputs& in) { in.casters.max.x = infinite; });
-  expect_refusal("the box of the receivers is not finite", [](Inputs& in) { in.receivers.min.z = NAN; });
-  expect_refusal("the box of the moved casters is not finite", [](Inputs& in) {
+  expect_refusal("the bounding box of the casters is empty", [](Inputs& in) { in.casters = Inputs().casters; });
+  expect_refusal("the bounding box of the receivers is empty", [](Inputs& in) { in.receivers.min.y = 100; });
+  expect_refusal("the bounding box of the casters is not finite", [](Inputs& in) { in.casters.max.x = infinite; });
+  expect_refusal("the bounding box of the receivers is not finite", [](Inputs& in) { in.receivers.min.z = NAN; });
+  expect_refusal("the bounding box of the moved casters is not finite", [](Inputs& in) {
     in.moved = shadow::Box{glm::vec3(0), {0, NAN, 0}};
   });
   EXPECT_NO_THROW(renderer.render(box_on_ground(48), params, [](Inputs& in) {

@@ -1,5 +1,5 @@
-// The blocks of the shadow passes lie alike in C++ and in the driver's programs, and parameters arrive under their
-// names whatever the registry's rows.
+// The uniform blocks of the shadow passes have the same layout in C++ and in the driver's programs, and each parameter
+// gets its value whatever other parameters the registry has.
 
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
@@ -44,7 +44,7 @@ void expect_offset(const Block& block, const std::string& glsl, std::size_t cpp)
   EXPECT_EQ(block.offsets.at(glsl), static_cast<int>(cpp)) << glsl;
 }
 
-// The built-in techniques the other way round, behind one with rows of every kind.
+// The built-in techniques in reverse order, after a technique with parameters of every kind.
 shadow::Registry reordered() {
   const auto built_in = shadow::built_in_registry().techniques();
   std::vector<shadow::Technique> techniques(built_in.rbegin(), built_in.rend());

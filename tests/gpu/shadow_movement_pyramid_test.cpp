@@ -1,4 +1,4 @@
-// The pyramid over a movement map loses no mark, and a look-up misses none.
+// The pyramid of a movement map loses no mark, and look-ups find all marks.
 #include <algorithm>
 #include <random>
 
@@ -30,7 +30,7 @@ class MovementPyramid : public GpuTest {
     return map;
   }
 
-  // Lone texels, the corners among them, and a patch.
+  // Single texels, the corners among them, and a patch.
   static std::vector<float> marks(int size, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> any(0, size - 1);
@@ -46,7 +46,7 @@ class MovementPyramid : public GpuTest {
   gl::Device device{gl::ShaderFiles(), gl::Timers::Mode::off};
 };
 
-// Which texel of a level has one of level 0.
+// The texel of a level that covers a texel of level 0.
 int texel_over(int base, int size, int level) { return std::min(base >> level, std::max(size >> level, 1) - 1); }
 
 TEST_F(MovementPyramid, MaximumIsExactAtEveryLevelForAnySize) {
@@ -131,7 +131,7 @@ class MovementLookUp : public MovementPyramid {
     unsigned seen = 2;
   };
 
-  // In cascade 1 of two, whose map is so many metres wide.
+  // Looks up in cascade 1 of two, whose map is so many metres wide.
   void look_up(std::vector<Query>& queries, const gl::Texture& map, const glm::vec2& center, float width) {
     const auto size = static_cast<float>(map.width());
     device.shaders.files().put("test/look_up.comp", look_up_text);
@@ -151,10 +151,10 @@ class MovementLookUp : public MovementPyramid {
     gl::glGetNamedBufferSubData(storage.id(), 0, static_cast<GLsizeiptr>(storage.size()), queries.data());
   }
 
-  shadow::SoftShadows shadows{device};  // its parameters' file
+  shadow::SoftShadows shadows{device};  // generates the file of the parameters
 };
 
-// Texels between a point, in texels, and the nearest mark's square: by Euclid, and by the larger of the two axes.
+// Distance from a point to the nearest marked texel's square, in texels: Euclidean, and the larger along x or y.
 struct Distances {
   float straight = 1e30f, along_axes = 1e30f;
 };

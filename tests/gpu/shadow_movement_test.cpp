@@ -38,13 +38,13 @@ size_t count_of(const std::vector<float>& texels, float value) {
   return static_cast<size_t>(std::count(texels.begin(), texels.end(), value));
 }
 
-// A box that slid beside, below and above others, on a ground.
+// A box that moved beside, below and above others, on a ground.
 struct Slide {
   TriangleScene all = box_on_ground();
-  TriangleScene still, now, last;  // what stood still; what moved, at either pose
+  TriangleScene still, now, last;  // casters that did not move; those that did, at both positions
 
   explicit Slide(const glm::vec3& by = {0.7f, 0.2f, -0.4f}) {
-    all.add_box({-2.5f, 2.5f, 0.5f}, {1.5f, 2.7f, 1.2f});  // hides a part of what follows from the light
+    all.add_box({-2.5f, 2.5f, 0.5f}, {1.5f, 2.7f, 1.2f});  // hides a part of the moved box from the light
     still.triangles = all.triangles;
     const size_t first = all.triangles.size();
     all.add_box({-2.6f, 0.2f, -0.3f}, {-1.4f, 0.9f, 1.6f});
@@ -78,7 +78,7 @@ class ShadowMovement : public GpuTest {
 
   struct How {
     bool second_target = false;
-    bool finished_maps = false;  // nothing to test against
+    bool finished_maps = false;  // as if the caller had drawn the maps: then there is no depth to test against
     std::optional<shadow::Box> bounds;
     MovementForm form = MovementForm::maximum;
   };
@@ -162,7 +162,7 @@ TEST_F(ShadowMovement, WithoutDepthHiddenCastersCountToo) {
 TEST_F(ShadowMovement, SecondTargetAndBoundsChangeNothing) {
   for (const glm::vec3& by : {glm::vec3(0.7f, 0.2f, -0.4f), glm::vec3(-0.31f, 0, 0.27f), glm::vec3(0.05f, 0.4f, 0)}) {
     const Slide slide(by);
-    // From above, the box about what moved is no wider than its silhouettes.
+    // Seen from above, the bounding box of the moved caster is no wider than its silhouettes.
     const glm::vec3 to_light = by.y == 0 ? glm::vec3(0, 1, 0) : sun_direction(60, 40);
     const shadow::Cascades cascades = slide.cascades(to_light);
     for (const MovementForm form : {MovementForm::maximum, MovementForm::average}) {
@@ -199,7 +199,7 @@ TEST_F(ShadowMovement, WhatDidNotMoveCostsNothing) {
 TEST_F(ShadowMovement, CascadesWithoutMoversAreClearAndUndrawn) {
   TriangleScene scene = box_on_ground();
   const size_t first = scene.triangles.size();
-  scene.add_box({-4.9f, 0, -4.9f}, {-4.7f, 0.1f, -4.7f});  // far from what the finest cascade holds
+  scene.add_box({-4.9f, 0, -4.9f}, {-4.7f, 0.1f, -4.7f});  // far outside of the finest cascade
   scene.move_from(first, {0.05f, 0, 0});
   scene.view = glm::lookAt(glm::vec3(3, 2, 4), glm::vec3(0), glm::vec3(0, 1, 0));
   Slide setting;

@@ -24,8 +24,8 @@ double exact_disc(double t) {
 }
 double exact_square(double t) { return 0.5 + 0.5 * std::clamp(t, -1.0, 1.0); }
 
-// A half-plane x < 0 at a height over the plane y = 0, seen from under it. Receivers reach 2.5 penumbra radii to each
-// side.
+// A half-plane x < 0 at a height above the plane y = 0, with a camera between the two. Receivers extend 2.5 penumbra
+// radii to each side of the edge.
 TriangleScene knife_edge(float height, float angle_degrees, int width) {
   const float radius = height * std::tan(glm::radians(angle_degrees) / 2);
   const float reach = 2.5f * radius;
@@ -41,7 +41,7 @@ TriangleScene knife_edge(float height, float angle_degrees, int width) {
   return scene;
 }
 
-// Largest distance of a profile from the exact one, and where.
+// The largest error of a profile, and where it is.
 struct Deviation {
   double worst = 0;
   double at = 0;
@@ -128,7 +128,8 @@ double exact_oblique(const glm::dvec3& to_light, double x, double height, double
   return exact_disc(along(to_light) / (tan_half_angle * std::hypot(along(u), along(w))));
 }
 
-// PCSS takes blockers to be parallel to the light: under an oblique sun its penumbra is off by what this test states.
+// PCSS assumes that blockers are parallel to the light's disc, so its penumbra has an error under an oblique sun. The
+// test bounds it.
 TEST_F(KnifeEdge, ObliqueSunsAreOffByNoMoreThanPcssItselfIs) {
   struct Oblique {
     double angle, elevation, bound;
@@ -138,7 +139,7 @@ TEST_F(KnifeEdge, ObliqueSunsAreOffByNoMoreThanPcssItselfIs) {
     const double tan_half = std::tan(glm::radians(angle) / 2);
     for (const double azimuth : {0.0, 45.0, 90.0}) {
       const glm::dvec3 to_light(sun_direction(static_cast<float>(azimuth), static_cast<float>(elevation)));
-      // The edge's shadow lies where the ray to the sun's centre meets the edge.
+      // Receivers whose ray to the sun's centre meets the edge: the middle of the penumbra.
       const double middle = -height * to_light.x / to_light.y;
       const double half = 1.6 * height * tan_half / (to_light.y * to_light.y);
       TriangleScene scene = knife_edge(static_cast<float>(height), static_cast<float>(angle), 192);
@@ -183,8 +184,8 @@ double width_10_90(const std::vector<double>& profile, double step) {
   return (crossing(0.9) - crossing(0.1)) * step;
 }
 
-// The knife edge's width under a sun of `angle`, with the receiver plane framed so that `cascades` matter: a plane seen
-// in perspective, the edge running along the view, the profile averaged over the rows at a distance.
+// The width of the knife edge's penumbra under a sun of 8 degrees, `distance` metres from a camera that sees the plane
+// in perspective along the edge, so that the cascade depends on the distance. The profile is a mean over many rows.
 double width_at(TriangleRenderer& renderer, int cascades, int size, bool far_object, float distance,
                 double* kernel_texels) {
   const float height = 4;
@@ -196,8 +197,7 @@ double width_at(TriangleRenderer& renderer, int cascades, int size, bool far_obj
   if (far_object) scene.add_box({400, 0, -900}, {420, 60, -880});
   scene.width = 192;
   scene.height = 224;
-  // Under the caster, looking down at the edge's shadow `distance` metres away, so that the picture covers the
-  // penumbra.
+  // The camera is below the caster and looks down at the edge's shadow; its picture covers the penumbra.
   const glm::vec3 eye{0, 2, 4};
   const glm::vec3 target{0, 0, 4 - distance};
   scene.view = glm::lookAt(eye, target, glm::vec3(0, 1, 0));

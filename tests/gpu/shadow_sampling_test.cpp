@@ -18,7 +18,7 @@ namespace {
 constexpr int side = 128;      // pixels: four tiles of noise
 constexpr float grid = 0.02f;  // rows lie otherwise on the map's texels
 
-// The penumbra of a half-plane 5 m up over all of the picture, under a sun of 8 degrees.
+// The penumbra of a half-plane 5 m up, which fills the picture, under a sun of 8 degrees.
 TriangleScene wide_penumbra() {
   constexpr float radius = 5 * 0.0699f;
   TriangleScene scene = half_plane_over_ground(side);
@@ -41,7 +41,7 @@ class ShadowSampling : public TriangleTest {
   }
 
   Shadowed draw() { return renderer_->render(wide_penumbra(), *params_); }
-  // The next frame of a camera that does not move.
+  // Draws the next frame of a camera that does not move.
   Shadowed draw_next() {
     return renderer_->render(wide_penumbra(), *params_, [](shadow::Inputs& inputs) {
       inputs.view.last_view = inputs.view.view;
@@ -111,7 +111,7 @@ TEST_F(ShadowSampling, TheBlockerStepVariesWhenAsked) {
   EXPECT_NE(penumbra_radii(draw_next()), penumbra_radii(first));
 }
 
-// Mean over a Gaussian of 1.5 pixels, off the picture's edges.
+// Mean under a Gaussian of 1.5 pixels, for pixels away from the picture's edges.
 std::vector<double> blurred(const std::vector<float>& picture) {
   constexpr int reach = 5;
   std::vector<double> result;

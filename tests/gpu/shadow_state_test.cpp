@@ -52,7 +52,7 @@ std::array<GLint, count> integers(GLenum name) {
   return result;
 }
 
-// State that render() leaves alone, and what an engine may have set it to: each value is another than the initial one.
+// State that render() does not change, with values that an engine may have set: each differs from the initial one.
 struct Kept {
   GLenum name;
   GLint value;
@@ -63,7 +63,7 @@ constexpr std::array kept_layout{
     Kept{GL_UNPACK_SWAP_BYTES, 1},  Kept{GL_PACK_ALIGNMENT, 2},     Kept{GL_PACK_ROW_LENGTH, 23},
     Kept{GL_PACK_SKIP_ROWS, 4},     Kept{GL_PACK_SKIP_PIXELS, 5},   Kept{GL_PACK_SKIP_IMAGES, 6},
     Kept{GL_PACK_IMAGE_HEIGHT, 29}, Kept{GL_PACK_SWAP_BYTES, 1}};
-// Buffers that are bound for others' sake; by target and by query.
+// Bindings of buffers that render() does not change: the target, and the query that returns the binding.
 constexpr std::array kept_buffers{std::pair{GL_PIXEL_UNPACK_BUFFER, GL_PIXEL_UNPACK_BUFFER_BINDING},
                                   std::pair{GL_PIXEL_PACK_BUFFER, GL_PIXEL_PACK_BUFFER_BINDING},
                                   std::pair{GL_ARRAY_BUFFER, GL_ARRAY_BUFFER_BINDING},
@@ -73,7 +73,8 @@ constexpr std::array kept_buffers{std::pair{GL_PIXEL_UNPACK_BUFFER, GL_PIXEL_UNP
                                   std::pair{GL_SHADER_STORAGE_BUFFER, GL_SHADER_STORAGE_BUFFER_BINDING},
                                   std::pair{GL_QUERY_BUFFER, GL_QUERY_BUFFER_BINDING}};
 
-// State that no engine has all of at once: some would spoil a pass that inherited it, the rest is to stay.
+// State that no engine has all at once. Some of it would break a pass that inherited it; render() must not change the
+// rest.
 class Disturbed {
  public:
   Disturbed() {
@@ -111,7 +112,7 @@ class Disturbed {
     gl::glBlendColor(0.25f, 0.5f, 0.75f, 1.0f);
     gl::glProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
     for (GLuint unit = 0; unit < 16; ++unit) {
-      // A comparing, filtering sampler gives other values for every texture.
+      // A sampler that compares and filters, with which every texture would return other values.
       sampler_.bind(unit);
       gl::glBindTextureUnit(unit, texture_.id());
     }

@@ -29,7 +29,7 @@ layout(binding = 0, r32f) uniform writeonly restrict image2DArray level;
 void main() { imageStore(level, ivec3(0), vec4(float(level_eighths) / 8.0)); }
 )";
 
-// First pass: how many frames this pixel has been seen in, on top of what visibility() gave.
+// First pass: adds to the result of visibility() the number of frames in which this pixel has been drawn.
 constexpr const char* count_text = R"(
 #include "shadow/drivers/gbuffer.glsl"
 layout(binding = 8) uniform sampler2DArray raw;
@@ -114,7 +114,7 @@ shadow::Technique counted() {
           .programs = programs};
 }
 
-// No function of a receiver: blended surfaces get the other technique's.
+// A technique without visibility(): blended surfaces use that of the other technique.
 shadow::Technique cleared() {
   return {.name = "cleared",
           .summary = "One value.",
@@ -149,7 +149,7 @@ class ShadowTechnique : public GpuTest {
     lights[0].source = shadow::Sun{.to_light = {0, 1, 0}};
   }
 
-  // The next frame of a view: what the middle of each light's layer says of visibility and of frames seen.
+  // Draws the next frame of a view. Returns visibility and number of frames at the middle of each light's layer.
   std::vector<glm::vec2> frame(const TriangleRenderer::Adjust& adjust = {}) {
     renderer.render(scene, params, [&](shadow::Inputs& inputs) {
       inputs.lights = lights;
@@ -307,7 +307,7 @@ TEST_F(ShadowTechnique, EveryProgramIsListedForTheChecks) {
     EXPECT_NO_THROW(gl::Program(program, renderer.device().shaders.files())) << program.name;
     if (program.name == "counted: show" || program.name == "counted: count" || program.name == "level: fill") ++own;
   }
-  // The recipe's once; the technique's with the switch on and off, points rotated and shifted.
+  // The recipe's programs are listed once; the technique's with the switch on and off, and points rotated and shifted.
   EXPECT_EQ(own, 1 + 2 * (1 + 2));
 }
 
@@ -317,7 +317,7 @@ TEST_F(ShadowTechnique, AProgramThatIsNotListedIsABug) {
 }
 
 TEST_F(ShadowTechnique, MakesNoObjectsAfterTheFirstFrames) {
-  // The test's own geometry takes a buffer and a vertex array a frame.
+  // The test's own geometry creates a buffer and a vertex array in each frame.
   for (int i = 0; i < 3; ++i) count();
   const GlCalls creations(GlCalls::Kind::creations);
   for (int i = 0; i < 3; ++i) count();

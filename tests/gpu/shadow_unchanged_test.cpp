@@ -12,7 +12,7 @@ namespace {
 
 class ShadowUnchanged : public TriangleTest {
  protected:
-  // The next frame of a camera that does not move.
+  // Draws the next frame of a camera that does not move.
   void frame(const ParamSet& params, const TriangleRenderer::Adjust& adjust = {}) {
     renderer_->render(scene_, params, [&](shadow::Inputs& inputs) {
       inputs.view.last_view = inputs.view.view;

@@ -18,7 +18,7 @@ struct Triangle {
   glm::vec3 moved_by{0};  // since the last frame
 };
 
-// A few triangles, a camera and a sun: enough to fill the inputs of the shadow library as an engine would.
+// A few triangles, a camera and a sun: enough to fill the shadow library's inputs as an engine would.
 struct TriangleScene {
   std::vector<Triangle> triangles;
   glm::mat4 view{1}, projection{1};
@@ -30,11 +30,11 @@ struct TriangleScene {
   void add_box(const glm::vec3& min, const glm::vec3& max);
   // Moves the triangles from that one on.
   void move_from(size_t first, const glm::vec3& by);
-  // Of what moved, where it is and where it was; min > max: nothing did.
+  // Bounds of the triangles that moved, at their present and last positions; min > max: none moved.
   shadow::Box moved() const;
 };
 
-// A scene's triangles on the GPU, and a callback that draws them as a renderer's passes ask.
+// A scene's triangles on the GPU, and the callback that draws them for the shadow library's passes.
 class Geometry {
  public:
   explicit Geometry(const TriangleScene& scene);
@@ -44,7 +44,7 @@ class Geometry {
 
   static void put_shaders(gl::ShaderFiles& files);
   void draw() const;
-  shadow::DrawCasters casters() const;  // to be used while this lives
+  shadow::DrawCasters casters() const;  // valid as long as this object
 
  private:
   gl::Buffer buffer_;

@@ -1,4 +1,4 @@
-// Every frame's times go to the picture it was drawn for, whenever they come in.
+// Each frame's times are added to the picture that it was drawn for, however late they arrive.
 #include "gl/api.h"
 #include "gl_pass.h"
 #include "viewer/costs.h"
@@ -30,7 +30,7 @@ TEST_F(ViewerCostReader, FramesGoToTheirOwnPicture) {
       frame(timed, "of b");
       reader.start(timed.timers, a);
       frame(timed, "of a");
-      if (turn % 2 == 0) continue;  // several turns' frames may come in at once
+      if (turn % 2 == 0) continue;  // the times of several turns may arrive at once
       gl::glFinish();
       reader.read(timed.timers, turn);
     }

@@ -10,8 +10,8 @@
 
 namespace penumbra::test {
 
-// Expects two masks of one machine to be the same, bit by bit where it renders in software. A GPU may round otherwise
-// in another shader stage: there 99.9 % of the pixels are within 1/255, and none is off by more than two of `taps`.
+// Expects two masks from one machine to be equal. A software rasteriser must give the same bits. A GPU may round
+// differently in another shader stage: 99.9 % of the pixels must be within 1/255, and all within two of `taps`.
 inline void expect_same_visibility(const std::vector<float>& a, const std::vector<float>& b, int taps) {
   ASSERT_EQ(a.size(), b.size());
   if (gl::device_info().software) {

@@ -19,7 +19,7 @@ KEYS = {"left": "\ue012", "up": "\ue013", "right": "\ue014", "down": "\ue015", "
 
 
 class Browser:
-    """A browser of its own, with nobody's profile; to be used in a with statement."""
+    """A separate browser with an empty profile; to be used in a with statement."""
 
     def __init__(self, width=1280, height=800, dark=False):
         self._size, self._dark = (width, height), dark
@@ -82,7 +82,7 @@ class Browser:
         return self._call("POST", "/goog/cdp/execute", {"cmd": command, "params": parameters})
 
     def _set_size(self, width, height):
-        # Of the page itself: a window can't be narrower than its buttons.
+        # Sets the width of the page itself, since a window can't be narrower than its buttons.
         self._chrome("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
                      mobile=False)
 
@@ -94,12 +94,12 @@ class Browser:
         self._chrome("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": value}])
 
     def open(self, path):
-        """A file, and its log begins anew."""
+        """Opens a file and empties the log."""
         self.log()
         self._call("POST", "/url", {"url": pathlib.Path(path).resolve().as_uri()})
 
     def script(self, text, *arguments):
-        """What the JavaScript returns."""
+        """Runs JavaScript and returns its result."""
         return self._call("POST", "/execute/sync", {"script": text, "args": list(arguments)})
 
     def all(self, selector):
@@ -115,14 +115,14 @@ class Browser:
         self._call("POST", f"/element/{element}/click", {})
 
     def press(self, element, *keys):
-        """Keys by name (see KEYS) or as characters, on an element that takes the focus."""
+        """Focuses an element and presses keys, given by name (see KEYS) or as characters."""
         self._call("POST", f"/element/{element}/value", {"text": "".join(KEYS.get(key, key) for key in keys)})
 
     def text(self, element):
         return self._call("GET", f"/element/{element}/text")
 
     def drag(self, element, x, y):
-        """The mouse from the element's middle by (x, y) pixels, with its button down."""
+        """Drags the mouse from the element's middle by (x, y) pixels."""
         origin = {"type": "pointerMove", "duration": 50}
         actions = [{**origin, "origin": {ELEMENT: element}, "x": 0, "y": 0}, {"type": "pointerDown", "button": 0},
                    {**origin, "origin": "pointer", "x": x, "y": y}, {"type": "pointerUp", "button": 0}]
@@ -131,12 +131,12 @@ class Browser:
         self._call("DELETE", "/actions")
 
     def log(self):
-        """What the console has been told since the last call, warnings and errors alone."""
+        """The warnings and errors of the console since the last call."""
         entries = self._call("POST", "/se/log", {"type": "browser"})
         return [entry["message"] for entry in entries if entry["level"] in ("WARNING", "SEVERE")]
 
     def screenshot(self, path, whole=False):
-        """A PNG of what is seen, or of the whole page."""
+        """A PNG of the visible part, or of the whole page."""
         picture = self._chrome("Page.captureScreenshot", format="png", captureBeyondViewport=whole, **(
             {"clip": {"x": 0, "y": 0, **self._page_size(), "scale": 1}} if whole else {}))
         pathlib.Path(path).parent.mkdir(parents=True, exist_ok=True)
@@ -148,6 +148,6 @@ class Browser:
 
 
 def results_folder():
-    """Where tests put what a person looks at."""
+    """The folder in which tests put pictures for people to look at."""
     build = os.environ.get("PENUMBRA_BUILD")
     return pathlib.Path(build or tempfile.gettempdir()) / "test-results"

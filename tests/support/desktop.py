@@ -1,4 +1,4 @@
-"""A desktop of a test's own, without a screen: an X server, a window manager, a hand, and the viewer on it."""
+"""A virtual desktop for one test: an X server without a screen, a window manager, and simulated input."""
 
 import ctypes
 import dataclasses
@@ -19,7 +19,7 @@ _libc = ctypes.CDLL(None)
 
 
 def wait_for(condition, what, pause=0.03):
-    """What the condition returns once it is true; fails after a long time."""
+    """Waits until the condition returns something true, and returns that; fails after a long time."""
     deadline = time.monotonic() + PATIENCE
     while time.monotonic() < deadline:
         value = condition()
@@ -30,7 +30,7 @@ def wait_for(condition, what, pause=0.03):
 
 
 def start(command, **options):
-    """A process of its own group that does not outlive the test, however that ends."""
+    """Starts a process in its own process group. It ends with the test, also if the test is killed."""
     prctl_death_signal = 1
     return subprocess.Popen(list(map(str, command)), start_new_session=True,
                             preexec_fn=lambda: _libc.prctl(prctl_death_signal, signal.SIGKILL), **options)
@@ -46,7 +46,7 @@ def end(process):
 
 @dataclasses.dataclass
 class Picture:
-    """8-bit RGB, rows from the top."""
+    """A picture of 8-bit RGB, rows top to bottom."""
 
     width: int
     height: int
@@ -115,7 +115,7 @@ class Desktop:
     def _start_server(self):
         readable, writable = os.pipe()
         width, height = self._size
-        # -noreset: the first client that leaves would end the display's resources.
+        # -noreset: otherwise the server frees all resources when its last client disconnects.
         self._processes.append(start(
             ["Xvfb", "-displayfd", writable, "-screen", "0", f"{width}x{height}x24", "-fbdir", self._folder.name,
              "-nolisten", "tcp", "-noreset"], pass_fds=(writable,), stderr=subprocess.DEVNULL))
@@ -151,7 +151,7 @@ class Desktop:
         self.xdotool("mousemove", x, y)
 
     def screenshot(self):
-        """All of the screen, as it is now."""
+        """The whole screen."""
         data = pathlib.Path(self._folder.name, "Xvfb_screen0").read_bytes()
         head = struct.unpack_from(">25I", data)  # XWDFileHeader
         width, height, stride, colors = head[4], head[5], head[12], head[19]
@@ -161,7 +161,7 @@ class Desktop:
 
 
 def _rgb(row):
-    """From blue, green, red, nothing."""
+    """RGB from pixels of four bytes: blue, green, red, unused."""
     pixels = bytearray(len(row) // 4 * 3)
     pixels[0::3], pixels[1::3], pixels[2::3] = row[2::4], row[1::4], row[0::4]
     return bytes(pixels)

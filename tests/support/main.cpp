@@ -6,8 +6,8 @@
 
 namespace {
 
-// "suite.test:suite.test…" of the tests that the source file declares: ctest runs a file in one process, so that what
-// its tests share (a GL context) is made once, and files run side by side.
+// "suite.test:suite.test…" of the tests that the source file declares: ctest runs each file in one process, so that
+// its tests create a GL context only once, and runs several files at the same time.
 std::string filter_of(std::string_view file) {
   const testing::UnitTest& all = *testing::UnitTest::GetInstance();
   std::string ending("/");

@@ -30,7 +30,7 @@ class SceneFaults {
     check_animations();
   }
 
-  // Everything that a frame draws from is finite.
+  // Throws unless all values that a frame uses are finite.
   void check_pose(const scene::Pose& pose) const {
     for (const glm::mat4& matrix : pose.world) require_finite(matrix);
     for (const auto& joints : pose.skin)

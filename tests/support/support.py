@@ -22,7 +22,7 @@ def run(*arguments, timeout=300, **options):
 
 
 def wait_until_it_catches(number, process):
-    """Until a process that was started has a handler for the signal, however busy the machine is."""
+    """Waits until a process has installed a handler for the signal, however busy the machine is."""
     while process.poll() is None:
         status = pathlib.Path(f"/proc/{process.pid}/status").read_text()
         caught = next(int(line.split()[1], 16) for line in status.splitlines() if line.startswith("SigCgt"))
@@ -33,7 +33,7 @@ def wait_until_it_catches(number, process):
 
 
 def read_png(path):
-    """Rows of pixels, a tuple of 8-bit channels each, of a PNG without interlacing or a palette."""
+    """The rows of a PNG without interlacing or a palette; each pixel is a tuple of 8-bit channels."""
     data = pathlib.Path(path).read_bytes()
     assert data[:8] == b"\x89PNG\r\n\x1a\n", f"{path} is not a PNG"
     width, height, depth, color = struct.unpack(">IIBB", data[16:26])
@@ -54,7 +54,7 @@ def read_png(path):
 
 
 def _unfilter(kind, line, above, channels):
-    """One row of a PNG without its prediction (PNG specification, section 9)."""
+    """Reverses the filter of one row of a PNG (PNG specification, section 9)."""
     row = bytearray(line)
     for i in range(len(row)):
         left = row[i - channels] if i >= channels else 0
@@ -78,7 +78,7 @@ def temporary_folder():
 
 
 def without_root():
-    """What makes subprocess run a program as a user who may not do all; skips the test where that user can't run it."""
+    """Arguments with which subprocess runs a program as an unprivileged user; skips the test if that is impossible."""
     if os.geteuid() != 0:
         return {}
     nobody = {"user": 65534, "group": 65534}
@@ -90,7 +90,7 @@ def without_root():
 
 
 class TestCase(unittest.TestCase):
-    """A test with a folder of its own, removed afterwards."""
+    """A test with a temporary folder, which is removed afterwards."""
 
     def setUp(self):
         folder = temporary_folder()

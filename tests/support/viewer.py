@@ -1,4 +1,4 @@
-"""penumbra view on a desktop: its window, its widgets by name, and the hand that uses them."""
+"""penumbra view on a desktop: its window, its widgets by name, and simulated mouse and keyboard input."""
 
 import itertools
 import json
@@ -11,7 +11,7 @@ from desktop import LEFT, PATIENCE, end, start, wait_for
 from support import PROGRAM
 
 FEWEST_COLORS = 5  # of a picture that shows a scene, even without shadows
-# A click is down in one frame and up in the next, what it opens takes one to find its size, and the layout is written
+# A click is down in one frame and up in the next, a popup needs one frame to compute its size, and the layout is written
 # after a second one that is the same.
 FRAMES_OF_A_CLICK = 5
 
@@ -26,11 +26,11 @@ class Viewer:
     """To be used in a with statement. Widgets are named as in the file of --layout."""
 
     def __init__(self, desktop, *arguments, size=(800, 600), rests=True, folder=None, home=None):
-        """`folder` is the one that it is started in; settings are kept in `home`, if it is to outlive this."""
+        """`folder`: the working folder; `home`: keeps the settings, for tests that start the viewer again."""
         self._desktop, self._arguments, self._rests = desktop, arguments, rests
         self._size = ("--size", f"{size[0]}x{size[1]}") if size else ()
         self._start_folder, self._home = folder, home
-        self._ended = False  # as the test wished
+        self._ended = False  # whether the test itself has ended it
 
     def __enter__(self):
         self._folder = tempfile.TemporaryDirectory(prefix="penumbra-viewer-")
@@ -61,20 +61,20 @@ class Viewer:
             assert told == "", f"it told on stderr: {told}"
 
     def wait_for(self, condition, what, **options):
-        """As that of the desktop, while the viewer lives."""
+        """wait_for() of desktop.py, which also fails if the viewer ends."""
         def met():
             assert self.process.poll() is None, f"ended with {self.process.returncode}: {self.stderr()}"
             return condition()
         return wait_for(met, what, **options)
 
     def follow(self):
-        """Until it has taken what the hand did before, has shown what came of it and has written the layout."""
-        # It takes events, and so answers, once a frame.
+        """Waits until the viewer has handled all earlier input, shown the result and written the layout."""
+        # The viewer handles events, and so answers, once per frame.
         for _ in range(FRAMES_OF_A_CLICK + 1):
             self._desktop.client.ping(self.window)
             self.wait_for(self._desktop.client.answered, "an answer of the window", pause=0.005)
 
-    # What is seen.
+    # What the window shows.
 
     def layout(self):
         return json.loads(self._layout.read_text())
@@ -83,7 +83,7 @@ class Viewer:
         return widget in self.layout()
 
     def box(self, widget):
-        """Left, top, right, bottom in pixels of the window, once it is there."""
+        """Waits for a widget. Returns left, top, right, bottom in pixels of the window."""
         return self.wait_for(lambda: self.layout().get(widget), f"the widget {widget}")
 
     def middle(self, widget):
@@ -97,12 +97,12 @@ class Viewer:
         return self._desktop.screenshot().crop(x + left, y + top, x + right, y + bottom)
 
     def picture(self):
-        """The middle of the picture, where no message lies over it."""
+        """The middle of the picture, which no message covers."""
         whole = self.seen("picture")
         return whole.crop(0, whole.height // 3, whole.width, whole.height * 3 // 4)
 
     def rest(self):
-        """The picture once it is drawn in full; the pointer is out of it."""
+        """Moves the pointer away, waits until the picture is finished, and returns it."""
         self.leave()
         seen = None
 
@@ -115,7 +115,7 @@ class Viewer:
         return self.wait_for(rests, "a finished picture")
 
     def changed(self, before):
-        """The finished picture, once it is another."""
+        """Waits for a finished picture that differs from `before`, and returns it."""
         self.leave()
 
         def other():
@@ -124,17 +124,17 @@ class Viewer:
 
         return self.wait_for(other, "another picture")
 
-    # The hand.
+    # Mouse and keyboard.
 
     def move(self, x, y):
-        """The pointer to a pixel of the window."""
+        """Moves the pointer to a pixel of the window."""
         self._desktop.xdotool("mousemove", "--window", self.window, x, y)
 
     def leave(self):
         self._desktop.move(*self._desktop.corner)
 
     def point_at(self, widget):
-        """The pointer to its middle, where it comes to stand."""
+        """Moves the pointer to the middle of a widget, also if the widget is still moving."""
         place = None
         while place != self.middle(widget):
             place = self.middle(widget)
@@ -142,22 +142,22 @@ class Viewer:
             self.follow()
 
     def click(self, widget, until, what):
-        """And waits until the condition holds."""
+        """Clicks on a widget and waits until the condition holds."""
         self.point_at(widget)
         self._desktop.xdotool("click", LEFT)
         self.wait_for(until, what)
 
     def drag(self, x, y, button, until, what):
-        """From a pixel of the window, to and fro with rests and the button down until the condition holds."""
+        """Drags to and fro from a pixel of the window, with pauses, until the condition holds."""
         self.move(x, y)
         self._desktop.xdotool("mousedown", button)
-        self.follow()  # else the viewer would see the press at a later position of the pointer
+        self.follow()  # otherwise the viewer would get the press at a later position of the pointer
         way = itertools.cycle([*range(1, 21), *[20] * 20, *range(19, 9, -1), *[10] * 20, *range(9, -1, -1)])
 
         def moved():
             step = next(way)
             self.move(x + 4 * step, y + 2 * step)
-            return step >= 10 and until()  # far enough to be told from a click
+            return step >= 10 and until()  # far enough not to count as a click
 
         try:
             self.wait_for(moved, what)
@@ -165,7 +165,7 @@ class Viewer:
             self._desktop.xdotool("mouseup", button)
 
     def wheel(self, button, until, what):
-        """A notch over the picture."""
+        """Turns the wheel by one notch over the picture, and waits until the condition holds."""
         self.point_at("picture")
         self._desktop.xdotool("click", button)
         self.wait_for(until, what)
@@ -177,10 +177,10 @@ class Viewer:
             self.wait_for(until, what)
         finally:
             self._desktop.xdotool("keyup", key)
-        self.follow()  # the next press is another one
+        self.follow()  # so that the next press is a separate one
 
     def tap(self, key):
-        """A key that is down for a moment, shorter than a picture takes."""
+        """Presses and releases a key, faster than the viewer draws a picture."""
         self._desktop.xdotool("key", key)
 
     def copied(self):
@@ -196,32 +196,32 @@ class Viewer:
         self.click(f"tab {name}", lambda: self.has(widget), f"the tab {name}")
 
     def choose(self, widget, word):
-        """From a list that opens."""
+        """Opens the list of a widget and clicks on an entry."""
         item = f"{widget}={word}"
         self.click(widget, lambda: self.has(item), f"the list of {widget}")
         self.click(item, lambda: not self.has(item), f"{item} to be chosen")
 
     def find(self, param):
-        """Has the panel show the parameter alone."""
+        """Searches for the parameter, so that the panel shows no other one."""
         self._focus("search")
         self._desktop.xdotool("key", "ctrl+a")
         self.type(param)
 
         def alone():
-            # Rows move up while the last letters come in.
+            # Rows move up while the viewer handles the last letters.
             rows = {name.split("=")[0].split(" ")[0] for name in self.layout() if "." in name.split("=")[0]}
             return rows == {param}
         self.wait_for(alone, f"{param} alone")
 
     def _focus(self, widget):
-        """Clicks on a field; it takes text once it is seen to change."""
+        """Clicks on a field and waits until it looks different, since it then accepts text."""
         self.point_at(widget)  # which changes its colour
         before = self.seen(widget)
         self._desktop.xdotool("click", LEFT)
         self.wait_for(lambda: self.seen(widget) != before, f"{widget} to take text")
 
     def fill_in(self, param, text, until, what):
-        """Ctrl + click on a slider, a number, Enter."""
+        """Types a number into a slider: Ctrl + click, the number, Enter."""
         self.point_at(param)
         resting = self.seen(param)
         self._desktop.xdotool("keydown", "ctrl", "click", LEFT)
@@ -230,7 +230,7 @@ class Viewer:
         self.type(text)
         self.press("Return", until, what)
 
-    # Its end.
+    # The end of the viewer.
 
     def signal(self, number):
         self.process.send_signal(number)
@@ -245,6 +245,6 @@ class Viewer:
         return self._errors.read()
 
     def memory(self):
-        """Resident, MiB."""
+        """Resident memory, MiB."""
         status = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
         return next(int(line.split()[1]) for line in status.splitlines() if line.startswith("VmRSS")) / 1024

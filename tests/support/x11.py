@@ -1,4 +1,4 @@
-"""What xdotool can't do on an X display, by libX11 itself: resources, pings, the clipboard, dropping files (XDND 5)."""
+"""What xdotool can't do on an X display, done with libX11: resources, pings, the clipboard, dropping files (XDND 5)."""
 
 import ctypes
 import time
@@ -74,7 +74,7 @@ _declare("XSetErrorHandler", _pointer, _handler_type)
 
 @_handler_type
 def _tell_error(_display, error):
-    # libX11's own ends the process.
+    # libX11's default handler ends the process.
     print(f"X error {error.contents.code} of request {error.contents.request}")
     return 0
 
@@ -88,7 +88,7 @@ class Connection:
         assert self._display, f"no display {display}"
         self._root = _x.XDefaultRootWindow(self._display)
         self._window = _x.XCreateSimpleWindow(self._display, self._root, 0, 0, 1, 1, 0, 0, 0)
-        _x.XSelectInput(self._display, self._root, SUBSTRUCTURE_NOTIFY)  # answers to pings go there
+        _x.XSelectInput(self._display, self._root, SUBSTRUCTURE_NOTIFY)  # windows send their answers to pings there
         self._pings = 0
         self._sync()
 
@@ -110,20 +110,20 @@ class Connection:
         self._set_property(self._root, self._atom("RESOURCE_MANAGER"), XA_STRING, text.encode() + b"\n")
 
     def position(self, window):
-        """Where the window's upper left corner stands on the screen."""
+        """The position of the window's upper left corner on the screen."""
         x, y, child = _int(), _int(), _ulong()
         _x.XTranslateCoordinates(self._display, window, self._root, 0, 0, x, y, child)
         return x.value, y.value
 
     def size(self, window):
-        """Pixels, without the manager's frame."""
+        """The window's size in pixels, without the frame of the window manager."""
         root, x, y = _ulong(), _int(), _int()
         width, height, border, depth = (ctypes.c_uint() for _ in range(4))
         _x.XGetGeometry(self._display, window, root, x, y, width, height, border, depth)
         return width.value, height.value
 
     def _events(self):
-        """Those that have come; requests for a selection are answered in passing."""
+        """The events that have arrived. Answers requests for the selection among them."""
         while _x.XPending(self._display):
             event = _Event()
             _x.XNextEvent(self._display, event)
@@ -132,7 +132,7 @@ class Connection:
             yield event
 
     def _wait_for(self, wanted, what):
-        """The first event that is wanted."""
+        """Waits for the first event for which `wanted` holds."""
         deadline = time.monotonic() + PATIENCE
         while time.monotonic() < deadline:
             for event in self._events():
@@ -142,7 +142,7 @@ class Connection:
         raise AssertionError(f"no {what} came")
 
     def _message(self, name):
-        """The data of the next message of a name to this client."""
+        """Waits for the next message of that name to this client, and returns its data."""
         kind = self._atom(name)
         return self._wait_for(lambda event: event.type == CLIENT_MESSAGE and event.client.window == self._window and
                               event.client.message_type == kind, name).client.data
@@ -169,18 +169,18 @@ class Connection:
         self._sync()
 
     def ping(self, window):
-        """Has the window's program answer when it takes its events: see answered()."""
+        """Asks the window's program for an answer, which it sends when it handles its events: see answered()."""
         self._pings += 1
         self._send(window, "WM_PROTOCOLS", self._atom("_NET_WM_PING"), self._pings, window)
 
     def answered(self):
-        """Whether an answer to the last ping has come."""
+        """Whether the answer to the last ping has arrived."""
         wanted = self._atom("_NET_WM_PING"), self._pings
         return any(event.type == CLIENT_MESSAGE and tuple(event.client.data[:2]) == wanted
                    for event in self._events())
 
     def drop(self, window, x, y, *paths):
-        """Drops files on a point of a window; returns once it has taken them."""
+        """Drops files on a point of a window; returns once its program has accepted them."""
         self._offer = "".join(f"{path.resolve().as_uri()}\r\n" for path in paths).encode()
         selection, left, top = self._atom("XdndSelection"), *self.position(window)
         _x.XSetSelectionOwner(self._display, selection, self._window, 0)

@@ -14,7 +14,7 @@ namespace {
 using bench::fit_linear;
 using bench::LinearFit;
 
-// The sixteen points of the sweep of taps.
+// The sixteen points of the sweep over taps.
 std::vector<std::vector<double>> taps() {
   std::vector<std::vector<double>> points;
   for (const double blocker : {8.0, 32.0, 64.0, 128.0}) {
@@ -35,7 +35,7 @@ TEST(LinearFit, FindsAnExactCostModel) {
   EXPECT_NEAR(fit.r_squared, 1.0, 1e-12);
 }
 
-// Least squares by definition: no other coefficients leave a smaller sum of squares, and R² is what is left of it.
+// Tests the definition: other coefficients never give a smaller sum of squares, and R² follows from that sum.
 TEST(LinearFit, OfNoisyTimesIsTheLeastSquaresOne) {
   const std::vector<std::vector<double>> xs = taps();
   std::mt19937 random(7);
@@ -62,7 +62,7 @@ TEST(LinearFit, OfNoisyTimesIsTheLeastSquaresOne) {
   EXPECT_NEAR(fit.slopes[1], 0.01, 0.002);
 }
 
-// Texels in millions and triangles in ones.
+// Coordinates of very different size, such as millions of texels and single taps.
 TEST(LinearFit, HoldsForCoordinatesOfAnyScale) {
   const std::vector<std::vector<double>> xs{{1e7, 1e-6}, {2e7, 5e-6}, {4e7, 3e-6}, {9e7, 8e-6}};
   std::vector<double> ys;
@@ -91,7 +91,7 @@ TEST(Statistics, MedianLiesInTheMiddle) {
   EXPECT_EQ(bench::summary_of({}).count, 0U);
 }
 
-// A machine that becomes twice as slow halfway changes both alike.
+// A machine that becomes twice as slow halfway through slows both down alike.
 TEST(Statistics, PairedRatioIsFreeOfDrift) {
   const std::vector<double> first{10, 10, 20, 20, 40}, second{5, 5, 10, 10, 20}, none(5, 0.0);
   EXPECT_DOUBLE_EQ(bench::paired_ratio(second, first), 0.5);

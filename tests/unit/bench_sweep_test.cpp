@@ -43,7 +43,7 @@ TEST(Sweep, EndsWherePatienceDoes) {
   for (const std::string& name : bench::sweep_names()) {
     const Sweep software = make_sweep(name, {.software = true}), gpu = make_sweep(name, {});
     EXPECT_LE(software.points.size(), gpu.points.size()) << name;
-    EXPECT_GE(software.points.size(), software.axes.size() + 2) << name;  // enough for a model
+    EXPECT_GE(software.points.size(), software.axes.size() + 2) << name;  // enough to fit a model
   }
   EXPECT_EQ(make_sweep("casters", {.software = true}).points.back().triangles, 1'000'000);
   EXPECT_EQ(make_sweep("casters", {}).points.back().triangles, 10'000'000);

@@ -67,7 +67,7 @@ TEST(Cascades, GrowAndNest) {
     const Cascades cascades = fit_cascades(in);
     ASSERT_EQ(cascades.items.size(), static_cast<size_t>(count));
     for (size_t i = 0; i < cascades.items.size(); ++i) {
-      // A cascade holds all of the view up to its range, and so what every finer one holds of it.
+      // A cascade contains all of the view up to its range, and so the view's part of every finer cascade.
       const double range = in.distance * static_cast<double>(i + 1) / count;
       for (const glm::dvec3& point : frustum_points(in, range)) {
         const glm::dvec3 p = clip(cascades.items[i], point);
@@ -92,7 +92,7 @@ TEST(Cascades, TheLastHoldsTheWholeDiscOfEveryReceiver) {
     const double tangent = in.tan_half_angle;
     for (const glm::dvec3& point : frustum_points(in, in.distance)) {
       for (const glm::dvec2& side : {glm::dvec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
-        // On a tower's roof, or where the cone's edge leaves the box of casters.
+        // Where the edge of the light's cone reaches the top of the casters' bounding box.
         const glm::dvec3 along = to_world * glm::dvec3(tangent * side, -1);
         const glm::dvec3 caster = point + along * ((300 - point.y) / along.y);
         if (glm::any(glm::greaterThan(glm::abs(caster), glm::dvec3(1000)))) continue;

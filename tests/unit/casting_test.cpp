@@ -1,4 +1,4 @@
-// Which surfaces cast: by extras, by material, by the parameters, and skies, which don't.
+// Which surfaces cast shadows, as set by extras, by material and by parameters; and that skies cast none.
 
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ TEST(Casting, FollowsTheParametersWhereNothingElseIsSaid) {
   EXPECT_EQ(casting_faces(node, material, {}), CasterFaces::both);
 }
 
-// A sphere, or the upper half of one, whose triangles face its middle.
+// A sphere, or its upper half, whose triangles face the centre.
 scene::Primitive dome(float radius, bool whole, bool inwards = true) {
   constexpr int rings = 16, sectors = 24;
   scene::Primitive primitive;
@@ -80,7 +80,7 @@ scene::Primitive dome(float radius, bool whole, bool inwards = true) {
   for (uint32_t r = 0; r < static_cast<uint32_t>(last); ++r)
     for (uint32_t s = 0; s < sectors; ++s) {
       const uint32_t a = r * (sectors + 1) + s, b = a + sectors + 1;
-      // From a to a + 1 goes round from +X to +Z, which is clockwise as seen from above, and from outside.
+      // The order of vertices is clockwise as seen from outside: from a to a + 1 the angle goes from +X to +Z.
       if (inwards)
         primitive.indices.insert(primitive.indices.end(), {a, b, a + 1, a + 1, b, b + 1});
       else
@@ -185,7 +185,7 @@ TEST_F(Skies, HoldAllElse) {
 TEST_F(Skies, AreOpenBelowButNotAbove) {
   add_things();
   scene::Primitive open = dome(100, true);
-  open.indices.erase(open.indices.begin(), open.indices.begin() + 24 * 6 * 4);  // the cap
+  open.indices.erase(open.indices.begin(), open.indices.begin() + 24 * 6 * 4);  // leaves a hole at the top
   add(std::move(open), "sky");
   EXPECT_EQ(found(), Numbers{});
 }
@@ -207,7 +207,7 @@ TEST(SkyWarning, NamesNodeAndMaterial) {
   const std::vector<std::string> warnings = warnings_of([&] { EXPECT_TRUE(load_text(text("")).nodes[0].sky); });
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("node 'Dome' (material 'Clouds') encloses the scene as a sky does, and casts no shadow; "
-                             "--set casters.skies=on lets it"),
+                             "--set casters.skies=on makes it cast"),
             std::string::npos)
       << warnings[0];
   EXPECT_TRUE(warnings_of([&] { load_text(text(extras("true"))); }).empty()) << "it was asked for";

@@ -17,7 +17,7 @@
 
 namespace {
 
-std::string unwatchable;  // a folder that the system's limit of watches leaves out; empty: there is none
+std::string unwatchable;  // a folder for which the system's limit of watches is reached; empty: none
 
 }  // namespace
 
@@ -49,9 +49,9 @@ class FileWatchTest : public testing::Test {
 
   static void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
 
-  // The next changes: long enough for a busy machine, as long as a change needs where there is one.
+  // Waits for the next changes, long enough for a busy machine, and returns as soon as there are some.
   static Paths next(FileWatch& watch) { return watch.poll(20s); }
-  // After everything that is under way.
+  // The changes that are reported within 0.4 seconds: none once the watch is idle.
   static Paths rest(FileWatch& watch) { return watch.poll(400ms); }
 
   test::TempFolder folder_;

@@ -1,4 +1,4 @@
-// Files, URIs and containers: what is opened, what is refused, and what the message says.
+// Files, URIs and containers: which are opened, which are refused, and with what message.
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

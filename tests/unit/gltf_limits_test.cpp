@@ -1,4 +1,4 @@
-// Limits: their names, what they count, and files that a small text makes large.
+// Limits: their names, what they count, and small files that would expand to large scenes.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Public scenes, from $PENUMBRA_ASSETS: all load with what scene.h promises, and hold what their makers put in.
+// Public scenes, from $PENUMBRA_ASSETS: all load, fulfil what scene.h promises, and have the expected contents.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ class PublicScenes : public testing::Test {
   std::filesystem::path folder_;
 };
 
-// Files made to be refused by a reader of glTF 2.0.
+// Files that readers of glTF 2.0 must refuse.
 bool must_be_refused(const std::filesystem::path& file) { return file.filename() == "Compatibility_04.gltf"; }
 
 std::vector<std::filesystem::path> scenes_below(const std::filesystem::path& folder) {

@@ -28,7 +28,7 @@ std::string meshes(const std::string& more = "") {
 }
 std::string nodes(const std::string& more = "") { return R"("nodes":[{"mesh":0})" + more + "]"; }
 
-// The scene loads, and one warning names the place.
+// Expects that the scene loads, with one warning that names the place.
 void expect_left_out(const std::string& text, const std::string& place) {
   const std::vector<std::string> warnings = warnings_of([&] {
     const std::string fault = error_of([&] {
@@ -131,7 +131,7 @@ TEST(GltfUnused, ManyFaultsAreToldInFewLines) {
   EXPECT_NE(warnings.back().find("992 more parts are left out"), std::string::npos) << warnings.back();
 }
 
-// A square with a normal for each vertex, of which some can't be used.
+// A square with a normal for each vertex, of which some are not valid.
 void expect_recomputed(const std::vector<float>& normals, const std::string& count) {
   GltfBuilder gltf;
   gltf.add(std::vector<float>{0, 0, 0, 0, 0, 1, 1, 0, 1, 1, 0, 0}, "VEC3", 3);

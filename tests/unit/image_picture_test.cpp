@@ -1,4 +1,4 @@
-// PNG and EXR files as values: layers, alpha, and whatever damage a file may have.
+// Reading PNG and EXR files as values: layers, alpha, and damaged files.
 
 #include "image/picture.h"
 

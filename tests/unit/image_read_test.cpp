@@ -1,4 +1,4 @@
-// Decoding of PNGs and JPEGs from memory, every pixel kind, and what is refused; sizes from headers alone.
+// Decoding PNGs and JPEGs from memory: every kind of pixels, refused files, and sizes from headers alone.
 
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ TEST(ImageRead, RefusesMorePixelsThanTheLimit) {
 
 TEST(ImageRead, RefusesAHugeHeaderBeforeAllocating) {
   auto bytes = scene::gltf::base64_decoded(rgba_1x2);
-  bytes[16] = bytes[20] = std::byte{0x7F};  // 2 billion pixels a side; the checksum gives it away first
+  bytes[16] = bytes[20] = std::byte{0x7F};  // 2 billion pixels a side; the wrong checksum is found first
   EXPECT_EQ(error_of([&] { decode(bytes); }), "PNG chunk IHDR is damaged");
 }
 
@@ -81,7 +81,7 @@ TEST(ImageRead, RefusesDamage) {
   }
 }
 
-// A JPEG of 8 x 8 grey pixels, made of flat blocks, with `segments` behind its first marker.
+// A JPEG of 8 x 8 grey pixels, made of flat blocks, with `segments` after its first marker.
 std::string jpeg_8x8(const std::string& segments = {}) {
   using namespace std::string_literals;
   std::string jpeg = "\xff\xd8"s;
@@ -117,8 +117,8 @@ TEST(ImageRead, ReadsJpegs) {
 
 TEST(ImageRead, ReadsNoMetadataOfAJpeg) {
   using namespace std::string_literals;
-  // Photoshop's resource 0x0404, IPTC, whose record says that it holds 64 KiB where the segment ends: parsers of IPTC
-  // read beyond it (seen by the address sanitizer).
+  // Photoshop's resource 0x0404, IPTC, whose record claims to hold 64 KiB although the segment ends there: IPTC parsers
+  // have read beyond it (found by the address sanitizer).
   const std::string record = "\x1c\x02\x78\x7f\xff"s;
   const std::string payload = "Photoshop 3.0\0008BIM\x04\x04\0\0\0\0\0\x05"s + record;
   const std::string hostile = "\xff\xed\0"s + static_cast<char>(payload.size() + 2) + payload;
@@ -224,7 +224,7 @@ std::uint32_t checksum(std::span<const std::byte> bytes) {
   return ~crc;
 }
 
-// Makes every chunk's checksum right again, so that damage reaches the decoder.
+// Corrects every chunk's checksum, so that the damage reaches the decoder.
 void mend_checksums(std::vector<std::byte>& png) {
   const auto number = [&](std::size_t at) { return image::big_endian(png, at, 4); };
   for (std::size_t at = 8; at + 12 <= png.size() && number(at) <= png.size() - at - 12; at += number(at) + 12) {
@@ -245,7 +245,7 @@ TEST(ImageRead, PrintsNothingAboutDamage) {
       ++refused;
     }
   };
-  testing::internal::CaptureStderr();  // of the process, libraries included
+  testing::internal::CaptureStderr();  // of the whole process, libraries included
   for (const std::vector<std::byte>& whole :
        {scene::gltf::base64_decoded(rgba_1x2), scene::gltf::base64_decoded(palette_2x1),
         scene::gltf::base64_decoded(rgb_16_bit), bytes_of(jpeg_8x8())}) {

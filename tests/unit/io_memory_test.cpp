@@ -1,4 +1,4 @@
-// What a process can still use: no more than the machine has, and no more than its own limit leaves.
+// The memory that a process may still use is at most what the machine has and what its own limit leaves.
 #include "io/memory.h"
 
 #include <gtest/gtest.h>

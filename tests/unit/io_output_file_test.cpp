@@ -1,4 +1,4 @@
-// Files that are written whole or not at all: links, permissions, owners, what is refused, and nothing left behind.
+// Output files are written completely or not at all: links, permissions, owners, refused paths, no leftovers.
 #include "io/output_file.h"
 
 #include <fcntl.h>

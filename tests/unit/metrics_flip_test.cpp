@@ -1,4 +1,5 @@
-// FLIP against the means of its authors' own tool, and what holds for any pair of pictures; colours of heat maps.
+// FLIP compared with the results of its authors' tool, properties that hold for any pair of pictures, and the colours
+// of heat maps.
 
 #include <gtest/gtest.h>
 
@@ -55,8 +56,8 @@ TEST(Flip, MatchesTheAuthorsTool) {
 }
 
 TEST(Flip, OfBlackAndWhiteIsNearlyOne) {
-  // Both are flat, so no feature raises it: the distance in lightness is 100, that of screen green and blue 203.3, and
-  // 0.95 + 0.05 (100^0.7 - 0.4 m) / (0.6 m) with m = 203.3^0.7 is 0.9674.
+  // Both pictures are flat and so have no features: the distance in lightness is 100, that of screen green and blue
+  // 203.3, and 0.95 + 0.05 (100^0.7 - 0.4 m) / (0.6 m) with m = 203.3^0.7 is 0.9674.
   const Grey black(32, 32, 0.0f), white(32, 32, 1.0f);
   EXPECT_NEAR(flip(black, white).mean, 0.9674, 0.0002);
   EXPECT_EQ(flip(white, white).mean, 0);

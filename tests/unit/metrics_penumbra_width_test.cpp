@@ -1,4 +1,4 @@
-// The width of penumbrae on ramps, where it is known.
+// The width of penumbrae, measured on ramps whose width is known.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Flicker, ghosts and recovery on sequences that are known frame by frame.
+// Flicker, ghosts and recovery on sequences for which the results are known.
 
 #include <gtest/gtest.h>
 
@@ -105,7 +105,9 @@ TEST(Recovery, AfterACut) {
 }
 
 TEST(Recovery, AfterAStopLooksWhereTheShadowMoved) {
-  // A shadow's edge moves a column a frame; what it left stays dark for 3 more frames. Column 0 was always wrong.
+  // A shadow's edge moves by one column per frame; columns that it has left stay dark for 3 more frames. Column 0 is
+  // wrong
+  // in every frame.
   SequenceMetrics metrics;
   const auto shadow = [](int edge) { return Grey(40, 10, [=](int x, int) { return x < edge ? 0 : 1; }); };
   const auto shown = [&](int edge) {

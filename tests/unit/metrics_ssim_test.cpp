@@ -1,4 +1,4 @@
-// SSIM against the paper's formula, written out, and against what is known of it.
+// SSIM compared with a direct evaluation of the paper's formula, and known properties of it.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ Grey pattern(int seed) {
   return {23, 17, [=](int x, int y) { return ((x * 7919 + y * 104729 + x * y * seed) % 101) / 100.0; }};
 }
 
-// The formula for one pixel, in double precision, with a window that ends at the border.
+// The formula for one pixel, in double precision, with a window that is cut off at the border.
 double ssim_at(const Grey& a, const Grey& b, int px, int py, const std::vector<std::uint8_t>& receivers) {
   double w = 0, mx = 0, my = 0, xx = 0, yy = 0, xy = 0;
   for (int y = std::max(py - 5, 0); y <= std::min(py + 5, a.height - 1); ++y) {

@@ -34,7 +34,7 @@ TEST(Noise, BlueNoiseHasHardlyAnyLowFrequencies) {
   }
 }
 
-// FNV-1a of the ranks.
+// FNV-1a hash of the ranks.
 std::uint64_t digest(const NoiseTile& tile) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const std::uint16_t rank : tile.ranks) hash = (hash ^ rank) * 0x100000001b3U;

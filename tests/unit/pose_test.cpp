@@ -138,7 +138,7 @@ TEST(Animation, JumpsWhereALoopBeginsAgainFromOtherValues) {
 TEST(Animation, DoesNotJumpWhereALoopEndsAsItBegan) {
   const Animation there_and_back{
       .channels = {channel(Path::translation, Interpolation::linear, {0, 1, 2}, {5, 0, 0, 9, 0, 0, 5.00001f, 0, 0})}};
-  // Once round: the last quaternion is the first's opposite, which is the same rotation.
+  // A full turn: the last quaternion is the negative of the first, which is the same rotation.
   const Animation turn{.channels = {channel(Path::rotation, Interpolation::linear, {0, 1, 2},
                                             {0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, -1}, 4)}};
   const Animation still{.channels = {channel(Path::scale, Interpolation::step, {0}, {1, 1, 1})}};

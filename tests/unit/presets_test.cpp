@@ -23,7 +23,7 @@ ParamSet rows() {
                    Param{"sun.shape", std::string("disc"), 0, 0, "", "", {}, {"disc", "square"}}});
 }
 
-// "pcss_wide" stands for an alias.
+// As a registry's select(): "pcss_wide" is a preset of this test.
 void select(ParamSet& params, std::string_view name) {
   if (name == "pcss_wide") {
     params.assign("technique=pcss");
@@ -49,7 +49,7 @@ class Presets : public testing::Test {
     penumbra::io::read_preset(path(), params, select);
     return params;
   }
-  // The error's text without the folder.
+  // The text of the error, with the folder removed from the file name.
   std::string fault(const std::string& text) {
     try {
       read(text);

@@ -99,7 +99,7 @@ TEST(Registry, RefusesPresetsAndDefaultsOfNothing) {
   EXPECT_THROW(Registry({.techniques = {technique("good")}, .presets = {{"good", "good", "", {}}}}), Error);
 }
 
-// A technique with a row of so many points at most and a set of them.
+// A technique with a sample set and a parameter that counts its points, up to a maximum.
 void with_points(Technique& technique, int most) {
   technique.params = {{"changed.points", std::min(1, most), 0, static_cast<double>(most), "taps", "How many."}};
   technique.samples = {{.name = "around", .count_parameter = "changed.points"}};

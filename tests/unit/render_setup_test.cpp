@@ -1,4 +1,4 @@
-// Camera, sun and ground where the user leaves them open.
+// The camera, sun and ground that are chosen where the user requests none.
 #include "render/setup.h"
 
 #include <gtest/gtest.h>
@@ -114,7 +114,7 @@ TEST(Setup, FindsCamerasByNameAndIndex) {
   EXPECT_FLOAT_EQ(setup_of(scene).camera.fov_y, 0.5f);
   EXPECT_FLOAT_EQ(setup_of(scene, {.camera = "above"}).camera.fov_y, 0.9f);
   EXPECT_FLOAT_EQ(setup_of(scene, {.camera = "1"}).camera.fov_y, 0.9f);
-  // A node's scale does not reach the view.
+  // A node's scale does not affect the view matrix.
   EXPECT_NEAR(glm::determinant(glm::mat3(setup_of(scene).camera.view)), 1, 1e-5f);
   EXPECT_NEAR(render::position_of(setup_of(scene).camera).z, 5, 1e-5f);
   try {
@@ -125,7 +125,7 @@ TEST(Setup, FindsCamerasByNameAndIndex) {
   }
 }
 
-// A camera of the file at `eye` with its back towards `back`.
+// A camera of the file at `eye`, which looks away from `back`.
 void add_camera(scene::Scene& scene, const glm::vec3& eye, const glm::vec3& back, scene::Camera camera) {
   scene.nodes.push_back({.name = "camera", .camera = static_cast<int>(scene.cameras.size())});
   scene.nodes.back().matrix = glm::inverse(glm::lookAt(eye, eye - back, glm::vec3(0, 1, 0)));
@@ -202,7 +202,7 @@ TEST(Setup, CameraAndSunFollowTheirNodes) {
   EXPECT_NEAR(render::position_of(setup.camera).x, 3, 1e-6f);
   EXPECT_FLOAT_EQ(setup.camera.fov_y, 0.5f);
   EXPECT_NEAR(setup.sun.to_light.y, 1, 1e-6f);
-  later.world[2] = glm::mat4(0);  // a flattened node gives no direction: the last one holds
+  later.world[2] = glm::mat4(0);  // a singular matrix gives no direction: the last one is kept
   render::follow(setup, later);
   EXPECT_NEAR(setup.sun.to_light.y, 1, 1e-6f);
 }

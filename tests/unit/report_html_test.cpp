@@ -64,7 +64,7 @@ TEST(ReportHtml, NumbersAreWrittenForPeople) {
   EXPECT_EQ(significant(3e-7, 2), "3e-07");
 }
 
-// Everything that takes a text of somebody else's, in every place where one can stand.
+// All functions that take untrusted text, with such text in every argument.
 TEST(ReportHtml, AHostileNameStaysAName) {
   const std::string evil = "\"'><script>alert(1)</script>";
   const Figure figure{.label = evil, .alt = evil, .picture = picture_of("png")};
@@ -94,7 +94,7 @@ TEST(ReportHtml, APageHoldsAPictureOnce) {
   EXPECT_EQ(count(text, base64_of("two")), 1u);
   EXPECT_EQ(count(text, "data-same-as='picture-1'"), 2u);
   EXPECT_EQ(count(text, "data-same-as='picture-2'"), 1u);
-  EXPECT_EQ(count(body.str(), base64_of("one")), 3u);  // without a page each is whole
+  EXPECT_EQ(count(body.str(), base64_of("one")), 3u);  // without a page, each use has its own copy
 }
 
 TEST(ReportHtml, APageAsksNothingOfTheNetwork) {

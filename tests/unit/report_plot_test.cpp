@@ -78,7 +78,7 @@ TEST(ReportPlot, EqualsShareTheFrontAndWhatIsNoNumberIsNotOnIt) {
   EXPECT_TRUE(pareto_front({}).empty());
 }
 
-// Boxes of the labels in a plot's SVG.
+// The boxes of the labels in a plot's SVG.
 std::vector<Box> label_boxes(const std::string& svg) {
   static const std::regex label("<text class='label[^']*' x='([-0-9.]+)' y='([-0-9.]+)'>([^<]*)</text>");
   std::vector<Box> boxes;

@@ -73,7 +73,7 @@ HeatMap map_of(std::vector<double> values, bool log = false) {
           .log = log};
 }
 
-// Of the cells, in their order.
+// The background colours of the cells, in order.
 std::vector<std::string> backgrounds(const std::string& html) {
   static const std::regex cell("background:(rgb\\([^)]*\\))");
   std::vector<std::string> found;

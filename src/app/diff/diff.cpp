@@ -32,14 +32,13 @@ struct DiffOptions {
 
 std::string description() {
   std::string text =
-      "Measure how far picture A is from picture B, the reference: PNG (display values from 0 to 1) or EXR (its values "
-      "as "
-      "they are). Exits with 1 past a limit, and with a limit also if A has values that are not finite, each of which "
-      "counts as the error 1.\n\nMetrics:\n";
+      "Measure how far picture A is from picture B, the reference. PNGs are compared by display values from 0 to 1, "
+      "EXRs by their values as they are. A value of A that is not finite counts as an error of 1. If --max or --min is "
+      "given, the exit code is 1 where the limit is exceeded or A has a value that is not finite.\n\nMetrics:\n";
   for (const Metric& metric : diff_metrics()) text += fmt::format("  {:<15} {}\n", metric.name, metric.help);
   return text +
-         "psnr is for references from 0 to 1; ssim and flip for PNGs and single channels from 0 to 1; "
-         "psnr_penumbra and penumbra_width for single channels from 0 to 1.";
+         "psnr needs references from 0 to 1; ssim and flip need PNGs or single channels from 0 to 1; "
+         "psnr_penumbra and penumbra_width need single channels from 0 to 1.";
 }
 
 void add_options(CLI::App& app, DiffOptions& options) {
@@ -58,8 +57,9 @@ void add_options(CLI::App& app, DiffOptions& options) {
   add("--layer", "NAME", "Layer of both EXRs (the one without a name, or else the only one)", options.layer);
   add("--mask", "NAME", "Layer of B with one channel: pixels that are 0 or not finite in it are left out",
       options.mask);
-  add("--heatmap", "FILE", "Draw where they differ into a PNG: FLIP for that metric, else |error|", options.heatmap);
-  add("--json", "FILE", "Write the figures as JSON; - is standard output, in place of the line", options.json);
+  add("--heatmap", "FILE", "PNG that shows where the pictures differ: FLIP for that metric, else |error|",
+      options.heatmap);
+  add("--json", "FILE", "Write the figures as JSON; -: to standard output, instead of the line", options.json);
   cli::add_value(app, "--max-pixels", "N", "Refuse larger pictures before they are decoded (as many as memory holds)",
                  [&](const std::string& text) {
                    options.max_pixels = cli::parse_count("--max-pixels", text, 1, std::numeric_limits<int>::max());
@@ -69,9 +69,9 @@ void add_options(CLI::App& app, DiffOptions& options) {
 
 void check_together(const DiffOptions& options, const Metric& metric) {
   if (options.max && metric.higher_is_better)
-    cli::fail_usage("--max is no limit for {}, of which more is better: use --min", metric.name);
+    cli::fail_usage("--max can't limit {}, which is better when greater: use --min", metric.name);
   if (options.min && !metric.higher_is_better)
-    cli::fail_usage("--min is no limit for {}, of which less is better: use --max", metric.name);
+    cli::fail_usage("--min can't limit {}, which is better when less: use --max", metric.name);
   if (!options.heatmap.empty() && std::filesystem::path(options.heatmap).extension() != ".png")
     cli::fail_usage("--heatmap {}: the name does not end in .png", io::quoted(options.heatmap));
 }
@@ -83,7 +83,7 @@ image::Picture read(const DiffOptions& options, const std::string& file, const s
   return image::read_picture(file, layer, most);
 }
 
-// Empty for all pixels.
+// Which pixels --mask selects; empty: all.
 std::vector<std::uint8_t> receivers_of(const DiffOptions& options) {
   if (options.mask.empty()) return {};
   const image::Picture mask = read(options, options.reference, options.mask);
@@ -98,7 +98,8 @@ std::vector<std::uint8_t> receivers_of(const DiffOptions& options) {
   return receivers;
 }
 
-// Before minutes of measuring; and no result takes the place of another or of what is read.
+// Called before measuring, which can take minutes. Throws if a result can't be written, or would overwrite another one
+// or a picture that is compared.
 void check_results(const DiffOptions& options) {
   const std::string json = options.json == "-" ? "" : options.json;
   for (const auto& [option, result] : {std::pair("--heatmap", options.heatmap), std::pair("--json", json)}) {
@@ -127,9 +128,9 @@ std::string verdict(const DiffOptions& options, const Figure& figure, const Diff
   const std::string names = fmt::format("{} against {}", io::quoted(options.test), io::quoted(options.reference));
   if (!options.max && !options.min) return {};
   if (difference.not_finite > 0)
-    return fmt::format("{}: {} values of the first are not finite", names, difference.not_finite);
+    return fmt::format("{}: {} values of the first picture are not finite", names, difference.not_finite);
   if (std::isnan(figure.value) && difference.width_lost > 0)
-    return fmt::format("{}: no penumbra of the first has a width to measure", names);
+    return fmt::format("{}: no penumbra of the first picture has a width that can be measured", names);
   if (std::isnan(figure.value))
     return fmt::format("{}: there is no penumbra to measure {} of", names, figure.metric->name);
   const double value = options.max ? std::abs(figure.value) : figure.value;

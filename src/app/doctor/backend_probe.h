@@ -8,8 +8,7 @@
 namespace penumbra::app {
 
 // Tries one backend in a child process, so that a driver that crashes or hangs is reported and does not end the
-// program:
-// {"name", "works", "device": io::to_json(DeviceInfo)} or {"name", "works", "fault"}.
+// program. Returns {"name", "works", "device": io::to_json(DeviceInfo)} or {"name", "works", "fault"}.
 io::Json probe_backend(const std::string& name);
 
 // gl::egl_devices() from a child process.

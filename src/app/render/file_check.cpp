@@ -28,7 +28,7 @@ std::vector<fs::path> linked_places(const RenderOptions& options, const cli::Out
   return places;
 }
 
-// Is a file written to `result` a picture of any frame?
+// Whether a file written to `result` would overwrite the picture of a frame.
 bool is_picture(const fs::path& result, const RenderOptions& options, const cli::OutputNames& names,
                 const std::vector<fs::path>& linked) {
   const fs::path place = io::place_of(result), name = place.filename();

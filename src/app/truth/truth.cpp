@@ -48,7 +48,7 @@ void add_truth_options(CLI::App& app, TruthOptions& o) {
             [&o](const auto& text) { o.seed = text; });
   cli::add_size_option(app, o);
   cli::add_view_options(app, o);
-  add_value(app, "--light", "NAME|INDEX", "A point or spot light of the scene in the sun's place",
+  add_value(app, "--light", "NAME|INDEX", "Trace the shadows of this point or spot light of the scene, not of the sun",
             [&o](const auto& text) { o.light = text; });
   add_value(app, "--light-radius", "M", "Radius of that light, metres (0.1): a sphere's, or of a spot light's disc",
             [&o](const auto& text) { o.light_radius = cli::parse_number("--light-radius", text, 0, 1e6); });
@@ -172,7 +172,7 @@ void trace_files(const TruthOptions& options) {
 }  // namespace
 
 int run_truth(const Arguments& arguments) {
-  CLI::App app("Ray trace the shadows of a scene, for techniques to be measured against", "penumbra truth");
+  CLI::App app("Ray trace the shadows of a scene, as a reference for techniques", "penumbra truth");
   TruthOptions options;
   add_truth_options(app, options);
   if (!cli::parse(app, arguments)) return 0;

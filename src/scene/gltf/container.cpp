@@ -86,14 +86,14 @@ bool looks_like_json(Bytes bytes) {
 }
 
 nlohmann::json parse_json(Bytes bytes, const ReadLimits& limits) {
-  // The byte type of files is the text's character type by definition of UTF-8 text in memory.
+  // UTF-8 text is stored as it is in the file, so the bytes are its characters.
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   check_json_size(text, limits);
   try {
     return nlohmann::json::parse(text);
   } catch (const nlohmann::json::exception& e) {
     std::string_view cause = e.what();
-    // "[json.exception.parse_error.101] " is the library's, not the user's.
+    // Remove the library's prefix "[json.exception.parse_error.101] ", which means nothing to the user.
     if (const auto bracket = cause.find("] "); bracket != std::string_view::npos) cause.remove_prefix(bracket + 2);
     fail("not valid JSON: {}", cause);
   }

@@ -240,7 +240,7 @@ class PrimitiveReader {
       if (!out_.normals.empty()) target.normals = read("NORMAL", true);
       if (!out_.tangents.empty()) target.tangents = read("TANGENT", true);
       if (wrong > 0)
-        warn("{}.targets[{}]: {} changes of normals and tangents are not finite; taken for none", place_,
+        warn("{}.targets[{}]: {} changes of normals and tangents are not finite; set to 0", place_,
              out_.targets.size() - 1, wrong);
     }
   }

@@ -1,4 +1,4 @@
-// tinygltf's functions, from its header, which is told not to include these itself.
+// Compiles tinygltf's functions from its header. Macros keep that from including its own copies of these two headers.
 #include <fstream>
 #include <nlohmann/json.hpp>
 

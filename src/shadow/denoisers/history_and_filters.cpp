@@ -13,7 +13,8 @@ std::vector<Param> rows() {
       {"history.alpha", 0.1f, 0.01, 1, "", "Weight of the present frame in the blend."},
       {"history.distance", 1.0f, 0, 100, "px",
        "How far before or behind a receiver's plane, in widths of a pixel, the last frame's surface may lie."},
-      {"history.turn", 30.0f, 0, 180, "deg", "How far their normals may turn from each other."},
+      {"history.turn", 30.0f, 0, 180, "deg",
+       "Largest angle between a receiver's normal and that of the last frame's surface."},
   };
 }
 

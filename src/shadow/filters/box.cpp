@@ -4,7 +4,7 @@ namespace penumbra::shadow {
 
 Filter box() {
   return {.name = "box",
-          .summary = "Mean over a rectangle that follows the penumbra's width; knows no edges.",
+          .summary = "Mean over a rectangle that follows the penumbra's width; blurs across edges.",
           .source = "Deligiannis 2019, section 2.7.1",
           .glsl = "shadow/filters/box.glsl",
           .of = Filter::Of::visibility,

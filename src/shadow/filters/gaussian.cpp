@@ -4,7 +4,7 @@ namespace penumbra::shadow {
 
 Filter gaussian() {
   return {.name = "gaussian",
-          .summary = "Gaussian mean that follows the penumbra's width; knows no edges.",
+          .summary = "Gaussian mean that follows the penumbra's width; blurs across edges.",
           .source = "Deligiannis 2019, section 2.7.2",
           .glsl = "shadow/filters/gaussian.glsl",
           .of = Filter::Of::visibility,

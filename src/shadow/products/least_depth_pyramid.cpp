@@ -41,7 +41,7 @@ gl::ProgramDesc program(const char* name, const char* from_depth) {
 
 Recipe least_depth_pyramid() {
   return {.name = "least_depth_pyramid",
-          .summary = "The least depth of 4·2^n × 4·2^n texels of the shadow map, level n.",
+          .summary = "Level n holds the least depth of each block of 4·2^n × 4·2^n texels of the shadow map.",
           .source = "Greene, Kass and Miller 1993, Hierarchical Z-buffer visibility",
           .build = build,
           .programs = [](const ParamSet&) {

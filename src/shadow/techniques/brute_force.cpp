@@ -12,7 +12,7 @@ Technique brute_force() {
       .needs = {"shadow_map", "least_depth_pyramid"},
       .params =
           {
-              {"brute_force.blocker_taps", 256, 1, 256, "taps", "Points at which blockers are looked for.", compiled},
+              {"brute_force.blocker_taps", 256, 1, 256, "taps", "Points that the blocker search reads.", compiled},
               {"brute_force.filter_taps", 256, 1, 256, "taps", "Points of the penumbra's disc that are compared.",
                compiled},
               {"brute_force.every_texel", false, 0, 1, "",

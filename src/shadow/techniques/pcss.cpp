@@ -7,24 +7,25 @@ Technique pcss() {
   return {
       .name = "pcss",
       .summary =
-          "Percentage-closer soft shadows: a blocker search gives the penumbra's width, a filter the share of light.",
+          "Percentage-closer soft shadows: a blocker search finds the penumbra's width, then a filter of "
+          "that width the share of light.",
       .source = "Fernando 2005, Percentage-closer soft shadows",
       .glsl = "shadow/techniques/pcss.glsl",
       .needs = {"shadow_map", "least_depth_pyramid"},
       .params =
           {
-              {"pcss.blocker_taps", 16, 1, 256, "taps", "Points at which blockers are looked for.", compiled},
+              {"pcss.blocker_taps", 16, 1, 256, "taps", "Points that the blocker search reads.", compiled},
               {"pcss.filter_taps", 16, 1, 256, "taps", "Points of the penumbra's disc that are compared.", compiled},
               {.name = "pcss.disocclusion_taps",
                .default_value = 64,
                .min = 1,
                .max = 256,
                .unit = "taps",
-               .help = "The same after a disocclusion, or where the history is refused for another reason.",
+               .help = "Used instead of pcss.filter_taps where the history is refused, as after a disocclusion.",
                .binding = compiled,
                .former_names = {"pcss.renewal_taps"}},
               {"pcss.early_exit", true, 0, 1, "",
-               "Skips both steps where depth bounds rule blockers out; changes no result.", compiled},
+               "Skips both steps where the least depths of the map rule out blockers; changes no result.", compiled},
           },
       .samples = {{.name = "blocker", .count_parameter = "pcss.blocker_taps", .step = SampleSet::Step::blocker},
                   {.name = "filter", .count_parameter = "pcss.filter_taps"},
