@@ -21,11 +21,11 @@ function(penumbra_dependency name)
   mark_as_advanced(PENUMBRA_${name}_INCLUDE)
 endfunction()
 
-# Compiled by scene from its header, without what opens files and decodes images: see ImageDecoder.
+# The layer scene compiles it from its header, without the parts that open files and decode images: see ImageDecoder.
 penumbra_dependency(tinygltf HEADER tiny_gltf.h)
 target_compile_definitions(penumbra::tinygltf INTERFACE TINYGLTF_NO_FS TINYGLTF_NO_STB_IMAGE
   TINYGLTF_NO_STB_IMAGE_WRITE TINYGLTF_NO_INCLUDE_JSON)
-penumbra_dependency(draco HEADER draco/compression/decode.h LIBRARIES libdraco.a)  # penumbra-bench takes it along
+penumbra_dependency(draco HEADER draco/compression/decode.h LIBRARIES libdraco.a)  # static: penumbra-bench contains it
 penumbra_dependency(meshoptimizer HEADER meshoptimizer.h)                           # loaded when a file needs it
 penumbra_dependency(embree HEADER embree3/rtcore.h LIBRARIES embree3)
 penumbra_dependency(xxhash HEADER xxhash.h)

@@ -1,5 +1,5 @@
-# Compile through ccache when it is there. CCACHE_BASEDIR makes a second checkout of the same code hit the cache; without
-# CCACHE_SLOPPINESS ccache passes by whatever includes a precompiled header.
+# Compiles through ccache if it is installed. CCACHE_BASEDIR makes a second checkout of the same code hit the cache; without
+# CCACHE_SLOPPINESS ccache does not cache files that use a precompiled header.
 find_program(PENUMBRA_CCACHE ccache)
 mark_as_advanced(PENUMBRA_CCACHE)
 if(PENUMBRA_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

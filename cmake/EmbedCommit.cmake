@@ -1,5 +1,5 @@
-# penumbra_embed_commit(TARGET): bench::commit() returns the commit that was built. It is looked up at every build,
-# since no file of the build changes with it, and compiled only when it differs.
+# penumbra_embed_commit(TARGET): bench::commit() returns the commit that was built. Every build looks it up,
+# since no file of the build changes with it, and compiles it only if it differs.
 find_package(Git QUIET)
 
 function(penumbra_embed_commit target)

@@ -1,16 +1,17 @@
 # Warnings, sanitizers and include root, shared by every target of the project. -Wrestrict, -Wstringop-overflow and
-# -Warray-bounds are off: GCC 12 sees in "text" + std::string what is not there (GCC bug 105651), the more where the
-# standard library's headers are precompiled. The sanitizers look for what these would find.
+# -Warray-bounds are off: GCC 12 gives false warnings for "text" + std::string (GCC bug 105651), more of them with
+# precompiled headers of the standard library. The sanitizers find the same faults.
 add_library(penumbra_options INTERFACE)
 target_compile_options(penumbra_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
   -Woverloaded-virtual -Wno-missing-field-initializers -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds
   $<$<BOOL:${PENUMBRA_WERROR}>:-Werror>)
-# One command gives one picture: no contraction into fused multiply-adds, which differ from machine to machine.
+# The same command must give the same picture, so expressions are not contracted into fused multiply-adds, which not
+# every machine has.
 target_compile_options(penumbra_options INTERFACE -ffp-contract=off)
-# One source gives one program: no path of the building machine in it.
+# The same source must give the same program, so it may not contain paths of the building machine.
 target_compile_options(penumbra_options INTERFACE "-ffile-prefix-map=${CMAKE_SOURCE_DIR}/=")
 if(PENUMBRA_SANITIZE)
-  # GCC's manual: with sanitizers -Wmaybe-uninitialized warns of what is not there; in 12 that is <regex>.
+  # GCC's manual says that with sanitizers -Wmaybe-uninitialized gives false warnings; GCC 12 does for <regex>.
   target_compile_options(penumbra_options INTERFACE -fsanitize=${PENUMBRA_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all -Wno-maybe-uninitialized)
   target_link_options(penumbra_options INTERFACE -fsanitize=${PENUMBRA_SANITIZE})
@@ -30,7 +31,7 @@ function(penumbra_layer name)
   target_link_libraries(penumbra_${name} PUBLIC ${arg_LINK} PRIVATE $<BUILD_INTERFACE:penumbra_options> ${arg_PRIVATE})
   penumbra_precompile(penumbra_${name} library)
   # Each file that declares a command line compiles most of CLI11 for itself: 21 files take a fifth of a clean build, and
-  # a third less time with -O1. They run once a command, and leave the work to other files.
+  # a third less time with -O1. They run once per command, and other files do the work.
   foreach(source IN LISTS sources)
     file(STRINGS "${source}" command_line REGEX "^#include <CLI/CLI\\.hpp>" LIMIT_COUNT 1)
     if(command_line)

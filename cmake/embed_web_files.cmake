@@ -1,5 +1,5 @@
 # Run by penumbra_embed_web(): writes the files of FOLDER as raw string literals to OUTPUT, the styles one after the
-# other: what page.css says of narrow pages and of paper wins.
+# other, page.css last: its rules for narrow pages and for print override the others.
 set(literals_css "")
 foreach(name IN ITEMS figures pictures page)
   file(READ "${FOLDER}/${name}.css" text)

@@ -1,4 +1,4 @@
-# Run by the target bench-bundle: the folder BUNDLE with all that a bare server needs, and BUNDLE.tar.gz.
+# Run by the target bench-bundle: makes the folder BUNDLE with all that a bare server needs, and BUNDLE.tar.gz.
 file(REMOVE_RECURSE "${BUNDLE}" "${BUNDLE}.tar.gz")
 file(MAKE_DIRECTORY "${BUNDLE}/scenes")
 file(GLOB scenes "${ROOT}/scenes/*.glb")

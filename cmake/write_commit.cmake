@@ -1,4 +1,4 @@
-# Run by penumbra_embed_commit(): writes the commit that ROOT is at to OUTPUT, where OUTPUT says another.
+# Run by penumbra_embed_commit(): writes the commit that is checked out in ROOT to OUTPUT, if OUTPUT has another one.
 cmake_policy(VERSION 3.25)
 set(commit "unknown")
 if(GIT)
@@ -6,7 +6,7 @@ if(GIT)
     OUTPUT_VARIABLE head OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE failed ERROR_QUIET)
   execute_process(COMMAND "${GIT}" -C "${ROOT}" rev-parse --show-prefix
     OUTPUT_VARIABLE prefix OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-  # A copy of the sources within another project's checkout is none of its commits.
+  # If the sources are a copy within another project's checkout, that project's commit does not describe them.
   if(NOT failed AND prefix STREQUAL "")
     execute_process(COMMAND "${GIT}" -C "${ROOT}" diff --quiet HEAD RESULT_VARIABLE changed ERROR_QUIET)
     set(commit "${head}")

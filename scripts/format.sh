@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Is every C++ file formatted as .clang-format says, and no line of GLSL wider than 120? With --fix, formats C++.
+# Checks that every C++ file is formatted as .clang-format says, and no line of GLSL is wider than 120. With --fix,
+# formats the C++ files.
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 mode=(--dry-run -Werror)

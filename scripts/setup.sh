@@ -7,7 +7,8 @@ die() {
   exit 1
 }
 
-# found KIND FILE: is it on this machine? No package manager is asked: this takes milliseconds, and works anywhere.
+# found KIND FILE: whether the file is on this machine. It looks for the file itself, without a package manager: that
+# takes milliseconds and works on every distribution.
 found() {
   local folder
   case $1 in
@@ -27,7 +28,8 @@ found() {
   return 1
 }
 
-# Folders beside the usual ones: Debian's per architecture, and those that CMake and the compiler are told of.
+# Folders to search besides the usual ones: Debian's per architecture, and those in the variables that CMake and the
+# compiler read.
 search_paths() {
   local IFS=':' prefix
   triplet_include=("/usr/include/$HOSTTYPE-linux-gnu")
@@ -101,7 +103,8 @@ build_lock() {
 }
 build_unlock() { exec 9>&-; }
 
-# A configured folder serves until the presets change or the checkout moves; the rest ninja notices by itself.
+# A build folder is configured again only if the presets have changed or the checkout has moved; ninja itself notices
+# all other changes.
 configured() {
   local folder=$1
   [[ -f $folder/build.ninja && ! $root/CMakePresets.json -nt $folder/build.ninja ]] &&
@@ -122,8 +125,8 @@ configure() {
   fi
 }
 
-# report_progress PRESET LOG: how far a build is, until standard input ends; on a terminal in one line, elsewhere now and
-# then. It waits by `read`: a `sleep` would outlive it.
+# report_progress PRESET LOG: prints how far a build is until standard input ends: on a terminal in one line that it
+# rewrites, elsewhere every 20 seconds. It waits by `read`, since a `sleep` would run on after its end.
 report_progress() {
   local step seconds=20 begin='' end='\n'
   [[ -t 2 ]] && seconds=1 begin='\r' end=''
@@ -133,14 +136,14 @@ report_progress() {
   done
 }
 
-# build PRESET TARGETS...: silent when nothing is to do, says how far it is when it takes long, and on failure shows
-# what failed.
+# build PRESET TARGETS...: prints nothing if there is nothing to do, progress if it takes long, and on failure what
+# failed.
 build() {
   local preset=$1 log=$root/build/$1.build.log target targets=() building reporter status=0
   shift
   for target; do targets+=(--target "$target"); done
   : >"$log"
-  # The reporter reads a pipe that ends with the build, however that ends.
+  # The reporter reads a pipe that is closed when the build ends, however it ends.
   exec {building}> >(report_progress "$preset" "$log" 9>&-)
   reporter=$!
   cmake --build "$root/build/$preset" --parallel "$(build_jobs)" "${targets[@]}" >"$log" 2>&1 9>&- {building}>&- ||

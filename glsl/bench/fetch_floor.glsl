@@ -1,8 +1,9 @@
-// Only the fetches of a technique that searches for blockers and filters: as many, from the same discs of the same map.
+// Makes only the fetches of a technique that searches for blockers and filters: as many, from the same discs of the
+// same map.
 #include "shadow/sampling.glsl"
 #include "shadow/search.glsl"
 
-// A mask of the technique's: G is the filter's radius.
+// A mask that the technique has drawn: G is the filter's radius.
 layout(binding = UNIT_kernel_radii) uniform sampler2DArray kernels;
 
 float read_radius(Receiver receiver, Light light) {

@@ -10,7 +10,7 @@ layout(binding = 9) uniform sampler2D gbuffer_normal;
 layout(binding = 10) uniform sampler2D gbuffer_material;
 layout(binding = 11) uniform sampler2D gbuffer_emission;
 layout(binding = 12) uniform sampler2D gbuffer_depth;
-layout(binding = 13) uniform sampler2DArray shadow_mask;  // one layer a light
+layout(binding = 13) uniform sampler2DArray shadow_mask;  // one layer for each light
 
 layout(location = 0) out vec4 lit;
 

@@ -20,7 +20,7 @@ Receiver offset_receiver(Receiver receiver, Light light) {
   return receiver;
 }
 
-// Bias along the light, metres: what rounding needs, and a part of the texel's depth range on the receiver's plane.
+// Bias along the light, metres: the error of rounding, and the parameters bias.constant and bias.slope in texel widths.
 float depth_bias(Receiver receiver, Light light) {
   return depth_rounding(light) + texel_size(receiver, light) * (bias_constant + bias_slope * length(receiver.gradient));
 }

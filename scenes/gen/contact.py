@@ -1,4 +1,4 @@
-"""Scenes that ask a shadow map where surfaces touch: faces in one place, faces that meet at shallow angles, folds."""
+"""Scenes that test shadow maps where surfaces touch: faces in one place, faces that meet at shallow angles, folds."""
 
 import math
 

@@ -27,7 +27,7 @@ def leaf_texture(seed=7, size=256, leaves=19, colors=LEAF_GREENS, slender=1.0):
     field = [(0.0, mean)] * (size * size)
     for root, axis, length, half, tint in blades:
         _blade(field, size, root, axis, length, half, vec.lerp(colors[0], colors[1], tint))
-    for y in range(int(0.25 * size), size):  # the twig itself
+    for y in range(int(0.25 * size), size):  # the twig
         center = (0.5 + 0.04 * math.sin(6 * (0.97 - y / size) / 0.72)) * size
         for x in range(int(center - 2), int(center + 3)):
             field[y * size + x] = (1.0, (0.1, 0.075, 0.04))

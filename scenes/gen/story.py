@@ -1,4 +1,4 @@
-"""Scenes that show a case: the thesis's distant caster, leaves, and things that move."""
+"""Scenes that each show one case: the thesis's distant caster, leaves, and things that move."""
 
 import math
 

@@ -54,7 +54,7 @@ struct ShaderSource {
   std::string text;
   std::vector<std::string> files;             // [0] is the root
   std::vector<Line> lines;                    // where each line of `text` comes from
-  std::vector<std::string> shown_names = {};  // one a file, for messages; empty: "glsl/" and the name
+  std::vector<std::string> shown_names = {};  // one per file, for messages; empty: "glsl/" and the name
 };
 
 // The most files that a stage may be made of: a limit for includes that never end.

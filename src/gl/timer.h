@@ -59,7 +59,7 @@ class Timers {
 
   struct Row {
     std::string name;
-    std::vector<double> milliseconds;  // one a frame, oldest first; a pass drawn twice in a frame is summed
+    std::vector<double> milliseconds;  // one per frame, oldest first; a pass drawn twice in a frame is summed
   };
   // Waits for what is outstanding. Rows in the order of their first appearance; the last row is "frame".
   std::vector<Row> rows();

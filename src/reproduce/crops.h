@@ -16,7 +16,7 @@ struct Crop {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-// Of all crops of the report's size, the one with the greatest sum of `weights`, a value a pixel.
+// Of all crops of the report's size, the one with the greatest sum of `weights`, which has one value per pixel.
 Crop best_crop(const Workbench& bench, std::span<const double> weights);
 // The crop where a single tap is noisiest: the weights are V (1 − V), the variance of a tap that is lit with
 // probability V.

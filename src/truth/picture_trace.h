@@ -45,7 +45,7 @@ class PictureTrace {
 
   // Within a round only one thread writes a given pixel.
   Traced out_;
-  std::vector<LitCounts> lit_;         // one a pixel, if there may be another round
+  std::vector<LitCounts> lit_;         // one per pixel, if there may be another round
   std::vector<std::uint32_t> points_;  // traced so far, of each scrambling
   std::vector<std::uint32_t> wanted_;  // after this round
 

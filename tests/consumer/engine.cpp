@@ -10,7 +10,7 @@ namespace engine {
 
 namespace {
 
-// The engine's own loader: one pointer a function, named as in OpenGL.
+// The engine's own loader: one pointer per function, named as in OpenGL.
 // clang-format off
 #define ENGINE_GL_FUNCTIONS(X) \
   X(PFNGLATTACHSHADERPROC, glAttachShader) \
@@ -88,7 +88,7 @@ void make_context() {
 #undef X
 }
 
-// Names as engines have them.
+// Names that an engine may declare.
 const char* const forward_fragment_text = R"(
 struct Light { vec3 to_light; vec3 color; };
 struct Receiver { vec3 position; };

@@ -21,8 +21,8 @@ constexpr float floor_half = 6.0f;
 void make_context();  // throws std::runtime_error
 void* proc_address(const char* name);
 
-// The end of a fragment shader, to be appended to a function that returns shadows; and whether the driver compiles the
-// whole shader.
+// The end of a fragment shader, to be appended to a function that returns shadows; and a test whether the driver
+// compiles the whole shader.
 extern const char* const forward_fragment_text;
 bool compiles(const std::string& fragment_text);
 
@@ -42,7 +42,7 @@ glm::mat4 projection();
 // The depth and normals of a frame, drawn with the engine's conventions.
 Targets draw_frame(const Scene& scene, const glm::mat4& view);
 
-// A depth array of one layer a matrix: near 0, far 1, clip-space depth 0..1.
+// Draws the casters into a depth array with one layer per matrix: near 0, far 1, clip-space depth 0..1.
 GLuint draw_depth_array(const Scene& scene, const glm::mat4* world_to_clip, int count, int size);
 
 }  // namespace engine

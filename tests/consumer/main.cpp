@@ -1,6 +1,6 @@
 // The engine hands its depth, its normals and a callback that draws its casters to Penumbra, gets a shadow mask, and
-// looks at it: under the square is umbra, beside it light, in between penumbra. Then the same with maps of its own, and
-// with the same maps again, seen by a camera that has moved on. A program of the engine's takes the forward source.
+// checks it: umbra under the square, light beside it, penumbra in between. Then it does the same with maps that it has
+// drawn itself, and with the same maps after the camera has moved. One of its programs includes the forward source.
 #include <penumbra/gl/context.h>
 #include <penumbra/shadow/soft_shadows.h>
 
@@ -67,7 +67,7 @@ float mean_difference(const std::vector<float>& a, const std::vector<float>& b) 
   return 4 * sum / static_cast<float>(a.size());
 }
 
-// One matrix a layer, for maps that the engine draws itself.
+// The matrix of each layer, for maps that the engine draws itself.
 shadow::FinishedMaps draw_own_maps(const Setting& setting, const shadow::LightProjection& projection) {
   std::vector<glm::mat4> matrices;
   for (int layer = 0; layer < projection.layers(); ++layer) matrices.push_back(projection.world_to_clip(layer));
@@ -98,7 +98,7 @@ void run() {
   const shadow::Mask given = shadows.render(inputs_of(setting, lights), params);
   expect(gl::read_floats(*given.texture, 4) == mask, "maps of the engine's own give another mask than the callback");
 
-  // The maps stay those of the first camera, and their projection is that of the first camera.
+  // The maps and their projection are those of the first camera.
   setting.view = engine::view({1.5f, 4, 5.5f});
   setting.targets = engine::draw_frame(scene, setting.view);
   const std::vector<float> moved = gl::read_floats(*shadows.render(inputs_of(setting, lights), params).texture, 4);

@@ -5,18 +5,18 @@
 
 namespace penumbra::test {
 
-// Ends the process when a file takes longer, naming it: a hang must fail the suite, not stall it.
+// Ends the process, with the file's name, when a file takes longer: a hang must fail the suite, not stall it.
 void start_hang_guard(const std::string& file);
 
 enum class Outcome { loaded, refused };
 
 struct Reading {
   Outcome outcome = Outcome::loaded;
-  std::string message;  // of a refusal
+  std::string message;  // why the file was refused
 };
 
-// Reads a file and checks what scene.h promises of it, in several poses. A refusal is an outcome; anything else that
-// goes wrong throws.
+// Reads a file and checks what scene.h promises of the scene, in several poses. A refusal (Error) is a valid outcome;
+// any other failure throws.
 Reading read_and_check(const std::filesystem::path& file);
 
 // Each returns the number of failures, which it has printed.

@@ -26,7 +26,7 @@ namespace {
 constexpr unsigned int seconds_a_file = 10;
 constexpr long most_resident_kib = 2L << 20;
 
-// The alarm's handler may only use what it finds here.
+// All that the handler of the alarm signal uses.
 std::array<char, 512> current_file{};
 
 void report_hang(int) {

@@ -20,7 +20,7 @@ struct Exception {
   std::string_view file, why;
 };
 
-// Valid by the validator's rules, and refused all the same.
+// Files that the validator accepts and the reader refuses nevertheless.
 constexpr std::array refused_though_valid = {
     Exception{"magnum/required-extensions.gltf", "requires the extension KHR_materials_pbrSpecularGlossiness"},
     Exception{"magnum/required-extensions-unsupported.gltf",
@@ -31,7 +31,7 @@ constexpr std::array refused_though_valid = {
 constexpr std::string_view made_to_be_refused = "derived/";
 constexpr std::string_view harmless = "derived/minmax_lie.glb";
 
-// Legal but extreme files are refused only for a limit, and say so.
+// Valid but extreme files may be refused only because of a limit, which the message must name.
 constexpr std::string_view stated_limit = "over the limit of", depth_limit = "deeper than the limit of";
 
 std::vector<Row> read_manifest(const std::filesystem::path& path) {
@@ -56,7 +56,7 @@ bool mentions_limit(const std::string& message) {
   return message.find(stated_limit) != std::string::npos || message.find(depth_limit) != std::string::npos;
 }
 
-// Empty when the outcome is as the class demands.
+// Why the outcome is not the one that the class demands; empty if it is.
 std::string fault_of(const Row& row, const Reading& reading) {
   const bool refused = reading.outcome == Outcome::refused;
   if (refused && !is_one_line_naming(reading.message, row.file)) return "not one line naming the file";

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int mutations_a_scene = 200;
 
-// Small scenes that between them use every part of the reader.
+// Small scenes that together use every part of the reader.
 constexpr std::array<const char*, 16> bases = {
     "box_meshopt/BoxMeshopt.glb",
     "CesiumMan_draco/CesiumMan.gltf",
@@ -81,13 +81,13 @@ class Mutator {
     }
   }
 
-  // JSON's numbers say where things are and how many: what hostile files lie about.
+  // Changes a number of the JSON: hostile files have wrong offsets and counts.
   void replace_number(std::string& text, bool keep_length) {
     const auto at = text.find_first_of("0123456789", below(text.size()));
     if (at == std::string::npos) return;
     const auto end = std::min(text.find_first_not_of("0123456789.", at), text.size());
     std::string number(numbers[below(numbers.size())]);
-    // A GLB's chunk lengths stay true this way, so that the document inside is reached.
+    // The length stays the same, so that a GLB's chunk lengths remain valid and the document inside is read.
     if (keep_length) number.resize(end - at, ' ');
     text.replace(at, end - at, number);
   }
@@ -95,7 +95,7 @@ class Mutator {
   std::mt19937 random_;
 };
 
-// A private copy of a scene's folder, gone with the object.
+// A private copy of a scene's folder, which the destructor removes.
 class Copy {
  public:
   explicit Copy(const std::filesystem::path& folder)
@@ -133,7 +133,7 @@ void check_scene_mutations(const std::filesystem::path& scene, unsigned int seed
   const auto main_file = copy.path() / scene.filename();
   Mutator mutator(seed);
   for (int i = 0; i < mutations_a_scene; ++i) {
-    // The glTF mostly; sometimes a buffer or image beside it.
+    // Chooses the file to damage: mostly the glTF, sometimes a buffer or image beside it.
     const auto& target = mutator.below(3) > 0 ? main_file : copy.files()[mutator.below(copy.files().size())];
     const std::string original = read_text(target);
     const bool keep_length = target.extension() != ".gltf" && mutator.below(8) > 0;
@@ -156,7 +156,7 @@ int check_mutations(const std::filesystem::path& scenes) {
   unsigned int seed = 1;
   for (const char* base : bases) check_scene_mutations(scenes / base, seed++, counts);
   std::printf("%d loaded, %d refused, %d failed\n", counts.loaded, counts.refused, counts.failed);
-  // Damage that always or never shows would mean that the mutations don't reach the reader.
+  // If all or none of the damaged files were refused, the mutations would not test the reader.
   const bool telling = counts.loaded > 0 && counts.refused > 0;
   if (!telling) std::printf("FAILED: the mutations tell nothing\n");
   return counts.failed + (telling ? 0 : 1);

@@ -1,4 +1,4 @@
-// What summaries and the viewer call the selected technique.
+// The name of the selected technique in summaries and in the viewer.
 #include <gtest/gtest.h>
 
 #include "render/renderer.h"

@@ -1,4 +1,4 @@
-// Holes in masked and blended surfaces are where the rasteriser cuts them.
+// Masked and blended surfaces have holes in the same places as when they are rasterised.
 
 #include <gtest/gtest.h>
 
@@ -37,12 +37,13 @@ struct Masked {
   scene::Material& material() { return scene.scene.materials[0]; }
   scene::Texture& texture() { return scene.scene.textures[0]; }
 
-  // The quad's u and v go to so much.
+  // Scales the quad's u and v to these maxima.
   void set_uv_scale(float scale) {
     for (glm::vec2& uv : primitive->uvs[0]) uv *= scale;
   }
 
-  // Expects shadow at (u, v) = (x / 4, z / 4) where `there` says, but for a hair beside its edges.
+  // Expects a shadow at (u, v) = (x / 4, z / 4) exactly where `there` returns true; points very near an edge are left
+  // out.
   void expect(const std::function<bool(double u, double v)>& there, const std::string& what) const {
     std::vector<truth::Receiver> receivers;
     std::vector<bool> exact;
@@ -76,7 +77,7 @@ TEST(TruthAlpha, LinearFilterCutsBetweenTexelCentres) {
     scene.texture().wrap_s = Wrap::clamp_to_edge;
     scene.expect([&](double u, double) { return u >= 0.25 + 0.5 * cutoff; }, "clamp");
     scene.texture().wrap_s = Wrap::repeat;
-    // The last texel and the first one, a texture further, are neighbours.
+    // The last texel and the first texel of the next repeat are neighbours.
     const auto repeated = [&](double u, double) {
       return (u >= 0.25 + 0.5 * cutoff && u <= 1.25 - 0.5 * cutoff) || u <= 0.25 - 0.5 * cutoff;
     };
@@ -155,7 +156,7 @@ TEST(TruthAlpha, MaskKeepsItsCutoffAndBlendDropsAHalf) {
   scene.expect(everywhere, "blend over a half");
 }
 
-// Rays go on behind a hole.
+// Rays continue behind a hole.
 TEST(TruthAlpha, WhatIsBehindAHoleStillCasts) {
   Masked scene({0, 255, 0, 255});
   scene.texture().mag = Filter::nearest;

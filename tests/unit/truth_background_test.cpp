@@ -1,4 +1,4 @@
-// Pictures that are traced on a background thread: which one is finished, and what cancels them.
+// Background tracing: which pictures are finished, and what cancels them.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using truth::TracedPicture;
 
 constexpr int few = 64, endless = 1 << 14;  // rays a pixel: the latter take many seconds
 
-// Boxes over the ground, `number` in the place of a key.
+// A request for a picture of boxes over the ground; `number` serves as its key.
 class Pictures {
  public:
   Pictures() {
@@ -94,7 +94,7 @@ TEST(TruthBackground, CancelsAndStopsWithoutAnError) {
     EXPECT_FALSE(tracer.share_done());
     EXPECT_FALSE(tracer.take());
   }
-  tracer.start(pictures.request(1, endless));  // until it goes
+  tracer.start(pictures.request(1, endless));  // cancelled by the destructor
 }
 
 TEST(TruthBackground, ThrowsOnceWhatTracingThrew) {

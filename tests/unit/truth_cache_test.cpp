@@ -68,7 +68,7 @@ TEST_F(TruthCache, LetsGoOfWhatWasNotUsedForLongest) {
     cache.keep({0, i}, traced(1));
     age({0, i}, static_cast<int>(10 - i));
   }
-  EXPECT_TRUE(cache.find({0, 1}, 1000));  // used now: no more the oldest
+  EXPECT_TRUE(cache.find({0, 1}, 1000));  // used just now, so it is no longer the oldest
   std::ofstream(folder_ / "of somebody else") << std::string(100'000, 'x');
   cache.keep({0, 4}, traced(1));
   EXPECT_TRUE(cache.find({0, 1}, 1000));
@@ -101,7 +101,7 @@ TEST_F(TruthCache, WithoutAFolderKeepsNothing) {
   EXPECT_FALSE(cache.find({0, 1}, 1000));
 }
 
-// A leaf whose texture decides, over nothing.
+// A leaf whose alpha texture decides what casts, with no surface below it.
 struct Leaf {
   Leaf() {
     scene.images = {{.width = 2, .height = 1, .rgba = {0, 0, 0, 255, 0, 0, 0, 0}}};

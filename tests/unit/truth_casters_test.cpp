@@ -1,4 +1,5 @@
-// Rays see the faces that cast, as glTF has fronts: counter-clockwise, and clockwise where a node mirrors.
+// Rays hit only the faces that cast shadows. Front faces are glTF's: counter-clockwise, or clockwise where a node
+// mirrors.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ constexpr std::size_t all_flat = 1'000'000;
 float below(bool towards_sun, bool mirrored, CasterFaces faces, std::size_t flat_triangles) {
   TruthScene scene;
   scene::Primitive& grid = scene.add_primitive();
-  constexpr std::uint32_t side = 9;  // as many triangles as copies are shared for
+  constexpr std::uint32_t side = 9;  // enough triangles for copies to share them
   for (std::uint32_t z = 0; z < side; ++z)
     for (std::uint32_t x = 0; x < side; ++x)
       grid.positions.emplace_back(-2.0f + 0.5f * static_cast<float>(x), 1.0f, -2.0f + 0.5f * static_cast<float>(z));

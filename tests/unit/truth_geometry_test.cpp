@@ -1,4 +1,4 @@
-// What casts: no leaks, no acne, contact, copies, and what is not there.
+// Which geometry casts shadows: no leaks, no acne, contacts, instances, and degenerate triangles.
 
 #include <gtest/gtest.h>
 
@@ -84,7 +84,7 @@ TEST(TruthGeometry, ConvexBodiesHaveNeitherAcneNorLeaks) {
       std::vector<Receiver> lit, inside;
       for (std::size_t i = 0; i < truth::triangle_count(surface); ++i) {
         const auto corners = truth::world_triangle(surface, i);
-        // Far out, vertices are rounded so much that the small ball is not convex any more.
+        // Far from the origin, vertices are rounded so much that the small ball is no longer convex.
         if (!corners || radius < 1e-5f * glm::length(place.at)) continue;
         const glm::dvec2 p = point_in_triangle(random);
         const glm::dvec3 outwards = (*corners)[0] - glm::dvec3(place.at);
@@ -280,7 +280,7 @@ TEST(TruthGeometry, SharedTrianglesCastAsFlatOnesDo) {
   EXPECT_LT(shared.stats().stored, flat.stats().stored / 10);
   const Traced a = flat.trace(ground, 80, sun, {.samples = 64});
   const Traced b = shared.trace(ground, 80, sun, {.samples = 64});
-  // Turning a ray rounds it: one in many passes an edge on the other side.
+  // Transforming a ray rounds it, so a few rays pass an edge on the other side.
   int differ = 0;
   for (std::size_t i = 0; i < ground.size(); ++i) {
     EXPECT_NEAR(a.visibility[i], b.visibility[i], 1.5 / 64);
@@ -306,7 +306,7 @@ TEST(TruthGeometry, SharedTrianglesHaveNoAcne) {
       if (receiver.normal.y > 0.02) row.push_back(receiver);
     }
   }
-  // What is above a ball may shadow it: the flat scene says where.
+  // Other objects may shadow a ball: the scene without instances shows where.
   const Traced shared = trace_row(tracer, row, sun, {.samples = 8});
   const Traced flat = trace_row(scene.tracer(), row, sun, {.samples = 8});
   int differ = 0;

@@ -30,7 +30,7 @@ struct Row {
   std::vector<double> exact;
 };
 
-// Receivers across a penumbra, and to its sides by `beyond` of its half width.
+// Receivers across a penumbra, and beyond it on both sides by `beyond` times its half width.
 template <class Exact>
 Row row_across(double half_width, double beyond, int count, Exact exact) {
   const double reach = (1 + beyond) * half_width;
@@ -60,7 +60,7 @@ TEST(TruthPenumbra, IsTheExactFunctionOfDiscAndSquare) {
   }
 }
 
-// An oblique sun, the edge askew to the disc: no symmetry helps.
+// An oblique sun and an edge that is not aligned with the disc's axes, so that no symmetry hides errors.
 Row oblique_row(const Sun& sun, int count) {
   const double tangent = std::tan(sun.angle / 2);
   const glm::dvec3 to_light = glm::normalize(sun.to_light);
@@ -138,7 +138,7 @@ TEST(TruthPenumbra, SquareSunHasHorizontalSides) {
   const truth::Tracer tracer = scene.tracer();
   const double angle = glm::radians(6.0);
   const Sun sun{.to_light = {0.8, 0.6, 0}, .angle = angle, .square = true};
-  // The horizontal sides run along the edge, so what is seen of the sun is cut parallel to them.
+  // The sun's horizontal sides are parallel to the edge, so the edge cuts the sun parallel to them.
   const double tangent = std::tan(angle / 2);
   Row row{ground_row(-8, -5.6, 400), {}};
   for (const Receiver& receiver : row.receivers) {
@@ -188,7 +188,7 @@ TEST(TruthPenumbra, WhatIsBehindALocalLightDoesNotBlockIt) {
   }
 }
 
-// The sun's disc under the horizon of a receiver does not reach it.
+// The part of the sun's disc below a receiver's horizon does not light it.
 TEST(TruthPenumbra, ASunHalfBelowTheSurfaceIsHalfVisible) {
   const TruthScene scene;
   const truth::Tracer tracer = scene.tracer();

@@ -14,7 +14,7 @@ using truth::no_surface;
 using truth::Receiver;
 using truth::receivers_of;
 
-// Projections whose x and y are the same, and depth is anything.
+// Projections with equal x and y but different depth conventions.
 struct Projection {
   const char* name;
   glm::dmat4 matrix;
@@ -49,7 +49,7 @@ std::vector<Projection> projections(bool perspective) {
 
 constexpr int width = 20, height = 10;
 
-// Direction of a pixel's ray in view space, and where it leaves z = 0.
+// Direction of a pixel's ray in view space, and its point at z = 0.
 glm::dvec3 view_ray(int x, int y) {
   return {(2 * (x + 0.5) / width - 1) * tan_x, (2 * (y + 0.5) / height - 1) * tan_y, -1};
 }

@@ -14,12 +14,12 @@ namespace penumbra::test {
 
 constexpr double pi = 3.14159265358979323846;
 
-// A few surfaces in memory, which the test places.
+// A scene of a few surfaces that a test adds.
 class TruthScene {
  public:
   scene::Scene scene;
 
-  // Surfaces refer to primitives, which therefore stay where they are.
+  // Surfaces hold pointers to primitives, so these must not move in memory.
   scene::Primitive& add_primitive() { return primitives_.emplace_back(); }
 
   scene::PosedSurface& place(const scene::Primitive& primitive, const glm::mat4& world = glm::mat4(1)) {
@@ -63,7 +63,7 @@ class TruthScene {
   scene::PosedGeometry geometry_;
 };
 
-// A receiver on a triangle that reaches so far from it.
+// A receiver on a triangle whose furthest corner is `reach` away.
 inline truth::Receiver receiver_at(const glm::dvec3& position, const glm::dvec3& normal, double reach = 100) {
   return {.position = position, .normal = normal, .there = true, .reach = reach};
 }

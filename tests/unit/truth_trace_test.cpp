@@ -1,4 +1,4 @@
-// How a picture is traced: sampling, threads, error bounds, progress.
+// Tracing a picture: sampling, threads, error bounds, progress.
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ TEST(TruthSampling, EveryElementaryIntervalHasOnePoint) {
   }
 }
 
-// Over pixels, scramblings and seeds a point is anywhere, and no two of them go together.
+// Over pixels, scramblings and seeds, each point is uniformly distributed, and any two are independent.
 TEST(TruthSampling, ScramblingsAreIndependent) {
   const auto correlation = [](auto first, auto second) {
     double sum = 0;
@@ -186,7 +186,9 @@ TEST(TruthTrace, StopsAtTheErrorThatIsAskedFor) {
     }
     EXPECT_LE(over, 0.001 * there) << error;
     EXPECT_GE(traced.samples, 128) << error;
-    // Stopping where the estimate happens to be low makes the error larger than it says, not twice as large.
+    // Adaptive sampling stops where the estimated error happens to be low, so the actual error is larger than
+    // requested, but
+    // less than twice as large.
     EXPECT_LT(std::sqrt(squares / penumbra), 1.5 * error) << error;
     EXPECT_GT(traced.rays, before);
     EXPECT_LT(traced.rays, 0.8 * static_cast<double>(traced.samples) * there) << "it is not adaptive";
@@ -203,7 +205,8 @@ TEST(TruthTrace, WhatAgreesWithItsNeighboursIsDoneAfterTheFirstRound) {
   EXPECT_EQ(traced.rays, 50 * 65);
 }
 
-// A sliver of the sun that the first round's samples miss: its neighbours in the penumbra give it away.
+// A visible sliver of the sun that the first round's samples miss: the pixel continues because its neighbours are in
+// the penumbra.
 TEST(TruthTrace, FirstSamplesThatAgreeProveNothingBesideAPenumbra) {
   TruthScene scene;
   scene.add_quad({-60, 5, -60}, {60, 0, 0}, {0, 0, 120});
@@ -221,12 +224,12 @@ TEST(TruthTrace, FirstSamplesThatAgreeProveNothingBesideAPenumbra) {
   const Traced traced = trace_row(tracer, row, Sun{.angle = angle}, {.samples = 64, .error = error});
   double squares = 0, count = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
-    if (exact[i] < 0.0005 || exact[i] > 0.01) continue;  // where 64 samples often all miss
+    if (exact[i] < 0.0005 || exact[i] > 0.01) continue;  // pixels in which 64 samples often all miss the sun
     squares += std::pow(traced.visibility[i] - exact[i], 2);
     ++count;
   }
   ASSERT_GT(count, 50);
-  // Without the estimates of their neighbours the error would be more than twice as large.
+  // Without the rule for neighbours, the error would be more than twice as large.
   EXPECT_LT(std::sqrt(squares / count), 1.25 * error);
 }
 
@@ -256,13 +259,14 @@ TEST(TruthTrace, TellsProgressAndStopsWhenToldTo) {
   EXPECT_THROW(tracer.trace(many, 80, wide_sun, endless), std::runtime_error);
 }
 
-// Fills the stack with what a program leaves there.
+// Fills the stack with values such as a program leaves there.
 [[gnu::noinline]] void soil_stack(unsigned char value) {
   volatile unsigned char litter[1 << 18];  // NOLINT(cppcoreguidelines-avoid-c-arrays): volatile
   for (volatile unsigned char& byte : litter) byte = value;
 }
 
-// Some builds of Embree read more than they stored there, and go on for ever where triangles are shared.
+// Some builds of Embree read more of the stack than they have written, and then never end where instances share
+// triangles.
 TEST(TruthTrace, EndsWhateverTheStackHolds) {
   TruthScene scene;
   scene::Primitive& quad = scene.add_primitive();

@@ -1,4 +1,4 @@
-// Many primitives become one stream in time that grows as they do.
+// Appending many primitives to one stream takes time proportional to their number.
 
 #include <gtest/gtest.h>
 

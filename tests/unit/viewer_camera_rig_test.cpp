@@ -18,7 +18,7 @@ constexpr float pi = 3.14159265f;
 
 render::Camera camera_of(const CameraRig& rig) { return render::look_at(rig.eye, rig.target, rig.fov_y, 0.01f); }
 
-// 0..1 of the picture from its lower left, in heights of it from the middle.
+// Where the picture shows a point: picture heights from its middle, y up.
 glm::vec2 seen_at(const CameraRig& rig, const glm::vec3& point, float aspect = 1) {
   const render::Camera camera = camera_of(rig);
   const glm::vec4 clip = render::projection_of(camera, aspect) * camera.view * glm::vec4(point, 1);
@@ -175,7 +175,7 @@ TEST_F(ViewerCameraRig, TheRigOfACameraShowsWhatItShows) {
     expect_near(same.eye, rig.eye, tolerance);
     expect_near(same.target, rig.target, tolerance);
     EXPECT_EQ(same.fov_y, rig.fov_y);
-    // Whatever the box, the line of sight is the camera's and the target lies before the eye.
+    // For every box, the line of sight is the camera's, and the target is in front of the eye.
     scene::Bounds elsewhere;
     elsewhere.add(point(100));
     elsewhere.add(point(100));

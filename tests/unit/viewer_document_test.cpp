@@ -1,4 +1,4 @@
-// What the viewer shows is what `penumbra render` draws from the command line that it gives.
+// The command line that the viewer gives makes `penumbra render` draw what the viewer shows.
 #include "viewer/document.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using Arguments = std::vector<std::string>;
 
 ParamSet defaults() { return ParamSet(render::Renderer::params(session::all_techniques())); }
 
-// A scene as the viewer opens it; a document of the viewer is one of a sequence, whose first frame is shown.
+// A scene as the viewer opens it. The viewer's document is always a sequence, whose first frame it shows.
 Document plain() {
   Document document{.options = {}, .params = defaults()};
   document.options.scene = "a.glb";
@@ -30,7 +30,7 @@ Document plain() {
   return document;
 }
 
-// What render makes of the arguments.
+// The options that `render` parses from the arguments.
 struct Rendered {
   app::RenderOptions options;
   ParamSet params;

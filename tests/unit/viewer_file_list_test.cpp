@@ -1,4 +1,4 @@
-// What the viewer lists of a folder, to open.
+// The files of a folder that the viewer lists.
 #include "support/temp_folder.h"
 #include "viewer/file_list.h"
 
@@ -19,7 +19,7 @@ using viewer::FileList;
 class ViewerFileList : public testing::Test {
  protected:
   void put(const std::string& name) const { std::ofstream(root_ / name) << "text"; }
-  // Folders with a slash.
+  // The names of the entries; those of folders end in a slash.
   std::vector<std::string> names() const {
     std::vector<std::string> names;
     for (const FileList::Entry& entry : viewer::list_folder(root_).entries)

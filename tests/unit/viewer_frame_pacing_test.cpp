@@ -12,12 +12,12 @@ namespace {
 
 using viewer::FramePacing;
 
-// A machine whose full picture takes so many milliseconds, and a viewer on it.
+// Simulates a viewer on a machine that draws the full-size picture in `full_ms` milliseconds.
 class Machine {
  public:
   explicit Machine(double full_ms, bool software = true) : pacing(software), full_ms_(full_ms) {}
 
-  // One turn of the viewer's loop, some of a second after the last.
+  // One turn of the viewer's loop, a fraction of a second after the last.
   FramePacing::Step turn(bool changed, int frames = 0, int wanted = 32, bool ui_active = false) {
     now_ += 0.02;
     const FramePacing::Step step = pacing.next(now_, changed, ui_active, frames, wanted);
@@ -27,7 +27,7 @@ class Machine {
   double took(int divisor) const { return full_ms_ / divisor / divisor; }
   void becomes(double full_ms) { full_ms_ = full_ms; }
 
-  // The part of the resolution that a motion of a second ends with.
+  // The divisor of the resolution after a motion of one second.
   int in_motion() {
     int divisor = 0;
     for (int i = 0; i < 50; ++i) divisor = turn(/*changed=*/true).divisor;
@@ -142,7 +142,7 @@ TEST(ViewerPace, TheSizeSettles) {
     Machine machine(full);
     const int settled = machine.in_motion();
     for (int i = 0; i < 10; ++i) EXPECT_EQ(machine.turn(true).divisor, settled) << full;
-    // Full-size pictures say as much about the machine.
+    // Full-size pictures show the machine's speed as well.
     for (int i = 0; i < 40; ++i) machine.turn(false);
     EXPECT_EQ(machine.turn(true).divisor, settled) << full;
   }

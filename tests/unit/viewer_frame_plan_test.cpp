@@ -12,7 +12,7 @@ using viewer::FramePlan;
 using viewer::FrameState;
 using viewer::PictureState;
 
-// A viewer at work: two pictures, a truth that takes so many turns, and a clock.
+// Simulates a viewer: two pictures, a truth that takes a given number of turns to trace, and a clock.
 class Desk {
  public:
   explicit Desk(bool software) : pacing_(software) {}
@@ -28,7 +28,7 @@ class Desk {
     const FramePlan plan = plan_frame(pacing_, state);
     values_wanted = false;
     if (plan.cancel_truth) tracing = 0;
-    if (tracing > 0 && --tracing == 0) {  // its picture is there: it is drawn once more
+    if (tracing > 0 && --tracing == 0) {  // the traced picture is finished, so it is drawn once more
       if (a.traced) a.frames = 0;
       if (b && b->traced) b->frames = 0;
     }
@@ -46,13 +46,13 @@ class Desk {
     if (plan.a.draw || plan.b.draw) pacing_.drew(plan.divisor, 50);
     return plan;
   }
-  // Until nothing is to come, and a while on. The last turn.
+  // Runs until the viewer is idle, and some turns longer. Returns the last turn.
   FramePlan rest(int turns = 200) {
     FramePlan plan;
     for (int i = 0; i < turns; ++i) plan = turn();
     return plan;
   }
-  // The user moves the camera.
+  // Simulates that the user moves the camera.
   void move(int turns) {
     for (int i = 0; i < turns; ++i) {
       change(a);
@@ -68,7 +68,7 @@ class Desk {
   PictureState a;
   std::optional<PictureState> b;
   bool values_wanted = false;
-  int tracing = 0;               // turns that are left
+  int tracing = 0;               // turns until the truth is traced
   int drawn_a = 0, drawn_b = 0;  // frames since the last cut
 
  private:

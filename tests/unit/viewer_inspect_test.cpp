@@ -1,4 +1,4 @@
-// How the viewer makes numbers visible, and which pixel is under the cursor.
+// How the viewer converts numbers to colours, and which pixel is under the cursor.
 #include "viewer/inspect.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ bool is_round(float value) {
   return std::abs(digits - 1) < 1e-3 || std::abs(digits - 2) < 1e-3 || std::abs(digits - 5) < 1e-3;
 }
 
-// The colour of the pixel x, y from the upper left; `rgba` has rows from below.
+// The colour of pixel (x, y), counted from the upper left; the rows of `rgba` run from bottom to top.
 glm::ivec3 color_in(const Values& values, const std::vector<std::uint8_t>& rgba, int x, int y) {
   const auto at = static_cast<std::size_t>((values.height - 1 - y) * values.width + x) * 4;
   EXPECT_EQ(rgba.at(at + 3), 255);
@@ -181,8 +181,8 @@ TEST(ViewerInspect, TheDifferenceIsThatOfTheFarthestChannelWithoutASign) {
 
 class ViewerCursor : public testing::Test {
  protected:
-  // Where the window shows a point of the picture, from the upper left, as glsl/viewer/present.frag has it: `part` 0 is
-  // the window or its left half, 1 its right half.
+  // Where the window shows a point of the picture, from the upper left, as glsl/viewer/present.frag computes it: `part`
+  // 0 is the window or its left half, 1 its right half.
   static glm::vec2 shown_at(const viewer::PresentInputs& inputs, const glm::vec2& point, int part, int parts) {
     const auto width = static_cast<float>(inputs.window_size.x) / static_cast<float>(parts);
     const glm::vec2 middle(width * (static_cast<float>(part) + 0.5f), static_cast<float>(inputs.window_size.y) * 0.5f);

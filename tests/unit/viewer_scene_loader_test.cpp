@@ -1,4 +1,4 @@
-// Scenes are read beside the window: the last one that was asked for comes, whatever was asked before.
+// Scenes are read in the background: the last requested one is returned, whatever was requested before.
 #include "viewer/scene_loader.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The settings that the viewer keeps between runs, and that a damaged settings file does no harm.
+// The settings that the viewer keeps between runs; a damaged settings file does no harm.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -39,7 +39,7 @@ class ViewerSettings : public testing::Test {
   fs::path file() const { return root_ / "config/penumbra/viewer.json"; }
   void put(const std::string& text) const { io::write_text(file(), text); }
 
-  // Refused as a whole, in one line that names the file and holds `cause`.
+  // Expects that such a file is refused as a whole, with one line that names the file and contains `cause`.
   void expect_fault(const std::string& text, const std::string& cause) const {
     put(text);
     expect_fault(cause);

@@ -35,7 +35,7 @@ Texel read_texel(Receiver receiver, ivec2 at, float radius, Light light) {
   return texel;
 }
 
-// As functions of four texels take it.
+// The texel in the form that functions for four texels take.
 Offsets offsets_of(Texel texel) { return Offsets(vec4(texel.offset.x), vec4(texel.offset.y)); }
 
 bool in_cone(Receiver receiver, Texel texel, float distance_to, Light light) {
