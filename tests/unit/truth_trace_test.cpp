@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -139,6 +140,22 @@ TEST(TruthTrace, IsTheSameOnAnyNumberOfThreads) {
                   .visibility,
               one.visibility);
   }
+}
+
+// Every thread runs the callback that decides whether a hit counts.
+TEST(TruthTrace, IsTheSameOnAnyNumberOfThreadsWhereOneFaceCasts) {
+  TruthScene scene;
+  scene.add_quad({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}).faces = scene::CasterFaces::front;
+  scene.add_quad({0, 2, -1}, {0, 0, 2}, {2, 0, 0}).faces = scene::CasterFaces::front;
+  const truth::Tracer tracer = scene.tracer();
+  const std::vector<Receiver> receivers = ground_row(-2, 3, 400);
+  const auto traced = [&](int threads) {
+    return tracer.trace(receivers, 20, wide_sun, {.samples = 88, .threads = threads}).visibility;
+  };
+  const std::vector<float> one = traced(1);
+  EXPECT_EQ(one, traced(4));
+  EXPECT_GT(std::ranges::count(one, 1.0f), 20);
+  EXPECT_GT(std::ranges::count(one, 0.0f), 20) << "one of the squares shows its front";
 }
 
 TEST(TruthTrace, SeedsAndPixelsDiffer) {
