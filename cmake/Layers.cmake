@@ -19,11 +19,11 @@ endif()
 
 # penumbra_layer(NAME LINK targets... PRIVATE targets...): src/NAME and all below it as the static library
 # penumbra_NAME. Sources are globbed so that adding a technique or a filter touches no build file. main.cpp is the
-# program's, not the layer's.
+# program's, not the layer's, and src/NAME/module holds modules: see penumbra_module().
 function(penumbra_layer name)
   cmake_parse_arguments(arg "" "" "LINK;PRIVATE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/src/${name}/*.cpp")
-  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$|/module/")
   add_library(penumbra_${name} STATIC ${sources})
   set_target_properties(penumbra_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(penumbra_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src>
@@ -38,4 +38,20 @@ function(penumbra_layer name)
       set_source_files_properties("${source}" PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
     endif()
   endforeach()
+endfunction()
+
+# penumbra_module(LAYER NAME LINK targets...): src/LAYER/module/NAME.cpp as the shared library penumbra_NAME.so, which the
+# layer loads when it is first needed, from the folder of the program or from where it is installed.
+function(penumbra_module layer name)
+  cmake_parse_arguments(arg "" "" "LINK" ${ARGN})
+  set(target penumbra_${name})
+  add_library(${target} MODULE "${CMAKE_SOURCE_DIR}/src/${layer}/module/${name}.cpp")
+  set_target_properties(${target} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}")
+  target_include_directories(${target} PRIVATE "${CMAKE_SOURCE_DIR}/src")
+  target_link_libraries(${target} PRIVATE penumbra_options ${arg_LINK})
+  penumbra_precompile(${target} library)
+  add_dependencies(penumbra_${layer} ${target})
+  file(RELATIVE_PATH folder "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}/penumbra")
+  target_compile_definitions(penumbra_${layer} PRIVATE "PENUMBRA_MODULE_FOLDER=\"${folder}\"")
+  install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/penumbra")
 endfunction()

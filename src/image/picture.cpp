@@ -9,7 +9,7 @@
 #include "core/names.h"
 #include "core/read_file.h"
 #include "image/bytes.h"
-#include "image/memory_input.h"
+#include "image/image_library.h"
 #include "image/png.h"
 #include "image/precheck.h"
 #include "io/output_file.h"
@@ -68,19 +68,19 @@ std::vector<int> chosen_channels(const Names& channels, const std::string& layer
   return all;
 }
 
-std::vector<float> read_channel(MemoryInput& input, int channel) {
+std::vector<float> read_channel(ImageInput& input, int channel) {
   std::vector<float> values(input.pixels());
-  input.read(channel, channel + 1, OIIO::TypeDesc::FLOAT, values.data());
+  input.read(channel, channel + 1, values.data());
   return values;
 }
 
 // The values of the chosen channels, interleaved. Channels that are adjacent in the file, as they nearly always are,
 // are read at once, because each read decodes the whole file.
-std::vector<float> read_channels(MemoryInput& input, const std::vector<int>& chosen) {
+std::vector<float> read_channels(ImageInput& input, const std::vector<int>& chosen) {
   std::vector<float> pixels(input.pixels() * chosen.size());
   const auto jump = [](int a, int b) { return b != a + 1; };
   if (std::adjacent_find(chosen.begin(), chosen.end(), jump) == chosen.end()) {
-    input.read(chosen.front(), chosen.back() + 1, OIIO::TypeDesc::FLOAT, pixels.data());
+    input.read(chosen.front(), chosen.back() + 1, pixels.data());
     return pixels;
   }
   for (std::size_t c = 0; c < chosen.size(); ++c) {
@@ -92,7 +92,7 @@ std::vector<float> read_channels(MemoryInput& input, const std::vector<int>& cho
 
 [[noreturn]] void fail_not_opaque() { fail("it is not opaque: alpha is not 1 everywhere"); }
 
-void check_alpha(MemoryInput& input, const Names& channels, const std::string& layer) {
+void check_alpha(ImageInput& input, const Names& channels, const std::string& layer) {
   const std::string name = layer.empty() ? "A" : layer + ".A";
   const auto found = std::find(channels.begin(), channels.end(), name);
   if (found == channels.end()) return;
@@ -118,17 +118,17 @@ Picture read_png(std::span<const std::byte> bytes, std::size_t max_pixels) {
 Picture read_exr(std::span<const std::byte> bytes, const std::string& name, const std::string& layer,
                  std::size_t max_pixels) {
   check_exr_header(bytes, max_pixels);
-  MemoryInput input("openexr", bytes, name, max_pixels);
-  const Names& channels = input.spec().channelnames;
-  Picture picture{input.spec().width,
-                  input.spec().height,
+  const std::unique_ptr<ImageInput> input = image_library().open("openexr", bytes, name, max_pixels);
+  const Names& channels = input->channels;
+  Picture picture{input->width,
+                  input->height,
                   /* display= */ false,
                   chosen_layer(layers_of(channels), layer),
                   {},
                   {}};
   const std::vector<int> chosen = chosen_channels(channels, picture.layer);
-  check_alpha(input, channels, picture.layer);
-  picture.pixels = read_channels(input, chosen);
+  check_alpha(*input, channels, picture.layer);
+  picture.pixels = read_channels(*input, chosen);
   for (const int channel : chosen)
     picture.channels.push_back(without_layer(channels[static_cast<std::size_t>(channel)]));
   return picture;

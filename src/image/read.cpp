@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "image/bytes.h"
-#include "image/memory_input.h"
+#include "image/image_library.h"
 #include "image/png.h"
 #include "image/precheck.h"
 #include "image/probe.h"
@@ -40,14 +40,14 @@ scene::Image read_jpeg(std::span<const std::byte> encoded, const std::string& na
   const scene::ImageHeader header = probe(encoded);
   check_pixels(header.width, header.height, max_pixels);
   const std::vector<std::byte> cleaned = pixel_segments_of_jpeg(encoded);
-  MemoryInput input("jpeg", cleaned, name, max_pixels);
-  const auto channels = static_cast<std::size_t>(std::min(input.spec().nchannels, 4));
-  std::vector<std::uint8_t> pixels(input.pixels() * channels);
-  input.read(0, static_cast<int>(channels), OIIO::TypeDesc::UINT8, pixels.data());
+  const std::unique_ptr<ImageInput> input = image_library().open("jpeg", cleaned, name, max_pixels);
+  const std::size_t channels = std::min(input->channels.size(), std::size_t{4});
+  std::vector<std::uint8_t> pixels(input->pixels() * channels);
+  input->read(0, static_cast<int>(channels), pixels.data());
   return {.name = name,
-          .width = input.spec().width,
-          .height = input.spec().height,
-          .rgba = to_rgba(input.pixels(), channels, [&](std::size_t i) { return pixels[i]; })};
+          .width = input->width,
+          .height = input->height,
+          .rgba = to_rgba(input->pixels(), channels, [&](std::size_t i) { return pixels[i]; })};
 }
 
 }  // namespace

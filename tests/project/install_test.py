@@ -1,7 +1,10 @@
 """`cmake --install` gives a program that runs where it lies and a library that another project builds against."""
 
+import json
 import os
 import pathlib
+import shutil
+import struct
 import subprocess
 import unittest
 
@@ -14,6 +17,17 @@ def command(*arguments, **options):
     if result.returncode != 0:
         raise AssertionError(f"{' '.join(map(str, arguments))}\n{result.stdout}{result.stderr}")
     return result.stdout
+
+
+def grey_jpeg():
+    """8 x 8 pixels: tables of one code each, and a scan of one flat block."""
+    def segment(marker, body):
+        return struct.pack(">BBH", 0xff, marker, len(body) + 2) + body
+
+    codes = bytes([1]) + bytes(16)
+    return (b"\xff\xd8" + segment(0xdb, b"\0" + b"\1" * 64) + segment(0xc0, b"\x08\0\x08\0\x08\1\1\x11\0")
+            + segment(0xc4, b"\0" + codes) + segment(0xc4, b"\x10" + codes) + segment(0xda, b"\1\1\0\0\x3f\0")
+            + b"\x3f\xff\xd9")
 
 
 class Installed(support.TestCase):
@@ -54,6 +68,42 @@ class Installed(support.TestCase):
         command(program, "render", self.prefix / "share" / "penumbra" / "scenes" / "steps.glb", "--size", "64x36", "-o",
                 picture, cwd=self.folder, env={**os.environ, "HOME": str(self.folder)})
         self.assertTrue(picture.exists())
+
+    def write_scene(self):
+        """A triangle with a JPEG on it."""
+        (self.folder / "grey.jpg").write_bytes(grey_jpeg())
+        (self.folder / "data.bin").write_bytes(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))
+        scene = self.folder / "scene.gltf"
+        scene.write_text(json.dumps({
+            "asset": {"version": "2.0"}, "buffers": [{"byteLength": 36, "uri": "data.bin"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+            "images": [{"uri": "grey.jpg"}], "textures": [{"source": 0}],
+            "materials": [{"emissiveTexture": {"index": 0}, "emissiveFactor": [1, 1, 1]}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}], "nodes": [{"mesh": 0}]}))
+        return scene
+
+    def draw(self, program, scene, name):
+        """As a shell would in the test's folder; the result has returncode and stderr."""
+        arguments = [program, "render", scene, "--size", "64x36", "-o", self.folder / name, "--quiet"]
+        return subprocess.run([*map(str, arguments)], capture_output=True, text=True, timeout=600, cwd=self.folder,
+                              env={**os.environ, "HOME": str(self.folder)})
+
+    def test_program_reads_jpegs_and_writes_exrs_by_its_own_module(self):
+        result = self.draw(self.prefix / "bin" / "penumbra", self.write_scene(), "x.exr")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual((self.folder / "x.exr").read_bytes()[:4], b"\x76\x2f\x31\x01")
+
+    def test_program_without_its_module_says_so_and_does_all_else(self):
+        program, steps = self.folder / "penumbra", self.prefix / "share" / "penumbra" / "scenes" / "steps.glb"
+        shutil.copy(self.prefix / "bin" / "penumbra", program)
+        self.assertEqual(self.draw(program, steps, "x.png").returncode, 0)
+        for scene, name in ((steps, "y.exr"), (self.write_scene(), "y.png")):
+            with self.subTest(name):
+                result = self.draw(program, scene, name)
+                self.assertEqual(result.returncode, 1)
+                self.assertRegex(result.stderr, r"^error: [^\n]*penumbra_openimageio\.so, which is missing from [^\n]+\n$")
+                self.assertFalse((self.folder / name).exists())
 
 
 class LibraryAlone(unittest.TestCase):

@@ -1,8 +1,14 @@
 #include "image/write.h"
 
-#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#include <stb/stb_image.h>
+#pragma GCC diagnostic pop
 
 #include <cstddef>
 #include <filesystem>
@@ -11,6 +17,8 @@
 #include <numeric>
 #include <string>
 #include <vector>
+
+#include "image/picture.h"
 
 namespace {
 
@@ -36,12 +44,12 @@ TEST_F(ImageWrite, PngHoldsTheBytesAsTheyAre) {
   std::vector<std::uint8_t> pixels(3 * 2 * 3);
   std::iota(pixels.begin(), pixels.end(), std::uint8_t{100});
   penumbra::image::write_png(folder_ / "x.png", 3, 2, 3, pixels);
-  const auto input = OIIO::ImageInput::open((folder_ / "x.png").string());
-  ASSERT_TRUE(input);
-  std::vector<std::uint8_t> read(pixels.size());
-  ASSERT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, read.data()));
-  EXPECT_EQ(input->spec().width, 3);
-  EXPECT_EQ(read, pixels);
+  int width = 0, height = 0, channels = 0;
+  stbi_uc* read = stbi_load((folder_ / "x.png").c_str(), &width, &height, &channels, 0);
+  ASSERT_NE(read, nullptr) << stbi_failure_reason();
+  EXPECT_EQ((std::vector<int>{width, height, channels}), (std::vector<int>{3, 2, 3}));
+  EXPECT_EQ(std::vector<std::uint8_t>(read, read + pixels.size()), pixels);
+  stbi_image_free(read);
 }
 
 TEST_F(ImageWrite, APngInMemoryIsTheFile) {
@@ -57,15 +65,11 @@ TEST_F(ImageWrite, ExrHoldsFloatsAsTheyAreInNamedLayers) {
   const std::vector<float> shadow{0.25f, 1.0f / 3.0f};
   const std::vector<penumbra::image::Layer> layers{{"", {"R", "G", "B"}, color}, {"shadow", {"V"}, shadow}};
   penumbra::image::write_exr(folder_ / "x.exr", 2, 1, layers, {{"penumbra:technique", "pcss"}});
-  const auto input = OIIO::ImageInput::open((folder_ / "x.exr").string());
-  ASSERT_TRUE(input);
-  const OIIO::ImageSpec& spec = input->spec();
-  EXPECT_EQ(spec.format, OIIO::TypeDesc::FLOAT);
-  EXPECT_EQ(spec.get_string_attribute("penumbra:technique"), "pcss");
-  ASSERT_EQ(spec.channelnames, (std::vector<std::string>{"R", "G", "B", "shadow.V"}));
-  std::vector<float> read(8);
-  ASSERT_TRUE(input->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, read.data()));
-  EXPECT_EQ(read, (std::vector<float>{0.1f, 2.0f, 1e6f, 0.25f, -1.0f, 0.0f, 65536.0f, 1.0f / 3.0f}));
+  EXPECT_EQ(penumbra::image::read_picture(folder_ / "x.exr").pixels, color);
+  EXPECT_EQ(penumbra::image::read_picture(folder_ / "x.exr", "shadow").pixels, shadow);
+  // As an attribute has it: name, type, size, value.
+  using namespace std::string_literals;
+  EXPECT_NE(bytes_of(folder_ / "x.exr").find("penumbra:technique\0string\0\4\0\0\0pcss"s), std::string::npos);
 }
 
 TEST_F(ImageWrite, FilesHoldNoTime) {

@@ -1,0 +1,42 @@
+#include "image/image_library.h"
+
+#include <filesystem>
+
+#include "core/error.h"
+#include "gl/shared_library.h"
+
+namespace penumbra::image {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* module_file = "penumbra_openimageio.so";
+
+// Next to the program, as it is built; above a test's folder; or where it is installed.
+std::string module_path() {
+  std::error_code fault;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", fault).parent_path();
+  for (const char* place : {".", "..", PENUMBRA_MODULE_FOLDER}) {
+    const fs::path path = folder / place / module_file;
+    if (fs::exists(path, fault)) return path.lexically_normal().string();
+  }
+  fail("JPEG and EXR need {}, which is missing from {}", module_file,
+       (folder / PENUMBRA_MODULE_FOLDER).lexically_normal().string());
+}
+
+const ImageLibrary& load() {
+  const gl::SharedLibrary module("JPEG and EXR", {module_path().c_str()});  // is never unloaded
+  const ImageLibrary* (*library)() = nullptr;
+  module.require(library, "penumbra_image_library");
+  return *library();
+}
+
+}  // namespace
+
+const ImageLibrary& image_library() {
+  static const ImageLibrary& library = load();
+  return library;
+}
+
+}  // namespace penumbra::image
