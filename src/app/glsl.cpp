@@ -28,7 +28,7 @@ void refuse_present(const fs::path& folder, const std::vector<std::string>& name
 }  // namespace
 
 int run_glsl(const Arguments& arguments) {
-  CLI::App app("Write the built-in shaders to a folder, to change there and draw with by --glsl", "penumbra glsl");
+  CLI::App app("Write the built-in shaders to a folder, for editing; --glsl DIR draws with them", "penumbra glsl");
   std::string output;
   bool force = false, quiet = false;
   app.add_option("DIR", output, "Folder to write to; made if it is missing")->required()->type_name("");

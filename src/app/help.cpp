@@ -143,7 +143,7 @@ int run_help(const Arguments& arguments) {
   std::string name;
   app.add_option("NAME", name, "What to explain")->required()->type_name("");
   if (!cli::parse(app, arguments)) return 0;
-  // One name may stand for several things: truth is a technique and a command.
+  // Several things may have one name: truth is a technique and a command.
   bool found = false;
   for (const auto explain : {explain_technique, explain_filter, explain_denoiser, explain_product, explain_param,
                              explain_aov, explain_command})

@@ -93,8 +93,8 @@ Json backend_rows() {
 constexpr std::array listings{
     Listing{"techniques", "Ways to draw shadows, for --technique.", technique_rows},
     Listing{"filters", "Filters of the shadow mask, for filter.penumbra and filter.visibility.", filter_rows},
-    Listing{"denoisers", "What follows a technique, for the parameter denoiser.", denoiser_rows},
-    Listing{"products", "What is made of a light's maps for those techniques that ask for it.", product_rows},
+    Listing{"denoisers", "What runs after a technique, for the parameter denoiser.", denoiser_rows},
+    Listing{"products", "Textures made from a light's maps, for the techniques that need them.", product_rows},
     Listing{"params", "Parameters, for --set and presets.", param_rows},
     Listing{"aovs", "Pictures of a frame, for --aov.", aov_rows},
     Listing{"backends", "Ways to open an OpenGL context, for --backend.", backend_rows}};

@@ -212,8 +212,9 @@ report::Page comparison_page(const Comparison& comparison, const CompareOptions&
                                     comparison.reference_params.get_word("sun.shape"))},
                 {"Device", comparison.device.renderer}},
       .sections = {},
-      .footer = fmt::format("{}, commit {}. Costs hold for this device and run; compare them with each other alone.",
-                            cli::version(), bench::commit())};
+      .footer =
+          fmt::format("{}, commit {}. Costs are valid for this device and run only: compare them only with each other.",
+                      cli::version(), bench::commit())};
   for (const ComparedScene& scene : comparison.scenes) {
     Html body = table_of(scene, comparison, options.frames.has_value());
     body.add(report::heading("Cost against error"));

@@ -16,7 +16,7 @@ namespace {
 using Rgb = std::array<std::uint8_t, 3>;
 
 constexpr Rgb no_receiver{72, 75, 82};
-// From too dark to too bright by way of white, with lightness falling alike on both sides (ColorBrewer's RdBu, by
+// From too dark to too bright by way of white, with lightness that falls equally on both sides (ColorBrewer's RdBu, by
 // Cynthia Brewer).
 constexpr std::array<Rgb, 7> ramp{{{33, 102, 172},
                                    {103, 169, 207},

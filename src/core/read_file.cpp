@@ -18,7 +18,7 @@ std::size_t size_of(const std::filesystem::path& path, std::size_t limit) {
   const auto status = std::filesystem::status(path, code);
   if (code && code != std::errc::no_such_file_or_directory) fail("can't be read: {}", code.message());
   if (!std::filesystem::exists(status)) fail("file not found");
-  // Pipes and devices could block for ever.
+  // Reading a pipe or device could block forever.
   if (!std::filesystem::is_regular_file(status)) fail("not a regular file");
   const auto size = std::filesystem::file_size(path, code);
   if (code) fail("can't be read: {}", code.message());

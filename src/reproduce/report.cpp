@@ -102,8 +102,8 @@ penumbra::report::Page page_of(std::span<const Finding> findings, const Workbenc
                 {"Processor", fmt::format("{}, {} cores", machine.cpu, machine.cores)},
                 {"Commit", bench::commit()}},
       .sections = {overview(findings)},
-      .footer =
-          fmt::format("{}. Costs hold for this machine and run; compare them with each other alone.", cli::version())};
+      .footer = fmt::format("{}. Costs are valid for this machine and run only: compare them only with each other.",
+                            cli::version())};
   for (const Finding& finding : findings) page.sections.push_back(section_of(finding));
   page.sections.push_back(
       {.title = "Command", .body = penumbra::report::code_block(cli::command_text("penumbra reproduce", arguments))});

@@ -76,7 +76,7 @@ Finding figure_2_14(Workbench& bench) {
   finding.claim =
       "A median of 3 × 3 erases salt-and-pepper noise, where a box filter spreads it; taken of the blocker distances "
       "it "
-      "mends the penumbra before its width is estimated (sections 2.7.1, 3.4).";
+      "improves the penumbra before its width is estimated (sections 2.7.1, 3.4).";
   finding.test =
       "The reference scene's visibility with one pixel in twenty set to black or white, through both filters, against "
       "the clean picture. Then our renderer with 8/8 taps and a bilateral filter, with and without a median of the "

@@ -113,9 +113,9 @@ void check_receivers(const ReceiverTexture& texture, const TextureView& depth, T
 }
 
 void check_map_texture(const TextureView& depth, GLint count, int light) {
-  if (!holds_depth(depth.id)) fail("soft shadows: light {} brings maps without depth", light);
+  if (!holds_depth(depth.id)) fail("soft shadows: the maps of light {} hold no depth", light);
   const GLint layers = level_parameter(depth.id, GL_TEXTURE_DEPTH);
-  if (layers < count) fail("soft shadows: light {} brings {} maps for {} layers", light, layers, count);
+  if (layers < count) fail("soft shadows: light {} has {} maps for {} layers", light, layers, count);
 }
 
 void check_maps(const FinishedMaps& maps, int light, TextureChecks& checks) {
@@ -129,7 +129,7 @@ void check_maps(const FinishedMaps& maps, int light, TextureChecks& checks) {
   const bool known = checks.knows(key);
   if (!known) check_texture(name, depth, GL_TEXTURE_2D_ARRAY);
   if (depth.width != projection.size() || depth.height != projection.size()) {
-    fail("soft shadows: light {} brings maps of {}×{} and a projection of {}", light, depth.width, depth.height,
+    fail("soft shadows: light {} has maps of {}×{} and a projection for {}", light, depth.width, depth.height,
          projection.size());
   }
   if (!known) check_map_texture(depth, projection.layers(), light);

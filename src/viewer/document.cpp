@@ -86,7 +86,8 @@ std::vector<std::string> render_arguments(const Document& document, const std::s
   add_frames(arguments, range.value_or(cli::FrameRange{document.frame, document.frame}), document.options.fps);
   add_params(arguments, document.params);
   if (warmup > 0) add(arguments, "--warmup", std::to_string(warmup));
-  // The viewer's picture is of one moment: its warm-up stands still. A sequence's warm-up plays up to its first frame.
+  // The viewer's picture shows one moment, and so do its warm-up frames. Those of a sequence play up to its first
+  // frame.
   if (warmup > 0 && !range && document.frame > 0) arguments.emplace_back("--warmup-still");
   if (!glsl.empty()) add(arguments, "--glsl", glsl);
   return arguments;

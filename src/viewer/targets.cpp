@@ -140,7 +140,7 @@ std::string about_target(std::string_view name) {
       About{"/history_and_filters/history texels",
             "The packed mask that the next frame blends with; two textures take turns."},
       About{"/history_and_filters/history surfaces",
-            "Depth and normal, by which the next frame tells whether a pixel shows the same surface."},
+            "Depth and normal, from which the next frame computes whether a pixel shows the same surface."},
       About{"/history_and_filters/", "The shadow mask after this filter's step: packed texels."},
       About{"/movement map",
             "How much of the area around a texel has moving casters: 0 none, 1 all. Of the last frame with motion."},
