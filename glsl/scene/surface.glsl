@@ -38,8 +38,8 @@ vec3 geometric_normal() {
   vec3 a = corner(first);
   vec3 edge = corner(first + 1u) - a;
   vec3 other = corner(first + 2u) - a;
-  vec3 reach = max(abs(edge), abs(other));
-  float scale = max(max(reach.x, reach.y), reach.z);
+  vec3 largest = max(abs(edge), abs(other));
+  float scale = max(max(largest.x, largest.y), largest.z);
   vec3 n = mat3(instance.area) * cross(edge / scale, other / scale);
   float size = max(abs(n.x), max(abs(n.y), abs(n.z)));
   if (!(size > 0.0)) return towards_eye(surface.normal);

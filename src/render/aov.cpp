@@ -10,8 +10,8 @@ namespace penumbra::render {
 
 namespace {
 
-// A picture on the CPU, rows top to bottom.
-struct Picture {
+// Pixels on the CPU, rows top to bottom.
+struct Pixels {
   int channels;
   std::vector<float> values;
 
@@ -25,8 +25,8 @@ struct Source {
   std::optional<glm::ivec2> pixel = {};  // counted from the upper left; absent: the whole frame
 
   // Of an array texture, only the first layer is read: of the mask, that is the first light.
-  Picture read(const gl::Texture& texture, int channels) const;
-  Picture read_bits(const gl::Texture& texture) const;
+  Pixels read(const gl::Texture& texture, int channels) const;
+  Pixels read_bits(const gl::Texture& texture) const;
 };
 
 template <class Value>
@@ -40,14 +40,14 @@ std::vector<float> rows_top_down(const std::vector<Value>& bottom_up, std::size_
   return rows;
 }
 
-Picture Source::read(const gl::Texture& texture, int channels) const {
+Pixels Source::read(const gl::Texture& texture, int channels) const {
   if (pixel) return {channels, gl::read_float_texel(texture, channels, pixel->x, texture.height() - 1 - pixel->y)};
   const auto row = static_cast<std::size_t>(texture.width()) * static_cast<std::size_t>(channels);
   return {channels, rows_top_down(gl::read_floats(texture, channels), row)};
 }
 
 // Small integers, which floats represent exactly.
-Picture Source::read_bits(const gl::Texture& texture) const {
+Pixels Source::read_bits(const gl::Texture& texture) const {
   const std::vector<unsigned> bits =
       pixel ? gl::read_uint_texel(texture, 1, pixel->x, texture.height() - 1 - pixel->y) : gl::read_uints(texture, 1);
   return {1, rows_top_down(bits, pixel ? 1 : static_cast<std::size_t>(texture.width()))};
@@ -55,13 +55,13 @@ Picture Source::read_bits(const gl::Texture& texture) const {
 
 // Converts each pixel of `picture` by a function that appends the result's values.
 template <class Convert>
-std::vector<float> each(const Picture& picture, Convert convert) {
+std::vector<float> each(const Pixels& picture, Convert convert) {
   std::vector<float> result;
   for (std::size_t i = 0; i < picture.pixels(); ++i) convert(i, picture[i], result);
   return result;
 }
 
-bool is_sky(const Picture& depth, std::size_t pixel) { return depth.values[pixel] == 0.0f; }
+bool is_sky(const Pixels& depth, std::size_t pixel) { return depth.values[pixel] == 0.0f; }
 
 void append(std::vector<float>& values, const glm::vec3& v) { values.insert(values.end(), {v.x, v.y, v.z}); }
 
@@ -82,7 +82,7 @@ std::vector<float> depth(const Source& from) {
 }
 
 std::vector<float> normals(const Source& from, const gl::Texture& texture, float scale, float offset) {
-  const Picture sky = from.read(*from.frame.gbuffer.depth, 1);
+  const Pixels sky = from.read(*from.frame.gbuffer.depth, 1);
   return each(from.read(texture, 2), [&](std::size_t i, const float* p, std::vector<float>& out) {
     const glm::vec3 normal = glsl::octahedral_decode({p[0] * scale + offset, p[1] * scale + offset});
     append(out, is_sky(sky, i) ? glm::vec3(0.0f) : normal);
@@ -112,7 +112,7 @@ std::vector<float> motion(const Source& from) {
 
 template <class Convert>
 std::vector<float> of_mask(const Source& from, Convert convert) {
-  const Picture sky = from.read(*from.frame.gbuffer.depth, 1);
+  const Pixels sky = from.read(*from.frame.gbuffer.depth, 1);
   return each(from.read(*from.frame.mask.texture, 4), [&](std::size_t i, const float* p, std::vector<float>& out) {
     out.push_back(convert(p, is_sky(sky, i)));
   });
@@ -135,14 +135,14 @@ std::vector<float> under_texel(const Source& from) {
 }
 
 std::vector<float> history(const Source& from) {
-  const Picture sky = from.read(*from.frame.gbuffer.depth, 1);
+  const Pixels sky = from.read(*from.frame.gbuffer.depth, 1);
   const gl::Texture* notes = from.frame.mask.lights.front().notes;
   if (notes == nullptr) {
     return each(sky, [&](std::size_t i, const float*, std::vector<float>& out) {
       out.push_back(is_sky(sky, i) ? -1.0f : static_cast<float>(HISTORY_NONE));
     });
   }
-  const Picture bits = from.read_bits(*notes);
+  const Pixels bits = from.read_bits(*notes);
   return each(sky, [&](std::size_t i, const float*, std::vector<float>& out) {
     const auto note = static_cast<unsigned>(bits.values[i]);
     out.push_back(is_sky(sky, i) ? -1.0f : static_cast<float>(glsl::notes_refusal(note)));

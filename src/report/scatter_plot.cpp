@@ -21,7 +21,9 @@ struct Spot {
   double x, y;
 };
 
-Box around(const Spot& spot, double reach) { return {spot.x - reach, spot.y - reach, spot.x + reach, spot.y + reach}; }
+Box around(const Spot& spot, double half_side) {
+  return {spot.x - half_side, spot.y - half_side, spot.x + half_side, spot.y + half_side};
+}
 
 // Positions for a label of that width around a dot, best first.
 std::vector<Box> places(const Spot& spot, double width) {

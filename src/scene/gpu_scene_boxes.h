@@ -12,10 +12,10 @@ inline Bounds transformed(const Bounds& box, const glm::mat4& matrix) {
   const glm::vec3 half = box.extent() * 0.5f;
   const glm::vec3 center(matrix * glm::vec4(box.center(), 1.0f));
   const glm::mat3 m(matrix);
-  const glm::vec3 reach = glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z;
+  const glm::vec3 extent = glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z;
   Bounds moved;
-  moved.add(center - reach);
-  moved.add(center + reach);
+  moved.add(center - extent);
+  moved.add(center + extent);
   return moved;
 }
 

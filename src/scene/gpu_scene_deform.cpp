@@ -71,10 +71,10 @@ std::vector<Bounds> bounds_by_joint(const Primitive& primitive, std::size_t join
   return parts;
 }
 
-glm::vec3 reach_of(const MorphTarget& target) {
-  glm::vec3 reach(0.0f);
-  for (const glm::vec3& delta : target.positions) reach = glm::max(reach, glm::abs(delta));
-  return reach;
+glm::vec3 largest_offset(const MorphTarget& target) {
+  glm::vec3 offset(0.0f);
+  for (const glm::vec3& delta : target.positions) offset = glm::max(offset, glm::abs(delta));
+  return offset;
 }
 
 float weight_of(const Pose& pose, int node, std::size_t target) {
@@ -96,8 +96,8 @@ const Deformer::Source& Deformer::source_of(const Primitive& primitive, std::siz
             .influences = static_cast<std::uint32_t>(influences_.size() / 6),
             .deltas = static_cast<std::uint32_t>(deltas_.size() / 9),
             .parts = bounds_by_joint(primitive, joints),
-            .reaches = {}};
-  for (const MorphTarget& morph : primitive.targets) source.reaches.push_back(reach_of(morph));
+            .offsets = {}};
+  for (const MorphTarget& morph : primitive.targets) source.offsets.push_back(largest_offset(morph));
   append_rest(rest_, primitive);
   if (joints != 0) append_influences(influences_, primitive);
   append_deltas(deltas_, primitive);
@@ -153,16 +153,16 @@ bool Deformer::differs(int job, const Pose& a, const Pose& b) const {
 
 Bounds Deformer::bounds(int job, const Pose& pose) const {
   const Job& own = jobs_[static_cast<std::size_t>(job)];
-  glm::vec3 reach(0.0f);
+  glm::vec3 offset(0.0f);
   const Source& source = *own.source;
-  for (std::size_t i = 0; i < source.reaches.size(); ++i)
-    reach += std::abs(weight_of(pose, own.node, i)) * source.reaches[i];
+  for (std::size_t i = 0; i < source.offsets.size(); ++i)
+    offset += std::abs(weight_of(pose, own.node, i)) * source.offsets[i];
   Bounds bounds;
   for (std::size_t joint = 0; joint < source.parts.size(); ++joint) {
     if (source.parts[joint].empty) continue;
     Bounds part = source.parts[joint];
-    part.add(part.min - reach);
-    part.add(part.max + reach);
+    part.add(part.min - offset);
+    part.add(part.max + offset);
     // A skinned vertex is a weighted mean of its positions under each joint, so it is inside the union of the boxes.
     bounds.add(skinned(job) ? transformed(part, pose.skin[static_cast<std::size_t>(own.node)][joint]) : part);
   }

@@ -45,7 +45,7 @@ class Deformer {
   struct Source {
     std::uint32_t vertices = 0, influences = 0, deltas = 0;  // offsets of the first element of each
     std::vector<Bounds> parts;       // per joint (without a skin: one): box of the undeformed vertices that it moves
-    std::vector<glm::vec3> reaches;  // per morph target: the most that it moves any vertex
+    std::vector<glm::vec3> offsets;  // per morph target: the most that it moves any vertex
   };
 
   struct Job {

@@ -23,7 +23,7 @@ struct Filter {
   // For each pass, how many pixels it reads to each side of the filtered one, along x and y. The compute variant loads
   // a group's pixels with this border into shared memory; if they do not fit into 32 KiB, the fragment variant is used
   // instead.
-  std::vector<glm::ivec2> reach = {};
+  std::vector<glm::ivec2> border = {};
 };
 
 }  // namespace penumbra::shadow

@@ -24,10 +24,10 @@ struct Group {
 };
 
 // The shape that loads the fewest texels for each filtered pixel.
-Group group_for(const glm::ivec2& reach) {
+Group group_for(const glm::ivec2& border) {
   constexpr std::array shapes{glm::ivec2(16, 16), glm::ivec2(64, 8), glm::ivec2(8, 64)};
   constexpr int bytes = sizeof(unsigned) + sizeof(float);
-  const auto loads = [&](const glm::ivec2& shape) { return (shape.x + 2 * reach.x) * (shape.y + 2 * reach.y); };
+  const auto loads = [&](const glm::ivec2& shape) { return (shape.x + 2 * border.x) * (shape.y + 2 * border.y); };
   glm::ivec2 best = shapes[0];
   for (const glm::ivec2& shape : shapes) {
     if (loads(shape) * best.x * best.y < loads(best) * shape.x * shape.y) best = shape;
@@ -37,9 +37,9 @@ Group group_for(const glm::ivec2& reach) {
 
 // OpenGL 4.5 guarantees 32 KiB of shared memory for a work group.
 bool has_compute_form(const Filter& filter) {
-  if (filter.reach.size() != static_cast<size_t>(filter.passes)) return false;
-  for (const glm::ivec2& reach : filter.reach) {
-    if (group_for(reach).tile_bytes > 32768) return false;
+  if (filter.border.size() != static_cast<size_t>(filter.passes)) return false;
+  for (const glm::ivec2& border : filter.border) {
+    if (group_for(border).tile_bytes > 32768) return false;
   }
   return true;
 }
@@ -52,12 +52,12 @@ LibraryProgram program_of(const Step& step) {
   define("FILTER_PASS", step.pass);
   define("TO_MASK", step.to_mask ? 1 : 0);
   if (step.compute) {
-    const glm::ivec2 reach = step.filter.reach.at(static_cast<size_t>(step.pass));
-    const Group group = group_for(reach);
+    const glm::ivec2 border = step.filter.border.at(static_cast<size_t>(step.pass));
+    const Group group = group_for(border);
     define("GROUP_X", group.size.x);
     define("GROUP_Y", group.size.y);
-    define("REACH_X", reach.x);
-    define("REACH_Y", reach.y);
+    define("BORDER_X", border.x);
+    define("BORDER_Y", border.y);
     program.desc.compute = "shadow/drivers/filter.comp";
   } else {
     program.desc.vertex = "shared/full_screen.vert";
@@ -101,7 +101,7 @@ const Filter& unfiltered() {
                              .summary = "Leaves visibility as it is.",
                              .source = {},
                              .glsl = "shadow/filters/none.glsl",
-                             .reach = {{0, 0}}};
+                             .border = {{0, 0}}};
   return filter;
 }
 

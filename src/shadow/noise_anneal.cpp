@@ -17,9 +17,9 @@ namespace penumbra::shadow {
 
 namespace {
 
-constexpr int reach = 7;       // pixels: farther ones weigh under 2e-5
-constexpr int block_side = 8;  // over `reach`
-constexpr int turns = 1600;    // of all four parities
+constexpr int kernel_radius = 7;  // pixels: farther ones weigh under 2e-5
+constexpr int block_side = 8;     // over `kernel_radius`
+constexpr int turns = 1600;       // of all four parities
 constexpr double coldest = 1e-3;
 
 // Energies are sums of integers from tables, so that they don't depend on the order of summation, nor swaps on how a
@@ -28,13 +28,13 @@ constexpr double coldest = 1e-3;
 class Energy {
  public:
   explicit Energy(const NoiseTile& tile) : tile_(tile) {
-    for (int dy = -reach; dy <= reach; ++dy) {
-      for (int dx = -reach; dx <= reach; ++dx) {
+    for (int dy = -kernel_radius; dy <= kernel_radius; ++dy) {
+      for (int dx = -kernel_radius; dx <= kernel_radius; ++dx) {
         if (dx == 0 && dy == 0) continue;
         neighbours_.push_back({dx, dy, std::lround(32768 * std::exp(-(dx * dx + dy * dy) / (2.1 * 2.1)))});
       }
     }
-    for (int i = -reach; i < tile.size + reach; ++i) wrapped_.push_back((i + tile.size) % tile.size);
+    for (int i = -kernel_radius; i < tile.size + kernel_radius; ++i) wrapped_.push_back((i + tile.size) % tile.size);
     const auto longest = static_cast<int>(std::ceil(tile.count() * std::sqrt(tile.channels)));
     for (int i = 0; i <= longest; ++i) {
       const double distance = static_cast<double>(i) / tile.count();
@@ -65,8 +65,8 @@ class Energy {
   // Energy between `pixel` and its neighbours except `other`, if `pixel` had those values.
   std::int64_t about(int pixel, int other, const Values& values) const {
     const int size = tile_.size;
-    const int* column = &wrapped_[static_cast<std::size_t>(pixel % size + reach)];
-    const int* row = &wrapped_[static_cast<std::size_t>(pixel / size + reach)];
+    const int* column = &wrapped_[static_cast<std::size_t>(pixel % size + kernel_radius)];
+    const int* row = &wrapped_[static_cast<std::size_t>(pixel / size + kernel_radius)];
     std::int64_t sum = 0;
     for (const Neighbour& n : neighbours_) {
       const int neighbour = row[n.dy] * size + column[n.dx];
@@ -83,7 +83,7 @@ class Energy {
 
   const NoiseTile& tile_;
   std::vector<Neighbour> neighbours_;
-  std::vector<int> wrapped_;              // coordinates from -reach on, on the torus
+  std::vector<int> wrapped_;              // coordinates from -kernel_radius on, on the torus
   std::vector<std::int64_t> similarity_;  // by distance of values, in ranks
 };
 

@@ -167,9 +167,9 @@ void EmbreeSceneBuilder::find_origin(const std::vector<Surfaces>& copies) {
     }
   }
   for (glm::length_t axis = 0; axis < 3; ++axis) out_.origin_[axis] = best_zero(low[axis], high[axis]);
-  const glm::dvec3 reach =
+  const glm::dvec3 extent =
       glm::max(glm::abs(glm::dvec3(low) - out_.origin_), glm::abs(glm::dvec3(high) - out_.origin_));
-  out_.shared_reach_ = glm::length(reach);
+  out_.shared_extent_ = glm::length(extent);
 }
 
 const AlphaTexture* EmbreeSceneBuilder::texture_of(const scene::Material& material) {
@@ -276,7 +276,7 @@ void EmbreeSceneBuilder::build() {
     if (shared.size() > 1) add_shared(shared);
     for (const scene::PosedSurface* surface : flat) add(out_.top_.get(), *surface, out_.origin_);
   }
-  if (out_.stats_.instances == 0) out_.shared_reach_ = 0;
+  if (out_.stats_.instances == 0) out_.shared_extent_ = 0;
   rtcCommitScene(out_.top_.get());
   check();
 }

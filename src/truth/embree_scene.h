@@ -49,7 +49,7 @@ class EmbreeScene {
   const glm::dvec3& origin() const { return origin_; }
   // Metres from the origin to the furthest point of a scene with instanced triangles; 0 without instances. Rays are
   // transformed to the space of an instance, with a rounding error that grows with this distance.
-  double shared_reach() const { return shared_reach_; }
+  double shared_extent() const { return shared_extent_; }
   const BuildStats& stats() const { return stats_; }
 
  private:
@@ -63,7 +63,7 @@ class EmbreeScene {
   std::vector<EmbreeObject> prototypes_;
   EmbreeObject top_;
   glm::dvec3 origin_{0};
-  double shared_reach_ = 0;
+  double shared_extent_ = 0;
   BuildStats stats_;
 };
 

@@ -129,7 +129,7 @@ Key key_of(const Key& casters, std::span<const Receiver> receivers, int width, c
     if (!receiver.there) continue;
     hash.add(receiver.position);
     hash.add(receiver.normal);
-    hash.add(receiver.reach);
+    hash.add(receiver.extent);
   }
   hash.add(light.index());
   std::visit([&](const auto& kind) { add_light(hash, kind); }, light);

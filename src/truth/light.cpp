@@ -28,8 +28,8 @@ Sides sides_about(const glm::dvec3& axis) {
 SeenLight seen(const Sun& sun, const glm::dvec3& /*point*/) {
   const glm::dvec3 center = glm::normalize(sun.to_light);
   const Sides sides = sides_about(center);
-  const double reach = std::tan(sun.angle / 2);
-  return {center, sides.x * reach, sides.y * reach, std::numeric_limits<float>::infinity(), sun.square};
+  const double tangent = std::tan(sun.angle / 2);
+  return {center, sides.x * tangent, sides.y * tangent, std::numeric_limits<float>::infinity(), sun.square};
 }
 
 SeenLight seen(const LocalLight& light, const glm::dvec3& point) {

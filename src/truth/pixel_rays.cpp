@@ -27,7 +27,7 @@ PixelRays::PixelRays(const EmbreeScene& scene, const Light& light) : scene_(scen
 void PixelRays::start_at(const Receiver& receiver) {
   const glm::dvec3 place = receiver.position - scene_.origin();
   const double furthest = std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)});
-  const double off = clearance * rounding * (receiver.reach + furthest + 2 * scene_.shared_reach());
+  const double off = clearance * rounding * (receiver.extent + furthest + 2 * scene_.shared_extent());
   const glm::vec3 start(place + receiver.normal * off);
   std::ranges::fill(rays_.org_x, start.x);
   std::ranges::fill(rays_.org_y, start.y);

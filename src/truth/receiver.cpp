@@ -75,7 +75,7 @@ Receiver receiver_at(const Eye& eye, const Ray& ray, const Corners& corners) {
   if (!std::isfinite(p.x + p.y + p.z) || !eye.before(ray, p)) receiver.position = nearest_corner(ray, corners);
   if (descent > 0) receiver.normal = -receiver.normal;
   for (const glm::dvec3& corner : corners)
-    receiver.reach = std::max(receiver.reach, glm::length(corner - receiver.position));
+    receiver.extent = std::max(receiver.extent, glm::length(corner - receiver.position));
   return receiver;
 }
 

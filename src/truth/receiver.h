@@ -14,7 +14,7 @@ struct Receiver {
   glm::dvec3 position{0};  // world space, metres
   glm::dvec3 normal{0};    // unit length: the triangle's geometric normal, towards the eye
   bool there = false;      // false: no surface
-  double reach = 0;        // metres from the position to its triangle's furthest corner; rounding errors scale with it
+  double extent = 0;       // metres from the position to its triangle's furthest corner; rounding errors scale with it
 };
 
 // The rays of a picture's pixels. They pass through the pixel centres, NDC 2 (x + ½) / width − 1 and 2 (y + ½) / height

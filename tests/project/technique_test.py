@@ -66,7 +66,7 @@ Filter negative() {
           .summary = "Light for shadow.",
           .source = "made up",
           .glsl = "shadow/filters/negative.glsl",
-          .reach = {{0, 0}}};
+          .border = {{0, 0}}};
 }
 
 }  // namespace penumbra::shadow

@@ -12,14 +12,14 @@ uniform int mask_layer;
 layout(binding = 0, r32ui) uniform writeonly restrict uimage2D texels;
 #endif
 
-// The group's pixels, with a border as wide as the filter's reach.
-const ivec2 reach_of = ivec2(REACH_X, REACH_Y);
-const ivec2 tile_size = ivec2(GROUP_X, GROUP_Y) + 2 * reach_of;
+// The group's pixels, with a border as wide as Filter::border.
+const ivec2 border = ivec2(BORDER_X, BORDER_Y);
+const ivec2 tile_size = ivec2(GROUP_X, GROUP_Y) + 2 * border;
 shared uint tile_texels[tile_size.x * tile_size.y];
 shared float tile_depths[tile_size.x * tile_size.y];
 
 ivec2 tile_corner() {
-  return ivec2(gl_WorkGroupID.xy) * ivec2(GROUP_X, GROUP_Y) + ivec2(shadow.viewport.xy) - reach_of;
+  return ivec2(gl_WorkGroupID.xy) * ivec2(GROUP_X, GROUP_Y) + ivec2(shadow.viewport.xy) - border;
 }
 
 int tile_index(ivec2 pixel) {

@@ -4,7 +4,7 @@
 #include "lib/packed_texel.glsl"
 #include "lib/projection.glsl"
 
-// The packed texel and the stored depth of a pixel, which must be within the viewport and within Filter::reach of the
+// The packed texel and the stored depth of a pixel, which must be within the viewport and within Filter::border of the
 // filtered one. The drivers define these functions.
 uint texel_at(ivec2 pixel);
 float stored_depth_at(ivec2 pixel);

@@ -10,7 +10,7 @@ Filter bilateral() {
       .glsl = "shadow/filters/bilateral.glsl",
       .of = Filter::Of::visibility,
       .passes = 1,
-      .reach = {{51, 51}}};
+      .border = {{51, 51}}};
 }
 
 }  // namespace penumbra::shadow

@@ -9,7 +9,7 @@ Filter bilateral_separable() {
           .glsl = "shadow/filters/bilateral_separable.glsl",
           .of = Filter::Of::visibility,
           .passes = 2,
-          .reach = {{51, 2}, {2, 51}}};
+          .border = {{51, 2}, {2, 51}}};
 }
 
 }  // namespace penumbra::shadow

@@ -9,7 +9,7 @@ Filter box() {
           .glsl = "shadow/filters/box.glsl",
           .of = Filter::Of::visibility,
           .passes = 2,
-          .reach = {{45, 2}, {2, 45}}};
+          .border = {{45, 2}, {2, 45}}};
 }
 
 }  // namespace penumbra::shadow

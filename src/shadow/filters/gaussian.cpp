@@ -9,7 +9,7 @@ Filter gaussian() {
           .glsl = "shadow/filters/gaussian.glsl",
           .of = Filter::Of::visibility,
           .passes = 2,
-          .reach = {{51, 2}, {2, 51}}};
+          .border = {{51, 2}, {2, 51}}};
 }
 
 }  // namespace penumbra::shadow

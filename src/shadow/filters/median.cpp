@@ -9,7 +9,7 @@ Filter median() {
           .glsl = "shadow/filters/median.glsl",
           .of = Filter::Of::penumbra,
           .passes = 1,
-          .reach = {{1, 1}}};
+          .border = {{1, 1}}};
 }
 
 }  // namespace penumbra::shadow
