@@ -22,7 +22,8 @@ Receiver offset_receiver(Receiver receiver, Light light) {
 
 // Bias along the light, metres: the error of rounding, and the parameters bias.constant and bias.slope in texel widths.
 float depth_bias(Receiver receiver, Light light) {
-  return depth_rounding(light) + texel_size(receiver, light) * (bias_constant + bias_slope * length(receiver.gradient));
+  float texels = bias_constant + bias_slope * length(receiver.gradient);
+  return depth_rounding(receiver, light) + texel_size(receiver, light) * texels;
 }
 
 // How much nearer to the light than the receiver's plane four texels are, metres.
@@ -30,10 +31,15 @@ vec4 heights_above(Receiver receiver, vec4 depths, Offsets at) {
   return receiver.position.z + plane_depths(receiver, at) - depths;
 }
 
-// Depths of the texels so many texels away from a texel, towards +x, +y, -x and -y.
-vec4 depths_beside(ivec2 texel, int distance_to, Light light) {
-  return vec4(depth_at(texel + ivec2(distance_to, 0), light), depth_at(texel + ivec2(0, distance_to), light),
-              depth_at(texel - ivec2(distance_to, 0), light), depth_at(texel - ivec2(0, distance_to), light));
+// The same of the texels so many texels towards +x, +y, -x and -y from a texel; `inside`: from that texel's centre to
+// the receiver, in texels.
+vec4 heights_beside(Receiver receiver, ivec2 texel, vec2 inside, int distance_to, Light light) {
+  vec4 depths =
+      vec4(depth_at(texel + ivec2(distance_to, 0), light), depth_at(texel + ivec2(0, distance_to), light),
+           depth_at(texel - ivec2(distance_to, 0), light), depth_at(texel - ivec2(0, distance_to), light));
+  float size = texel_size(receiver, light), far = float(distance_to);
+  return heights_above(receiver, depths, Offsets(size * (vec4(far, 0.0, -far, 0.0) - inside.x),
+                                                 size * (vec4(0.0, far, 0.0, -far) - inside.y)));
 }
 
 // Slopes of the lit faces beside a receiver, towards +x, +y, -x and -y, as the three texels on each side show them.
@@ -44,19 +50,16 @@ vec4 depths_beside(ivec2 texel, int distance_to, Light light) {
 //   - A face that, extended to the receiver, passes in front of it does block it.
 vec4 lit_slopes(Receiver receiver, float bias, Light light) {
   ivec2 at = ivec2(floor(map_place(receiver.position, light)));
-  float texel = texel_size(receiver, light);
-  vec4 first = depths_beside(at, 1, light), second = depths_beside(at, 2, light), third = depths_beside(at, 3, light);
-  // All below in texels along x and y: how much deeper the receiver's plane gets with each texel, how much higher above
-  // it the surface gets from the first to the second and from the second to the third texel.
-  vec4 plane = texel * vec4(receiver.gradient, -receiver.gradient);
-  vec4 near = plane + first - second, rise = plane + second - third;
+  vec2 inside = -texel_offset(receiver, at, light) / texel_size(receiver, light);
+  vec4 first = heights_beside(receiver, at, inside, 1, light);
+  vec4 second = heights_beside(receiver, at, inside, 2, light);
+  vec4 third = heights_beside(receiver, at, inside, 3, light);
+  vec4 near = second - first, rise = third - second;
   rise *= step(bias, rise) * step(0.25 * rise, near) * step(near, 1.25 * rise + bias);
-  // From the centre of the receiver's texel to the receiver; then the faces' heights there.
-  vec2 inside = -texel_offset(receiver, at, light) / texel;
-  vec4 third_height = receiver.position.z - dot(plane.xy, inside) + 3.0 * plane - third;
+  // The faces' heights, extended along their row or column of texels to the receiver's place, and from there across.
+  vec4 along = third - rise * (3.0 - vec4(inside, -inside));
   vec2 across = (rise.xy - rise.zw) * inside;
-  vec4 height = third_height - rise * (3.0 - vec4(inside, -inside)) + across.yxyx;
-  return step(height, vec4(bias)) * rise / texel;
+  return step(along + across.yxyx, vec4(bias)) * rise / texel_size(receiver, light);
 }
 
 // Tolerance in texel widths: a texel that is in front of the receiver's plane by less still counts as the same surface,

@@ -111,7 +111,7 @@ float texel_size_at(vec3 position, int layer) { return shadow.layers[layer].texe
 float texel_size(Receiver receiver, Light light) { return light.map.texel; }
 
 // Upper bound of the error along the light that rounding in the map and in light space causes, metres.
-float depth_rounding(Light light) { return light.map.rounding; }
+float depth_rounding(Receiver receiver, Light light) { return light.map.rounding; }
 
 // Map coordinates of a position in the light's layer, in texels; texel centres are at half-integers.
 vec2 map_place(vec3 position, Light light) {

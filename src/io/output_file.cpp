@@ -93,6 +93,14 @@ fs::path make_temporary(const fs::path& path, const fs::path& target) {
   return pattern;
 }
 
+// Where what goes to a device, a pipe or an open file is collected.
+fs::path temporary_place(const fs::path& target) {
+  std::error_code error;
+  const fs::path folder = fs::temp_directory_path(error);
+  if (error) fail("cannot use the folder for temporary files (TMPDIR): {}", error.message());
+  return folder / target.filename();
+}
+
 // Gives the temporary the owner and permissions of the file that it replaces, as far as this user may set them; a new
 // file gets default permissions.
 void take_permissions(const fs::path& temporary, const fs::path& target) {
@@ -153,7 +161,7 @@ std::string quoted(const fs::path& path) { return fmt::format("'{}'", path.strin
 OutputFile::OutputFile(fs::path path) : path_(std::move(path)), target_(target_of(path_)), stream_(is_stream(target_)) {
   if (stream_) {
     check_stream(target_, path_);
-    temporary_ = make_temporary(path_, fs::temp_directory_path() / target_.filename());
+    temporary_ = make_temporary(path_, temporary_place(target_));
     remember(temporary_);
     return;
   }
@@ -199,7 +207,11 @@ void OutputFile::commit() {
 
 void check_writable(const fs::path& path) {
   const fs::path target = target_of(path);
-  if (is_stream(target)) return check_stream(target, path);
+  if (is_stream(target)) {
+    check_stream(target, path);
+    unlink(make_temporary(path, temporary_place(target)).c_str());
+    return;
+  }
   refuse_all_but_files(path, target);
   fs::path folder = folder_of(target);
   std::error_code error;

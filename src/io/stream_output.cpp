@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
@@ -84,6 +85,11 @@ void write_all(int file, std::string_view bytes, const fs::path& name) {
   while (!bytes.empty()) {
     const ssize_t written = write(file, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
+    if (written < 0 && errno == EAGAIN) {  // a pipe that another program has made non-blocking
+      pollfd ready{.fd = file, .events = POLLOUT, .revents = 0};
+      poll(&ready, 1, -1);
+      continue;
+    }
     if (written < 0) fail_stream(name, errno);
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }

@@ -15,8 +15,14 @@ struct Renderer::State {
   shadow::SoftShadows soft_shadows;
   FrameParts parts;
   Frame frame;
-  std::uint64_t last_scene = 0;                // its id; 0: none was drawn
-  std::map<int, scene::CasterChoice> casters;  // by view: the choice of its last frame
+  // What a view's last frame drew; the next one that draws something else is a cut.
+  struct Drawn {
+    std::uint64_t scene = 0;  // its id
+    scene::CasterChoice casters;
+
+    bool operator==(const Drawn&) const = default;
+  };
+  std::map<int, Drawn> last;  // by view; absent: its last frame threw, or there was none
 
   const FrameParts& drawn() const {
     if (parts.display == nullptr) fail("no frame was drawn that could be read");
@@ -25,7 +31,7 @@ struct Renderer::State {
 };
 
 Renderer::Renderer(gl::Device& device, shadow::Registry registry)
-    : state_(new State{device, shadow::SoftShadows(device, std::move(registry)), {}, {}, 0, {}}) {}
+    : state_(new State{device, shadow::SoftShadows(device, std::move(registry)), {}, {}, {}}) {}
 
 Renderer::~Renderer() = default;
 
@@ -39,20 +45,18 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   if (inputs.lights.empty() || inputs.lights.size() > max_lights)
     fail("a frame has {} lights; 1 to {} can be drawn", inputs.lights.size(), max_lights);
   gl::Device& device = state_->device;
-  // Cleared until this frame is complete: if it throws, the next frame must not reuse its history.
-  const std::uint64_t last_scene = std::exchange(state_->last_scene, 0);
+  const State::Drawn now{.scene = scene.id(), .casters = caster_choice(params)};
+  // Removed until this frame is complete: if it throws, the view's next frame must not reuse its history.
+  const auto last = state_->last.extract(inputs.view);
   FrameInputs placed = inputs;
-  const scene::CasterChoice casters = caster_choice(params);
-  scene::CasterChoice& last_casters = state_->casters.try_emplace(inputs.view, casters).first->second;
-  const bool others_cast = std::exchange(last_casters, casters) != casters;
-  placed.cut = inputs.cut || last_scene != scene.id() || others_cast;
+  placed.cut = inputs.cut || last.empty() || last.mapped() != now;
   // If this frame throws, the textures of the last one are no longer valid and must not be read.
   state_->parts = {};
   device.shaders.next_frame();
   device.timers.begin_frame();
   state_->parts = draw_frame(device, state_->soft_shadows, scene, placed, params);
   device.timers.end_frame();
-  state_->last_scene = scene.id();
+  state_->last[inputs.view] = now;
   const FrameParts& parts = state_->parts;
   state_->frame = {.display = parts.display, .color = parts.lit, .depth = parts.gbuffer.depth, .mask = parts.mask};
   return state_->frame;
@@ -102,7 +106,7 @@ std::vector<gl::ProgramDesc> Renderer::all_programs(const ParamSet& defaults) {
 
 void Renderer::forget_view(int id) {
   state_->soft_shadows.forget_view(id);
-  state_->casters.erase(id);
+  state_->last.erase(id);
 }
 
 const shadow::Registry& Renderer::registry() const { return state_->soft_shadows.registry(); }

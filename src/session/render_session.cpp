@@ -53,8 +53,8 @@ void RenderSession::draw_at(double time, double last_time, bool cut, const Param
       frame_inputs(*prepared_, pixels, {.time = time, .last_time = last_time, .cut = cut});
   setup_.camera = inputs.camera;
   setup_.sun = std::get<render::Sun>(inputs.lights.front());
-  drawn_time_ = time;
   renderer_.draw(*scene_, inputs, params);
+  drawn_time_ = time;
 }
 
 }  // namespace penumbra::session

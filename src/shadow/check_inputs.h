@@ -15,7 +15,7 @@ class TextureChecks {
     unsigned id = 0;
     int width = 0, height = 0;
     int channels = 0;  // that it needs, of signed numbers; 0: it is a depth texture
-    int layers = 1;    // that it needs at least
+    int layers = 0;    // of an array, that it needs at least; 0: it is no array
 
     bool operator==(const Key&) const = default;
   };

@@ -120,7 +120,9 @@ void check_contents(const Registry& registry) {
     check_needs(fmt::format("recipe '{}'", recipe.name), recipe.needs, known);
     known.push_back(recipe.name);
   }
-  const ParamSet params(registry.params());
+  const std::vector<Param> rows = registry.params();
+  check_names("parameters", names_of<Param>(rows));
+  const ParamSet params(rows);
   for (const Technique& technique : registry.techniques()) {
     check_needs(fmt::format("technique '{}'", technique.name), technique.needs, known);
     check_samples(technique, params);

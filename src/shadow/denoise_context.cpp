@@ -23,7 +23,9 @@ gl::TextureDesc of_mask(const gl::Texture& mask, GLenum format) {
 
 History DenoiseContext::remembered(std::string_view name) const {
   for (const Denoiser::Remembered& texture : work_.remembered) {
-    if (texture.name == name) return history(name, of_mask(mask(), texture.format));
+    if (texture.name != name) continue;
+    const History kept = history(name, of_mask(mask(), texture.format));
+    return {.last = kept.last, .now = kept.now, .valid = kept.valid && frame().history};
   }
   throw std::logic_error(fmt::format("denoiser '{}' does not remember '{}'", owner_.name, name));
 }
@@ -84,6 +86,7 @@ const gl::Texture& DenoiseContext::filter(std::string_view filter, const gl::Tex
                             .texels = source,
                             .notes = source,
                             .context = *this,
+                            .number = filters_run_++,
                             .to_mask = false});
 }
 
@@ -92,6 +95,7 @@ void DenoiseContext::filter_to_mask(std::string_view filter, const PackedMask& s
                      .texels = source.texels,
                      .notes = source.notes,
                      .context = *this,
+                     .number = filters_run_++,
                      .to_mask = true});
 }
 

@@ -16,14 +16,16 @@ class DenoiseContext : public PassContext {
  public:
   using PassContext::PassContext;
 
-  // The history of a texture that Denoiser::remembers lists.
+  // The history of a texture that Denoiser::remembers lists, to be called in every frame in which it is listed. Not
+  // valid either where casters may have moved and no movement map shows where (see Inputs::moved).
   History remembered(std::string_view name) const;
   // The technique's result as packed texels and notes: computed by its visibility(), or converted from the layer of the
   // mask that its `resolve` filled. With `last_surfaces` (RG32UI, the surface_bits() of glsl/shadow/history.glsl of the
   // last frame), each pixel's note says whether its history is valid, so that techniques can take more sample points
   // where it is not.
   PackedMask evaluate_packed(const gl::Texture* last_surfaces = nullptr) const;
-  // Packed texels after all passes of a filter; "none": `source` itself. R32UI, the size of the mask.
+  // Packed texels after all passes of a filter; "none": `source` itself. R32UI, the size of the mask. Filters may
+  // follow each other: each call has textures of its own, whose contents last until the next frame.
   const gl::Texture& filter(std::string_view filter, const gl::Texture& source) const;
   // Fills the mask's layer (see Mask): packed texels after all passes of a filter, or as they are for "none".
   void filter_to_mask(std::string_view filter, const PackedMask& source) const;
@@ -32,6 +34,8 @@ class DenoiseContext : public PassContext {
 
  private:
   void run_mask_pass(const PackedMask& target, const gl::Texture* last_surfaces) const;
+
+  mutable int filters_run_ = 0;  // in this frame
 };
 
 }  // namespace penumbra::shadow

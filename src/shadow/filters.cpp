@@ -113,7 +113,8 @@ const gl::Texture& run_filter(const LightWork& work, const FilterInputs& inputs)
   for (int i = 0; i < filter.passes; ++i) {
     const bool to_mask = inputs.to_mask && i + 1 == filter.passes;
     const gl::Texture& target =
-        to_mask ? work.mask : inputs.context.target(fmt::format("{} {}", filter.name, i), packed);
+        to_mask ? work.mask
+                : inputs.context.target(fmt::format("filter {} {} {}", inputs.number, filter.name, i), packed);
     run_pass(work, {.filter = filter, .pass = i, .compute = compute, .to_mask = to_mask}, inputs, *texels, target);
     texels = &target;
   }

@@ -16,6 +16,7 @@ struct FilterInputs {
   const gl::Texture& texels;   // packed, see PackedMask
   const gl::Texture& notes;    // read only by passes that fill the mask
   const PassContext& context;  // whose targets hold what a pass leaves to the next one
+  int number = 0;              // of the filters that the frame has run before: part of the targets' names
   bool to_mask = false;        // the last pass fills the mask's layer; else packed texels
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "denoise_context.h"
 #include "light_block.h"
@@ -67,6 +68,7 @@ void draw_maps(const LightWork& work) {
   if (!finished) {
     depth = &draw_shadow_map(work.device, {.name = work.prefix() + shadow_map_name,
                                            .projection = frame.projection,
+                                           .source = work.light.source,
                                            .draw = inputs.draw,
                                            .moved = in_one_pass ? frame.movement : nullptr,
                                            .moved_bounds = inputs.moved});
@@ -76,6 +78,7 @@ void draw_maps(const LightWork& work) {
   draw_movement(work.device, {.map = *frame.movement,
                               .form = movement_form(work.params()),
                               .projection = frame.projection,
+                              .source = work.light.source,
                               .draw = inputs.draw,
                               .depth = depth,
                               .moved = inputs.moved,
@@ -203,8 +206,10 @@ void forget_lights_left_out(gl::Device& device, ViewState& view) {
 }  // namespace
 
 Mask draw_mask(const MaskInputs& from, ViewState& view) {
+  // False until this frame is complete: after one that throws, the next has no history.
+  const bool last_completed = std::exchange(view.drawn, false);
   check(from.inputs, view.checked);
-  begin_frame(view, from.inputs);
+  begin_frame(view, from.inputs, last_completed);
   Mask mask;
   mask.texture = &mask_target(from, view);
   for (const Light& light : from.inputs.lights) {

@@ -34,7 +34,7 @@ bool same_conventions(const Conventions& a, const Conventions& b) {
 }
 
 bool continues(const ViewState& last, const Inputs& inputs) {
-  return last.drawn && !inputs.view.cut && same_matrix(last.view, inputs.view.last_view) &&
+  return !inputs.view.cut && same_matrix(last.view, inputs.view.last_view) &&
          same_matrix(last.projection, inputs.view.last_projection) && last.width == inputs.depth.width &&
          last.height == inputs.depth.height && last.viewport == viewport_of(inputs) &&
          same_conventions(last.conventions, inputs.conventions);
@@ -42,8 +42,8 @@ bool continues(const ViewState& last, const Inputs& inputs) {
 
 }  // namespace
 
-void begin_frame(ViewState& view, const Inputs& inputs) {
-  const bool uninterrupted = continues(view, inputs);
+void begin_frame(ViewState& view, const Inputs& inputs, bool last_completed) {
+  const bool uninterrupted = last_completed && continues(view, inputs);
   for (auto& [id, light] : view.lights) {
     light.uninterrupted = uninterrupted && light.drawn;
     light.drawn = false;
@@ -56,7 +56,6 @@ void begin_frame(ViewState& view, const Inputs& inputs) {
   view.width = inputs.depth.width;
   view.height = inputs.depth.height;
   view.viewport = viewport_of(inputs);
-  view.drawn = false;  // until the end: after a frame that throws nothing is kept
 }
 
 bool take_params(LightState& state, const GivenParams& given, const Light& light) {

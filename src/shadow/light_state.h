@@ -75,8 +75,9 @@ struct ViewState {
   std::map<int, LightState> lights;
 };
 
-// Decides whether the history of the view's last frame is valid in this one.
-void begin_frame(ViewState& view, const Inputs& inputs);
+// Decides whether the histories of the view's last frame are valid in this one. `last_completed`: that frame did not
+// throw.
+void begin_frame(ViewState& view, const Inputs& inputs, bool last_completed);
 // The caller's values of the parameters.
 struct GivenParams {
   const Registry& registry;

@@ -45,7 +45,8 @@ void draw_pose(gl::Device& device, const MovementInputs& inputs, CasterKind kind
   inputs.draw({.kind = kind,
                .layer = layer,
                .world_to_clip = inputs.projection.world_to_clip(layer),
-               .cull = inputs.projection.cull_volume(layer)},
+               .cull = inputs.projection.cull_volume(layer),
+               .source = inputs.source},
               pass);
 }
 

@@ -51,7 +51,7 @@ std::string unit_defines(const std::vector<std::string>& needs) {
 std::string declarations(const Registry& registry, const ParamSet& params) {
   std::string text;
   for (const Technique& technique : registry.techniques()) {
-    text += fmt::format("// {}: {}\n", technique.glsl, fmt::join(technique.needs, ", "));
+    text += fmt::format("// {}: {}: {}\n", technique.name, technique.glsl, fmt::join(technique.needs, ", "));
     for (const SampleSet& set : technique.samples) {
       text += fmt::format("//   {}: step {}, up to {} points\n", set.name, static_cast<int>(set.step),
                           params.row(set.count_parameter).max);

@@ -40,7 +40,8 @@ class Registry {
   };
 
   // Throws Error, in one line that names the entry and the fault, for
-  //   - two entries of one kind with the same name, or a name that is no lower-case identifier;
+  //   - two entries of one kind or two parameters with the same name; a name of an entry that is no lower-case
+  //     identifier;
   //   - techniques that can't be evaluated: without glsl and resolve, without glsl for blended surfaces (their own or a
   //     stand-in's), or with an unknown stand_in, pattern or scramble;
   //   - sample sets whose count parameter is unknown, not an integer, or may exceed most_points; more sample points

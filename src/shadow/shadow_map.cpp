@@ -21,7 +21,12 @@ const gl::Texture& draw_shadow_map(gl::Device& device, const ShadowMapInputs& in
     if (marks) desc.colors = {{.texture = inputs.moved, .layer = i, .clear = glm::vec4(0)}};
     gl::Pass pass(device, desc);
     const CasterKind kind = marks ? CasterKind::depth_and_moved : CasterKind::depth;
-    inputs.draw({.kind = kind, .layer = i, .world_to_clip = inputs.projection.world_to_clip(i), .cull = cull}, pass);
+    inputs.draw({.kind = kind,
+                 .layer = i,
+                 .world_to_clip = inputs.projection.world_to_clip(i),
+                 .cull = cull,
+                 .source = inputs.source},
+                pass);
   }
   return depth;
 }

@@ -235,9 +235,10 @@ class Output(TestCase):
             others = [] if option == "-o" else ["-o", self.folder / "y.png"]
             written = []
             for output in (subprocess.PIPE, (self.folder / "stdout.txt").open("wb")):
-                result = subprocess.run([PROGRAM, "render", POSTS, "-q", option, link, *others, *SMALL], stdout=output,
+                result = subprocess.run([PROGRAM, "render", POSTS, option, link, *others, *SMALL], stdout=output,
                                         stderr=subprocess.PIPE, check=False)
                 self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertRegex(result.stderr.decode(), r"^wrote \S+", "the summary is elsewhere")
                 written.append(result.stdout or (self.folder / "stdout.txt").read_bytes())
                 self.assertEqual(os.readlink(link), "/proc/self/fd/1")
             if option == "-o":

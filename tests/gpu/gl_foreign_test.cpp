@@ -25,7 +25,7 @@ class GlForeign : public test::GlPassTest {
   // How many framebuffers have the texture attached, as colour or as depth.
   static int framebuffers_with(GLuint id) {
     int count = 0;
-    for (GLuint framebuffer = 1; framebuffer < 50; ++framebuffer) {
+    for (GLuint framebuffer = 1; framebuffer < 1000; ++framebuffer) {
       if (gl::glIsFramebuffer(framebuffer) == GL_FALSE) continue;
       for (const GLenum point : {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_DEPTH_ATTACHMENT}) {
         GLint type = 0, name = 0;

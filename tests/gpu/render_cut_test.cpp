@@ -99,6 +99,19 @@ TEST_F(RenderCut, AnotherSceneIsACut) {
   EXPECT_EQ(count(first), 1);
 }
 
+TEST_F(RenderCut, AnotherSceneIsACutInEveryView) {
+  scene::GpuScene first(device, scene), second(device, scene);
+  const auto count_in = [&](scene::GpuScene& drawn, int view) {
+    inputs.view = view;
+    return count(drawn);
+  };
+  for (int i = 1; i < 3; ++i) {
+    for (const int view : {0, 1}) EXPECT_EQ(count_in(first, view), static_cast<float>(i));
+  }
+  for (const int view : {0, 1}) EXPECT_EQ(count_in(second, view), 1) << view;
+  for (const int view : {0, 1}) EXPECT_EQ(count_in(second, view), 2) << view;
+}
+
 TEST_F(RenderCut, AnotherSceneIsACutAtTheAddressOfTheLastToo) {
   std::optional<scene::GpuScene> drawn;
   for (int i = 0; i < 3; ++i) {

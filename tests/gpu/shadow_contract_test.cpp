@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "gpu/gl_calls.h"
 #include "gpu/gpu_test.h"
@@ -242,11 +243,27 @@ shadow::Technique planar_read() {
   return {.name = "planar_read", .glsl = "test/planar.glsl", .needs = {"blur_radius"}};
 }
 
+std::vector<const gl::Texture*> chain;  // the source of the first filter, and what each filter filled
+
+shadow::Denoiser filtering_twice() {
+  return {.name = "filters_twice",
+          .summary = "The same filter, once more on its own result.",
+          .source = "made up",
+          .denoise = [](const shadow::DenoiseContext& context) {
+            const shadow::PackedMask seen = context.evaluate_packed();
+            const gl::Texture& once = context.filter("box", seen.texels);
+            const gl::Texture& twice = context.filter("box", once);
+            chain = {&seen.texels, &once, &twice};
+            context.filter_to_mask("none", {twice, seen.notes});
+          }};
+}
+
 shadow::Registry with_planar() {
   const shadow::Registry& built_in = shadow::built_in_registry();
   shadow::Registry::Contents contents{
       .techniques = {planar(), planar_read(), built_in.find("none"), built_in.find("pcss")}};
   contents.denoisers.push_back(averaging());
+  contents.denoisers.push_back(filtering_twice());
   contents.recipes.push_back(blur_radius());
   return shadow::Registry(std::move(contents));
 }
@@ -378,7 +395,7 @@ TEST_F(ShadowContract, TargetsOfAFilterThatIsNoLongerChosenAreReleased) {
   params.set("denoiser", std::string("history_and_filters"));
   params.set("filter.visibility", std::string("bilateral_separable"));
   columns();
-  EXPECT_TRUE(holds("denoisers/history_and_filters/bilateral_separable"));
+  EXPECT_TRUE(holds("denoisers/history_and_filters/filter 0 bilateral_separable"));
   EXPECT_TRUE(holds("light 0/shadow map"));
   params.set("filter.visibility", std::string("box"));
   columns();
@@ -387,6 +404,57 @@ TEST_F(ShadowContract, TargetsOfAFilterThatIsNoLongerChosenAreReleased) {
   params.set("technique", std::string("none"));
   columns();
   EXPECT_FALSE(holds("light 0/shadow map"));
+}
+
+TEST_F(ShadowContract, CallbacksGetTheLightsSourceInEveryPass) {
+  params.set("technique", std::string("pcss"));
+  params.set("denoiser", std::string("history_and_filters"));
+  params.set("history.reuse", true);
+  std::set<shadow::CasterKind> kinds;
+  const auto frame = [&](const char* technique) {
+    params.set("technique", std::string(technique));
+    renderer.render(scene, params, [&](shadow::Inputs& inputs) {
+      inputs.view.last_view = scene.view;
+      inputs.view.last_projection = scene.projection;
+      const shadow::LightSource source = inputs.lights.front().source;
+      inputs.draw = [&kinds, source, draw = inputs.draw](const shadow::CasterPass& casters, gl::Pass& pass) {
+        kinds.insert(casters.kind);
+        EXPECT_EQ(casters.source, source) << static_cast<int>(casters.kind);
+        draw(casters, pass);
+      };
+    });
+  };
+  for (const char* present : {"own_pass", "shadow_pass"}) {
+    params.set("movement.present", std::string(present));
+    for (int i = 0; i < 2; ++i) frame("pcss");
+  }
+  frame("planar");
+  EXPECT_EQ(kinds.size(), 5u);
+}
+
+TEST_F(ShadowContract, AFrameThatIsRefusedEndsTheHistory) {
+  params.set("denoiser", std::string("averaging"));
+  const auto frame = [&](bool refused) {
+    renderer.render(scene, params, [&](shadow::Inputs& inputs) {
+      inputs.view.last_view = scene.view;
+      inputs.view.last_projection = scene.projection;
+      if (refused) inputs.normals.width = 1;
+    });
+  };
+  frame(false);
+  frame(false);
+  EXPECT_TRUE(renderer.mask().lights[0].history);
+  EXPECT_THROW(frame(true), Error);
+  frame(false);
+  EXPECT_FALSE(renderer.mask().lights[0].history);
+}
+
+TEST_F(ShadowContract, FiltersCanFollowEachOther) {
+  params.set("technique", std::string("pcss"));
+  params.set("denoiser", std::string("filters_twice"));
+  columns();
+  const std::set<const gl::Texture*> different(chain.begin(), chain.end());
+  EXPECT_EQ(different.size(), 3u) << "no pass reads what it writes";
 }
 
 TEST_F(ShadowContract, TheCallersDepthIsDescribedOnce) {

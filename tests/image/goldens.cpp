@@ -55,7 +55,7 @@ std::span<const Golden> goldens() {
       // Every denoiser on two scenes, with what it keeps from frame to frame.
       {"history_thesis", "thesis", "thesis", {"filter.visibility=none"}, &history, {"history.alpha=1"}, "shadow", 4},
       {"history_foliage", "foliage", "thesis", {"sun.angle=4", "filter.visibility=none"}, &history, {"history.alpha=1"}, "shadow", 4},
-      // Every filter, under both drivers.
+      // Every filter.
       {"filter_median", "foliage", "thesis", {"sun.angle=4", "filter.penumbra=median"}, &rounding, {"filter.penumbra=none"}, "blocker", 1, 0, 6},
       {"filter_box", "thesis", "thesis", {"filter.visibility=box"}, &rounding, {"filter.visibility=none"}},
       {"filter_gaussian", "thesis", "thesis", {"filter.visibility=gaussian"}, &rounding, {"filter.visibility=none"}},

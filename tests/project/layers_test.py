@@ -108,7 +108,7 @@ def shader_faults_of(path, text):
 
 # What a light's kind and its map's projection decide, and the files that may know it: lamps are then added there alone.
 PROJECTION = re.compile(r"\bshadow\.(layers|layer_count|light_extent|light_is_square|map_size|view_to_light|"
-                        r"world_to_light)\b|\bshadow_depth\b")
+                        r"world_to_light|moved_depth)\b|\bshadow_depth\b|\bLayerBlock\b|\blight\.(map|extent)\b")
 PROJECTION_FILE = "shadow/light_projection.glsl"
 CASCADES = re.compile(r"\b(Cascades?|fit_cascades|get<Sun>)\b")
 CASCADES_FILES = {"shadow/cascades.h", "shadow/cascades.cpp", "shadow/light_projection.h",

@@ -61,6 +61,13 @@ TEST(Registry, RefusesNamesThatAreNoIdentifiers) {
   EXPECT_THROW(Registry({.techniques = {technique("good")}, .recipes = {with_space}}), Error);
 }
 
+TEST(Registry, RefusesAParameterThatTwoDeclare) {
+  EXPECT_EQ(complaint([](Technique& t) {
+              t.params = {{"history.alpha", 1, 0, 4, "", "Twice."}};
+            }),
+            "two parameters have the name 'history.alpha'");
+}
+
 TEST(Registry, KnowsWhichParametersConcernATechnique) {
   Technique one = technique("one"), two = technique("two");
   one.params = {{"shared.points", 1, 1, 4, "taps", "How many."}, {"two.sharpness", 1, 1, 4, "", "How sharp."}};

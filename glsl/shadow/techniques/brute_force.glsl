@@ -65,7 +65,7 @@ Visibility visibility(Receiver receiver, Light light) {
     }
   }
   if (count == 0.0) return fully_lit();
-  float mean = sum / count;
+  float mean = max(sum / count, 0.0);
   float radius = penumbra_radius(receiver, mean, light);
   if (radius < texel_size(receiver, light)) {
     return Visibility(lit_share(receiver, vec2(0.0), bias, light), radius, mean, true);

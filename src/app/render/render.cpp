@@ -32,6 +32,14 @@ std::string summary(const RenderOptions& options, const ParamSet& params, const 
                      session::technique_label(params), seconds);
 }
 
+// Standard output, unless a result is written there.
+std::FILE* summary_stream(const RenderOptions& options) {
+  for (const std::string& result : {options.output, options.stats, options.save_preset}) {
+    if (!result.empty() && io::would_replace(result, "/dev/stdout")) return stderr;
+  }
+  return stdout;
+}
+
 void render_files(const RenderOptions& options) {
   const Clock::time_point start = Clock::now();
   const cli::OutputNames names(options.output, options.frames.has_value());
@@ -56,7 +64,8 @@ void render_files(const RenderOptions& options) {
   write_reports(options, prepared, params, session,
                 options.stats.empty() ? 0 : measure(options, session, params, range));
   const std::chrono::duration<double> elapsed = Clock::now() - start;
-  if (!options.quiet) fmt::print("{}\n", summary(options, params, names, range, elapsed.count()));
+  if (!options.quiet)
+    fmt::print(summary_stream(options), "{}\n", summary(options, params, names, range, elapsed.count()));
 }
 
 }  // namespace
