@@ -12,7 +12,8 @@ quick=0 regex=
 while (($# > 0)); do
   case $1 in
     --quick) quick=1 ;;
-    -R) regex=${2:?-R takes a regular expression} && shift ;;
+    -R) [[ -n ${2:-} ]] || { echo "-R takes a regular expression" >&2 && exit 2; }
+      regex=$2 && shift ;;
     *) sed -n '3,6s/^# //p' "$0" && exit 2 ;;
   esac
   shift

@@ -72,7 +72,7 @@ void add_receivers(std::vector<truth::Receiver>& receivers, const std::array<glm
     glm::dvec2 at = glm::fract(index * glm::dvec2(0.7548776662466927, 0.5698402909980532));
     if (at.x + at.y > 1) at = 1.0 - at;
     receivers.push_back(
-        {.position = corners[0] + at.x * u + at.y * v, .normal = cross / twice_area, .there = true, .reach = reach});
+        {.position = corners[0] + at.x * u + at.y * v, .normal = cross / twice_area, .there = true, .extent = reach});
   }
 }
 

@@ -26,7 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail_stream(const fs::path& name, int code) {
-  fail("cannot write '{}': {}", name.string(), code == ENXIO ? "no program reads from this pipe" : std::strerror(code));
+  const bool no_reader = code == ENXIO && fs::is_fifo(name);
+  fail("cannot write '{}': {}", name.string(), no_reader ? "no program reads from this pipe" : std::strerror(code));
 }
 
 // The descriptor that the path stands for, if it is one of this process.

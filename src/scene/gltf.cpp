@@ -59,8 +59,7 @@ void mark_skies(const std::filesystem::path& path, Scene& scene) {
     if (!casting_faces(node, material, {}))
       warn("{}: {}", path.string(),
            gltf::one_line(fmt::format(
-               "node {} (material {}) encloses the scene as a sky does, and casts no shadow; --set casters.skies=on "
-               "makes it cast",
+               "node {} (material {}) encloses the scene as a sky does; it casts no shadow unless casters.skies is on",
                quoted_or(node.name, std::to_string(number)), quoted_or(material.name, "without a name"))));
   }
 }

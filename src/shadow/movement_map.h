@@ -27,7 +27,7 @@ struct MovementInputs {
   const gl::Texture& map;  // of movement_target()
   MovementForm form = MovementForm::maximum;
   const LightProjection& projection;
-  const LightSource& source;
+  LightSource source = {};
   const DrawCasters& draw;
   // The finished shadow map, used as depth test so that moved casters count only where nothing nearer to the light
   // hides them. Null if the caller drew the map: then hidden casters count too, which rejects more history than

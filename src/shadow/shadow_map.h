@@ -10,7 +10,7 @@ namespace penumbra::shadow {
 struct ShadowMapInputs {
   std::string name;  // of the target; each light has its own map
   const LightProjection& projection;
-  const LightSource& source;
+  LightSource source = {};
   const DrawCasters& draw;
   // Level 0 of a movement map, into which the same passes draw the casters that moved, at their present positions.
   // These lie within `moved_bounds` (see Inputs::moved); layers outside of the bounds are not changed.

@@ -416,6 +416,7 @@ TEST_F(ShadowContract, CallbacksGetTheLightsSourceInEveryPass) {
     renderer.render(scene, params, [&](shadow::Inputs& inputs) {
       inputs.view.last_view = scene.view;
       inputs.view.last_projection = scene.projection;
+      inputs.moved.reset();  // so that any caster may have moved
       const shadow::LightSource source = inputs.lights.front().source;
       inputs.draw = [&kinds, source, draw = inputs.draw](const shadow::CasterPass& casters, gl::Pass& pass) {
         kinds.insert(casters.kind);

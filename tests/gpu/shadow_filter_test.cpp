@@ -69,7 +69,7 @@ shadow::Filter inverse() {
           .summary = "Light for shadow.",
           .source = "made up",
           .glsl = "test/inverse.glsl",
-          .reach = {{0, 0}}};
+          .border = {{0, 0}}};
 }
 
 constexpr const char* inverse_text = R"(

@@ -206,8 +206,8 @@ TEST(SkyWarning, NamesNodeAndMaterial) {
   };
   const std::vector<std::string> warnings = warnings_of([&] { EXPECT_TRUE(load_text(text("")).nodes[0].sky); });
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("node 'Dome' (material 'Clouds') encloses the scene as a sky does, and casts no shadow; "
-                             "--set casters.skies=on makes it cast"),
+  EXPECT_NE(warnings[0].find("node 'Dome' (material 'Clouds') encloses the scene as a sky does; "
+                             "it casts no shadow unless casters.skies is on"),
             std::string::npos)
       << warnings[0];
   EXPECT_TRUE(warnings_of([&] { load_text(text(extras("true"))); }).empty()) << "it was asked for";

@@ -88,7 +88,7 @@ TEST_P(Receivers, LieOnThePlaneAndFaceTheEye) {
             EXPECT_NEAR(std::abs(glm::dot(receiver.normal, normal)), 1, 1e-12) << p.name;
             const glm::dvec3 ray_in_world = glm::transpose(glm::dmat3(view)) * ray;
             EXPECT_LT(glm::dot(receiver.normal, ray_in_world), 0) << p.name << (perspective ? " perspective" : "");
-            EXPECT_GE(receiver.reach, 9);
+            EXPECT_GE(receiver.extent, 9);
           }
         }
       }

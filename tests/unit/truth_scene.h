@@ -63,9 +63,9 @@ class TruthScene {
   scene::PosedGeometry geometry_;
 };
 
-// A receiver on a triangle whose furthest corner is `reach` away.
-inline truth::Receiver receiver_at(const glm::dvec3& position, const glm::dvec3& normal, double reach = 100) {
-  return {.position = position, .normal = normal, .there = true, .reach = reach};
+// A receiver on a triangle whose furthest corner is `extent` metres away.
+inline truth::Receiver receiver_at(const glm::dvec3& position, const glm::dvec3& normal, double extent = 100) {
+  return {.position = position, .normal = normal, .there = true, .extent = extent};
 }
 
 // On the ground y = 0, from x = low to high.

@@ -11,6 +11,7 @@
 #include "cli/output_names.h"
 #include "cli/signals.h"
 #include "image/read.h"
+#include "io/output_file.h"
 #include "session/prepared_scene.h"
 #include "session/render_session.h"
 #include "session/techniques.h"
