@@ -31,35 +31,41 @@ vec4 heights_above(Receiver receiver, vec4 depths, Offsets at) {
   return receiver.position.z + plane_depths(receiver, at) - depths;
 }
 
-// The same of the texels so many texels towards +x, +y, -x and -y from a texel; `inside`: from that texel's centre to
-// the receiver, in texels.
-vec4 heights_beside(Receiver receiver, ivec2 texel, vec2 inside, int distance_to, Light light) {
-  vec4 depths =
-      vec4(depth_at(texel + ivec2(distance_to, 0), light), depth_at(texel + ivec2(0, distance_to), light),
-           depth_at(texel - ivec2(distance_to, 0), light), depth_at(texel - ivec2(0, distance_to), light));
-  float size = texel_size(receiver, light), far = float(distance_to);
-  return heights_above(receiver, depths, Offsets(size * (vec4(far, 0.0, -far, 0.0) - inside.x),
-                                                 size * (vec4(0.0, far, 0.0, -far) - inside.y)));
+// A lit face beside a receiver, reconstructed from the map's texels on one side.
+struct Face {
+  float rise;    // of its height above the receiver's plane with each texel away from the receiver; 0: there is no face
+  float height;  // continued to the receiver, along the texels' row or column
+};
+
+// The face shown by the three texels next to the receiver's own. Heights that increase evenly, or by growing steps,
+// belong to a face or its foot. Heights that increase by shrinking steps belong to the edge of an object in front of
+// the receiver.
+Face face_beside(Receiver receiver, ivec2 at, ivec2 side, float bias, Light light) {
+  vec2 first = texel_offset(receiver, at + side, light);
+  vec2 next = vec2(side) * texel_size(receiver, light);
+  Offsets offsets = Offsets(first.x + next.x * vec4(0.0, 1.0, 2.0, 2.0), first.y + next.y * vec4(0.0, 1.0, 2.0, 2.0));
+  vec3 depths = vec3(depth_at(at + side, light), depth_at(at + 2 * side, light), depth_at(at + 3 * side, light));
+  vec3 heights = heights_above(receiver, depths.xyzz, offsets).xyz;
+  float near = heights.y - heights.x;
+  float rise = heights.z - heights.y;
+  if (rise <= bias || near < 0.25 * rise || near > 1.25 * rise + bias) return Face(0.0, 0.0);
+  return Face(rise, heights.z - rise * (2.0 + dot(first, next) / dot(next, next)));
 }
 
-// Slopes of the lit faces beside a receiver, towards +x, +y, -x and -y, as the three texels on each side show them.
-// Where two lit faces meet, each lies in front of the other's plane, yet neither blocks the other: texels on such a
-// face must not shadow the receiver. A slope is 0 where there is no such face:
-//   - Heights above the receiver's plane that increase evenly, or by growing steps, belong to a face or its foot. Those
-//     that increase by shrinking steps belong to the edge of an object in front of the receiver.
-//   - A face that, extended to the receiver, passes in front of it does block it.
+// Slopes of the lit faces beside a receiver, along x and y. Where two lit faces meet, each lies in front of the other's
+// plane, yet neither blocks the other: texels on such a face must not shadow the receiver. The slope is 0 for a face
+// that, extended to the receiver, passes in front of it and so does block it.
 vec4 lit_slopes(Receiver receiver, float bias, Light light) {
   ivec2 at = ivec2(floor(map_place(receiver.position, light)));
-  vec2 inside = -texel_offset(receiver, at, light) / texel_size(receiver, light);
-  vec4 first = heights_beside(receiver, at, inside, 1, light);
-  vec4 second = heights_beside(receiver, at, inside, 2, light);
-  vec4 third = heights_beside(receiver, at, inside, 3, light);
-  vec4 near = second - first, rise = third - second;
-  rise *= step(bias, rise) * step(0.25 * rise, near) * step(near, 1.25 * rise + bias);
-  // The faces' heights, extended along their row or column of texels to the receiver's place, and from there across.
-  vec4 along = third - rise * (3.0 - vec4(inside, -inside));
-  vec2 across = (rise.xy - rise.zw) * inside;
-  return step(along + across.yxyx, vec4(bias)) * rise / texel_size(receiver, light);
+  Face right = face_beside(receiver, at, ivec2(1, 0), bias, light);
+  Face up = face_beside(receiver, at, ivec2(0, 1), bias, light);
+  Face left = face_beside(receiver, at, ivec2(-1, 0), bias, light);
+  Face down = face_beside(receiver, at, ivec2(0, -1), bias, light);
+  // From the row of texels to the receiver's, and from their column to the receiver's.
+  vec2 to_receiver = -texel_offset(receiver, at, light) / texel_size(receiver, light);
+  vec2 across = vec2(right.rise - left.rise, up.rise - down.rise) * to_receiver;
+  vec4 heights = vec4(right.height, up.height, left.height, down.height) + across.yxyx;
+  return step(heights, vec4(bias)) * vec4(right.rise, up.rise, left.rise, down.rise) / texel_size(receiver, light);
 }
 
 // Tolerance in texel widths: a texel that is in front of the receiver's plane by less still counts as the same surface,
