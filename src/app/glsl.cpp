@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "cli/output_names.h"
 #include "cli/signals.h"
 #include "cli/usage.h"
 #include "core/error.h"
@@ -35,6 +36,7 @@ int run_glsl(const Arguments& arguments) {
   app.add_flag("--force", force, "Overwrites files of these names")->disable_flag_override();
   app.add_flag("--quiet,-q", quiet, "No summary")->disable_flag_override();
   if (!cli::parse(app, arguments)) return 0;
+  output = cli::output_folder("DIR", output);
   if (output.empty()) cli::fail_usage("DIR is a folder's name, not an empty text");
 
   cli::clean_up_on_signals();

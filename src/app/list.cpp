@@ -59,6 +59,11 @@ Json denoiser_rows() {
     rows.push_back(
         {{"name", denoiser.name}, {"help", denoiser.summary}, {"source", denoiser.source}, {"params", params}});
   }
+  rows.push_back(
+      {{"name", "none"},
+       {"help", "The technique writes the mask itself: no filter and no history, whatever their parameters."},
+       {"source", ""},
+       {"params", Json::array()}});
   return rows;
 }
 

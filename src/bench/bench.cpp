@@ -7,7 +7,6 @@
 #include "bench/measure.h"
 #include "bench/options.h"
 #include "bench/results.h"
-#include "cli/output_names.h"
 #include "cli/signals.h"
 #include "cli/text.h"
 #include "core/log.h"
@@ -67,9 +66,13 @@ int run(const std::string& name, const cli::Arguments& arguments, const scene::I
   add_options(app, options);
   if (!cli::parse(app, arguments)) return 0;
   check_together(options);
-  entries_of(options, shadow::built_in_registry());  // wrong names before a driver starts
+  const std::vector<Entry> entries = entries_of(options, shadow::built_in_registry());  // wrong names end it here
+  options.reading.skies_chosen = std::ranges::all_of(
+      entries, [&](const Entry& entry) { return cli::is_chosen(options, entry.params, "casters.skies"); });
+  const std::filesystem::path scene = options.scene;
+  const cli::InputFiles inputs = inputs_of(options, {&scene, 1});
   for (const std::string& output : options.outputs) {
-    cli::check_spared({options.scene}, "-o", output);
+    inputs.check("-o", output);
     io::check_writable(output);
   }
   cli::clean_up_on_signals();

@@ -9,7 +9,7 @@
 
 #include "bench/caster_grid.h"
 #include "cli/command_line.h"
-#include "cli/output_names.h"
+#include "cli/input_files.h"
 #include "cli/progress.h"
 #include "core/error.h"
 #include "gl/api.h"
@@ -112,7 +112,8 @@ class Bench {
     if (prepared_ && !point.triangles) return;
     contenders_.clear();
     prepared_.emplace(scene_at(point));
-    for (const std::string& output : options_.outputs) cli::check_spared(prepared_->scene.files, "-o", output);
+    const cli::InputFiles inputs = inputs_of(options_, prepared_->scene.files);
+    for (const std::string& output : options_.outputs) inputs.check("-o", output);
     results_.scene = options_.scene.empty() ? "generated grid of casters"
                                             : std::filesystem::path(options_.scene).filename().string();
     for (const Entry& entry : results_.entries)

@@ -106,6 +106,17 @@ std::vector<Entry> entries_of(const Options& options, const shadow::Registry& re
   return entries;
 }
 
+cli::InputFiles inputs_of(const Options& options, std::span<const std::filesystem::path> scene_files) {
+  cli::InputFiles inputs;
+  inputs.add_scene(scene_files);
+  inputs.add_presets(options.presets);
+  for (const std::string& name : options.techniques) {
+    if (is_preset(name)) inputs.add("the preset", name);
+  }
+  inputs.add_shaders(options);
+  return inputs;
+}
+
 FrameCounts frame_counts(const Options& options, bool software) {
   constexpr int on_gpu = 400, in_software = 20, in_software_sweep = 4;
   const int usual = !software ? on_gpu : options.sweep.empty() ? in_software : in_software_sweep;

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "bench/contender.h"
+#include "cli/input_files.h"
 #include "cli/options.h"
 
 namespace penumbra::bench {
@@ -28,6 +31,9 @@ void check_together(const Options& options);
 
 // What is measured: one entry for each requested technique, in that order. Throws as cli::resolve_params() does.
 std::vector<Entry> entries_of(const Options& options, const shadow::Registry& registry);
+
+// The files that the command reads.
+cli::InputFiles inputs_of(const Options& options, std::span<const std::filesystem::path> scene_files);
 
 // How many frames of a point are measured, and how many are drawn before them. Both are fewer on a software rasteriser.
 struct FrameCounts {

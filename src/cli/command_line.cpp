@@ -84,6 +84,18 @@ void hint_at_file(const Arguments& arguments) {
   }
 }
 
+// CLI11 would take "-o=x.png" as the value "=x.png".
+void refuse_equals_after_short_name(const CLI::App& options, const Arguments& arguments) {
+  for (const std::string& argument : arguments) {
+    if (argument == "--") return;
+    if (argument.size() < 3 || argument[0] != '-' || argument[2] != '=') continue;
+    const CLI::Option* option = options.get_option_no_throw(argument.substr(0, 2));
+    if (option == nullptr || option->get_items_expected_max() == 0) continue;
+    fail_usage("'{}': the value of {} follows after a space, or after '--{}='", argument, argument.substr(0, 2),
+               option->get_lnames().front());
+  }
+}
+
 // CLI11 says "--size: 1 required WIDTHxHEIGHT missing" and "--size: At Most 1 required but received 2".
 std::string one_line(const CLI::ParseError& error) {
   std::string text = error.what();
@@ -146,6 +158,7 @@ bool parse(CLI::App& options, const Arguments& arguments) {
       .add_option("--log-level", level, "Least severe message to show: debug, info, warning, error; or quiet for none")
       ->type_name("LEVEL");
   options.allow_extras();
+  refuse_equals_after_short_name(options, arguments);
   try {
     options.parse(Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
   } catch (const CLI::CallForHelp&) {

@@ -1,6 +1,7 @@
 #include "cli/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 
@@ -129,7 +130,11 @@ void check_together(const SceneOptions& o) {
 }
 
 void check_together(const DeviceOptions& o) {
-  if (!o.glsl.empty() && !std::filesystem::is_directory(o.glsl)) fail("--glsl: {} is not a folder", io::quoted(o.glsl));
+  std::error_code unread;
+  if (!o.glsl.empty() && !std::filesystem::is_directory(o.glsl, unread))
+    fail("--glsl: {} is {}", io::quoted(o.glsl),
+         std::filesystem::exists(o.glsl, unread) ? "a file, not a folder of shaders"
+                                                 : "not a folder: nothing has that name");
   if (o.egl_device && o.backend != "auto" && o.backend != "egl")
     fail_usage("--egl-device is not for --backend {}", o.backend);
 }
@@ -164,6 +169,12 @@ void assign(ParamSet& params, const std::string& assignment) {
   } catch (const Error& error) {
     throw UsageError(error.what());
   }
+}
+
+bool is_chosen(const ShadowOptions& options, const ParamSet& params, std::string_view name) {
+  const std::string start = fmt::format("{}=", name);
+  const auto sets = [&](const std::string& assignment) { return assignment.starts_with(start); };
+  return !params.is_default(name) || std::ranges::any_of(options.assignments, sets);
 }
 
 ParamSet resolve_params(const ShadowOptions& options, const shadow::Registry& registry) {

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/cli_fwd.h"
@@ -64,6 +65,9 @@ void check_together(const DeviceOptions& options);
 // --set in the order given. The order of different options on the command line does not matter. Throws UsageError if
 // the command line is wrong, and Error if a preset is.
 ParamSet resolve_params(const ShadowOptions& options, const shadow::Registry& registry);
+
+// Whether the user set a parameter: by --set, or to another value than its default. `params` are the resolved ones.
+bool is_chosen(const ShadowOptions& options, const ParamSet& params, std::string_view name);
 
 // Sets "NAME=VALUE". Throws UsageError; for an unknown name it suggests similar names, or how to list all of them.
 void assign(ParamSet& params, const std::string& assignment);

@@ -6,7 +6,6 @@
 
 #include "cli/usage.h"
 #include "core/names.h"
-#include "io/output_file.h"
 
 namespace penumbra::cli {
 
@@ -71,11 +70,11 @@ std::filesystem::path OutputNames::aov(int frame, std::string_view name) const {
   return path.replace_extension(fmt::format(".{}{}", name, extension));
 }
 
-void check_spared(const std::vector<std::filesystem::path>& scene_files, std::string_view option,
-                  const std::filesystem::path& result) {
-  for (const std::filesystem::path& file : scene_files) {
-    if (io::would_replace(result, file)) fail_usage("{} would overwrite the scene's file {}", option, io::quoted(file));
-  }
+std::string text_output(const std::string& text) { return text == "-" ? "/dev/stdout" : text; }
+
+std::string output_folder(std::string_view option, const std::string& text) {
+  if (text == "-") fail_usage("{}: '-' would be standard output, not a folder; './-' is a folder of that name", option);
+  return text;
 }
 
 }  // namespace penumbra::cli

@@ -24,8 +24,10 @@ class OutputNames {
   int digits_ = -1;                         // -1: not numbered
 };
 
-// Throws UsageError if the file `result`, which `option` asks for, would overwrite one of a scene's files.
-void check_spared(const std::vector<std::filesystem::path>& scene_files, std::string_view option,
-                  const std::filesystem::path& result);
+// Where an option writes its text: "-" is standard output, "./-" a file of that name.
+std::string text_output(const std::string& text);
+
+// The folder that an option names. Throws UsageError for "-", which looks like standard output.
+std::string output_folder(std::string_view option, const std::string& text);
 
 }  // namespace penumbra::cli

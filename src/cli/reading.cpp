@@ -13,6 +13,7 @@
 #include "io/output_file.h"
 #include "scene/casting.h"
 #include "scene/limits.h"
+#include "scene/sky.h"
 
 namespace penumbra::cli {
 
@@ -60,6 +61,20 @@ std::string word_of(scene::Casting casting) {
   return *std::ranges::find_if(words, [&](const std::string& word) { return scene::casting_of(word) == casting; });
 }
 
+// "; it has 'Bark', 'Leaves'", at most a dozen.
+std::string known_names(std::vector<std::string> names) {
+  std::erase(names, "");
+  std::ranges::sort(names);
+  names.erase(std::ranges::unique(names).begin(), names.end());
+  if (names.empty()) return "; it names no material";
+  constexpr std::size_t most = 12;
+  std::string text = "; it has";
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+    text += fmt::format("{} '{}'", i == 0 ? "" : ",", names[i]);
+  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
+  return text;
+}
+
 }  // namespace
 
 void add_reading_options(CLI::App& app, ReadingOptions& o) {
@@ -105,8 +120,9 @@ scene::Scene read_scene(const std::string& file, const ReadingOptions& options, 
     for (const scene::Material& candidate : scene.materials) names.push_back(candidate.name);
     const std::vector<std::string> near = near_names(material, names);
     fail("{}: no material is named '{}' (--casters){}", io::quoted(file), material,
-         near.empty() ? "" : fmt::format("; did you mean '{}'?", near.front()));
+         near.empty() ? known_names(std::move(names)) : fmt::format("; did you mean '{}'?", near.front()));
   }
+  if (!options.skies_chosen) scene::warn_of_skies(file, scene);
   return scene;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <vector>
 
 #include "cli/signals.h"
 #include "compare/command.h"
@@ -16,29 +17,21 @@ namespace penumbra::compare {
 
 namespace {
 
-struct Outputs {
-  std::filesystem::path page, csv, json;
-};
-
-Outputs outputs_of(const CompareOptions& options) {
-  const std::filesystem::path folder = options.output;
-  return {folder / "index.html", folder / "results.csv", folder / "results.json"};
-}
-
 // Called before drawing, which can take minutes.
-void check_files(const CompareOptions& options, const Outputs& outputs) {
+void check_files(const CompareOptions& options) {
   for (const std::string& scene : options.scenes) {
     if (!std::filesystem::exists(scene)) fail("cannot read {}: there is no such file", io::quoted(scene));
   }
-  for (const std::filesystem::path& path : {outputs.page, outputs.csv, outputs.json}) io::check_writable(path);
+  check_inputs(options, std::vector<std::filesystem::path>(options.scenes.begin(), options.scenes.end()));
+  for (const std::filesystem::path& path : {options.page(), options.csv(), options.json()}) io::check_writable(path);
 }
 
-void print(const Comparison& comparison, const Outputs& outputs) {
+void print(const Comparison& comparison, const CompareOptions& options) {
   for (const ComparedScene& scene : comparison.scenes) {
     if (comparison.scenes.size() > 1) fmt::print("{}\n", scene.path);
     fmt::print("{}", terminal_table(scene));
   }
-  fmt::print("wrote {}\n", outputs.page.string());
+  fmt::print("wrote {}\n", options.page().string());
 }
 
 }  // namespace
@@ -46,17 +39,17 @@ void print(const Comparison& comparison, const Outputs& outputs) {
 int run(const cli::Arguments& arguments) {
   CompareOptions options;
   if (!parse_compare(arguments, options)) return 0;
-  const Outputs outputs = outputs_of(options);
   cli::clean_up_on_signals();
   session::limit_threads(options);
   const ComparedValues values = values_of(options, session::all_techniques());  // presets before scenes
-  check_files(options, outputs);
+  check_files(options);
+  options.reading.skies_chosen = cli::is_chosen(options, values.reference, "casters.skies");
 
   const Comparison comparison = compare(options, values);
-  io::write_text(outputs.page, report::to_text(comparison_page(comparison, options, arguments)));
-  io::write_text(outputs.csv, csv_table(comparison));
-  io::write_text(outputs.json, io::text_of(json_of(comparison, options, arguments)));
-  if (!options.quiet) print(comparison, outputs);
+  io::write_text(options.page(), report::to_text(comparison_page(comparison, options, arguments)));
+  io::write_text(options.csv(), csv_table(comparison));
+  io::write_text(options.json(), io::text_of(json_of(comparison, options, arguments)));
+  if (!options.quiet) print(comparison, options);
   return 0;
 }
 

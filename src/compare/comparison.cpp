@@ -30,6 +30,7 @@ namespace {
 // Errors about cameras do not name the file: this adds it.
 session::PreparedScene load_scene(const CompareOptions& options, const scene::ImageDecoder& decode) {
   scene::Scene scene = cli::read_scene(options.scene, options.reading, decode);
+  check_inputs(options, scene.files);
   try {
     return session::prepare_scene(std::move(scene), options);
   } catch (const Error& error) {

@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "cli/input_files.h"
+#include "cli/output_names.h"
 #include "io/text.h"
 #include "session/techniques.h"
 #include "truth/reference.h"
@@ -30,7 +32,7 @@ void add_contenders(std::vector<Contender>& list, const std::string& text) {
 void add_compare_options(CLI::App& app, CompareOptions& o) {
   app.add_option("SCENE", o.scenes, "glTF files, .gltf or .glb")->required()->type_name("");
   add_value(app, "-o,--output", "FOLDER", "Folder for index.html, results.csv and results.json",
-            [&o](const auto& text) { o.output = text; });
+            [&o](const auto& text) { o.output = cli::output_folder("-o", text); });
   app.get_option("--output")->required();
   add_value(app, "--technique", "NAME,...",
             "Techniques and presets to compare; NAME:PARAM=VALUE,PARAM=VALUE changes values of one; see penumbra list "
@@ -169,6 +171,15 @@ bool parse_compare(const cli::Arguments& arguments, CompareOptions& options) {
   check_values(options, session::all_techniques());
   cli::check_together(static_cast<const cli::DeviceOptions&>(options));  // looks for a folder
   return true;
+}
+
+void check_inputs(const CompareOptions& options, std::span<const std::filesystem::path> scene_files) {
+  cli::InputFiles inputs;
+  inputs.add_scene(scene_files);
+  inputs.add_presets(options.presets);
+  inputs.add_shaders(options);
+  for (const std::filesystem::path& output : {options.page(), options.csv(), options.json()})
+    inputs.check("-o", output);
 }
 
 ComparedValues values_of(const CompareOptions& options, const shadow::Registry& registry) {

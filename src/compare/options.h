@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,12 +31,18 @@ struct CompareOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOption
   int cost_frames = 3;          // of a single picture
 
   std::string output;  // a folder
+  std::filesystem::path page() const { return std::filesystem::path(output) / "index.html"; }
+  std::filesystem::path csv() const { return std::filesystem::path(output) / "results.csv"; }
+  std::filesystem::path json() const { return std::filesystem::path(output) / "results.json"; }
   bool quiet = false;
 };
 
 // Parses the command line; returns false if --help was asked for. Throws UsageError for every fault that does not
 // depend on the contents of preset files and scenes, before any of them is read.
 bool parse_compare(const cli::Arguments& arguments, CompareOptions& options);
+
+// Throws UsageError if an output would overwrite one of a scene's files, or another file that the command reads.
+void check_inputs(const CompareOptions& options, std::span<const std::filesystem::path> scene_files);
 
 // "a,b:p=1,q=2,c" means a, then b with two parameter values that only it uses, then c. Throws UsageError for an empty
 // name.

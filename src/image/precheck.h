@@ -16,8 +16,8 @@ std::vector<std::byte> pixel_chunks_of_png(std::span<const std::byte> encoded);
 
 // A copy of a JPEG without the segments that do not affect pixels: textures don't need EXIF, IPTC, profiles, thumbnails
 // and comments, and metadata parsers have read past the end of malicious ones. Data after the image's end is removed
-// too. Throws Error if the file ends inside a segment, or has more than a generous number of scans: a progressive JPEG
-// is decoded completely once per scan, so a malicious file could stall a reader with many scans.
+// too. Throws Error if the file ends before its end marker, or has more than a generous number of scans: a progressive
+// JPEG is decoded completely once per scan, so a malicious file could stall a reader with many scans.
 std::vector<std::byte> pixel_segments_of_jpeg(std::span<const std::byte> encoded);
 
 // Checks the header of an EXR before anything is allocated for it. Throws Error for a header that is truncated or

@@ -39,14 +39,18 @@ std::vector<std::byte> pixel_segments_of_jpeg(std::span<const std::byte> encoded
   kept.reserve(encoded.size());
   JpegSegments segments(encoded);
   std::size_t scans = 0;
+  bool ended = false;
   for (JpegSegment segment = segments.next(); !segment.bytes.empty(); segment = segments.next()) {
     if (carries_pixels(segment)) kept.insert(kept.end(), segment.bytes.begin(), segment.bytes.end());
-    if (segment.marker == jpeg::end_of_image) break;
+    ended = segment.marker == jpeg::end_of_image;
+    if (ended) break;
     if (segment.marker != jpeg::start_of_scan) continue;
     if (++scans > most_scans) fail("JPEG of more than {} scans", most_scans);
     const std::span<const std::byte> data = segments.scan_data();
     kept.insert(kept.end(), data.begin(), data.end());
   }
+  // OpenImageIO would fill the missing part with grey.
+  if (!ended) fail("JPEG is truncated: it ends without an end marker");
   return kept;
 }
 

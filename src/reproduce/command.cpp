@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "cli/output_names.h"
 #include "cli/progress.h"
 #include "cli/signals.h"
 #include "io/output_file.h"
@@ -51,7 +52,7 @@ void add_reproduce_options(CLI::App& app, Options& o, std::optional<cli::Size>& 
   app.add_option("SCENE", o.scene, "glTF file, .gltf or .glb (scenes/thesis.glb, which comes with Penumbra)")
       ->type_name("");
   cli::add_value(app, "-o,--output", "FOLDER", "Folder for index.html, figures.json and figures.csv",
-                 [&o](const auto& text) { o.output = text; });
+                 [&o](const auto& text) { o.output = cli::output_folder("-o", text); });
   app.get_option("--output")->required();
   app.add_flag("--quick", o.quick, "Small pictures and few frames: a preview, not a measurement")
       ->disable_flag_override();
@@ -104,12 +105,11 @@ int run(const cli::Arguments& arguments) {
   Options options;
   if (!parse(arguments, options)) return 0;
   if (options.scene.empty()) options.scene = default_scene();
-  const std::filesystem::path folder = options.output;
-  const std::filesystem::path page = folder / "index.html", json = folder / "figures.json",
-                              csv = folder / "figures.csv";
   cli::clean_up_on_signals();
   session::limit_threads(options);
-  for (const std::filesystem::path& path : {page, json, csv}) io::check_writable(path);
+  const std::filesystem::path scene = options.scene;
+  check_inputs(options, {&scene, 1});
+  for (const std::filesystem::path& path : {options.page(), options.json(), options.csv()}) io::check_writable(path);
 
   FigureProgress progress(!options.quiet);
   Workbench bench(options, [&progress] { progress.drawn(); });
@@ -118,10 +118,10 @@ int run(const cli::Arguments& arguments) {
     progress.next(entry.pictures);
     findings.push_back(entry.make(bench));
   }
-  io::write_text(json, io::text_of(json_of(findings, bench)));
-  io::write_text(csv, csv_of(findings));
-  io::write_text(page, report::to_text(page_of(findings, bench, arguments)));
-  if (!options.quiet) fmt::print("{}wrote {}\n", text_of(findings, options), page.string());
+  io::write_text(options.json(), io::text_of(json_of(findings, bench)));
+  io::write_text(options.csv(), csv_of(findings));
+  io::write_text(options.page(), report::to_text(page_of(findings, bench, arguments)));
+  if (!options.quiet) fmt::print("{}wrote {}\n", text_of(findings, options), options.page().string());
   return 0;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/times.h"
+#include "cli/input_files.h"
 #include "image/read.h"
 #include "metrics/convolve.h"
 #include "metrics/flip.h"
@@ -24,7 +25,21 @@ metrics::Plane blurred(const metrics::Plane& plane) {
   return metrics::convolve(plane, kernel, kernel, metrics::Border::zero);
 }
 
+session::PreparedScene load_scene(const Options& options) {
+  session::PreparedScene prepared = session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)));
+  check_inputs(options, prepared.scene.files);
+  return prepared;
+}
+
 }  // namespace
+
+void check_inputs(const Options& options, std::span<const std::filesystem::path> scene_files) {
+  cli::InputFiles inputs;
+  inputs.add_scene(scene_files);
+  inputs.add_shaders(options);
+  for (const std::filesystem::path& output : {options.page(), options.json(), options.csv()})
+    inputs.check("-o", output);
+}
 
 std::string ShadowConfig::key() const { return fmt::format("{} {}", technique, fmt::join(values, " ")); }
 
@@ -33,7 +48,7 @@ Workbench::Workbench(const Options& options, std::function<void()> drawn)
       drawn_(std::move(drawn)),
       truth_(session::truth_options(options, options)),
       techniques_(truth_.registry()),
-      prepared_(session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)))),
+      prepared_(load_scene(options)),
       session_(options, options, session::open_context(options, options), prepared_, techniques_, /* timed= */ true),
       device_(session_.device_info()) {
   truth_picture_ = picture_of(truth_config());

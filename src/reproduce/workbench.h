@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,12 +22,18 @@ namespace penumbra::reproduce {
 // What `penumbra reproduce` was asked for; every value is parsed and in range.
 struct Options : cli::SceneOptions, cli::DeviceOptions, session::CacheOptions {
   std::string output;  // a folder
+  std::filesystem::path page() const { return std::filesystem::path(output) / "index.html"; }
+  std::filesystem::path json() const { return std::filesystem::path(output) / "figures.json"; }
+  std::filesystem::path csv() const { return std::filesystem::path(output) / "figures.csv"; }
   bool quick = false, quiet = false;
 
   int truth_samples() const { return quick ? 64 : 256; }
   // The number of frames whose median is a cost.
   int cost_frames() const { return quick ? 3 : 5; }
 };
+
+// Throws UsageError if an output would overwrite one of the scene's files, or another file that the command reads.
+void check_inputs(const Options& options, std::span<const std::filesystem::path> scene_files);
 
 // How something is drawn: a technique or a preset, and values ("pcss.filter_taps=8") that differ from its own.
 struct ShadowConfig {

@@ -27,10 +27,22 @@ bool set_casting(Scene& scene, std::string_view material, Casting casting) {
   return found;
 }
 
+namespace {
+
+Casting decided_casting(const Node& node, const Material& material) {
+  const bool of_material = material.casting_over_nodes || node.casting == Casting::automatic;
+  return of_material ? material.casting : node.casting;
+}
+
+}  // namespace
+
+bool casts_as_parameters_say(const Node& node, const Material& material) {
+  return decided_casting(node, material) == Casting::automatic;
+}
+
 std::optional<CasterFaces> casting_faces(const Node& node, const Material& material, const CasterChoice& choice) {
   const CasterFaces chosen = material.double_sided ? CasterFaces::both : choice.faces;
-  const bool of_material = material.casting_over_nodes || node.casting == Casting::automatic;
-  switch (of_material ? material.casting : node.casting) {
+  switch (decided_casting(node, material)) {
     case Casting::automatic:
       if (node.sky && !choice.skies) return {};
       return chosen;

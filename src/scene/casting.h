@@ -25,6 +25,9 @@ struct CasterChoice {
   bool operator==(const CasterChoice&) const = default;
 };
 
+// Whether only the parameters `casters.*` decide how a node's surface of this material casts shadows.
+bool casts_as_parameters_say(const Node& node, const Material& material);
+
 // Which faces cast shadows on a node's surface of this material; nothing if none does. The parameter `casters.faces`
 // does not affect double-sided materials, which always cast from both faces.
 std::optional<CasterFaces> casting_faces(const Node& node, const Material& material, const CasterChoice& choice);

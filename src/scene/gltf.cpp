@@ -5,11 +5,8 @@
 #include <exception>
 #include <new>
 #include <string>
-#include <string_view>
 
 #include "core/error.h"
-#include "core/log.h"
-#include "scene/casting.h"
 #include "scene/drawn.h"
 #include "scene/gltf/one_line.h"
 #include "scene/gltf/read.h"
@@ -44,24 +41,8 @@ void check_extent(const Scene& scene, double limit) {
   if (!(furthest <= limit)) fail("reaches {:.3g} m from the origin, over the limit of {:.3g} m", furthest, limit);
 }
 
-std::string quoted_or(const std::string& name, const std::string& otherwise) {
-  return name.empty() ? otherwise : "'" + name + "'";
-}
-
-// Marks the nodes that are skies, and warns of those that therefore cast no shadow.
-void mark_skies(const std::filesystem::path& path, Scene& scene) {
-  for (const int number : find_skies(scene, rest_pose(scene))) {
-    Node& node = scene.nodes[static_cast<std::size_t>(number)];
-    node.sky = true;
-    const Primitive& primitive = scene.meshes[static_cast<std::size_t>(node.mesh)].primitives[0];
-    const Material material =
-        primitive.material < 0 ? Material() : scene.materials[static_cast<std::size_t>(primitive.material)];
-    if (!casting_faces(node, material, {}))
-      warn("{}: {}", path.string(),
-           gltf::one_line(fmt::format(
-               "node {} (material {}) encloses the scene as a sky does; it casts no shadow unless casters.skies is on",
-               quoted_or(node.name, std::to_string(number)), quoted_or(material.name, "without a name"))));
-  }
+void mark_skies(Scene& scene) {
+  for (const int node : find_skies(scene, rest_pose(scene))) scene.nodes[static_cast<std::size_t>(node)].sky = true;
 }
 
 Scene read_scene(const std::filesystem::path& path, const ImageDecoder& decode, const ReadOptions& options) {
@@ -80,7 +61,7 @@ Scene read_scene(const std::filesystem::path& path, const ImageDecoder& decode, 
   document.left_out.finish();
   check_drawn(scene, options.limits);
   check_extent(scene, options.limits.extent);
-  mark_skies(path, scene);
+  mark_skies(scene);
   if (scene.name.empty()) scene.name = path.stem().string();
   return scene;
 }

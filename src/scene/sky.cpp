@@ -6,9 +6,13 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <string_view>
 
+#include "core/log.h"
 #include "core/names.h"
+#include "scene/casting.h"
+#include "scene/gltf/one_line.h"
 
 namespace penumbra::scene {
 namespace {
@@ -172,8 +176,32 @@ class SkyFinder {
   std::array<glm::vec3, direction_count> directions_;
 };
 
+Material material_of(const Scene& scene, const Primitive& primitive) {
+  return primitive.material < 0 ? Material() : scene.materials[static_cast<std::size_t>(primitive.material)];
+}
+
+std::string quoted_or(const std::string& name, const std::string& otherwise) {
+  return name.empty() ? otherwise : "'" + name + "'";
+}
+
 }  // namespace
 
 std::vector<int> find_skies(const Scene& scene, const Pose& pose) { return SkyFinder(scene, pose).find(); }
+
+void warn_of_skies(const std::filesystem::path& file, const Scene& scene) {
+  for (std::size_t number = 0; number < scene.nodes.size(); ++number) {
+    const Node& node = scene.nodes[number];
+    if (!node.sky) continue;
+    for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+      const Material material = material_of(scene, primitive);
+      if (!casts_as_parameters_say(node, material)) continue;
+      warn("{}: {}", file.string(),
+           gltf::one_line(fmt::format(
+               "node {} (material {}) encloses the scene as a sky does; it casts no shadow unless casters.skies is on",
+               quoted_or(node.name, std::to_string(number)), quoted_or(material.name, "without a name"))));
+      break;
+    }
+  }
+}
 
 }  // namespace penumbra::scene

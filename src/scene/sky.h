@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "scene/pose.h"
@@ -17,5 +18,9 @@ namespace penumbra::scene {
 //   that centre as the corners of the rest's bounding box.
 // Nested skies are listed from the outermost inwards. Skinned and instanced meshes are never skies.
 std::vector<int> find_skies(const Scene& scene, const Pose& pose);
+
+// Warns of the scene's skies that cast no shadow only because they are skies: neither the file's extras nor
+// set_casting() decides about them.
+void warn_of_skies(const std::filesystem::path& file, const Scene& scene);
 
 }  // namespace penumbra::scene

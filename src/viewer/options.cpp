@@ -2,6 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/input_files.h"
+#include "cli/output_names.h"
+
 namespace penumbra::viewer {
 
 void add_view_command_options(CLI::App& app, ViewOptions& options) {
@@ -21,9 +24,10 @@ void add_view_command_options(CLI::App& app, ViewOptions& options) {
   cli::add_shadow_options(app, options);
   session::add_cache_options(app, options);
   cli::add_device_options(app, options);
-  cli::add_value(app, "--layout", "FILE",
-                 "Write the rectangles of all widgets as JSON, for scripts that drive the window",
-                 [&options](const auto& text) { options.layout = text; });
+  cli::add_value(
+      app, "--layout", "FILE",
+      "Write the rectangles of all widgets as JSON, for scripts that drive the window; -: to standard output",
+      [&options](const auto& text) { options.layout = cli::text_output(text); });
   // Options of `render` that a window refuses: not in --help, but with a specific message.
   for (const char* name : {"--frames", "--backend", "--egl-device"}) app.get_option(name)->group("");
 }
@@ -35,6 +39,12 @@ void check_together(const ViewOptions& options) {
   if (options.egl_device) cli::fail_usage("--egl-device is not for a window, which uses the desktop's driver");
   if (options.backend != "auto" && options.backend != "window")
     cli::fail_usage("--backend {} can't open a window", options.backend);
+  if (options.layout.empty()) return;
+  cli::InputFiles inputs;
+  if (!options.scene.empty()) inputs.add("the scene's file", options.scene);
+  inputs.add_presets(options.presets);
+  inputs.add_shaders(options);
+  inputs.check("--layout", options.layout);
 }
 
 }  // namespace penumbra::viewer

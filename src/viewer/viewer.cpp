@@ -35,6 +35,7 @@ Document document_of(const ViewOptions& options) {
   document.options = static_cast<const cli::SceneOptions&>(options);
   document.options.frames = cli::FrameRange{};
   document.params = cli::resolve_params(options, session::all_techniques());
+  document.options.reading.skies_chosen = cli::is_chosen(options, document.params, "casters.skies");
   return document;
 }
 

@@ -70,8 +70,34 @@ class SceneReading(TestCase):
         self.succeed("render", path, "-o", picture, *SMALL, "--casters", "paint = red=off")
         self.assertIn("did you mean 'paint = red'",
                       self.refuse("render", path, "-o", picture, *SMALL, "--casters", "paint red=off"))
+        self.assertIn("--casters); it has 'paint = red'",
+                      self.refuse("render", path, "-o", picture, *SMALL, "--casters", "wood=off"))
         self.assertIn("'front'", self.refuse("render", path, "-o", picture, "--casters", "paint = red=frnt", code=2))
         self.assertIn("MATERIAL=HOW", self.refuse("render", path, "-o", picture, "--casters", "paint", code=2))
+
+    def test_a_sky_is_named_only_if_the_user_has_not_decided_about_it(self):
+        # A large unlit tetrahedron around a small triangle. The small one is the large one's face, scaled.
+        corners = [(0, 90, 0), (-150, -30, 90), (150, -30, 90), (0, -30, -180)]
+        faces = [(0, 1, 2), (0, 2, 3), (0, 3, 1)]
+        data = b"".join(struct.pack("<3f", *corners[i]) for face in faces for i in face)
+        document = {"buffers": [{"byteLength": len(data), "uri": "sky.bin"}],
+                    "bufferViews": [{"buffer": 0, "byteLength": len(data)}],
+                    "accessors": [{"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3"}
+                                  for count in (9, 3)],
+                    "materials": [{"name": "sky", "doubleSided": True}, {"name": "thing"}],
+                    "meshes": [{"primitives": [{"attributes": {"POSITION": i}, "material": i}]} for i in (0, 1)],
+                    "nodes": [{"mesh": 0}, {"mesh": 1, "scale": [0.01, 0.01, 0.01]}]}
+        path = self.write_scene(**document)
+        (path.parent / "sky.bin").write_bytes(data)
+        preset = self.folder / "p.toml"
+        preset.write_text("[casters]\nskies = true\n")
+        picture = self.folder / "x.png"
+        for arguments, warns in (([], True), (["--casters", "thing=off"], True), (["--casters", "sky=off"], False),
+                                 (["--casters", "sky=on"], False), (["--set", "casters.skies=on"], False),
+                                 (["--set", "casters.skies=off"], False), (["--preset", preset], False)):
+            with self.subTest(arguments):
+                result = self.succeed("render", path, "-o", picture, *SMALL, *arguments)
+                self.assertEqual("encloses the scene as a sky does" in result.stderr, warns, result.stderr)
 
     def test_casters_change_the_picture(self):
         def mask(*arguments):

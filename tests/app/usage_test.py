@@ -1,6 +1,7 @@
 """Wrong usage: one line on stderr, exit code 2, near names, nothing drawn."""
 
 import json
+import struct
 import subprocess
 
 from pictures import SMALL, scene
@@ -111,6 +112,8 @@ class Usage(TestCase):
         (self.folder / "here").symlink_to(self.folder)
         preset = self.folder / "p.toml"
         preset.write_text("sun.angle = 1\n")
+        (self.folder / "shaders" / "own").mkdir(parents=True)
+        (self.folder / "shaders" / "own" / "a.inc").write_text("// included\n")
         before = sorted(self.folder.iterdir())
         for of, arguments in (
             ("scene.glb", ["--stats", "scene.glb"]),
@@ -125,14 +128,79 @@ class Usage(TestCase):
             ("scene.glb", ["--stats", "x_0003.shadow.png", "--frames", "0:4", "--aov", "shadow"]),
             ("scene.glb", ["--stats", "a", "--save-preset", "./a"]),
             ("scene.glb", ["--stats", "p.toml", "--preset", "p.toml"]),
+            ("scene.glb", ["--stats", "shaders/own/a.inc", "--glsl", "shaders"]),
+            ("scene.glb", ["--save-preset", "here/shaders/own/a.inc", "--glsl", "shaders"]),
         ):
             with self.subTest(arguments):
                 self.wrong("render", of, "-o", "x.png", *arguments)
+        picture = self.folder / "p.png"
+        picture.write_text(preset.read_text())
+        for command in ("render", "truth"):
+            self.assertIn("the preset 'p.png'", self.wrong(command, "scene.glb", "-o", "p.png", "--preset", "p.png"))
+        picture.unlink()
         self.assertEqual(sorted(self.folder.iterdir()), before)
         self.assertEqual(copy.read_bytes(), POSTS.read_bytes())
         self.succeed("render", copy, "-o", self.folder / "x.png", *SMALL, "--preset", preset, "--sun-angle", "2",
                      "--save-preset", preset)
         self.assertIn("angle = 2.0", preset.read_text())
+
+    def test_results_in_a_folder_spare_what_is_read(self):
+        for name in ("index.html", "results.json", "figures.csv", "steps.csv"):
+            (self.folder / name).write_bytes(POSTS.read_bytes())
+        for arguments in (
+            ["compare", "index.html", "-o", ".", "--technique", "hard"],
+            ["compare", POSTS, "results.json", "-o", ".", "--technique", "hard"],
+            ["compare", POSTS, "-o", ".", "--technique", "hard", "--preset", "index.html"],
+            ["reproduce", "index.html", "-o", "."],
+            ["reproduce", "./figures.csv", "-o", self.folder],
+            ["bench", "steps.csv", "-o", "steps.csv"],
+            ["bench", POSTS, "-o", "steps.csv", "--preset", "steps.csv"],
+        ):
+            with self.subTest(arguments):
+                code = 1 if arguments[0] != "reproduce" and "--preset" in arguments else 2  # the preset is read first
+                self.refuse(*arguments, code=code, cwd=self.folder)
+        for path in self.folder.iterdir():
+            self.assertEqual(path.read_bytes(), POSTS.read_bytes(), path)
+
+    def test_buffers_beside_a_scene_are_spared(self):
+        document = json.dumps({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 36, "uri": "index.html"}],
+                               "bufferViews": [{"buffer": 0, "byteLength": 36}],
+                               "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+                               "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "nodes": [{"mesh": 0}]})
+        (self.folder / "s.gltf").write_text(document)
+        buffer = self.folder / "index.html"
+        buffer.write_bytes(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))
+        before = buffer.read_bytes()
+        for arguments in (["compare", "s.gltf", "-o", ".", "--technique", "hard", *SMALL],
+                          ["compare", POSTS, "s.gltf", "-o", ".", "--technique", "hard", *SMALL],
+                          ["reproduce", "s.gltf", "-o", ".", "--quick"],
+                          ["bench", "s.gltf", "-o", "index.html", *SMALL]):
+            with self.subTest(arguments):
+                self.assertIn("the scene's file", self.wrong(*arguments))
+        self.assertEqual(buffer.read_bytes(), before)
+
+    def test_a_dash_is_standard_output(self):
+        for option, start in (("--stats", "{"), ("--save-preset", "#")):
+            result = self.succeed("render", POSTS, "-o", "x.png", *SMALL, option, "-", cwd=self.folder)
+            self.assertTrue(result.stdout.startswith(start), result.stdout)
+            self.assertNotIn("wrote", result.stdout)
+            if option == "--stats":
+                json.loads(result.stdout)
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["x.png"])
+        self.succeed("render", POSTS, "-o", "x.png", *SMALL, "--stats", "./-", "--quiet", cwd=self.folder)
+        self.assertTrue((self.folder / "-").exists())
+        (self.folder / "-").unlink()
+        for arguments in (["render", POSTS, "-o", "-"], ["compare", POSTS, "-o", "-", "--technique", "hard"],
+                          ["reproduce", "-o", "-"], ["glsl", "-"], ["bake", "points", "-o", "-"],
+                          ["bench", POSTS, "-o", "-"]):
+            with self.subTest(arguments):
+                self.assertIn("'-", self.wrong(*arguments))
+        self.assertFalse((self.folder / "-").exists())
+
+    def test_a_short_option_takes_no_equals_sign(self):
+        for arguments in (["render", POSTS, "-o=o/x.png"], ["compare", POSTS, "--technique", "hard", "-o=o"]):
+            self.assertIn("'--output='", self.wrong(*arguments))
+        self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_memory_of_shadow_maps_has_a_limit(self):
         error = self.wrong_render("--set", "cascades.size=8192", "--set", "cascades.count=5")
@@ -149,13 +217,21 @@ class Usage(TestCase):
             self.assertIn("penumbra list params", error)
 
     def test_a_folder_of_shaders_must_exist(self):
-        self.assertIn("--glsl", self.refuse("render", POSTS, "-o", self.folder / "x.png", "--glsl", "/no/folder"))
+        for glsl, cause in (("/no/folder", "nothing has that name"), (POSTS, "a file, not a folder")):
+            error = self.refuse("render", POSTS, "-o", self.folder / "x.png", "--glsl", glsl)
+            self.assertIn("--glsl", error)
+            self.assertIn(cause, error)
 
     def test_help_explains_every_name(self):
         for what in ("techniques", "params", "aovs"):
             for row in json.loads(self.succeed("list", what, "--json").stdout):
                 with self.subTest(row["name"]):
                     self.assertIn(row["help"], self.succeed("help", row["name"]).stdout)
+
+    def test_every_choice_of_a_denoiser_is_listed(self):
+        listed = {row["name"] for row in json.loads(self.succeed("list", "denoisers", "--json").stdout)}
+        params = json.loads(self.succeed("list", "params", "--json").stdout)
+        self.assertEqual(listed, set(next(row["choices"] for row in params if row["name"] == "denoiser")))
 
     def test_what_cannot_be_reached_is_told_as_what_it_is(self):
         (self.folder / "file").write_text("a file")

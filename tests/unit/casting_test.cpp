@@ -204,13 +204,21 @@ TEST(SkyWarning, NamesNodeAndMaterial) {
                      R"("nodes":[{"name":"Dome","mesh":0)" +
                      more + R"(},{"mesh":1}])");
   };
-  const std::vector<std::string> warnings = warnings_of([&] { EXPECT_TRUE(load_text(text("")).nodes[0].sky); });
+  const auto warnings_about = [](scene::Scene scene) {
+    EXPECT_TRUE(scene.nodes[0].sky);
+    return warnings_of([&] { scene::warn_of_skies("a.gltf", scene); });
+  };
+  const std::vector<std::string> warnings = warnings_about(load_text(text("")));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("node 'Dome' (material 'Clouds') encloses the scene as a sky does; "
                              "it casts no shadow unless casters.skies is on"),
             std::string::npos)
       << warnings[0];
-  EXPECT_TRUE(warnings_of([&] { load_text(text(extras("true"))); }).empty()) << "it was asked for";
+  for (const char* decided : {"true", "false"})
+    EXPECT_TRUE(warnings_about(load_text(text(extras(decided)))).empty()) << decided;
+  scene::Scene chosen = load_text(text(""));
+  scene::set_casting(chosen, "Clouds", Casting::off);
+  EXPECT_TRUE(warnings_about(std::move(chosen)).empty());
 }
 
 }  // namespace

@@ -115,6 +115,15 @@ TEST(ImageRead, ReadsJpegs) {
   EXPECT_EQ(image.rgba, grey);
 }
 
+TEST(ImageRead, RefusesATruncatedJpeg) {
+  const std::string whole = jpeg_8x8();
+  for (const std::size_t cut : {1, 2, 3}) {  // the end marker, half of it, and the pixels
+    EXPECT_EQ(error_of([&] { decode(bytes_of(whole.substr(0, whole.size() - cut))); }),
+              "JPEG is truncated: it ends without an end marker")
+        << cut;
+  }
+}
+
 TEST(ImageRead, ReadsNoMetadataOfAJpeg) {
   using namespace std::string_literals;
   // Photoshop's resource 0x0404, IPTC, whose record claims to hold 64 KiB although the segment ends there: IPTC parsers

@@ -9,7 +9,9 @@
 
 #include "app/commands.h"
 #include "app/diff/figures.h"
+#include "cli/input_files.h"
 #include "cli/options.h"
+#include "cli/output_names.h"
 #include "cli/usage.h"
 #include "image/picture.h"
 #include "image/write.h"
@@ -59,7 +61,8 @@ void add_options(CLI::App& app, DiffOptions& options) {
       options.mask);
   add("--heatmap", "FILE", "PNG that shows where the pictures differ: FLIP for that metric, else |error|",
       options.heatmap);
-  add("--json", "FILE", "Write the figures as JSON; -: to standard output, instead of the line", options.json);
+  cli::add_value(app, "--json", "FILE", "Write the figures as JSON; -: to standard output, instead of the line",
+                 [&](const std::string& text) { options.json = cli::text_output(text); });
   cli::add_value(app, "--max-pixels", "N", "Refuse larger pictures before they are decoded (as many as memory holds)",
                  [&](const std::string& text) {
                    options.max_pixels = cli::parse_count("--max-pixels", text, 1, std::numeric_limits<int>::max());
@@ -101,16 +104,15 @@ std::vector<std::uint8_t> receivers_of(const DiffOptions& options) {
 // Called before measuring, which can take minutes. Throws if a result can't be written, or would overwrite another one
 // or a picture that is compared.
 void check_results(const DiffOptions& options) {
-  const std::string json = options.json == "-" ? "" : options.json;
-  for (const auto& [option, result] : {std::pair("--heatmap", options.heatmap), std::pair("--json", json)}) {
+  cli::InputFiles inputs;
+  for (const std::string& picture : {options.test, options.reference}) inputs.add("the picture", picture);
+  for (const auto& [option, result] : {std::pair("--heatmap", options.heatmap), std::pair("--json", options.json)}) {
     if (result.empty()) continue;
-    for (const std::string& input : {options.test, options.reference})
-      if (io::would_replace(result, input))
-        cli::fail_usage("{} would overwrite the picture {}", option, io::quoted(input));
+    inputs.check(option, result);
     io::check_writable(result);
   }
-  if (!json.empty() && !options.heatmap.empty() && io::would_replace(json, options.heatmap))
-    cli::fail_usage("--heatmap and --json name the same file {}", io::quoted(json));
+  if (!options.json.empty() && !options.heatmap.empty() && io::would_replace(options.json, options.heatmap))
+    cli::fail_usage("--heatmap and --json name the same file {}", io::quoted(options.json));
 }
 
 void write_heatmap(const DiffOptions& options, const Metric& metric, const Difference& difference,
@@ -161,10 +163,7 @@ void write_json(const DiffOptions& options, const Figure& figure, const Differen
     limit[options.max ? "max" : "min"] = options.max ? *options.max : *options.min;
     limit["kept"] = verdict(options, figure, difference).empty();
   }
-  if (options.json == "-")
-    fmt::print("{}", io::text_of(json));
-  else
-    io::write_text(options.json, io::text_of(json));
+  io::write_text(options.json, io::text_of(json));
 }
 
 }  // namespace
@@ -190,7 +189,8 @@ int run_diff(const Arguments& arguments) {
 
   if (!options.heatmap.empty()) write_heatmap(options, metric, difference, reference);
   if (!options.json.empty()) write_json(options, figure, difference, reference);
-  if (!options.quiet && options.json != "-") fmt::print("{}\n", text_of(difference));
+  const bool json_on_stdout = !options.json.empty() && io::would_replace(options.json, "/dev/stdout");
+  if (!options.quiet && !json_on_stdout) fmt::print("{}\n", text_of(difference));
   const std::string fault = verdict(options, figure, difference);
   if (!fault.empty()) fail("{}", fault);
   return 0;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "cli/input_files.h"
 #include "io/output_file.h"
 
 namespace penumbra::app {
@@ -55,30 +56,27 @@ void check_alone(const char* option, const fs::path& result, const RenderOptions
 
 void check_scene_files(const std::vector<fs::path>& files, const RenderOptions& options,
                        const cli::OutputNames& names) {
+  cli::InputFiles inputs;
+  inputs.add_scene(files);
+  inputs.add_shaders(options);
+  // A preset may be read and saved under one name: that changes it.
+  if (!options.save_preset.empty()) inputs.check("--save-preset", options.save_preset);
+  inputs.add_presets(options.presets);
+  if (!options.stats.empty()) inputs.check("--stats", options.stats);
   const std::vector<fs::path> linked = linked_places(options, names);
-  for (const fs::path& file : files) {
-    const auto refuse = [&](const char* option) {
-      cli::fail_usage("{} would overwrite the scene's file {}", option, io::quoted(file));
-    };
-    if (is_picture(file, options, names, linked)) refuse("-o");
-    if (!options.stats.empty() && io::would_replace(options.stats, file)) refuse("--stats");
-    if (!options.save_preset.empty() && io::would_replace(options.save_preset, file)) refuse("--save-preset");
+  for (const cli::InputFile& file : inputs.files()) {
+    if (is_picture(file.path, options, names, linked)) cli::fail_overwrite("-o", file.what, file.path);
   }
 }
 
 void check_files(const RenderOptions& options, const cli::OutputNames& names) {
   check_scene_files({options.scene}, options, names);
   io::check_writable(names.picture(options.frames.value_or(cli::FrameRange{}).first));
-  // A preset may be read and saved under one name: that changes it.
   if (!options.save_preset.empty()) check_alone("--save-preset", options.save_preset, options, names);
   if (options.stats.empty()) return;
   check_alone("--stats", options.stats, options, names);
   if (!options.save_preset.empty() && io::place_of(options.stats) == io::place_of(options.save_preset))
     cli::fail_usage("--stats and --save-preset name the same file {}", io::quoted(options.stats));
-  for (const std::string& preset : options.presets) {
-    if (io::would_replace(options.stats, preset))
-      cli::fail_usage("--stats {} would overwrite a preset", io::quoted(options.stats));
-  }
 }
 
 }  // namespace penumbra::app

@@ -9,7 +9,7 @@
 namespace penumbra::app {
 
 // Called before drawing, which can take minutes. Checks that the results can be written and that none would overwrite
-// another one, the scene or a preset that is only read. Throws Error, or UsageError if the command line is wrong.
+// another one or a file that is only read. Throws Error, or UsageError if the command line is wrong.
 void check_files(const RenderOptions& options, const cli::OutputNames& names);
 
 // Called once the scene is read. Throws UsageError if a result would overwrite one of its files.

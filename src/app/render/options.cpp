@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/output_names.h"
 #include "render/renderer.h"
 
 namespace penumbra::app {
@@ -34,12 +35,13 @@ void add_output_options(CLI::App& app, RenderOptions& o) {
   add_value(app, "--aov", "NAME,...",
             "Other pictures of the frame: layers of an EXR, or a PNG each; see penumbra list aovs",
             [&o](const auto& text) { add_aovs(o.aovs, text); });
-  add_value(app, "--stats", "FILE", "Write the cost of each pass and facts about the frame as JSON",
-            [&o](const auto& text) { o.stats = text; });
+  add_value(app, "--stats", "FILE",
+            "Write the cost of each pass and facts about the frame as JSON; -: to standard output",
+            [&o](const auto& text) { o.stats = cli::text_output(text); });
   add_value(app, "--stats-frames", "N", "Frames to measure, after one that compiles shaders (1)",
             [&o](const auto& text) { o.stats_frames = cli::parse_count("--stats-frames", text, 1, 10000); });
-  add_value(app, "--save-preset", "FILE", "Write this picture's parameters as a preset file",
-            [&o](const auto& text) { o.save_preset = text; });
+  add_value(app, "--save-preset", "FILE", "Write this picture's parameters as a preset file; -: to standard output",
+            [&o](const auto& text) { o.save_preset = cli::text_output(text); });
   add_value(app, "--warmup", "N", "Frames drawn, but not written, before the first, for techniques with a history (0)",
             [&o](const auto& text) { o.warmup = cli::parse_count("--warmup", text, 0, 10000); });
   app.add_flag("--warmup-still", o.warmup_still,

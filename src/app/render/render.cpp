@@ -41,7 +41,7 @@ std::FILE* summary_stream(const RenderOptions& options) {
   return stdout;
 }
 
-void render_files(const RenderOptions& options) {
+void render_files(RenderOptions options) {
   const Clock::time_point start = Clock::now();
   const cli::OutputNames names(options.output, options.frames.has_value());
   const ParamSet params = cli::resolve_params(options, session::all_techniques());
@@ -49,6 +49,7 @@ void render_files(const RenderOptions& options) {
   cli::clean_up_on_signals();
   session::limit_threads(options);
   check_files(options, names);
+  options.reading.skies_chosen = cli::is_chosen(options, params, "casters.skies");
 
   // Starting the driver takes about as long as loading a scene: do both at once.
   std::future<session::PreparedScene> loading = std::async(std::launch::async, [&options] {
@@ -78,7 +79,7 @@ int run_render(const Arguments& arguments) {
   if (!cli::parse(app, arguments)) return 0;
   check_together(options);
   options.reading.progress = !options.quiet;
-  render_files(options);
+  render_files(std::move(options));
   return 0;
 }
 

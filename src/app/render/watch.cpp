@@ -80,7 +80,7 @@ std::string difference(const std::vector<std::uint8_t>& before, const std::vecto
 // One picture, drawn again whenever a file that it depends on changes.
 class Watch {
  public:
-  explicit Watch(const RenderOptions& options);
+  explicit Watch(RenderOptions options);
 
   void run();  // until a signal ends the program
 
@@ -100,7 +100,7 @@ class Watch {
   std::string report(const Change& change);
   void print_faults();
 
-  const RenderOptions& options_;
+  RenderOptions options_;
   cli::OutputNames names_;
   session::FileWatch files_;
   ParamSet params_;
@@ -112,15 +112,16 @@ class Watch {
   std::vector<std::uint8_t> shown_;  // the last picture that was written
 };
 
-Watch::Watch(const RenderOptions& options)
-    : options_(options),
-      names_(options.output, /* sequence= */ false),
-      params_(cli::resolve_params(options, session::all_techniques())),
-      truth_(session::truth_options(options, options)) {
+Watch::Watch(RenderOptions options)
+    : options_(std::move(options)),
+      names_(options_.output, /* sequence= */ false),
+      params_(cli::resolve_params(options_, session::all_techniques())),
+      truth_(session::truth_options(options_, options_)) {
   check_files(options_, names_);
   files_.set_files(inputs());
   if (!options_.glsl.empty()) files_.add_folder(options_.glsl);
   params_ = cli::resolve_params(options_, session::all_techniques());  // files may have changed before the watch began
+  options_.reading.skies_chosen = cli::is_chosen(options_, params_, "casters.skies");
   prepared_ = std::make_unique<session::PreparedScene>(
       session::load_scene(options_, image::image_decoder(cli::limits_of(options_.reading))));
   check_scene_files(prepared_->scene.files, options_, names_);
@@ -264,7 +265,7 @@ int run_watch(const Arguments& arguments) {
   check_watchable(options);
   cli::clean_up_on_signals();
   session::limit_threads(options);
-  Watch(options).run();
+  Watch(std::move(options)).run();
   return 0;
 }
 

@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/metadata.h"
 #include "app/truth/local_light.h"
+#include "cli/input_files.h"
 #include "cli/output_names.h"
 #include "cli/progress.h"
 #include "cli/signals.h"
@@ -127,22 +128,27 @@ std::string summary(const std::filesystem::path& path, const cli::Size& size, co
                      size.width, size.height, traced.samples, cost, error_of_most(last));
 }
 
-void check_scene_files(const std::vector<std::filesystem::path>& files, const cli::OutputNames& names,
-                       const cli::FrameRange& range) {
-  for (int frame = range.first; frame <= range.last; ++frame) cli::check_spared(files, "-o", names.picture(frame));
+void check_inputs(const std::vector<std::filesystem::path>& scene_files, const TruthOptions& options,
+                  const cli::OutputNames& names, const cli::FrameRange& range) {
+  cli::InputFiles inputs;
+  inputs.add_scene(scene_files);
+  inputs.add_presets(options.presets);
+  inputs.add_shaders(options);
+  for (int frame = range.first; frame <= range.last; ++frame) inputs.check("-o", names.picture(frame));
 }
 
-void trace_files(const TruthOptions& options) {
+void trace_files(TruthOptions options) {
   const cli::OutputNames names(options.output, options.frames.has_value());
   const ParamSet params = params_of(options, session::all_techniques());
   const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});
   cli::clean_up_on_signals();
   session::limit_threads(options);
-  check_scene_files({options.scene}, names, range);
+  check_inputs({options.scene}, options, names, range);
   io::check_writable(names.picture(range.first));
+  options.reading.skies_chosen = cli::is_chosen(options, params, "casters.skies");
   const session::PreparedScene prepared =
       session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)));
-  check_scene_files(prepared.scene.files, names, range);
+  check_inputs(prepared.scene.files, options, names, range);
 
   constexpr int parts = 1000;  // of a frame
   std::optional<cli::Progress> progress;
@@ -179,7 +185,7 @@ int run_truth(const Arguments& arguments) {
   cli::check_together(static_cast<const cli::SceneOptions&>(options));
   cli::check_together(static_cast<const cli::DeviceOptions&>(options));
   check_together(static_cast<const session::CacheOptions&>(options));
-  trace_files(options);
+  trace_files(std::move(options));
   return 0;
 }
 
