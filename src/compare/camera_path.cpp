@@ -63,4 +63,8 @@ render::FrameInputs CameraPath::frame(int frame, bool again) const {
   return inputs;
 }
 
+render::Sun CameraPath::sun(int frame) const {
+  return session::setup_at(prepared_, session::time_of(options_, frame)).sun;
+}
+
 }  // namespace penumbra::compare

@@ -62,11 +62,9 @@ ComparedScene compare_scene(const CompareOptions& options, const session::Prepar
   scene::GpuScene scene(device, prepared.scene);
   const CameraPath path(options, prepared);
   const DrawnScene common{options, device, techniques, scene, path, drawn};
-  const render::FrameInputs first = path.frame(options.frames ? options.frames->first : 0);
-  ComparedScene result{.path = options.scene,
-                       .camera = first.camera,
-                       .sun = std::get<render::Sun>(first.lights.front()),
-                       .target = path.target()};
+  const int first = options.frames ? options.frames->first : 0;
+  ComparedScene result{
+      .path = options.scene, .camera = path.frame(first).camera, .sun = path.sun(first), .target = path.target()};
   const std::vector<ReferenceFrame> reference = draw_reference(common, values.reference, result.reference);
   warn_of_frames_without_receivers(options.scene, reference);
   result.pixels = reference.back().receivers.size();

@@ -138,11 +138,9 @@ std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamS
   const cli::FrameRange range = range_of(scene.options);
   std::vector<ReferenceFrame> frames;
   for (int frame = range.first; frame <= range.last; ++frame) {
-    const render::FrameInputs inputs = scene.path.frame(frame);
-    renderer.draw(scene.scene, inputs, params);
-    const auto& sun = std::get<render::Sun>(inputs.lights.front());
-    frames.push_back(
-        {renderer.read_aov("shadow"), render::receivers_of(renderer, sun.to_light, params.get_float("sun.angle"))});
+    renderer.draw(scene.scene, scene.path.frame(frame), params);
+    frames.push_back({renderer.read_aov("shadow"),
+                      render::receivers_of(renderer, scene.path.sun(frame).to_light, params.get_float("sun.angle"))});
     scene.drawn();
   }
   last = {.display = renderer.read_display(), .visibility = frames.back().visibility, .error = {}};

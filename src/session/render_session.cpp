@@ -51,8 +51,7 @@ void RenderSession::draw_at(double time, double last_time, bool cut, const Param
   const cli::Size pixels{options_.size.width * options_.supersample, options_.size.height * options_.supersample};
   const render::FrameInputs inputs =
       frame_inputs(*prepared_, pixels, {.time = time, .last_time = last_time, .cut = cut});
-  setup_.camera = inputs.camera;
-  setup_.sun = std::get<render::Sun>(inputs.lights.front());
+  setup_ = setup_at(*prepared_, time);
   renderer_.draw(*scene_, inputs, params);
   drawn_time_ = time;
 }

@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <glm/trigonometric.hpp>
+#include <map>
 #include <utility>
+#include <variant>
 
 #include "core/error.h"
 #include "gl/api.h"
 #include "render/passes.h"
 #include "shadow/pass_context.h"
 #include "truth/background_tracer.h"
+#include "truth/facing.h"
+#include "truth/light_pictures.h"
 #include "truth/picture_request.h"
 
 namespace penumbra::truth {
@@ -40,39 +43,16 @@ TraceOptions trace_options(const ParamSet& params, const TechniqueOptions& optio
           .progress = options.progress};
 }
 
+// A frame's light as the tracer's light: one overload for each kind of shadow::LightSource.
+Light traced_light(const shadow::Sun& sun, const ParamSet& params) {
+  return Sun{.to_light = glm::dvec3(sun.to_light),
+             .angle = glm::radians(static_cast<double>(params.get_float("sun.angle"))),
+             .square = params.get_word("sun.shape") == "square"};
+}
+
 Light light_of(const shadow::PassContext& frame, const TechniqueOptions& options, double seconds) {
   if (options.local_light) return options.local_light(seconds);
-  return Sun{.to_light = glm::dvec3(std::get<shadow::Sun>(frame.light().source).to_light),
-             .angle = glm::radians(static_cast<double>(frame.params().get_float("sun.angle"))),
-             .square = frame.params().get_word("sun.shape") == "square"};
-}
-
-// 1 for receivers that have the whole light above their surface, else 0: part of a light at grazing angles is below the
-// surface.
-std::vector<float> before_light(std::span<const Receiver> receivers, const Light& light) {
-  std::vector<float> before;
-  before.reserve(receivers.size());
-  for (const Receiver& receiver : receivers) {
-    bool all = receiver.there;
-    if (all) {
-      const SeenLight seen = seen_from(light, receiver.position);
-      const double radius = glm::length(seen.side_x), distance = glm::length(seen.center);
-      all = glm::dot(receiver.normal, seen.center) > distance * radius / std::hypot(distance, radius);
-    }
-    before.push_back(all ? 1.0f : 0.0f);
-  }
-  return before;
-}
-
-// The mask without occlusion: 1 where the light's centre is above the surface or there is no surface, else 0.
-std::vector<float> unshadowed(std::span<const Receiver> receivers, const Light& light) {
-  std::vector<float> facing;
-  facing.reserve(receivers.size());
-  for (const Receiver& receiver : receivers) {
-    const bool lit = !receiver.there || glm::dot(receiver.normal, seen_from(light, receiver.position).center) > 0;
-    facing.push_back(lit ? 1.0f : 0.0f);
-  }
-  return facing;
+  return std::visit([&](const auto& source) { return traced_light(source, frame.params()); }, frame.light().source);
 }
 
 // Writes visibility only: ray tracing gives no penumbra radius.
@@ -94,22 +74,31 @@ struct TruthTechnique::State {
   TechniqueOptions options;
   Cache cache;
   PictureTracer tracer;
-  Last last;
+  std::map<LightId, LightPictures> lights;
+  Last none;
+  const Last* last = &none;
+  long long turn = 0;  // counts the lights drawn
 
   // For background tracing. Only the frame's thread uses the cache, because creating files briefly changes the umask,
   // which belongs to the whole process.
   BackgroundTracer worker{tracer};
-  std::optional<Key> shown;    // the picture in `last`
-  std::optional<Key> awaited;  // the picture that the last frame requested
-  std::optional<Key> failed;
+  struct Tracing {
+    LightId light;
+    Key key;
+  };
+  std::optional<Tracing> tracing;  // what the worker was last started for
 
   void resolve(const shadow::PassContext& frame);
   PictureRequest request(const shadow::PassContext& frame, const render::FrameScene& user) const;
-  void show(const PictureRequest& wanted, TracedPicture picture, bool from_cache);
-  bool find(const PictureRequest& wanted);
-  void resolve_now(const shadow::PassContext& frame, const PictureRequest& wanted);
-  void resolve_later(const shadow::PassContext& frame, PictureRequest wanted);
-  void take(const PictureRequest& wanted, const std::optional<Key>& waited);
+  LightPictures& pictures_of(LightId id);
+  void show(LightPictures& light, const PictureRequest& wanted, TracedPicture picture, bool from_cache);
+  bool find(LightPictures& light, const PictureRequest& wanted);
+  void fill(const shadow::PassContext& frame, const LightPictures& light);
+  void resolve_now(const shadow::PassContext& frame, LightPictures& light, const PictureRequest& wanted);
+  void resolve_later(const shadow::PassContext& frame, LightId id, PictureRequest wanted);
+  void collect();
+  bool worker_is_free(LightId id, long long last_turn) const;
+  void cancel();
   void stop();
 };
 
@@ -125,74 +114,125 @@ PictureRequest TruthTechnique::State::request(const shadow::PassContext& frame, 
   return request;
 }
 
-void TruthTechnique::State::show(const PictureRequest& wanted, TracedPicture picture, bool from_cache) {
-  last = {.traced = std::move(picture.traced),
-          .receiver = before_light(wanted.receivers, wanted.light),
-          .from_cache = from_cache,
-          .build = picture.build};
-  shown = wanted.key;
+// Forgets the light that was drawn longest ago when there are more than any frame has.
+LightPictures& TruthTechnique::State::pictures_of(LightId id) {
+  constexpr std::size_t most = 32;
+  LightPictures& light = lights[id];
+  light.turn = ++turn;
+  if (lights.size() > most) {
+    const auto oldest = std::ranges::min_element(lights, {}, [](const auto& entry) { return entry.second.turn; });
+    if (last == &oldest->second.last) last = &none;
+    lights.erase(oldest);
+  }
+  return light;
+}
+
+void TruthTechnique::State::show(LightPictures& light, const PictureRequest& wanted, TracedPicture picture,
+                                 bool from_cache) {
+  light.last = {.traced = std::move(picture.traced),
+                .receiver = before_light(wanted.receivers, wanted.light),
+                .from_cache = from_cache,
+                .build = picture.build};
+  light.shown = wanted.key;
 }
 
 // Looks for the picture in the cache.
-bool TruthTechnique::State::find(const PictureRequest& wanted) {
+bool TruthTechnique::State::find(LightPictures& light, const PictureRequest& wanted) {
   std::optional<Traced> kept = cache.find(wanted.key, wanted.receivers.size());
-  if (kept) show(wanted, {.key = wanted.key, .traced = std::move(*kept), .build = {}}, /*from_cache=*/true);
+  if (kept) show(light, wanted, {.key = wanted.key, .traced = std::move(*kept), .build = {}}, /*from_cache=*/true);
   return kept.has_value();
 }
 
-void TruthTechnique::State::resolve_now(const shadow::PassContext& frame, const PictureRequest& wanted) {
-  if (!find(wanted)) {
-    show(wanted, tracer.trace(wanted), /*from_cache=*/false);
-    cache.keep(wanted.key, last.traced);
-  }
-  fill_mask(frame, last.traced.visibility);
+void TruthTechnique::State::fill(const shadow::PassContext& frame, const LightPictures& light) {
+  last = &light.last;
+  fill_mask(frame, light.last.traced.visibility);
 }
 
-// Collects a picture that the worker has finished.
-void TruthTechnique::State::take(const PictureRequest& wanted, const std::optional<Key>& waited) {
+void TruthTechnique::State::resolve_now(const shadow::PassContext& frame, LightPictures& light,
+                                        const PictureRequest& wanted) {
+  if (!find(light, wanted)) {
+    show(light, wanted, tracer.trace(wanted), /*from_cache=*/false);
+    cache.keep(wanted.key, light.last.traced);
+  }
+  fill(frame, light);
+}
+
+// Takes a picture that the worker has finished, or throws its error.
+void TruthTechnique::State::collect() {
+  const auto light = tracing ? lights.find(tracing->light) : lights.end();
   try {
     std::optional<TracedPicture> picture = worker.take();
     if (!picture) return;
     cache.keep(picture->key, picture->traced);
-    if (picture->key == wanted.key) show(wanted, std::move(*picture), /*from_cache=*/false);
+    if (light == lights.end() || tracing->key != picture->key) return;  // one that was cancelled as it finished
+    light->second.finished = std::move(picture);
+    tracing.reset();
   } catch (...) {
-    failed = waited;
+    if (light != lights.end()) light->second.failed = tracing->key;
+    tracing.reset();
     throw;
   }
 }
 
-void TruthTechnique::State::resolve_later(const shadow::PassContext& frame, PictureRequest wanted) {
-  const std::optional<Key> waited = std::exchange(awaited, std::nullopt);
-  take(wanted, waited);
+// Whether the worker traces nothing, or a picture that is no longer needed: of this light, or of one that was not drawn
+// since this one's last turn. Lights of the same frame wait for each other.
+bool TruthTechnique::State::worker_is_free(LightId id, long long last_turn) const {
+  if (!tracing || tracing->light == id || !worker.share_done()) return true;
+  const auto other = lights.find(tracing->light);
+  return other == lights.end() || other->second.turn < last_turn;
+}
+
+void TruthTechnique::State::cancel() {
+  worker.cancel();
+  tracing.reset();
+}
+
+void TruthTechnique::State::resolve_later(const shadow::PassContext& frame, LightId id, PictureRequest wanted) {
+  const auto known = lights.find(id);
+  const long long last_turn = known == lights.end() ? 0 : known->second.turn;
+  LightPictures& light = pictures_of(id);
+  const std::optional<Key> waited = std::exchange(light.awaited, std::nullopt);
+  collect();
   const Key key = wanted.key;
-  if (failed != key) failed.reset();
-  if (shown == key || (waited != key && find(wanted))) {
-    worker.cancel();
-    fill_mask(frame, last.traced.visibility);
+  if (light.finished && light.finished->key == key)
+    show(light, wanted, std::move(*light.finished), /*from_cache=*/false);
+  light.finished.reset();
+  if (light.failed != key) light.failed.reset();
+  if (light.shown == key || (waited != key && find(light, wanted))) {
+    if (tracing && tracing->light == id) cancel();
+    fill(frame, light);
     return;
   }
   fill_mask(frame, unshadowed(wanted.receivers, wanted.light));
-  if (failed == key) return;
-  if (waited != key) worker.start(std::move(wanted));
-  awaited = key;
+  if (light.failed == key) return;
+  const bool traced = tracing && tracing->light == id && tracing->key == key;
+  if (!traced && worker_is_free(id, last_turn)) {
+    worker.start(std::move(wanted));
+    tracing = Tracing{id, key};
+  }
+  light.awaited = key;
 }
 
 void TruthTechnique::State::resolve(const shadow::PassContext& frame) {
   const auto* user = static_cast<const render::FrameScene*>(frame.inputs().user);
   if (user == nullptr) fail("technique 'truth' traces a renderer's scene, and Inputs::user has none");
   PictureRequest wanted = request(frame, *user);
+  const LightId id{.view = frame.inputs().view.id, .light = frame.light().id};
   const gl::Pass pass(frame.device(), {.name = "ray trace"});
   if (options.background) {
-    resolve_later(frame, std::move(wanted));
+    resolve_later(frame, id, std::move(wanted));
   } else {
-    resolve_now(frame, wanted);
+    resolve_now(frame, pictures_of(id), wanted);
   }
 }
 
 void TruthTechnique::State::stop() {
   worker.stop();
-  awaited.reset();
-  failed.reset();
+  tracing.reset();
+  for (auto& [id, light] : lights) {
+    light.awaited.reset();
+    light.failed.reset();
+  }
 }
 
 TruthTechnique::TruthTechnique(TechniqueOptions options) : state_(std::make_shared<State>(std::move(options))) {}
@@ -230,17 +270,19 @@ shadow::Registry TruthTechnique::registry(const shadow::Registry& base) const {
 }
 
 std::optional<TruthTechnique::Pending> TruthTechnique::pending() const {
-  const std::optional<double> share = state_->awaited ? state_->worker.share_done() : std::nullopt;
+  const auto awaits = [](const auto& entry) { return entry.second.awaited.has_value(); };
+  if (std::ranges::none_of(state_->lights, awaits)) return {};
+  const std::optional<double> share = state_->worker.share_done();
   return share ? std::optional(Pending{*share}) : std::nullopt;
 }
 
 void TruthTechnique::cancel() {
-  state_->worker.cancel();
-  state_->awaited.reset();
+  state_->cancel();
+  for (auto& [id, light] : state_->lights) light.awaited.reset();
 }
 
 void TruthTechnique::stop() { state_->stop(); }
 
-const TruthTechnique::Last& TruthTechnique::last() const { return state_->last; }
+const TruthTechnique::Last& TruthTechnique::last() const { return *state_->last; }
 
 }  // namespace penumbra::truth

@@ -20,9 +20,10 @@ struct TechniqueOptions {
   // If set, traces this light instead of the sun, at the time of the frame.
   std::function<LocalLight(double seconds)> local_light;
   // Frames don't wait for their picture. Until it is traced, the mask is 0 where the surface faces away from the
-  // light's centre, else 1. A frame that needs another picture cancels the one that is being traced, so two views drawn
-  // in turn never finish. The next frame throws an error of the tracing (such as not enough memory), once; the same
-  // picture is not tried again until another one is requested or stop() is called.
+  // light's centre, else 1. A light that needs another picture than in the view's last frame cancels the one that is
+  // being traced for it. The lights of a frame, and views of different ids, are traced one after the other. The next
+  // frame throws an error of the tracing (such as not enough memory), once; the same picture is not tried again until
+  // another one is requested or stop() is called.
   bool background = false;
 };
 
@@ -40,10 +41,10 @@ class TruthTechnique {
   shadow::Registry registry(const shadow::Registry& base = shadow::built_in_registry()) const;
 
   struct Pending {
-    double share_done;  // of the work, 0 to 1; never falls while frames request the same picture
+    double share_done;  // of the picture, 0 to 1; never falls while frames request the same one
   };
-  // With background tracing: set while the picture that the last frame requested is being traced. When it is empty
-  // again, the next frame shows the picture.
+  // With background tracing: set while a picture that the last frame requested is being traced. When it is empty
+  // again, the next frame shows the picture, and starts tracing that of the next light that has none.
   std::optional<Pending> pending() const;
 
   // Cancels background tracing. Returns at once; the scene may still be read for a moment.
@@ -52,7 +53,7 @@ class TruthTechnique {
   // last frames, or its scene::Scene, is destroyed. The next frame starts tracing again.
   void stop();
 
-  // The last traced picture that a frame of this technique showed; rows bottom to top.
+  // The last traced picture that a frame of this technique showed, of its last light; rows bottom to top.
   struct Last {
     Traced traced;
     std::vector<float>

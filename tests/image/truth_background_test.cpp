@@ -86,18 +86,24 @@ class Stage {
   render::Renderer renderer(const truth::TruthTechnique& truth) { return render::Renderer(device_, truth.registry()); }
   render::Sun& sun() { return setup_.sun; }
 
-  void draw(render::Renderer& renderer, int rays) {
+  // Draws with a second sun, from another direction, from now on.
+  void add_sun() {
+    second_ = render::Sun{.to_light = render::direction_to(2.0f, 0.9f), .illuminance = glm::vec3(2e4f)};
+  }
+
+  void draw(render::Renderer& renderer, int rays, int view = 0) {
     ParamSet params(render::Renderer::params(renderer.registry()));
     params.set("sun.angle", 4.0f);
     renderer.registry().select(params, "truth");
     params.set("truth.samples", rays);
-    renderer.draw(*gpu_scene_,
-                  {.width = width,
-                   .height = height,
-                   .camera = setup_.camera,
-                   .last_camera = setup_.camera,
-                   .lights = {setup_.sun}},
-                  params);
+    render::FrameInputs inputs{.width = width,
+                               .height = height,
+                               .view = view,
+                               .camera = setup_.camera,
+                               .last_camera = setup_.camera,
+                               .lights = {setup_.sun}};
+    if (second_) inputs.lights.emplace_back(*second_);
+    renderer.draw(*gpu_scene_, inputs, params);
   }
   void draw_until_there(render::Renderer& renderer, int rays, const truth::TruthTechnique& truth) {
     draw(renderer, rays);
@@ -118,6 +124,7 @@ class Stage {
   gl::Device device_{gl::ShaderFiles(), gl::Timers::Mode::off};
   scene::Scene scene_;
   render::Setup setup_;
+  std::optional<render::Sun> second_;
   std::optional<scene::GpuScene> gpu_scene_;
 };
 
@@ -194,6 +201,47 @@ TEST_F(TruthInTheBackground, FollowsTheSunThatMovesMeanwhile) {
   stage.draw_until_there(renderer, few, truth);
   EXPECT_EQ(gate.finished(), 1);
   expect_the_same_as_blocking(stage, renderer, truth);
+}
+
+TEST_F(TruthInTheBackground, TracesTheLightsOfAFrameOneAfterTheOther) {
+  Stage stage;
+  stage.add_sun();
+  Gate gate(/*open=*/false);
+  const truth::TruthTechnique truth(in_background(gate));
+  render::Renderer renderer = stage.renderer(truth);
+  stage.draw(renderer, few);
+  for (int frame = 0; frame < 4 && truth.pending(); ++frame) {
+    gate.open();
+    Stage::wait(truth);
+    stage.draw(renderer, few);
+  }
+  EXPECT_FALSE(truth.pending());
+  EXPECT_EQ(gate.finished(), 2);
+  const truth::TruthTechnique blocking({.cache = {}});
+  render::Renderer reference = stage.renderer(blocking);
+  stage.draw(reference, few);
+  EXPECT_EQ(renderer.read_aov("color"), reference.read_aov("color"));
+}
+
+TEST_F(TruthInTheBackground, FinishesViewsThatAreDrawnInTurn) {
+  Stage stage;
+  Gate gate(/*open=*/true);
+  const truth::TruthTechnique truth(in_background(gate));
+  render::Renderer renderer = stage.renderer(truth);
+  const glm::vec3 first = stage.sun().to_light, second = render::direction_to(2.0f, 0.9f);
+  const auto draw_both = [&] {
+    for (const glm::vec3& to_light : {first, second}) {
+      stage.sun().to_light = to_light;
+      stage.draw(renderer, few, to_light == first ? 0 : 1);
+    }
+  };
+  for (int view = 0; view < 2; ++view) {
+    draw_both();
+    Stage::wait(truth);
+  }
+  draw_both();
+  EXPECT_FALSE(truth.pending());
+  EXPECT_EQ(gate.finished(), 2);
 }
 
 TEST_F(TruthInTheBackground, StopsBeforeItsSceneGoes) {
