@@ -1,5 +1,5 @@
-# Shared by run.sh and test.sh: packages and build. Sourced, with $root set. Everything it prints goes to stderr, so
-# that the program's own output can be piped.
+# Shared by run.sh, test.sh and bench/peers/run.sh: packages and build. Sourced, with $root set. Everything it prints
+# goes to stderr, so that the program's own output can be piped.
 
 note() { printf '%s\n' "$*" >&2; }
 die() {
@@ -55,7 +55,7 @@ missing_packages() {
   done <"$root/scripts/packages.txt"
 }
 
-# ensure_packages STAGES ("run", or "run test"): installs what is missing, if this system has apt.
+# ensure_packages STAGES (such as "run test"): installs what is missing, if this system has apt.
 ensure_packages() {
   missing_packages "$1"
   ((${#packages[@]} == 0)) && return
@@ -80,6 +80,29 @@ ensure_packages() {
   hash -r
   missing_packages "$1"
   ((${#packages[@]} == 0)) || die "still not found after installing: ${missing[*]}"
+}
+
+# ensure_peers: installs the npm packages that bench/peers measures into build/peers, in the versions of its lock file.
+# No script of a package is run. It ends the program if npm fails.
+ensure_peers() {
+  local from=$root/bench/peers folder=$root/build/peers file
+  cmp -s "$from/package-lock.json" "$folder/installed.json" && return
+  command -v npm >/dev/null || die "npm is not there; bench/peers needs it to install the renderers that it measures"
+  build_lock
+  if cmp -s "$from/package-lock.json" "$folder/installed.json"; then  # another run has just done so
+    build_unlock
+    return
+  fi
+  note "Installing the packages of bench/peers"
+  mkdir -p "$folder"
+  rm -f "$folder/installed.json"
+  for file in package.json package-lock.json; do cp "$from/$file" "$folder/$file"; done
+  if ! npm --prefix "$folder" ci --ignore-scripts --no-audit --no-fund >"$folder/npm.log" 2>&1 </dev/null; then
+    tail -n 20 "$folder/npm.log" >&2
+    die "npm could not install the packages of bench/peers; the whole log is in $folder/npm.log"
+  fi
+  cp "$from/package-lock.json" "$folder/installed.json"
+  build_unlock
 }
 
 # A compiler process takes up to 1.5 GiB on this code: as many jobs as the cores and the free memory allow.

@@ -26,6 +26,21 @@ class Stats(TestCase):
         self.assertGreater(stats["target_bytes"], 96 * 54 * 4)
         self.assertGreater(stats["peak_resident_kilobytes"], 0)
 
+    def test_the_view_can_be_drawn_by_another_renderer(self):
+        stats = self.stats("--technique", "none", "--eye", "0,2,5", "--target", "0,2,0", "--fov", "40", "--sun", "90,0",
+                           "--ground", "on")
+        camera = stats["camera"]
+        for name, expected in {"eye": (0, 2, 5), "forward": (0, 0, -1), "up": (0, 1, 0)}.items():
+            for value, wanted in zip(camera[name], expected, strict=True):
+                self.assertAlmostEqual(value, wanted, places=5)
+        self.assertAlmostEqual(camera["fov_y_degrees"], 40, places=4)
+        self.assertGreater(camera["near"], 0)
+        for value, wanted in zip(stats["sun_to_light"], (1, 0, 0), strict=True):
+            self.assertAlmostEqual(value, wanted, places=5)
+        self.assertEqual(len({tuple(corner) for corner in stats["ground"]}), 4)
+        self.assertEqual(len({corner[1] for corner in stats["ground"]}), 1)  # level
+        self.assertIsNone(self.stats("--technique", "none", "--ground", "off")["ground"])
+
     def test_passes_have_costs_that_add_up_to_the_frame(self):
         stats = self.stats("--stats-frames", "5")
         self.assertEqual(stats["measured_frames"], 5)

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <glm/trigonometric.hpp>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,30 @@ namespace {
 using io::Json;
 
 Json json_of(const glm::vec3& v) { return {v.x, v.y, v.z}; }
+
+// What another renderer needs to draw the same view: directions are unit vectors in world space, lengths in metres.
+Json json_of(const render::Camera& camera) {
+  const glm::mat3 to_world = glm::transpose(glm::mat3(camera.view));
+  Json json{{"eye", json_of(render::position_of(camera))},
+            {"forward", json_of(-to_world[2])},
+            {"up", json_of(to_world[1])},
+            {"near", camera.near}};
+  if (camera.orthographic) {
+    json["half_height"] = camera.half_height;
+  } else {
+    json["fov_y_degrees"] = glm::degrees(camera.fov_y);
+  }
+  return json;
+}
+
+// The corners of the plane that the program put under the scene, or null where it put none.
+Json ground_of(const session::PreparedScene& prepared) {
+  if (!prepared.setup.ground) return nullptr;
+  Json corners = Json::array();
+  for (const glm::vec3& corner : prepared.scene.meshes.back().primitives.front().positions)
+    corners.push_back(json_of(corner));
+  return corners;
+}
 
 // Kilobytes, as the system counts them for this process.
 long peak_resident() {
@@ -45,8 +70,9 @@ Json stats_of(const RenderOptions& options, const session::PreparedScene& prepar
           {"technique", params.get_word("technique")},
           {"backend", gl::to_string(session.context().backend())},
           {"device", io::to_json(session.device_info())},
-          {"camera_eye", json_of(render::position_of(setup.camera))},
+          {"camera", json_of(setup.camera)},
           {"sun_to_light", json_of(setup.sun.to_light)},
+          {"ground", ground_of(prepared)},
           {"params", io::to_json(params)},
           {"measured_frames", measured},
           {"timing", session.device().timers.mode() == gl::Timers::Mode::query ? "gpu timestamps" : "finish"},

@@ -1,0 +1,73 @@
+// Measures Penumbra beside other renderers; run.sh installs what this needs and starts it.
+import fs from 'node:fs';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { checkBrowser } from './browser.mjs';
+import { temporaryFolder, undoAtEveryEnd } from './cleanup.mjs';
+import { Failure, lineOf } from './failure.mjs';
+import { machine } from './machine.mjs';
+import { measureScene } from './measure.mjs';
+import { HELP, parse } from './options.mjs';
+import { Penumbra } from './penumbra.mjs';
+import { conditions, markdown, textTable } from './table.mjs';
+
+const here = path.dirname(fileURLToPath(import.meta.url)), root = path.dirname(path.dirname(here));
+
+const unique = (list) => [...new Set(list.filter(Boolean))];
+
+// Whether maps are kept from frame to frame, for a program that knows the parameter; another always draws them anew.
+async function mapSettings(penumbra, options) {
+  if ((await penumbra.paramNames()).includes('maps.keep')) return [`maps.keep=${options.keepMaps}`];
+  if (options.keepMaps) throw new Failure('--maps kept: this penumbra has no parameter maps.keep');
+  return [];
+}
+
+// Output is checked before minutes are spent on what it would hold.
+function checkOutputs(options) {
+  for (const file of [options.json, options.markdown].filter(Boolean)) {
+    try {
+      fs.mkdirSync(path.dirname(path.resolve(file)), { recursive: true });
+      fs.accessSync(fs.existsSync(file) ? file : path.dirname(path.resolve(file)), fs.constants.W_OK);
+    } catch (error) {
+      throw new Failure(`${file}: can't be written: ${error.code}`);
+    }
+  }
+  if (options.pictures) fs.mkdirSync(options.pictures, { recursive: true });
+}
+
+async function run(args) {
+  const options = parse(args);
+  if (options.help) return process.stdout.write(HELP);
+  checkOutputs(options);
+  const program = options.program ?? process.env.PENUMBRA_PROGRAM ?? path.join(root, 'build/release/penumbra');
+  const packages = process.env.PENUMBRA_PEERS ?? path.join(root, 'build/peers');
+  if (options.peers.length > 0) checkBrowser(packages);
+  const penumbra = new Penumbra(program, options.timeout);
+  const context = { options, penumbra, settings: await mapSettings(penumbra, options), folder: temporaryFolder(),
+    packages, pages: path.join(here, 'page') };
+  const { scenes: _scenes, json, markdown: markdownFile, pictures, program: _program, ...settings } = options;
+  const report = { machine: machine(), settings, scenes: [] };
+  for (const scene of options.scenes) {
+    const tell = (text) => process.stderr.write(`${path.basename(scene)}: ${text}\n`);
+    const result = await measureScene(context, scene, tell);
+    report.scenes.push(result);
+    process.stdout.write(`${textTable(result, options.mapSize)}\n\n`);
+  }
+  const rows = report.scenes.flatMap((result) => result.rows);
+  report.chromium = unique(rows.map((row) => row.chromium))[0];
+  report.drivers = unique(rows.map((row) => row.driver));
+  process.stdout.write(`${conditions(report)}\n`);
+  if (json) fs.writeFileSync(json, `${JSON.stringify(report, null, 2)}\n`);
+  if (markdownFile) fs.writeFileSync(markdownFile, markdown(report));
+  if (rows.some((row) => row.failed)) process.exitCode = 1;
+  return undefined;
+}
+
+undoAtEveryEnd();
+try {
+  await run(process.argv.slice(2));
+} catch (error) {
+  process.stderr.write(`error: ${lineOf(error)}\n`);
+  process.exitCode = error.code === 2 ? 2 : 1;
+}
+process.exit();

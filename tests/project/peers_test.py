@@ -1,0 +1,139 @@
+"""bench/peers: draws a scene with other renderers in a real Chromium, beside Penumbra, and leaves nothing behind."""
+
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+import support
+
+PEERS = support.ROOT / "bench" / "peers"
+PACKAGES = pathlib.Path(os.environ.get("PENUMBRA_PEERS") or support.ROOT / "build" / "peers")
+SCENE = support.ROOT / "scenes" / "steps.glb"
+SMALL = ("--size", "160x90", "--frames", "1", "--rounds", "1", "--map-size", "512", "--spp", "16")
+
+
+def skip_without_what_it_needs():
+    for program in ("node", "chromium"):
+        if not shutil.which(program):
+            raise unittest.SkipTest(f"there is no {program}: scripts/packages.txt names its package")
+    installed = PACKAGES / "installed.json"
+    if not installed.exists() or installed.read_bytes() != (PEERS / "package-lock.json").read_bytes():
+        raise unittest.SkipTest("the renderers of bench/peers are not installed: bench/peers/run.sh installs them")
+
+
+class Peers(support.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        skip_without_what_it_needs()
+
+    def start(self, *arguments, **environment):
+        # A folder for temporary files of its own shows what it leaves there.
+        self.temporary = self.folder / "tmp"
+        self.temporary.mkdir(exist_ok=True)
+        command = [shutil.which("node"), PEERS / "main.mjs", *map(str, arguments)]
+        return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                start_new_session=True,
+                                env={**os.environ, "PENUMBRA_PROGRAM": support.PROGRAM, "PENUMBRA_PEERS": str(PACKAGES),
+                                     "TMPDIR": str(self.temporary), **environment})
+
+    def peers(self, *arguments, **environment):
+        process = self.start(*arguments, **environment)
+        out, errors = process.communicate(timeout=240)
+        self.assert_nothing_is_left()
+        return process.returncode, out, errors
+
+    def browsers(self):
+        """The processes whose command line names this test's temporary folder."""
+        found = []
+        for process in pathlib.Path("/proc").glob("[0-9]*"):
+            try:
+                if str(self.temporary).encode() in (process / "cmdline").read_bytes():
+                    found.append(process.name)
+            except OSError:
+                continue  # it has just ended
+        return found
+
+    def assert_nothing_is_left(self):
+        end = time.monotonic() + 20
+        while self.browsers() and time.monotonic() < end:
+            time.sleep(0.05)
+        self.assertEqual(self.browsers(), [])
+        self.assertEqual([path for path in self.temporary.iterdir() if path.name.startswith("penumbra")], [])
+
+    def test_every_renderer_draws_the_same_view_and_shadows(self):
+        results, tables, pictures = (self.folder / name for name in ("peers.json", "peers.md", "pictures"))
+        code, out, errors = self.peers(SCENE, *SMALL, "--json", results, "--markdown", tables, "--pictures", pictures)
+        self.assertEqual(code, 0, out + errors)
+        report = json.loads(results.read_text())
+        scene = report["scenes"][0]
+        rows = {(row["renderer"], row["maps"]): row for row in scene["rows"]}
+        self.assertEqual(set(rows), {("Penumbra", 4), ("Penumbra", 1), ("three.js", 1), ("Babylon.js", 4),
+                                     ("Babylon.js", 1), ("PlayCanvas", 4), ("PlayCanvas", 1)})
+        self.assertGreater(scene["pixels"]["compared"], 0.9 * scene["pixels"]["receivers"])
+        for name, row in rows.items():
+            with self.subTest(row=name):
+                self.assertGreater(row["shadowed_ms"]["median"], 0)
+                self.assertGreater(row["unshadowed_ms"]["median"], 0)
+                # Without shadows at all, or with those of another sun or camera, it is 15 dB at most.
+                self.assertGreater(row["figures"]["psnr"], 20)
+                self.assertIn(f"{row['renderer']} {row['version']}", tables.read_text())
+        self.assertEqual({(each["peer"], each["maps"]) for each in scene["ratios"]},
+                         {name for name in rows if name[0] != "Penumbra"})
+        for name in ("steps_three_1", "steps_babylon_4", "steps_playcanvas_4_shadow", "steps_penumbra_pcss_4"):
+            rows = support.read_png(pictures / f"{name}.png")
+            self.assertEqual((len(rows[0]), len(rows)), (160, 90))
+
+    def test_a_browser_that_hangs_is_ended_and_reported(self):
+        programs = self.folder / "bin"
+        programs.mkdir()
+        (programs / "chromium").write_text("#!/bin/sh\nsleep 600\n")
+        (programs / "chromium").chmod(0o755)
+        path = f"{programs}:{os.environ['PATH']}"
+        code, out, errors = self.peers(SCENE, *SMALL, "--peers", "three", "--cascades", "1", "--no-truth", "--timeout",
+                                       "3", PATH=path)
+        self.assertEqual(code, 1, errors)
+        self.assertIn("failed: three.js: the start of Chromium took longer than 3 s\n", out)
+        self.assertIn("Penumbra", out)  # the others are measured all the same
+
+    def test_ctrl_c_leaves_nothing(self):
+        process = self.start(SCENE, *SMALL, "--frames", "10000", "--peers", "babylon", "--cascades", "1", "--no-truth")
+        while process.poll() is None and not self.browsers():
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 128 + signal.SIGINT)
+        self.assert_nothing_is_left()
+
+    def test_what_is_missing_is_named(self):
+        for environment, said in (({"PATH": str(self.folder)}, "error: there is no Chromium on the PATH"),
+                                  ({"PENUMBRA_PEERS": str(self.folder)}, "error: puppeteer-core is not in")):
+            with self.subTest(environment=environment):
+                code, out, errors = self.peers(SCENE, **environment)
+                self.assertEqual((code, out, errors.count("\n")), (1, "", 1), errors)
+                self.assertTrue(errors.startswith(said), errors)
+
+    def test_errors_are_one_line(self):
+        for arguments, said, expected in (
+            (["nothing.glb"], "error: nothing.glb: no such file\n", 1),
+            ([SCENE, "--size", "0x9"], "error: --size: '0' is no whole number from 1 to 16384\n", 2),
+            ([SCENE, "--peers", "four"], "error: --peers: 'four' is none of three, babylon, playcanvas\n", 2),
+            ([SCENE, "--nonsense"], "error: Unknown option '--nonsense'\n", 2),
+            ([], "error: name a scene; --help lists the options\n", 2),
+            ([SCENE, "--program", "/nowhere"], "error: /nowhere: no such file", 1),
+            ([SCENE, "--json", SCENE / "x.json"], f"error: {SCENE / 'x.json'}: can't be written", 1),
+            ([SCENE, "--maps", "never"], "error: --maps: 'never' is none of anew, kept\n", 2),
+        ):
+            with self.subTest(arguments=arguments):
+                code, out, errors = self.peers(*arguments)
+                self.assertEqual((code, out), (expected, ""))
+                self.assertTrue(errors.startswith(said), errors)
+                self.assertEqual(errors.count("\n"), 1, errors)
+
+
+if __name__ == "__main__":
+    support.main()
