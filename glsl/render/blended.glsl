@@ -8,15 +8,15 @@ layout(location = 0) out vec4 blended;
 uniform mat4 world_to_view;
 
 void main() {
-  vec4 color = base_color(surface.uv, surface.color);
+  vec4 color = surface_color();
   float alpha = clamp(color.a, 0.0, 1.0);
   vec3 geometric = normalize(geometric_normal());
-  vec3 properties = surface_properties(surface.uv);
+  vec3 properties = surface_properties(surface_uv());
   Shading s;
   s.albedo = clamp(color.rgb, 0.0, 1.0);
   s.normal = shading_normal(geometric);
   s.to_eye = -normalize(view_ray());
-  s.emission = emission(surface.uv);
+  s.emission = emission(surface_uv());
   s.metallic = properties.x;
   s.roughness = properties.y;
   s.occlusion = properties.z;
@@ -24,7 +24,7 @@ void main() {
   if (!is_unlit()) {
     vec3 view_position = (world_to_view * vec4(surface.world, 1.0)).xyz;
     Reflection r = reflection_of(s);
-    radiance = unshadowed_light(s, r);
+    radiance = unshadowed_light(s, r, surroundings(reflect(-s.to_eye, s.normal), s.roughness));
     // The forward driver reads the shadow map of the first light only.
     add_light(radiance, s, r, 0, shadow_visibility(view_position, geometric, gl_FragCoord.xy - 0.5));
     for (int i = 1; i < lighting.light_count; ++i) add_light(radiance, s, r, i, 1.0);

@@ -4,7 +4,6 @@ layout(local_size_x = 256) in;
 
 layout(binding = 8) uniform sampler2D lit;
 layout(binding = 9) uniform sampler2D gbuffer_albedo;
-layout(binding = 12) uniform sampler2D gbuffer_depth;
 layout(std430, binding = 0) writeonly restrict buffer Exposure { float exposure; };
 
 uniform vec2 limits;   // of the exposure, lowest and highest
@@ -23,9 +22,9 @@ void main() {
   float sum = 0.0, count = 0.0;
   for (int i = int(lane); i < size.x * size.y; i += 256) {
     ivec2 pixel = ivec2(i % size.x, i / size.x) * stride;
-    if (texelFetch(gbuffer_depth, pixel, 0).x == 0.0) continue;
-    vec3 root = texelFetch(gbuffer_albedo, pixel, 0).rgb;
-    float albedo = max(dot(root * root, luminance), 0.05);
+    vec4 root = texelFetch(gbuffer_albedo, pixel, 0);
+    if (root.a == 0.0) continue;  // sky
+    float albedo = max(dot(root.rgb * root.rgb, luminance), 0.05);
     sum += log2(clamp(dot(texelFetch(lit, pixel, 0).rgb, luminance) / albedo, 1e-3, 1e2));
     count += 1.0;
   }

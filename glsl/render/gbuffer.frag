@@ -1,4 +1,5 @@
-// Writes the G-buffer.
+// Writes the G-buffer of the surfaces that an earlier pass has left in the depth buffer, so masked surfaces need no
+// alpha test here.
 #include "lib/octahedral.glsl"
 #include "scene/surface.glsl"
 
@@ -6,20 +7,25 @@ layout(location = 0) out vec4 out_albedo;
 layout(location = 1) out vec2 out_normal;
 layout(location = 2) out vec2 out_geometric_normal;
 layout(location = 3) out vec4 out_material;
+#if EMISSION
 layout(location = 4) out vec3 out_emission;
-layout(location = 5) out vec2 out_motion;
+#endif
+#if MOTION
+layout(location = 4 + EMISSION) out vec2 out_motion;
+#endif
 
 void main() {
-  vec4 color = base_color(surface.uv, surface.color);
   vec3 geometric = geometric_normal();
-  vec3 properties = surface_properties(surface.uv);
-  out_albedo = vec4(sqrt(clamp(color.rgb, 0.0, 1.0)), 0.0);  // square root: less banding in ten bits
+  vec3 properties = surface_properties(surface_uv());
+  // Square root: less banding in ten bits. Alpha: 0 is left where no surface is.
+  out_albedo = vec4(sqrt(clamp(surface_color().rgb, 0.0, 1.0)), is_unlit() ? 1.0 / 3.0 : 1.0);
   out_normal = octahedral_encode(shading_normal(geometric)) * 0.5 + 0.5;
   out_geometric_normal = octahedral_encode(geometric);
-  out_material = vec4(properties, is_unlit() ? 1.0 : 0.0);
-  out_emission = min(emission(surface.uv), vec3(64000.0));
+  out_material = vec4(properties, 0.0);
+#if EMISSION
+  out_emission = min(emission(surface_uv()), vec3(64000.0));
+#endif
+#if MOTION
   out_motion = motion();
-#if MASKED
-  if (color.a < material.alpha_cutoff) discard;  // last: mip levels need the derivatives of the whole quad
 #endif
 }

@@ -8,9 +8,10 @@ layout(std140, binding = 4) uniform ViewData { ViewBlock view; };
 layout(binding = 8) uniform sampler2D gbuffer_albedo;
 layout(binding = 9) uniform sampler2D gbuffer_normal;
 layout(binding = 10) uniform sampler2D gbuffer_material;
-layout(binding = 11) uniform sampler2D gbuffer_emission;
-layout(binding = 12) uniform sampler2D gbuffer_depth;
-layout(binding = 13) uniform sampler2DArray shadow_mask;  // one layer for each light
+layout(binding = 11) uniform sampler2DArray shadow_mask;  // one layer for each light
+#if EMISSION
+layout(binding = 12) uniform sampler2D gbuffer_emission;
+#endif
 
 layout(location = 0) out vec4 lit;
 
@@ -18,24 +19,27 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec2 ndc = gl_FragCoord.xy * view.viewport.zw * 2.0 - 1.0;
   vec3 ray = normalize(view.forward.xyz + ndc.x * view.ray_x.xyz + ndc.y * view.ray_y.xyz);
-  if (texelFetch(gbuffer_depth, pixel, 0).x == 0.0) {
-    lit = vec4(surroundings(ray, 0.02), 1.0);
-    return;
-  }
   vec4 albedo = texelFetch(gbuffer_albedo, pixel, 0);
   vec4 material = texelFetch(gbuffer_material, pixel, 0);
   Shading s;
   s.albedo = albedo.rgb * albedo.rgb;
   s.normal = octahedral_decode(texelFetch(gbuffer_normal, pixel, 0).xy * 2.0 - 1.0);
   s.to_eye = -ray;
-  s.emission = texelFetch(gbuffer_emission, pixel, 0).rgb;
   s.metallic = material.r;
   s.roughness = material.g;
   s.occlusion = material.b;
-  vec3 color = s.albedo;
-  if (material.a <= 0.5) {
+#if EMISSION
+  s.emission = texelFetch(gbuffer_emission, pixel, 0).rgb;
+#else
+  s.emission = vec3(0.0);
+#endif
+  bool sky = albedo.a == 0.0;
+  // What the eye sees beyond the scene, or the surface mirrors.
+  vec3 beyond = surroundings(sky ? ray : reflect(ray, s.normal), sky ? 0.02 : s.roughness);
+  vec3 color = sky ? beyond : s.albedo;
+  if (albedo.a > 0.5) {
     Reflection r = reflection_of(s);
-    vec3 radiance = unshadowed_light(s, r);
+    vec3 radiance = unshadowed_light(s, r, beyond);
     for (int i = 0; i < lighting.light_count; ++i) {
       add_light(radiance, s, r, i, texelFetch(shadow_mask, ivec3(pixel, i), 0).r);
     }

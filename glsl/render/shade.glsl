@@ -37,16 +37,19 @@ vec3 direct_light(Shading s, Reflection r, DirectLightBlock light) {
   return light.illuminance * n_dot_l * brdf;
 }
 
-vec3 skylight(Shading s, Reflection r) {
+// `mirrored`: the radiance of the surroundings in the mirror's direction, blurred by the roughness.
+vec3 skylight(Shading s, Reflection r, vec3 mirrored) {
   float n_dot_v = clamp(dot(s.normal, s.to_eye), 0.0, 1.0);
   vec2 scale_bias = environment_brdf(s.roughness, n_dot_v);
   vec3 all_around = ambient(s.normal);
-  vec3 mirrored = mix(surroundings(reflect(-s.to_eye, s.normal), s.roughness), all_around, s.roughness);
+  mirrored = mix(mirrored, all_around, s.roughness);
   return s.occlusion * (r.diffuse * all_around + (r.at_normal * scale_bias.x + scale_bias.y) * mirrored);
 }
 
 // Radiance that does not depend on shadows: ambient light and emission.
-vec3 unshadowed_light(Shading s, Reflection r) { return skylight(s, r) + s.emission * lighting.emission; }
+vec3 unshadowed_light(Shading s, Reflection r, vec3 mirrored) {
+  return skylight(s, r, mirrored) + s.emission * lighting.emission;
+}
 
 // Adds a light that is visible to the given degree, 0 to 1.
 void add_light(inout vec3 radiance, Shading s, Reflection r, int index, float visibility) {

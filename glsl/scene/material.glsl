@@ -11,7 +11,13 @@ layout(binding = 10) uniform sampler2D normal_texture;
 layout(binding = 11) uniform sampler2D occlusion_texture;
 layout(binding = 12) uniform sampler2D emissive_texture;
 
+// Whether the material has a texture: known when a program of surfaces is compiled, in other programs read from the
+// material.
+#ifdef TEXTURES
+bool has_texture(int which) { return (TEXTURES & (1 << which)) != 0; }
+#else
 bool has_texture(int which) { return (material.flags & (1u << which)) != 0u; }
+#endif
 
 // Where to read a texture, given both UV sets.
 vec2 texture_uv(int which, vec4 uv) {

@@ -1,49 +1,50 @@
-// The surface in a fragment shader: colour, normals, motion.
+// The surface in a fragment shader: colour, normals, motion. Compiled for what the surface has: see
+// surface_interface.glsl.
 #include "shared/view_block.h"
-#include "scene/instance.glsl"
 #include "scene/material.glsl"
 
+#define SURFACE in
+#include "scene/surface_interface.glsl"
+
 layout(std140, binding = 4) uniform ViewData { ViewBlock view; };
-layout(std430, binding = 2) readonly restrict buffer Indices { uint indices[]; };
-layout(std430, binding = 3) readonly restrict buffer Positions { float positions[]; };
+layout(std430, binding = 2) readonly restrict buffer TriangleNormals { float triangle_normals[]; };
 
-in Surface {
-  vec3 world;
-  vec3 normal;
-  vec4 tangent;
-  vec4 uv;
-  vec4 color;
-  vec3 clip;
-  vec3 last_clip;
-  flat uint instance;
-} surface;
-
-vec3 corner(uint index) {
-  uint at = 3u * (instances[surface.instance].base_vertex + indices[index]);
-  return vec3(positions[at], positions[at + 1u], positions[at + 2u]);
+vec4 surface_uv() {
+#if TEXTURES
+  return surface.uv;
+#else
+  return vec4(0.0);
+#endif
 }
 
+vec4 surface_color() {
+#if COLORS
+  return base_color(surface_uv(), surface.color);
+#else
+  return base_color(surface_uv(), vec4(1.0));
+#endif
+}
+
+#if WORLD || !TRIANGLES
 // Vector from the camera to the surface.
 vec3 view_ray() { return view.camera.w != 0.0 ? view.forward.xyz : surface.world - view.camera.xyz; }
+#endif
 
-vec3 towards_eye(vec3 n) { return dot(n, view_ray()) > 0.0 ? -n : n; }
-
-// The triangle's geometric normal in world space, on the camera's side, not of unit length. Computed from the
+#if NORMALS
+// The triangle's geometric normal in world space, on the camera's side, not of unit length. It comes from the
 // triangle's vertices, because derivatives of the position are too inexact for wide kernels, which multiply the error.
 // Lines and points take their shading normal.
 vec3 geometric_normal() {
-  InstanceBlock instance = instances[surface.instance];
-  if ((instance.flags & INSTANCE_TRIANGLES) == 0u) return towards_eye(surface.normal);
-  uint first = instance.first_index + 3u * uint(gl_PrimitiveID);
-  vec3 a = corner(first);
-  vec3 edge = corner(first + 1u) - a;
-  vec3 other = corner(first + 2u) - a;
-  vec3 largest = max(abs(edge), abs(other));
-  float scale = max(max(largest.x, largest.y), largest.z);
-  vec3 n = mat3(instance.area) * cross(edge / scale, other / scale);
+#if TRIANGLES
+  uint at = 3u * (surface.first_triangle + uint(gl_PrimitiveID));
+  vec3 n = mat3(surface.area_x, surface.area_y, surface.area_z) *
+           vec3(triangle_normals[at], triangle_normals[at + 1u], triangle_normals[at + 2u]);
   float size = max(abs(n.x), max(abs(n.y), abs(n.z)));
-  if (!(size > 0.0)) return towards_eye(surface.normal);
-  return n * ((gl_FrontFacing ? instance.winding : -instance.winding) / size);
+  if (!(size > 0.0)) return gl_FrontFacing ? surface.normal : -surface.normal;
+  return n * ((gl_FrontFacing ? 1.0 : -1.0) / size);
+#else
+  return dot(surface.normal, view_ray()) > 0.0 ? -surface.normal : surface.normal;
+#endif
 }
 
 // The shading normal, with the normal map applied, of unit length. It is flipped on back faces, which only double-sided
@@ -52,20 +53,23 @@ vec3 shading_normal(vec3 geometric) {
   float square = dot(surface.normal, surface.normal);
   if (!(square > 0.0)) return normalize(geometric);
   vec3 n = surface.normal * inversesqrt(square);
-  if (has_texture(TEXTURE_NORMAL)) {
-    vec3 mapped = texture(normal_texture, texture_uv(TEXTURE_NORMAL, surface.uv)).xyz * 2.0 - 1.0;
-    mapped.xy *= material.normal_scale;
-    vec3 t = surface.tangent.xyz;
-    t *= inversesqrt(max(dot(t, t), 1e-30));  // stays zero without tangents
-    vec3 bent = mapped.x * t + mapped.y * surface.tangent.w * cross(n, t) + mapped.z * n;
-    float bent_square = dot(bent, bent);
-    if (bent_square > 1e-12) n = bent * inversesqrt(bent_square);
-  }
+#if TEXTURES & (1 << TEXTURE_NORMAL)
+  vec3 mapped = texture(normal_texture, texture_uv(TEXTURE_NORMAL, surface.uv)).xyz * 2.0 - 1.0;
+  mapped.xy *= material.normal_scale;
+  vec3 t = surface.tangent.xyz;
+  t *= inversesqrt(max(dot(t, t), 1e-30));  // stays zero without tangents
+  vec3 bent = mapped.x * t + mapped.y * surface.tangent.w * cross(n, t) + mapped.z * n;
+  float bent_square = dot(bent, bent);
+  if (bent_square > 1e-12) n = bent * inversesqrt(bent_square);
+#endif
   return gl_FrontFacing ? n : -n;
 }
+#endif
 
+#if MOTION
 // The motion vector: present minus last position, in NDC.
 vec2 motion() {
   if (!(surface.last_clip.z > 0.0)) return vec2(0.0);
   return surface.clip.xy / surface.clip.z - surface.last_clip.xy / surface.last_clip.z;
 }
+#endif

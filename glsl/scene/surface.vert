@@ -2,6 +2,9 @@
 #include "shared/view_block.h"
 #include "scene/instance.glsl"
 
+#define SURFACE out
+#include "scene/surface_interface.glsl"
+
 layout(std140, binding = 4) uniform ViewData { ViewBlock view; };
 
 layout(location = 0) in vec3 position;
@@ -12,32 +15,40 @@ layout(location = 4) in vec4 uv;
 layout(location = 5) in vec4 color;
 layout(location = 6) in uint instance;
 
-out Surface {
-  vec3 world;
-  vec3 normal;
-  vec4 tangent;
-  vec4 uv;
-  vec4 color;
-  vec3 clip;       // x, y, w
-  vec3 last_clip;  // in the last frame
-  flat uint instance;
-} surface;
-
 // Invariant, so that all passes over the same surfaces find the same one nearest.
 invariant gl_Position;
 
 void main() {
   mat4 world = instances[instance].world;
   vec4 place = world * vec4(position, 1.0);
-  vec4 last_place = instances[instance].last_world * vec4(last_position, 1.0);
   gl_Position = view.world_to_clip * place;
-  vec4 last_clip = view.last_world_to_clip * last_place;
-  surface.world = place.xyz;
-  surface.normal = mat3(instances[instance].area) * normal * instances[instance].winding;
-  surface.tangent = vec4(mat3(world) * tangent.xyz, tangent.w * instances[instance].winding);
-  surface.uv = uv;
-  surface.color = color;
-  surface.clip = gl_Position.xyw;
-  surface.last_clip = last_clip.xyw;
+#if NORMALS
+  mat3 area = mat3(instances[instance].area);
+  float winding = instances[instance].winding;
+  surface.normal = area * normal * winding;
+#if TRIANGLES
+  surface.first_triangle = instances[instance].first_triangle;
+  surface.area_x = area[0] * winding;
+  surface.area_y = area[1] * winding;
+  surface.area_z = area[2] * winding;
+#endif
+#if TEXTURES & (1 << TEXTURE_NORMAL)
+  surface.tangent = vec4(mat3(world) * tangent.xyz, tangent.w * winding);
+#endif
+#else
   surface.instance = instance;
+#endif
+#if WORLD || !TRIANGLES
+  surface.world = place.xyz;
+#endif
+#if TEXTURES
+  surface.uv = uv;
+#endif
+#if COLORS
+  surface.color = color;
+#endif
+#if MOTION
+  surface.clip = gl_Position.xyw;
+  surface.last_clip = (view.last_world_to_clip * (instances[instance].last_world * vec4(last_position, 1.0))).xyw;
+#endif
 }

@@ -6,18 +6,15 @@
 
 GLSL_BEGIN
 
-// InstanceBlock::flags
-#define INSTANCE_TRIANGLES 1u
-
 // One instance of a primitive.
 struct InstanceBlock {
   mat4 world;
   mat4 last_world;   // in the last frame
   mat4 area;         // cofactor matrix of world: transforms cross products, and so normals
-  uint first_index;  // of the primitive, in the index buffer
-  uint base_vertex;  // added to each index
-  uint flags;
-  float winding;  // -1 for mirrored instances, else 1
+  uint first_index;     // of the primitive, in the index buffer
+  uint base_vertex;     // added to each index
+  uint first_triangle;  // of the primitive, in the buffer of triangle normals
+  float winding;        // -1 for mirrored instances, else 1
 };
 
 // Textures of a material, in the order of their units.
@@ -59,6 +56,9 @@ struct DeformBlock {
   uint deltas;      // first morph delta: targets one after the other, `count` each
   uint weights;     // first morph weight
   uint target_count;
+  uint first_index;     // of the primitive, in the index buffer
+  uint first_triangle;  // of the result, in the deformed triangle normals
+  uint triangle_count;
 };
 
 GLSL_END

@@ -101,7 +101,11 @@ std::vector<float> albedo(const Source& from) {
 }
 
 std::vector<float> material(const Source& from) { return from.read(*from.frame.gbuffer.material, 3).values; }
-std::vector<float> emission(const Source& from) { return from.read(*from.frame.gbuffer.emission, 3).values; }
+std::vector<float> emission(const Source& from) {
+  const gl::Texture* texture = from.frame.gbuffer.emission;
+  if (texture != nullptr) return from.read(*texture, 3).values;
+  return std::vector<float>(from.read(*from.frame.gbuffer.depth, 1).pixels() * 3, 0.0f);  // nothing emits light
+}
 
 std::vector<float> motion(const Source& from) {
   const glm::vec2 half(from.frame.view.viewport.x * 0.5f, from.frame.view.viewport.y * 0.5f);

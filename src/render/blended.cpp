@@ -14,7 +14,9 @@ std::string put_fragment_shader(gl::ShaderFiles& files, const std::string& forwa
   return name;
 }
 
-gl::ProgramDesc program(std::string fragment, std::vector<gl::Define> defines) {
+gl::ProgramDesc program(std::string fragment, std::vector<gl::Define> defines, const scene::SurfaceTraits& traits) {
+  for (gl::Define& define : scene::surface_defines(traits, {.normals = true, .world = true}))
+    defines.push_back(std::move(define));
   return {.name = "blended surfaces",
           .vertex = "scene/surface.vert",
           .fragment = std::move(fragment),
@@ -31,19 +33,27 @@ void draw_blended(gl::Device& device, const BlendedInputs& inputs) {
                          .depth_test = gl::DepthTest::greater_equal,
                          .blend = gl::Blend::premultiplied_over});
   const shadow::ForwardProgram forward = inputs.soft_shadows.forward_program(inputs.params);
-  const gl::ProgramDesc desc = program(put_fragment_shader(device.shaders.files(), forward.include), forward.defines);
+  const std::string fragment = put_fragment_shader(device.shaders.files(), forward.include);
   inputs.soft_shadows.bind_forward(inputs.mask, 0);
-  pass.use(desc).set("world_to_view", inputs.camera.view);
   const Frustum frustum(inputs.view.world_to_clip);
-  inputs.scene.draw_blended(device, pass, desc, position_of(inputs.camera),
-                            [&](const scene::Bounds& box) { return frustum.holds(box); });
+  const glm::vec3 eye = position_of(inputs.camera);
+  inputs.scene.draw_blended(
+      device, pass,
+      [&](const scene::SurfaceTraits& traits) {
+        pass.use(program(fragment, forward.defines, traits)).set("world_to_view", inputs.camera.view);
+      },
+      [&](const scene::Bounds& box) { return frustum.holds(box); },
+      [&](const scene::Bounds& box) { return glm::distance(box.center(), eye); });
 }
 
 std::vector<gl::ProgramDesc> blended_programs(gl::Device& device, const shadow::SoftShadows& soft_shadows,
                                               const ParamSet& defaults) {
   std::vector<gl::ProgramDesc> programs;
   for (const shadow::ForwardProgram& forward : soft_shadows.all_forward_programs(defaults)) {
-    programs.push_back(program(put_fragment_shader(device.shaders.files(), forward.include), forward.defines));
+    const std::string fragment = put_fragment_shader(device.shaders.files(), forward.include);
+    const std::vector<scene::SurfaceTraits> samples = scene::sample_traits();
+    for (const scene::SurfaceTraits& traits : {samples[0], samples[1]})
+      programs.push_back(program(fragment, forward.defines, traits));
   }
   return programs;
 }

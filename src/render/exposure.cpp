@@ -31,8 +31,7 @@ const gl::Buffer& measure_exposure(gl::Device& device, const ExposureInputs& inp
   measure.set("factor", bias);
   inputs.lit.bind(first_unit);
   inputs.gbuffer.albedo->bind(first_unit + 1);
-  inputs.gbuffer.depth->bind(first_unit + 4);
-  for (const GLuint offset : {0u, 1u, 4u}) device.sampler({}).bind(first_unit + offset);
+  for (const GLuint offset : {0u, 1u}) device.sampler({}).bind(first_unit + offset);
   exposure.bind_storage(exposure_binding);
   pass.dispatch(1, 1);
   return exposure;

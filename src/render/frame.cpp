@@ -24,7 +24,8 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
   scene.choose_casters(caster_choice(params));
   scene.pose(device, inputs.last_time, inputs.time);
 
-  const GBuffer gbuffer = draw_gbuffer(device, {.scene = scene, .view = view});
+  const GBuffer gbuffer =
+      draw_gbuffer(device, {.scene = scene, .view = view, .motion = soft_shadows.reads_motion(params)});
 
   const shadow::Mask mask = draw_shadow_mask(device, {.soft_shadows = soft_shadows,
                                                       .scene = scene,
@@ -57,7 +58,23 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
 
   const gl::Texture& display = tone_map(device, {.lit = lit, .exposure = exposure});
 
-  return {view, camera, gbuffer, mask, &lit, &exposure, &display};
+  return {.scene = &scene,
+          .last_time = inputs.last_time,
+          .time = inputs.time,
+          .view = view,
+          .camera = camera,
+          .gbuffer = gbuffer,
+          .mask = mask,
+          .lit = &lit,
+          .exposure = &exposure,
+          .display = &display};
+}
+
+void add_motion(gl::Device& device, FrameParts& frame) {
+  if (frame.gbuffer.motion != nullptr) return;
+  bind_view(device, frame.view);
+  frame.scene->pose(device, frame.last_time, frame.time);
+  frame.gbuffer = draw_gbuffer(device, {.scene = *frame.scene, .view = frame.view, .motion = true});
 }
 
 }  // namespace penumbra::render

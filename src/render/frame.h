@@ -7,6 +7,8 @@ namespace penumbra::render {
 
 // Everything that a frame produced, for the picture and the inspector.
 struct FrameParts {
+  scene::GpuScene* scene = nullptr;
+  double last_time = 0, time = 0;  // seconds
   glsl::ViewBlock view;
   Camera camera;
   GBuffer gbuffer;
@@ -18,6 +20,9 @@ struct FrameParts {
 
 FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, scene::GpuScene& scene,
                       const FrameInputs& inputs, const ParamSet& params);
+
+// Adds the motion vectors to the G-buffer of the last frame that was drawn, where nothing in the frame has read them.
+void add_motion(gl::Device& device, FrameParts& frame);
 
 // An AOV of a frame, as Renderer::read_aov(); of a single pixel if one is given.
 std::vector<float> read_aov(const FrameParts& frame, std::string_view name, std::optional<glm::ivec2> pixel = {});

@@ -59,8 +59,11 @@ glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
   return block;
 }
 
-gl::ProgramDesc program() {
-  return {.name = "lighting", .vertex = "shared/full_screen.vert", .fragment = "render/lighting.frag"};
+gl::ProgramDesc program(bool emission) {
+  return {.name = "lighting",
+          .vertex = "shared/full_screen.vert",
+          .fragment = "render/lighting.frag",
+          .defines = {{"EMISSION", emission ? "1" : "0"}}};
 }
 
 }  // namespace
@@ -72,11 +75,12 @@ const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inpu
   const gl::Buffer& block = device.scratch("lighting", sizeof(glsl::LightingBlock));
   gl::write_value(block, lighting_block(inputs));
   gl::Pass pass(device, {.name = "lighting", .colors = {{.texture = &lit, .dont_care = true}}});
-  pass.use(program());
+  pass.use(program(gbuffer.emission != nullptr));
   block.bind_uniform(lighting_binding);
   GLuint unit = first_unit;
   for (const gl::Texture* texture :
-       {gbuffer.albedo, gbuffer.normal, gbuffer.material, gbuffer.emission, gbuffer.depth, inputs.mask.texture}) {
+       {gbuffer.albedo, gbuffer.normal, gbuffer.material, inputs.mask.texture, gbuffer.emission}) {
+    if (texture == nullptr) continue;
     device.sampler({}).bind(unit);
     texture->bind(unit++);
   }
@@ -84,6 +88,6 @@ const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inpu
   return lit;
 }
 
-std::vector<gl::ProgramDesc> lighting_programs() { return {program()}; }
+std::vector<gl::ProgramDesc> lighting_programs() { return {program(true), program(false)}; }
 
 }  // namespace penumbra::render

@@ -16,18 +16,19 @@ namespace penumbra::render {
 
 // The visible surfaces, before lighting.
 struct GBuffer {
-  const gl::Texture* albedo = nullptr;            // RGB10_A2: square root of the linear colour
-  const gl::Texture* normal = nullptr;            // RG16: shading normal, world space, octahedral, 0 to 1
+  const gl::Texture* albedo = nullptr;  // RGB10_A2: square root of the linear colour; A: 0 sky, 1/3 unlit, 1 lit
+  const gl::Texture* normal = nullptr;  // RG16: shading normal, world space, octahedral, 0 to 1
   const gl::Texture* geometric_normal = nullptr;  // RG32F: world space, octahedral, -1 to 1
-  const gl::Texture* material = nullptr;          // RGBA8: metallic, roughness, ambient occlusion, 1 for unlit
-  const gl::Texture* emission = nullptr;          // R11F_G11F_B10F: in the file's units
-  const gl::Texture* motion = nullptr;            // RG32F: present minus last position, NDC
+  const gl::Texture* material = nullptr;          // RGBA8: metallic, roughness, ambient occlusion, unused
+  const gl::Texture* emission = nullptr;          // R11F_G11F_B10F: in the file's units; null where nothing emits light
+  const gl::Texture* motion = nullptr;            // RG32F: present minus last position, NDC; null if not asked for
   const gl::Texture* depth = nullptr;             // 32F, reversed-Z: 0 is the sky
 };
 
 struct GBufferInputs {
   scene::GpuScene& scene;
   const glsl::ViewBlock& view;
+  bool motion = false;  // whether motion vectors are drawn
 };
 GBuffer draw_gbuffer(gl::Device& device, const GBufferInputs& inputs);
 std::vector<gl::ProgramDesc> gbuffer_programs();
@@ -37,6 +38,7 @@ std::vector<gl::ProgramDesc> gbuffer_programs();
 struct SurfaceIdInputs {
   scene::GpuScene& scene;
   const glsl::ViewBlock& view;
+  const gl::Texture& depth;  // the G-buffer's
 };
 // RG32UI: 1 + the index in PosedGeometry::surfaces (0: sky), and the index of the triangle in that surface.
 const gl::Texture& draw_surface_ids(gl::Device& device, const SurfaceIdInputs& inputs);
@@ -46,7 +48,8 @@ std::vector<gl::ProgramDesc> surface_id_programs();
 struct FrameScene {
   scene::GpuScene& scene;
   const glsl::ViewBlock& view;
-  double time;  // seconds
+  const gl::Texture& depth;  // the G-buffer's
+  double time;               // seconds
 };
 
 struct ShadowMaskInputs {

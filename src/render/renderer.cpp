@@ -28,6 +28,12 @@ struct Renderer::State {
     if (parts.display == nullptr) fail("no frame was drawn that could be read");
     return parts;
   }
+
+  // The same, with everything that this AOV needs.
+  const FrameParts& drawn_for(std::string_view aov) {
+    if (aov == "motion" && drawn().gbuffer.motion == nullptr) add_motion(device, parts);
+    return drawn();
+  }
 };
 
 Renderer::Renderer(gl::Device& device, shadow::Registry registry)
@@ -62,10 +68,12 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   return state_->frame;
 }
 
-std::vector<float> Renderer::read_aov(std::string_view name) const { return render::read_aov(state_->drawn(), name); }
+std::vector<float> Renderer::read_aov(std::string_view name) const {
+  return render::read_aov(state_->drawn_for(name), name);
+}
 
 std::vector<float> Renderer::read_aov(std::string_view name, const glm::ivec2& pixel) const {
-  return render::read_aov(state_->drawn(), name, pixel);
+  return render::read_aov(state_->drawn_for(name), name, pixel);
 }
 
 std::vector<std::uint8_t> Renderer::read_display() const {

@@ -67,7 +67,7 @@ class Renderer {
   // max_lights.
   const Frame& draw(scene::GpuScene& scene, const FrameInputs& inputs, const ParamSet& params);
   // The last frame's AOV as floats, rows top to bottom, aov.channels.size() values for each pixel. Throws Error for
-  // unknown names.
+  // unknown names. The frame's scene must still exist: motion vectors that the frame did not need are drawn here.
   std::vector<float> read_aov(std::string_view name) const;
   // The same for one pixel, counted from the upper left.
   std::vector<float> read_aov(std::string_view name, const glm::ivec2& pixel) const;

@@ -49,7 +49,9 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
   const gl::Texture& depth = *inputs.gbuffer.depth;
   const float aspect = static_cast<float>(depth.width()) / static_cast<float>(depth.height());
   const std::vector<shadow::Light> lights = lights_of(inputs.lights);
-  const FrameScene frame_scene{.scene = inputs.scene, .view = inputs.view, .time = inputs.time};
+  const FrameScene frame_scene{.scene = inputs.scene, .view = inputs.view, .depth = depth, .time = inputs.time};
+  const gl::Texture* drawn_motion = inputs.gbuffer.motion;
+  const shadow::TextureView motion = drawn_motion != nullptr ? view_of(*drawn_motion) : shadow::TextureView{};
   const auto draw = [&](const shadow::CasterPass& casters, gl::Pass& pass) {
     const auto reaches = [&](const scene::Bounds& box) { return casters.cull.holds(box_of(box)); };
     if (casters.kind == shadow::CasterKind::geometry) {
@@ -67,7 +69,7 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
                                               .cut = inputs.cut},
                                      .depth = view_of(depth),
                                      .normals = view_of(*inputs.gbuffer.geometric_normal),
-                                     .motion = view_of(*inputs.gbuffer.motion),
+                                     .motion = motion,
                                      .lights = lights,
                                      .casters = box_of(inputs.scene.casters()),
                                      .receivers = box_of(inputs.scene.receivers()),

@@ -4,40 +4,30 @@ namespace penumbra::render {
 
 namespace {
 
-gl::ProgramDesc id_program(scene::Surfaces surfaces) {
-  const bool masked = surfaces == scene::Surfaces::masked;
-  return {.name = masked ? "masked surface ids" : "surface ids",
+gl::ProgramDesc program(bool triangles) {
+  return {.name = "surface ids",
           .vertex = "scene/surface.vert",
           .fragment = "render/surface_ids.frag",
-          .defines = {{"MASKED", masked ? "1" : "0"}}};
+          .defines = scene::surface_defines({.triangles = triangles}, {})};
 }
 
 }  // namespace
 
 const gl::Texture& draw_surface_ids(gl::Device& device, const SurfaceIdInputs& inputs) {
-  const auto target = [&](const char* name, GLenum format) {
-    return &device.target(name, {.format = format,
-                                 .width = static_cast<int>(inputs.view.viewport.x),
-                                 .height = static_cast<int>(inputs.view.viewport.y)});
-  };
-  const gl::Texture* ids = target("surface ids", GL_RG32UI);
-  const gl::Texture* depth = target("surface ids' depth", GL_DEPTH_COMPONENT32F);
-  const glm::vec4 nothing(0.0f);
-  // Same depth test and draw order as the G-buffer, so that the same one of coplanar triangles is visible.
+  const gl::Texture& ids = device.target(
+      "surface ids", {.format = GL_RG32UI, .width = inputs.depth.width(), .height = inputs.depth.height()});
+  // The same depth, test and order as in the G-buffer, so that the same one of coplanar triangles is visible.
   gl::Pass pass(device, {.name = "surface ids",
-                         .colors = {{.texture = ids, .clear = nothing}},
-                         .depth = gl::Attachment{.texture = depth, .clear = nothing},
-                         .depth_test = gl::DepthTest::greater_equal,
-                         .depth_write = true});
+                         .colors = {{.texture = &ids, .clear = glm::vec4(0.0f)}},
+                         .depth = gl::Attachment{.texture = &inputs.depth},
+                         .depth_test = gl::DepthTest::equal});
   const Frustum frustum(inputs.view.world_to_clip);
-  const auto visible = [&](const scene::Bounds& box) { return frustum.holds(box); };
-  for (const scene::Surfaces surfaces : {scene::Surfaces::opaque, scene::Surfaces::masked})
-    inputs.scene.draw_surfaces(device, pass, surfaces, id_program(surfaces), visible);
-  return *ids;
+  inputs.scene.draw_surfaces(
+      device, pass, [&](const scene::SurfaceTraits& traits) { pass.use(program(traits.triangles)); },
+      [&](const scene::Bounds& box) { return frustum.holds(box); });
+  return ids;
 }
 
-std::vector<gl::ProgramDesc> surface_id_programs() {
-  return {id_program(scene::Surfaces::opaque), id_program(scene::Surfaces::masked)};
-}
+std::vector<gl::ProgramDesc> surface_id_programs() { return {program(true), program(false)}; }
 
 }  // namespace penumbra::render

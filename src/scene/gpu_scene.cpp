@@ -17,6 +17,7 @@ namespace {
 struct Placed {
   std::uint32_t first_index = 0;
   std::optional<std::uint32_t> base_vertex;  // absent if only deformed instances use it
+  std::uint32_t first_triangle = 0;
   Bounds bounds;
 };
 
@@ -46,7 +47,7 @@ class Builder {
     }
     std::stable_sort(instances.begin(), instances.end(), [](const Instance& a, const Instance& b) {
       const auto key = [](const Instance& x) {
-        return std::tuple(x.job >= 0, x.topology, x.alpha_mode, x.material, x.first_index, x.base_vertex);
+        return std::tuple(x.job >= 0, x.topology, x.alpha_mode, x.traits, x.material, x.first_index, x.base_vertex);
       };
       return key(a) < key(b);
     });
@@ -54,6 +55,8 @@ class Builder {
 
   VertexStreams rigid, deformed;
   std::vector<std::uint32_t> indices;
+  std::vector<glm::vec3> triangle_normals;  // of what does not deform
+  std::uint32_t deformed_triangles = 0;
   std::vector<Instance> instances;
 
  private:
@@ -74,16 +77,25 @@ class Builder {
                       .alpha_mode = material.alpha_mode,
                       .casts = casts_of(primitive, material),
                       .material = materials_.index_of(primitive.material),
+                      .traits = {.textures = materials_.textures_of(primitive.material),
+                                 .colors = !primitive.colors.empty(),
+                                 .triangles = primitive.topology == Topology::triangles},
                       .double_sided = material.double_sided,
                       .first_index = placed.first_index,
                       .index_count = static_cast<std::uint32_t>(primitive.indices.size()),
                       .local = placed.bounds};
     if (Deformer::deforms(node, primitive)) {
       instance.base_vertex = deformed.append(primitive);
-      instance.job = deformer_.add(scene_, node_index, primitive, instance.base_vertex);
+      instance.first_triangle = deformed_triangles;
+      if (instance.traits.triangles) deformed_triangles += instance.index_count / 3;
+      instance.job = deformer_.add(scene_, node_index, primitive,
+                                   {.first_index = instance.first_index,
+                                    .first_vertex = instance.base_vertex,
+                                    .first_triangle = instance.first_triangle});
     } else {
-      if (!placed.base_vertex) placed.base_vertex = rigid.append(primitive);
+      if (!placed.base_vertex) place_rigid(primitive, placed);
       instance.base_vertex = *placed.base_vertex;
+      instance.first_triangle = placed.first_triangle;
     }
     // Skinned vertices are already in world space, so instance transforms do not apply to them.
     const bool copied = !node.instances.empty() && !(instance.job >= 0 && deformer_.skinned(instance.job));
@@ -101,6 +113,13 @@ class Builder {
       indices.insert(indices.end(), primitive.indices.begin(), primitive.indices.end());
     }
     return entry->second;
+  }
+
+  void place_rigid(const Primitive& primitive, Placed& placed) {
+    placed.base_vertex = rigid.append(primitive);
+    placed.first_triangle = static_cast<std::uint32_t>(triangle_normals.size());
+    const std::vector<glm::vec3> normals = scene::triangle_normals(primitive);
+    triangle_normals.insert(triangle_normals.end(), normals.begin(), normals.end());
   }
 
   const Scene& scene_;
@@ -141,15 +160,21 @@ GpuScene::State::State(gl::Device& device, const Scene& described)
   surfaces = upload("texture coordinates and colours", builder.rigid.surfaces);
   deformed_surfaces = upload("deformed texture coordinates and colours", builder.deformed.surfaces);
   indices = upload("indices", builder.indices);
+  triangle_normals = upload("triangle normals", builder.triangle_normals);
   for (PosedVertices& vertices : posed) {
     vertices.positions = upload("deformed positions", builder.deformed.positions);
     vertices.frames = upload("deformed normals and tangents", builder.deformed.frames);
+    vertices.triangle_normals = upload("deformed triangle normals", std::vector<glm::vec3>(builder.deformed_triangles));
   }
   std::vector<std::uint32_t> numbers(instances.size());
   std::iota(numbers.begin(), numbers.end(), 0u);
   instance_numbers = upload("instance numbers", numbers);
   instance_blocks = gl::Buffer("instances", std::max<std::size_t>(instances.size(), 1) * sizeof(glsl::InstanceBlock));
-  for (const Instance& instance : instances) blended = blended || instance.alpha_mode == AlphaMode::blend;
+  for (const Instance& instance : instances) {
+    const bool blends = instance.alpha_mode == AlphaMode::blend;
+    blended = blended || blends;
+    emissive = emissive || (!blends && Materials::of(scene, instance.primitive->material).emissive != glm::vec3(0));
+  }
   lit_by_file = has_directional_light(scene);
   choose_faces();
 }
@@ -160,7 +185,9 @@ PosedVertices& GpuScene::State::posed_at(gl::Device& device, double time, const 
   }
   PosedVertices& vertices = &posed[0] == keep ? posed[1] : posed[0];
   vertices.pose = pose_at(scene, time);
-  deformer.run(device, vertices.pose, vertices.positions, vertices.frames);
+  deformer.run(
+      device, vertices.pose, indices,
+      {.positions = vertices.positions, .frames = vertices.frames, .triangle_normals = vertices.triangle_normals});
   vertices.time = time;
   return vertices;
 }
@@ -226,13 +253,12 @@ void GpuScene::State::update_instances() {
     instance.last_box = instance.moved ? box(instance, last->pose, last_world) : instance.box;
     moved = moved || instance.moved;
     receivers.add(instance.box);
-    const unsigned triangles = instance.topology == Topology::triangles ? INSTANCE_TRIANGLES : 0u;
     blocks.push_back({.world = world,
                       .last_world = last_world,
                       .area = glm::mat4(area_matrix(glm::mat3(world))),
                       .first_index = instance.first_index,
                       .base_vertex = instance.base_vertex,
-                      .flags = triangles,
+                      .first_triangle = instance.first_triangle,
                       .winding = instance.mirrored ? -1.0f : 1.0f});
   }
   instance_blocks.write(std::as_bytes(std::span(blocks)));
@@ -272,6 +298,7 @@ GpuScene::~GpuScene() = default;
 const Scene& GpuScene::scene() const { return state_->scene; }
 std::uint64_t GpuScene::id() const { return state_->id; }
 bool GpuScene::has_blended() const { return state_->blended; }
+bool GpuScene::has_emissive() const { return state_->emissive; }
 bool GpuScene::moved() const { return state_->moved; }
 Bounds GpuScene::casters() const { return state_->casters; }
 Bounds GpuScene::receivers() const { return state_->receivers; }

@@ -13,14 +13,17 @@
 #include "scene/pose.h"
 #include "scene/posed_geometry.h"
 #include "scene/scene.h"
+#include "scene/surface_traits.h"
 
 namespace penumbra::scene {
 
 // Decides from an instance's world-space box whether the instance is drawn.
 using BoxTest = std::function<bool(const Bounds&)>;
 
-// Which surfaces a pass draws.
-enum class Surfaces { opaque, masked };
+// Makes the program that a pass has for such surfaces the current one.
+using UseProgram = std::function<void(const SurfaceTraits&)>;
+// Orders what is drawn; any unit.
+using Distance = std::function<float(const Bounds&)>;
 
 // Which casters a pass draws, and what it writes.
 enum class Casters {
@@ -49,12 +52,17 @@ class GpuScene {
   // everything but skies, with both faces.
   void choose_casters(const CasterChoice& choice);
 
-  // Draws surfaces with a program that includes glsl/scene/surface.vert; the caller has bound the view's uniform block.
-  void draw_surfaces(gl::Device& device, gl::Pass& pass, Surfaces surfaces, const gl::ProgramDesc& program,
-                     const BoxTest& visible);
-  // Draws BLEND surfaces back to front as seen from `eye`.
-  void draw_blended(gl::Device& device, gl::Pass& pass, const gl::ProgramDesc& program, const glm::vec3& eye,
-                    const BoxTest& visible);
+  // Draws the depth of opaque surfaces, and of masked ones where their alpha passes; each of them nearest first, so
+  // that the depth test rejects most of what is hidden.
+  void draw_depth(gl::Device& device, gl::Pass& pass, const glm::mat4& world_to_clip, const BoxTest& visible,
+                  const Distance& distance);
+  // Draws opaque and masked surfaces, with programs of glsl/scene/surface.vert, over their depth from draw_depth(): the
+  // pass tests for equal depth, and no alpha. Of several at the same depth the last is seen; their order is always the
+  // same. The caller has bound the view's uniform block.
+  void draw_surfaces(gl::Device& device, gl::Pass& pass, const UseProgram& use, const BoxTest& visible);
+  // Draws BLEND surfaces, those with the greatest distance first.
+  void draw_blended(gl::Device& device, gl::Pass& pass, const UseProgram& use, const BoxTest& visible,
+                    const Distance& distance);
   // Draws the shadow casters: opaque surfaces, and masked and blended ones where their alpha passes.
   void draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
                     const BoxTest& reaches);
@@ -68,8 +76,9 @@ class GpuScene {
   // Unique among all scenes of this process, destroyed ones included; never 0.
   std::uint64_t id() const;
   bool has_blended() const;
-  bool moved() const;      // whether anything moved between the two poses
-  Bounds casters() const;  // world bounds in the present pose
+  bool has_emissive() const;  // whether any other surface emits light
+  bool moved() const;         // whether anything moved between the two poses
+  Bounds casters() const;     // world bounds in the present pose
   Bounds receivers() const;
   Bounds moved_bounds() const;  // of the casters that moved between the two poses, in both poses; empty if none did
   bool lit_by_file() const;     // the file has a directional light, so its emission is in matching units
@@ -81,7 +90,7 @@ class GpuScene {
   // only gl_Position: for surfaces of which both faces cast shadows, and for those of which one does.
   static std::array<gl::ProgramDesc, 2> caster_geometry_programs(const gl::ProgramDesc& stages);
 
-  // Every program that draw_casters() and pose() use.
+  // Every program that draw_depth(), draw_casters() and pose() use.
   static std::vector<gl::ProgramDesc> programs();
 
   // For tests: the deformed positions of all skinned and morphed instances after the last pose().

@@ -10,7 +10,7 @@ namespace penumbra::scene {
 
 namespace {
 
-// Must match glsl/scene/deform.comp.
+// Must match glsl/scene/deform.comp and triangle_normals.comp, which share the last ones but one.
 enum Binding : GLuint {
   binding_rest,
   binding_influences,
@@ -19,8 +19,14 @@ enum Binding : GLuint {
   binding_weights,
   binding_jobs,
   binding_positions,
-  binding_frames
+  binding_frames,
+  // Of triangle_normals.comp alone.
+  binding_indices = 0,
+  binding_triangle_normals = 1,
 };
+
+gl::ProgramDesc vertex_program() { return {.name = "deform", .compute = "scene/deform.comp"}; }
+gl::ProgramDesc triangle_program() { return {.name = "triangle normals", .compute = "scene/triangle_normals.comp"}; }
 
 void append(std::vector<float>& to, const glm::vec3& v) { to.insert(to.end(), {v.x, v.y, v.z}); }
 
@@ -104,27 +110,32 @@ const Deformer::Source& Deformer::source_of(const Primitive& primitive, std::siz
   return source;
 }
 
-int Deformer::add(const Scene& scene, int node, const Primitive& primitive, std::uint32_t target) {
+int Deformer::add(const Scene& scene, int node, const Primitive& primitive, const Place& place) {
   const int skin = scene.nodes[static_cast<std::size_t>(node)].skin;
   const std::size_t joints =
       skin >= 0 && !primitive.joints.empty() ? scene.skins[static_cast<std::size_t>(skin)].joints.size() : 0;
   const auto count = static_cast<std::uint32_t>(primitive.positions.size());
   const auto targets = static_cast<std::uint32_t>(primitive.targets.size());
+  const auto triangles =
+      primitive.topology == Topology::triangles ? static_cast<std::uint32_t>(primitive.indices.size() / 3) : 0u;
   const Source& source = source_of(primitive, joints);
   jobs_.push_back({.node = node,
                    .source = &source,
                    .block = {.source = source.vertices,
-                             .target = target,
+                             .target = place.first_vertex,
                              .count = count,
                              .influences = source.influences,
                              .joints = joints_,
                              .joint_count = static_cast<std::uint32_t>(joints),
                              .deltas = source.deltas,
                              .weights = weights_,
-                             .target_count = targets}});
+                             .target_count = targets,
+                             .first_index = place.first_index,
+                             .first_triangle = place.first_triangle,
+                             .triangle_count = triangles}});
   joints_ += static_cast<std::uint32_t>(joints);
   weights_ += targets;
-  vertices_ = std::max<std::size_t>(vertices_, target + count);
+  vertices_ = std::max<std::size_t>(vertices_, place.first_vertex + count);
   return static_cast<int>(jobs_.size()) - 1;
 }
 
@@ -169,7 +180,7 @@ Bounds Deformer::bounds(int job, const Pose& pose) const {
   return bounds;
 }
 
-void Deformer::run(gl::Device& device, const Pose& pose, const gl::Buffer& positions, const gl::Buffer& frames) const {
+void Deformer::run(gl::Device& device, const Pose& pose, const gl::Buffer& indices, const Results& results) const {
   if (jobs_.empty()) return;
   std::vector<glm::mat4> joints;
   std::vector<float> weights;
@@ -185,21 +196,28 @@ void Deformer::run(gl::Device& device, const Pose& pose, const gl::Buffer& posit
   weight_buffer.write(std::as_bytes(std::span(weights)));
 
   gl::Pass pass(device, {.name = "deform"});
-  const gl::Program& deform = pass.use(program());
+  const gl::Program& deform = pass.use(vertex_program());
   rest_buffer_.bind_storage(binding_rest);
   influence_buffer_.bind_storage(binding_influences);
   delta_buffer_.bind_storage(binding_deltas);
   joint_buffer.bind_storage(binding_joints);
   weight_buffer.bind_storage(binding_weights);
   job_buffer_.bind_storage(binding_jobs);
-  positions.bind_storage(binding_positions);
-  frames.bind_storage(binding_frames);
+  results.positions.bind_storage(binding_positions);
+  results.frames.bind_storage(binding_frames);
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
     deform.set("job", static_cast<int>(i));
     if (jobs_[i].block.count != 0) pass.dispatch(static_cast<int>(jobs_[i].block.count), 1);
   }
+  const gl::Program& normals = pass.use(triangle_program());
+  indices.bind_storage(binding_indices);
+  results.triangle_normals.bind_storage(binding_triangle_normals);
+  for (std::size_t i = 0; i < jobs_.size(); ++i) {
+    normals.set("job", static_cast<int>(i));
+    if (jobs_[i].block.triangle_count != 0) pass.dispatch(static_cast<int>(jobs_[i].block.triangle_count), 1);
+  }
 }
 
-gl::ProgramDesc Deformer::program() { return {.name = "deform", .compute = "scene/deform.comp"}; }
+std::vector<gl::ProgramDesc> Deformer::programs() { return {vertex_program(), triangle_program()}; }
 
 }  // namespace penumbra::scene

@@ -22,9 +22,13 @@ class Deformer {
  public:
   static bool deforms(const Node& node, const Primitive& primitive);
 
-  // Adds a job whose vertices begin at index `target` of the results; returns its number. Call upload() once after the
-  // last add().
-  int add(const Scene& scene, int node, const Primitive& primitive, std::uint32_t target);
+  // Where a job finds the indices of its primitive, and where its results begin.
+  struct Place {
+    std::uint32_t first_index = 0, first_vertex = 0, first_triangle = 0;
+  };
+
+  // Adds a job; returns its number. Call upload() once after the last add().
+  int add(const Scene& scene, int node, const Primitive& primitive, const Place& place);
   void upload();
 
   bool skinned(int job) const { return jobs_[static_cast<std::size_t>(job)].block.joint_count != 0; }
@@ -35,10 +39,16 @@ class Deformer {
   Bounds bounds(int job, const Pose& pose) const;
 
   std::size_t vertices() const { return vertices_; }
+  // Where the results are written to.
+  struct Results {
+    const gl::Buffer& positions;
+    const gl::Buffer& frames;
+    const gl::Buffer& triangle_normals;
+  };
   // Runs all jobs for a pose.
-  void run(gl::Device& device, const Pose& pose, const gl::Buffer& positions, const gl::Buffer& frames) const;
+  void run(gl::Device& device, const Pose& pose, const gl::Buffer& indices, const Results& results) const;
 
-  static gl::ProgramDesc program();
+  static std::vector<gl::ProgramDesc> programs();
 
  private:
   // An undeformed primitive. All nodes that draw it with the same number of joints share it.

@@ -11,6 +11,7 @@ namespace {
 
 // Must match glsl/scene.
 constexpr GLuint instances_binding = 0;
+constexpr GLuint triangle_normals_binding = 2;
 constexpr GLuint indices_binding = 2;
 constexpr GLuint positions_binding = 3;
 
@@ -42,7 +43,16 @@ Batch shaded_batch(const Instance& instance) {
           .mirrored = instance.mirrored,
           .double_sided = instance.double_sided || instance.topology != Topology::triangles,
           .topology = instance.topology,
-          .material = instance.material};
+          .material = instance.material,
+          .traits = instance.traits};
+}
+
+// The same, as far as only depth is drawn.
+Batch depth_batch(const Instance& instance, bool masked) {
+  Batch batch = shaded_batch(instance);
+  batch.traits = {};
+  if (!masked) batch.material = -1;
+  return batch;
 }
 
 // Whether triangles that are counter-clockwise as seen from the light are clockwise in its map. A map with x to the
@@ -79,7 +89,7 @@ std::size_t triangles_of(const DrawList& list, const Batch& batch) {
 
 bool Batch::same_state(const Batch& other) const {
   return deformed == other.deformed && mirrored == other.mirrored && double_sided == other.double_sided &&
-         topology == other.topology && material == other.material;
+         topology == other.topology && material == other.material && traits == other.traits;
 }
 
 void DrawList::add(const Instance& instance, std::uint32_t index, Batch batch) {
@@ -101,60 +111,104 @@ void DrawList::add(const Instance& instance, std::uint32_t index, Batch batch) {
   ++batches.back().count;
 }
 
-void GpuScene::State::draw(gl::Device& device, gl::Pass& pass, const DrawList& list, bool indexed) const {
+void GpuScene::State::draw(gl::Device& device, gl::Pass& pass, const DrawList& list, const UseProgram& use) const {
   if (list.commands.empty()) return;
-  const std::vector<gl::DrawArraysCommand> unindexed_commands =
-      indexed ? std::vector<gl::DrawArraysCommand>() : without_indices(list.commands);
-  const auto bytes = indexed ? std::as_bytes(std::span(list.commands)) : std::as_bytes(std::span(unindexed_commands));
-  const std::size_t command_bytes = bytes.size() / list.commands.size();
+  const auto bytes = std::as_bytes(std::span(list.commands));
   const gl::Buffer& commands = device.scratch("draw commands", bytes.size());
   commands.write(bytes);
   instance_blocks.bind_storage(instances_binding);
-  indices.bind_storage(indices_binding);
+  const SurfaceTraits* used = nullptr;
   for (const Batch& batch : list.batches) {
-    (!indexed ? unindexed : batch.deformed ? deformed : rigid).bind();
-    (batch.deformed ? now->positions : positions).bind_storage(positions_binding);
+    if (use && (used == nullptr || *used != batch.traits)) use(batch.traits);
+    used = &batch.traits;
+    (batch.deformed ? deformed : rigid).bind();
+    (batch.deformed ? now->triangle_normals : triangle_normals).bind_storage(triangle_normals_binding);
     pass.set_cull_back(!batch.double_sided);
     pass.set_front_clockwise(batch.mirrored);
     if (batch.material >= 0) materials.bind(batch.material);
-    const gl::IndirectCommands draws{commands, batch.first * command_bytes, batch.count};
-    if (indexed) {
-      pass.draw_elements_indirect(mode_of(batch.topology), GL_UNSIGNED_INT, draws);
-    } else {
-      pass.draw_arrays_indirect(mode_of(batch.topology), draws);
-    }
+    const std::size_t offset = batch.first * sizeof(gl::DrawElementsCommand);
+    pass.draw_elements_indirect(mode_of(batch.topology), GL_UNSIGNED_INT, {commands, offset, batch.count});
     pass.count_draws(0, batch.topology == Topology::triangles ? triangles_of(list, batch) : 0);
   }
 }
 
-void GpuScene::draw_surfaces(gl::Device& device, gl::Pass& pass, Surfaces surfaces, const gl::ProgramDesc& program,
-                             const BoxTest& visible) {
-  const AlphaMode mode = surfaces == Surfaces::masked ? AlphaMode::mask : AlphaMode::opaque;
+void GpuScene::State::draw_unindexed(gl::Device& device, gl::Pass& pass, const DrawList& list) const {
+  if (list.commands.empty()) return;
+  const std::vector<gl::DrawArraysCommand> draws = without_indices(list.commands);
+  const auto bytes = std::as_bytes(std::span(draws));
+  const gl::Buffer& commands = device.scratch("draw commands", bytes.size());
+  commands.write(bytes);
+  instance_blocks.bind_storage(instances_binding);
+  indices.bind_storage(indices_binding);
+  unindexed.bind();
+  for (const Batch& batch : list.batches) {
+    (batch.deformed ? now->positions : positions).bind_storage(positions_binding);
+    pass.set_cull_back(!batch.double_sided);
+    pass.set_front_clockwise(batch.mirrored);
+    const std::size_t offset = batch.first * sizeof(gl::DrawArraysCommand);
+    pass.draw_arrays_indirect(mode_of(batch.topology), {commands, offset, batch.count});
+    pass.count_draws(0, batch.topology == Topology::triangles ? triangles_of(list, batch) : 0);
+  }
+}
+
+// The visible surfaces of a mode, nearest first. Copies of one primitive stay together, because one draw covers them.
+std::vector<Run> GpuScene::State::nearest_first(AlphaMode mode, const BoxTest& visible,
+                                                const Distance& distance) const {
+  std::vector<Run> runs;
+  for (std::uint32_t i = 0; i < instances.size(); ++i) {
+    const Instance& instance = instances[i];
+    if (instance.alpha_mode != mode || !visible(instance.box)) continue;
+    const float away = distance(instance.box);
+    const bool copy = !runs.empty() && runs.back().last + 1 == i && instances[i - 1].primitive == instance.primitive &&
+                      instances[i - 1].base_vertex == instance.base_vertex;
+    if (copy) {
+      runs.back().last = i;
+      runs.back().distance = std::min(runs.back().distance, away);
+    } else {
+      runs.push_back({.first = i, .last = i, .distance = away});
+    }
+  }
+  std::ranges::stable_sort(runs, {}, &Run::distance);
+  return runs;
+}
+
+void GpuScene::draw_depth(gl::Device& device, gl::Pass& pass, const glm::mat4& world_to_clip, const BoxTest& visible,
+                          const Distance& distance) {
+  for (const bool masked : {false, true}) {
+    DrawList list;
+    const AlphaMode mode = masked ? AlphaMode::mask : AlphaMode::opaque;
+    for (const Run& run : state_->nearest_first(mode, visible, distance)) {
+      for (std::uint32_t i = run.first; i <= run.last; ++i)
+        list.add(state_->instances[i], i, depth_batch(state_->instances[i], masked));
+    }
+    if (list.commands.empty()) continue;
+    pass.use(caster_program(masked, /*marks_moved=*/false, /*last_pose=*/false)).set("world_to_clip", world_to_clip);
+    state_->draw(device, pass, list);
+  }
+}
+
+void GpuScene::draw_surfaces(gl::Device& device, gl::Pass& pass, const UseProgram& use, const BoxTest& visible) {
   DrawList list;
   for (std::uint32_t i = 0; i < state_->instances.size(); ++i) {
     const Instance& instance = state_->instances[i];
-    if (instance.alpha_mode == mode && visible(instance.box)) list.add(instance, i, shaded_batch(instance));
+    if (instance.alpha_mode != AlphaMode::blend && visible(instance.box)) list.add(instance, i, shaded_batch(instance));
   }
-  if (list.commands.empty()) return;
-  pass.use(program);
-  state_->draw(device, pass, list);
+  state_->draw(device, pass, list, use);
 }
 
-void GpuScene::draw_blended(gl::Device& device, gl::Pass& pass, const gl::ProgramDesc& program, const glm::vec3& eye,
-                            const BoxTest& visible) {
+void GpuScene::draw_blended(gl::Device& device, gl::Pass& pass, const UseProgram& use, const BoxTest& visible,
+                            const Distance& distance) {
   const std::vector<Instance>& instances = state_->instances;
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < instances.size(); ++i) {
     if (instances[i].alpha_mode == AlphaMode::blend && visible(instances[i].box)) order.push_back(i);
   }
-  const auto distance = [&](std::uint32_t i) { return glm::distance(instances[i].box.center(), eye); };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return distance(a) > distance(b); });
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return distance(instances[a].box) > distance(instances[b].box);
+  });
   DrawList list;
   for (const std::uint32_t i : order) list.add(instances[i], i, shaded_batch(instances[i]));
-  if (list.commands.empty()) return;
-  pass.use(program);
-  state_->draw(device, pass, list);
+  state_->draw(device, pass, list, use);
 }
 
 void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const CasterDraw& which,
@@ -225,7 +279,7 @@ void GpuScene::draw_caster_geometry(gl::Device& device, gl::Pass& pass, const gl
     program.set("world_to_clip", world_to_clip);
     program.set("caster_light", light);
     program.set("caster_side", faces == CasterFaces::front ? 1.0f : -1.0f);
-    state_->draw(device, pass, list, /*indexed=*/false);
+    state_->draw_unindexed(device, pass, list);
   }
 }
 
@@ -240,7 +294,7 @@ std::array<gl::ProgramDesc, 2> GpuScene::caster_geometry_programs(const gl::Prog
 }
 
 std::vector<gl::ProgramDesc> GpuScene::programs() {
-  std::vector<gl::ProgramDesc> programs{Deformer::program()};
+  std::vector<gl::ProgramDesc> programs = Deformer::programs();
   for (const bool masked : {false, true}) {
     programs.push_back(caster_program(masked, /*marks_moved=*/false, /*last_pose=*/false));
     for (const bool last_pose : {false, true})

@@ -89,15 +89,20 @@ Materials::Materials(gl::Device& device, const Scene& scene) {
   for (const Material& material : scene.materials) {
     blocks.push_back(block_of(material));
     textures_.push_back(slots(device, scene, material));
+    unsigned& present = present_.emplace_back(0u);
     for (std::size_t i = 0; i < TEXTURE_COUNT; ++i) {
-      if (textures_.back()[i].texture != nullptr) blocks.back().flags |= 1u << i;
+      if (textures_.back()[i].texture != nullptr) present |= 1u << i;
     }
+    blocks.back().flags |= present;
   }
   blocks.push_back(block_of(of(scene, -1)));
   textures_.emplace_back();
+  present_.push_back(0);
   fill_empty_slots();
   blocks_ = gl::Buffer::of("materials", std::span<const glsl::MaterialBlock>(blocks));
 }
+
+unsigned Materials::textures_of(int material) const { return present_[static_cast<std::size_t>(index_of(material))]; }
 
 const Material& Materials::of(const Scene& scene, int material) {
   static const Material unspecified;

@@ -18,6 +18,9 @@ class Materials {
  public:
   Materials(gl::Device& device, const Scene& scene);
 
+  // Bit i: the material has texture i of glsl/shared/scene_blocks.h.
+  unsigned textures_of(int material) const;
+
   void bind(int material) const;  // binds its uniform block and textures
 
   // The scene's material, or the default for -1.
@@ -37,6 +40,7 @@ class Materials {
 
   std::map<std::pair<int, bool>, gl::Texture> images_;  // keys: image, and whether it is read as sRGB
   std::vector<Slots> textures_;                         // by material
+  std::vector<unsigned> present_;                       // by material: textures_of()
   gl::Buffer blocks_;
 };
 

@@ -11,6 +11,7 @@
 #include "scene/gpu_scene_materials.h"
 #include "scene/gpu_scene_vertices.h"
 #include "scene/posed_geometry.h"
+#include "scene/surface_traits.h"
 
 namespace penumbra::scene {
 
@@ -24,10 +25,11 @@ struct Instance {
   AlphaMode alpha_mode = AlphaMode::opaque;
   Casts casts = Casts::always;
   int material = 0;
+  SurfaceTraits traits;
   bool double_sided = false;
   // Which faces cast shadows by the present choice of casters; nothing if none does.
   std::optional<CasterFaces> faces = CasterFaces::both;
-  std::uint32_t first_index = 0, index_count = 0, base_vertex = 0;
+  std::uint32_t first_index = 0, index_count = 0, base_vertex = 0, first_triangle = 0;
   Bounds local;  // bounds in node space, unless it deforms
 
   // In the present pose.
@@ -41,6 +43,7 @@ struct Batch {
   bool deformed = false, mirrored = false, double_sided = false;
   Topology topology = Topology::triangles;
   int material = -1;  // -1: the draw reads no material
+  SurfaceTraits traits;
   std::size_t first = 0, count = 0;
 
   bool same_state(const Batch& other) const;
@@ -51,6 +54,12 @@ struct DrawList {
   std::vector<Batch> batches;
 
   void add(const Instance& instance, std::uint32_t index, Batch batch);
+};
+
+// Consecutive instances of one primitive.
+struct Run {
+  std::uint32_t first = 0, last = 0;
+  float distance = 0;  // of the nearest
 };
 
 // Which casters a draw includes, and what it writes.
@@ -64,7 +73,7 @@ struct CasterDraw {
 struct PosedVertices {
   std::optional<double> time;
   Pose pose;
-  gl::Buffer positions, frames;
+  gl::Buffer positions, frames, triangle_normals;
 };
 
 struct GpuScene::State {
@@ -75,7 +84,7 @@ struct GpuScene::State {
   Materials materials;
   Deformer deformer;
   std::vector<Instance> instances;
-  gl::Buffer positions, frames, surfaces, indices;  // of all primitives, undeformed
+  gl::Buffer positions, frames, surfaces, indices, triangle_normals;  // of all primitives, undeformed
   gl::Buffer deformed_surfaces;
   gl::Buffer instance_numbers, instance_blocks;
   VertexArray rigid{"rigid vertices"}, deformed{"deformed vertices"}, unindexed{"instance numbers", /*vertices=*/false};
@@ -86,7 +95,7 @@ struct GpuScene::State {
   std::pair<double, double> times;  // of the last and the present pose
 
   CasterChoice choice;
-  bool moved = false, blended = false, lit_by_file = false;
+  bool moved = false, blended = false, emissive = false, lit_by_file = false;
   Bounds casters, receivers, moved_casters;
 
   PosedVertices& posed_at(gl::Device& device, double time, const PosedVertices* keep);
@@ -94,8 +103,12 @@ struct GpuScene::State {
   void update_instances();
   void choose_faces();
   void update_caster_bounds();
-  // `indexed`: false for vertex shaders that read the index buffer themselves.
-  void draw(gl::Device& device, gl::Pass& pass, const DrawList& list, bool indexed = true) const;
+  // `use`: called with the traits of the batches that follow, where they differ from those before; absent: the caller
+  // has chosen a program.
+  void draw(gl::Device& device, gl::Pass& pass, const DrawList& list, const UseProgram& use = {}) const;
+  // For vertex shaders that read the index buffer themselves.
+  void draw_unindexed(gl::Device& device, gl::Pass& pass, const DrawList& list) const;
+  std::vector<Run> nearest_first(AlphaMode mode, const BoxTest& visible, const Distance& distance) const;
   void draw_casters(gl::Device& device, gl::Pass& pass, const CasterDraw& which, const glm::mat4& world_to_clip,
                     const BoxTest& reaches) const;
   DrawList caster_geometry(std::optional<CasterFaces> faces, const BoxTest& reaches) const;

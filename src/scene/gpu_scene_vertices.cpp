@@ -5,6 +5,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "gl/debug.h"
+#include "lib/triangle_normal.glsl"
 
 namespace penumbra::scene {
 
@@ -70,6 +71,16 @@ std::uint32_t VertexStreams::append(const Primitive& primitive) {
     surfaces.push_back(surface);
   }
   return static_cast<std::uint32_t>(first);
+}
+
+std::vector<glm::vec3> triangle_normals(const Primitive& primitive) {
+  std::vector<glm::vec3> normals;
+  if (primitive.topology != Topology::triangles) return normals;
+  const auto corner = [&](std::size_t index) { return primitive.positions[primitive.indices[index]]; };
+  normals.reserve(primitive.indices.size() / 3);
+  for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3)
+    normals.push_back(glsl::triangle_normal(corner(i), corner(i + 1), corner(i + 2)));
+  return normals;
 }
 
 VertexArray::VertexArray(std::string_view label, bool vertices) {

@@ -30,6 +30,10 @@ struct VertexStreams {
   std::uint32_t append(const Primitive& primitive);
 };
 
+// A normal for each triangle of a primitive, not of unit length: see glsl/lib/triangle_normal.glsl. Empty for lines and
+// points.
+std::vector<glm::vec3> triangle_normals(const Primitive& primitive);
+
 // The buffers that a draw reads its vertices from. Without deformation `last_positions` is `positions`.
 struct VertexSource {
   const gl::Buffer* positions = nullptr;

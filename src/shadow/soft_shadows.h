@@ -58,6 +58,9 @@ class SoftShadows {
 
   // `params` holds at least registry().params().
   Mask render(const Inputs& inputs, const ParamSet& params);
+  // Whether render() reads Inputs::motion with these parameters: where the denoiser keeps a history, and perhaps where
+  // a technique has passes of its own. Else the caller need not draw motion vectors.
+  bool reads_motion(const ParamSet& params, const Light& light = {}) const;
   // Releases everything that is kept for a view.
   void forget_view(int id);
 

@@ -23,7 +23,8 @@ namespace {
 // The receivers of a frame's pixels.
 std::vector<Receiver> receivers_of(gl::Device& device, const render::FrameScene& frame,
                                    const scene::PosedGeometry& geometry) {
-  const gl::Texture& ids = render::draw_surface_ids(device, {.scene = frame.scene, .view = frame.view});
+  const gl::Texture& ids =
+      render::draw_surface_ids(device, {.scene = frame.scene, .view = frame.view, .depth = frame.depth});
   const std::vector<unsigned> values = gl::read_uints(ids, 2);
   std::vector<glm::uvec2> drawn;
   drawn.reserve(values.size() / 2);

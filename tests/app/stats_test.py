@@ -69,7 +69,7 @@ class Stats(TestCase):
         self.assertGreaterEqual(max(shares), 0.9)
 
     def test_the_table_names_every_pass_and_no_other(self):
-        always = ["gbuffer", "shadow mask", "lighting", "exposure", "tone map"]
+        always = ["depth", "gbuffer", "shadow mask", "lighting", "exposure", "tone map"]
         for of, arguments, more in (
             ("posts", ["--technique", "none"], []),
             ("posts", ["--technique", "hard"], ["shadow map"]),

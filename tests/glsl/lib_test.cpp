@@ -9,6 +9,7 @@
 #include "lib/hash.glsl"
 #include "lib/kernel.glsl"
 #include "lib/octahedral.glsl"
+#include "lib/triangle_normal.glsl"
 
 namespace penumbra::glsl {
 namespace {
@@ -33,6 +34,21 @@ TEST(Octahedral, RoundTripsTheAxes) {
   for (const vec3& v : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, -1, 0), vec3(0, 0, 1), vec3(0, 0, -1)}) {
     EXPECT_LT(length(octahedral_decode(octahedral_encode(v)) - v), 1e-6f);
   }
+}
+
+TEST(TriangleNormal, PointsToTheCounterClockwiseSideAtAnySize) {
+  for (const float size : {1e-30f, 1e-12f, 1.0f, 1e12f, 1e30f}) {
+    const vec3 a(0), b(2 * size, 0, 0), c(0, 3 * size, 0);
+    EXPECT_LT(length(normalize(triangle_normal(a, b, c)) - vec3(0, 0, 1)), 1e-6f) << size;
+    EXPECT_LT(length(normalize(triangle_normal(a, c, b)) - vec3(0, 0, -1)), 1e-6f) << size;
+  }
+}
+
+TEST(TriangleNormal, IsZeroWithoutArea) {
+  const vec3 a(1, 2, 3);
+  EXPECT_EQ(triangle_normal(a, a, a), vec3(0));
+  EXPECT_EQ(triangle_normal(a, a, a + vec3(1)), vec3(0));
+  EXPECT_EQ(triangle_normal(a, a + vec3(1), a + vec3(2)), vec3(0));
 }
 
 TEST(ConcentricDisc, KeepsAreas) {

@@ -131,5 +131,35 @@ TEST_F(DeformTest, MotionFollowsTheMorph) {
   }
 }
 
+TEST_F(DeformTest, GeometricNormalsFollowTheMorph) {
+  // The upper edge of two squares, of which the second is mirrored, comes forward by their side.
+  scene::Primitive quad = square();
+  quad.targets.resize(1);
+  quad.targets[0].positions = {{0, 0, 0}, {0, 0, 0}, {0, 0, 2}, {0, 0, 2}};
+  scene::Scene scene;
+  add_node(scene, square(), glm::translate(glm::mat4(1), glm::vec3(0, 0, -20)));  // of which no triangle is looked up
+  for (const float side : {-1.0f, 1.0f}) {
+    const glm::mat4 world = glm::translate(glm::mat4(1), glm::vec3(side, 0, 0));
+    add_node(scene, quad, glm::scale(world, glm::vec3(-side, 1, 1)));
+    scene.meshes.back().default_weights = {0};
+    const int node = static_cast<int>(scene.nodes.size()) - 1;
+    scene.animations.push_back(
+        {.name = "tilt",
+         .channels =
+             {{.node = node, .path = scene::Path::weights, .times = {0, 1}, .values = {0, side}, .components = 1}},
+         .duration = 1});
+  }
+  gpu_scene.emplace(device, scene);
+  for (const float tilt : {0.0f, 1.0f, 0.25f}) {
+    inputs.last_time = inputs.time = tilt;
+    renderer.draw(*gpu_scene, inputs, params);
+    for (const int side : {-1, 1}) {
+      const glm::vec3 expected = glm::normalize(glm::vec3(0, -static_cast<float>(side) * tilt, 1));
+      const glm::vec3 seen = pixel3("geometric_normal", width / 2 + side * 6, height / 2);
+      EXPECT_LT(glm::distance(seen, expected), 1e-6f) << side << " at " << tilt;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace penumbra::test

@@ -1,4 +1,5 @@
 // The G-buffer: depth, normals, motion, culling, alpha masks, instances.
+#include <array>
 #include <cmath>
 
 #include "render_scenes.h"
@@ -145,6 +146,75 @@ TEST_F(GBufferTest, CopiesStandWhereTheirTransformsPutThem) {
     const auto row = static_cast<int>((0.5f - clip.y / clip.w * 0.5f) * height);
     EXPECT_NEAR(pixel("depth", column, row)[0], 4 - x, 1e-4f);
   }
+}
+
+TEST_F(GBufferTest, OfSurfacesAtTheSameDepthTheSameOneIsSeenFromEverywhere) {
+  // Two coincident squares of different colours, each beside a wall that makes its object the nearer one for one of the
+  // cameras.
+  scene::Scene scene;
+  for (const float side : {-1.0f, 1.0f}) {
+    scene.materials.push_back({.base_color = side < 0 ? glm::vec4(1, 0, 0, 1) : glm::vec4(0, 1, 0, 1), .unlit = true});
+    scene::Primitive primitive = square();
+    for (const glm::vec3& corner : square().positions)
+      primitive.positions.push_back(glm::vec3(side * 3, 0, 2) + corner * 0.1f);
+    primitive.normals.assign(8, {0, 0, 1});
+    for (const std::uint32_t index : square().indices) primitive.indices.push_back(index + 4);
+    primitive.material = static_cast<int>(scene.materials.size()) - 1;
+    add_node(scene, primitive, glm::mat4(1));
+  }
+  std::vector<glm::vec3> seen;
+  for (const float x : {-2.0f, 2.0f}) {
+    inputs.camera = inputs.last_camera = render::look_at({x, 0, 3}, {0, 0, 0}, 1.0f, 0.01f);
+    draw(scene);
+    seen.push_back(pixel3("albedo", width / 2, height / 2));
+    EXPECT_NEAR(seen.back().r + seen.back().g, 1, 1e-3f);
+  }
+  EXPECT_EQ(seen[0], seen[1]);
+}
+
+TEST_F(GBufferTest, EachSurfaceHasWhatItsOwnMaterialHas) {
+  // Side by side: textured, coloured at its vertices, emissive, and plain; drawn by programs of their own.
+  scene::Scene scene;
+  scene.images.push_back({.name = "red", .rgba = {255, 0, 0, 255}});
+  scene.textures.push_back({.image = 0, .mipmapped = false});
+  scene.materials = {{.base_color_texture = {.texture = 0}}, {}, {.emissive = {0, 0, 2}}, {.base_color = {0, 0, 1, 1}}};
+  for (int i = 0; i < 4; ++i) {
+    scene::Primitive quad = square();
+    quad.uvs[0].assign(4, {0.5f, 0.5f});
+    if (i == 1) quad.colors.assign(4, {0, 1, 0, 1});
+    quad.material = i;
+    const glm::vec3 place(static_cast<float>(i) - 1.5f, 0, 0);
+    add_node(scene, quad, glm::scale(glm::translate(glm::mat4(1), place), glm::vec3(0.4f)));
+  }
+  draw(scene);
+  const std::array albedo{glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(1), glm::vec3(0, 0, 1)};
+  for (int i = 0; i < 4; ++i) {
+    const auto x = width / 2 + static_cast<int>((static_cast<float>(i) - 1.5f) / (4 * std::tan(0.5f)) * 0.5f * height);
+    EXPECT_LT(glm::distance(pixel3("albedo", x, height / 2), albedo.at(static_cast<std::size_t>(i))), 1e-3f) << i;
+    EXPECT_LT(glm::distance(pixel3("emission", x, height / 2), glm::vec3(0, 0, i == 2 ? 2 : 0)), 1e-2f) << i;
+  }
+}
+
+TEST_F(GBufferTest, HasTwentyBytesAPixelBesidesDepthUntilMoreIsRead) {
+  const auto bytes = [&] {
+    std::size_t sum = 0;
+    for (const char* name : {"albedo", "shading normal", "geometric normal", "material", "emission", "motion"})
+      sum += device.target_bytes(name);
+    return sum;
+  };
+  scene::Scene scene;
+  add_node(scene, square(), glm::mat4(1));
+  params.set_text("technique", "pcss");
+  draw(scene);
+  EXPECT_EQ(bytes(), width * height * 20U);
+  EXPECT_EQ(pixel3("emission", width / 2, height / 2), glm::vec3(0));
+  params.set("history.reuse", true);
+  draw(scene);
+  EXPECT_EQ(bytes(), width * height * 28U);
+  scene.materials.push_back({.emissive = {1, 1, 1}});
+  scene.meshes[0].primitives[0].material = 0;
+  draw(scene);
+  EXPECT_EQ(bytes(), width * height * 32U);
 }
 
 TEST_F(GBufferTest, LinesAndPointsAreDrawn) {

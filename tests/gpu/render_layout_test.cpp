@@ -44,7 +44,7 @@ void expect_offset(const std::map<std::string, int>& found, const std::string& g
 }
 
 TEST_F(LayoutTest, SurfacePrograms) {
-  const auto found = offsets(device.shaders.get(program_named(renderer, params, "masked surfaces")).id());
+  const auto found = offsets(device.shaders.get(program_named(renderer, params, "surfaces")).id());
   using glsl::InstanceBlock;
   using glsl::MaterialBlock;
   using glsl::ViewBlock;
@@ -58,6 +58,7 @@ TEST_F(LayoutTest, SurfacePrograms) {
   expect_offset(found, "instances[0].last_world", offsetof(InstanceBlock, last_world));
   expect_offset(found, "instances[0].area", offsetof(InstanceBlock, area));
   expect_offset(found, "instances[0].first_index", offsetof(InstanceBlock, first_index));
+  expect_offset(found, "instances[0].first_triangle", offsetof(InstanceBlock, first_triangle));
   expect_offset(found, "instances[0].winding", offsetof(InstanceBlock, winding));
   expect_offset(found, "material.emissive", offsetof(MaterialBlock, emissive));
   expect_offset(found, "material.alpha_cutoff", offsetof(MaterialBlock, alpha_cutoff));
@@ -72,6 +73,7 @@ TEST_F(LayoutTest, DeformProgram) {
   expect_offset(found, "jobs[0].source", offsetof(DeformBlock, source));
   expect_offset(found, "jobs[0].joint_count", offsetof(DeformBlock, joint_count));
   expect_offset(found, "jobs[0].target_count", offsetof(DeformBlock, target_count));
+  expect_offset(found, "jobs[0].triangle_count", offsetof(DeformBlock, triangle_count));
 }
 
 TEST_F(LayoutTest, LightingProgram) {

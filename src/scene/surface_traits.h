@@ -1,0 +1,32 @@
+#pragma once
+
+#include <compare>
+#include <vector>
+
+#include "gl/program.h"
+
+namespace penumbra::scene {
+
+// What a surface has that a shader would spend time on: the programs of surfaces are compiled for these.
+struct SurfaceTraits {
+  unsigned textures = 0;  // bit i: the material has texture i of glsl/shared/scene_blocks.h
+  bool colors = false;    // colours at its vertices
+  bool triangles = true;  // false: lines or points
+
+  auto operator<=>(const SurfaceTraits&) const = default;
+};
+
+// What a pass reads of a surface besides its depth and its colour.
+struct SurfaceReads {
+  bool normals = false;  // if not, it can read the index of the instance
+  bool world = false;    // the position
+  bool motion = false;   // the motion vector
+};
+
+// The constants of glsl/scene/surface.vert and surface.glsl: see surface_interface.glsl.
+std::vector<gl::Define> surface_defines(const SurfaceTraits& traits, const SurfaceReads& reads);
+
+// Traits for listing programs: first all of them, then none, then each by itself.
+std::vector<SurfaceTraits> sample_traits();
+
+}  // namespace penumbra::scene
