@@ -75,7 +75,7 @@ function whiteOf(material, scene) {
   white.specularColor = BABYLON.Color3.Black();
   white.backFaceCulling = material?.backFaceCulling ?? true;
   white.sideOrientation = material?.sideOrientation ?? white.sideOrientation;
-  white.twoSidedLighting = !white.backFaceCulling;
+  white.twoSidedLighting = material?.twoSidedLighting ?? false;
   if (material?.needAlphaTesting?.()) {
     white.diffuseTexture = material.albedoTexture;
     white.alphaCutOff = material.alphaCutOff;
@@ -91,7 +91,7 @@ function addGround(scene, setup) {
   data.applyToMesh(mesh);
   mesh.material = new BABYLON.PBRMaterial('ground', scene);
   Object.assign(mesh.material, { albedoColor: new BABYLON.Color3(0.5, 0.5, 0.5), metallic: 0, roughness: 1,
-    backFaceCulling: false });
+    sideOrientation: BABYLON.Material.CounterClockWiseSideOrientation });
 }
 
 async function load(scene, setup, shadows) {

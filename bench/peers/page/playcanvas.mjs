@@ -24,12 +24,18 @@ function makeSun(app, setup) {
     shadowResolution: setup.maps > 1 ? 2 * setup.mapSize : setup.mapSize,
     numCascades: setup.maps, cascadeDistribution: setup.split, shadowDistance: farDepth(setup),
     shadowBlockerSamples: setup.taps.blocker, shadowSamples: setup.taps.filter,
-    penumbraSize: setup.tanHalfSun, penumbraFalloff: 1,
-    shadowBias: 300 / setup.mapSize, normalOffsetBias: 60 / setup.mapSize,
+    penumbraSize: setup.tanHalfSun, penumbraFalloff: 1, shadowBias: 0.2,
   });
   sun.setRotation(new pc.Quat().setFromDirections(pc.Vec3.UP, new pc.Vec3(setup.toLight)));
   app.root.addChild(sun);
   return sun.light;
+}
+
+// One normal offset, in metres, serves all cascades: a texel of the widest, whose size is known only after a frame. The
+// light itself takes it, as its component takes no more than a metre.
+function fitBias(light, camera, setup) {
+  const { shadowCamera } = light.light.getRenderData(camera.camera.camera, setup.maps - 1);
+  light.light.normalOffsetBias = (2 * shadowCamera.orthoHeight) / setup.mapSize;
 }
 
 function whiteOf(material) {
@@ -110,6 +116,7 @@ export async function open(canvas, setup) {
       light.shadowUpdateMode = pc.SHADOWUPDATE_REALTIME;
       for (let i = 0; i < 2; ++i) {
         draw();
+        if (on) fitBias(light, camera, setup);
         await new Promise((resolve) => { setTimeout(resolve, 0); });
       }
       if (setup.keepMaps) light.shadowUpdateMode = pc.SHADOWUPDATE_NONE;
