@@ -88,6 +88,7 @@ std::string json_of(const Results& results) {
                       {"backend", results.backend},
                       {"device", io::to_json(results.device)},
                       {"timing", results.timing},
+                      {"maps", maps_of(results)},
                       {"scene", results.scene},
                       {"measured_frames", results.frames.measured},
                       {"warmup_frames", results.frames.warmup},

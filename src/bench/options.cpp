@@ -96,6 +96,8 @@ std::vector<Entry> entries_of(const Options& options, const shadow::Registry& re
       one.technique = name;
     }
     Entry entry{.label = name, .params = cli::resolve_params(one, registry)};
+    // The camera stands still, unlike in most uses, so that maps would be drawn in the first frame only.
+    if (!cli::is_chosen(one, entry.params, "maps.keep")) entry.params.set("maps.keep", false);
     if (is_preset(name)) entry.label = std::filesystem::path(name).stem().string();
     if (name.empty()) entry.label = entry.params.get_word("technique");
     for (const Entry& other : entries) {

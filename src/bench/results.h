@@ -47,7 +47,10 @@ struct Results {
 std::string equation_of(const Model& model, const Sweep& sweep);
 // "shadow passes" or the one pass that the sweep is about
 std::string subject_of(const Sweep& sweep);
-// "courtyard.glb, 1280×720, 4 cascades of 2048×2048"
+// "drawn anew in every frame": whether shadow maps were, for all entries or for one.
+std::string maps_of(const Results& results);
+std::string maps_of(const Entry& entry);
+// "courtyard.glb, 1280×720, 4 cascades of 2048×2048, maps drawn anew in every frame"
 std::string setting_of(const Results& results);
 
 std::string json_of(const Results& results);

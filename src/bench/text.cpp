@@ -66,6 +66,16 @@ std::string sweep_lines(const Results& results) {
 
 }  // namespace
 
+std::string maps_of(const Entry& entry) {
+  return entry.params.get_bool("maps.keep") ? "kept where nothing moved" : "drawn anew in every frame";
+}
+
+std::string maps_of(const Results& results) {
+  const std::string first = maps_of(results.entries.front());
+  const bool same = std::ranges::all_of(results.entries, [&](const Entry& entry) { return maps_of(entry) == first; });
+  return same ? first : "kept or drawn anew as maps.keep says of each";
+}
+
 std::string setting_of(const Results& results) {
   const ParamSet& params = results.entries.front().params;
   const auto swept = [&results](const char* name) { return results.sweep.name == name; };
@@ -78,7 +88,7 @@ std::string setting_of(const Results& results) {
     const int side = params.get_int("cascades.size");
     text += fmt::format(", {} cascades of {}×{}", params.get_int("cascades.count"), side, side);
   }
-  return text;
+  return text + ", maps " + maps_of(results);
 }
 
 std::string subject_of(const Sweep& sweep) { return sweep.pass.empty() ? "shadow passes" : sweep.pass; }

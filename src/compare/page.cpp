@@ -34,7 +34,9 @@ std::string reference_name(const Comparison& comparison) {
 std::vector<report::Column> columns_of(bool sequence) {
   std::vector<report::Column> columns{
       {"Technique", "", "As --technique names it."},
-      {"Cost", "ms", "Median time of all passes between G-buffer and lighting.", Best::lowest},
+      {"Cost", "ms",
+       "Median time of all passes between G-buffer and lighting; shadow maps are drawn anew in every frame.",
+       Best::lowest},
       {"Memory", "MiB", "Shadow maps, masks, history and all other textures of the technique.", Best::lowest},
       {"PSNR penumbra", "dB", "Over receivers whose reference is between 0.02 and 0.98.", Best::highest},
       {"PSNR all", "dB", "Over all receivers.", Best::highest},

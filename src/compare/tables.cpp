@@ -192,6 +192,7 @@ Json json_of(const Comparison& comparison, const CompareOptions& options, const 
           {"width", options.size.width},
           {"height", options.size.height},
           {"frames", options.frames ? options.frames->count() : 1},
+          {"maps", "drawn anew in every frame"},
           {"backend", comparison.backend},
           {"device", io::to_json(comparison.device)},
           {"scenes", std::move(scenes)}};

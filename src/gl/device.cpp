@@ -172,6 +172,17 @@ std::vector<Device::NamedTarget> Device::targets() const {
   return all;
 }
 
+std::set<std::string, std::less<>> Device::names(std::string_view prefix) const {
+  std::set<std::string, std::less<>> all;
+  const auto add_from = [&](const auto& items) {
+    for (auto item = items.lower_bound(prefix); item != items.end() && item->first.starts_with(prefix); ++item)
+      all.insert(item->first);
+  };
+  add_from(impl_->targets);
+  add_from(impl_->buffers);
+  return all;
+}
+
 std::size_t Device::target_bytes(std::string_view prefix) const {
   std::size_t bytes = 0;
   for (const auto& [name, texture] : impl_->targets) {

@@ -43,6 +43,8 @@ class Device {
     const Texture* texture = nullptr;
   };
   std::vector<NamedTarget> targets() const;
+  // The names of all targets and buffers that start with `prefix`.
+  std::set<std::string, std::less<>> names(std::string_view prefix) const;
   // Bytes of the textures whose names start with `prefix`.
   std::size_t target_bytes(std::string_view prefix = "") const;
 

@@ -42,6 +42,7 @@ void ShaderLibrary::rebuild(const ProgramDesc& desc, Entry& entry) {
 }
 
 void ShaderLibrary::changed(std::string_view file) {
+  ++changes_;
   for (auto& [desc, entry] : entries_) {
     // A failed rebuild may depend on files that the last good program does not.
     const bool depends = std::ranges::find(entry.program->files(), file) != entry.program->files().end();

@@ -33,6 +33,8 @@ class ShaderLibrary {
   // To be called when a file's text changed or it was added or deleted: marks the programs that include it, and those
   // whose last rebuild failed, to be rebuilt. `file` is relative to glsl/.
   void changed(std::string_view file);
+  // How often that was called: while it stays the same, all programs draw the same.
+  std::uint64_t changes() const { return changes_; }
   struct Reload {
     std::size_t rebuilt = 0, failed = 0;
   };
@@ -59,7 +61,7 @@ class ShaderLibrary {
 
   ShaderFiles files_;
   std::map<ProgramDesc, Entry> entries_;
-  std::uint64_t frame_ = 0;
+  std::uint64_t frame_ = 0, changes_ = 0;
   bool outdated_ = false;
 };
 

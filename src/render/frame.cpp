@@ -15,7 +15,7 @@ void bind_view(gl::Device& device, const glsl::ViewBlock& view) {
 }  // namespace
 
 FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, scene::GpuScene& scene,
-                      const FrameInputs& inputs, const ParamSet& params) {
+                      const FrameInputs& inputs, bool knows_moved, const ParamSet& params) {
   const Camera& camera = inputs.camera;
   const Camera& last_camera = inputs.last_camera;
   const glsl::ViewBlock view = view_block(camera, last_camera, inputs.width, inputs.height);
@@ -35,6 +35,8 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                                                       .view_id = inputs.view,
                                                       .time = inputs.time,
                                                       .cut = inputs.cut,
+                                                      .restart = inputs.restart,
+                                                      .knows_moved = knows_moved,
                                                       .lights = inputs.lights,
                                                       .gbuffer = gbuffer,
                                                       .params = params});

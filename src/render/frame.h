@@ -18,8 +18,9 @@ struct FrameParts {
   const gl::Texture* display = nullptr;
 };
 
+// `knows_moved`: what moved between the inputs' two times is what moved since the view's last frame.
 FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, scene::GpuScene& scene,
-                      const FrameInputs& inputs, const ParamSet& params);
+                      const FrameInputs& inputs, bool knows_moved, const ParamSet& params);
 
 // Adds the motion vectors to the G-buffer of the last frame that was drawn, where nothing in the frame has read them.
 void add_motion(gl::Device& device, FrameParts& frame);

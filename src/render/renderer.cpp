@@ -19,8 +19,9 @@ struct Renderer::State {
   struct Drawn {
     std::uint64_t scene = 0;  // its id
     scene::CasterChoice casters;
+    double time = 0;
 
-    bool operator==(const Drawn&) const = default;
+    bool same_casters(const Drawn& other) const { return scene == other.scene && casters == other.casters; }
   };
   std::map<int, Drawn> last;  // by view; absent: its last frame threw, or there was none
 
@@ -51,16 +52,18 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   if (inputs.lights.empty() || inputs.lights.size() > max_lights)
     fail("a frame has {} lights; 1 to {} can be drawn", inputs.lights.size(), max_lights);
   gl::Device& device = state_->device;
-  const State::Drawn now{.scene = scene.id(), .casters = caster_choice(params)};
+  const State::Drawn now{.scene = scene.id(), .casters = caster_choice(params), .time = inputs.time};
   // Removed until this frame is complete: if it throws, the view's next frame must not reuse its history.
   const auto last = state_->last.extract(inputs.view);
   FrameInputs placed = inputs;
-  placed.cut = inputs.cut || last.empty() || last.mapped() != now;
+  placed.cut = inputs.cut || last.empty() || !last.mapped().same_casters(now);
+  // If the caller left out frames of this view, the scene does not know what moved since its last one.
+  const bool knows_moved = placed.cut || last.mapped().time == inputs.last_time;
   // If this frame throws, the textures of the last one are no longer valid and must not be read.
   state_->parts = {};
   device.shaders.next_frame();
   device.timers.begin_frame();
-  state_->parts = draw_frame(device, state_->soft_shadows, scene, placed, params);
+  state_->parts = draw_frame(device, state_->soft_shadows, scene, placed, knows_moved, params);
   device.timers.end_frame();
   state_->last[inputs.view] = now;
   const FrameParts& parts = state_->parts;

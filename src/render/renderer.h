@@ -28,6 +28,7 @@ struct FrameInputs {
   // history, and the frame equals the first frame of a new run. A change of scene is always a cut, even if this is
   // false.
   bool cut = false;
+  bool restart = false;  // drops the histories alone; shadow maps in which nothing moved are kept
 };
 
 // With supersampling, how the samples of one pixel become its value.

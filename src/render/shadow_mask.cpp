@@ -8,7 +8,8 @@ shadow::TextureView view_of(const gl::Texture& texture) { return {texture.id(), 
 
 shadow::Box box_of(const scene::Bounds& bounds) { return {bounds.min, bounds.max}; }
 
-shadow::Box moved_box(const scene::GpuScene& scene) {
+std::optional<shadow::Box> moved_box(const scene::GpuScene& scene, bool known) {
+  if (!known) return {};
   const scene::Bounds bounds = scene.moved_bounds();
   return bounds.empty ? shadow::Box{glm::vec3(1), glm::vec3(-1)} : box_of(bounds);
 }
@@ -66,14 +67,15 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
                                               .last_view = inputs.last_camera.view,
                                               .last_projection = projection_of(inputs.last_camera, aspect),
                                               .id = inputs.view_id,
-                                              .cut = inputs.cut},
+                                              .cut = inputs.cut,
+                                              .restart = inputs.restart},
                                      .depth = view_of(depth),
                                      .normals = view_of(*inputs.gbuffer.geometric_normal),
                                      .motion = motion,
                                      .lights = lights,
                                      .casters = box_of(inputs.scene.casters()),
                                      .receivers = box_of(inputs.scene.receivers()),
-                                     .moved = moved_box(inputs.scene),
+                                     .moved = moved_box(inputs.scene, inputs.knows_moved),
                                      .draw = draw,
                                      .user = &frame_scene},
                                     inputs.params);

@@ -17,6 +17,8 @@ struct Camera {
   float half_height = 1.0f;  // metres; orthographic only
   float near = 0.1f;         // metres; the projection is reversed-Z with an infinite far plane (orthographic: `far`)
   float far = 1000.0f;
+
+  bool operator==(const Camera&) const = default;
 };
 
 // An upright camera at `eye` that looks at `target`. Also defined for looking straight up or down.

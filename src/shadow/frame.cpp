@@ -57,6 +57,14 @@ void plan_history(const LightWork& work, bool has_shadow_map) {
   if (asks && !work.inputs.draw && !none_moved) frame.history = false;
 }
 
+// Decides which layers of the shadow map still hold what they would be drawn with.
+void keep_layers(const LightWork& work, const gl::Texture& map) {
+  const MapContent now = content_of(work.device, map, work.frame.projection, work.light.source);
+  if (work.state.follows && work.params().get_bool("maps.keep"))
+    work.frame.kept_layers = unchanged_layers(work.state.map, now, work.inputs.moved);
+  work.state.map = now;
+}
+
 // The shadow map, drawn or supplied by the caller, and the movement map.
 void draw_maps(const LightWork& work) {
   const Inputs& inputs = work.inputs;
@@ -66,12 +74,15 @@ void draw_maps(const LightWork& work) {
       frame.casters_moved && !finished && work.params().get_word("movement.present") == "shadow_pass";
   const gl::Texture* depth = nullptr;
   if (!finished) {
-    depth = &draw_shadow_map(work.device, {.name = work.prefix() + shadow_map_name,
-                                           .projection = frame.projection,
-                                           .source = work.light.source,
-                                           .draw = inputs.draw,
-                                           .moved = in_one_pass ? frame.movement : nullptr,
-                                           .moved_bounds = inputs.moved});
+    depth = &shadow_map_target(work.device, work.prefix() + shadow_map_name, frame.projection);
+    keep_layers(work, *depth);
+    draw_shadow_map(work.device, {.map = *depth,
+                                  .projection = frame.projection,
+                                  .source = work.light.source,
+                                  .draw = inputs.draw,
+                                  .moved = in_one_pass ? frame.movement : nullptr,
+                                  .moved_bounds = inputs.moved,
+                                  .kept = frame.kept_layers});
   }
   frame.depth = finished ? work.light.maps->depth.id : depth->id();
   if (!frame.casters_moved) return;
@@ -179,6 +190,7 @@ LightFrame draw_light(const MaskInputs& from, const Light& light, const ViewStat
   const bool may_draw_casters = technique.resolve || !wanted.recipes.empty();
   const bool has_shadow_map = wanted.shadow_map || (may_draw_casters && asks_for_movement(work));
   plan_history(work, has_shadow_map);
+  if (!has_shadow_map || light.maps) state.map = {};
   if (has_shadow_map) draw_maps(work);
   upload_blocks(work);
   build_products(work, wanted.recipes);

@@ -23,12 +23,13 @@ struct Conventions {
 // added to clip-space xy (in NDC).
 struct View {
   glm::mat4 view{1}, projection{1};
-  // Used to reproject the history; optional without one. They must equal the matrices of this view's last render(),
-  // else the history is discarded (see PassContext).
+  // Used to reproject the history. They must equal the matrices of this view's last render(), else the history and the
+  // kept maps are discarded (see PassContext and Inputs::moved).
   glm::mat4 last_view{1}, last_projection{1};
   glm::vec2 jitter{0};
-  int id = 0;        // identifies the view: each has its own shadow maps, mask and history
-  bool cut = false;  // discards the history: for a camera cut, another scene or a jump in time
+  int id = 0;            // identifies the view: each has its own shadow maps, mask and history
+  bool cut = false;      // discards the history and the kept maps: for a camera cut, another scene or a jump in time
+  bool restart = false;  // discards the history alone: Inputs::moved still says what moved since the view's last frame
 };
 
 // A texture that the caller owns: GL_TEXTURE_2D, not multisampled (shadow maps: GL_TEXTURE_2D_ARRAY). Its filter, wrap
@@ -107,8 +108,14 @@ struct Inputs {
   // World bounds; unused when every light brings its maps. A single point (min = max) is valid; the default (min > max)
   // is an unset box, which check() rejects.
   Box casters{glm::vec3(1), glm::vec3(-1)}, receivers{glm::vec3(1), glm::vec3(-1)};
-  // World bounds of the casters that moved since the last frame, enclosing their present and their last positions.
-  // Absent: unknown, so any caster may have moved. An empty box (min > max): none moved, and no movement map is drawn.
+  // World bounds of the casters that moved since the view's last frame, enclosing their present and their last
+  // positions. Absent: unknown, so any caster may have moved. An empty box (min > max): none moved, and no movement map
+  // is drawn.
+  // A layer of a shadow map that these bounds do not reach, and whose projection is the same, is not drawn again
+  // (parameter maps.keep): `draw` is not called for it. So the bounds must also enclose casters that appeared,
+  // disappeared, or changed what they cast in another way: the opacity of a texture, the face that casts, a level of
+  // detail. Bounds that are too small can't be detected: the shadow of what they leave out stays as it was. Where the
+  // caller does not know, they must be absent, or View::cut set.
   // Where all lights bring their maps and there is no `draw`, no movement map can be drawn: if the parameter
   // movement.map is on, the history is then used only in frames whose box is empty.
   std::optional<Box> moved;

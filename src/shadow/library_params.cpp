@@ -44,6 +44,10 @@ std::vector<Param> map_rows() {
       {"cascades.distance", 0.0f, 0, 1e7, "m", "Range of the last cascade; 0: as far as the view sees the scene.",
        host},
       with_default(word("cascades.seam", {"none", "fade", "dither"}, "Transition between cascades.", uniform), "fade"),
+      {"maps.keep", true, 0, 1, "",
+       "Keeps shadow maps, and what is made from them, where nothing has moved since the last frame; off: draws all "
+       "anew.",
+       host},
       {"cascades.blend", 0.1f, 0.001, 0.5, "", "Width of the transition, as a fraction of the cascade's half width."},
       {"bias.constant", 0.02f, 0, 10, "texels",
        "Distance along the light that a texel may lie before a receiver without blocking it."},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,6 +51,8 @@ struct LightFrame {
   LightShape shape;
   unsigned depth =
       0;  // OpenGL name of the shadow map, one array layer for each layer of the projection; 0 if nothing needs it
+  // The layers of the shadow map that were not drawn because they hold the same as in the last frame.
+  std::bitset<max_layers> kept_layers;
   const gl::Texture* movement = nullptr;  // see movement_map.h; null unless a history uses it
   bool casters_moved = false;             // since the last frame: `movement` shows where
   bool history = false;                   // the history of the last frame is valid

@@ -20,11 +20,11 @@ bool same_matrix(const glm::mat4& a, const glm::mat4& b) {
   return true;
 }
 
-// Whether all parameters that concern the technique and the denoiser are the same.
+// Whether all parameters that concern the technique and the denoiser are the same. maps.keep changes no picture.
 bool same_values(const Registry& registry, const ParamSet& a, const ParamSet& b) {
   if (!a.contains("technique")) return false;
   return std::ranges::all_of(b.rows(), [&](const Param& row) {
-    return a.value(row.name) == b.value(row.name) || !registry.concerns(row.name, b);
+    return a.value(row.name) == b.value(row.name) || row.name == "maps.keep" || !registry.concerns(row.name, b);
   });
 }
 
@@ -33,19 +33,26 @@ bool same_conventions(const Conventions& a, const Conventions& b) {
          a.octahedral_normals == b.octahedral_normals;
 }
 
-bool continues(const ViewState& last, const Inputs& inputs) {
+// Whether this is the next frame of the same scene, so that the caller's account of what moved starts at the last one.
+bool follows(const ViewState& last, const Inputs& inputs) {
   return !inputs.view.cut && same_matrix(last.view, inputs.view.last_view) &&
-         same_matrix(last.projection, inputs.view.last_projection) && last.width == inputs.depth.width &&
-         last.height == inputs.depth.height && last.viewport == viewport_of(inputs) &&
-         same_conventions(last.conventions, inputs.conventions);
+         same_matrix(last.projection, inputs.view.last_projection);
+}
+
+// Whether the pixels of the last frame can be found in this one.
+bool same_pixels(const ViewState& last, const Inputs& inputs) {
+  return last.width == inputs.depth.width && last.height == inputs.depth.height &&
+         last.viewport == viewport_of(inputs) && same_conventions(last.conventions, inputs.conventions);
 }
 
 }  // namespace
 
 void begin_frame(ViewState& view, const Inputs& inputs, bool last_completed) {
-  const bool uninterrupted = last_completed && continues(view, inputs);
+  const bool is_next = last_completed && follows(view, inputs);
+  const bool uninterrupted = is_next && !inputs.view.restart && same_pixels(view, inputs);
   for (auto& [id, light] : view.lights) {
     light.uninterrupted = uninterrupted && light.drawn;
+    light.follows = is_next && light.drawn;
     light.drawn = false;
   }
   view.last_jitter = view.jitter;

@@ -10,6 +10,7 @@
 #include "../gl/pass.h"
 #include "check_inputs.h"
 #include "inputs.h"
+#include "kept_maps.h"
 #include "light_frame.h"
 #include "registry.h"
 #include "samples.h"
@@ -48,7 +49,8 @@ struct LightState {
   LightShape shape;
   int layers = 0;              // of the shadow map
   bool drawn = false;          // in this frame
-  bool uninterrupted = false;  // the previous frame of the view drew this light
+  bool uninterrupted = false;  // the previous frame of the view drew this light, and its history is valid
+  bool follows = false;        // the previous frame of the view drew this light, and Inputs::moved is what moved since
   std::uint64_t frames = 0;    // drawn
   std::uint64_t age = 0;       // of them, since the history began
 
@@ -58,8 +60,19 @@ struct LightState {
     int now = 0;
     std::uint64_t filled = 0;  // value of `frames` when it was last written
   };
-  std::map<std::string, KeptTexture, std::less<>> kept;   // by the beginning of the textures' names
-  bool had_movement_map = false, had_shadow_map = false;  // which the library drew in the last frame
+  std::map<std::string, KeptTexture, std::less<>> kept;  // by the beginning of the textures' names
+  MapContent map;                                        // which the library drew or kept in the last frame
+  // What recipes that depend only on their needs have made.
+  struct KeptProduct {
+    const gl::Texture* texture = nullptr;
+    std::vector<ParamValue> values;  // of the recipe's parameters
+    LightShape shape;
+    std::uint64_t shader_changes = 0;
+    std::uint64_t frame = 0;  // value of `frames` when it was last used
+    bool kept = false;        // in this frame, instead of being made again
+  };
+  std::map<std::string, KeptProduct, std::less<>> products;  // by recipe
+  bool had_movement_map = false, had_shadow_map = false;     // which the library drew in the last frame
 };
 
 // The state of a view that is kept between frames.
@@ -75,8 +88,8 @@ struct ViewState {
   std::map<int, LightState> lights;
 };
 
-// Decides whether the histories of the view's last frame are valid in this one. `last_completed`: that frame did not
-// throw.
+// Decides whether the histories and the maps of the view's last frame are valid in this one. `last_completed`: that
+// frame did not throw.
 void begin_frame(ViewState& view, const Inputs& inputs, bool last_completed);
 // The caller's values of the parameters.
 struct GivenParams {

@@ -43,6 +43,9 @@ void bind_light(gl::Device& device, const LightFrame& frame, const LightState& s
 // The same, and the receivers' depth and normals.
 void bind_inputs(const LightWork& work, const PassOwner& owner);
 
+// The beginning of the names of all targets and buffers of an owner.
+std::string target_prefix(const LightWork& work, const PassOwner& owner);
+
 PassOwner owner_of(const Technique& technique);
 PassOwner owner_of(const Recipe& recipe);
 PassOwner owner_of(const Denoiser& denoiser);

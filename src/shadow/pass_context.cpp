@@ -27,6 +27,10 @@ const char* name_of(PassOwner::Kind kind) {
 
 }  // namespace
 
+std::string target_prefix(const LightWork& work, const PassOwner& owner) {
+  return fmt::format("{}{}s/{}/", work.prefix(), name_of(owner.kind), owner.name);
+}
+
 gl::Device& PassContext::device() const { return work_.device; }
 const Inputs& PassContext::inputs() const { return work_.inputs; }
 const Light& PassContext::light() const { return work_.light; }
@@ -46,7 +50,7 @@ const gl::Texture& PassContext::product(std::string_view recipe) const {
 }
 
 std::string PassContext::full_name(std::string_view name) const {
-  std::string full = fmt::format("{}{}s/{}/{}", work_.prefix(), name_of(owner_.kind), owner_.name, name);
+  std::string full = target_prefix(work_, owner_).append(name);
   if (work_.state.changed) work_.state.used.insert(full);
   return full;
 }

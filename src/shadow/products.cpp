@@ -28,9 +28,62 @@ Wanted wanted_of(const LightWork& work) {
   return wanted;
 }
 
+namespace {
+
+std::vector<ParamValue> values_of(const Recipe& recipe, const ParamSet& params) {
+  std::vector<ParamValue> values;
+  for (const Param& row : recipe.params) values.push_back(params.value(row.name));
+  return values;
+}
+
+bool same_values(const Recipe& recipe, const ParamSet& params, const std::vector<ParamValue>& values) {
+  size_t i = 0;
+  return std::ranges::all_of(recipe.params, [&](const Param& row) { return params.value(row.name) == values[i++]; });
+}
+
+// Whether the shadow map, or the product of that recipe, is that of the last frame.
+bool is_kept(const LightWork& work, std::string_view name) {
+  if (name == "shadow_map") {
+    return work.frame.kept_layers.count() == static_cast<size_t>(work.frame.projection.layers());
+  }
+  const auto found = work.state.products.find(name);
+  return found != work.state.products.end() && found->second.kept;
+}
+
+// The last frame's product, if building it would give the same.
+const gl::Texture* kept_product(const LightWork& work, const Recipe& recipe) {
+  const auto found = work.state.products.find(recipe.name);
+  if (found == work.state.products.end()) return nullptr;
+  LightState::KeptProduct& last = found->second;
+  last.kept = recipe.depends_only_on_needs && last.frame + 1 == work.state.frames && last.shape == work.frame.shape &&
+              last.shader_changes == work.device.shaders.changes() &&
+              std::ranges::all_of(recipe.needs, [&](const std::string& name) { return is_kept(work, name); }) &&
+              same_values(recipe, work.params(), last.values);
+  if (!last.kept) return nullptr;
+  last.frame = work.state.frames;
+  // Else its textures would be released as those that this frame did not use.
+  if (work.state.changed) work.state.used.merge(work.device.names(target_prefix(work, owner_of(recipe))));
+  return last.texture;
+}
+
+const gl::Texture& build_product(const LightWork& work, const Recipe& recipe) {
+  const gl::Texture& texture = recipe.build(PassContext(work, owner_of(recipe)));
+  if (recipe.depends_only_on_needs && work.params().get_bool("maps.keep")) {
+    work.state.products[recipe.name] = {.texture = &texture,
+                                        .values = values_of(recipe, work.params()),
+                                        .shape = work.frame.shape,
+                                        .shader_changes = work.device.shaders.changes(),
+                                        .frame = work.state.frames};
+  }
+  return texture;
+}
+
+}  // namespace
+
 void build_products(const LightWork& work, const std::vector<const Recipe*>& recipes) {
   for (const Recipe* recipe : recipes) {
-    const gl::Texture& texture = recipe->build(PassContext(work, owner_of(*recipe)));
+    const gl::Texture* kept = kept_product(work, *recipe);
+    const gl::Texture& texture = kept != nullptr ? *kept : build_product(work, *recipe);
     work.frame.products.push_back({.name = recipe->name, .texture = &texture, .sampler = recipe->sampler});
   }
 }

@@ -14,7 +14,7 @@ struct Wanted {
 };
 Wanted wanted_of(const LightWork& work);
 
-// Makes the products, each by its own passes.
+// Makes the products, each by its own passes, or keeps those of the last frame.
 void build_products(const LightWork& work, const std::vector<const Recipe*>& recipes);
 
 }  // namespace penumbra::shadow

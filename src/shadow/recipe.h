@@ -15,7 +15,8 @@ class PassContext;
 
 // How to make a product: a texture derived from a light's shadow map (a pyramid, moments, a summed-area table), or from
 // its casters and receivers. Techniques, denoisers and other recipes list it in their `needs` by name. It is made once
-// for each light and frame, however many need it, and not at all if none does. Their GLSL declares it at a texture unit
+// for each light and frame, however many need it, and not at all if none does or it would be the same as in the last
+// frame. Their GLSL declares it at a texture unit
 // that the library defines:
 //   layout(binding = UNIT_least_depth_pyramid) uniform sampler2DArray shadow_pyramid;
 struct Recipe {
@@ -26,8 +27,12 @@ struct Recipe {
   std::vector<std::string> needs = {"shadow_map"};
   std::vector<Param> params = {};
   gl::SamplerDesc sampler = {};  // with which its readers sample it
+  // Whether the texture depends on nothing but its `needs`, its `params`, and the light's projection and shape: not on
+  // receivers, the view, casters, other parameters or the number of the frame. It is then not made again as long as
+  // these are the same (parameter maps.keep).
+  bool depends_only_on_needs = false;
   // Makes it by its own passes, and returns the texture, which it gets from PassContext::target() and which nothing may
-  // change until the next frame.
+  // change until it is made again.
   std::function<const gl::Texture&(const PassContext&)> build;
   // The programs that `build` uses with these parameters, by name, like Technique::programs.
   std::function<std::vector<gl::ProgramDesc>(const ParamSet&)> programs = {};

@@ -4,16 +4,19 @@
 
 namespace penumbra::shadow {
 
-const gl::Texture& draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs) {
-  const int count = inputs.projection.layers();
-  const gl::Texture& depth = device.target(inputs.name, {.target = GL_TEXTURE_2D_ARRAY,
-                                                         .format = GL_DEPTH_COMPONENT32F,
-                                                         .width = inputs.projection.size(),
-                                                         .height = inputs.projection.size(),
-                                                         .layers = count});
-  for (int i = 0; i < count; ++i) {
+const gl::Texture& shadow_map_target(gl::Device& device, std::string_view name, const LightProjection& projection) {
+  return device.target(name, {.target = GL_TEXTURE_2D_ARRAY,
+                              .format = GL_DEPTH_COMPONENT32F,
+                              .width = projection.size(),
+                              .height = projection.size(),
+                              .layers = projection.layers()});
+}
+
+void draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs) {
+  for (int i = 0; i < inputs.projection.layers(); ++i) {
+    if (inputs.kept[static_cast<size_t>(i)]) continue;
     gl::PassDesc desc{.name = "shadow map",
-                      .depth = gl::Attachment{.texture = &depth, .layer = i, .clear = glm::vec4(1)},
+                      .depth = gl::Attachment{.texture = &inputs.map, .layer = i, .clear = glm::vec4(1)},
                       .depth_test = gl::DepthTest::less_equal,
                       .depth_write = true};
     const CullVolume cull = inputs.projection.cull_volume(i);
@@ -28,7 +31,6 @@ const gl::Texture& draw_shadow_map(gl::Device& device, const ShadowMapInputs& in
                  .source = inputs.source},
                 pass);
   }
-  return depth;
 }
 
 }  // namespace penumbra::shadow

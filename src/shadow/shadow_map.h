@@ -1,14 +1,19 @@
 #pragma once
 
-#include <string>
+#include <optional>
+#include <string_view>
 
 #include "../gl/pass.h"
 #include "inputs.h"
+#include "kept_maps.h"
 
 namespace penumbra::shadow {
 
+// The texture that draw_shadow_map() fills, of that name: a DEPTH_COMPONENT32F array with the layers of the projection.
+const gl::Texture& shadow_map_target(gl::Device& device, std::string_view name, const LightProjection& projection);
+
 struct ShadowMapInputs {
-  std::string name;  // of the target; each light has its own map
+  const gl::Texture& map;  // of shadow_map_target()
   const LightProjection& projection;
   LightSource source = {};
   const DrawCasters& draw;
@@ -16,10 +21,10 @@ struct ShadowMapInputs {
   // These lie within `moved_bounds` (see Inputs::moved); layers outside of the bounds are not changed.
   const gl::Texture* moved = nullptr;
   std::optional<Box> moved_bounds;
+  LayerSet kept;  // these layers are not drawn
 };
 
-// Draws the depth of the casters: a DEPTH_COMPONENT32F array with the layers of the projection; linear depth, near 0,
-// far 1.
-const gl::Texture& draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs);
+// Draws the depth of the casters: linear, near 0, far 1.
+void draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs);
 
 }  // namespace penumbra::shadow

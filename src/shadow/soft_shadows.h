@@ -45,6 +45,11 @@ struct ForwardProgram {
 // which a caster moved (where a history is kept). Shadow maps, masks and histories are kept for each view id until
 // forget_view(); those of a light are released in the first frame of the view that does not list it.
 //
+// Shadow maps. Layers in which nothing has changed since the view's last frame are not drawn again, and neither are the
+// products of recipes that depend on the map alone: see Inputs::moved, which must be right for that, and the parameter
+// maps.keep. All are drawn anew after View::cut, after an Error, in frames whose View::last_view or last_projection are
+// not the matrices of the view's last frame, and when a shader changed (gl::ShaderLibrary::changed()).
+//
 // Throws Error for bad input (see check()) and for shaders that do not compile. A caller's texture is checked again
 // only when its name, size or use differs from the last frame of the view.
 class SoftShadows {

@@ -19,6 +19,8 @@ struct CullVolume {
   // space, metres.
   std::array<glm::dvec4, 6> planes{};
 
+  bool operator==(const CullVolume&) const = default;
+
   // Conservative: false only if the box lies outside of the volume.
   bool holds(const Box& world_box) const;
 };

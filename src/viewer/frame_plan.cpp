@@ -29,10 +29,10 @@ void plan_software(const Side& side, const FrameState& state, const FramePacing:
   PicturePlan& plan = side.plan;
   const bool read_again = state.values_wanted && !moves && (state.b || state.last_is_b);
   const bool lost = plan.measure && picture.missing() == 0 && !side.is_last;
-  plan.cut = read_again || lost || (step.restart && picture.missing() > 0);
-  plan.draw =
-      moves ? step.draw && !picture.current && side.follows_motion : plan.cut || (step.draw && picture.missing() > 0);
-  plan.measure = plan.measure && (plan.draw ? picture.wanted == 1 || !plan.cut : picture.missing() == 0);
+  plan.restart = read_again || lost || (step.restart && picture.missing() > 0);
+  plan.draw = moves ? step.draw && !picture.current && side.follows_motion
+                    : plan.restart || (step.draw && picture.missing() > 0);
+  plan.measure = plan.measure && (plan.draw ? picture.wanted == 1 || !plan.restart : picture.missing() == 0);
 }
 
 // A GPU draws every frame. A ray-traced picture does not change once it is finished.

@@ -31,7 +31,7 @@ struct FrameState {
 // What the next frame does for one picture.
 struct PicturePlan {
   bool draw = false;
-  bool cut = false;      // start again without history
+  bool restart = false;  // start again without history
   bool measure = false;  // read the visibility back: after drawing, or else from the last frame
 };
 

@@ -38,15 +38,18 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, int div
   frames_ = divisor == divisor_ && shows(document) ? frames_ : 0;
   const cli::Size& size = document.options.size;
   const bool cut = cut_ || !continues(scene.prepared, last_time_, time);
-  render::FrameInputs inputs = session::frame_inputs(
-      scene.prepared, {.width = std::max(size.width / divisor, 1), .height = std::max(size.height / divisor, 1)},
-      {.time = time, .last_time = cut ? time : last_time_, .cut = cut});
+  const cli::Size pixels{.width = std::max(size.width / divisor, 1), .height = std::max(size.height / divisor, 1)};
+  // The first frame of a picture has no motion, as in `penumbra render`.
+  const bool still = cut || restart_;
+  render::FrameInputs inputs =
+      session::frame_inputs(scene.prepared, pixels, {.time = time, .last_time = still ? time : last_time_, .cut = cut});
   inputs.view = view_;
-  if (!cut) inputs.last_camera = last_camera_;  // the user moves the camera too
-  cut_ = true;                                  // until the frame is drawn: after one that throws there is no history
+  inputs.restart = restart_;
+  if (!still) inputs.last_camera = last_camera_;  // the user moves the camera too
+  cut_ = true;                                    // until the frame is drawn: after one that throws there is no history
   const render::Frame& frame = renderer_.draw(scene.gpu, inputs, document.params);
   keep(*frame.display);
-  cut_ = false;
+  cut_ = restart_ = false;
   drawn_ = std::move(text);
   divisor_ = divisor;
   ++frames_;

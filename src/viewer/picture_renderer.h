@@ -33,9 +33,14 @@ class PictureRenderer {
   // Draws the document, with the picture's sides divided by `divisor` and the motion since the last drawing. Throws
   // Error.
   void draw(LoadedScene& scene, const Document& document, int divisor);
-  // The next drawing starts without history: after another scene or other shaders, and for the first one at full size.
+  // The next drawing has nothing to do with the last one: after another scene or other shaders.
   void cut() {
     cut_ = true;
+    frames_ = 0;
+  }
+  // The next drawing starts without history; shadow maps in which nothing moved are kept.
+  void restart() {
+    restart_ = true;
     frames_ = 0;
   }
   // The picture has to be drawn again: what it shows was not finished.
@@ -63,7 +68,7 @@ class PictureRenderer {
   int divisor_ = 1, frames_ = 0;
   double milliseconds_ = 0, last_time_ = 0;
   render::Camera last_camera_;
-  bool cut_ = true;
+  bool cut_ = true, restart_ = false;
 };
 
 }  // namespace penumbra::viewer

@@ -84,7 +84,7 @@ void Viewer::draw_pictures(const PictureArea& area, double now) {
   }
   if (plan.inspect && a_.renderer.has_picture()) guarded([&] { inspect(a_); });
   for (const SideWork& each : work) {
-    if (each.plan.cut) each.side.renderer.cut();
+    if (each.plan.restart) each.side.renderer.restart();
   }
   if (plan.a.draw || plan.b.draw) draw_sides(work, plan.divisor, now);
   if (frame.b && a_.measured && b_.measured && !status_.difference) measure_difference();

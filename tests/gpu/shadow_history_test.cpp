@@ -135,6 +135,7 @@ double off_by_motion(TriangleRenderer& renderer, float pixels) {
       for (Triangle& triangle : scene.triangles) triangle = {triangle.a + way, triangle.b + way, triangle.c + way};
       drawn.push_back(renderer.render(scene, params, [&](shadow::Inputs& inputs) {
         inputs.motion = {motion.id(), side, side};
+        inputs.moved.reset();
         inputs.view.last_view = inputs.view.view;
         inputs.view.last_projection = inputs.view.projection;
         inputs.view.cut = frame == 0;

@@ -71,8 +71,8 @@ class ShadowMovement : public GpuTest {
 
   std::vector<float> depth_of(const TriangleScene& scene, const shadow::LightProjection& projection) {
     const Geometry geometry(scene);
-    const gl::Texture& map =
-        shadow::draw_shadow_map(device, {.name = "reference", .projection = projection, .draw = geometry.casters()});
+    const gl::Texture& map = shadow::shadow_map_target(device, "reference", projection);
+    shadow::draw_shadow_map(device, {.map = map, .projection = projection, .draw = geometry.casters()});
     return level_of(map, 0);
   }
 
@@ -96,11 +96,12 @@ class ShadowMovement : public GpuTest {
       gl::glClearTexImage(map.id(), level, GL_RED, GL_FLOAT, &rubbish);
     }
     drawn.clear();
-    const gl::Texture& depth = shadow::draw_shadow_map(device, {.name = "depth",
-                                                                .projection = projection,
-                                                                .draw = draw,
-                                                                .moved = how.second_target ? &map : nullptr,
-                                                                .moved_bounds = how.bounds});
+    const gl::Texture& depth = shadow::shadow_map_target(device, "depth", projection);
+    shadow::draw_shadow_map(device, {.map = depth,
+                                     .projection = projection,
+                                     .draw = draw,
+                                     .moved = how.second_target ? &map : nullptr,
+                                     .moved_bounds = how.bounds});
     shadow::draw_movement(device, {.map = map,
                                    .form = how.form,
                                    .projection = projection,

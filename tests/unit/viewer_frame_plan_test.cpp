@@ -40,8 +40,8 @@ class Desk {
       EXPECT_TRUE(last_is_b_ && b->missing() == 0);
       b->measured = true;
     }
-    if (b && plan.b.draw) draw(*b, plan.b.cut, plan.b.measure, plan.divisor, drawn_b);
-    if (plan.a.draw) draw(a, plan.a.cut, plan.a.measure, plan.divisor, drawn_a);
+    if (b && plan.b.draw) draw(*b, plan.b.restart, plan.b.measure, plan.divisor, drawn_b);
+    if (plan.a.draw) draw(a, plan.a.restart, plan.a.measure, plan.divisor, drawn_a);
     if (plan.a.draw || plan.b.draw) last_is_b_ = !plan.a.draw;
     if (plan.a.draw || plan.b.draw) pacing_.drew(plan.divisor, 50);
     return plan;

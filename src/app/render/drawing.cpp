@@ -37,7 +37,9 @@ void draw_frames(const RenderOptions& options, session::RenderSession& session, 
 std::size_t measure(const RenderOptions& options, session::RenderSession& session, const ParamSet& params,
                     const cli::FrameRange& range) {
   if (range.count() > 1) return static_cast<std::size_t>(range.count() - (options.warmup == 0 ? 1 : 0));
-  for (int i = 0; i < options.stats_frames; ++i) session.redraw(params);
+  ParamSet all = params;
+  all.set("maps.keep", false);
+  for (int i = 0; i < options.stats_frames; ++i) session.redraw(all);
   return static_cast<std::size_t>(options.stats_frames);
 }
 

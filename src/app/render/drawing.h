@@ -19,7 +19,8 @@ void draw_frames(const RenderOptions& options, session::RenderSession& session, 
                  const cli::FrameRange& range, const std::function<void(int frame)>& drawn);
 
 // Returns how many of the last drawn frames the costs are taken from. A single picture is drawn again, as often as
-// --stats-frames says; a sequence is not drawn again. The first draw never counts, because it compiles shaders.
+// --stats-frames says, with all shadow maps drawn anew; a sequence is not drawn again. The first draw never counts,
+// because it compiles shaders.
 std::size_t measure(const RenderOptions& options, session::RenderSession& session, const ParamSet& params,
                     const cli::FrameRange& range);
 

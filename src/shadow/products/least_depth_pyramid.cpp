@@ -43,6 +43,7 @@ Recipe least_depth_pyramid() {
   return {.name = "least_depth_pyramid",
           .summary = "Level n holds the least depth of each block of 4·2^n × 4·2^n texels of the shadow map.",
           .source = "Greene, Kass and Miller 1993, Hierarchical Z-buffer visibility",
+          .depends_only_on_needs = true,
           .build = build,
           .programs = [](const ParamSet&) {
             return std::vector<gl::ProgramDesc>{program("base", "1"), program("level", "0")};

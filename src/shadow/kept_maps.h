@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <optional>
+
+#include "../gl/device.h"
+#include "inputs.h"
+
+namespace penumbra::shadow {
+
+using LayerSet = std::bitset<max_layers>;
+
+// What the layers of a light's shadow map were drawn with.
+struct MapContent {
+  struct Layer {
+    glm::mat4 world_to_clip{1};
+    CullVolume cull;
+
+    bool operator==(const Layer&) const = default;
+  };
+  std::uint64_t texture = 0;         // its serial; 0: there is no map
+  std::uint64_t shader_changes = 0;  // gl::ShaderLibrary::changes()
+  LightSource source;
+  int count = 0;  // of the layers
+  std::array<Layer, max_layers> layers;
+};
+MapContent content_of(const gl::Device& device, const gl::Texture& map, const LightProjection& projection,
+                      const LightSource& source);
+
+// The layers that would be drawn as they were: with the same projection and culling, and without a caster that moved.
+// `moved`: Inputs::moved.
+LayerSet unchanged_layers(const MapContent& last, const MapContent& now, const std::optional<Box>& moved);
+
+}  // namespace penumbra::shadow
