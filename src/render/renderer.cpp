@@ -58,7 +58,8 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   FrameInputs placed = inputs;
   placed.cut = inputs.cut || last.empty() || !last.mapped().same_casters(now);
   // If the caller left out frames of this view, the scene does not know what moved since its last one.
-  const bool knows_moved = placed.cut || last.mapped().time == inputs.last_time;
+  constexpr double rounding = 1e-6;  // seconds: the caller may have computed the time again
+  const bool knows_moved = placed.cut || std::abs(last.mapped().time - inputs.last_time) <= rounding;
   // If this frame throws, the textures of the last one are no longer valid and must not be read.
   state_->parts = {};
   device.shaders.next_frame();

@@ -49,6 +49,20 @@ class Bench(TestCase):
         self.assertIn("filter", {each["name"] for each in costs[1]["passes"]})
         self.assertNotIn("shadow map", {each["name"] for each in costs[2]["passes"]})
 
+    def test_says_whether_maps_were_drawn_anew_or_kept(self):
+        for setting, said in ((None, "drawn anew in every frame"), ("on", "kept where nothing moved"),
+                              ("off", "drawn anew in every frame")):
+            arguments = ("--set", f"maps.keep={setting}") if setting else ()
+            text = self.succeed("bench", SCENE, *SMALL, *arguments, "-o", self.folder / "bench.json", "-o",
+                                self.folder / "bench.csv").stdout
+            data = json.loads((self.folder / "bench.json").read_text())
+            self.assertEqual(data["maps"], said)
+            self.assertIn(f"maps {said}", text)
+            self.assertEqual({row["maps"] for row in self.read_csv()}, {said})
+            drawn = sum(each["max_ms"] for each in data["points"][0]["costs"][0]["passes"]
+                        if each["name"] in ("shadow map", "depth pyramid"))
+            self.assertEqual(drawn > 0, setting != "on")
+
     def test_says_with_what_it_was_measured_and_not_where(self):
         data = self.bench(SCENE, "--technique", "pcss", "--set", "pcss.filter_taps=5")
         for field in ("version", "commit", "timing", "backend"):

@@ -41,6 +41,11 @@ class Stats(TestCase):
         self.assertEqual(len({corner[1] for corner in stats["ground"]}), 1)  # level
         self.assertIsNone(self.stats("--technique", "none", "--ground", "off")["ground"])
 
+    def test_maps_are_drawn_anew_where_a_picture_is_measured(self):
+        stats = self.stats("--stats-frames", "2")
+        self.assertEqual(stats["maps"], "drawn anew in every frame")
+        self.assertIn("shadow map", {row["name"] for row in stats["passes"] if row["min_ms"] > 0})
+
     def test_passes_have_costs_that_add_up_to_the_frame(self):
         stats = self.stats("--stats-frames", "5")
         self.assertEqual(stats["measured_frames"], 5)

@@ -1,6 +1,6 @@
 // Shadow maps, and what is made from them, are not drawn again where nothing changed; and are wherever something did.
 
-#include <set>
+#include <algorithm>
 #include <string>
 #include <vector>
 

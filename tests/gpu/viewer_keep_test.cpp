@@ -1,0 +1,76 @@
+// Tuning what reads the shadow maps does not draw them again in the viewer.
+#include <algorithm>
+
+#include "gpu/gpu_test.h"
+#include "image/read.h"
+#include "viewer/picture_renderer.h"
+
+namespace penumbra::test {
+namespace {
+
+class ViewerKeep : public GpuTest {
+ protected:
+  ViewerKeep() {
+    document_.options.scene = std::string(PENUMBRA_ROOT) + "/scenes/steps.glb";
+    document_.options.size = {64, 36};
+    document_.params = ParamSet(render::Renderer::params(renderer_.registry()));
+    renderer_.registry().select(document_.params, "thesis_8x8");
+    document_.params.set("cascades.size", 64);
+    scene_ =
+        std::make_unique<viewer::LoadedScene>(device_, session::load_scene(document_.options, image::image_decoder()));
+  }
+
+  // How many maps the next frame draws.
+  std::size_t maps(int divisor = 1) {
+    picture_.draw(*scene_, document_, divisor);
+    const auto& work = device_.timers.work();
+    const auto found = work.find("shadow map");
+    return found == work.end() ? 0 : found->second.draws;
+  }
+
+  gl::Device device_{gl::ShaderFiles{}, gl::Timers::Mode::finish};
+  render::Renderer renderer_{device_};
+  viewer::PictureRenderer picture_{device_, renderer_, 0};
+  viewer::Document document_;
+  std::unique_ptr<viewer::LoadedScene> scene_;
+};
+
+TEST_F(ViewerKeep, TuningAFilterDrawsNoMaps) {
+  EXPECT_GT(maps(), 0u);
+  for (const auto& [name, value] : {std::pair("filter.width", "0.2"),
+                                    {"filter.visibility", "box"},
+                                    {"pcss.filter_taps", "4"},
+                                    {"exposure.compensation", "1"}}) {
+    document_.params.set_text(name, value);
+    EXPECT_EQ(maps(), 0u) << name;
+    EXPECT_EQ(maps(/*divisor=*/2), 0u) << name << ", drawn smaller while the user drags";
+    picture_.restart();
+    EXPECT_EQ(maps(), 0u) << name << ", at full size again";
+  }
+}
+
+TEST_F(ViewerKeep, ARestartGivesThePictureOfAFirstFrame) {
+  maps();
+  maps();
+  picture_.restart();
+  maps();
+  const std::vector<float> restarted = renderer_.read_aov("shadow");
+  picture_.cut();
+  EXPECT_GT(maps(), 0u);
+  EXPECT_EQ(renderer_.read_aov("shadow"), restarted);
+}
+
+TEST_F(ViewerKeep, AnotherSunOrTimeDrawsThem) {
+  maps();
+  document_.params.set("cascades.split", 0.2f);
+  EXPECT_GT(maps(), 0u);
+  EXPECT_EQ(maps(), 0u);
+  document_.params.set_text("casters.faces", "front");
+  EXPECT_GT(maps(), 0u);
+  EXPECT_EQ(maps(), 0u);
+  picture_.cut();
+  EXPECT_GT(maps(), 0u);
+}
+
+}  // namespace
+}  // namespace penumbra::test
