@@ -6,7 +6,7 @@ import { checkBrowser } from './browser.mjs';
 import { temporaryFolder, undoAtEveryEnd } from './cleanup.mjs';
 import { Failure, lineOf } from './failure.mjs';
 import { machine } from './machine.mjs';
-import { measureScene } from './measure.mjs';
+import { measureScene, nameOf } from './measure.mjs';
 import { HELP, parse } from './options.mjs';
 import { Penumbra } from './penumbra.mjs';
 import { conditions, markdown, textTable } from './table.mjs';
@@ -48,7 +48,7 @@ async function run(args) {
   const { scenes: _scenes, json, markdown: markdownFile, pictures, program: _program, ...settings } = options;
   const report = { machine: machine(), settings, scenes: [] };
   for (const scene of options.scenes) {
-    const tell = (text) => process.stderr.write(`${path.basename(scene)}: ${text}\n`);
+    const tell = (text) => process.stderr.write(`${nameOf(scene)}: ${text}\n`);
     const result = await measureScene(context, scene, tell);
     report.scenes.push(result);
     process.stdout.write(`${textTable(result, options.mapSize)}\n\n`);

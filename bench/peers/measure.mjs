@@ -51,10 +51,16 @@ async function takeTurns(context, sceneArgs, peers, own, report) {
   return busy;
 }
 
+// A scene's file name, or its folder's for a file that is named just scene.
+export function nameOf(scene) {
+  const stem = path.basename(scene).replace(/\.(glb|gltf)$/, '');
+  return stem === 'scene' ? path.basename(path.dirname(path.resolve(scene))) : stem;
+}
+
 // context: {options, penumbra, settings, packages, pages, folder}; report: called with what is being done.
 export async function measureScene(context, scene, report) {
   const { options, penumbra, folder } = context, sceneArgs = sceneArguments(options);
-  const name = path.basename(scene).replace(/\.(glb|gltf)$/, '');
+  const name = nameOf(scene);
   const pictures = options.pictures ? path.join(options.pictures, name) : null;
   const facts = await penumbra.facts(scene, sceneArgs, folder), setup = setupOf(scene, facts, options);
   const peers = options.peers.flatMap((peer) => options.cascades.filter((maps) => PEERS[peer].maps.includes(maps))
@@ -74,7 +80,7 @@ export async function measureScene(context, scene, report) {
     const peerRows = peers.map(({ row }) => row), ownRows = own.flatMap(({ rows }) => rows);
     const warnings = [busyWarning(busy), ...driverWarnings(peerRows, facts.device.renderer),
       setup.animated ? 'the scene is animated: the peers draw it as the file places it, Penumbra at time 0' : null];
-    return { scene: path.basename(scene), triangles: facts.scene_facts.triangles, pixels, busy,
+    return { scene: name, triangles: facts.scene_facts.triangles, pixels, busy,
       rows: [...ownRows, ...peerRows].map((row) => ({ ...row, shadowed_ms: summary(row.shadowed),
         unshadowed_ms: summary(row.unshadowed) })),
       ratios: ratiosOf(peerRows, ownRows), warnings: warnings.filter(Boolean) };

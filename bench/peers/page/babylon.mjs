@@ -98,6 +98,7 @@ async function load(scene, setup, shadows) {
   await BABYLON.ImportMeshAsync(setup.url, scene, {
     pluginOptions: { gltf: { animationStartMode: 0, extensionOptions: { KHR_lights_punctual: { enabled: false } } } },
   });
+  for (const texture of scene.textures) texture.anisotropicFilteringLevel = 1; // 4 by default; the others have none
   if (setup.ground) addGround(scene, setup);
   const whites = new Map();
   for (const mesh of scene.meshes) {
