@@ -15,11 +15,19 @@ function ticks() {
 }
 
 // The share of the cores' time that other work takes, from half a second in which the renderers rest.
-export async function busyShare() {
+async function busyShare() {
   const before = ticks();
   await new Promise((resolve) => { setTimeout(resolve, 500); });
   const after = ticks(), all = after.all - before.all;
   return all > 0 ? Math.max(0, 1 - (after.idle - before.idle) / all) : 0;
+}
+
+// Waits for at most `seconds` until hardly any other work runs. Returns the share that it takes by then.
+export async function idleShare(seconds) {
+  const end = Date.now() + 1000 * seconds;
+  let share = await busyShare();
+  while (share > MOST_BUSY && Date.now() < end) share = await busyShare();
+  return share;
 }
 
 // A warning about the rounds that other work disturbed, or null.

@@ -2,7 +2,7 @@
 import path from 'node:path';
 import { PeerContender, PenumbraContender } from './contenders.mjs';
 import { PEERS } from './options.mjs';
-import { busyShare, busyWarning } from './machine.mjs';
+import { busyWarning, idleShare } from './machine.mjs';
 import { sceneArguments, setupOf } from './scene.mjs';
 import { serve } from './server.mjs';
 import { ratio, summary } from './statistics.mjs';
@@ -44,7 +44,7 @@ async function takeTurns(context, sceneArgs, peers, own, report) {
   const busy = [];
   for (let round = 1; round <= context.options.rounds; ++round) {
     report(`round ${round} of ${context.options.rounds}`);
-    busy.push(await busyShare());
+    busy.push(await idleShare(context.options.waitIdle));
     for (const peer of peers) await peer.measure();
     for (const each of own) await each.measure(sceneArgs, context.folder);
   }

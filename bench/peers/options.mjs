@@ -32,6 +32,7 @@ usage: bench/peers/run.sh SCENE... [OPTIONS]
   --json FILE         Write all figures as JSON
   --markdown FILE     Write the tables as Markdown
   --pictures FOLDER   Write each renderer's picture, and its shadows alone, as PNG
+  --wait-idle S       Longest wait before each round until other programs rest, seconds (0)
   --timeout S         Longest time for one step of a browser or of penumbra, seconds (300)
   --program FILE      The program penumbra (build/release/penumbra)
   --help              This text
@@ -40,7 +41,7 @@ usage: bench/peers/run.sh SCENE... [OPTIONS]
 const STRINGS = { size: '1280x720', frames: '5', rounds: '3', peers: 'three,babylon,playcanvas', techniques: 'pcss',
   cascades: '4,1', 'map-size': '2048', taps: '16/16', 'sun-angle': '0.53', camera: undefined, ground: 'auto',
   materials: 'own', maps: 'anew', spp: '256', json: undefined, markdown: undefined, pictures: undefined,
-  timeout: '300', program: undefined };
+  'wait-idle': '0', timeout: '300', program: undefined };
 
 const wrong = (message) => new Failure(message, 2);
 
@@ -107,6 +108,7 @@ export function parse(args) {
     spp: whole('spp', values.spp, 1, 65536),
     truth: !values['no-truth'],
     json: values.json, markdown: values.markdown, pictures: values.pictures,
+    waitIdle: number('wait-idle', values['wait-idle'], 0, 86400),
     timeout: number('timeout', values.timeout, 1, 86400),
     program: values.program,
   };
