@@ -40,7 +40,7 @@ export class PeerContender {
   // Starts the browser, and finds the visibility if it is wanted.
   prepare(context, setup, pictures) {
     return this.attempt(async () => {
-      const { width, height, truth, white } = this.options;
+      const { width, height, truth, white, keepMaps } = this.options;
       const own = { ...setup, maps: this.maps };
       await this.peer.start(context.packages, context.software);
       this.row.chromium = this.peer.chromium;
@@ -49,7 +49,8 @@ export class PeerContender {
         this.visibility = visibilityOf(width, height, await this.peer.light(true), await this.peer.light(false));
         if (pictures) writeGrey(`${pictures}_${this.stem}_shadow.png`, width, height, this.visibility);
       }
-      await this.peer.open(context.origin, { ...own, white });
+      const same = truth && white && !keepMaps; // as the page is by now
+      if (!same) await this.peer.open(context.origin, { ...own, white });
       Object.assign(this.row, { version: this.peer.version, driver: this.peer.driver });
       if (pictures) fs.writeFileSync(`${pictures}_${this.stem}.png`, await this.peer.picture());
     });
@@ -109,10 +110,10 @@ export class PenumbraContender {
     const techniques = this.options.techniques.map((name) => this.technique(name, folder));
     await this.penumbra.run('bench', this.scene, ...sceneArgs, '--technique', ['none', ...techniques].join(','),
       ...this.parameters(), '--frames', this.options.frames, '--warmup', 2, '-o', file, '--quiet');
-    const { version, device, points } = JSON.parse(fs.readFileSync(file, 'utf8'));
+    const { version, commit, device, points } = JSON.parse(fs.readFileSync(file, 'utf8'));
     const [none, ...costs] = points[0].costs.map((cost) => cost.frame.median_ms);
     this.rows.forEach((row, i) => {
-      Object.assign(row, { version: version.replace(/^Penumbra /, ''), driver: device.renderer });
+      Object.assign(row, { version: version.replace(/^Penumbra /, ''), commit, driver: device.renderer });
       row.shadowed.push(costs[i]);
       row.unshadowed.push(none);
     });

@@ -67,7 +67,8 @@ class Peers(support.TestCase):
 
     def test_every_renderer_draws_the_same_view_and_shadows(self):
         results, tables, pictures = (self.folder / name for name in ("peers.json", "peers.md", "pictures"))
-        code, out, errors = self.peers(SCENE, *SMALL, "--json", results, "--markdown", tables, "--pictures", pictures)
+        code, out, errors = self.peers(SCENE, *SMALL, "--materials", "white", "--json", results, "--markdown", tables,
+                                       "--pictures", pictures)
         self.assertEqual(code, 0, out + errors)
         report = json.loads(results.read_text())
         scene = report["scenes"][0]
