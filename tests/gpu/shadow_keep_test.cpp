@@ -1,6 +1,7 @@
 // Shadow maps, and what is made from them, are not drawn again where nothing changed; and are wherever something did.
 
 #include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
 #include <string>
 #include <vector>
 
@@ -142,7 +143,7 @@ TEST_F(ShadowKeep, OnlyLayersThatHoldWhatMovedAreDrawnAgain) {
   // Far from the finest cascade's column.
   const shadow::Box corner{{-5, 0, -5}, {-4.9f, 0.1f, -4.9f}};
   const Layers reached = frame([&](shadow::Inputs& inputs) { inputs.moved = corner; });
-  EXPECT_FALSE(reached.empty());
+  ASSERT_FALSE(reached.empty());
   EXPECT_LT(reached.size(), all_layers.size());
   EXPECT_EQ(reached.back(), 3) << "the last cascade holds everything";
   EXPECT_EQ(builds, 1);
@@ -160,6 +161,27 @@ TEST_F(ShadowKeep, AMovedCasterHasItsShadowWhereItIs) {
   params.set("maps.keep", false);
   frame();
   EXPECT_EQ(last.mask, moved);
+}
+
+TEST_F(ShadowKeep, FramesWithSomeLayersKeptAreTheSame) {
+  const std::size_t first = scene.triangles.size();
+  scene.add_box({-4.9f, 0, -4.9f}, {-4.7f, 0.5f, -4.7f});
+  // Along the ground, to the small box at its far end.
+  scene.view = glm::lookAt(glm::vec3(-4.5f, 1, 4.5f), glm::vec3(-4.5f, 0, -4.5f), glm::vec3(0, 1, 0));
+  settle();
+  std::vector<float> still = last.mask;
+  for (int i = 0; i < 3; ++i) {
+    for (Triangle& triangle : scene.triangles) triangle.moved_by = glm::vec3(0);
+    scene.move_from(first, {0.3f, 0, 0.1f});
+    const std::size_t count = frame().size();
+    EXPECT_GT(count, 0u);
+    EXPECT_LT(count, all_layers.size());
+    const std::vector<float> kept = last.mask;
+    EXPECT_NE(kept, still) << "its shadow is in the picture";
+    TriangleRenderer other(registry_with_counted());
+    EXPECT_EQ(other.render(scene, params).mask, kept);
+    still = kept;
+  }
 }
 
 TEST_F(ShadowKeep, WhateverChangesDrawsAllLayers) {
