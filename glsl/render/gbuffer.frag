@@ -1,5 +1,4 @@
-// Writes the G-buffer of the surfaces that an earlier pass has left in the depth buffer, so masked surfaces need no
-// alpha test here.
+// Writes the G-buffer of the surfaces that an earlier pass has left in the depth buffer.
 #include "lib/octahedral.glsl"
 #include "scene/surface.glsl"
 
@@ -15,10 +14,11 @@ layout(location = 4 + EMISSION) out vec2 out_motion;
 #endif
 
 void main() {
+  vec4 color = surface_color();
   vec3 geometric = geometric_normal();
   vec3 properties = surface_properties(surface_uv());
   // Square root: less banding in ten bits. Alpha: 0 is left where no surface is.
-  out_albedo = vec4(sqrt(clamp(surface_color().rgb, 0.0, 1.0)), is_unlit() ? 1.0 / 3.0 : 1.0);
+  out_albedo = vec4(sqrt(clamp(color.rgb, 0.0, 1.0)), is_unlit() ? 1.0 / 3.0 : 1.0);
   out_normal = octahedral_encode(shading_normal(geometric)) * 0.5 + 0.5;
   out_geometric_normal = octahedral_encode(geometric);
   out_material = vec4(properties, 0.0);
@@ -28,4 +28,5 @@ void main() {
 #if MOTION
   out_motion = motion();
 #endif
+  cut_out(color.a);
 }

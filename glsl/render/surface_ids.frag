@@ -3,4 +3,7 @@
 
 layout(location = 0) out uvec2 out_id;  // surface plus 1, triangle
 
-void main() { out_id = uvec2(surface.instance + 1u, uint(gl_PrimitiveID)); }
+void main() {
+  out_id = uvec2(surface.instance + 1u, uint(gl_PrimitiveID));
+  cut_out(surface_color().a);
+}

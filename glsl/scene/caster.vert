@@ -12,7 +12,8 @@ layout(location = 6) in uint instance;
 
 uniform mat4 world_to_clip;
 
-// Invariant, because later passes test against the shadow map's depth and must compute bit-identical positions.
+// Invariant, because later passes test against the depths that this one leaves and must compute bit-identical
+// positions. surface.vert computes them by the same expressions: the G-buffer tests for equal depth.
 invariant gl_Position;
 
 #if MASKED

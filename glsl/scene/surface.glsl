@@ -25,6 +25,15 @@ vec4 surface_color() {
 #endif
 }
 
+// Discards where the alpha test cuts the surface out. The pass before has left no depth of it there, but another
+// surface may lie at the same depth. The tolerance is for rounding, which may differ from that pass's: it has decided
+// already. To be called after all texture reads: mip levels need the derivatives of the whole quad.
+void cut_out(float alpha) {
+#if MASKED
+  if (alpha < material.alpha_cutoff - 1e-4) discard;
+#endif
+}
+
 #if WORLD || !TRIANGLES
 // Vector from the camera to the surface.
 vec3 view_ray() { return view.camera.w != 0.0 ? view.forward.xyz : surface.world - view.camera.xyz; }

@@ -15,7 +15,7 @@ layout(location = 4) in vec4 uv;
 layout(location = 5) in vec4 color;
 layout(location = 6) in uint instance;
 
-// Invariant, so that all passes over the same surfaces find the same one nearest.
+// Invariant, and by the same expressions as in caster.vert, which draws the depth that these passes test for equality.
 invariant gl_Position;
 
 void main() {

@@ -2,6 +2,7 @@
 // surface has, reads. The including file defines SURFACE as `in` or `out`. Its constants:
 //   TEXTURES   bit i: the material has texture i (shared/scene_blocks.h)
 //   COLORS     the vertices have colours
+//   MASKED     whether an alpha test cuts parts out of it
 //   TRIANGLES  0: lines or points
 //   NORMALS    whether the normals are read; if not, the index of the instance is
 //   WORLD      whether the position is read

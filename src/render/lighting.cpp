@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/gtc/constants.hpp>
+#include <vector>
 
 #include "render/ground.h"
 #include "render/passes.h"
@@ -78,9 +79,9 @@ const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inpu
   pass.use(program(gbuffer.emission != nullptr));
   block.bind_uniform(lighting_binding);
   GLuint unit = first_unit;
-  for (const gl::Texture* texture :
-       {gbuffer.albedo, gbuffer.normal, gbuffer.material, inputs.mask.texture, gbuffer.emission}) {
-    if (texture == nullptr) continue;
+  std::vector<const gl::Texture*> sources{gbuffer.albedo, gbuffer.normal, gbuffer.material, inputs.mask.texture};
+  if (gbuffer.emission != nullptr) sources.push_back(gbuffer.emission);
+  for (const gl::Texture* texture : sources) {
     device.sampler({}).bind(unit);
     texture->bind(unit++);
   }

@@ -1,14 +1,21 @@
 #include "render/passes.h"
+#include "shared/scene_blocks.h"
 
 namespace penumbra::render {
 
 namespace {
 
-gl::ProgramDesc program(bool triangles) {
+// Colours matter only to the alpha test.
+gl::ProgramDesc program(const scene::SurfaceTraits& traits) {
+  scene::SurfaceTraits read{.masked = traits.masked, .triangles = traits.triangles};
+  if (traits.masked) {
+    read.textures = traits.textures & (1u << TEXTURE_BASE_COLOR);
+    read.colors = traits.colors;
+  }
   return {.name = "surface ids",
           .vertex = "scene/surface.vert",
           .fragment = "render/surface_ids.frag",
-          .defines = scene::surface_defines({.triangles = triangles}, {})};
+          .defines = scene::surface_defines(read, {})};
 }
 
 }  // namespace
@@ -23,11 +30,15 @@ const gl::Texture& draw_surface_ids(gl::Device& device, const SurfaceIdInputs& i
                          .depth_test = gl::DepthTest::equal});
   const Frustum frustum(inputs.view.world_to_clip);
   inputs.scene.draw_surfaces(
-      device, pass, [&](const scene::SurfaceTraits& traits) { pass.use(program(traits.triangles)); },
+      device, pass, [&](const scene::SurfaceTraits& traits) { pass.use(program(traits)); },
       [&](const scene::Bounds& box) { return frustum.holds(box); });
   return ids;
 }
 
-std::vector<gl::ProgramDesc> surface_id_programs() { return {program(true), program(false)}; }
+std::vector<gl::ProgramDesc> surface_id_programs() {
+  constexpr unsigned textures = 1u << TEXTURE_BASE_COLOR;
+  return {program({}), program({.triangles = false}), program({.masked = true}),
+          program({.textures = textures, .colors = true, .masked = true})};
+}
 
 }  // namespace penumbra::render

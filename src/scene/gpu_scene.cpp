@@ -79,6 +79,7 @@ class Builder {
                       .material = materials_.index_of(primitive.material),
                       .traits = {.textures = materials_.textures_of(primitive.material),
                                  .colors = !primitive.colors.empty(),
+                                 .masked = material.alpha_mode == AlphaMode::mask,
                                  .triangles = primitive.topology == Topology::triangles},
                       .double_sided = material.double_sided,
                       .first_index = placed.first_index,

@@ -57,8 +57,8 @@ class GpuScene {
   void draw_depth(gl::Device& device, gl::Pass& pass, const glm::mat4& world_to_clip, const BoxTest& visible,
                   const Distance& distance);
   // Draws opaque and masked surfaces, with programs of glsl/scene/surface.vert, over their depth from draw_depth(): the
-  // pass tests for equal depth, and no alpha. Of several at the same depth the last is seen; their order is always the
-  // same. The caller has bound the view's uniform block.
+  // pass tests for equal depth. Of several at the same depth the last is seen; their order is always the same. The
+  // caller has bound the view's uniform block.
   void draw_surfaces(gl::Device& device, gl::Pass& pass, const UseProgram& use, const BoxTest& visible);
   // Draws BLEND surfaces, those with the greatest distance first.
   void draw_blended(gl::Device& device, gl::Pass& pass, const UseProgram& use, const BoxTest& visible,

@@ -10,6 +10,7 @@ std::vector<gl::Define> surface_defines(const SurfaceTraits& traits, const Surfa
   const auto flag = [](bool on) { return on ? "1" : "0"; };
   return {{"TEXTURES", std::to_string(traits.textures)},
           {"COLORS", flag(traits.colors)},
+          {"MASKED", flag(traits.masked)},
           {"TRIANGLES", flag(traits.triangles)},
           {"NORMALS", flag(reads.normals)},
           {"WORLD", flag(reads.world)},
@@ -18,7 +19,8 @@ std::vector<gl::Define> surface_defines(const SurfaceTraits& traits, const Surfa
 
 std::vector<SurfaceTraits> sample_traits() {
   constexpr unsigned all = (1u << TEXTURE_COUNT) - 1;
-  std::vector<SurfaceTraits> samples{{.textures = all, .colors = true}, {}, {.triangles = false}};
+  std::vector<SurfaceTraits> samples{
+      {.textures = all, .colors = true}, {}, {.triangles = false}, {.textures = all, .colors = true, .masked = true}};
   for (unsigned texture = 0; texture < TEXTURE_COUNT; ++texture) samples.push_back({.textures = 1u << texture});
   return samples;
 }

@@ -11,6 +11,7 @@ namespace penumbra::scene {
 struct SurfaceTraits {
   unsigned textures = 0;  // bit i: the material has texture i of glsl/shared/scene_blocks.h
   bool colors = false;    // colours at its vertices
+  bool masked = false;    // an alpha test cuts parts out of it
   bool triangles = true;  // false: lines or points
 
   auto operator<=>(const SurfaceTraits&) const = default;

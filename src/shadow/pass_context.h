@@ -39,7 +39,7 @@ struct PassOwner {
 // The history is discarded, so that age() is 0 and no History is valid,
 //   - in the first frame of a light in a view, and in the first after a frame of the view without it,
 //   - with View::cut or View::restart, and when View::last_view or last_projection are not the matrices of the view's
-//   last frame,
+//     last frame,
 //   - when the viewport, the size of the textures, the conventions, the light's source or the number of layers
 //     of its shadow map changes, or a parameter does, except those of techniques and denoisers that are not chosen,
 //   - after a frame that ended in an Error.

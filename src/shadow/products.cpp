@@ -55,7 +55,8 @@ const gl::Texture* kept_product(const LightWork& work, const Recipe& recipe) {
   const auto found = work.state.products.find(recipe.name);
   if (found == work.state.products.end()) return nullptr;
   LightState::KeptProduct& last = found->second;
-  last.kept = recipe.depends_only_on_needs && last.frame + 1 == work.state.frames && last.shape == work.frame.shape &&
+  last.kept = recipe.depends_only_on_needs && work.params().get_bool("maps.keep") &&
+              last.frame + 1 == work.state.frames && last.shape == work.frame.shape &&
               last.shader_changes == work.device.shaders.changes() &&
               std::ranges::all_of(recipe.needs, [&](const std::string& name) { return is_kept(work, name); }) &&
               same_values(recipe, work.params(), last.values);

@@ -16,8 +16,7 @@ class PassContext;
 // How to make a product: a texture derived from a light's shadow map (a pyramid, moments, a summed-area table), or from
 // its casters and receivers. Techniques, denoisers and other recipes list it in their `needs` by name. It is made once
 // for each light and frame, however many need it, and not at all if none does or it would be the same as in the last
-// frame. Their GLSL declares it at a texture unit
-// that the library defines:
+// frame. Their GLSL declares it at a texture unit that the library defines:
 //   layout(binding = UNIT_least_depth_pyramid) uniform sampler2DArray shadow_pyramid;
 struct Recipe {
   std::string name;     // an identifier of GLSL, lower case

@@ -172,6 +172,31 @@ TEST_F(GBufferTest, OfSurfacesAtTheSameDepthTheSameOneIsSeenFromEverywhere) {
   EXPECT_EQ(seen[0], seen[1]);
 }
 
+TEST_F(GBufferTest, AMaskedSurfaceAtTheDepthOfAnOpaqueOneIsSeenOnlyWhereItIsNotCutOut) {
+  // On a red square a green one whose left half is cut out.
+  scene::Scene scene;
+  scene.images.push_back(
+      {.name = "left half cut out", .width = 2, .height = 1, .rgba = {0, 255, 0, 0, 0, 255, 0, 255}});
+  scene.textures.push_back(
+      {.image = 0, .mag = scene::Filter::nearest, .min = scene::Filter::nearest, .mipmapped = false});
+  scene.materials = {{.base_color = {1, 0, 0, 1}, .unlit = true},
+                     {.base_color_texture = {.texture = 0}, .alpha_mode = scene::AlphaMode::mask, .unlit = true}};
+  for (int material = 0; material < 2; ++material) {
+    scene::Primitive quad = square();
+    for (const glm::vec3& corner : quad.positions) quad.uvs[0].push_back({corner.x < 0 ? 0.0f : 1.0f, 0.5f});
+    quad.material = material;
+    add_node(scene, quad, glm::mat4(1));
+  }
+  inputs.camera = inputs.last_camera = render::look_at({0, 0, 3}, {0, 0, 0}, 1.0f, 0.01f);
+  draw(scene);
+  const glm::vec3 left = pixel3("albedo", width / 2 - 4, height / 2);
+  const glm::vec3 right = pixel3("albedo", width / 2 + 4, height / 2);
+  EXPECT_GT(left.r, 0.99f);
+  EXPECT_LT(left.g, 0.01f);
+  EXPECT_LT(right.r, 0.01f);
+  EXPECT_GT(right.g, 0.99f);
+}
+
 TEST_F(GBufferTest, EachSurfaceHasWhatItsOwnMaterialHas) {
   // Side by side: textured, coloured at its vertices, emissive, and plain; drawn by programs of their own.
   scene::Scene scene;
