@@ -56,8 +56,8 @@ check() {
 }
 
 failed=0 checks_passed=0 checks_failed=0 result_folders=()
-ensure_packages "run test peers"
-(ensure_peers) || note "without them the tests of bench/peers are skipped"
+ensure_packages "run test"
+(ensure_packages peers && ensure_peers) || note "without them the tests of bench/peers are skipped"
 tests_built release all
 suite_begin=$SECONDS
 suite release ${regex:+-R "$regex"}

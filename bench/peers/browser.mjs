@@ -83,11 +83,14 @@ export class Peer {
 
   // Opens the page with a scene; an earlier page of this browser is closed first.
   async open(origin, setup) {
-    await this.page?.close();
-    this.page = await this.browser.newPage();
+    if (this.page) await this.step('closing its page', this.page.close());
+    this.page = await this.step('opening its page', this.browser.newPage());
     const failed = [];
     this.page.on('pageerror', (error) => failed.push(lineOf(error)));
     this.page.on('requestfailed', (request) => failed.push(`${request.url()} can't be loaded`));
+    this.page.on('response', (response) => {
+      if (response.status() >= 400) failed.push(`${response.url()} can't be loaded: status ${response.status()}`);
+    });
     await this.step('opening its page', this.page.goto(`${origin}/page/index.html`, { waitUntil: 'load' }));
     await this.step('opening its page', this.page.waitForFunction('window.peer', { timeout: 0, polling: 50 }));
     Object.assign(this, await this.call('opening the scene', 'open', this.name, setup));

@@ -4,7 +4,7 @@ import fs from 'node:fs';
 import zlib from 'node:zlib';
 import { Failure } from './failure.mjs';
 
-const MAGIC = 20000630, HALF = 1, FLOAT = 2;
+const MAGIC = 20000630, FLOAT = 2;
 const LINES = { 0: 1, 2: 1, 3: 16 }; // lines of a block, by compression: none, ZIPS, ZIP
 
 function readHeader(data) {
@@ -50,21 +50,19 @@ export function readExr(file) {
   const window = [0, 4, 8, 12].map((at) => attributes.dataWindow.data.readInt32LE(at));
   const width = window[2] - window[0] + 1, height = window[3] - window[1] + 1;
   const list = readChannels(attributes.channels.data), lines = LINES[attributes.compression.data[0]];
-  if (!lines || list.some(({ type }) => type !== FLOAT && type !== HALF)) {
-    throw new Failure(`${file}: an OpenEXR file of another kind than penumbra writes`);
+  if (!lines || list.some(({ type }) => type !== FLOAT)) {
+    throw new Failure(`${file}: only files with channels of 32-bit floats, not compressed or by ZIP, can be read`);
   }
   const channels = Object.fromEntries(list.map(({ name }) => [name, new Float32Array(width * height)]));
-  const rowBytes = list.reduce((sum, { type }) => sum + width * (type === HALF ? 2 : 4), 0);
+  const rowBytes = 4 * width * list.length;
   for (let block = 0; block * lines < height; ++block) {
     const at = Number(data.readBigUInt64LE(end + 8 * block));
     const first = data.readInt32LE(at) - window[1], count = Math.min(lines, height - first);
     const bytes = unpack(data.subarray(at + 8, at + 8 + data.readUInt32LE(at + 4)), count * rowBytes);
     let read = 0;
     for (let y = first; y < first + count; ++y) {
-      for (const { name, type } of list) {
-        for (let x = 0; x < width; ++x, read += type === HALF ? 2 : 4) {
-          if (type === FLOAT) channels[name][y * width + x] = bytes.readFloatLE(read);
-        }
+      for (const { name } of list) {
+        for (let x = 0; x < width; ++x, read += 4) channels[name][y * width + x] = bytes.readFloatLE(read);
       }
     }
   }

@@ -1,5 +1,4 @@
 // Measures Penumbra beside other renderers; run.sh installs what this needs and starts it.
-import fs from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { checkBrowser } from './browser.mjs';
@@ -8,8 +7,12 @@ import { Failure, lineOf } from './failure.mjs';
 import { machine } from './machine.mjs';
 import { measureScene, nameOf } from './measure.mjs';
 import { HELP, parse } from './options.mjs';
+import { checkOutputs, writeWhole } from './output.mjs';
 import { Penumbra } from './penumbra.mjs';
 import { conditions, markdown, textTable } from './table.mjs';
+
+// A short limit is meant for browsers that hang; a command of penumbra may have to render a reference.
+const LEAST_COMMAND_SECONDS = 120;
 
 const here = path.dirname(fileURLToPath(import.meta.url)), root = path.dirname(path.dirname(here));
 
@@ -22,19 +25,6 @@ async function mapSettings(penumbra, options) {
   return [];
 }
 
-// Output is checked before minutes are spent on what it would hold.
-function checkOutputs(options) {
-  for (const file of [options.json, options.markdown].filter(Boolean)) {
-    try {
-      fs.mkdirSync(path.dirname(path.resolve(file)), { recursive: true });
-      fs.accessSync(fs.existsSync(file) ? file : path.dirname(path.resolve(file)), fs.constants.W_OK);
-    } catch (error) {
-      throw new Failure(`${file}: can't be written: ${error.code}`);
-    }
-  }
-  if (options.pictures) fs.mkdirSync(options.pictures, { recursive: true });
-}
-
 async function run(args) {
   const options = parse(args);
   if (options.help) return process.stdout.write(HELP);
@@ -42,7 +32,7 @@ async function run(args) {
   const program = options.program ?? process.env.PENUMBRA_PROGRAM ?? path.join(root, 'build/release/penumbra');
   const packages = process.env.PENUMBRA_PEERS ?? path.join(root, 'build/peers');
   if (options.peers.length > 0) checkBrowser(packages);
-  const penumbra = new Penumbra(program, options.timeout);
+  const penumbra = new Penumbra(program, Math.max(options.timeout, LEAST_COMMAND_SECONDS));
   const context = { options, penumbra, settings: await mapSettings(penumbra, options), folder: temporaryFolder(),
     packages, pages: path.join(here, 'page') };
   const { scenes: _scenes, json, markdown: markdownFile, pictures, program: _program, ...settings } = options;
@@ -57,8 +47,8 @@ async function run(args) {
   report.chromium = unique(rows.map((row) => row.chromium))[0];
   report.drivers = unique(rows.map((row) => row.driver));
   process.stdout.write(`${conditions(report)}\n`);
-  if (json) fs.writeFileSync(json, `${JSON.stringify(report, null, 2)}\n`);
-  if (markdownFile) fs.writeFileSync(markdownFile, markdown(report));
+  if (json) writeWhole(json, `${JSON.stringify(report, null, 2)}\n`);
+  if (markdownFile) writeWhole(markdownFile, markdown(report));
   if (rows.some((row) => row.failed)) process.exitCode = 1;
   return undefined;
 }

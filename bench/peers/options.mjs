@@ -33,7 +33,8 @@ usage: bench/peers/run.sh SCENE... [OPTIONS]
   --markdown FILE     Write the tables as Markdown
   --pictures FOLDER   Write each renderer's picture, and its shadows alone, as PNG
   --wait-idle S       Longest wait before each round until other programs rest, seconds (0)
-  --timeout S         Longest time for one step of a browser or of penumbra, seconds (300)
+  --timeout S         Longest time for one step of a browser, and for one command of penumbra, which gets at least
+                      120, seconds (300)
   --program FILE      The program penumbra (build/release/penumbra)
   --help              This text
 `;

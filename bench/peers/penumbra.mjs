@@ -23,9 +23,14 @@ export class Penumbra {
         late = true;
         child.kill('SIGKILL');
       }, this.seconds * 1000);
+      for (const stream of [child.stdout, child.stderr]) stream.setEncoding('utf8');
       child.stdout.on('data', (data) => { out += data; });
       child.stderr.on('data', (data) => { errors += data; });
-      child.on('error', (error) => reject(new Failure(`${name}: ${error.message}`)));
+      child.on('error', (error) => {
+        clearTimeout(timer);
+        end();
+        reject(new Failure(`${name}: ${error.message}`));
+      });
       child.on('close', (code) => {
         clearTimeout(timer);
         end();

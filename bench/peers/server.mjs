@@ -2,6 +2,7 @@
 import fs from 'node:fs';
 import http from 'node:http';
 import path from 'node:path';
+import { pipeline } from 'node:stream';
 
 const TYPES = { '.html': 'text/html', '.mjs': 'text/javascript', '.js': 'text/javascript', '.json': 'application/json',
   '.wasm': 'application/wasm', '.glb': 'model/gltf-binary', '.gltf': 'model/gltf+json', '.png': 'image/png',
@@ -30,7 +31,7 @@ export async function serve(folders) {
     const stream = file && fs.existsSync(file) && fs.statSync(file).isFile() ? fs.createReadStream(file) : null;
     if (!stream) return response.writeHead(404, ISOLATION).end();
     response.writeHead(200, { ...ISOLATION, 'content-type': TYPES[path.extname(file)] ?? 'application/octet-stream' });
-    stream.on('error', () => response.destroy()).pipe(response);
+    pipeline(stream, response, () => {}); // it closes both where one fails; the page reports what it lacks
   });
   await new Promise((resolve, reject) => {
     server.once('error', reject);

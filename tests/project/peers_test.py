@@ -43,16 +43,16 @@ class Peers(support.TestCase):
 
     def peers(self, *arguments, **environment):
         process = self.start(*arguments, **environment)
-        out, errors = process.communicate(timeout=240)
+        out, errors = process.communicate(timeout=800)
         self.assert_nothing_is_left()
         return process.returncode, out, errors
 
-    def browsers(self):
-        """The processes whose command line names this test's temporary folder."""
+    def processes(self, naming=""):
+        """The processes whose command line has this test's temporary folder after the text."""
         found = []
         for process in pathlib.Path("/proc").glob("[0-9]*"):
             try:
-                if str(self.temporary).encode() in (process / "cmdline").read_bytes():
+                if f"{naming}{self.temporary}".encode() in (process / "cmdline").read_bytes():
                     found.append(process.name)
             except OSError:
                 continue  # it has just ended
@@ -60,9 +60,9 @@ class Peers(support.TestCase):
 
     def assert_nothing_is_left(self):
         end = time.monotonic() + 20
-        while self.browsers() and time.monotonic() < end:
+        while self.processes() and time.monotonic() < end:
             time.sleep(0.05)
-        self.assertEqual(self.browsers(), [])
+        self.assertEqual(self.processes(), [])
         self.assertEqual([path for path in self.temporary.iterdir() if path.name.startswith("penumbra")], [])
 
     def test_every_renderer_draws_the_same_view_and_shadows(self):
@@ -103,8 +103,9 @@ class Peers(support.TestCase):
 
     def test_ctrl_c_leaves_nothing(self):
         process = self.start(SCENE, *SMALL, "--frames", "10000", "--peers", "babylon", "--cascades", "1", "--no-truth")
-        while process.poll() is None and not self.browsers():
+        while process.poll() is None and not self.processes("--user-data-dir="):
             time.sleep(0.05)
+        self.assertIsNone(process.poll(), "it has ended before its browser ran")
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=60)
         self.assertEqual(process.returncode, 128 + signal.SIGINT)
@@ -119,6 +120,9 @@ class Peers(support.TestCase):
                 self.assertTrue(errors.startswith(said), errors)
 
     def test_errors_are_one_line(self):
+        copy, link, both = (self.folder / name for name in ("scene.glb", "link.json", "both"))
+        shutil.copy(SCENE, copy)
+        link.symlink_to(copy)
         for arguments, said, expected in (
             (["nothing.glb"], "error: nothing.glb: no such file\n", 1),
             ([SCENE, "--size", "0x9"], "error: --size: '0' is no whole number from 1 to 16384\n", 2),
@@ -127,6 +131,9 @@ class Peers(support.TestCase):
             ([], "error: name a scene; --help lists the options\n", 2),
             ([SCENE, "--program", "/nowhere"], "error: /nowhere: no such file", 1),
             ([SCENE, "--json", SCENE / "x.json"], f"error: {SCENE / 'x.json'}: can't be written", 1),
+            ([copy, "--json", link], f"error: --json {link}: this would overwrite the scene\n", 1),
+            ([copy, "--json", both, "--markdown", both],
+             f"error: --markdown {both}: this would overwrite the file of --json\n", 1),
             ([SCENE, "--maps", "never"], "error: --maps: 'never' is none of anew, kept\n", 2),
         ):
             with self.subTest(arguments=arguments):
@@ -134,6 +141,7 @@ class Peers(support.TestCase):
                 self.assertEqual((code, out), (expected, ""))
                 self.assertTrue(errors.startswith(said), errors)
                 self.assertEqual(errors.count("\n"), 1, errors)
+        self.assertEqual(copy.read_bytes(), SCENE.read_bytes())
 
 
 if __name__ == "__main__":
