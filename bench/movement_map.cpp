@@ -74,11 +74,12 @@ void draw(Stage& stage, const Way& way) {
                                                                stage.projection.size(), layers, way.form);
   std::optional<shadow::Box> moved;
   if (way.bounds) moved = box_of(stage.scene.moved_bounds());
-  const gl::Texture& depth = shadow::draw_shadow_map(stage.device, {.name = "shadow map",
-                                                                    .projection = stage.projection,
-                                                                    .draw = draw,
-                                                                    .moved = way.second_target ? map : nullptr,
-                                                                    .moved_bounds = moved});
+  const gl::Texture& depth = shadow::shadow_map_target(stage.device, "shadow map", stage.projection);
+  shadow::draw_shadow_map(stage.device, {.map = depth,
+                                         .projection = stage.projection,
+                                         .draw = draw,
+                                         .moved = way.second_target ? map : nullptr,
+                                         .moved_bounds = moved});
   if (map == nullptr) return;
   shadow::draw_movement(stage.device, {.map = *map,
                                        .form = way.form,
