@@ -183,7 +183,7 @@ TEST_F(GBufferTest, AMaskedSurfaceAtTheDepthOfAnOpaqueOneIsSeenOnlyWhereItIsNotC
                      {.base_color_texture = {.texture = 0}, .alpha_mode = scene::AlphaMode::mask, .unlit = true}};
   for (int material = 0; material < 2; ++material) {
     scene::Primitive quad = square();
-    for (const glm::vec3& corner : quad.positions) quad.uvs[0].push_back({corner.x < 0 ? 0.0f : 1.0f, 0.5f});
+    for (const glm::vec3& corner : quad.positions) quad.uvs[0].emplace_back(corner.x < 0 ? 0.0f : 1.0f, 0.5f);
     quad.material = material;
     add_node(scene, quad, glm::mat4(1));
   }
