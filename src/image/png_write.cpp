@@ -11,7 +11,10 @@
 namespace penumbra::image {
 namespace {
 
-constexpr int compression = 4;  // takes a third of the default's time for 5 % more bytes
+// With one filter for all rows instead of a choice for each, this takes a fifth of the defaults' time for 11 % more
+// bytes: on 1280 × 720 pixels 41 ms instead of 192.
+constexpr int compression = 2;
+constexpr int row_filter = PNG_FILTER_PAETH;
 
 // What libpng's callbacks write to.
 struct Sink {
@@ -74,6 +77,7 @@ class Writer {
   bool write_all(Picture& picture) {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;  // NOLINT(cert-err52-cpp): libpng has no other error handling
     png_set_compression_level(png_, compression);
+    png_set_filter(png_, PNG_FILTER_TYPE_BASE, row_filter);
     png_set_IHDR(png_, info_, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height), 8,
                  picture.color_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png_, info_, PNG_sRGB_INTENT_ABSOLUTE);
