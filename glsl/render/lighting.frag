@@ -1,4 +1,4 @@
-// Computes the lighting of the G-buffer, and the sky where no surface is.
+// Computes the lighting of the G-buffer, and the sky where no surface is. LIGHTS: how many lights there are.
 #include "shared/view_block.h"
 #include "lib/octahedral.glsl"
 #include "render/shade.glsl"
@@ -40,7 +40,7 @@ void main() {
   if (albedo.a > 0.5) {
     Reflection r = reflection_of(s);
     vec3 radiance = unshadowed_light(s, r, beyond);
-    for (int i = 0; i < lighting.light_count; ++i) {
+    for (int i = 0; i < LIGHTS; ++i) {
       add_light(radiance, s, r, i, texelFetch(shadow_mask, ivec3(pixel, i), 0).r);
     }
     color = storable(radiance);

@@ -22,11 +22,12 @@ Reflection reflection_of(Shading s) {
   return Reflection(s.albedo * (1.0 - s.metallic), mix(vec3(0.04), s.albedo, s.metallic));
 }
 
-// Reflected radiance of an unshadowed light.
+// Reflected radiance of an unshadowed light. Without branches, which would hardly ever skip work for a whole group of
+// pixels.
 vec3 direct_light(Shading s, Reflection r, DirectLightBlock light) {
-  float n_dot_l = dot(s.normal, light.to_light);
-  if (n_dot_l <= 0.0) return vec3(0.0);
-  vec3 half_vector = normalize(light.to_light + s.to_eye);
+  float n_dot_l = max(dot(s.normal, light.to_light), 0.0);
+  vec3 half_vector = light.to_light + s.to_eye;
+  half_vector *= inversesqrt(max(dot(half_vector, half_vector), 1e-12));  // 0 where the eye looks into the light
   float n_dot_v = max(dot(s.normal, s.to_eye), 1e-4);
   // Lights are not points: with less roughness than this, a highlight would be smaller than the light's mirror image.
   float alpha = max(s.roughness * s.roughness, 0.005);
@@ -53,7 +54,7 @@ vec3 unshadowed_light(Shading s, Reflection r, vec3 mirrored) {
 
 // Adds a light that is visible to the given degree, 0 to 1.
 void add_light(inout vec3 radiance, Shading s, Reflection r, int index, float visibility) {
-  if (visibility > 0.0) radiance += visibility * direct_light(s, r, lighting.lights[index]);
+  radiance += visibility * direct_light(s, r, lighting.lights[index]);
 }
 
 // The largest half float: pictures are stored as half floats.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/gtc/constants.hpp>
+#include <string>
 #include <vector>
 
 #include "render/ground.h"
@@ -60,11 +61,11 @@ glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
   return block;
 }
 
-gl::ProgramDesc program(bool emission) {
+gl::ProgramDesc program(bool emission, std::size_t lights) {
   return {.name = "lighting",
           .vertex = "shared/full_screen.vert",
           .fragment = "render/lighting.frag",
-          .defines = {{"EMISSION", emission ? "1" : "0"}}};
+          .defines = {{"EMISSION", emission ? "1" : "0"}, {"LIGHTS", std::to_string(lights)}}};
 }
 
 }  // namespace
@@ -76,7 +77,7 @@ const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inpu
   const gl::Buffer& block = device.scratch("lighting", sizeof(glsl::LightingBlock));
   gl::write_value(block, lighting_block(inputs));
   gl::Pass pass(device, {.name = "lighting", .colors = {{.texture = &lit, .dont_care = true}}});
-  pass.use(program(gbuffer.emission != nullptr));
+  pass.use(program(gbuffer.emission != nullptr, inputs.lights.size()));
   block.bind_uniform(lighting_binding);
   GLuint unit = first_unit;
   std::vector<const gl::Texture*> sources{gbuffer.albedo, gbuffer.normal, gbuffer.material, inputs.mask.texture};
@@ -89,6 +90,8 @@ const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inpu
   return lit;
 }
 
-std::vector<gl::ProgramDesc> lighting_programs() { return {program(true), program(false)}; }
+std::vector<gl::ProgramDesc> lighting_programs() {
+  return {program(/*emission=*/true, 1), program(/*emission=*/false, 1), program(/*emission=*/false, 2)};
+}
 
 }  // namespace penumbra::render
