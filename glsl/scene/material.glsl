@@ -11,12 +11,14 @@ layout(binding = 10) uniform sampler2D normal_texture;
 layout(binding = 11) uniform sampler2D occlusion_texture;
 layout(binding = 12) uniform sampler2D emissive_texture;
 
-// Whether the material has a texture: known when a program of surfaces is compiled, in other programs read from the
-// material.
-#ifdef TEXTURES
-bool has_texture(int which) { return (TEXTURES & (1 << which)) != 0; }
-#else
+// Whether the material has a texture.
 bool has_texture(int which) { return (material.flags & (1u << which)) != 0u; }
+
+// Whether a material of this program may have it: known when a program of surfaces is compiled.
+#ifdef TEXTURES
+bool may_have_texture(int which) { return (TEXTURES & (1 << which)) != 0; }
+#else
+bool may_have_texture(int which) { return true; }
 #endif
 
 // Where to read a texture, given both UV sets.
@@ -29,25 +31,32 @@ vec2 texture_uv(int which, vec4 uv) {
 
 vec4 base_color(vec4 uv, vec4 vertex_color) {
   vec4 color = material.base_color * vertex_color;
-  if (has_texture(TEXTURE_BASE_COLOR)) color *= texture(base_color_texture, texture_uv(TEXTURE_BASE_COLOR, uv));
+  if (may_have_texture(TEXTURE_BASE_COLOR)) {
+    vec4 texel = texture(base_color_texture, texture_uv(TEXTURE_BASE_COLOR, uv));
+    if (has_texture(TEXTURE_BASE_COLOR)) color *= texel;
+  }
   return color;
 }
 
 vec3 emission(vec4 uv) {
   vec3 emissive = material.emissive;
-  if (has_texture(TEXTURE_EMISSIVE)) emissive *= texture(emissive_texture, texture_uv(TEXTURE_EMISSIVE, uv)).rgb;
+  if (may_have_texture(TEXTURE_EMISSIVE)) {
+    vec3 texel = texture(emissive_texture, texture_uv(TEXTURE_EMISSIVE, uv)).rgb;
+    if (has_texture(TEXTURE_EMISSIVE)) emissive *= texel;
+  }
   return emissive;
 }
 
 // Metallic, roughness, occlusion.
 vec3 surface_properties(vec4 uv) {
   vec3 properties = vec3(material.metallic, material.roughness, 1.0);
-  if (has_texture(TEXTURE_METALLIC_ROUGHNESS)) {
-    properties.xy *= texture(metallic_roughness_texture, texture_uv(TEXTURE_METALLIC_ROUGHNESS, uv)).bg;
+  if (may_have_texture(TEXTURE_METALLIC_ROUGHNESS)) {
+    vec2 texel = texture(metallic_roughness_texture, texture_uv(TEXTURE_METALLIC_ROUGHNESS, uv)).bg;
+    if (has_texture(TEXTURE_METALLIC_ROUGHNESS)) properties.xy *= texel;
   }
-  if (has_texture(TEXTURE_OCCLUSION)) {
+  if (may_have_texture(TEXTURE_OCCLUSION)) {
     float occlusion = texture(occlusion_texture, texture_uv(TEXTURE_OCCLUSION, uv)).r;
-    properties.z = 1.0 + material.occlusion_strength * (occlusion - 1.0);
+    if (has_texture(TEXTURE_OCCLUSION)) properties.z = 1.0 + material.occlusion_strength * (occlusion - 1.0);
   }
   return properties;
 }

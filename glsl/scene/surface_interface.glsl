@@ -1,6 +1,6 @@
 // What the vertices of a surface pass on to its fragments: only what its program, which is compiled for what the
 // surface has, reads. The including file defines SURFACE as `in` or `out`. Its constants:
-//   TEXTURES   bit i: the material has texture i (shared/scene_blocks.h)
+//   TEXTURES   bit i: its materials may have texture i (shared/scene_blocks.h)
 //   COLORS     the vertices have colours
 //   MASKED     whether an alpha test cuts parts out of it
 //   TRIANGLES  0: lines or points

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <map>
 #include <numeric>
+#include <ranges>
+#include <set>
 #include <tuple>
 
 #include "scene/gpu_scene_boxes.h"
@@ -45,6 +47,7 @@ class Builder {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
       if (rest.drawn[i] && scene.nodes[i].mesh >= 0) add_node(static_cast<int>(i));
     }
+    for (const bool blended : {false, true}) share_programs_of(blended);
     std::stable_sort(instances.begin(), instances.end(), [](const Instance& a, const Instance& b) {
       const auto key = [](const Instance& x) {
         return std::tuple(x.job >= 0, x.topology, x.alpha_mode, x.traits, x.material, x.first_index, x.base_vertex);
@@ -114,6 +117,15 @@ class Builder {
       indices.insert(indices.end(), primitive.indices.begin(), primitive.indices.end());
     }
     return entry->second;
+  }
+
+  // Blended surfaces have other programs than the rest.
+  void share_programs_of(bool blended) {
+    const auto drawn = [&](const Instance& instance) { return (instance.alpha_mode == AlphaMode::blend) == blended; };
+    std::set<SurfaceTraits> all;
+    for (const Instance& instance : instances | std::views::filter(drawn)) all.insert(instance.traits);
+    const SharedTraits shared = share_programs(all);
+    for (Instance& instance : instances | std::views::filter(drawn)) instance.traits = shared.at(instance.traits);
   }
 
   void place_rigid(const Primitive& primitive, Placed& placed) {

@@ -125,8 +125,9 @@ Materials::Slot Materials::slot(gl::Device& device, const Scene& scene, const Te
   return {&entry->second, &device.sampler(sampler_of(texture))};
 }
 
-// Flags keep shaders from sampling textures that a material lacks. Another texture of the material is bound there
-// anyway: a software driver recompiles a shader for each combination of texture states that it is drawn with.
+// Flags keep shaders from using textures that a material lacks, but they may sample them: another material's texture
+// is bound there. A software driver also recompiles a shader for each combination of texture states that it is drawn
+// with.
 void Materials::fill_empty_slots() {
   for (std::size_t i = 0; i < TEXTURE_COUNT; ++i) {
     const auto filled =

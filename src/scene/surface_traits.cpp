@@ -1,5 +1,8 @@
 #include "scene/surface_traits.h"
 
+#include <algorithm>
+#include <bit>
+#include <functional>
 #include <string>
 
 #include "shared/scene_blocks.h"
@@ -15,6 +18,24 @@ std::vector<gl::Define> surface_defines(const SurfaceTraits& traits, const Surfa
           {"NORMALS", flag(reads.normals)},
           {"WORLD", flag(reads.world)},
           {"MOTION", flag(reads.motion)}};
+}
+
+SharedTraits share_programs(const std::set<SurfaceTraits>& all) {
+  // The largest sets of textures first, so that what serves a set has found its own program before.
+  std::vector<SurfaceTraits> ordered(all.begin(), all.end());
+  std::ranges::stable_sort(ordered, std::greater{}, [](const SurfaceTraits& t) { return std::popcount(t.textures); });
+  SharedTraits shared;
+  for (const SurfaceTraits& traits : ordered) {
+    SurfaceTraits program = traits;
+    for (unsigned texture = 0; texture < TEXTURE_COUNT && program == traits; ++texture) {
+      SurfaceTraits more = traits;
+      more.textures |= 1u << texture;
+      if (texture == TEXTURE_NORMAL || more == traits) continue;
+      if (const auto found = shared.find(more); found != shared.end()) program = found->second;
+    }
+    shared.emplace(traits, program);
+  }
+  return shared;
 }
 
 std::vector<SurfaceTraits> sample_traits() {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <compare>
+#include <map>
+#include <set>
 #include <vector>
 
 #include "gl/program.h"
@@ -9,7 +11,7 @@ namespace penumbra::scene {
 
 // What a surface has that a shader would spend time on: the programs of surfaces are compiled for these.
 struct SurfaceTraits {
-  unsigned textures = 0;  // bit i: the material has texture i of glsl/shared/scene_blocks.h
+  unsigned textures = 0;  // bit i: the material may have texture i of glsl/shared/scene_blocks.h
   bool colors = false;    // colours at its vertices
   bool masked = false;    // an alpha test cuts parts out of it
   bool triangles = true;  // false: lines or points
@@ -26,6 +28,12 @@ struct SurfaceReads {
 
 // The constants of glsl/scene/surface.vert and surface.glsl: see surface_interface.glsl.
 std::vector<gl::Define> surface_defines(const SurfaceTraits& traits, const SurfaceReads& reads);
+
+// Which traits the program of each of these is made for, so that a scene needs fewer programs: a set of textures is
+// served by a larger one of the same scene that has one texture more, which its materials then sample in vain. The
+// normal map is not added so: it costs more than a texture.
+using SharedTraits = std::map<SurfaceTraits, SurfaceTraits>;
+SharedTraits share_programs(const std::set<SurfaceTraits>& all);
 
 // Traits for listing programs: first all of them, then none, then each by itself.
 std::vector<SurfaceTraits> sample_traits();

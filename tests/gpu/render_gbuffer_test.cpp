@@ -220,6 +220,50 @@ TEST_F(GBufferTest, EachSurfaceHasWhatItsOwnMaterialHas) {
   }
 }
 
+// Four materials: plain, and with one, two and three of the textures base colour, occlusion and normal map. The normal
+// map has a program of its own.
+TEST_F(GBufferTest, SurfacesShareTheProgramOfThoseWithOneTextureMore) {
+  scene::Scene scene;
+  scene.images = {{.name = "grey", .rgba = {128, 128, 255, 255}}};
+  scene.textures.push_back({.image = 0, .mipmapped = false});
+  scene.materials = {
+      {.base_color = {1, 0, 0, 1}},
+      {.base_color = {0, 1, 0, 1}, .occlusion_texture = {.texture = 0}},
+      {.base_color_texture = {.texture = 0}, .occlusion_texture = {.texture = 0}},
+      {.base_color_texture = {.texture = 0}, .normal_texture = {.texture = 0}, .occlusion_texture = {.texture = 0}}};
+  const auto draw_up_to = [&](std::size_t count) {
+    scene.meshes.clear();
+    scene.nodes.clear();
+    scene.roots.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      scene::Primitive quad = square();
+      quad.uvs[0].assign(4, {0.5f, 0.5f});
+      quad.material = static_cast<int>(i);
+      const glm::vec3 place(static_cast<float>(i) - 1.5f, 0, 0);
+      add_node(scene, quad, glm::scale(glm::translate(glm::mat4(1), place), glm::vec3(0.4f)));
+    }
+    draw(scene);
+  };
+  const auto seen = [&](std::size_t i, const char* aov) {
+    const float offset = (static_cast<float>(i) - 1.5f) / (4 * std::tan(0.5f)) * 0.5f;
+    return pixel3(aov, width / 2 + static_cast<int>(offset * height), height / 2);
+  };
+  draw_up_to(3);
+  const std::size_t shared = device.shaders.size();
+  const std::array albedo{seen(0, "albedo"), seen(1, "albedo")};
+  EXPECT_LT(glm::distance(albedo[0], glm::vec3(1, 0, 0)), 1e-3f);
+  EXPECT_LT(glm::distance(albedo[1], glm::vec3(0, 1, 0)), 1e-3f);
+  draw_up_to(4);
+  EXPECT_EQ(device.shaders.size(), shared + 1);
+  draw_up_to(2);
+  EXPECT_EQ(device.shaders.size(), shared + 2) << "two materials without a base colour texture need none to be read";
+  EXPECT_EQ(seen(0, "albedo"), albedo[0]);
+  EXPECT_EQ(seen(1, "albedo"), albedo[1]);
+  draw_up_to(1);
+  EXPECT_EQ(device.shaders.size(), shared + 3);
+  EXPECT_EQ(seen(0, "albedo"), albedo[0]);
+}
+
 TEST_F(GBufferTest, HasTwentyBytesAPixelBesidesDepthUntilMoreIsRead) {
   const auto bytes = [&] {
     std::size_t sum = 0;
