@@ -115,6 +115,15 @@ class Loader {
   ShaderSource& source_;
 };
 
+// Whether code has the name, also as a part of another one, but not in a comment to the end of a line.
+bool mentions(std::string_view code, std::string_view name) {
+  for (std::size_t at = code.find(name); at != std::string_view::npos; at = code.find(name, at + 1)) {
+    const std::size_t line = code.rfind('\n', at) + 1;  // 0 if there is none before
+    if (code.substr(line, at - line).find("//") == std::string_view::npos) return true;
+  }
+  return false;
+}
+
 // Takes a number from the front of `text`.
 std::optional<std::size_t> take_number(std::string_view& text) {
   std::size_t value = 0;
@@ -199,13 +208,17 @@ std::vector<std::string> ShaderFiles::built_in_names() {
 
 ShaderSource load_shader_source(const ShaderFiles& files, std::string_view root, const std::vector<Define>& defines) {
   ShaderSource source;
-  source.text = "#version 450 core\n";
-  source.lines.emplace_back();
-  for (const Define& define : defines) {
-    source.text += fmt::format("#define {} {}\n", define.name, define.value);
-    source.lines.emplace_back();
-  }
   Loader(files, source).append(root, "");
+  std::string head = "#version 450 core\n";
+  std::size_t lines = 1;
+  for (const Define& define : defines) {
+    // Programs that differ in what another stage defines have a stage in common, which drivers' caches then find.
+    if (!mentions(source.text, define.name)) continue;
+    head += fmt::format("#define {} {}\n", define.name, define.value);
+    ++lines;
+  }
+  source.text.insert(0, head);
+  source.lines.insert(source.lines.begin(), lines, ShaderSource::Line());
   return source;
 }
 

@@ -39,10 +39,10 @@ struct Define {
   auto operator<=>(const Define&) const = default;
 };
 
-// One stage's text, ready for the driver: #version 450 core, defines, then the file with every #include "name" resolved
-// once (include-once). Includes are resolved before the preprocessor runs: conditions around them have no effect.
-// #include <…> and #pragma once, which C++ needs in shared headers, are dropped. There are no #line directives: Mesa
-// loses the file's number in messages about types.
+// One stage's text, ready for the driver: #version 450 core, the defines that its code mentions, then the file, with
+// every #include "name" resolved once (include-once). Includes are resolved before the preprocessor runs: conditions
+// around them have no effect. #include <…> and #pragma once, which C++ needs in shared headers, are dropped. There are
+// no #line directives: Mesa loses the file's number in messages about types.
 struct ShaderSource {
   struct Line {
     std::size_t file = no_file;  // index into `files`

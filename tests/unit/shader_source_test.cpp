@@ -51,9 +51,18 @@ class TemporaryFolder {
 
 TEST(ShaderSource, StartsWithVersionAndDefines) {
   const auto source =
-      load_shader_source(files({{"a.frag", "void main() {}\n"}}), "a.frag", {{"TAPS", "16"}, {"ON", ""}});
-  EXPECT_EQ(source.text, "#version 450 core\n#define TAPS 16\n#define ON \nvoid main() {}\n");
+      load_shader_source(files({{"a.frag", "int taps = TAPS ON;\n"}}), "a.frag", {{"TAPS", "16"}, {"ON", ""}});
+  EXPECT_EQ(source.text, "#version 450 core\n#define TAPS 16\n#define ON \nint taps = TAPS ON;\n");
   EXPECT_EQ(source.files, std::vector<std::string>{"a.frag"});
+}
+
+// So that a stage is the same text in programs that differ in what only another stage reads.
+TEST(ShaderSource, LeavesOutDefinesThatNoCodeMentions) {
+  const gl::ShaderFiles both = files({{"a.vert", "#include \"b.glsl\"\nint a; // UNUSED\n"}, {"b.glsl", "int b = B;"}});
+  const auto source = load_shader_source(both, "a.vert", {{"UNUSED", "1"}, {"B", "2"}, {"OTHER", "3"}});
+  EXPECT_EQ(source.text, "#version 450 core\n#define B 2\nint b = B;\nint a; // UNUSED\n");
+  EXPECT_EQ(source.lines,
+            (std::vector<ShaderSource::Line>{{ShaderSource::no_file, 0}, {ShaderSource::no_file, 0}, {1, 1}, {0, 2}}));
 }
 
 TEST(ShaderSource, AnIncludeStandsInItsPlaceAndLinesGoOn) {
