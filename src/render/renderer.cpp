@@ -88,7 +88,7 @@ std::vector<std::uint8_t> Renderer::read_display() const {
   bytes.reserve(pixels.size());
   for (std::size_t y = pixels.size() / row; y-- > 0;) {
     for (std::size_t x = 0; x < row; ++x)
-      bytes.push_back(static_cast<std::uint8_t>(std::lround(pixels[y * row + x] * 255.0f)));
+      bytes.push_back(static_cast<std::uint8_t>(pixels[y * row + x] * 255.0f + 0.5f));
   }
   return bytes;
 }
