@@ -1,5 +1,7 @@
 // Shadow casters: position, and texture coordinates for alpha-tested materials.
+#if LAST_POSE
 #include "scene/instance.glsl"
+#endif
 
 #if LAST_POSE
 layout(location = 1) in vec3 position;
@@ -8,7 +10,11 @@ layout(location = 0) in vec3 position;
 #endif
 layout(location = 4) in vec4 uv;
 layout(location = 5) in vec4 color;
+#if LAST_POSE
 layout(location = 6) in uint instance;
+#else
+layout(location = 7) in mat4 world;
+#endif
 
 uniform mat4 world_to_clip;
 
@@ -26,8 +32,6 @@ out Caster {
 void main() {
 #if LAST_POSE
   mat4 world = instances[instance].last_world;
-#else
-  mat4 world = instances[instance].world;
 #endif
   gl_Position = world_to_clip * (world * vec4(position, 1.0));
 #if MASKED

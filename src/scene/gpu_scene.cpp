@@ -226,18 +226,21 @@ void GpuScene::State::set_vertex_arrays() const {
                  .frames = &frames,
                  .surfaces = &surfaces,
                  .instances = &instance_numbers,
+                 .instance_blocks = &instance_blocks,
                  .indices = &indices});
   rigid.set({.positions = &positions,
              .last_positions = &positions,
              .frames = &frames,
              .surfaces = &surfaces,
              .instances = &instance_numbers,
+             .instance_blocks = &instance_blocks,
              .indices = &indices});
   deformed.set({.positions = &now->positions,
                 .last_positions = &last->positions,
                 .frames = &now->frames,
                 .surfaces = &deformed_surfaces,
                 .instances = &instance_numbers,
+                .instance_blocks = &instance_blocks,
                 .indices = &indices});
 }
 

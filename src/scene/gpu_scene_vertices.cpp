@@ -6,6 +6,7 @@
 
 #include "gl/debug.h"
 #include "lib/triangle_normal.glsl"
+#include "shared/scene_blocks.h"
 
 namespace penumbra::scene {
 
@@ -14,7 +15,14 @@ void delete_vertex_array(GLuint id) { gl::glDeleteVertexArrays(1, &id); }
 namespace {
 
 // Buffer bindings of the vertex array.
-enum Stream : GLuint { stream_position, stream_last_position, stream_frame, stream_surface, stream_instance };
+enum Stream : GLuint {
+  stream_position,
+  stream_last_position,
+  stream_frame,
+  stream_surface,
+  stream_instance,
+  stream_instance_block
+};
 
 struct Attribute {
   GLuint location;
@@ -25,6 +33,8 @@ struct Attribute {
   std::size_t offset;
 };
 
+constexpr std::size_t column = sizeof(glm::vec4);  // of a matrix in a storage buffer
+
 constexpr std::array attributes{
     Attribute{0, stream_position, 3, GL_FLOAT, false, 0},
     Attribute{1, stream_last_position, 3, GL_FLOAT, false, 0},
@@ -32,8 +42,16 @@ constexpr std::array attributes{
     Attribute{3, stream_frame, 4, GL_SHORT, true, offsetof(VertexFrame, tangent_xy)},
     Attribute{4, stream_surface, 4, GL_FLOAT, false, offsetof(VertexSurface, uv)},
     Attribute{5, stream_surface, 4, GL_UNSIGNED_SHORT, true, offsetof(VertexSurface, color)},
+    Attribute{7, stream_instance_block, 4, GL_FLOAT, false, offsetof(glsl::InstanceBlock, world)},
+    Attribute{8, stream_instance_block, 4, GL_FLOAT, false, offsetof(glsl::InstanceBlock, world) + column},
+    Attribute{9, stream_instance_block, 4, GL_FLOAT, false, offsetof(glsl::InstanceBlock, world) + 2 * column},
+    Attribute{10, stream_instance_block, 4, GL_FLOAT, false, offsetof(glsl::InstanceBlock, world) + 3 * column},
+    Attribute{11, stream_instance_block, 3, GL_FLOAT, false, offsetof(glsl::InstanceBlock, area)},
+    Attribute{12, stream_instance_block, 3, GL_FLOAT, false, offsetof(glsl::InstanceBlock, area) + column},
+    Attribute{13, stream_instance_block, 3, GL_FLOAT, false, offsetof(glsl::InstanceBlock, area) + 2 * column},
+    Attribute{15, stream_instance_block, 1, GL_FLOAT, false, offsetof(glsl::InstanceBlock, winding)},
 };
-constexpr GLuint instance_location = 6;
+constexpr GLuint instance_location = 6, first_triangle_location = 14;
 
 VertexFrame pack_frame(const glm::vec3& normal, const glm::vec4& tangent) {
   return {.normal_xy = glm::packSnorm2x16(glm::vec2(normal)),
@@ -99,6 +117,12 @@ VertexArray::VertexArray(std::string_view label, bool vertices) {
   gl::glVertexArrayAttribIFormat(id, instance_location, 1, GL_UNSIGNED_INT, 0);
   gl::glVertexArrayAttribBinding(id, instance_location, stream_instance);
   gl::glVertexArrayBindingDivisor(id, stream_instance, 1);
+  if (!vertices) return;
+  gl::glEnableVertexArrayAttrib(id, first_triangle_location);
+  gl::glVertexArrayAttribIFormat(id, first_triangle_location, 1, GL_UNSIGNED_INT,
+                                 offsetof(glsl::InstanceBlock, first_triangle));
+  gl::glVertexArrayAttribBinding(id, first_triangle_location, stream_instance_block);
+  gl::glVertexArrayBindingDivisor(id, stream_instance_block, 1);
 }
 
 void VertexArray::set(const VertexSource& source) const {
@@ -108,6 +132,8 @@ void VertexArray::set(const VertexSource& source) const {
   gl::glVertexArrayVertexBuffer(id, stream_frame, source.frames->id(), 0, sizeof(VertexFrame));
   gl::glVertexArrayVertexBuffer(id, stream_surface, source.surfaces->id(), 0, sizeof(VertexSurface));
   gl::glVertexArrayVertexBuffer(id, stream_instance, source.instances->id(), 0, sizeof(std::uint32_t));
+  gl::glVertexArrayVertexBuffer(id, stream_instance_block, source.instance_blocks->id(), 0,
+                                sizeof(glsl::InstanceBlock));
   gl::glVertexArrayElementBuffer(id, source.indices->id());
 }
 

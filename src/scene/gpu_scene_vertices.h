@@ -41,6 +41,7 @@ struct VertexSource {
   const gl::Buffer* frames = nullptr;
   const gl::Buffer* surfaces = nullptr;
   const gl::Buffer* instances = nullptr;  // 0, 1, 2, …: a draw's base instance selects the first one that it reads
+  const gl::Buffer* instance_blocks = nullptr;  // their data, likewise
   const gl::Buffer* indices = nullptr;
 };
 
