@@ -6,8 +6,7 @@ A result is kept under the hash of all that it depends on: the file, the project
 command line, the configuration and clang-tidy's version. So a second run checks only what changed.
 
 Most of the time goes into headers of other projects, which every file includes. So several files are checked as one
-translation unit, one after the other. The files of a unit with findings are then
-checked one by one, so that each finding is reported for one file.
+translation unit, one after the other. A unit with findings is halved until each finding is reported for one file.
 """
 
 import argparse
@@ -25,14 +24,17 @@ import tempfile
 
 TIDY = "clang-tidy-16"  # findings differ from version to version; older ones fail on <ranges> of GCC 12
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-LARGEST_UNIT = 8  # files: the gain of more is small, and one finding costs more
+LARGEST_UNIT = 24  # files: two units of 8 take 1.8 times as long as one of 16, but one finding costs more
 
 INCLUDE = re.compile(r'^#include (?:"([^"]+)"|<[^>]+>)', re.MULTILINE)
-# Names that two files of one unit can't both declare: using-declarations, and what begins in the first column, as
+# Names that a file declares for the rest of its unit: using-declarations, and what begins in the first column, as
 # functions, constants and types of unnamed namespaces do.
 DECLARED = re.compile(r"^(?:using [\w:]+::(\w+);|using (\w+) =|(?:struct|class|enum class|enum) (\w+)"
                       r"|(?!namespace|using|struct|class|enum|template|return|#|//)\w[\w:<>,&*\s]*?[\s&*](\w+)(?=\(|\[|\{| =|;))",
                       re.MULTILINE)
+
+NOT_CODE = re.compile(r'//.*|"(?:[^"\\\n]|\\.)*"|^#include.*', re.MULTILINE)
+WORD = re.compile(r"(?<![.\w>:])[A-Za-z_]\w*|(?<=[^:]:)[A-Za-z_]\w*")  # not a member, nor a name of a named scope
 
 
 @dataclasses.dataclass
@@ -44,24 +46,73 @@ class File:
     def __post_init__(self):
         self.text = self.path.read_text()
         self.names = {name for match in DECLARED.finditer(self.text) for name in match.groups() if name}
+        self.words = set(WORD.findall(NOT_CODE.sub("", self.text)))
 
     def stands_alone(self):
-        return re.search(r"^# *define", self.text, re.MULTILINE) is not None
+        return re.search(r"^# *define|^\w+_MAIN\(", self.text, re.MULTILINE) is not None
+
+    def defines(self):
+        """The values of the macros that its command line defines."""
+        return dict((word[2:].split("=", 1) + [""])[:2] for word in self.arguments if word.startswith("-D"))
+
+
+class Unit:
+    """Files that are checked as one translation unit."""
+
+    def __init__(self, files):
+        self.files = files
+        self.arguments = union(file.arguments for file in files)
+
+    def takes(self, file):
+        """Whether no name and no macro would get two meanings, and one configuration holds for all. A name that one file
+        declares must not occur in another one even as a local variable's: it would shadow the first."""
+        first = self.files[0]
+        return (not file.stands_alone() and not first.stands_alone()
+                and configuration(first.path) == configuration(file.path)
+                and not any(other.names & file.words or file.names & other.words for other in self.files)
+                and not any(other.defines().get(name, value) != value for other in self.files
+                            for name, value in file.defines().items()))
+
+    def halves(self):
+        half = len(self.files) // 2
+        return Unit(self.files[:half]), Unit(self.files[half:])
 
 
 def compiler_arguments(command):
-    """Without what names the file, its output and the precompiled header, which is GCC's and not Clang's."""
+    """Without the optimization, and without what names the file, its output and the precompiled header, which is GCC's
+    and not Clang's."""
     arguments = shlex.split(command)
     arguments = arguments[next(i for i, word in enumerate(arguments) if word.endswith("c++")) + 1:]
     with_value = ("-o", "-c", "-MT", "-MF", "-include")
     kept = [word for before, word in zip([""] + arguments, arguments) if before not in with_value]
-    return [word for word in kept if word not in (*with_value, "-MD", "-Winvalid-pch")]
+    return [word for word in kept
+            if word not in (*with_value, "-MD", "-Winvalid-pch") and not re.fullmatch(r"-O\w?", word)]
+
+
+def union(lists):
+    """Every argument once, in the order of the lists."""
+    options = {}
+    for arguments in lists:
+        words = iter(arguments)
+        for word in words:
+            options[(word, next(words)) if word == "-isystem" else (word,)] = None
+    return [word for option in options for word in option]
+
+
+def files_of(command):
+    """The file of a command, or those that it includes whole: see penumbra_join_command_lines() of cmake/Layers.cmake."""
+    path = pathlib.Path(command["file"])
+    if not path.name.startswith("penumbra_") or "_command_lines_" not in path.name:
+        return [path]
+    return [ROOT / "src" / name for name in INCLUDE.findall(path.read_text())]
 
 
 def own_commands(build):
+    """The file and the command of each of the project's sources; of one that several targets compile, one command."""
     commands = json.loads((build / "compile_commands.json").read_text())
     own = [ROOT / "src", ROOT / "tests", ROOT / "tools", ROOT / "bench"]
-    return [c for c in commands if any(folder in pathlib.Path(c["file"]).parents for folder in own)]
+    found = {path: command["command"] for command in commands for path in files_of(command)}
+    return {path: command for path, command in found.items() if any(folder in path.parents for folder in own)}
 
 
 def dependencies(build):
@@ -97,14 +148,13 @@ def files_to_check(build, only, cache):
     """All files that were asked for, and those of them whose result is not known."""
     version = subprocess.run([TIDY, "--version"], check=True, capture_output=True, text=True).stdout
     deps, contents, count, todo = dependencies(build), {}, 0, []
-    for command in own_commands(build):
-        path = pathlib.Path(command["file"])
+    for path, command in own_commands(build).items():
         if only and path not in only:
             continue
         count += 1
-        output = command["command"].split(" -o ")[1].split(" ")[0]
+        output = command.split(" -o ")[1].split(" ")[0]
         own = {file for file in deps.get(output, []) if ROOT in file.parents and file.suffix != ".gch"}
-        arguments = compiler_arguments(command["command"])
+        arguments = compiler_arguments(command)
         key = key_of(arguments, own | {path, *configuration(path)}, version, contents)
         if not (cache / key).exists():
             todo.append(File(path, arguments, key))
@@ -112,26 +162,21 @@ def files_to_check(build, only, cache):
 
 
 def units_of(files, largest):
-    """Files of one command line and configuration that declare nothing twice, so many at most."""
+    """Units of so many files at most."""
     units = []
     for file in files:
-        def takes(unit):
-            first = unit[0]
-            return (len(unit) < largest and not file.stands_alone() and not first.stands_alone()
-                    and first.arguments == file.arguments and configuration(first.path) == configuration(file.path)
-                    and not any(other.names & file.names for other in unit))
-        unit = next((unit for unit in units if takes(unit)), None)
+        unit = next((unit for unit in units if len(unit.files) < largest and unit.takes(file)), None)
         if unit is None:
-            units.append([file])
+            units.append(Unit([file]))
         else:
-            unit.append(file)
+            units[units.index(unit)] = Unit([*unit.files, file])
     return units
 
 
-def joined(unit):
+def joined(files):
     """The files as one text. What an earlier file includes is left out of later ones, for it would be a duplicate."""
     seen, texts = set(), []
-    for file in unit:
+    for file in files:
         here = set()
 
         def included(match):
@@ -152,17 +197,17 @@ def run_tidy(build, path, config, arguments):
 
 def check(build, unit):
     """(file, is it clean, findings) of each file."""
-    config, arguments = configuration(unit[0].path)[0], unit[0].arguments
-    if len(unit) == 1:
-        return [(unit[0], *run_tidy(build, unit[0].path, config, arguments))]
+    first = unit.files[0]
+    config = configuration(first.path)[0]
+    if len(unit.files) == 1:
+        return [(first, *run_tidy(build, first.path, config, first.arguments))]
     with tempfile.NamedTemporaryFile("w", suffix=".cpp", dir=build) as source:
-        source.write(joined(unit))
+        source.write(joined(unit.files))
         source.flush()
-        clean, _ = run_tidy(build, source.name, config, arguments)
+        clean, _ = run_tidy(build, source.name, config, unit.arguments)
     if clean:
-        return [(file, True, "") for file in unit]
-    half = len(unit) // 2
-    return check(build, unit[:half]) + check(build, unit[half:])
+        return [(file, True, "") for file in unit.files]
+    return [result for half in unit.halves() for result in check(build, half)]
 
 
 def main():

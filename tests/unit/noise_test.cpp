@@ -41,12 +41,15 @@ std::uint64_t digest(const NoiseTile& tile) {
   return hash;
 }
 
-TEST(Noise, IsTheSameOnEveryMachineAndForEveryNumberOfThreads) {
+constexpr std::uint64_t blue_digest = 13088325229565141185U;
+
+TEST(Noise, IsTheSameOnEveryMachine) {
   EXPECT_EQ(digest(make_noise("white", 16, 2, 5)), 11397280655061326889U);
-  EXPECT_EQ(digest(make_noise("blue", 16, 2, 5, 1)), 13088325229565141185U);
-  EXPECT_EQ(digest(make_noise("blue", 16, 2, 5, 3)), 13088325229565141185U);
+  EXPECT_EQ(digest(make_noise("blue", 16, 2, 5, 1)), blue_digest);
   EXPECT_EQ(digest(make_noise("void_and_cluster", 16, 2, 5)), 15497227018239437017U);
 }
+
+TEST(Noise, IsTheSameForEveryNumberOfThreads) { EXPECT_EQ(digest(make_noise("blue", 16, 2, 5, 3)), blue_digest); }
 
 // After a change to how noise is made, update the digests above and bake these tiles again.
 TEST(Noise, TheBuiltInTilesAreThoseOfToday) {
