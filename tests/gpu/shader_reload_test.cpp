@@ -143,7 +143,9 @@ std::set<GLuint> live_names() {
 
 TEST_F(ShaderReloadTest, ManySavesLeaveNoObjectsBehind) {
   const auto own_names = [&] { return std::set<GLuint>{library.get(a).id(), library.get(b).id()}; };
-  // Programs of earlier tests: a driver may keep the program that was current last until another one is made current.
+  // A program that an earlier test deleted while it was current lives until another one, or none, is made current. Then
+  // its id is free, and a new program of this test can get it.
+  gl::glUseProgram(0);
   std::set<GLuint> others = live_names();
   for (const GLuint id : own_names()) others.erase(id);
   std::minstd_rand random(1);
