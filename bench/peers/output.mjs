@@ -22,9 +22,32 @@ function checkWritable(file) {
   }
 }
 
+// The text of the glTF document of a .gltf or .glb file.
+function documentText(scene) {
+  const file = fs.openSync(scene), { size } = fs.fstatSync(file), header = Buffer.alloc(20);
+  fs.readSync(file, header, 0, 20, 0);
+  const binary = header.toString('latin1', 0, 4) === 'glTF';
+  const text = Buffer.alloc(Math.min(size, binary ? header.readUInt32LE(12) : size));
+  fs.readSync(file, text, 0, text.length, binary ? 20 : 0);
+  fs.closeSync(file);
+  return text.toString();
+}
+
+// The files of buffers and images that a scene refers to; none if it can't be read, which penumbra then reports.
+function filesOf(scene) {
+  try {
+    const { buffers = [], images = [] } = JSON.parse(documentText(scene));
+    const names = [...buffers, ...images].map(({ uri }) => uri).filter((uri) => uri && !uri.startsWith('data:'));
+    return names.map((uri) => path.join(path.dirname(scene), decodeURIComponent(uri))).filter(fs.existsSync);
+  } catch {
+    return [];
+  }
+}
+
 // options: {scenes, json, markdown, pictures}
 export function checkOutputs({ scenes, json, markdown, pictures }) {
-  const taken = new Map(scenes.map((scene) => [fs.realpathSync(scene), 'the scene']));
+  const taken = new Map(scenes.flatMap(filesOf).map((file) => [fs.realpathSync(file), 'a file of the scene']));
+  for (const scene of scenes) taken.set(fs.realpathSync(scene), 'the scene');
   for (const [name, file] of [['--json', json], ['--markdown', markdown]]) {
     if (!file) continue;
     checkWritable(file);

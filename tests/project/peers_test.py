@@ -120,8 +120,11 @@ class Peers(support.TestCase):
                 self.assertTrue(errors.startswith(said), errors)
 
     def test_errors_are_one_line(self):
-        copy, link, both = (self.folder / name for name in ("scene.glb", "link.json", "both"))
+        copy, link, both, referring, image = (
+            self.folder / name for name in ("scene.glb", "link.json", "both", "scene.gltf", "an image.png"))
         shutil.copy(SCENE, copy)
+        image.write_bytes(b"an image")
+        referring.write_text(json.dumps({"asset": {"version": "2.0"}, "images": [{"uri": "an%20image.png"}]}))
         link.symlink_to(copy)
         for arguments, said, expected in (
             (["nothing.glb"], "error: nothing.glb: no such file\n", 1),
@@ -132,6 +135,7 @@ class Peers(support.TestCase):
             ([SCENE, "--program", "/nowhere"], "error: /nowhere: no such file", 1),
             ([SCENE, "--json", SCENE / "x.json"], f"error: {SCENE / 'x.json'}: can't be written", 1),
             ([copy, "--json", link], f"error: --json {link}: this would overwrite the scene\n", 1),
+            ([referring, "--markdown", image], f"error: --markdown {image}: this would overwrite a file of the scene\n", 1),
             ([copy, "--json", both, "--markdown", both],
              f"error: --markdown {both}: this would overwrite the file of --json\n", 1),
             ([SCENE, "--maps", "never"], "error: --maps: 'never' is none of anew, kept\n", 2),
@@ -142,6 +146,7 @@ class Peers(support.TestCase):
                 self.assertTrue(errors.startswith(said), errors)
                 self.assertEqual(errors.count("\n"), 1, errors)
         self.assertEqual(copy.read_bytes(), SCENE.read_bytes())
+        self.assertEqual(image.read_bytes(), b"an image")
 
 
 if __name__ == "__main__":
