@@ -15,6 +15,24 @@
 
 namespace penumbra::viewer {
 
+namespace {
+
+// A preset overwrites nothing but another preset file: many other programs have files that end in .toml too.
+void check_overwrites_preset(const std::string& file) {
+  if (!is_preset(file)) fail("cannot write {}: the name of a preset file ends in .toml", io::quoted(file));
+  std::error_code unread;
+  if (!std::filesystem::is_regular_file(file, unread)) return;
+  cli::ShadowOptions options;
+  options.presets = {file};
+  try {
+    cli::resolve_params(options, session::all_techniques());
+  } catch (const Error& error) {
+    fail("cannot write {}: what is there is no preset ({})", io::quoted(file), error.what());
+  }
+}
+
+}  // namespace
+
 void Viewer::do_requests() {
   const Requests wanted = std::exchange(state_.requests, {});
   guarded([&] {
@@ -54,9 +72,8 @@ void Viewer::open_preset(const std::string& file) {
   tell(state_, "loaded " + file, ImGui::GetTime());
 }
 
-// Overwrites nothing but another preset file.
 void Viewer::save_preset(const std::string& file) {
-  if (!is_preset(file)) fail("cannot write {}: the name of a preset file ends in .toml", io::quoted(file));
+  check_overwrites_preset(file);
   if (scene_ != nullptr) {
     for (const std::filesystem::path& read : scene_->prepared.scene.files) {
       if (io::would_replace(file, read)) fail("cannot write {}: it is a file of the scene", io::quoted(file));

@@ -114,17 +114,20 @@ class Preset(WindowTest):
         self.assertEqual(part.differing(shown, by=1), 0)
 
     def test_it_takes_the_place_of_no_other_file(self):
-        scene = self.folder / "mine.glb"
-        scene.write_bytes(STEPS.read_bytes())
-        with self.view("mine.glb") as viewer:
-            viewer.point_at("preset file")
-            self.desktop.xdotool("click", LEFT)
-            viewer.follow()
-            self.desktop.xdotool("key", "ctrl+a", "type", "mine.glb")
-            viewer.tap("Return")
-            viewer.follow()
-            viewer.click("save preset", lambda: viewer.has("messages"), "a message")
-            self.assertEqual(scene.read_bytes(), STEPS.read_bytes())
+        settings = b'[package]\nname = "another program\'s"\n'
+        for name, content in (("mine.glb", STEPS.read_bytes()), ("package.toml", settings)):
+            (self.folder / name).write_bytes(content)
+        for name in ("mine.glb", "package.toml"):
+            with self.subTest(name=name), self.view("mine.glb") as viewer:
+                viewer.point_at("preset file")
+                self.desktop.xdotool("click", LEFT)
+                viewer.follow()
+                self.desktop.xdotool("key", "ctrl+a", "type", name)
+                viewer.tap("Return")
+                viewer.follow()
+                viewer.click("save preset", lambda viewer=viewer: viewer.has("messages"), "a message")
+        self.assertEqual((self.folder / "mine.glb").read_bytes(), STEPS.read_bytes())
+        self.assertEqual((self.folder / "package.toml").read_bytes(), settings)
 
 
 class Click(WindowTest):
