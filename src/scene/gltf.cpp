@@ -8,9 +8,9 @@
 
 #include "core/error.h"
 #include "scene/drawn.h"
-#include "scene/gltf/one_line.h"
 #include "scene/gltf/read.h"
 #include "scene/limits.h"
+#include "scene/one_line.h"
 #include "scene/pose.h"
 #include "scene/sky.h"
 
@@ -72,11 +72,11 @@ Scene read_gltf(const std::filesystem::path& path, const ImageDecoder& decode, c
   try {
     return read_scene(path, decode, options);
   } catch (const Error& e) {
-    fail("{}: {}", path.string(), gltf::one_line(e.what()));
+    fail("{}: {}", path.string(), one_line(e.what()));
   } catch (const std::bad_alloc&) {
     fail("{}: not enough memory to read it", path.string());
   } catch (const std::exception& e) {  // thrown by a library
-    fail("{}: {}", path.string(), gltf::one_line(e.what()));
+    fail("{}: {}", path.string(), one_line(e.what()));
   }
 }
 

@@ -12,7 +12,7 @@
 #include "core/log.h"
 #include "core/names.h"
 #include "scene/casting.h"
-#include "scene/gltf/one_line.h"
+#include "scene/one_line.h"
 
 namespace penumbra::scene {
 namespace {
@@ -196,7 +196,7 @@ void warn_of_skies(const std::filesystem::path& file, const Scene& scene) {
       const Material material = material_of(scene, primitive);
       if (!casts_as_parameters_say(node, material)) continue;
       warn("{}: {}", file.string(),
-           gltf::one_line(fmt::format(
+           one_line(fmt::format(
                "node {} (material {}) encloses the scene as a sky does; it casts no shadow unless casters.skies is on",
                quoted_or(node.name, std::to_string(number)), quoted_or(material.name, "without a name"))));
       break;

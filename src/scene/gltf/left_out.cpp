@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
-#include "scene/gltf/one_line.h"
+#include "scene/one_line.h"
 
 namespace penumbra::scene::gltf {
 namespace {

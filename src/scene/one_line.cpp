@@ -1,6 +1,6 @@
-#include "scene/gltf/one_line.h"
+#include "scene/one_line.h"
 
-namespace penumbra::scene::gltf {
+namespace penumbra::scene {
 
 std::string one_line(std::string_view text) {
   constexpr std::size_t longest = 400;
@@ -11,4 +11,4 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
-}  // namespace penumbra::scene::gltf
+}  // namespace penumbra::scene
