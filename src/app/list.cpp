@@ -51,19 +51,16 @@ Json filter_rows() {
   return rows;
 }
 
+Json denoiser_row(const shadow::Denoiser& denoiser) {
+  Json params = Json::array();
+  for (const Param& param : denoiser.params) params.push_back(param.name);
+  return {{"name", denoiser.name}, {"help", denoiser.summary}, {"source", denoiser.source}, {"params", params}};
+}
+
 Json denoiser_rows() {
   Json rows = Json::array();
-  for (const shadow::Denoiser& denoiser : session::all_techniques().denoisers()) {
-    Json params = Json::array();
-    for (const Param& param : denoiser.params) params.push_back(param.name);
-    rows.push_back(
-        {{"name", denoiser.name}, {"help", denoiser.summary}, {"source", denoiser.source}, {"params", params}});
-  }
-  rows.push_back(
-      {{"name", "none"},
-       {"help", "The technique writes the mask itself: no filter and no history, whatever their parameters."},
-       {"source", ""},
-       {"params", Json::array()}});
+  for (const shadow::Denoiser& denoiser : session::all_techniques().denoisers()) rows.push_back(denoiser_row(denoiser));
+  rows.push_back(denoiser_row(shadow::no_denoiser()));
   return rows;
 }
 

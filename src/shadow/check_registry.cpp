@@ -130,7 +130,7 @@ void check_contents(const Registry& registry) {
   known.emplace_back("movement_map");
   for (const Denoiser& denoiser : registry.denoisers()) {
     if (!denoiser.denoise) fail("denoiser '{}' has no denoise", denoiser.name);
-    if (denoiser.name == "none") fail("a denoiser can't have the name 'none'");
+    if (denoiser.name == no_denoiser().name) fail("a denoiser can't have the name '{}'", denoiser.name);
     check_needs(fmt::format("denoiser '{}'", denoiser.name), denoiser.needs, known);
   }
   for (const Preset& preset : registry.presets()) registry.find(preset.technique);

@@ -12,7 +12,7 @@ namespace penumbra::shadow {
 class DenoiseContext;
 
 // Reduces the noise of a technique that takes few sample points, by filters and by blending with earlier frames. The
-// parameter "denoiser" chooses one, or "none".
+// parameter "denoiser" chooses one, or no_denoiser().
 struct Denoiser {
   // A texture of the mask's size that is kept from one frame to the next, for each light in each view.
   struct Remembered {
@@ -37,5 +37,8 @@ struct Denoiser {
   // Its own programs that `denoise` uses with these parameters, by name, like Technique::programs.
   std::function<std::vector<gl::ProgramDesc>(const ParamSet&)> programs = {};
 };
+
+// What "none" chooses, for lists of what can be chosen: it has no steps, and no registry holds it.
+const Denoiser& no_denoiser();
 
 }  // namespace penumbra::shadow

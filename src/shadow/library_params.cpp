@@ -111,10 +111,18 @@ std::vector<Param> library_params() {
   return rows;
 }
 
+const Denoiser& no_denoiser() {
+  static const Denoiser none{
+      .name = "none",
+      .summary = "The technique writes the mask itself: no filter and no history, whatever their parameters.",
+      .source = {}};
+  return none;
+}
+
 Param denoiser_param(std::span<const Denoiser> denoisers) {
   std::vector<std::string> choices;
   for (const Denoiser& denoiser : denoisers) choices.push_back(denoiser.name);
-  choices.emplace_back("none");
+  choices.push_back(no_denoiser().name);
   return word("denoiser", std::move(choices),
               "What runs after the technique: filters, and a blend with earlier frames.");
 }

@@ -161,7 +161,7 @@ const Filter& Registry::find_filter(std::string_view name) const { return named(
 const Recipe& Registry::find_recipe(std::string_view name) const { return named("product", recipes(), name); }
 
 const Denoiser* Registry::find_denoiser(std::string_view name) const {
-  return name == "none" ? nullptr : &named("denoiser", denoisers(), name);
+  return name == no_denoiser().name ? nullptr : &named("denoiser", denoisers(), name);
 }
 
 bool Registry::concerns(std::string_view param, const ParamSet& chosen) const {
