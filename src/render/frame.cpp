@@ -24,8 +24,10 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
   scene.choose_casters(caster_choice(params));
   scene.pose(device, inputs.last_time, inputs.time);
 
+  const std::vector<shadow::Light> lights = shadow_lights(inputs.lights);
+
   const GBuffer gbuffer =
-      draw_gbuffer(device, {.scene = scene, .view = view, .motion = soft_shadows.reads_motion(params)});
+      draw_gbuffer(device, {.scene = scene, .view = view, .motion = soft_shadows.reads_motion(params, lights)});
 
   const shadow::Mask mask = draw_shadow_mask(device, {.soft_shadows = soft_shadows,
                                                       .scene = scene,
@@ -37,7 +39,7 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                                                       .cut = inputs.cut,
                                                       .restart = inputs.restart,
                                                       .knows_moved = knows_moved,
-                                                      .lights = inputs.lights,
+                                                      .lights = lights,
                                                       .gbuffer = gbuffer,
                                                       .params = params});
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 #include "core/params.h"
 #include "gl/pass.h"
@@ -52,6 +53,10 @@ struct FrameScene {
   double time;               // seconds
 };
 
+// The lights as the shadow library takes them. A light's index is its id, under which the library keeps its maps and
+// history.
+std::vector<shadow::Light> shadow_lights(std::span<const Light> lights);
+
 struct ShadowMaskInputs {
   shadow::SoftShadows& soft_shadows;
   scene::GpuScene& scene;
@@ -62,7 +67,7 @@ struct ShadowMaskInputs {
   double time = 0;
   bool cut = false, restart = false;  // same as in FrameInputs
   bool knows_moved = true;            // the scene's moved casters are those that moved since the view's last frame
-  std::span<const Light> lights;
+  std::span<const shadow::Light> lights;
   const GBuffer& gbuffer;
   const ParamSet& params;
 };

@@ -16,16 +16,6 @@ std::optional<shadow::Box> moved_box(const scene::GpuScene& scene, bool known) {
 
 shadow::LightSource source_of(const Sun& sun) { return shadow::Sun{.to_light = sun.to_light}; }
 
-// A light's index in the frame's list is its id, under which the shadow library keeps its maps and history.
-std::vector<shadow::Light> lights_of(std::span<const Light> lights) {
-  std::vector<shadow::Light> all;
-  for (const Light& light : lights) {
-    all.push_back({.id = static_cast<int>(all.size()),
-                   .source = std::visit([](const auto& kind) { return source_of(kind); }, light)});
-  }
-  return all;
-}
-
 // Homogeneous coordinates: a direction, or a position.
 glm::vec4 towards(const shadow::Sun& sun) { return {sun.to_light, 0}; }
 
@@ -46,10 +36,18 @@ scene::Casters casters_of(shadow::CasterKind kind) {
 
 }  // namespace
 
+std::vector<shadow::Light> shadow_lights(std::span<const Light> lights) {
+  std::vector<shadow::Light> all;
+  for (const Light& light : lights) {
+    all.push_back({.id = static_cast<int>(all.size()),
+                   .source = std::visit([](const auto& kind) { return source_of(kind); }, light)});
+  }
+  return all;
+}
+
 shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs) {
   const gl::Texture& depth = *inputs.gbuffer.depth;
   const float aspect = static_cast<float>(depth.width()) / static_cast<float>(depth.height());
-  const std::vector<shadow::Light> lights = lights_of(inputs.lights);
   const FrameScene frame_scene{.scene = inputs.scene, .view = inputs.view, .depth = depth, .time = inputs.time};
   const gl::Texture* drawn_motion = inputs.gbuffer.motion;
   const shadow::TextureView motion = drawn_motion != nullptr ? view_of(*drawn_motion) : shadow::TextureView{};
@@ -72,7 +70,7 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
                                      .depth = view_of(depth),
                                      .normals = view_of(*inputs.gbuffer.geometric_normal),
                                      .motion = motion,
-                                     .lights = lights,
+                                     .lights = inputs.lights,
                                      .casters = box_of(inputs.scene.casters()),
                                      .receivers = box_of(inputs.scene.receivers()),
                                      .moved = moved_box(inputs.scene, inputs.knows_moved),

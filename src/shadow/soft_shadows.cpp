@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <map>
 
@@ -73,10 +74,13 @@ void SoftShadows::bind_forward(const Mask& mask, size_t light) {
 
 void SoftShadows::unbind_forward() { gl::unbind_textures(first_pass_unit); }
 
-bool SoftShadows::reads_motion(const ParamSet& params, const Light& light) const {
-  const ParamSet& own = state_->params_of(registry_, params, light);
-  const Technique& technique = registry_.find(own.get_word("technique"));
-  return technique.resolve || !remembered_by(denoiser_for(registry_, technique, own), own).empty();
+bool SoftShadows::reads_motion(const ParamSet& params, std::span<const Light> lights) const {
+  return std::ranges::any_of(lights, [&](const Light& light) {
+    const ParamSet& own = state_->params_of(registry_, params, light);
+    const Technique& technique = registry_.find(own.get_word("technique"));
+    if (technique.resolve && technique.resolve_reads_motion) return true;
+    return !remembered_by(denoiser_for(registry_, technique, own), own).empty();
+  });
 }
 
 ForwardProgram SoftShadows::forward_program(const ParamSet& params, const Light& light) const {

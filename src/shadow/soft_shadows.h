@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,9 +64,10 @@ class SoftShadows {
 
   // `params` holds at least registry().params().
   Mask render(const Inputs& inputs, const ParamSet& params);
-  // Whether render() reads Inputs::motion with these parameters: where the denoiser keeps a history, and perhaps where
-  // a technique has passes of its own. Else the caller need not draw motion vectors.
-  bool reads_motion(const ParamSet& params, const Light& light = {}) const;
+  // Whether render() reads Inputs::motion with these parameters and lights, whose overrides apply: where the denoiser
+  // keeps a history, and where a technique has passes of its own that read it (Technique::resolve_reads_motion). Else
+  // the caller need not draw motion vectors.
+  bool reads_motion(const ParamSet& params, std::span<const Light> lights) const;
   // Releases everything that is kept for a view.
   void forget_view(int id);
 

@@ -46,6 +46,8 @@ struct Technique {
   // Fills the mask's layer by its own passes, of which PassContext::evaluate() can be one: for methods that can't
   // compute each receiver independently. Optional.
   std::function<void(const PassContext&)> resolve = {};
+  // Whether `resolve` reads Inputs::motion. If not, a caller need not draw it for this technique.
+  bool resolve_reads_motion = true;
   // The programs that `resolve` uses with these parameters, by name. Their files may include whatever the technique's
   // GLSL may, and are compiled with the same constants. A program with neither vertex nor compute shader is for
   // PassContext::draw_caster_geometry(): the caster callback adds the vertex shader.

@@ -264,6 +264,7 @@ shadow::Registry TruthTechnique::registry(const shadow::Registry& base) const {
               {"truth.seed", 0, 0, 1 << 30, "", "Seed of the sample points.", host},
           },
       .resolve = [state = state_](const shadow::PassContext& frame) { state->resolve(frame); },
+      .resolve_reads_motion = false,
       .denoisable = false,
       .stand_in = "brute_force",
   });

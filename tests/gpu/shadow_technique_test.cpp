@@ -6,6 +6,7 @@
 #include "gpu/gl_calls.h"
 #include "gpu/gpu_test.h"
 #include "gpu/triangle_scene.h"
+#include "session/techniques.h"
 
 namespace penumbra::test {
 namespace {
@@ -129,6 +130,7 @@ shadow::Technique cleared() {
                 gl::Pass pass(context.device(), {.name = "clear", .colors = {layer}});
                 if (value.x == 0) context.draw_caster_geometry(pass, "volumes", glm::mat4(1));
               },
+          .resolve_reads_motion = false,
           .stand_in = "counted"};
 }
 
@@ -186,6 +188,29 @@ TEST_F(ShadowTechnique, ProductReachesVisibilityUnderBothDriversAndThePassesFoll
 
 TEST_F(ShadowTechnique, HistoryGoesOnWhileNothingBreaksIt) {
   for (int i = 1; i < 5; ++i) EXPECT_EQ(count(), static_cast<float>(i));
+}
+
+TEST_F(ShadowTechnique, MotionIsReadIfOneLightsParametersAskForIt) {
+  params.set("technique", "cleared");
+  lights.push_back({.id = 1, .source = lights[0].source});
+  EXPECT_FALSE(renderer.shadows().reads_motion(params, lights));
+  lights[1].overrides = {"technique=counted"};
+  EXPECT_TRUE(renderer.shadows().reads_motion(params, lights));
+  std::swap(lights[0].overrides, lights[1].overrides);
+  EXPECT_TRUE(renderer.shadows().reads_motion(params, lights));
+  lights[0].overrides.clear();
+  params.set("technique", "counted");
+  EXPECT_TRUE(renderer.shadows().reads_motion(params, lights));
+}
+
+TEST_F(ShadowTechnique, NoneOfOursReadsMotionWithoutAHistory) {
+  shadow::SoftShadows shadows(renderer.device(), session::all_techniques());
+  ParamSet ours(shadows.registry().params());
+  ours.set("denoiser", "none");
+  for (const shadow::Technique& technique : shadows.registry().techniques()) {
+    ours.set("technique", technique.name);
+    EXPECT_FALSE(shadows.reads_motion(ours, lights)) << technique.name;
+  }
 }
 
 TEST_F(ShadowTechnique, BlendedSurfacesGetTheProductsOfTheStandIn) {
