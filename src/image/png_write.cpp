@@ -45,7 +45,7 @@ void write_bytes(png_structp png, png_bytep from, std::size_t count) {
 
 void flush(png_structp /*png*/) {}
 
-struct Picture {
+struct PngRows {
   int width, height, color_type;
   std::vector<png_text> texts;
   std::vector<png_bytep> rows;
@@ -68,13 +68,13 @@ class Writer {
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  std::vector<std::byte> write(Picture& picture) {
+  std::vector<std::byte> write(PngRows& picture) {
     if (!write_all(picture)) fail("{}", sink_.fault);
     return std::move(sink_.bytes);
   }
 
  private:
-  bool write_all(Picture& picture) {
+  bool write_all(PngRows& picture) {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;  // NOLINT(cert-err52-cpp): libpng has no other error handling
     png_set_compression_level(png_, compression);
     png_set_filter(png_, PNG_FILTER_TYPE_BASE, row_filter);
@@ -116,7 +116,7 @@ std::vector<std::byte> encode_png(int width, int height, int channels, std::span
   assert(channels == 1 || channels == 3 || channels == 4);
   const std::size_t row = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
   assert(pixels.size() == row * static_cast<std::size_t>(height));
-  Picture picture{.width = width,
+  PngRows picture{.width = width,
                   .height = height,
                   .color_type = channels == 1   ? PNG_COLOR_TYPE_GRAY
                                 : channels == 3 ? PNG_COLOR_TYPE_RGB

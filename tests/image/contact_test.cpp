@@ -24,7 +24,7 @@ struct Wrong {
   int dark = 0, lit = 0;
 };
 
-bool is_even(const Picture& truth, int x, int y) {
+bool is_even(const Visibility& truth, int x, int y) {
   constexpr int around = 2;  // pixels
   float least = 1;
   float most = 0;
@@ -38,7 +38,7 @@ bool is_even(const Picture& truth, int x, int y) {
   return most - least < 0.1f;
 }
 
-Wrong compare(const Picture& picture, const Picture& truth) {
+Wrong compare(const Visibility& picture, const Visibility& truth) {
   Wrong wrong;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -55,7 +55,7 @@ struct Bounds {
   double hard, soft;  // RMSE over the picture; of hard shadows against the sun's centre
 };
 
-double rmse_of(const Picture& picture, const Picture& truth) {
+double rmse_of(const Visibility& picture, const Visibility& truth) {
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (truth[i] >= 0) all.push_back(i);
@@ -69,8 +69,8 @@ void expect_truth(const std::string& scene, const Bounds& bounds) {
     SCOPED_TRACE(testing::Message() << scene << ", " << technique);
     run.choose(technique);
     if (technique == "hard") run.params().set("sun.angle", 0.0f);
-    const Picture truth = run.draw_truth(technique == "hard" ? 8 : 32);
-    const Picture picture = run.draw(/*cut=*/true);
+    const Visibility truth = run.draw_truth(technique == "hard" ? 8 : 32);
+    const Visibility picture = run.draw(/*cut=*/true);
     const Wrong wrong = compare(picture, truth);
     EXPECT_LE(wrong.dark, bounds.dark) << "dark pixels in the light";
     EXPECT_LE(wrong.lit, bounds.lit) << "lit pixels in the shadow";

@@ -21,16 +21,16 @@ TEST_F(ShadowHistory, AStillPictureGetsNoWorse) {
   SceneRun run("thesis", 320, 180);
   run.choose("thesis");
   run.params().set("cascades.size", 1024);
-  const Picture reference = run.draw_reference();
+  const Visibility reference = run.draw_reference();
   const std::vector<std::size_t> penumbra = penumbra_of(reference);
   for (const std::string sequence : {"set", "shift"}) {
     run.params().set("sampling.filter_sequence", sequence);
     double best = 0;
     double flicker = 0;
-    Picture last;
+    Visibility last;
     std::printf("thesis.glb 320x180, maps of 1024, filter sequence %s:", sequence.c_str());
     for (int frame = 1; frame <= 64; ++frame) {
-      const Picture picture = run.draw(/*cut=*/frame == 1);
+      const Visibility picture = run.draw(/*cut=*/frame == 1);
       if (frame > 32) flicker += mean_error(picture, last, penumbra) / 32;
       last = picture;
       if (frame != 1 && frame != 4 && frame != 16 && frame != 64) continue;
@@ -46,11 +46,11 @@ TEST_F(ShadowHistory, AStillPictureGetsNoWorse) {
 // Shadows of the last frames, and where they were and are no more.
 class Trail {
  public:
-  std::vector<std::size_t> behind(const Picture& reference) {
+  std::vector<std::size_t> behind(const Visibility& reference) {
     std::vector<std::size_t> pixels;
     for (std::size_t i = 0; i < reference.size(); ++i) {
       bool was = false;
-      for (const Picture& last : last_) was = was || (last[i] >= 0 && last[i] < reference[i] - 0.05f);
+      for (const Visibility& last : last_) was = was || (last[i] >= 0 && last[i] < reference[i] - 0.05f);
       if (was) pixels.push_back(i);
     }
     last_.push_back(reference);
@@ -59,7 +59,7 @@ class Trail {
   }
 
  private:
-  std::vector<Picture> last_;
+  std::vector<Visibility> last_;
 };
 
 // A caster that moves and stops, under a movement map.
@@ -92,12 +92,12 @@ class MovingAndStopping {
     Stop result;
     for (int frame = begin; frame <= stop; ++frame) {
       run.time() = frame * step;
-      const Picture picture = run.draw(/*cut=*/frame == begin);
-      const Picture& reference = references_[static_cast<std::size_t>(frame - begin)];
+      const Visibility picture = run.draw(/*cut=*/frame == begin);
+      const Visibility& reference = references_[static_cast<std::size_t>(frame - begin)];
       behind = trail.behind(reference);
       if (frame >= begin + 8) result.moving += mean_error(picture, reference, behind) / (stop - begin - 7);
     }
-    const Picture& reference = references_.back();
+    const Visibility& reference = references_.back();
     for (int frame = 0; frame < 16; ++frame)
       result.at_rest = mean_error(at_rest_.draw(/*cut=*/frame == 0), reference, behind);
     for (int frame = stop; frame < end && result.recovered < 0; ++frame) {
@@ -116,7 +116,7 @@ class MovingAndStopping {
   static constexpr int begin = 44, stop = 60, end = 120;  // at 2 s everything stops
 
   SceneRun at_rest_{scene, width, height};
-  std::vector<Picture> references_;  // of the frames from `begin` to `stop`
+  std::vector<Visibility> references_;  // of the frames from `begin` to `stop`
 };
 
 TEST_F(ShadowHistory, NoGhostFollowsACasterWithAMovementMap) {
@@ -140,7 +140,8 @@ void walk(render::Camera& camera) {
 }
 
 // Receivers that keep their history within some pixels of one that shows what the last frame did not.
-std::vector<std::size_t> beside_disocclusions(const std::vector<float>& refusals, const Picture& picture, int width) {
+std::vector<std::size_t> beside_disocclusions(const std::vector<float>& refusals, const Visibility& picture,
+                                              int width) {
   constexpr int reach = 8;
   const int height = static_cast<int>(refusals.size()) / width;
   std::vector<bool> near(refusals.size());
@@ -163,7 +164,7 @@ TEST_F(ShadowHistory, PixelsKeepTheirHistoryWhileTheCameraMovesAndDisocclusionsT
   SceneRun run("courtyard", 480, 270);
   run.choose("thesis");
   std::array<int, 5> count{};
-  Picture picture = run.draw(/*cut=*/true);
+  Visibility picture = run.draw(/*cut=*/true);
   for (int frame = 0; frame < 12; ++frame) {
     walk(run.camera());
     picture = run.draw();
@@ -178,7 +179,7 @@ TEST_F(ShadowHistory, PixelsKeepTheirHistoryWhileTheCameraMovesAndDisocclusionsT
   const double on_screen = count[HISTORY_KEPT] + count[HISTORY_OTHER_SURFACE];
   EXPECT_GE(count[HISTORY_KEPT], 0.9 * on_screen);
 
-  const Picture reference = run.draw_reference();
+  const Visibility reference = run.draw_reference();
   const std::vector<std::size_t> beside = beside_disocclusions(run.read_aov("history"), picture, run.width());
   const double moving = mean_error(picture, reference, beside);
   run.params().set("pcss.disocclusion_taps", 16);  // as many as where a history is kept

@@ -20,11 +20,11 @@ struct Quality {
   double error = 0, noise = 0;  // RMSE in the penumbra
 };
 
-Quality quality_of(SceneRun& run, const Picture& reference) {
+Quality quality_of(SceneRun& run, const Visibility& reference) {
   constexpr int seeds = 4;
   const std::vector<std::size_t> penumbra = penumbra_of(reference);
-  std::vector<Picture> pictures;
-  Picture mean(reference.size(), 0.0f);
+  std::vector<Visibility> pictures;
+  Visibility mean(reference.size(), 0.0f);
   double error = 0;
   for (int seed = 0; seed < seeds; ++seed) {
     run.params().set("sampling.seed", seed);
@@ -33,14 +33,14 @@ Quality quality_of(SceneRun& run, const Picture& reference) {
     for (const std::size_t i : penumbra) mean[i] += pictures.back()[i] / seeds;
   }
   double noise = 0;
-  for (const Picture& picture : pictures) noise += std::pow(rmse(picture, mean, penumbra), 2);
+  for (const Visibility& picture : pictures) noise += std::pow(rmse(picture, mean, penumbra), 2);
   return {error, std::sqrt(noise / (seeds - 1))};
 }
 
 enum class Filtering { none, spaced, dense };
 
 // thesis_8x8 under a pattern and a noise.
-Quality quality_of(SceneRun& run, const Picture& reference, const std::string& pattern, const std::string& noise,
+Quality quality_of(SceneRun& run, const Visibility& reference, const std::string& pattern, const std::string& noise,
                    Filtering filtering, int filter_taps) {
   run.choose("thesis_8x8");
   run.params().set("pcss.filter_taps", filter_taps);
@@ -60,7 +60,7 @@ TEST_F(PresetQuality, BlueNoiseBeatsWhiteNoiseWhereTheFilterReadsEveryPixelAndIs
   SceneRun run("thesis", 480, 270);
   run.choose("thesis_8x8");
   run.params().set("cascades.size", 1024);
-  const Picture reference = run.draw_reference();
+  const Visibility reference = run.draw_reference();
   std::printf(
       "penumbra of thesis.glb, 480x270, maps of 1024, 8 blocker taps: PSNR against brute_force before and after the ");
   std::printf("filter; noise alone after it, with 6 taps to a side and with all\n");
@@ -96,7 +96,7 @@ TEST_F(PresetQuality, EightTapsAndAFilterReach35Decibels) {
 }
 
 // Where the mean over each column of a picture passes a level, pixels.
-double crossing(const Picture& picture, int width, double level) {
+double crossing(const Visibility& picture, int width, double level) {
   std::vector<double> profile(static_cast<std::size_t>(width));
   const double rows = static_cast<double>(picture.size()) / width;
   for (std::size_t i = 0; i < picture.size(); ++i) profile[i % profile.size()] += picture[i] / rows;
@@ -111,7 +111,7 @@ TEST_F(PresetQuality, EightTapsAndAFilterWidenAPenumbraByLittle) {
   SceneRun run("knife_edge", 480, 270, "top");
   run.choose("thesis_8x8");
   run.params().set("sun.angle", 2.0f);
-  const auto width_of = [&](const Picture& picture) {
+  const auto width_of = [&](const Visibility& picture) {
     return std::abs(crossing(picture, run.width(), 0.9) - crossing(picture, run.width(), 0.1));
   };
   const double wanted = width_of(run.draw_reference());

@@ -34,7 +34,7 @@ render::FrameInputs SceneRun::inputs(bool cut) const {
           .cut = cut};
 }
 
-Picture SceneRun::draw(bool cut) {
+Visibility SceneRun::draw(bool cut) {
   renderer_.draw(*gpu_scene_, inputs(cut), params_);
   last_camera_ = setup_.camera;
   last_time_ = time_;
@@ -52,23 +52,23 @@ ParamSet SceneRun::reference_params() const {
   return params;
 }
 
-Picture SceneRun::draw_by(const char* technique, const ParamSet& params) {
+Visibility SceneRun::draw_by(const char* technique, const ParamSet& params) {
   ParamSet chosen = params;
   renderer_.registry().select(chosen, technique);
   reference_.draw(*gpu_scene_, inputs(/*cut=*/true), chosen);
   return picture_of(reference_);
 }
 
-Picture SceneRun::draw_reference() { return draw_by("brute_force", reference_params()); }
+Visibility SceneRun::draw_reference() { return draw_by("brute_force", reference_params()); }
 
-Picture SceneRun::draw_truth(int rays) {
+Visibility SceneRun::draw_truth(int rays) {
   ParamSet params = reference_params();
   params.set("truth.samples", rays);
   return draw_by("truth", params);
 }
 
-Picture SceneRun::picture_of(const render::Renderer& renderer) const {
-  Picture picture = renderer.read_aov("shadow");
+Visibility SceneRun::picture_of(const render::Renderer& renderer) const {
+  Visibility picture = renderer.read_aov("shadow");
   const std::vector<float> depth = renderer.read_aov("depth");
   for (std::size_t i = 0; i < picture.size(); ++i) {
     if (depth[i] == 0) picture[i] = -1;
@@ -76,7 +76,7 @@ Picture SceneRun::picture_of(const render::Renderer& renderer) const {
   return picture;
 }
 
-std::vector<std::size_t> penumbra_of(const Picture& reference) {
+std::vector<std::size_t> penumbra_of(const Visibility& reference) {
   std::vector<std::size_t> pixels;
   for (std::size_t i = 0; i < reference.size(); ++i) {
     if (reference[i] > 0.02f && reference[i] < 0.98f) pixels.push_back(i);
@@ -84,13 +84,13 @@ std::vector<std::size_t> penumbra_of(const Picture& reference) {
   return pixels;
 }
 
-double rmse(const Picture& picture, const Picture& reference, const std::vector<std::size_t>& pixels) {
+double rmse(const Visibility& picture, const Visibility& reference, const std::vector<std::size_t>& pixels) {
   double sum = 0;
   for (const std::size_t i : pixels) sum += std::pow(picture[i] - reference[i], 2);
   return std::sqrt(sum / static_cast<double>(pixels.size()));
 }
 
-double mean_error(const Picture& picture, const Picture& reference, const std::vector<std::size_t>& pixels) {
+double mean_error(const Visibility& picture, const Visibility& reference, const std::vector<std::size_t>& pixels) {
   double sum = 0;
   for (const std::size_t i : pixels) sum += std::abs(picture[i] - reference[i]);
   return sum / static_cast<double>(pixels.size());

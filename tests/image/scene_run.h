@@ -13,7 +13,7 @@
 namespace penumbra::test {
 
 // A frame's visibility, rows top to bottom; -1 for the sky.
-using Picture = std::vector<float>;
+using Visibility = std::vector<float>;
 
 // A scene of scenes/ that is drawn frame by frame by a technique under test and by brute_force, whose pictures it is
 // compared with.
@@ -26,10 +26,10 @@ class SceneRun {
   ParamSet& params() { return params_; }
 
   // Draws the next frame, with the history of the last one unless `cut`.
-  Picture draw(bool cut = false);
+  Visibility draw(bool cut = false);
   // The same frame by brute_force, or by `truth` with so many rays a pixel.
-  Picture draw_reference();
-  Picture draw_truth(int rays);
+  Visibility draw_reference();
+  Visibility draw_truth(int rays);
   std::vector<float> read_aov(const char* name) const { return renderer_.read_aov(name); }
 
   // What the last draw_truth() traced.
@@ -46,8 +46,8 @@ class SceneRun {
   gl::Device& device() { return device_; }
 
  private:
-  Picture picture_of(const render::Renderer& renderer) const;
-  Picture draw_by(const char* technique, const ParamSet& params);
+  Visibility picture_of(const render::Renderer& renderer) const;
+  Visibility draw_by(const char* technique, const ParamSet& params);
   ParamSet reference_params() const;
   render::FrameInputs inputs(bool cut) const;
 
@@ -65,9 +65,9 @@ class SceneRun {
 };
 
 // Receivers in the penumbra: those whose reference lies between 0.02 and 0.98.
-std::vector<std::size_t> penumbra_of(const Picture& reference);
-double rmse(const Picture& picture, const Picture& reference, const std::vector<std::size_t>& pixels);
-double mean_error(const Picture& picture, const Picture& reference, const std::vector<std::size_t>& pixels);
+std::vector<std::size_t> penumbra_of(const Visibility& reference);
+double rmse(const Visibility& picture, const Visibility& reference, const std::vector<std::size_t>& pixels);
+double mean_error(const Visibility& picture, const Visibility& reference, const std::vector<std::size_t>& pixels);
 double decibels(double rmse);
 
 }  // namespace penumbra::test

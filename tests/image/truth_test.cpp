@@ -74,7 +74,7 @@ TEST_F(TruthImage, IsTheExactPenumbraOfAnEdge) {
 // Share of receivers at which the shadow map and the ray to the sun's centre disagree.
 double disagreement(SceneRun& run) {
   run.choose("hard");
-  const Picture hard = run.draw(/*cut=*/true);
+  const Visibility hard = run.draw(/*cut=*/true);
   run.draw_truth(8);
   const std::vector<float>& rays = run.traced().traced.hard;
   const std::vector<float> normals = run.read_reference_aov("geometric_normal");
@@ -110,7 +110,7 @@ TEST_F(TruthImage, SeesSkinnedAndMorphingCastersWhereTheyAreDrawn) {
 
 TEST_F(TruthImage, IsTheSameWhereverTheTechniqueIsAsked) {
   SceneRun run("fence", 96, 54);
-  const Picture mask = run.draw_truth(64);
+  const Visibility mask = run.draw_truth(64);
   const std::vector<float>& traced = run.traced().traced.visibility;
   for (std::size_t i = 0; i < mask.size(); ++i) {
     const float expected = traced[(53 - i / 96) * 96 + i % 96];
@@ -129,7 +129,7 @@ TEST_F(TruthImage, AgreesWithCyclesWithinItsNoise) {
   run.camera() = render::look_at({1.6f, 1.4f, 1.8f}, {1, 0.55f, -1.2f}, glm::radians(50.0f), 0.01f);
   run.sun().to_light = render::direction_to(glm::radians(-40.0f), glm::radians(40.0f));
   run.params().set("sun.angle", 2.0f);
-  const Picture truth = run.draw_truth(512);
+  const Visibility truth = run.draw_truth(512);
   const std::vector<float>& standard_error = run.traced().traced.standard_error;
   const std::vector<float> seen = run.read_reference_aov("depth");
   constexpr double cycles_noise = 0.00111;  // rms, in the file's metadata

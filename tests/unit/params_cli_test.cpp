@@ -81,7 +81,7 @@ TEST(OutputNames, RefuseOtherKindsAndBadPatterns) {
     EXPECT_THROW(OutputNames(name, false), UsageError) << name;
 }
 
-TEST(Picture, ABlockBecomesWhatItsMeaningAsks) {
+TEST(AovPicture, ABlockBecomesWhatItsMeaningAsks) {
   using penumbra::render::reduced;
   using enum penumbra::render::Reduction;
   // Two pixels of 2 × 2 each, side by side.
@@ -93,7 +93,7 @@ TEST(Picture, ABlockBecomesWhatItsMeaningAsks) {
   EXPECT_EQ(reduced(drawn, 4, 2, 1, 1, mean_of_valid), drawn);
 }
 
-TEST(Picture, DisplayBytesAreAveragedInLinearLight) {
+TEST(AovPicture, DisplayBytesAreAveragedInLinearLight) {
   const auto black_and_white = [](int v) { return std::vector<std::uint8_t>(3, static_cast<std::uint8_t>(v)); };
   std::vector<std::uint8_t> rgb;
   for (const int v : {0, 255, 255, 0}) {
@@ -105,14 +105,14 @@ TEST(Picture, DisplayBytesAreAveragedInLinearLight) {
   EXPECT_EQ(penumbra::render::display_bytes(rgb, 2, 2, 1).pixels, rgb);
 }
 
-TEST(Picture, EveryByteSurvivesTheAverageOfEquals) {
+TEST(AovPicture, EveryByteSurvivesTheAverageOfEquals) {
   for (int v = 0; v < 256; ++v) {
     const std::vector<std::uint8_t> block(12, static_cast<std::uint8_t>(v));
     EXPECT_EQ(penumbra::render::display_bytes(block, 1, 1, 2).pixels[0], v);
   }
 }
 
-TEST(Picture, AovsAreShownByTheirMeaning) {
+TEST(AovPicture, AovsAreShownByTheirMeaning) {
   EXPECT_EQ(penumbra::render::aov_bytes("shadow", 1, {0.0f, 0.5f, 1.0f}).pixels,
             (std::vector<std::uint8_t>{0, 128, 255}));
   EXPECT_EQ(penumbra::render::aov_bytes("normal", 3, {0, 1, -1}).pixels, (std::vector<std::uint8_t>{128, 255, 0}));

@@ -93,15 +93,15 @@ TEST(TruthSampling, DiscIsFilledEvenly) {
   for (const int count : counts) EXPECT_NEAR(count, 800, 60);
 }
 
-// A picture of the ground under some boxes.
-struct Picture {
+// A view of the ground under some boxes.
+struct GroundView {
   TruthScene scene;
   std::vector<Receiver> receivers;
   int width = 90;
 };
 
-Picture boxes() {
-  Picture picture;
+GroundView boxes() {
+  GroundView picture;
   Random random(5);
   const auto within = [&](double low, double high) { return static_cast<float>(low + (high - low) * random.real()); };
   for (int i = 0; i < 40; ++i) {
@@ -120,7 +120,7 @@ Picture boxes() {
 const Sun wide_sun{.to_light = {0.3, 1, 0.2}, .angle = 0.15};
 
 TEST(TruthTrace, IsTheSameOnAnyNumberOfThreads) {
-  const Picture picture = boxes();
+  const GroundView picture = boxes();
   const truth::Tracer tracer = picture.scene.tracer();
   for (const double error : {0.0, 0.01}) {
     const auto traced = [&](int threads) {
@@ -159,7 +159,7 @@ TEST(TruthTrace, IsTheSameOnAnyNumberOfThreadsWhereOneFaceCasts) {
 }
 
 TEST(TruthTrace, SeedsAndPixelsDiffer) {
-  const Picture picture = boxes();
+  const GroundView picture = boxes();
   const truth::Tracer tracer = picture.scene.tracer();
   const Traced one = tracer.trace(picture.receivers, picture.width, wide_sun, {.samples = 16, .seed = 1});
   const Traced two = tracer.trace(picture.receivers, picture.width, wide_sun, {.samples = 16, .seed = 2});
@@ -186,7 +186,7 @@ TEST(TruthTrace, RoundsSamplesUpAndCountsRays) {
 }
 
 TEST(TruthTrace, StopsAtTheErrorThatIsAskedFor) {
-  const Picture picture = boxes();
+  const GroundView picture = boxes();
   const truth::Tracer tracer = picture.scene.tracer();
   const Traced truth = tracer.trace(picture.receivers, picture.width, wide_sun, {.samples = 8192, .seed = 77});
   long long before = 0;
@@ -251,7 +251,7 @@ TEST(TruthTrace, FirstSamplesThatAgreeProveNothingBesideAPenumbra) {
 }
 
 TEST(TruthTrace, TellsProgressAndStopsWhenToldTo) {
-  const Picture picture = boxes();
+  const GroundView picture = boxes();
   const truth::Tracer tracer = picture.scene.tracer();
   for (const double error : {0.0, 0.003}) {
     std::vector<double> shares;
