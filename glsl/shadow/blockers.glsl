@@ -30,14 +30,17 @@ void add_blockers(inout Blockers blockers, Receiver receiver, vec2 offset, float
   blockers.depth_sum += bilinear(blocks * distance_to, footprint.weight);
 }
 
+// The mean over the points of the set, or, where the disc is smaller than the four texels around the receiver, over
+// these alone.
 Blockers find_blockers(Receiver receiver, float radius, int taps, float bias, Light light) {
   Scramble scramble = blocker_scramble(receiver);
   Blockers blockers = Blockers(0.0, 0.0);
-  for (int i = 0; i < taps; ++i) {
+  int count = radius < 0.5 * texel_size(receiver, light) ? 0 : taps;
+  for (int i = 0; i < count; ++i) {
     add_blockers(blockers, receiver, radius * blocker_point(i, scramble, light), bias, light);
   }
-  // Near the receiver the cone is narrow, so all taps of a wide disc can miss a blocker that touches the receiver. This
-  // tap at the receiver itself can't.
+  // Also because near the receiver the cone is narrow, so that all taps of a wide disc can miss a blocker that touches
+  // the receiver. This tap at the receiver itself can't.
   if (blockers.weight == 0.0) add_blockers(blockers, receiver, vec2(0.0), bias, light);
   return blockers;
 }
