@@ -1,38 +1,57 @@
-// Computes one level of the minimum depth pyramid, from 4 × 4 texels of the shadow map or from 2 × 2 texels of the
-// finer level.
+// Computes one level of the depth pyramid, from 4 × 4 texels of the shadow map or from 2 × 2 texels of the finer level.
 #include "shared/language.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-#if FROM_DEPTH
-layout(binding = 0) uniform sampler2DArray source;
-#else
-layout(binding = 0, r32f) uniform readonly restrict image2DArray source;
-#endif
-layout(binding = 1, r32f) uniform writeonly restrict image2DArray level;
+layout(binding = 1, rg32f) uniform writeonly restrict image2DArray level;
 
 #if FROM_DEPTH
+#include "shadow/light_projection.glsl"
+
+// The lesser depth of each of four pairs of neighbours that make an edge, 1 for others.
+vec4 depths_at_edges(vec4 texels, vec4 neighbours, float height) {
+  return mix(vec4(1.0), min(texels, neighbours), greaterThan(abs(texels - neighbours), vec4(height)));
+}
+
+float least_of(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
+
 // Texels outside of the map count as empty (depth 1).
-float least_depth(ivec3 at) {
-  ivec2 size = textureSize(source, 0).xy;
-  float least = 1.0;
-  for (int y = 0; y < 4; y += 2) {
-    for (int x = 0; x < 4; x += 2) {
-      ivec2 corner = at.xy * 4 + ivec2(x, y);
-      if (any(greaterThanEqual(corner, size))) continue;
-      vec4 depths = textureGather(source, vec3((vec2(corner) + 1.0) / vec2(size), float(at.z)));
-      least = min(least, min(min(depths.x, depths.y), min(depths.z, depths.w)));
+vec2 least_depths(ivec3 at) {
+  // Rows of six texels, from the one before the block to the one after it.
+  vec4 middle[6];
+  vec2 ends[6];
+  Light light = with_layer(frame_light(), at.z);
+  for (int j = 0; j < 3; ++j) {
+    vec4 cells[3];
+    for (int i = 0; i < 3; ++i) {
+      cells[i] = gather_stored(vec2(at.xy * 4 + 2 * ivec2(i, j)), light);
     }
+    middle[2 * j] = vec4(cells[0].z, cells[1].wz, cells[2].w);
+    ends[2 * j] = vec2(cells[0].w, cells[2].z);
+    middle[2 * j + 1] = vec4(cells[0].y, cells[1].xy, cells[2].x);
+    ends[2 * j + 1] = vec2(cells[0].x, cells[2].y);
   }
-  return least;
+  float height = stored_edge_height(light);
+  vec4 least = vec4(1.0), edges = vec4(1.0);
+  for (int row = 1; row < 5; ++row) {
+    vec4 texels = middle[row];
+    least = min(least, texels);
+    edges = min(edges, depths_at_edges(texels, vec4(ends[row].x, texels.xyz), height));
+    edges = min(edges, depths_at_edges(texels, vec4(texels.yzw, ends[row].y), height));
+    edges = min(edges, depths_at_edges(texels, middle[row - 1], height));
+    edges = min(edges, depths_at_edges(texels, middle[row + 1], height));
+  }
+  return vec2(least_of(least), least_of(edges));
 }
 #else
-float least_depth(ivec3 at) {
+layout(binding = 0, rg32f) uniform readonly restrict image2DArray source;
+
+vec2 least_depths(ivec3 at) {
   ivec3 low = ivec3(at.xy * 2, at.z);
   ivec2 last = imageSize(source).xy - 1;
-  float a = imageLoad(source, low).x;
-  float b = imageLoad(source, ivec3(min(low.x + 1, last.x), low.yz)).x;
-  float c = imageLoad(source, ivec3(low.x, min(low.y + 1, last.y), low.z)).x;
-  float d = imageLoad(source, ivec3(min(low.xy + 1, last), low.z)).x;
+  vec2 a = imageLoad(source, low).xy;
+  vec2 b = imageLoad(source, ivec3(min(low.x + 1, last.x), low.yz)).xy;
+  vec2 c = imageLoad(source, ivec3(low.x, min(low.y + 1, last.y), low.z)).xy;
+  vec2 d = imageLoad(source, ivec3(min(low.xy + 1, last), low.z)).xy;
   return min(min(a, b), min(c, d));
 }
 #endif
@@ -40,5 +59,5 @@ float least_depth(ivec3 at) {
 void main() {
   ivec3 at = ivec3(gl_GlobalInvocationID);
   if (any(greaterThanEqual(at.xy, imageSize(level).xy))) return;
-  imageStore(level, at, vec4(least_depth(at)));
+  imageStore(level, at, vec4(least_depths(at), 0.0, 0.0));
 }

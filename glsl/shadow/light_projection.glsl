@@ -88,6 +88,14 @@ vec4 penumbra_radii(Receiver receiver, vec4 blocker_distances, Light light) {
 // light.
 float cone_slope(Receiver receiver, Light light) { return 1.0 / max(light.extent, 1.0 / max_plane_slope); }
 
+// Least difference between the stored depths of neighbouring texels of the light's layer that makes an edge. Along a
+// surface with smaller ones no texel can be in such a cone from a point of the surface, unless it borders the point.
+float stored_edge_height(Light light) {
+  const float diagonal = 0.5;  // texels along a diagonal lie further apart than their rows and columns
+  float slope = 1.0 / max(light.extent, 1.0 / max_plane_slope);
+  return (diagonal * light.map.texel * slope + 2.0 * light.map.rounding) / light.map.depth_range;
+}
+
 // Conversion between the blocker distance in a packed texel and the penumbra radius that filters need, for a receiver
 // at that position in light space. The factor has a lower bound, so that also for a light without extent distances stay
 // within the range of a half float.
@@ -214,15 +222,24 @@ int pyramid_level(vec3 position, float radius, int layer, float base, int levels
   return covering_level(radius, base * texel_size_at(position, layer), levels);
 }
 
-// The values of those 2 × 2 texels; `last` is the last texel of the level.
-vec4 pyramid_texels(sampler2DArray pyramid, vec3 position, float radius, int layer, float base, int level, ivec2 last) {
+// The texels of a level that a rectangle of these half widths touches; `last` is the level's last texel.
+struct TexelRange {
+  ivec2 low, high;
+};
+
+TexelRange pyramid_range(vec3 position, vec2 radius, int layer, float base, int level, ivec2 last) {
   LayerBlock map = shadow.layers[layer];
   float texel = base * map.texel * exp2(float(level));
   vec2 origin = position.xy - map.center + 0.5 / map.widths_per_metre;
-  ivec2 low = clamp(ivec2(floor((origin - radius) / texel)), ivec2(0), last);
-  ivec2 high = clamp(ivec2(floor((origin + radius) / texel)), ivec2(0), last);
-  return vec4(texelFetch(pyramid, ivec3(low, layer), level).x,
-              texelFetch(pyramid, ivec3(high.x, low.y, layer), level).x,
-              texelFetch(pyramid, ivec3(low.x, high.y, layer), level).x,
-              texelFetch(pyramid, ivec3(high, layer), level).x);
+  return TexelRange(clamp(ivec2(floor((origin - radius) / texel)), ivec2(0), last),
+                    clamp(ivec2(floor((origin + radius) / texel)), ivec2(0), last));
+}
+
+// The values of 2 × 2 texels, at a level where a disc touches no more.
+vec4 pyramid_texels(sampler2DArray pyramid, vec3 position, float radius, int layer, float base, int level, ivec2 last) {
+  TexelRange range = pyramid_range(position, vec2(radius), layer, base, level, last);
+  return vec4(texelFetch(pyramid, ivec3(range.low, layer), level).x,
+              texelFetch(pyramid, ivec3(range.high.x, range.low.y, layer), level).x,
+              texelFetch(pyramid, ivec3(range.low.x, range.high.y, layer), level).x,
+              texelFetch(pyramid, ivec3(range.high, layer), level).x);
 }

@@ -34,8 +34,3 @@ Shadowed shadow_of(Receiver receiver, Light light) {
   }
   return Shadowed(mixed, first);
 }
-
-vec4 mask_texel(Shadowed shadowed) {
-  return vec4(shadowed.visibility.visibility, shadowed.visibility.penumbra_radius, shadowed.visibility.blocker_distance,
-              float(shadowed.layer) + (shadowed.visibility.under_texel ? 0.5 : 0.0));
-}

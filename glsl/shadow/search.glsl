@@ -1,16 +1,37 @@
 // Bounds for the blocker search: the least depth over a disc, read from the pyramid.
 #include "shadow/light.glsl"
 
-// Minimum over 4 · 2^level texels squared: the product of that name.
+// Least depths over 4 · 2^level texels squared: the product of that name.
 layout(binding = UNIT_least_depth_pyramid) uniform sampler2DArray shadow_pyramid;
 
-// Least depth, metres, of what a layer of the map holds within `radius` of a position (and a little beyond: 2 × 2
-// texels of the finest level that covers the disc).
-float nearest_depth(vec3 position, float radius, int layer) {
-  const float base = 4.0;
-  int level = pyramid_level(position, radius, layer, base, textureQueryLevels(shadow_pyramid));
+const float pyramid_base = 4.0;
+
+// Least depths, metres, of what a layer of the map holds within a disc.
+struct DepthBounds {
+  float least;
+  float edge;  // beside an edge of the map
+};
+
+// Bounds over a rectangle of these half widths and a little beyond: at most 5 × 5 texels of a level.
+DepthBounds depth_bounds(vec3 position, vec2 radius, int layer) {
+  float quarter = 0.25 * max(radius.x, radius.y);
+  int level = pyramid_level(position, quarter, layer, pyramid_base, textureQueryLevels(shadow_pyramid));
   ivec2 last = max(last_texel(), 0) >> (level + 2);
-  vec4 stored = pyramid_texels(shadow_pyramid, position, radius, layer, base, level, last);
+  TexelRange range = pyramid_range(position, radius, layer, pyramid_base, level, last);
+  vec2 stored = vec2(1.0);
+  for (int y = range.low.y; y <= range.high.y; ++y) {
+    for (int x = range.low.x; x <= range.high.x; ++x) {
+      stored = min(stored, texelFetch(shadow_pyramid, ivec3(x, y, layer), level).xy);
+    }
+  }
+  return DepthBounds(stored_depth_in(layer, stored.x), stored_depth_in(layer, stored.y));
+}
+
+// The least depth alone, within a disc and a little beyond: 2 × 2 texels of the finest level that covers it.
+float nearest_depth(vec3 position, float radius, int layer) {
+  int level = pyramid_level(position, radius, layer, pyramid_base, textureQueryLevels(shadow_pyramid));
+  ivec2 last = max(last_texel(), 0) >> (level + 2);
+  vec4 stored = pyramid_texels(shadow_pyramid, position, radius, layer, pyramid_base, level, last);
   return stored_depth_in(layer, min(min(stored.x, stored.y), min(stored.z, stored.w)));
 }
 

@@ -7,3 +7,9 @@ struct Shadowed {
 };
 
 bool faces_light(Receiver receiver) { return light_cosine(receiver) > 0.0; }
+
+// See Mask in the library's headers.
+vec4 mask_texel(Shadowed shadowed) {
+  return vec4(shadowed.visibility.visibility, shadowed.visibility.penumbra_radius, shadowed.visibility.blocker_distance,
+              float(shadowed.layer) + (shadowed.visibility.under_texel ? 0.5 : 0.0));
+}

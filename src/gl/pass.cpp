@@ -75,6 +75,8 @@ void Pass::set_front_clockwise(bool clockwise) { glFrontFace(clockwise ? GL_CW :
 
 void Pass::set_viewport(int x, int y, int width, int height) { glViewport(x, y, width, height); }
 
+void Pass::set_point_size(float pixels) { glPointSize(pixels); }
+
 void Pass::draw_arrays_indirect(GLenum mode, const IndirectCommands& draws) {
   bind_commands<DrawArraysCommand>(GL_DRAW_INDIRECT_BUFFER, draws);
   glMultiDrawArraysIndirect(mode, as_pointer(draws.offset), static_cast<GLsizei>(draws.count), 0);

@@ -46,6 +46,7 @@ class Pass {
   void set_cull_back(bool cull);                // double-sided materials
   void set_front_clockwise(bool clockwise);     // mirrored instances
   void set_viewport(int x, int y, int width, int height);
+  void set_point_size(float pixels);  // else 1
 
   // Runs the draw commands in a buffer, with the vertex array that is bound. `mode`: GL_TRIANGLES…; `index_type`:
   // GL_UNSIGNED_INT, GL_UNSIGNED_SHORT. The timers count the draws, but not their triangles, whose number only the

@@ -89,6 +89,17 @@ void check_needs(const std::string& of, const std::vector<std::string>& needs, c
   }
 }
 
+// Tiles are decided by the shadow map and its pyramid.
+void check_tiles(const Technique& technique) {
+  if (!technique.decides_tiles) return;
+  for (const char* need : {"shadow_map", "least_depth_pyramid"}) {
+    if (std::ranges::find(technique.needs, need) == technique.needs.end()) {
+      fail("technique '{}' decides tiles, for which it needs '{}'", technique.name, need);
+    }
+  }
+  if (technique.glsl.empty()) fail("technique '{}' decides tiles, for which it needs glsl", technique.name);
+}
+
 void check(const Technique& technique, const Registry& registry) {
   const std::string& name = technique.name;
   if (technique.glsl.empty() && !technique.resolve) fail("technique '{}' has neither glsl nor resolve", name);
@@ -126,6 +137,7 @@ void check_contents(const Registry& registry) {
   for (const Technique& technique : registry.techniques()) {
     check_needs(fmt::format("technique '{}'", technique.name), technique.needs, known);
     check_samples(technique, params);
+    check_tiles(technique);
   }
   known.emplace_back("movement_map");
   for (const Denoiser& denoiser : registry.denoisers()) {

@@ -33,7 +33,7 @@ class DenoiseContext : public PassContext {
   void bind_history(const gl::Texture& last_surfaces) const;
 
  private:
-  void run_mask_pass(const PackedMask& target, const gl::Texture* last_surfaces) const;
+  void pack(const PackedMask& target, const gl::Texture* last_surfaces) const;
 
   mutable int filters_run_ = 0;  // in this frame
 };

@@ -54,6 +54,8 @@ std::vector<Param> map_rows() {
       {"bias.slope", 0.02f, 0, 10, "texels",
        "Added to bias.constant for each unit of the receiver's slope against the light."},
       {"bias.normal_offset", 0.0f, 0, 10, "texels", "Shift of receivers along their normal."},
+      {"mask.tiles", true, 0, 1, "",
+       "Computes only the tiles of 8 × 8 pixels that a penumbra can reach, and decides all others at once.", host},
   };
 }
 

@@ -26,6 +26,7 @@ enum TextureUnit : unsigned {
   unit_last_texels,
   unit_texels,
   unit_notes,
+  unit_decisions,
   unit_count = 16,
 };
 

@@ -8,6 +8,7 @@
 
 #include "../core/error.h"
 #include "light_work.h"
+#include "mask_pass.h"
 
 namespace penumbra::shadow {
 
@@ -118,18 +119,7 @@ void PassContext::cover(gl::Pass& pass) const {
 }
 
 void PassContext::evaluate(const gl::Texture& target, int layer) const {
-  gl::PassDesc desc{.name = "shadow mask"};
-  if (!uses_compute()) desc.colors = {{.texture = &target, .layer = layer}};
-  gl::Pass pass(work_.device, desc);
-  const bool rotated = rotates_samples(work_.technique, params(), work_.frame.shape);
-  const gl::Program& program =
-      pass.use(work_.programs.mask(work_.technique, params(), {.rotated = rotated, .compute = uses_compute()}));
-  bind_inputs(work_, owner_of(work_.technique));
-  if (uses_compute()) {
-    program.set("mask_layer", layer);
-    target.bind_image(0, GL_WRITE_ONLY);
-  }
-  cover(pass);
+  run_mask_pass(work_, {.mask = &target, .layer = layer});
 }
 
 void PassContext::check_draws() const {

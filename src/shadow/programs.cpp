@@ -31,9 +31,11 @@ std::vector<ParamSet> compiled_variants(const std::vector<Param>& own, const Par
 std::vector<Programs::MaskForm> mask_forms(bool rotated) {
   std::vector<Programs::MaskForm> forms;
   for (const bool compute : {false, true}) {
-    forms.push_back({.rotated = rotated, .compute = compute, .packed = false, .history = false});
-    forms.push_back({.rotated = rotated, .compute = compute, .packed = true, .history = false});
-    forms.push_back({.rotated = rotated, .compute = compute, .packed = true, .history = true});
+    for (const bool tiles : {false, true}) {
+      forms.push_back({.rotated = rotated, .compute = compute, .tiles = tiles});
+      forms.push_back({.rotated = rotated, .compute = compute, .packed = true, .tiles = tiles});
+      forms.push_back({.rotated = rotated, .compute = compute, .packed = true, .history = true, .tiles = tiles});
+    }
   }
   return forms;
 }
@@ -144,13 +146,30 @@ gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& param
   gl::ProgramDesc program{.name = technique.name, .defines = defines(technique, params, form.rotated)};
   program.defines.push_back({"PACKED", form.packed ? "1" : "0"});
   program.defines.push_back({"HISTORY", form.history ? "1" : "0"});
+  if (form.compute) program.defines.push_back({"TILES", form.tiles ? "1" : "0"});
   if (form.compute) {
     program.compute = driver_file(technique, "mask.comp");
   } else {
-    program.vertex = "shared/full_screen.vert";
+    program.vertex = form.tiles ? "shadow/drivers/tile.vert" : "shared/full_screen.vert";
     program.fragment = driver_file(technique, "mask.frag");
+    if (form.tiles) program.defines.push_back({"DECIDED", "0"});
   }
   return program;
+}
+
+gl::ProgramDesc Programs::decide_tiles(const Technique& technique) const {
+  const std::string folder = folder_of(owner_of(technique));
+  return {.name = "decide tiles",
+          .compute = including(folder, {folder + "/preamble.glsl", "shadow/drivers/decide_tiles.comp"})};
+}
+
+gl::ProgramDesc Programs::decided(const MaskForm& form) const {
+  return ready(
+      {.desc = {
+           .name = "decided tiles",
+           .vertex = "shadow/drivers/tile.vert",
+           .fragment = "shadow/drivers/decided.frag",
+           .defines = {{"DECIDED", "1"}, {"PACKED", form.packed ? "1" : "0"}, {"HISTORY", form.history ? "1" : "0"}}}});
 }
 
 gl::ProgramDesc Programs::pack(bool history) const {
@@ -212,6 +231,9 @@ void Programs::add_own(std::vector<gl::ProgramDesc>& programs, const PassOwner& 
 
 std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
   std::vector<gl::ProgramDesc> programs{pack(true), pack(false)};
+  for (const MaskForm& form : {MaskForm{}, {.packed = true}, {.packed = true, .history = true}}) {
+    programs.push_back(decided(form));
+  }
   for (const MovementForm form : {MovementForm::average, MovementForm::maximum}) {
     for (const bool any_size : {false, true}) programs.push_back(movement_pyramid_program(form, any_size));
   }
@@ -222,11 +244,13 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
     for (const ParamSet& params : compiled_variants(technique.params, defaults)) {
       for (const bool rotated : {true, false}) {
         for (const MaskForm& form : mask_forms(rotated)) {
-          if (!technique.glsl.empty()) programs.push_back(mask(technique, params, form));
+          if (technique.glsl.empty() || (form.tiles && !technique.decides_tiles)) continue;
+          programs.push_back(mask(technique, params, form));
         }
       }
     }
     add_own(programs, owner_of(technique), defaults);
+    if (technique.decides_tiles) programs.push_back(decide_tiles(technique));
   }
   return programs;
 }

@@ -35,8 +35,12 @@ class Programs {
     bool compute = false;
     bool packed = false;   // packed texels and notes, for denoisers; else the mask itself
     bool history = false;  // packed, and the notes say whether the history is valid
+    bool tiles = false;    // over the listed tiles alone
   };
   gl::ProgramDesc mask(const Technique& technique, const ParamSet& params, const MaskForm& form) const;
+  // The programs that decide tiles and that fill the mask with them.
+  gl::ProgramDesc decide_tiles(const Technique& technique) const;
+  gl::ProgramDesc decided(const MaskForm& form) const;
   // The program that packs a mask which a technique's `resolve` filled.
   gl::ProgramDesc pack(bool history) const;
   // A program of the library, with its generated files in place, ready to be compiled.

@@ -46,6 +46,7 @@ class Registry {
   //     stand-in's), or with an unknown stand_in, pattern or scramble;
   //   - sample sets whose count parameter is unknown, not an integer, or may exceed most_points; more sample points
   //     than a uniform buffer holds; two sets of one technique with the same name;
+  //   - techniques that decide tiles and lack glsl, the shadow map or its pyramid among their needs;
   //   - needs that no recipe makes, recipes that need one listed after them, and more needs than there are texture
   //     units; recipes without build, denoisers without denoise.
   explicit Registry(Contents contents);

@@ -52,6 +52,10 @@ struct Technique {
   // GLSL may, and are compiled with the same constants. A program with neither vertex nor compute shader is for
   // PassContext::draw_caster_geometry(): the caster callback adds the vertex shader.
   std::function<std::vector<gl::ProgramDesc>(const ParamSet&)> programs = {};
+  // Whether the library may decide for it which tiles of pixels no penumbra reaches (see tiles.h). It needs
+  // "shadow_map" and "least_depth_pyramid", and its result must be the share of the light that the casters in the map
+  // leave free.
+  bool decides_tiles = false;
   // Whether the denoiser that the parameters choose is applied to its result.
   bool denoisable = true;
   // For techniques without `glsl`: the name of the technique that computes shadows on blended surfaces instead.

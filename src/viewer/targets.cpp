@@ -145,7 +145,10 @@ std::string about_target(std::string_view name) {
       About{"/movement map",
             "How much of the area around a texel has moving casters: 0 none, 1 all. Of the last frame with motion."},
       About{"/shadow map", "Depth from the light, 0 to 1, a layer each cascade."},
-      About{"/recipes/least_depth_pyramid/", "The least depth from the light that a texel of each mip level covers."},
+      About{"/recipes/least_depth_pyramid/",
+            "The least depth from the light that a texel of each mip level covers, in green beside edges of the map."},
+      About{"/tile decisions",
+            "A texel for each tile of 8 × 8 pixels: which of them are lit, where no penumbra is near."},
       About{"/noise/", "The tile of noise that rotates or shifts the sample points of each pixel."},
       About{"/mask", "What lighting reads: visibility in red."}};
   const auto found =

@@ -180,6 +180,28 @@ TEST(Registry, RefusesProductsThatNothingMakes) {
             "technique 'asking' needs 5 products; there are texture units for 4");
 }
 
+TEST(Registry, RefusesTechniquesThatDecideTilesWithoutWhatThatTakes) {
+  const auto complain = [](const std::vector<std::string>& needs, const std::string& glsl) -> std::string {
+    Technique decides = technique("quick");
+    decides.needs = needs;
+    decides.glsl = glsl;
+    decides.decides_tiles = true;
+    decides.resolve = [](const PassContext&) {};
+    decides.stand_in = "good";
+    try {
+      const Registry registry({.techniques = {technique("good"), std::move(decides)}});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(complain({"shadow_map", "least_depth_pyramid"}, "quick.glsl"), "");
+  EXPECT_EQ(complain({"shadow_map"}, "quick.glsl"),
+            "technique 'quick' decides tiles, for which it needs 'least_depth_pyramid'");
+  EXPECT_EQ(complain({"shadow_map", "least_depth_pyramid"}, ""),
+            "technique 'quick' decides tiles, for which it needs glsl");
+}
+
 TEST(Registry, RefusesDenoisersThatCanNotRun) {
   const auto complain = [](Denoiser denoiser) -> std::string {
     try {

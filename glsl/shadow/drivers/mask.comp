@@ -9,9 +9,23 @@ layout(binding = 0, rgba16f) uniform writeonly restrict image2DArray mask;
 uniform int mask_layer;
 #endif
 
+#if TILES
+#include "shadow/drivers/tiles.glsl"
+
+// The pixel of an invocation in a group that runs over a listed tile; beyond the viewport where there is no such tile.
+ivec2 pixel_in_viewport() {
+  uint index = gl_WorkGroupID.y * list_row + gl_WorkGroupID.x;
+  if (index >= tile_list.listed.count) return ivec2(shadow.viewport.zw);
+  return listed_tile(index) * tile_size + ivec2(gl_LocalInvocationID.xy);
+}
+#else
+ivec2 pixel_in_viewport() { return ivec2(gl_GlobalInvocationID.xy); }
+#endif
+
 void main() {
-  if (any(greaterThanEqual(ivec2(gl_GlobalInvocationID.xy), ivec2(shadow.viewport.zw)))) return;
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(shadow.viewport.xy);
+  ivec2 pixel = pixel_in_viewport();
+  if (any(greaterThanEqual(pixel, ivec2(shadow.viewport.zw)))) return;
+  pixel += ivec2(shadow.viewport.xy);
 #if PACKED
   PackedPixel shaded = shade_pixel(pixel);
   imageStore(texels, pixel, uvec4(shaded.texel));

@@ -7,7 +7,8 @@ namespace penumbra::shadow {
 
 namespace {
 
-// R32F; texel (x, y) of level l is the least depth of the 4·2^l texels squared from (x, y)·4·2^l on.
+// RG32F; texel (x, y) of level l holds the least depth of the 4·2^l texels squared from (x, y)·4·2^l on, and the least
+// depth beside an edge among them (1 if they have none).
 const gl::Texture& build(const PassContext& context) {
   const LightProjection& projection = context.frame().projection;
   const int layers = projection.layers();
@@ -15,7 +16,7 @@ const gl::Texture& build(const PassContext& context) {
   const int side = static_cast<int>(std::bit_ceil(static_cast<unsigned>((projection.size() + 3) / 4)));
   const int levels = std::bit_width(static_cast<unsigned>(side));
   const gl::Texture& pyramid = context.target("levels", {.target = GL_TEXTURE_2D_ARRAY,
-                                                         .format = GL_R32F,
+                                                         .format = GL_RG32F,
                                                          .width = side,
                                                          .height = side,
                                                          .layers = layers,
@@ -41,7 +42,10 @@ gl::ProgramDesc program(const char* name, const char* from_depth) {
 
 Recipe least_depth_pyramid() {
   return {.name = "least_depth_pyramid",
-          .summary = "Level n holds the least depth of each block of 4·2^n × 4·2^n texels of the shadow map.",
+          .summary =
+              "Level n holds, for each block of 4·2^n × 4·2^n texels of the shadow map, the least depth and the least "
+              "depth "
+              "beside an edge.",
           .source = "Greene, Kass and Miller 1993, Hierarchical Z-buffer visibility",
           .depends_only_on_needs = true,
           .build = build,

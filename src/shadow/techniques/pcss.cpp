@@ -29,7 +29,8 @@ Technique pcss() {
           },
       .samples = {{.name = "blocker", .count_parameter = "pcss.blocker_taps", .step = SampleSet::Step::blocker},
                   {.name = "filter", .count_parameter = "pcss.filter_taps"},
-                  {.name = "disocclusion", .count_parameter = "pcss.disocclusion_taps"}}};
+                  {.name = "disocclusion", .count_parameter = "pcss.disocclusion_taps"}},
+      .decides_tiles = true};
 }
 
 }  // namespace penumbra::shadow

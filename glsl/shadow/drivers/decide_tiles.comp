@@ -1,0 +1,181 @@
+// Decides tiles of 8 × 8 pixels that no penumbra reaches: where the shadow map has no edge within the disc that can
+// block light from a tile's receivers, it shows one surface there, and each receiver lies either on that surface and is
+// lit, or below it and is in shadow. All other tiles are listed: the technique computes their pixels.
+#include "shadow/search.glsl"
+#include "shadow/drivers/gbuffer.glsl"
+#include "shadow/drivers/tiles.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0, rgba32ui) uniform writeonly restrict uimage2D decisions;
+
+// A box in light space.
+struct Box {
+  vec3 low, high;
+};
+
+// The pixels of a tile, low to high exclusive.
+struct Pixels {
+  ivec2 low, high;
+};
+
+vec2 depth_range(Pixels pixels) {
+  vec2 range = vec2(2.0, -1.0);
+  for (int y = pixels.low.y; y < pixels.high.y; ++y) {
+    for (int x = pixels.low.x; x < pixels.high.x; ++x) {
+      float depth = texelFetch(receiver_depth, ivec2(x, y), 0).x;
+      if (depth != shadow.sky_depth) range = vec2(min(range.x, depth), max(range.y, depth));
+    }
+  }
+  return range;
+}
+
+Box box_of(Pixels pixels, vec2 range) {
+  Box box = Box(vec3(1e30), vec3(-1e30));
+  for (int corner = 0; corner < 8; ++corner) {
+    bvec3 high = notEqual(ivec3(corner) & ivec3(1, 2, 4), ivec3(0));
+    vec2 pixel = mix(vec2(pixels.low), vec2(pixels.high), high.xy);
+    vec3 position = light_position(unproject(pixel, high.z ? range.y : range.x));
+    box.low = min(box.low, position);
+    box.high = max(box.high, position);
+  }
+  return box;
+}
+
+// The receiver of the box that is farthest from the light, at the box's centre.
+Receiver receiver_in_box(Box box) {
+  return Receiver(vec3(0.5 * (box.low.xy + box.high.xy), box.high.z), vec3(0.0, 0.0, -1.0), vec2(0.0),
+                  Surroundings(vec4(0.0), 0.0, 0.0, 0.0), vec2(0.0), false);
+}
+
+// The layers that receivers of the box can read; those of a seam read two.
+struct Layers {
+  int first, last;
+  bool outside;  // some lie in none
+};
+
+Layers layers_of(Receiver deepest, float radius, float box_radius, Light light) {
+  Layers layers;
+  layers.first = finest_layer(deepest, max(radius - box_radius, 0.0), light);
+  layers.last = finest_layer(deepest, radius + box_radius, light);
+  float edge = layer_edge(layers.last, deepest.position, radius + box_radius);
+  if (layers.last == light.layers - 1) {
+    layers.outside = edge > 1.0;
+  } else if (cascades_seam != cascades_seam_none && edge > 1.0 - cascades_blend) {
+    ++layers.last;
+  }
+  return layers;
+}
+
+// Whether no edge of the map can block light from a part of the box.
+bool edges_are_clear(Receiver deepest, float radius, vec2 half_widths, Light light) {
+  float margin = 2.0 * texel_size(deepest, light);
+  for (int i = 0; i < 4; ++i) {
+    float nearest = depth_bounds(deepest.position, half_widths + radius + margin, light.layer).edge;
+    if (nearest >= deepest.position.z) return true;
+    float needed = penumbra_radius(deepest, deepest.position.z - nearest, light);
+    if (needed >= radius) return false;
+    radius = needed;
+  }
+  return false;
+}
+
+// What is known of a pixel.
+const int in_shadow = 0, lit = 1, faces_away = 2, undecided = 3;
+
+struct PixelState {
+  int kind;
+  float blocker_distance;  // metres, of a pixel in shadow
+};
+
+// Where no edge of the map is near, the four texels around a pixel show whether it is lit.
+PixelState decide_pixel(ivec2 pixel, Light light) {
+  if (is_sky(pixel)) return PixelState(lit, 0.0);
+  Receiver receiver = receiver_at(pixel);
+  if (light_cosine(receiver) <= 0.0) return PixelState(faces_away, 0.0);
+  receiver = offset_receiver(receiver, light);
+  Footprint footprint = fetch_footprint(receiver, vec2(0.0), light);
+  vec4 heights = heights_above(receiver, footprint.depths, footprint.offsets);
+  float texel = texel_size(receiver, light);
+  float bias = depth_bias(receiver, light);
+  float bend = unresolved_bend * texel * length(receiver.gradient);
+  if (all(lessThanEqual(heights, vec4(bias + bend)))) return PixelState(lit, 0.0);
+  bool covered = all(greaterThan(heights, vec4(bias + bend + 2.0 * texel)));
+  return PixelState(covered ? in_shadow : undecided,
+                    receiver.position.z - bilinear(footprint.depths, footprint.weight));
+}
+
+// Whether all pixels are decided.
+bool decide(Pixels pixels, Light light, out Decision decision) {
+  decision = Decision(uvec2(0u), 0.0, light.read_radius, light.layer);
+  int covered = 0, away = 0;
+  float sum = 0.0;
+  for (int y = pixels.low.y; y < pixels.high.y; ++y) {
+    for (int x = pixels.low.x; x < pixels.high.x; ++x) {
+      PixelState state = decide_pixel(ivec2(x, y), light);
+      if (state.kind == undecided) return false;
+      int bit = tile_size * (y - pixels.low.y) + x - pixels.low.x;
+      decision.lit[bit >> 5] |= uint(state.kind == lit) << (bit & 31);
+      covered += int(state.kind == in_shadow);
+      away += int(state.kind == faces_away);
+      if (state.kind == in_shadow) sum += state.blocker_distance;
+    }
+  }
+  if (covered > 0) decision.blocker_distance = sum / float(covered);
+  return covered == 0 || away == 0;
+}
+
+// Decides all pixels of a tile, if that is possible.
+bool decide_tile(Pixels pixels, out Decision decision) {
+  decision = Decision(uvec2(~0u), 0.0, 0.0, 0);
+  vec2 range = depth_range(pixels);
+  if (range.x > range.y) return true;
+  Box box = box_of(pixels, range);
+  vec2 half_widths = 0.5 * (box.high.xy - box.low.xy);
+  float box_radius = max(half_widths.x, half_widths.y);
+  Light light = frame_light();
+  Receiver deepest = receiver_in_box(box);
+  int widest = widest_layer(deepest, light);
+  float all = penumbra_radius(deepest, deepest.position.z - least_depth(widest), light);
+  vec2 margins = half_widths + 2.0 * texel_size_at(deepest.position, widest);
+  float nearest = depth_bounds(deepest.position, margins + all, widest).least;
+  float radius = min(all, penumbra_radius(deepest, deepest.position.z - nearest, light));
+  Layers layers = layers_of(deepest, radius, box_radius, light);
+  if (layers.outside) return false;
+  light.read_radius = radius;
+  // The coarser layer of a seam comes first, so that the decision names the finer one.
+  for (int layer = layers.last; layer >= layers.first; --layer) {
+    light = with_layer(light, layer);
+    if (!edges_are_clear(deepest, radius, half_widths, light)) return false;
+    Decision in_layer;
+    if (!decide(pixels, light, in_layer)) return false;
+    if (layer < layers.last && in_layer.lit != decision.lit) return false;
+    decision = in_layer;
+  }
+  return true;
+}
+
+void list(ivec2 tile) {
+  uint index = atomicAdd(tile_list.listed.count, 1u);
+  atomicMax(tile_list.groups_y, index / list_row + 1u);
+  tile_list.tiles[index] = packed_tile(tile);
+}
+
+void list_decided(ivec2 tile) {
+  uint index = atomicAdd(tile_list.decided.count, 1u);
+  tile_list.tiles[tile_list.capacity - 1u - index] = packed_tile(tile);
+}
+
+void main() {
+  ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 low = tile * tile_size;
+  ivec2 size = ivec2(shadow.viewport.zw);
+  if (any(greaterThanEqual(low, size))) return;
+  ivec2 origin = ivec2(shadow.viewport.xy);
+  Decision decision;
+  if (decide_tile(Pixels(origin + low, origin + min(low + tile_size, size)), decision)) {
+    imageStore(decisions, tile, packed_decision(decision));
+    list_decided(tile);
+  } else {
+    list(tile);
+  }
+}

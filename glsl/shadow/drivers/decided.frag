@@ -1,0 +1,49 @@
+// Fills the mask with the pixels of decided tiles.
+#include "shadow/drivers/gbuffer.glsl"
+#include "shadow/drivers/tiles.glsl"
+#include "shadow/shadowed.glsl"
+#if PACKED
+#include "shadow/drivers/packed.glsl"
+
+layout(location = 0) out uint texel;
+layout(location = 1) out uint notes;
+#else
+layout(location = 0) out vec4 mask;
+#endif
+
+layout(binding = 14) uniform usampler2D decisions;
+
+Visibility decided_visibility(Decision decision, ivec2 pixel, vec3 position) {
+  int bit = tile_size * (pixel.y % tile_size) + pixel.x % tile_size;
+  if (((decision.lit[bit >> 5] >> (bit & 31)) & 1u) != 0u) return fully_lit();
+  float radius = packed_radius(position, decision.blocker_distance);
+  bool under_texel = radius < texel_size_at(position, decision.layer);
+  return Visibility(0.0, radius, decision.blocker_distance, under_texel);
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  ivec2 in_viewport = pixel - ivec2(shadow.viewport.xy);
+  Decision decision = unpacked_decision(texelFetch(decisions, in_viewport / tile_size, 0));
+#if PACKED
+  if (is_sky(pixel)) {
+    texel = pack_texel(0.0, 1.0, true);
+    notes = pack_notes(0, false, HISTORY_NONE);
+    return;
+  }
+  Receiver receiver = receiver_at(pixel);
+  uint refusal = HISTORY_NONE;
+#if HISTORY
+  Light light = frame_light();
+  light.read_radius = decision.radius;
+  refusal = refusal_of(receiver, light, pixel);
+#endif
+  Visibility seen = decided_visibility(decision, in_viewport, receiver.position);
+  PackedPixel packed_values = packed_pixel(Shadowed(seen, decision.layer), receiver, refusal);
+  texel = packed_values.texel;
+  notes = packed_values.notes;
+#else
+  Visibility seen = decided_visibility(decision, in_viewport, light_position(view_position_at(pixel)));
+  mask = mask_texel(Shadowed(seen, decision.layer));
+#endif
+}

@@ -1,0 +1,17 @@
+// The centre of a tile in one of the two lists: a point as large as the tile covers its pixels. Two triangles would run
+// the fragment shader twice along their diagonal.
+#include "shared/shadow_block.h"
+#include "shadow/drivers/tiles.glsl"
+
+layout(std140, binding = 1) uniform ShadowData { ShadowBlock shadow; };
+
+void main() {
+  // A tile at the viewport's end that is cut off is moved inwards, because points whose centre is outside are clipped.
+#if DECIDED
+  ivec2 tile = decided_tile(uint(gl_VertexID));
+#else
+  ivec2 tile = listed_tile(uint(gl_VertexID));
+#endif
+  vec2 low = min(vec2(tile * tile_size), shadow.viewport.zw - float(tile_size));
+  gl_Position = vec4((low + 0.5 * float(tile_size)) / shadow.viewport.zw * 2.0 - 1.0, 0.0, 1.0);
+}

@@ -1,0 +1,42 @@
+// Tiles of 8 × 8 pixels: those that are decided at once, those whose pixels have to be computed one by one, and the
+// commands that run over them.
+const int tile_size = 8;
+
+// A tile that needs no more than this.
+struct Decision {
+  uvec2 lit;               // bit 8 y + x, from .x to .y: the pixel is lit, else it is in shadow or faces away
+  float blocker_distance;  // metres, the mean over the pixels in shadow; 0 if there are none
+  float radius;            // metres, of the disc that holds what can block light of any of its receivers
+  int layer;               // of the shadow map
+};
+
+uvec4 packed_decision(Decision decision) {
+  float radius = 1.001 * decision.radius;  // must not get smaller by the rounding
+  return uvec4(decision.lit, packHalf2x16(vec2(decision.blocker_distance, radius)), uint(decision.layer));
+}
+
+Decision unpacked_decision(uvec4 texel) {
+  vec2 lengths = unpackHalf2x16(texel.z);
+  return Decision(texel.xy, lengths.x, lengths.y, int(texel.w));
+}
+
+// The commands are for the listed tiles in the compute driver, the listed tiles in the fragment driver, and the decided
+// tiles.
+struct DrawPoints {
+  uint count, instance_count, first_vertex, base_instance;
+};
+
+layout(std430, binding = 7) restrict buffer TileList {
+  uint groups_x, groups_y, groups_z;  // rows of `list_row` tiles
+  DrawPoints listed, decided;
+  uint capacity;  // of `tiles`
+  uint tiles[];   // x in the lower 16 bits, y in the upper ones; listed ones from the front, decided ones from the end
+} tile_list;
+
+const uint list_row = 256u;
+
+uint packed_tile(ivec2 tile) { return uint(tile.x) | uint(tile.y) << 16; }
+ivec2 unpacked_tile(uint tile) { return ivec2(tile & 0xffffu, tile >> 16); }
+
+ivec2 listed_tile(uint index) { return unpacked_tile(tile_list.tiles[index]); }
+ivec2 decided_tile(uint index) { return unpacked_tile(tile_list.tiles[tile_list.capacity - 1u - index]); }

@@ -1,0 +1,111 @@
+#include "mask_pass.h"
+
+#include "light_work.h"
+#include "tiles.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+gl::PassDesc pass_of(const char* name, const MaskOutput& output) {
+  if (output.packed == nullptr) return {.name = name, .colors = {{.texture = output.mask, .layer = output.layer}}};
+  return {.name = name, .colors = {{.texture = &output.packed->texels}, {.texture = &output.packed->notes}}};
+}
+
+void set_viewport(gl::Pass& pass, const Rect& viewport) {
+  pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
+}
+
+const gl::Program& use(gl::Pass& pass, const LightWork& work, const gl::ProgramDesc& desc, const MaskOutput& output) {
+  const gl::Program& program = pass.use(desc);
+  bind_inputs(work, owner_of(work.technique));
+  if (output.last_surfaces != nullptr) bind_history(work, *output.last_surfaces);
+  return program;
+}
+
+void bind_images(const gl::Program& program, const MaskOutput& output) {
+  if (output.packed != nullptr) {
+    output.packed->texels.bind_image(0, GL_WRITE_ONLY);
+    output.packed->notes.bind_image(1, GL_WRITE_ONLY);
+  } else {
+    program.set("mask_layer", output.layer);
+    output.mask->bind_image(0, GL_WRITE_ONLY);
+  }
+}
+
+Programs::MaskForm form_of(const LightWork& work, const MaskOutput& output) {
+  return {.rotated = rotates_samples(work.technique, work.params(), work.frame.shape),
+          .compute = work.params().get_word("driver") == "compute",
+          .packed = output.packed != nullptr,
+          .history = output.last_surfaces != nullptr};
+}
+
+void compute_all(const LightWork& work, const MaskOutput& output) {
+  const Programs::MaskForm form = form_of(work, output);
+  gl::Pass pass(work.device, form.compute ? gl::PassDesc{.name = "shadow mask"} : pass_of("shadow mask", output));
+  const gl::Program& program = use(pass, work, work.programs.mask(work.technique, work.params(), form), output);
+  const Rect& viewport = work.frame.viewport;
+  if (form.compute) {
+    bind_images(program, output);
+    pass.dispatch(viewport.width, viewport.height);
+  } else {
+    set_viewport(pass, viewport);
+    pass.draw_full_screen();
+  }
+}
+
+void draw_tiles(gl::Pass& pass, const Tiles& tiles, std::size_t command) {
+  tiles.list.bind_storage(tile_list_binding);
+  pass.set_point_size(Tiles::size);
+  pass.draw_arrays_indirect(GL_POINTS, {.buffer = tiles.list, .offset = command});
+}
+
+void fill_decided(const LightWork& work, const MaskOutput& output, const Tiles& tiles, gl::Pass& pass) {
+  set_viewport(pass, work.frame.viewport);
+  use(pass, work, work.programs.decided(form_of(work, output)), output);
+  work.device.sampler({}).bind(unit_decisions);
+  tiles.decisions.bind(unit_decisions);
+  draw_tiles(pass, tiles, decided_draw_offset);
+}
+
+void compute_listed(const LightWork& work, const MaskOutput& output, const Tiles& tiles, gl::Pass& pass) {
+  Programs::MaskForm form = form_of(work, output);
+  form.tiles = true;
+  const gl::Program& program = use(pass, work, work.programs.mask(work.technique, work.params(), form), output);
+  if (form.compute) {
+    bind_images(program, output);
+    tiles.list.bind_storage(tile_list_binding);
+    pass.dispatch_indirect(tiles.list);
+  } else {
+    draw_tiles(pass, tiles, listed_draw_offset);
+  }
+}
+
+}  // namespace
+
+void run_mask_pass(const LightWork& work, const MaskOutput& output) {
+  if (!decides_tiles(work)) return compute_all(work, output);
+  const Tiles tiles = decide_tiles(work);
+  if (form_of(work, output).compute) {
+    {
+      gl::Pass pass(work.device, pass_of("decided tiles", output));
+      fill_decided(work, output, tiles, pass);
+    }
+    gl::Pass pass(work.device, {.name = "shadow mask"});
+    compute_listed(work, output, tiles, pass);
+  } else {
+    gl::Pass pass(work.device, pass_of("shadow mask", output));
+    fill_decided(work, output, tiles, pass);
+    compute_listed(work, output, tiles, pass);
+  }
+}
+
+void bind_history(const LightWork& work, const gl::Texture& last_surfaces) {
+  const gl::Texture* movement = work.frame.movement;
+  for (const GLuint unit : {unit_motion, unit_last_surface, unit_movement}) work.device.sampler({}).bind(unit);
+  gl::glBindTextureUnit(unit_motion, work.inputs.motion.id);
+  last_surfaces.bind(unit_last_surface);
+  gl::glBindTextureUnit(unit_movement, movement != nullptr ? movement->id() : 0);
+}
+
+}  // namespace penumbra::shadow

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "denoise_context.h"
+
+namespace penumbra::shadow {
+
+// Where the mask pass writes: a layer of an RGBA16F array, or the packed form of a mask.
+struct MaskOutput {
+  const gl::Texture* mask = nullptr;
+  int layer = 0;
+  const PackedMask* packed = nullptr;          // instead of `mask`
+  const gl::Texture* last_surfaces = nullptr;  // of `packed`, see DenoiseContext::evaluate_packed(); may be null
+};
+
+// Runs the technique's visibility() for every pixel, or for those of the tiles that a penumbra can reach (see tiles.h),
+// with fragment or compute shaders as the parameter "driver" says.
+void run_mask_pass(const LightWork& work, const MaskOutput& output);
+
+// Binds what glsl/shadow/history.glsl and movement.glsl read; `last_surfaces` as above.
+void bind_history(const LightWork& work, const gl::Texture& last_surfaces);
+
+}  // namespace penumbra::shadow

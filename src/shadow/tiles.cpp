@@ -1,0 +1,46 @@
+#include "tiles.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "pass_context.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+// The beginning of the list: its commands for no tiles, and its capacity.
+std::array<std::uint32_t, 12> empty_list(std::size_t capacity) {
+  return {256, 0, 1, /*listed*/ 0, 1, 0, 0, /*decided*/ 0, 1, 0, 0, static_cast<std::uint32_t>(capacity)};
+}
+
+int tiles_across(int pixels) { return (pixels + Tiles::size - 1) / Tiles::size; }
+
+}  // namespace
+
+bool decides_tiles(const LightWork& work) {
+  const Rect& viewport = work.frame.viewport;
+  const bool fits = viewport.width >= Tiles::size && viewport.height >= Tiles::size;
+  return work.technique.decides_tiles && fits && work.params().get_bool("mask.tiles");
+}
+
+Tiles decide_tiles(const LightWork& work) {
+  const PassOwner owner = owner_of(work.technique);
+  const PassContext context(work, owner);
+  const int width = tiles_across(work.frame.viewport.width), height = tiles_across(work.frame.viewport.height);
+  const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  const auto head = empty_list(count);
+  const Tiles tiles{context.target("tile decisions", {.format = GL_RGBA32UI, .width = width, .height = height}),
+                    context.scratch("tile list", sizeof(head) + sizeof(std::uint32_t) * count)};
+  tiles.list.write(std::as_bytes(std::span(head)));
+  gl::Pass pass(work.device, {.name = "tile decisions"});
+  pass.use(work.programs.decide_tiles(work.technique));
+  bind_inputs(work, owner);
+  tiles.decisions.bind_image(0, GL_WRITE_ONLY);
+  tiles.list.bind_storage(tile_list_binding);
+  pass.dispatch(width, height);
+  return tiles;
+}
+
+}  // namespace penumbra::shadow

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "light_work.h"
+
+namespace penumbra::shadow {
+
+// The mask's pixels in tiles of 8 × 8. Tiles that no penumbra reaches are decided by one look at the shadow map and its
+// edges; only the others are left to the technique. See docs/adr/0018-tiles.md.
+struct Tiles {
+  static constexpr int size = 8;  // pixels along each side
+
+  // RGBA32UI, one texel a tile: its Decision (see glsl/shadow/drivers/tiles.glsl); undefined for tiles in the list.
+  const gl::Texture& decisions;
+  // See TileList there.
+  const gl::Buffer& list;
+};
+
+constexpr GLuint tile_list_binding = 7;  // storage buffer
+// Of the commands in the list, bytes.
+constexpr std::size_t listed_draw_offset = 12;
+constexpr std::size_t decided_draw_offset = 28;
+
+// Whether the technique and the parameters allow it. Not for viewports smaller than a tile: the fragment driver draws
+// listed tiles as points, whose centres must lie inside.
+bool decides_tiles(const LightWork& work);
+
+// In a pass of its own.
+Tiles decide_tiles(const LightWork& work);
+
+}  // namespace penumbra::shadow

@@ -1,0 +1,144 @@
+// mask.tiles spares work where no penumbra is, and misses no penumbra.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gpu/gpu_test.h"
+#include "image/read.h"
+#include "render/renderer.h"
+#include "render/setup.h"
+#include "scene/gltf.h"
+#include "scene/gpu_scene.h"
+#include "scene/pose.h"
+
+namespace penumbra::test {
+namespace {
+
+// A technique that marks the pixels that it is asked for: 0.5 is no decision.
+constexpr const char* marks_text = R"(
+#include "shadow/search.glsl"
+float read_radius(Receiver receiver, Light light) { return search_radius(receiver, light); }
+Visibility visibility(Receiver receiver, Light light) { return Visibility(0.5, 0.0, 0.0, false); }
+)";
+
+shadow::Registry registry_of_marks() {
+  shadow::Registry::Contents contents = shadow::built_in_registry().contents();
+  for (shadow::Technique& technique : contents.techniques) {
+    if (technique.name == "pcss") technique.glsl = "test/marks.glsl";
+  }
+  return shadow::Registry(std::move(contents));
+}
+
+class Tiles : public GpuTest {
+ protected:
+  Tiles() { device_.shaders.files().put("test/marks.glsl", marks_text); }
+
+  void load(const std::string& name, int width, int height) {
+    gpu_scene_.reset();
+    width_ = width;
+    height_ = height;
+    const auto file = std::filesystem::path(PENUMBRA_ROOT) / "scenes" / (name + ".glb");
+    scene_ = scene::read_gltf(file, image::image_decoder());
+    const float aspect = static_cast<float>(width) / static_cast<float>(height);
+    setup_ = render::choose_setup(scene_, scene::pose_at(scene_, 0), {.aspect = aspect});
+    gpu_scene_.emplace(device_, scene_);
+  }
+
+  std::vector<float> mask(render::Renderer& renderer, const std::string& technique, float angle, bool tiles) {
+    ParamSet params(render::Renderer::params(renderer.registry()));
+    renderer.registry().select(params, technique);
+    params.set("sun.angle", angle);
+    params.set("mask.tiles", tiles);
+    renderer.draw(*gpu_scene_,
+                  {.width = width_,
+                   .height = height_,
+                   .camera = setup_.camera,
+                   .last_camera = setup_.camera,
+                   .lights = {setup_.sun},
+                   .cut = true},
+                  params);
+    return renderer.read_aov("shadow");
+  }
+
+  // Expects decided pixels to have the visibility that the technique computes for them, with a slack for the few that
+  // the technique itself darkens by texels of their own surface. Returns the share of decided pixels.
+  double expect_no_penumbra_is_missed(const std::string& technique, float angle) {
+    SCOPED_TRACE(fmt::format("{}, {} degrees", technique, angle));
+    const std::vector<float> with = mask(renderer_, technique, angle, true);
+    const std::vector<float> without = mask(renderer_, technique, angle, false);
+    const std::vector<float> marks = mask(marks_renderer_, technique, angle, true);
+    std::size_t decided = 0, apart = 0;
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      if (marks[i] == 0.5f) {
+        EXPECT_EQ(with[i], without[i]) << "a pixel of a listed tile differs: " << i;
+        continue;
+      }
+      ++decided;
+      apart += with[i] != without[i] ? 1 : 0;
+      EXPECT_NEAR(with[i], without[i], 0.25f) << i;
+    }
+    EXPECT_LE(apart, marks.size() / 1000) << "of " << marks.size();
+    return static_cast<double>(decided) / static_cast<double>(marks.size());
+  }
+
+ private:
+  gl::Device device_{gl::ShaderFiles(), gl::Timers::Mode::off};
+
+ protected:
+  render::Renderer renderer_{device_}, marks_renderer_{device_, registry_of_marks()};
+
+ private:
+  int width_ = 0, height_ = 0;
+  scene::Scene scene_;
+  render::Setup setup_;
+  std::optional<scene::GpuScene> gpu_scene_;
+};
+
+TEST_F(Tiles, DecideMostPixelsAndMissNoPenumbra) {
+  for (const char* scene : {"posts", "foliage", "fence", "steps", "courtyard", "thesis"}) {
+    SCOPED_TRACE(scene);
+    load(scene, 320, 180);
+    for (const float angle : {0.0f, 0.53f, 2.0f, 8.0f}) expect_no_penumbra_is_missed("pcss", angle);
+  }
+  load("posts", 640, 360);
+  EXPECT_GT(expect_no_penumbra_is_missed("pcss", 0.53f), 0.6);
+}
+
+TEST_F(Tiles, AreTheSameInBothDrivers) {
+  load("foliage", 320, 180);
+  EXPECT_EQ(mask(renderer_, "pcss", 2.0f, true), mask(renderer_, "pcss_compute", 2.0f, true));
+}
+
+// A denoiser reads the blocker distances of decided pixels too.
+TEST_F(Tiles, LeaveDenoisedMasksAsTheyAre) {
+  for (const char* scene : {"courtyard", "foliage"}) {
+    SCOPED_TRACE(scene);
+    load(scene, 320, 180);
+    for (const char* technique : {"thesis", "thesis_8x8", "thesis_compute"}) {
+      SCOPED_TRACE(technique);
+      const std::vector<float> with = mask(renderer_, technique, 2.0f, true);
+      const std::vector<float> without = mask(renderer_, technique, 2.0f, false);
+      double squares = 0;
+      for (std::size_t i = 0; i < with.size(); ++i) squares += std::pow(with[i] - without[i], 2);
+      EXPECT_LT(std::sqrt(squares / static_cast<double>(with.size())), 0.002);
+    }
+  }
+}
+
+// Sizes at which the last tiles are cut off, and pictures smaller than a tile.
+TEST_F(Tiles, CoverPicturesOfAnySize) {
+  for (const auto& [width, height] : {std::pair(97, 61), {8, 8}, {9, 3}, {1, 1}}) {
+    SCOPED_TRACE(fmt::format("{} x {}", width, height));
+    load("posts", width, height);
+    for (const char* technique : {"pcss", "pcss_compute"}) expect_no_penumbra_is_missed(technique, 2.0f);
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
