@@ -86,9 +86,10 @@ std::vector<std::uint8_t> Renderer::read_display() const {
   const auto row = static_cast<std::size_t>(display.width()) * 3;
   std::vector<std::uint8_t> bytes;
   bytes.reserve(pixels.size());
+  constexpr float half = 0.5f;  // std::lround() would be a call for each byte
   for (std::size_t y = pixels.size() / row; y-- > 0;) {
     for (std::size_t x = 0; x < row; ++x)
-      bytes.push_back(static_cast<std::uint8_t>(pixels[y * row + x] * 255.0f + 0.5f));
+      bytes.push_back(static_cast<std::uint8_t>(pixels[y * row + x] * 255.0f + half));
   }
   return bytes;
 }
