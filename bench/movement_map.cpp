@@ -42,16 +42,16 @@ constexpr std::array<Way, 6> ways{{
 
 shadow::Box box_of(const scene::Bounds& bounds) { return {bounds.min, bounds.max}; }
 
-scene::Casters casters_of(shadow::CasterKind kind) {
+scene::CasterSubset casters_of(shadow::CasterKind kind) {
   switch (kind) {
     case shadow::CasterKind::depth_and_moved:
-      return scene::Casters::all_and_moved;
+      return scene::CasterSubset::all_and_moved;
     case shadow::CasterKind::moved_now:
-      return scene::Casters::moved_now;
+      return scene::CasterSubset::moved_now;
     case shadow::CasterKind::moved_last:
-      return scene::Casters::moved_last;
+      return scene::CasterSubset::moved_last;
     default:
-      return scene::Casters::all;
+      return scene::CasterSubset::all;
   }
 }
 

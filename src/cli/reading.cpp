@@ -56,7 +56,7 @@ class ReadingProgress {
   std::unique_ptr<Progress> progress_;
 };
 
-std::string word_of(scene::Casting casting) {
+std::string word_of(scene::CastSetting casting) {
   const auto& words = scene::casting_words();
   return *std::ranges::find_if(words, [&](const std::string& word) { return scene::casting_of(word) == casting; });
 }

@@ -11,8 +11,8 @@ namespace penumbra::cli {
 
 // How scene files are read.
 struct ReadingOptions {
-  std::vector<std::string> limits;                              // "images=4GiB"; each is valid
-  std::vector<std::pair<std::string, scene::Casting>> casters;  // by material
+  std::vector<std::string> limits;                                  // "images=4GiB"; each is valid
+  std::vector<std::pair<std::string, scene::CastSetting>> casters;  // by material
   bool follow_links = false;
   bool skies_chosen = false;  // casters.skies is set, so no warning says that skies cast none; set by the program
   bool progress = false;      // show it on the terminal; set by the program, not by an option

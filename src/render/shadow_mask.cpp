@@ -19,19 +19,19 @@ shadow::LightSource source_of(const Sun& sun) { return shadow::Sun{.to_light = s
 // Homogeneous coordinates: a direction, or a position.
 glm::vec4 towards(const shadow::Sun& sun) { return {sun.to_light, 0}; }
 
-scene::Casters casters_of(shadow::CasterKind kind) {
+scene::CasterSubset casters_of(shadow::CasterKind kind) {
   switch (kind) {
     case shadow::CasterKind::moved_now:
-      return scene::Casters::moved_now;
+      return scene::CasterSubset::moved_now;
     case shadow::CasterKind::moved_last:
-      return scene::Casters::moved_last;
+      return scene::CasterSubset::moved_last;
     case shadow::CasterKind::depth_and_moved:
-      return scene::Casters::all_and_moved;
+      return scene::CasterSubset::all_and_moved;
     case shadow::CasterKind::depth:
     case shadow::CasterKind::geometry:
       break;
   }
-  return scene::Casters::all;
+  return scene::CasterSubset::all;
 }
 
 }  // namespace

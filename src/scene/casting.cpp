@@ -9,14 +9,15 @@ const std::vector<std::string>& casting_words() {
   return words;
 }
 
-std::optional<Casting> casting_of(std::string_view word) {
+std::optional<CastSetting> casting_of(std::string_view word) {
   const auto found = std::ranges::find(casting_words(), word);
   if (found == casting_words().end()) return {};
-  constexpr Casting values[] = {Casting::on, Casting::off, Casting::both, Casting::front, Casting::back};
+  constexpr CastSetting values[] = {CastSetting::on, CastSetting::off, CastSetting::both, CastSetting::front,
+                                    CastSetting::back};
   return values[found - casting_words().begin()];
 }
 
-bool set_casting(Scene& scene, std::string_view material, Casting casting) {
+bool set_casting(Scene& scene, std::string_view material, CastSetting casting) {
   bool found = false;
   for (Material& candidate : scene.materials) {
     if (candidate.name != material) continue;
@@ -29,32 +30,32 @@ bool set_casting(Scene& scene, std::string_view material, Casting casting) {
 
 namespace {
 
-Casting decided_casting(const Node& node, const Material& material) {
-  const bool of_material = material.casting_over_nodes || node.casting == Casting::automatic;
+CastSetting decided_casting(const Node& node, const Material& material) {
+  const bool of_material = material.casting_over_nodes || node.casting == CastSetting::automatic;
   return of_material ? material.casting : node.casting;
 }
 
 }  // namespace
 
 bool casts_as_parameters_say(const Node& node, const Material& material) {
-  return decided_casting(node, material) == Casting::automatic;
+  return decided_casting(node, material) == CastSetting::automatic;
 }
 
 std::optional<CasterFaces> casting_faces(const Node& node, const Material& material, const CasterChoice& choice) {
   const CasterFaces chosen = material.double_sided ? CasterFaces::both : choice.faces;
   switch (decided_casting(node, material)) {
-    case Casting::automatic:
+    case CastSetting::automatic:
       if (node.sky && !choice.skies) return {};
       return chosen;
-    case Casting::on:
+    case CastSetting::on:
       return chosen;
-    case Casting::off:
+    case CastSetting::off:
       return {};
-    case Casting::both:
+    case CastSetting::both:
       return CasterFaces::both;
-    case Casting::front:
+    case CastSetting::front:
       return CasterFaces::front;
-    case Casting::back:
+    case CastSetting::back:
       return CasterFaces::back;
   }
   return {};

@@ -9,13 +9,13 @@
 
 namespace penumbra::scene {
 
-// The words for Casting that files and options use: on, off, both, front, back.
+// The words for CastSetting that files and options use: on, off, both, front, back.
 const std::vector<std::string>& casting_words();
-std::optional<Casting> casting_of(std::string_view word);
+std::optional<CastSetting> casting_of(std::string_view word);
 
 // Sets how the materials of that name cast shadows, overriding the nodes that draw them. Returns false if there is no
 // such material.
-bool set_casting(Scene& scene, std::string_view material, Casting casting);
+bool set_casting(Scene& scene, std::string_view material, CastSetting casting);
 
 // Which casters the parameters of a frame choose.
 struct CasterChoice {

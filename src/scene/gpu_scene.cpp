@@ -23,13 +23,13 @@ struct Placed {
   Bounds bounds;
 };
 
-Casts casts_of(const Primitive& primitive, const Material& material) {
-  if (primitive.topology != Topology::triangles) return Casts::never;
-  if (material.alpha_mode == AlphaMode::opaque) return Casts::always;
-  if (material.base_color_texture.texture >= 0 || !primitive.colors.empty()) return Casts::by_alpha;
+CastMode casts_of(const Primitive& primitive, const Material& material) {
+  if (primitive.topology != Topology::triangles) return CastMode::never;
+  if (material.alpha_mode == AlphaMode::opaque) return CastMode::always;
+  if (material.base_color_texture.texture >= 0 || !primitive.colors.empty()) return CastMode::by_alpha;
   const float alpha = material.base_color.a;
   const bool there = material.alpha_mode == AlphaMode::mask ? alpha >= material.alpha_cutoff : alpha > 0.5f;
-  return there ? Casts::always : Casts::never;
+  return there ? CastMode::always : CastMode::never;
 }
 
 Bounds bounds_of(const Primitive& primitive) {
@@ -285,7 +285,7 @@ void GpuScene::State::choose_faces() {
   for (Instance& instance : instances) {
     const Material& material = Materials::of(scene, instance.primitive->material);
     instance.faces.reset();
-    if (instance.casts != Casts::never)
+    if (instance.casts != CastMode::never)
       instance.faces = casting_faces(scene.nodes[static_cast<std::size_t>(instance.node)], material, choice);
   }
 }

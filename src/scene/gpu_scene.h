@@ -26,7 +26,7 @@ using UseProgram = std::function<void(const SurfaceTraits&)>;
 using Distance = std::function<float(const Bounds&)>;
 
 // Which casters a pass draws, and what it writes.
-enum class Casters {
+enum class CasterSubset {
   all,  // all casters, depth only
   // All casters. Also writes 1 to fragment output 0, which the caller has cleared, where the nearest caster moved since
   // the last frame.
@@ -64,7 +64,7 @@ class GpuScene {
   void draw_blended(gl::Device& device, gl::Pass& pass, const UseProgram& use, const BoxTest& visible,
                     const Distance& distance);
   // Draws the shadow casters: opaque surfaces, and masked and blended ones where their alpha passes.
-  void draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
+  void draw_casters(gl::Device& device, gl::Pass& pass, CasterSubset casters, const glm::mat4& world_to_clip,
                     const BoxTest& reaches);
   // Draws the triangles of opaque and masked casters with caster_geometry_programs(stages), without the alpha test of
   // masked surfaces. Where only one face casts, a triangle whose other face is towards the light has all corners in one

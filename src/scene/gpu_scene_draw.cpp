@@ -218,7 +218,7 @@ void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const Cas
     DrawList list;
     for (std::uint32_t i = 0; i < instances.size(); ++i) {
       const Instance& instance = instances[i];
-      if (!instance.faces || instance.casts != (masked ? Casts::by_alpha : Casts::always)) continue;
+      if (!instance.faces || instance.casts != (masked ? CastMode::by_alpha : CastMode::always)) continue;
       if (!(instance.moved ? which.moved : which.still)) continue;
       if (!reaches(which.last_pose ? instance.last_box : instance.box)) continue;
       list.add(instance, i, caster_batch(instance, masked, flips));
@@ -229,24 +229,24 @@ void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const Cas
   }
 }
 
-void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, Casters casters, const glm::mat4& world_to_clip,
+void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, CasterSubset casters, const glm::mat4& world_to_clip,
                             const BoxTest& reaches) {
   const auto draw = [&](const CasterDraw& which) { state_->draw_casters(device, pass, which, world_to_clip, reaches); };
   switch (casters) {
-    case Casters::all:
+    case CasterSubset::all:
       draw({.still = true, .moved = true});
       break;
-    case Casters::all_and_moved:
+    case CasterSubset::all_and_moved:
       // Casters that did not move only occlude, so they need no fragment stage: they are drawn first and write no mark.
       gl::glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
       draw({.still = true});
       gl::glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
       draw({.moved = true, .marks = true});
       break;
-    case Casters::moved_now:
+    case CasterSubset::moved_now:
       draw({.moved = true, .marks = true});
       break;
-    case Casters::moved_last:
+    case CasterSubset::moved_last:
       draw({.moved = true, .marks = true, .last_pose = true});
       break;
   }
@@ -257,8 +257,8 @@ DrawList GpuScene::State::caster_geometry(std::optional<CasterFaces> faces, cons
   DrawList list;
   for (std::uint32_t i = 0; i < instances.size(); ++i) {
     const Instance& instance = instances[i];
-    const bool whole = instance.casts == Casts::always ||
-                       (instance.casts == Casts::by_alpha && instance.alpha_mode == AlphaMode::mask);
+    const bool whole = instance.casts == CastMode::always ||
+                       (instance.casts == CastMode::by_alpha && instance.alpha_mode == AlphaMode::mask);
     if (instance.faces != faces || !whole || !reaches(instance.box)) continue;
     list.add(instance, i, {.deformed = instance.job >= 0, .double_sided = true});
   }

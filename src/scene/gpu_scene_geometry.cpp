@@ -26,7 +26,7 @@ PosedGeometry GpuScene::posed_geometry() const {
                                                   ? std::span(primitive.positions)
                                                   : deformed.subspan(instance.base_vertex, primitive.positions.size()),
                                  .world = instance.world,
-                                 .casts = instance.faces ? instance.casts : Casts::never,
+                                 .casts = instance.faces ? instance.casts : CastMode::never,
                                  .faces = instance.faces.value_or(CasterFaces::both),
                                  .mirrored = instance.mirrored});
   }

@@ -23,7 +23,7 @@ struct Instance {
   int job = -1;   // the deformer's job; -1: none
   Topology topology = Topology::triangles;
   AlphaMode alpha_mode = AlphaMode::opaque;
-  Casts casts = Casts::always;
+  CastMode casts = CastMode::always;
   int material = 0;
   SurfaceTraits traits;
   bool double_sided = false;

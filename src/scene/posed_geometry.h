@@ -9,7 +9,7 @@
 namespace penumbra::scene {
 
 // How a surface casts shadows.
-enum class Casts {
+enum class CastMode {
   never,
   always,    // both sides of every triangle
   by_alpha,  // where base colour × vertex colour × texture leaves an alpha of at least the material's cutoff (MASK), or
@@ -21,7 +21,7 @@ struct PosedSurface {
   const Primitive* primitive = nullptr;  // indices, texture coordinates, colours, material; shared by all instances
   std::span<const glm::vec3> positions;  // one per vertex: undeformed, or as skinned and morphed on the GPU
   glm::mat4 world{1};                    // from the space of `positions` to world space
-  Casts casts = Casts::always;
+  CastMode casts = CastMode::always;
   CasterFaces faces = CasterFaces::both;  // the faces that cast shadows
   // Whether front faces are clockwise as `positions` and `world` place them: glTF's rule for mirrored nodes.
   bool mirrored = false;

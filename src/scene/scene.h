@@ -45,7 +45,7 @@ enum class AlphaMode : uint8_t { opaque, mask, blend };
 enum class CasterFaces : uint8_t { both, front, back };
 
 // How the surfaces of a material or a node cast shadows; a node's setting overrides its material's.
-enum class Casting : uint8_t {
+enum class CastSetting : uint8_t {
   automatic,  // as the renderer's parameters say, but skies (Node::sky) cast none
   on,         // as the parameters say, also for skies
   off,
@@ -69,9 +69,9 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
-  bool unlit = false;                    // KHR_materials_unlit
-  Casting casting = Casting::automatic;  // extras: "penumbra_casts"
-  bool casting_over_nodes = false;       // the material's setting overrides that of nodes
+  bool unlit = false;                            // KHR_materials_unlit
+  CastSetting casting = CastSetting::automatic;  // extras: "penumbra_casts"
+  bool casting_over_nodes = false;               // the material's setting overrides that of nodes
 };
 
 enum class Topology : uint8_t { points, lines, triangles };  // strips, fans and loops are expanded by the reader
@@ -115,10 +115,10 @@ struct Node {
   Transform transform;              // used unless `matrix`
   std::optional<glm::mat4> matrix;  // the file's matrix, unchanged, since it may contain shear
   int mesh = -1, skin = -1, camera = -1, light = -1;
-  Casting casting = Casting::automatic;  // extras: "penumbra_casts"
-  bool sky = false;                      // a shell, such as a sky dome, around everything else that is drawn: see sky.h
-  std::vector<float> weights;            // overrides the mesh's default weights
-  std::vector<Transform> instances;      // EXT_mesh_gpu_instancing; empty: a single instance at the node
+  CastSetting casting = CastSetting::automatic;  // extras: "penumbra_casts"
+  bool sky = false;                  // a shell, such as a sky dome, around everything else that is drawn: see sky.h
+  std::vector<float> weights;        // overrides the mesh's default weights
+  std::vector<Transform> instances;  // EXT_mesh_gpu_instancing; empty: a single instance at the node
 };
 
 struct Skin {

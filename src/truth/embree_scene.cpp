@@ -143,7 +143,7 @@ std::vector<EmbreeSceneBuilder::Surfaces> EmbreeSceneBuilder::copies() {
   std::vector<Surfaces> all;
   for (const scene::PosedSurface& surface : geometry_.surfaces) {
     const std::size_t count = triangle_count(surface);
-    if (surface.casts == scene::Casts::never || count == 0) continue;
+    if (surface.casts == scene::CastMode::never || count == 0) continue;
     out_.stats_.triangles += count;
     const auto [at, added] =
         place.try_emplace({surface.primitive, surface.positions.data(), surface.faces}, all.size());
@@ -215,7 +215,7 @@ void EmbreeSceneBuilder::add(RTCScene object, const scene::PosedSurface& surface
   set_triangles(geometry.get(), *surface.primitive, solid);
   auto test =
       std::make_unique<CasterTest>(CasterTest{.alpha = nullptr, .faces = surface.faces, .mirrored = surface.mirrored});
-  if (surface.casts == scene::Casts::by_alpha) {
+  if (surface.casts == scene::CastMode::by_alpha) {
     static const scene::Material unspecified;
     const int index = surface.primitive->material;
     const scene::Material& material = index < 0 ? unspecified : scene_.materials[static_cast<std::size_t>(index)];

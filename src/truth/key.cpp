@@ -104,7 +104,7 @@ Key key_of(const scene::Scene& scene, const scene::PosedGeometry& geometry) {
   Hash hash;
   for (const scene::PosedSurface& surface : geometry.surfaces) {
     hash.add(surface.casts);
-    if (surface.casts == scene::Casts::never) continue;
+    if (surface.casts == scene::CastMode::never) continue;
     // The default is not hashed, so that keys of older cache files stay valid.
     if (surface.faces != scene::CasterFaces::both) {
       hash.add(surface.faces);
@@ -113,7 +113,7 @@ Key key_of(const scene::Scene& scene, const scene::PosedGeometry& geometry) {
     for (int column = 0; column < 4; ++column) hash.add(surface.world[column]);
     hash.add_all(surface.positions);
     hash.add_all(std::span(surface.primitive->indices));
-    if (surface.casts == scene::Casts::by_alpha) add_alpha(hash, scene, *surface.primitive);
+    if (surface.casts == scene::CastMode::by_alpha) add_alpha(hash, scene, *surface.primitive);
   }
   return hash.key();
 }

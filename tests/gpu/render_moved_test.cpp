@@ -66,7 +66,7 @@ class MovedCasters : public RenderTest {
     scene.animations.push_back({.name = "move", .channels = {std::move(channel)}, .duration = 1});
   }
 
-  Drawn drawn(scene::Casters casters) {
+  Drawn drawn(scene::CasterSubset casters) {
     const gl::Texture& marks = device.target("marks", {.format = GL_R8, .width = side, .height = side});
     const gl::Texture& depth = device.target("depth", {.format = GL_DEPTH_COMPONENT32F, .width = side, .height = side});
     {
@@ -75,7 +75,7 @@ class MovedCasters : public RenderTest {
                         .depth_test = gl::DepthTest::less_equal,
                         .depth_write = true};
       clear(device, {.name = "marks", .colors = {{.texture = &marks, .clear = glm::vec4(0)}}});
-      if (casters != scene::Casters::all) desc.colors = {{.texture = &marks}};
+      if (casters != scene::CasterSubset::all) desc.colors = {{.texture = &marks}};
       gl::Pass pass(device, desc);
       const glm::mat4 world_to_clip =
           glm::translate(glm::scale(glm::mat4(1), glm::vec3(0.25f, 0.25f, -0.1f)), glm::vec3(0, 0, -5));
@@ -100,8 +100,8 @@ TEST_F(MovedCasters, AreMarkedWhereTheyAreAndWhereTheyWere) {
   gpu_scene->pose(device, 0, 1);
   const std::vector<Rectangle> now{square_at({-1, -2}), right_half_at({2, 1}), square_at({2.5f, -3})};
   const std::vector<Rectangle> last{square_at({-2, -2}), right_half_at({2, 2}), square_at({2, -2})};
-  const Drawn depth_only = drawn(scene::Casters::all);
-  const Drawn all = drawn(scene::Casters::all_and_moved);
+  const Drawn depth_only = drawn(scene::CasterSubset::all);
+  const Drawn all = drawn(scene::CasterSubset::all_and_moved);
   EXPECT_EQ(all.depth, depth_only.depth);
   EXPECT_LT(*std::min_element(all.depth.begin(), all.depth.end()), 1);
   {
@@ -110,10 +110,10 @@ TEST_F(MovedCasters, AreMarkedWhereTheyAreAndWhereTheyWere) {
   }
   {
     SCOPED_TRACE("moved, now");
-    expect_marks(drawn(scene::Casters::moved_now).marks, now);
+    expect_marks(drawn(scene::CasterSubset::moved_now).marks, now);
   }
   SCOPED_TRACE("moved, last");
-  expect_marks(drawn(scene::Casters::moved_last).marks, last);
+  expect_marks(drawn(scene::CasterSubset::moved_last).marks, last);
 }
 
 TEST_F(MovedCasters, BoundsHoldBothPosesAndNothingElse) {
@@ -128,7 +128,7 @@ TEST_F(MovedCasters, BoundsHoldBothPosesAndNothingElse) {
   EXPECT_GE(bounds.max.x, 3.5f);
   gpu_scene->pose(device, 1, 1);
   EXPECT_TRUE(gpu_scene->moved_bounds().empty);
-  expect_marks(drawn(scene::Casters::all_and_moved).marks, {});
+  expect_marks(drawn(scene::CasterSubset::all_and_moved).marks, {});
 }
 
 }  // namespace

@@ -132,11 +132,11 @@ TEST_F(CasterChoiceImage, SkiesOnlyIfAsked) {
 
 TEST_F(CasterChoiceImage, ByMaterialAndNode) {
   const Means both = measure("both");
-  EXPECT_TRUE(scene::set_casting(scene_, "outline", scene::Casting::off));
+  EXPECT_TRUE(scene::set_casting(scene_, "outline", scene::CastSetting::off));
   const Means without = measure("both");
   EXPECT_GT(without.lit, both.lit + 0.005);
   EXPECT_LT(without.different, 0.02);
-  scene_.nodes[1].casting = scene::Casting::off;
+  scene_.nodes[1].casting = scene::CastSetting::off;
   const Means nothing = measure("both");
   EXPECT_LT(without.lit, 1);
   EXPECT_EQ(nothing.lit, 1);

@@ -13,8 +13,8 @@ namespace penumbra::test {
 namespace {
 
 using scene::CasterFaces;
-using scene::Casting;
 using scene::casting_faces;
+using scene::CastSetting;
 using scene::Material;
 using scene::Node;
 using scene::Scene;
@@ -28,30 +28,30 @@ std::string document(const std::string& node, const std::string& material) {
 
 std::string extras(const std::string& value) { return R"(,"extras":{"penumbra_casts":)" + value + "}"; }
 
-TEST(Casting, IsReadFromExtras) {
-  const std::vector<std::pair<const char*, Casting>> values{
-      {"false", Casting::off},     {"true", Casting::on},        {R"("off")", Casting::off},
-      {R"("on")", Casting::on},    {R"("both")", Casting::both}, {R"("front")", Casting::front},
-      {R"("back")", Casting::back}};
+TEST(CastSetting, IsReadFromExtras) {
+  const std::vector<std::pair<const char*, CastSetting>> values{
+      {"false", CastSetting::off},     {"true", CastSetting::on},        {R"("off")", CastSetting::off},
+      {R"("on")", CastSetting::on},    {R"("both")", CastSetting::both}, {R"("front")", CastSetting::front},
+      {R"("back")", CastSetting::back}};
   for (const auto& [text, casting] : values) {
     EXPECT_EQ(load_text(document(extras(text), "")).nodes[0].casting, casting) << text;
     EXPECT_EQ(load_text(document("", extras(text))).materials[0].casting, casting) << text;
   }
-  EXPECT_EQ(load_text(document("", "")).nodes[0].casting, Casting::automatic);
+  EXPECT_EQ(load_text(document("", "")).nodes[0].casting, CastSetting::automatic);
   const std::vector<std::string> warnings = warnings_of([] { load_text(document(extras("7"), "")); });
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("nodes[0]: penumbra_casts"), std::string::npos) << warnings[0];
 }
 
-TEST(Casting, OfANodeStandsOverItsMaterialsAndThatOfTheCommandLineOverBoth) {
+TEST(CastSetting, OfANodeStandsOverItsMaterialsAndThatOfTheCommandLineOverBoth) {
   Scene scene = load_text(document(extras(R"("front")"), extras("false")));
   EXPECT_EQ(casting_faces(scene.nodes[0], scene.materials[0], {}), CasterFaces::front);
-  EXPECT_TRUE(scene::set_casting(scene, "paint", Casting::back));
+  EXPECT_TRUE(scene::set_casting(scene, "paint", CastSetting::back));
   EXPECT_EQ(casting_faces(scene.nodes[0], scene.materials[0], {}), CasterFaces::back);
-  EXPECT_FALSE(scene::set_casting(scene, "pain", Casting::back));
+  EXPECT_FALSE(scene::set_casting(scene, "pain", CastSetting::back));
 }
 
-TEST(Casting, FollowsTheParametersWhereNothingElseIsSaid) {
+TEST(CastSetting, FollowsTheParametersWhereNothingElseIsSaid) {
   Node node;
   Material material;
   EXPECT_EQ(casting_faces(node, material, {.faces = CasterFaces::front}), CasterFaces::front);
@@ -60,7 +60,7 @@ TEST(Casting, FollowsTheParametersWhereNothingElseIsSaid) {
   node.sky = true;
   EXPECT_EQ(casting_faces(node, material, {}), std::nullopt);
   EXPECT_EQ(casting_faces(node, material, {.skies = true}), CasterFaces::both);
-  node.casting = Casting::on;
+  node.casting = CastSetting::on;
   EXPECT_EQ(casting_faces(node, material, {}), CasterFaces::both);
 }
 
@@ -217,7 +217,7 @@ TEST(SkyWarning, NamesNodeAndMaterial) {
   for (const char* decided : {"true", "false"})
     EXPECT_TRUE(warnings_about(load_text(text(extras(decided)))).empty()) << decided;
   scene::Scene chosen = load_text(text(""));
-  scene::set_casting(chosen, "Clouds", Casting::off);
+  scene::set_casting(chosen, "Clouds", CastSetting::off);
   EXPECT_TRUE(warnings_about(std::move(chosen)).empty());
 }
 

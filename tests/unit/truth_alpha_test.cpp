@@ -31,7 +31,7 @@ struct Masked {
     primitive->indices = {0, 1, 2, 0, 2, 3};
     primitive->material = 0;
     primitive->uvs[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    scene.place(*primitive).casts = scene::Casts::by_alpha;
+    scene.place(*primitive).casts = scene::CastMode::by_alpha;
   }
 
   scene::Material& material() { return scene.scene.materials[0]; }
@@ -172,7 +172,7 @@ TEST(TruthAlpha, SharedTrianglesHaveTheSameHoles) {
   primitive.indices.resize(3 * 64, 0);  // enough to be shared; those without area don't count
   glm::mat4 aside(1);
   aside[3].x = 4;
-  scene.scene.place(primitive, aside).casts = scene::Casts::by_alpha;
+  scene.scene.place(primitive, aside).casts = scene::CastMode::by_alpha;
   std::vector<truth::Receiver> receivers;
   for (int i = 0; i < 1600; ++i) {
     const int z = i / 80;

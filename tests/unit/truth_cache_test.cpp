@@ -120,7 +120,7 @@ struct Leaf {
   scene::Scene scene;
   scene::Primitive primitive;
   glm::mat4 world{1};
-  scene::Casts casts = scene::Casts::by_alpha;
+  scene::CastMode casts = scene::CastMode::by_alpha;
 };
 
 TEST(TruthKey, DiffersWithAllThatCastersAreMadeOf) {
@@ -134,8 +134,8 @@ TEST(TruthKey, DiffersWithAllThatCastersAreMadeOf) {
   differs("position", [](Leaf& l) { l.primitive.positions[1].x = 1.0000001f; });
   differs("index", [](Leaf& l) { l.primitive.indices = {0, 2, 1}; });
   differs("place", [](Leaf& l) { l.world[3].x = 1; });
-  differs("kind of caster", [](Leaf& l) { l.casts = scene::Casts::always; });
-  differs("none", [](Leaf& l) { l.casts = scene::Casts::never; });
+  differs("kind of caster", [](Leaf& l) { l.casts = scene::CastMode::always; });
+  differs("none", [](Leaf& l) { l.casts = scene::CastMode::never; });
   differs("texels", [](Leaf& l) { l.scene.images[0].rgba[3] = 254; });
   differs("wrap", [](Leaf& l) { l.scene.textures[0].wrap_s = scene::Wrap::clamp_to_edge; });
   differs("filter", [](Leaf& l) { l.scene.textures[0].mag = scene::Filter::nearest; });

@@ -219,7 +219,7 @@ TEST(TruthGeometry, PointsLinesAndWhatNeverCastsDoNot) {
     EXPECT_EQ(hard_under(scene), 0);
   }
   TruthScene never;
-  never.add_triangles({{-1, 1, -1}, {0, 1, 2}, {2, 1, -1}}).casts = scene::Casts::never;
+  never.add_triangles({{-1, 1, -1}, {0, 1, 2}, {2, 1, -1}}).casts = scene::CastMode::never;
   EXPECT_EQ(hard_under(never), 1);
 }
 

@@ -238,16 +238,16 @@ Document read_document(const std::filesystem::path& path, const ReadOptions& opt
   return document;
 }
 
-Casting casting_of_extras(const tinygltf::Value& extras, const std::string& place) {
+CastSetting casting_of_extras(const tinygltf::Value& extras, const std::string& place) {
   constexpr const char* key = "penumbra_casts";
-  if (!extras.IsObject() || !extras.Has(key)) return Casting::automatic;
+  if (!extras.IsObject() || !extras.Has(key)) return CastSetting::automatic;
   const tinygltf::Value& value = extras.Get(key);
-  if (value.IsBool()) return value.Get<bool>() ? Casting::on : Casting::off;
+  if (value.IsBool()) return value.Get<bool>() ? CastSetting::on : CastSetting::off;
   if (value.IsString())
     if (const auto casting = casting_of(value.Get<std::string>())) return *casting;
   warn("{}: {} of its extras is neither true nor false nor one of {}; not used", place, key,
        fmt::join(casting_words(), ", "));
-  return Casting::automatic;
+  return CastSetting::automatic;
 }
 
 double number_or(const tinygltf::Value& object, const char* key, double otherwise) {

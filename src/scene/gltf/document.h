@@ -55,7 +55,7 @@ const tinygltf::Value* find_extension(const Owner& owner, const char* name) {
 
 // How the extras of a node or a material set its shadow casting: {"penumbra_casts": true, false, "both", "front" or
 // "back"}. Any other value causes a warning that names `place`.
-Casting casting_of_extras(const tinygltf::Value& extras, const std::string& place);
+CastSetting casting_of_extras(const tinygltf::Value& extras, const std::string& place);
 
 // Members of an extension's object, which the schema has checked.
 double number_or(const tinygltf::Value& object, const char* key, double otherwise);
