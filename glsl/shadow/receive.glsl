@@ -1,7 +1,7 @@
 // Computes a receiver's visibility: chooses the layer of the shadow map, calls the technique, blends between layers.
 // Included after a technique, which defines
 //   float read_radius(Receiver, Light)      radius in metres of the disc that visibility() will read
-//   Visibility visibility(Receiver, Light)  with light.layer chosen
+//   Visibility visibility(Receiver, Light)  with light.layer chosen, if it needs any texture of the light
 #include "shadow/shadowed.glsl"
 
 // The frame's light, with the read radius of the technique for a receiver.
@@ -13,6 +13,7 @@ Light light_for(Receiver receiver) {
 
 Shadowed shadow_of(Receiver receiver, Light light) {
   if (!faces_light(receiver)) return Shadowed(Visibility(0.0, 0.0, 0.0, false), 0);
+#if CHOOSES_LAYER
   LayerChoice choice = choose_layer(receiver, light.read_radius, light);
   if (choice.outside) return Shadowed(fully_lit(), choice.layer);
   int first = choice.layer;
@@ -33,4 +34,7 @@ Shadowed shadow_of(Receiver receiver, Light light) {
     mixed.under_texel = mixed.under_texel || one.under_texel;
   }
   return Shadowed(mixed, first);
+#else
+  return Shadowed(visibility(receiver, light), 0);
+#endif
 }

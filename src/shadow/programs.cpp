@@ -118,7 +118,10 @@ std::string Programs::folder_of(const PassOwner& owner) const {
 
 void Programs::put_preamble(const PassOwner& owner, const ParamSet& params) {
   std::string text = fmt::format("#include \"{}/params.glsl\"\n", folder_) + unit_defines(owner.needs);
-  if (owner.technique != nullptr) text += sample_declarations(*owner.technique, params);
+  if (owner.technique != nullptr) {
+    text += fmt::format("#define CHOOSES_LAYER {}\n", owner.needs.empty() ? 0 : 1);
+    text += sample_declarations(*owner.technique, params);
+  }
   device_.shaders.files().put(folder_of(owner) + "/preamble.glsl", std::move(text));
 }
 
