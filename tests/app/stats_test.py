@@ -78,8 +78,10 @@ class Stats(TestCase):
         for of, arguments, more in (
             ("posts", ["--technique", "none"], []),
             ("posts", ["--technique", "hard"], ["shadow map"]),
-            ("posts", ["--technique", "pcss"], ["shadow map", "depth pyramid"]),
-            ("posts", ["--technique", "pcss_compute"], ["shadow map", "depth pyramid"]),
+            ("posts", ["--technique", "pcss", "--set", "mask.tiles=off"], ["shadow map", "depth pyramid"]),
+            ("posts", ["--technique", "pcss"], ["shadow map", "depth pyramid", "tile decisions"]),
+            ("posts", ["--technique", "pcss_compute"],
+             ["shadow map", "depth pyramid", "tile decisions", "decided tiles"]),
             ("moving", ["--technique", "hard", "--frames", "0:2"], ["deform", "shadow map"]),
         ):
             with self.subTest(f"{of} {arguments}"):
