@@ -30,8 +30,8 @@ struct SurfaceReads {
 std::vector<gl::Define> surface_defines(const SurfaceTraits& traits, const SurfaceReads& reads);
 
 // Which traits the program of each of these is made for, so that a scene needs fewer programs: a set of textures is
-// served by a larger one of the same scene that has one texture more, which its materials then sample in vain. The
-// normal map is not added so: it costs more than a texture.
+// served by one of the same scene that has one texture more, or by what serves that one in turn. Its materials then
+// sample up to four textures in vain. The normal map is not added so: it costs more than a texture.
 using SharedTraits = std::map<SurfaceTraits, SurfaceTraits>;
 SharedTraits share_programs(const std::set<SurfaceTraits>& all);
 

@@ -90,6 +90,7 @@ void run_mask_pass(const LightWork& work, const MaskOutput& output) {
     {
       gl::Pass pass(work.device, pass_of("decided tiles", output));
       fill_decided(work, output, tiles, pass);
+      pass.barrier();  // the next pass writes the same texture as an image
     }
     gl::Pass pass(work.device, {.name = "shadow mask"});
     compute_listed(work, output, tiles, pass);

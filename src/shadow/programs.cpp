@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "filters.h"
 #include "light_work.h"
 #include "movement_map.h"
+#include "tiles.h"
 
 namespace penumbra::shadow {
 
@@ -79,6 +82,11 @@ std::vector<gl::Define> compiled_defines(const std::vector<Param>& own, const Pa
 }  // namespace
 
 Programs::Programs(gl::Device& device, const Registry& registry) : device_(device), registry_(registry) {
+  GLint storage_blocks = 0;
+  std::array<GLfloat, 2> point_sizes{};
+  gl::glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &storage_blocks);
+  gl::glGetFloatv(GL_POINT_SIZE_RANGE, point_sizes.data());
+  draws_tiles_ = storage_blocks > 0 && point_sizes[1] >= Tiles::size;
   gl::ShaderFiles& files = device_.shaders.files();
   const ParamSet params(registry.params());
   const std::string text = declarations(registry, params);
@@ -149,7 +157,7 @@ gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& param
   gl::ProgramDesc program{.name = technique.name, .defines = defines(technique, params, form.rotated)};
   program.defines.push_back({"PACKED", form.packed ? "1" : "0"});
   program.defines.push_back({"HISTORY", form.history ? "1" : "0"});
-  if (form.compute) program.defines.push_back({"TILES", form.tiles ? "1" : "0"});
+  program.defines.push_back({"TILES", form.tiles ? "1" : "0"});
   if (form.compute) {
     program.compute = driver_file(technique, "mask.comp");
   } else {

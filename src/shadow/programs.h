@@ -41,6 +41,9 @@ class Programs {
   // The programs that decide tiles and that fill the mask with them.
   gl::ProgramDesc decide_tiles(const Technique& technique) const;
   gl::ProgramDesc decided(const MaskForm& form) const;
+  // Whether the driver can draw tiles as points: OpenGL 4.5 guarantees neither points of their size nor storage buffers
+  // in vertex shaders.
+  bool draws_tiles() const { return draws_tiles_; }
   // The program that packs a mask which a technique's `resolve` filled.
   gl::ProgramDesc pack(bool history) const;
   // A program of the library, with its generated files in place, ready to be compiled.
@@ -66,6 +69,7 @@ class Programs {
   gl::Device& device_;
   const Registry& registry_;
   std::string folder_;
+  bool draws_tiles_ = false;
   mutable std::set<std::string> put_;  // names of the generated files made so far
 };
 

@@ -22,7 +22,7 @@ int tiles_across(int pixels) { return (pixels + Tiles::size - 1) / Tiles::size; 
 bool decides_tiles(const LightWork& work) {
   const Rect& viewport = work.frame.viewport;
   const bool fits = viewport.width >= Tiles::size && viewport.height >= Tiles::size;
-  return work.technique.decides_tiles && fits && work.params().get_bool("mask.tiles");
+  return work.technique.decides_tiles && fits && work.programs.draws_tiles() && work.params().get_bool("mask.tiles");
 }
 
 Tiles decide_tiles(const LightWork& work) {
@@ -31,7 +31,10 @@ Tiles decide_tiles(const LightWork& work) {
   const int width = tiles_across(work.frame.viewport.width), height = tiles_across(work.frame.viewport.height);
   const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   const auto head = empty_list(count);
-  const Tiles tiles{context.target("tile decisions", {.format = GL_RGBA32UI, .width = width, .height = height}),
+  // As large as the mask, not the viewport: a view whose size varies from frame to frame then keeps its texture.
+  const gl::TextureDesc of_mask{
+      .format = GL_RGBA32UI, .width = tiles_across(work.mask.width()), .height = tiles_across(work.mask.height())};
+  const Tiles tiles{context.target("tile decisions", of_mask),
                     context.scratch("tile list", sizeof(head) + sizeof(std::uint32_t) * count)};
   tiles.list.write(std::as_bytes(std::span(head)));
   gl::Pass pass(work.device, {.name = "tile decisions"});

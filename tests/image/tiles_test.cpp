@@ -55,6 +55,7 @@ class Tiles : public GpuTest {
     renderer.registry().select(params, technique);
     params.set("sun.angle", angle);
     params.set("mask.tiles", tiles);
+    params.set("bias.normal_offset", normal_offset_);
     renderer.draw(*gpu_scene_,
                   {.width = width_,
                    .height = height_,
@@ -92,6 +93,7 @@ class Tiles : public GpuTest {
 
  protected:
   render::Renderer renderer_{device_}, marks_renderer_{device_, registry_of_marks()};
+  float normal_offset_ = 0;
 
  private:
   int width_ = 0, height_ = 0;
@@ -111,8 +113,28 @@ TEST_F(Tiles, DecideMostPixelsAndMissNoPenumbra) {
 }
 
 TEST_F(Tiles, AreTheSameInBothDrivers) {
-  load("foliage", 320, 180);
-  EXPECT_EQ(mask(renderer_, "pcss", 2.0f, true), mask(renderer_, "pcss_compute", 2.0f, true));
+  for (const auto& [width, height] : {std::pair(320, 180), {97, 61}}) {
+    for (const char* scene : {"foliage", "posts", "courtyard"}) {
+      SCOPED_TRACE(fmt::format("{} {} x {}", scene, width, height));
+      load(scene, width, height);
+      for (const char* aov : {"shadow", "penumbra", "blocker", "cascade", "under_texel"}) {
+        mask(renderer_, "pcss", 2.0f, true);
+        const std::vector<float> fragment = renderer_.read_aov(aov);
+        mask(renderer_, "pcss_compute", 2.0f, true);
+        EXPECT_EQ(fragment, renderer_.read_aov(aov)) << aov;
+      }
+    }
+  }
+}
+
+// Receivers are shifted by several texels before they are compared with the map.
+TEST_F(Tiles, MissNoPenumbraWithANormalOffset) {
+  normal_offset_ = 4;
+  for (const char* scene : {"posts", "courtyard"}) {
+    SCOPED_TRACE(scene);
+    load(scene, 320, 180);
+    for (const float angle : {0.0f, 0.53f}) expect_no_penumbra_is_missed("pcss", angle);
+  }
 }
 
 // A denoiser reads the blocker distances of decided pixels too.

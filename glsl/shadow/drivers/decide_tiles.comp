@@ -47,7 +47,8 @@ Receiver receiver_in_box(Box box) {
                   Surroundings(vec4(0.0), 0.0, 0.0, 0.0), vec2(0.0), false);
 }
 
-// The layers that receivers of the box can read; those of a seam read two.
+// The layers in which the verdict is checked: those that contain the discs of the box's receivers, two at a seam. A
+// receiver's own disc may be bounded less tightly, so that it reads a coarser layer; the verdict holds there too.
 struct Layers {
   int first, last;
   bool outside;  // some lie in none
@@ -68,7 +69,7 @@ Layers layers_of(Receiver deepest, float radius, float box_radius, Light light) 
 
 // Whether no edge of the map can block light from a part of the box.
 bool edges_are_clear(Receiver deepest, float radius, vec2 half_widths, Light light) {
-  float margin = 2.0 * texel_size(deepest, light);
+  float margin = (2.0 + bias_normal_offset) * texel_size(deepest, light);
   for (int i = 0; i < 4; ++i) {
     float nearest = depth_bounds(deepest.position, half_widths + radius + margin, light.layer).edge;
     if (nearest >= deepest.position.z) return true;
@@ -98,8 +99,11 @@ PixelState decide_pixel(ivec2 pixel, Light light) {
   float texel = texel_size(receiver, light);
   float bias = depth_bias(receiver, light);
   float bend = unresolved_bend * texel * length(receiver.gradient);
-  if (all(lessThanEqual(heights, vec4(bias + bend)))) return PixelState(lit, 0.0);
-  bool covered = all(greaterThan(heights, vec4(bias + bend + 2.0 * texel)));
+  float least = min(min(heights.x, heights.y), min(heights.z, heights.w));
+  float most = max(max(heights.x, heights.y), max(heights.z, heights.w));
+  // As in with_surroundings(): a bend is forgiven only where a texel shows the receiver's own surface.
+  if (least <= bias && most <= bias + bend) return PixelState(lit, 0.0);
+  bool covered = least > bias + bend + 2.0 * texel;
   return PixelState(covered ? in_shadow : undecided,
                     receiver.position.z - bilinear(footprint.depths, footprint.weight));
 }
@@ -135,10 +139,10 @@ bool decide_tile(Pixels pixels, out Decision decision) {
   Light light = frame_light();
   Receiver deepest = receiver_in_box(box);
   int widest = widest_layer(deepest, light);
-  float all = penumbra_radius(deepest, deepest.position.z - least_depth(widest), light);
-  vec2 margins = half_widths + 2.0 * texel_size_at(deepest.position, widest);
-  float nearest = depth_bounds(deepest.position, margins + all, widest).least;
-  float radius = min(all, penumbra_radius(deepest, deepest.position.z - nearest, light));
+  float widest_radius = penumbra_radius(deepest, deepest.position.z - least_depth(widest), light);
+  vec2 margins = half_widths + (2.0 + bias_normal_offset) * texel_size_at(deepest.position, widest);
+  float nearest = depth_bounds(deepest.position, margins + widest_radius, widest).least;
+  float radius = min(widest_radius, penumbra_radius(deepest, deepest.position.z - nearest, light));
   Layers layers = layers_of(deepest, radius, box_radius, light);
   if (layers.outside) return false;
   light.read_radius = radius;
@@ -154,7 +158,7 @@ bool decide_tile(Pixels pixels, out Decision decision) {
   return true;
 }
 
-void list(ivec2 tile) {
+void list_undecided(ivec2 tile) {
   uint index = atomicAdd(tile_list.listed.count, 1u);
   atomicMax(tile_list.groups_y, index / list_row + 1u);
   tile_list.tiles[index] = packed_tile(tile);
@@ -176,6 +180,6 @@ void main() {
     imageStore(decisions, tile, packed_decision(decision));
     list_decided(tile);
   } else {
-    list(tile);
+    list_undecided(tile);
   }
 }

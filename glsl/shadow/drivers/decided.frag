@@ -11,20 +11,23 @@ layout(location = 1) out uint notes;
 layout(location = 0) out vec4 mask;
 #endif
 
+layout(location = 0) flat in ivec2 tile;
+
 layout(binding = 14) uniform usampler2D decisions;
 
 Visibility decided_visibility(Decision decision, ivec2 pixel, vec3 position) {
   int bit = tile_size * (pixel.y % tile_size) + pixel.x % tile_size;
   if (((decision.lit[bit >> 5] >> (bit & 31)) & 1u) != 0u) return fully_lit();
   float radius = packed_radius(position, decision.blocker_distance);
-  bool under_texel = radius < texel_size_at(position, decision.layer);
+  bool under_texel = decision.blocker_distance > 0.0 && radius < texel_size_at(position, decision.layer);
   return Visibility(0.0, radius, decision.blocker_distance, under_texel);
 }
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   ivec2 in_viewport = pixel - ivec2(shadow.viewport.xy);
-  Decision decision = unpacked_decision(texelFetch(decisions, in_viewport / tile_size, 0));
+  if (in_viewport / tile_size != tile) discard;
+  Decision decision = unpacked_decision(texelFetch(decisions, tile, 0));
 #if PACKED
   if (is_sky(pixel)) {
     texel = pack_texel(0.0, 1.0, true);

@@ -1,10 +1,18 @@
 #include "shadow/drivers/mask.glsl"
+#if TILES
+#include "shadow/drivers/tiles.glsl"
+
+layout(location = 0) flat in ivec2 tile;
+#endif
 
 #if PACKED
 layout(location = 0) out uint texel;
 layout(location = 1) out uint notes;
 
 void main() {
+#if TILES
+  if ((ivec2(gl_FragCoord.xy) - ivec2(shadow.viewport.xy)) / tile_size != tile) discard;
+#endif
   PackedPixel shaded = shade_pixel(ivec2(gl_FragCoord.xy));
   texel = shaded.texel;
   notes = shaded.notes;
@@ -12,5 +20,10 @@ void main() {
 #else
 layout(location = 0) out vec4 mask;
 
-void main() { mask = shade_pixel(ivec2(gl_FragCoord.xy)); }
+void main() {
+#if TILES
+  if ((ivec2(gl_FragCoord.xy) - ivec2(shadow.viewport.xy)) / tile_size != tile) discard;
+#endif
+  mask = shade_pixel(ivec2(gl_FragCoord.xy));
+}
 #endif

@@ -5,12 +5,15 @@
 
 layout(std140, binding = 1) uniform ShadowData { ShadowBlock shadow; };
 
+layout(location = 0) flat out ivec2 tile;
+
 void main() {
   // A tile at the viewport's end that is cut off is moved inwards, because points whose centre is outside are clipped.
+  // Fragment shaders discard the pixels of other tiles that it then covers.
 #if DECIDED
-  ivec2 tile = decided_tile(uint(gl_VertexID));
+  tile = decided_tile(uint(gl_VertexID));
 #else
-  ivec2 tile = listed_tile(uint(gl_VertexID));
+  tile = listed_tile(uint(gl_VertexID));
 #endif
   vec2 low = min(vec2(tile * tile_size), shadow.viewport.zw - float(tile_size));
   gl_Position = vec4((low + 0.5 * float(tile_size)) / shadow.viewport.zw * 2.0 - 1.0, 0.0, 1.0);
