@@ -82,11 +82,6 @@ std::vector<gl::Define> compiled_defines(const std::vector<Param>& own, const Pa
 }  // namespace
 
 Programs::Programs(gl::Device& device, const Registry& registry) : device_(device), registry_(registry) {
-  GLint storage_blocks = 0;
-  std::array<GLfloat, 2> point_sizes{};
-  gl::glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &storage_blocks);
-  gl::glGetFloatv(GL_POINT_SIZE_RANGE, point_sizes.data());
-  draws_tiles_ = storage_blocks > 0 && point_sizes[1] >= Tiles::size;
   gl::ShaderFiles& files = device_.shaders.files();
   const ParamSet params(registry.params());
   const std::string text = declarations(registry, params);
@@ -110,6 +105,17 @@ Programs::Programs(gl::Device& device, const Registry& registry) : device_(devic
   }
   for (const Recipe& recipe : registry_.recipes()) put_preamble(owner_of(recipe), params);
   for (const Denoiser& denoiser : registry_.denoisers()) put_preamble(owner_of(denoiser), params);
+}
+
+bool Programs::draws_tiles() const {
+  if (!draws_tiles_) {
+    GLint storage_blocks = 0;
+    std::array<GLfloat, 2> point_sizes{};
+    gl::glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &storage_blocks);
+    gl::glGetFloatv(GL_POINT_SIZE_RANGE, point_sizes.data());
+    draws_tiles_ = storage_blocks > 0 && point_sizes[1] >= Tiles::size;
+  }
+  return *draws_tiles_;
 }
 
 std::string Programs::folder_of(const PassOwner& owner) const {

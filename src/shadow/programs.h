@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -42,8 +43,8 @@ class Programs {
   gl::ProgramDesc decide_tiles(const Technique& technique) const;
   gl::ProgramDesc decided(const MaskForm& form) const;
   // Whether the driver can draw tiles as points: OpenGL 4.5 guarantees neither points of their size nor storage buffers
-  // in vertex shaders.
-  bool draws_tiles() const { return draws_tiles_; }
+  // in vertex shaders. Asked of OpenGL once, by the first frame: programs are listed without a context too.
+  bool draws_tiles() const;
   // The program that packs a mask which a technique's `resolve` filled.
   gl::ProgramDesc pack(bool history) const;
   // A program of the library, with its generated files in place, ready to be compiled.
@@ -69,7 +70,7 @@ class Programs {
   gl::Device& device_;
   const Registry& registry_;
   std::string folder_;
-  bool draws_tiles_ = false;
+  mutable std::optional<bool> draws_tiles_;
   mutable std::set<std::string> put_;  // names of the generated files made so far
 };
 
