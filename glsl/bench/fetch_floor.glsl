@@ -18,7 +18,7 @@ vec4 fetch(Receiver receiver, vec2 offset, Light light) {
 Visibility visibility(Receiver receiver, Light light) {
   vec4 sum = vec4(0.0);
 #if fetch_floor_blocker_taps > 0
-  float search = narrow_search(receiver, light, light.layer, light.read_radius).radius;
+  float search = narrow_search(receiver, light, light.read_radius).radius;
   Scramble searching = blocker_scramble(receiver);
   for (int i = 0; i < fetch_floor_blocker_taps; ++i) {
     sum += fetch(receiver, search * blocker_point(i, searching, light), light);

@@ -16,7 +16,7 @@ float footprint_margin(Receiver receiver, Light light) { return 1.5 * texel_size
 // wide the search disc is.
 vec4 in_light_cone(Receiver receiver, Offsets at, vec4 blocker_distances, Light light) {
   vec4 radii = penumbra_radii(receiver, blocker_distances, light) + footprint_margin(receiver, light);
-  return within_cone(radii, light.square, at.x, at.y);
+  return within_cone(radii, is_square(light), at.x, at.y);
 }
 
 // Adds the four texels around a point. A texel is a blocker if it is nearer to the light than the receiver and its
@@ -79,7 +79,7 @@ Visibility filtered(Receiver receiver, float mean, FilterPoints points, float bi
 Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, int filter_taps, int disocclusion_taps,
                        bool early_exits) {
   float bias = depth_bias(receiver, light);
-  Search search = narrow_search(receiver, light, light.layer, light.read_radius);
+  Search search = narrow_search(receiver, light, light.read_radius);
   if (early_exits && search.nearest >= receiver.position.z - bias) return fully_lit();
   receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
   Blockers blockers = find_blockers(receiver, search.radius, blocker_taps, bias, light);

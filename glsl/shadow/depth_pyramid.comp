@@ -8,8 +8,8 @@ layout(binding = 1, rg32f) uniform writeonly restrict image2DArray level;
 #include "shadow/light_projection.glsl"
 
 // The lesser depth of each of four pairs of neighbours that make an edge, 1 for others.
-vec4 depths_at_edges(vec4 texels, vec4 neighbours, float height) {
-  return mix(vec4(1.0), min(texels, neighbours), greaterThan(abs(texels - neighbours), vec4(height)));
+vec4 depths_at_edges(vec4 a, vec4 b, float height) {
+  return mix(vec4(1.0), min(a, b), greaterThan(abs(a - b), vec4(height)));
 }
 
 float least_of(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
@@ -32,14 +32,16 @@ vec2 least_depths(ivec3 at) {
   }
   float height = stored_edge_height(light);
   vec4 least = vec4(1.0), edges = vec4(1.0);
+  for (int row = 0; row < 5; ++row) edges = min(edges, depths_at_edges(middle[row], middle[row + 1], height));
+  vec4 right, beyond;
   for (int row = 1; row < 5; ++row) {
     vec4 texels = middle[row];
     least = min(least, texels);
     edges = min(edges, depths_at_edges(texels, vec4(ends[row].x, texels.xyz), height));
-    edges = min(edges, depths_at_edges(texels, vec4(texels.yzw, ends[row].y), height));
-    edges = min(edges, depths_at_edges(texels, middle[row - 1], height));
-    edges = min(edges, depths_at_edges(texels, middle[row + 1], height));
+    right[row - 1] = texels.w;
+    beyond[row - 1] = ends[row].y;
   }
+  edges = min(edges, depths_at_edges(right, beyond, height));
   return vec2(least_of(least), least_of(edges));
 }
 #else

@@ -37,14 +37,13 @@ struct Face {
   float height;  // continued to the receiver, along the texels' row or column
 };
 
-// The face shown by the three texels next to the receiver's own. Heights that increase evenly, or by growing steps,
+// The face shown by the depths of the three texels next to the receiver's own, nearest first. Heights that increase evenly, or by growing steps,
 // belong to a face or its foot. Heights that increase by shrinking steps belong to the edge of an object in front of
 // the receiver.
-Face face_beside(Receiver receiver, ivec2 at, ivec2 side, float bias, Light light) {
+Face face_beside(Receiver receiver, ivec2 at, ivec2 side, vec3 depths, float bias, Light light) {
   vec2 first = texel_offset(receiver, at + side, light);
   vec2 next = vec2(side) * texel_size(receiver, light);
   Offsets offsets = Offsets(first.x + next.x * vec4(0.0, 1.0, 2.0, 2.0), first.y + next.y * vec4(0.0, 1.0, 2.0, 2.0));
-  vec3 depths = vec3(depth_at(at + side, light), depth_at(at + 2 * side, light), depth_at(at + 3 * side, light));
   vec3 heights = heights_above(receiver, depths.xyzz, offsets).xyz;
   float near = heights.y - heights.x;
   float rise = heights.z - heights.y;
@@ -57,10 +56,16 @@ Face face_beside(Receiver receiver, ivec2 at, ivec2 side, float bias, Light ligh
 // that, extended to the receiver, passes in front of it and so does block it.
 vec4 lit_slopes(Receiver receiver, float bias, Light light) {
   ivec2 at = ivec2(floor(map_place(receiver.position, light)));
-  Face right = face_beside(receiver, at, ivec2(1, 0), bias, light);
-  Face up = face_beside(receiver, at, ivec2(0, 1), bias, light);
-  Face left = face_beside(receiver, at, ivec2(-1, 0), bias, light);
-  Face down = face_beside(receiver, at, ivec2(0, -1), bias, light);
+  vec4 right_up = depths_from(at, light);
+  vec4 left_down = depths_from(at - 1, light);
+  vec4 far_right = depths_from(at + ivec2(2, 0), light);
+  vec4 far_up = depths_from(at + ivec2(0, 2), light);
+  vec4 far_left = depths_from(at - ivec2(3, 0), light);
+  vec4 far_down = depths_from(at - ivec2(0, 3), light);
+  Face right = face_beside(receiver, at, ivec2(1, 0), vec3(right_up.z, far_right.wz), bias, light);
+  Face up = face_beside(receiver, at, ivec2(0, 1), vec3(right_up.x, far_up.wx), bias, light);
+  Face left = face_beside(receiver, at, ivec2(-1, 0), vec3(left_down.x, far_left.zw), bias, light);
+  Face down = face_beside(receiver, at, ivec2(0, -1), vec3(left_down.z, far_down.xw), bias, light);
   // From the row of texels to the receiver's, and from their column to the receiver's.
   vec2 to_receiver = -texel_offset(receiver, at, light) / texel_size(receiver, light);
   vec2 across = vec2(right.rise - left.rise, up.rise - down.rise) * to_receiver;

@@ -112,11 +112,10 @@ float packed_distance(vec3 position, float radius) { return radius / max(shadow.
 // Light-space depth, metres, for a depth as stored in the map.
 float stored_depth(float stored, LayerBlock map) { return map.near_depth + map.depth_range * stored; }
 vec4 stored_depths(vec4 stored, LayerBlock map) { return map.near_depth + map.depth_range * stored; }
-float stored_depth_in(int layer, float stored) { return stored_depth(stored, shadow.layers[layer]); }
 
-// Width of a layer's texel at a position's depth, metres.
-float texel_size_at(vec3 position, int layer) { return shadow.layers[layer].texel; }
-float texel_size(Receiver receiver, Light light) { return light.map.texel; }
+// Width of a texel of the light's layer at a position's depth, metres.
+float texel_size_at(vec3 position, Light light) { return light.map.texel; }
+float texel_size(Receiver receiver, Light light) { return texel_size_at(receiver.position, light); }
 
 // Upper bound of the error along the light that rounding in the map and in light space causes, metres.
 float depth_rounding(Receiver receiver, Light light) { return light.map.rounding; }
@@ -157,8 +156,14 @@ vec4 gather_stored(vec2 place, Light light) {
   return textureGather(shadow_depth, vec3(place * light.map.texel_uv, float(light.layer)));
 }
 
+// Depths, metres, of the texels `first` to first + (1, 1), in the order of a Footprint; outside of the map, those of its
+// border.
+vec4 depths_from(ivec2 first, Light light) {
+  return stored_depths(gather_stored(vec2(first + 1), light), light.map);
+}
+
 Footprint fetch_footprint(Receiver receiver, vec2 offset, Light light) {
-  vec2 at = map_place(vec3(receiver.position.xy + offset, receiver.position.z), light) - 0.5;
+  vec2 at = map_place(receiver.position, light) - 0.5 + offset * (light.map.widths_per_metre * shadow.map_size);
   vec2 first = floor(at);
   float texel = texel_size(receiver, light);
   Footprint footprint;
@@ -208,18 +213,24 @@ LayerChoice choose_layer(Receiver receiver, float radius, Light light) {
   return LayerChoice(layer, last && layer_edge(layer, receiver.position, 0.0) > 1.0, fade);
 }
 
-// The layer that contains every caster which can block light from a receiver, and the least depth that it can store.
-int widest_layer(Receiver receiver, Light light) { return light.layers - 1; }
-float least_depth(int layer) { return shadow.layers[layer].near_depth; }
+// The light with the layer that contains every caster which can block light from a receiver, and the least depth that
+// the light's layer can store.
+Light with_widest_layer(Receiver receiver, Light light) {
+  light.layer = light.layers - 1;
+  light.map = shadow.widest;
+  return light;
+}
+
+float least_depth(Light light) { return light.map.near_depth; }
 
 // Upper bound, metres, of the distance from a receiver to what moved since the last frame, along the light.
 float most_moved_distance(Receiver receiver) { return receiver.position.z - shadow.moved_depth; }
 
-// Pyramids over the map, whose level 0 has one texel for `base` texels of the map along each axis.
+// Pyramids over the light's layer of the map, whose level 0 has one texel for `base` texels of the map along each axis.
 
 // The finest level of so many at which a disc touches at most 2 × 2 texels.
-int pyramid_level(vec3 position, float radius, int layer, float base, int levels) {
-  return covering_level(radius, base * texel_size_at(position, layer), levels);
+int pyramid_level(vec3 position, float radius, Light light, float base, int levels) {
+  return covering_level(radius, base * texel_size_at(position, light), levels);
 }
 
 // The texels of a level that a rectangle of these half widths touches; `last` is the level's last texel.
@@ -227,19 +238,19 @@ struct TexelRange {
   ivec2 low, high;
 };
 
-TexelRange pyramid_range(vec3 position, vec2 radius, int layer, float base, int level, ivec2 last) {
-  LayerBlock map = shadow.layers[layer];
-  float texel = base * map.texel * exp2(float(level));
-  vec2 origin = position.xy - map.center + 0.5 / map.widths_per_metre;
+TexelRange pyramid_range(vec3 position, vec2 radius, Light light, float base, int level, ivec2 last) {
+  float texel = base * light.map.texel * exp2(float(level));
+  vec2 origin = position.xy - light.map.center + 0.5 / light.map.widths_per_metre;
   return TexelRange(clamp(ivec2(floor((origin - radius) / texel)), ivec2(0), last),
                     clamp(ivec2(floor((origin + radius) / texel)), ivec2(0), last));
 }
 
 // The values of 2 × 2 texels, at a level where a disc touches no more.
-vec4 pyramid_texels(sampler2DArray pyramid, vec3 position, float radius, int layer, float base, int level, ivec2 last) {
-  TexelRange range = pyramid_range(position, vec2(radius), layer, base, level, last);
-  return vec4(texelFetch(pyramid, ivec3(range.low, layer), level).x,
-              texelFetch(pyramid, ivec3(range.high.x, range.low.y, layer), level).x,
-              texelFetch(pyramid, ivec3(range.low.x, range.high.y, layer), level).x,
-              texelFetch(pyramid, ivec3(range.high, layer), level).x);
+vec4 pyramid_texels(sampler2DArray pyramid, vec3 position, float radius, Light light, float base, int level,
+                    ivec2 last) {
+  TexelRange range = pyramid_range(position, vec2(radius), light, base, level, last);
+  return vec4(texelFetch(pyramid, ivec3(range.low, light.layer), level).x,
+              texelFetch(pyramid, ivec3(range.high.x, range.low.y, light.layer), level).x,
+              texelFetch(pyramid, ivec3(range.low.x, range.high.y, light.layer), level).x,
+              texelFetch(pyramid, ivec3(range.high, light.layer), level).x);
 }

@@ -12,14 +12,22 @@ struct Scramble {
   vec2 value;  // rotation: cosine, sine; shift: of the unit square
 };
 
-vec2 shape_point(vec4 table, int index, Scramble scramble, Light light) {
-  vec2 point = (index & 1) == 0 ? table.xy : table.zw;
+// Points are rotated for discs alone.
+bool is_square(Light light) {
+#if SAMPLE_ROTATE
+  return false;
+#else
+  return light.square;
+#endif
+}
+
+vec2 shape_point(vec2 point, Scramble scramble, Light light) {
 #if SAMPLE_ROTATE
   return vec2(point.x * scramble.value.x - point.y * scramble.value.y,
               point.x * scramble.value.y + point.y * scramble.value.x);
 #else
   vec2 shifted = toroidal_shift(point, scramble.value);
-  return light.square ? 2.0 * shifted - 1.0 : concentric_disc(shifted);
+  return is_square(light) ? 2.0 * shifted - 1.0 : concentric_disc(shifted);
 #endif
 }
 

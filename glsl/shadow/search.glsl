@@ -6,33 +6,33 @@ layout(binding = UNIT_least_depth_pyramid) uniform sampler2DArray shadow_pyramid
 
 const float pyramid_base = 4.0;
 
-// Least depths, metres, of what a layer of the map holds within a disc.
+// Least depths, metres, of what the light's layer of the map holds within a disc.
 struct DepthBounds {
   float least;
   float edge;  // beside an edge of the map
 };
 
 // Bounds over a rectangle of these half widths and a little beyond: at most 5 × 5 texels of a level.
-DepthBounds depth_bounds(vec3 position, vec2 radius, int layer) {
+DepthBounds depth_bounds(vec3 position, vec2 radius, Light light) {
   float quarter = 0.25 * max(radius.x, radius.y);
-  int level = pyramid_level(position, quarter, layer, pyramid_base, textureQueryLevels(shadow_pyramid));
+  int level = pyramid_level(position, quarter, light, pyramid_base, textureQueryLevels(shadow_pyramid));
   ivec2 last = max(last_texel(), 0) >> (level + 2);
-  TexelRange range = pyramid_range(position, radius, layer, pyramid_base, level, last);
+  TexelRange range = pyramid_range(position, radius, light, pyramid_base, level, last);
   vec2 stored = vec2(1.0);
   for (int y = range.low.y; y <= range.high.y; ++y) {
     for (int x = range.low.x; x <= range.high.x; ++x) {
-      stored = min(stored, texelFetch(shadow_pyramid, ivec3(x, y, layer), level).xy);
+      stored = min(stored, texelFetch(shadow_pyramid, ivec3(x, y, light.layer), level).xy);
     }
   }
-  return DepthBounds(stored_depth_in(layer, stored.x), stored_depth_in(layer, stored.y));
+  return DepthBounds(stored_depth(stored.x, light.map), stored_depth(stored.y, light.map));
 }
 
 // The least depth alone, within a disc and a little beyond: 2 × 2 texels of the finest level that covers it.
-float nearest_depth(vec3 position, float radius, int layer) {
-  int level = pyramid_level(position, radius, layer, pyramid_base, textureQueryLevels(shadow_pyramid));
+float nearest_depth(vec3 position, float radius, Light light) {
+  int level = pyramid_level(position, radius, light, pyramid_base, textureQueryLevels(shadow_pyramid));
   ivec2 last = max(last_texel(), 0) >> (level + 2);
-  vec4 stored = pyramid_texels(shadow_pyramid, position, radius, layer, pyramid_base, level, last);
-  return stored_depth_in(layer, min(min(stored.x, stored.y), min(stored.z, stored.w)));
+  vec4 stored = pyramid_texels(shadow_pyramid, position, radius, light, pyramid_base, level, last);
+  return stored_depth(min(min(stored.x, stored.y), min(stored.z, stored.w)), light.map);
 }
 
 // Bounds on where blockers can be.
@@ -41,18 +41,18 @@ struct Search {
   float nearest;  // least depth in it, metres
 };
 
-// One refinement step: all casters lie within a disc of `limit` metres; their least depth bounds the blocker distance,
+// One refinement step in the light's layer: all casters lie within a disc of `limit` metres; their least depth bounds the blocker distance,
 // which bounds the radius.
-Search narrow_search(Receiver receiver, Light light, int layer, float limit) {
-  float footprint = 1.5 * texel_size_at(receiver.position, layer);
-  float nearest = nearest_depth(receiver.position, limit + footprint, layer);
+Search narrow_search(Receiver receiver, Light light, float limit) {
+  float footprint = 1.5 * texel_size(receiver, light);
+  float nearest = nearest_depth(receiver.position, limit + footprint, light);
   float radius = penumbra_radius(receiver, receiver.position.z - nearest, light);
   return Search(min(limit, radius), nearest);
 }
 
 // The first step: the widest layer contains every caster, and none is nearer to the light than its near plane.
 float search_radius(Receiver receiver, Light light) {
-  int widest = widest_layer(receiver, light);
-  float all = penumbra_radius(receiver, receiver.position.z - least_depth(widest), light);
-  return narrow_search(receiver, light, widest, all).radius;
+  light = with_widest_layer(receiver, light);
+  float all = penumbra_radius(receiver, receiver.position.z - least_depth(light), light);
+  return narrow_search(receiver, light, all).radius;
 }

@@ -89,7 +89,7 @@ void LightProjection::write(glsl::ShadowBlock& block, const glm::dmat4& view_to_
   const double nearest = cascades_.items.empty() ? 0.0 : cascades_.items.back().near_z + shift.z;
   block.moved_depth = moved ? least_depth(world_to_light, *moved, eye) : static_cast<float>(nearest);
   for (size_t i = 0; i < cascades_.items.size(); ++i) {
-    block.layers[i] = layer_block(cascades_.items[i], cascades_.size, shift);
+    block.widest = block.layers[i] = layer_block(cascades_.items[i], cascades_.size, shift);
   }
 }
 

@@ -20,14 +20,10 @@ constexpr int set_count = 16;
 const char* name_of(SampleSet::Step step) { return step == SampleSet::Step::blocker ? "blocker" : "filter"; }
 
 void append_table(std::vector<glm::vec4>& tables, std::size_t size, const std::vector<glm::vec2>& points) {
-  assert(points.size() <= 2 * size);
+  assert(points.size() <= size);
   const std::size_t first = tables.size();
   tables.resize(first + size);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    glm::vec4& pair = tables[first + i / 2];
-    (i % 2 == 0 ? pair.x : pair.z) = points[i].x;
-    (i % 2 == 0 ? pair.y : pair.w) = points[i].y;
-  }
+  for (std::size_t i = 0; i < points.size(); ++i) tables[first + i] = glm::vec4(points[i], 0.0F, 0.0F);
 }
 
 bool changes(const ParamSet& params, SampleSet::Step step, std::string_view how) {
@@ -68,7 +64,7 @@ int set_number(const ParamSet& params, int frame) {
 }
 
 std::size_t table_size(const SampleSet& set, const ParamSet& params) {
-  return (static_cast<std::size_t>(params.row(set.count_parameter).max) + 1) / 2;
+  return static_cast<std::size_t>(params.row(set.count_parameter).max);
 }
 
 std::string sample_declarations(const Technique& technique, const ParamSet& params) {
@@ -78,7 +74,7 @@ std::string sample_declarations(const Technique& technique, const ParamSet& para
     members += fmt::format("  vec4 {}_points[{}];\n", set.name, table_size(set, params));
     functions += fmt::format(
         "vec2 {0}_point(int index, Scramble scramble, Light light) {{\n"
-        "  return shape_point({0}_points[index >> 1], index, scramble, light);\n}}\n"
+        "  return shape_point({0}_points[index].xy, scramble, light);\n}}\n"
         "Scramble {0}_scramble(Receiver receiver) {{ return scramble_of(receiver, {1}_step); }}\n",
         set.name, name_of(set.step));
   }

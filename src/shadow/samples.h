@@ -29,7 +29,8 @@ glm::vec4 noise_shift(const ParamSet& params, int frame);
 // The number of the point set that a frame uses: steps that change from frame to frame cycle through several sets.
 int set_number(const ParamSet& params, int frame);
 
-// Number of vec4 elements in a set's table, two points each: enough for the maximum of its count parameter.
+// Number of vec4 elements in a set's table: one for each point, up to the maximum of its count parameter. Only xy is
+// used, because two points in an element cost a software rasteriser, which loads it for each pixel, twice the reads.
 std::size_t table_size(const SampleSet& set, const ParamSet& params);
 
 // GLSL text: the uniform block at `block_samples` with the tables of a technique's sets one after the other, and the

@@ -95,6 +95,7 @@ TEST_F(ShadowLayout, BlocksLieAsTheDriverReadsThem) {
   expect_offset(light, "shadow.has_motion", offsetof(ShadowBlock, has_motion));
   expect_offset(light, "shadow.casters_moved", offsetof(ShadowBlock, casters_moved));
   expect_offset(light, "shadow.moved_depth", offsetof(ShadowBlock, moved_depth));
+  expect_offset(light, "shadow.widest.texel", offsetof(ShadowBlock, widest) + offsetof(LayerBlock, texel));
   for (std::size_t i : {std::size_t{0}, std::size_t{SHADOW_MAX_LAYERS - 1}}) {
     const std::string layer = fmt::format("shadow.layers[{}].", i);
     const std::size_t at = offsetof(ShadowBlock, layers) + i * sizeof(LayerBlock);
@@ -105,12 +106,12 @@ TEST_F(ShadowLayout, BlocksLieAsTheDriverReadsThem) {
     expect_offset(light, layer + "depth_range", at + offsetof(LayerBlock, depth_range));
     expect_offset(light, layer + "rounding", at + offsetof(LayerBlock, rounding));
   }
-  // Tables of 256 points, two to a vec4, one after the other.
+  // Tables of 256 points, one after the other.
   const Block samples = block_of(program, "SamplePoints");
-  EXPECT_EQ(samples.bytes, 3 * 128 * 16);
+  EXPECT_EQ(samples.bytes, 3 * 256 * 16);
   expect_offset(samples, "blocker_points[0]", 0);
-  expect_offset(samples, "filter_points[0]", std::size_t{128} * 16);
-  expect_offset(samples, "disocclusion_points[0]", std::size_t{2} * 128 * 16);
+  expect_offset(samples, "filter_points[0]", std::size_t{256} * 16);
+  expect_offset(samples, "disocclusion_points[0]", std::size_t{2} * 256 * 16);
 }
 
 TEST_F(ShadowLayout, ParametersLieInTheOrderOfTheirRows) {

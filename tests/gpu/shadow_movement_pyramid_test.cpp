@@ -119,7 +119,8 @@ struct Query {
 layout(std430, binding = 0) buffer Queries { Query queries[]; };
 void main() {
   Query query = queries[gl_GlobalInvocationID.x];
-  queries[gl_GlobalInvocationID.x].seen = movement_seen(vec3(query.position, 0.0), query.radius, 1) ? 1u : 0u;
+  Light light = with_layer(frame_light(), 1);
+  queries[gl_GlobalInvocationID.x].seen = movement_seen(vec3(query.position, 0.0), query.radius, light) ? 1u : 0u;
 }
 )";
 

@@ -118,17 +118,14 @@ TEST(Registry, RefusesSampleSetsThatDoNotFitIntoTheirTables) {
             "technique 'changed': the sample set 'around' may have 512 points by 'changed.points'; 256 fit");
   EXPECT_EQ(complaint([](Technique& t) {
               with_points(t, 256);
-              for (const char* name : {"b", "c", "d", "e", "f", "g", "h"})
-                t.samples.push_back({name, "changed.points"});
+              for (const char* name : {"b", "c", "d"}) t.samples.push_back({name, "changed.points"});
             }),
             "");
   EXPECT_EQ(complaint([](Technique& t) {
               with_points(t, 256);
-              for (const char* name : {"b", "c", "d", "e", "f", "g", "h", "i"}) {
-                t.samples.push_back({name, "changed.points"});
-              }
+              for (const char* name : {"b", "c", "d", "e"}) t.samples.push_back({name, "changed.points"});
             }),
-            "technique 'changed': its sample sets take 18432 bytes; a uniform block has 16384");
+            "technique 'changed': its sample sets take 20480 bytes; a uniform block has 16384");
 }
 
 TEST(Registry, RefusesSampleSetsThatNothingCounts) {

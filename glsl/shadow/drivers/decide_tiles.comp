@@ -71,7 +71,7 @@ Layers layers_of(Receiver deepest, float radius, float box_radius, Light light) 
 bool edges_are_clear(Receiver deepest, float radius, vec2 half_widths, Light light) {
   float margin = (2.0 + bias_normal_offset) * texel_size(deepest, light);
   for (int i = 0; i < 4; ++i) {
-    float nearest = depth_bounds(deepest.position, half_widths + radius + margin, light.layer).edge;
+    float nearest = depth_bounds(deepest.position, half_widths + radius + margin, light).edge;
     if (nearest >= deepest.position.z) return true;
     float needed = penumbra_radius(deepest, deepest.position.z - nearest, light);
     if (needed >= radius) return false;
@@ -138,9 +138,9 @@ bool decide_tile(Pixels pixels, out Decision decision) {
   float box_radius = max(half_widths.x, half_widths.y);
   Light light = frame_light();
   Receiver deepest = receiver_in_box(box);
-  int widest = widest_layer(deepest, light);
+  Light widest = with_widest_layer(deepest, light);
   float widest_radius = penumbra_radius(deepest, deepest.position.z - least_depth(widest), light);
-  vec2 margins = half_widths + (2.0 + bias_normal_offset) * texel_size_at(deepest.position, widest);
+  vec2 margins = half_widths + (2.0 + bias_normal_offset) * texel_size(deepest, widest);
   float nearest = depth_bounds(deepest.position, margins + widest_radius, widest).least;
   float radius = min(widest_radius, penumbra_radius(deepest, deepest.position.z - nearest, light));
   Layers layers = layers_of(deepest, radius, box_radius, light);

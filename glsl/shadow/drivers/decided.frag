@@ -19,7 +19,8 @@ Visibility decided_visibility(Decision decision, ivec2 pixel, vec3 position) {
   int bit = tile_size * (pixel.y % tile_size) + pixel.x % tile_size;
   if (((decision.lit[bit >> 5] >> (bit & 31)) & 1u) != 0u) return fully_lit();
   float radius = packed_radius(position, decision.blocker_distance);
-  bool under_texel = decision.blocker_distance > 0.0 && radius < texel_size_at(position, decision.layer);
+  Light light = with_layer(frame_light(), decision.layer);
+  bool under_texel = decision.blocker_distance > 0.0 && radius < texel_size_at(position, light);
   return Visibility(0.0, radius, decision.blocker_distance, under_texel);
 }
 

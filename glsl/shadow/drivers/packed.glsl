@@ -23,8 +23,8 @@ PackedPixel packed_pixel(Shadowed shadowed, Receiver receiver, uint refusal) {
 
 // Looks in the finest layer that contains the disc, since coarser layers may miss casters thinner than a texel.
 bool movement_within(Receiver receiver, float radius, Light light) {
-  int layer = finest_layer(receiver, radius, light);
-  return movement_seen(receiver.position, radius + 1.5 * texel_size_at(receiver.position, layer), layer);
+  light = with_layer(light, finest_layer(receiver, radius, light));
+  return movement_seen(receiver.position, radius + 1.5 * texel_size(receiver, light), light);
 }
 
 // Whether something moved that blocks, or blocked, a part of the light. The technique's read radius depends on this

@@ -51,7 +51,7 @@ Visibility visibility(Receiver receiver, Light light) {
   receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
   // The map's own footprint belongs to both discs, as in add_blockers().
   float search =
-      narrow_search(receiver, light, light.layer, light.read_radius).radius + footprint_margin(receiver, light);
+      narrow_search(receiver, light, light.read_radius).radius + footprint_margin(receiver, light);
   Region region = texels_within(receiver, search, light);
   float sum = 0.0, count = 0.0;
   for (int y = region.low.y; y <= region.high.y; ++y) {
