@@ -15,7 +15,9 @@ Contender::Contender(const Entry& entry, const scene::Scene& scene, const cli::D
 }
 
 void Contender::draw(const render::FrameInputs& inputs, const ParamSet& params) {
-  const render::Frame& frame = renderer_.draw(scene_, inputs, params);
+  render::FrameInputs own = inputs;
+  own.mask_details = floor_.has_value();  // which reads the filter radii
+  const render::Frame& frame = renderer_.draw(scene_, own, params);
   if (!floor_) return;
   // Copied between the two frames, so that the time of no pass includes it.
   floor_->take_kernels(*frame.mask.texture);

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/error.h"
 #include "core/names.h"
 #include "lib/octahedral.glsl"
 #include "lib/packed_texel.glsl"
@@ -114,28 +115,29 @@ std::vector<float> motion(const Source& from) {
   });
 }
 
+// Of visibility and, with `channels` 4, its details.
 template <class Convert>
-std::vector<float> of_mask(const Source& from, Convert convert) {
+std::vector<float> of_mask(const Source& from, int channels, Convert convert) {
   const Pixels sky = from.read(*from.frame.gbuffer.depth, 1);
-  return each(from.read(*from.frame.mask.texture, 4), [&](std::size_t i, const float* p, std::vector<float>& out) {
-    out.push_back(convert(p, is_sky(sky, i)));
-  });
+  return each(
+      from.read(*from.frame.mask.texture, channels),
+      [&](std::size_t i, const float* p, std::vector<float>& out) { out.push_back(convert(p, is_sky(sky, i))); });
 }
 
 std::vector<float> visibility(const Source& from) {
-  return of_mask(from, [](const float* p, bool) { return p[0]; });
+  return of_mask(from, 1, [](const float* p, bool) { return p[0]; });
 }
 std::vector<float> penumbra_width(const Source& from) {
-  return of_mask(from, [](const float* p, bool) { return 2.0f * p[1]; });
+  return of_mask(from, 4, [](const float* p, bool) { return 2.0f * p[1]; });
 }
 std::vector<float> blocker(const Source& from) {
-  return of_mask(from, [](const float* p, bool) { return p[2]; });
+  return of_mask(from, 4, [](const float* p, bool) { return p[2]; });
 }
 std::vector<float> cascade(const Source& from) {
-  return of_mask(from, [](const float* p, bool sky) { return sky ? -1.0f : std::floor(p[3]); });
+  return of_mask(from, 4, [](const float* p, bool sky) { return sky ? -1.0f : std::floor(p[3]); });
 }
 std::vector<float> under_texel(const Source& from) {
-  return of_mask(from, [](const float* p, bool) { return p[3] - std::floor(p[3]) >= 0.25f ? 1.0f : 0.0f; });
+  return of_mask(from, 4, [](const float* p, bool) { return p[3] - std::floor(p[3]) >= 0.25f ? 1.0f : 0.0f; });
 }
 
 std::vector<float> history(const Source& from) {
@@ -151,6 +153,11 @@ std::vector<float> history(const Source& from) {
     const auto note = static_cast<unsigned>(bits.values[i]);
     out.push_back(is_sky(sky, i) ? -1.0f : static_cast<float>(glsl::notes_refusal(note)));
   });
+}
+
+// Of a channel of the mask beside visibility.
+Aov detail(const char* name, const char* help, Reduction reduction) {
+  return {.name = name, .help = help, .channels = {"V"}, .reduction = reduction, .mask_details = true};
 }
 
 struct Row {
@@ -179,10 +186,11 @@ const std::vector<Row>& rows() {
         .reduction = nearest_center,
         .in_pixels = true},
        motion},
-      {{"cascade", "Cascade of the shadow map, 0 the finest; -1 for the sky.", v, nearest_center}, cascade},
-      {{"blocker", "Mean distance from a surface to what hides the sun, m; 0 for none.", v, mean_of_valid}, blocker},
-      {{"penumbra", "Full width of the penumbra, m; 0 where nothing hides the sun.", v, mean_of_valid}, penumbra_width},
-      {{"under_texel", "1 where the penumbra is narrower than the shadow map can show.", v, nearest_center},
+      {detail("cascade", "Cascade of the shadow map, 0 the finest; -1 for the sky.", nearest_center), cascade},
+      {detail("blocker", "Mean distance from a surface to what hides the sun, m; 0 for none.", mean_of_valid), blocker},
+      {detail("penumbra", "Full width of the penumbra, m; 0 where nothing hides the sun.", mean_of_valid),
+       penumbra_width},
+      {detail("under_texel", "1 where the penumbra is narrower than the shadow map can show.", nearest_center),
        under_texel},
       {{"history",
         "Why the shadow of the last frames is refused: 0 it is used, 1 there is none, 2 the surface was off screen, 3 "
@@ -207,7 +215,11 @@ const std::vector<Aov>& aovs() {
 std::vector<float> read_aov(const FrameParts& frame, std::string_view name, std::optional<glm::ivec2> pixel) {
   std::vector<std::string> names;
   for (const Row& row : rows()) {
-    if (row.aov.name == name) return row.read({frame, pixel});
+    if (row.aov.name == name) {
+      if (row.aov.mask_details && frame.mask.texture->desc().format != GL_RGBA16F)
+        fail("aov '{}' was not kept: the frame was drawn without details of its mask", name);
+      return row.read({frame, pixel});
+    }
     names.push_back(row.aov.name);
   }
   fail_unknown("aov", name, names);

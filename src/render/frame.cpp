@@ -38,6 +38,7 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                                                       .time = inputs.time,
                                                       .cut = inputs.cut,
                                                       .restart = inputs.restart,
+                                                      .mask_details = inputs.mask_details,
                                                       .knows_moved = knows_moved,
                                                       .lights = lights,
                                                       .gbuffer = gbuffer,

@@ -65,8 +65,8 @@ struct ShadowMaskInputs {
   const glsl::ViewBlock& view;
   int view_id = 0;  // same as FrameInputs::view
   double time = 0;
-  bool cut = false, restart = false;  // same as in FrameInputs
-  bool knows_moved = true;            // the scene's moved casters are those that moved since the view's last frame
+  bool cut = false, restart = false, mask_details = false;  // same as in FrameInputs
+  bool knows_moved = true;  // the scene's moved casters are those that moved since the view's last frame
   std::span<const shadow::Light> lights;
   const GBuffer& gbuffer;
   const ParamSet& params;

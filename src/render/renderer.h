@@ -28,7 +28,8 @@ struct FrameInputs {
   // history, and the frame equals the first frame of a new run. A change of scene is always a cut, even if this is
   // false.
   bool cut = false;
-  bool restart = false;  // drops the histories alone; shadow maps in which nothing moved are kept
+  bool restart = false;       // drops the histories alone; shadow maps in which nothing moved are kept
+  bool mask_details = false;  // keeps what the AOVs need whose Aov::mask_details is set
 };
 
 // With supersampling, how the samples of one pixel become its value.
@@ -44,7 +45,8 @@ struct Aov {
   std::string help;                   // meaning and unit
   std::vector<std::string> channels;  // "R","G","B" or "V", …: EXR channel names without the layer's name
   Reduction reduction = Reduction::mean;
-  bool in_pixels = false;  // a length in drawn pixels, to be rescaled with supersampling
+  bool in_pixels = false;     // a length in drawn pixels, to be rescaled with supersampling
+  bool mask_details = false;  // there only in frames drawn with FrameInputs::mask_details
 };
 const std::vector<Aov>& aovs();
 
@@ -68,7 +70,8 @@ class Renderer {
   // max_lights.
   const Frame& draw(scene::GpuScene& scene, const FrameInputs& inputs, const ParamSet& params);
   // The last frame's AOV as floats, rows top to bottom, aov.channels.size() values for each pixel. Throws Error for
-  // unknown names. The frame's scene must still exist: motion vectors that the frame did not need are drawn here.
+  // unknown names, and for an AOV that this frame did not keep (Aov::mask_details). The frame's scene must still exist:
+  // motion vectors that the frame did not need are drawn here.
   std::vector<float> read_aov(std::string_view name) const;
   // The same for one pixel, counted from the upper left.
   std::vector<float> read_aov(std::string_view name, const glm::ivec2& pixel) const;

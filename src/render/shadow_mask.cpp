@@ -74,6 +74,7 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
                                      .casters = box_of(inputs.scene.casters()),
                                      .receivers = box_of(inputs.scene.receivers()),
                                      .moved = moved_box(inputs.scene, inputs.knows_moved),
+                                     .mask_details = inputs.mask_details,
                                      .draw = draw,
                                      .user = &frame_scene},
                                     inputs.params);

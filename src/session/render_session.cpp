@@ -49,8 +49,8 @@ void RenderSession::redraw(const ParamSet& params) { draw_at(*drawn_time_, *draw
 
 void RenderSession::draw_at(double time, double last_time, bool cut, const ParamSet& params) {
   const cli::Size pixels{options_.size.width * options_.supersample, options_.size.height * options_.supersample};
-  const render::FrameInputs inputs =
-      frame_inputs(*prepared_, pixels, {.time = time, .last_time = last_time, .cut = cut});
+  render::FrameInputs inputs = frame_inputs(*prepared_, pixels, {.time = time, .last_time = last_time, .cut = cut});
+  inputs.mask_details = mask_details_;
   setup_ = setup_at(*prepared_, time);
   renderer_.draw(*scene_, inputs, params);
   drawn_time_ = time;

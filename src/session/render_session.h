@@ -27,6 +27,9 @@ class RenderSession {
   // history exists.
   void redraw(const ParamSet& params);
 
+  // From now on frames keep what the AOVs need whose render::Aov::mask_details is set.
+  void keep_mask_details() { mask_details_ = true; }
+
   // The next frame starts without history, as the first of a run. Call it when shaders have changed.
   void cut() { drawn_time_.reset(); }
   // Draws another scene from now on, with the same context and programs; the next frame starts without history.
@@ -52,6 +55,7 @@ class RenderSession {
   render::Renderer renderer_;
   render::Setup setup_;
   std::optional<double> drawn_time_;  // of the last frame
+  bool mask_details_ = false;
 };
 
 }  // namespace penumbra::session

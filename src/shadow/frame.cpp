@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "denoise_context.h"
 #include "light_block.h"
@@ -158,11 +159,24 @@ void release_unused(const LightWork& work, bool draws_shadow_map) {
   state.used.clear();
 }
 
-// Runs all steps for one light, from its parameters to its layer of the mask.
-LightFrame draw_light(const MaskInputs& from, const Light& light, const ViewState& view, LightState& state,
-                      LightFrame frame, const gl::Texture& mask) {
-  const bool same_params =
-      take_params(state, {.registry = from.registry, .defaults = from.defaults, .values = from.params}, light);
+// A light with its parameters for this frame.
+struct ReadLight {
+  const Light& light;
+  LightState& state;
+  bool same_params = false;  // see take_params()
+};
+
+ReadLight read_light(const MaskInputs& from, const Light& light, ViewState& view) {
+  LightState& state = view.lights[light.id];
+  if (state.prefix.empty()) state.prefix = fmt::format("{}light {}/", view.prefix, light.id);
+  return {light, state,
+          take_params(state, {.registry = from.registry, .defaults = from.defaults, .values = from.params}, light)};
+}
+
+// Runs all steps for one light, from its projection to its layer of the mask.
+LightFrame draw_light(const MaskInputs& from, const ReadLight& read, const ViewState& view, LightFrame frame,
+                      const gl::Texture& mask) {
+  const auto& [light, state, same_params] = read;
   frame.projection = projection_of(from.inputs, light, state.params);
   frame.shape = shape_of(light.source, state.params);
   take_shape(state, frame.shape);
@@ -200,9 +214,16 @@ LightFrame draw_light(const MaskInputs& from, const Light& light, const ViewStat
   return frame;
 }
 
-const gl::Texture& mask_target(const MaskInputs& from, const ViewState& view) {
+// Techniques with passes of their own may write all channels as an image, and denoisers read them from the mask.
+bool has_details(const MaskInputs& from, const std::vector<ReadLight>& lights) {
+  return from.inputs.mask_details || std::ranges::any_of(lights, [&](const ReadLight& light) {
+           return static_cast<bool>(from.registry.find(light.state.params.get_word("technique")).resolve);
+         });
+}
+
+const gl::Texture& mask_target(const MaskInputs& from, const ViewState& view, GLenum format) {
   return from.device.target(view.prefix + "mask", {.target = GL_TEXTURE_2D_ARRAY,
-                                                   .format = GL_RGBA16F,
+                                                   .format = format,
                                                    .width = from.inputs.depth.width,
                                                    .height = from.inputs.depth.height,
                                                    .layers = std::max(1, static_cast<int>(from.inputs.lights.size()))});
@@ -222,16 +243,16 @@ Mask draw_mask(const MaskInputs& from, ViewState& view) {
   const bool last_completed = std::exchange(view.drawn, false);
   check(from.inputs, view.checked);
   begin_frame(view, from.inputs, last_completed);
+  std::vector<ReadLight> lights;
+  for (const Light& light : from.inputs.lights) lights.push_back(read_light(from, light, view));
   Mask mask;
-  mask.texture = &mask_target(from, view);
-  for (const Light& light : from.inputs.lights) {
-    LightState& state = view.lights[light.id];
-    if (state.prefix.empty()) state.prefix = fmt::format("{}light {}/", view.prefix, light.id);
+  mask.texture = &mask_target(from, view, has_details(from, lights) ? GL_RGBA16F : GL_R16F);
+  for (const ReadLight& read : lights) {
     const LightFrame frame{.view = from.inputs.view.id,
-                           .light = light.id,
+                           .light = read.light.id,
                            .layer = static_cast<int>(mask.lights.size()),
                            .viewport = viewport_of(from.inputs)};
-    mask.lights.push_back(draw_light(from, light, view, state, frame, *mask.texture));
+    mask.lights.push_back(draw_light(from, read, view, frame, *mask.texture));
   }
   forget_lights_left_out(from.device, view);
   view.drawn = true;

@@ -119,6 +119,9 @@ struct Inputs {
   // Where all lights bring their maps and there is no `draw`, no movement map can be drawn: if the parameter
   // movement.map is on, the history is then used only in frames whose box is empty.
   std::optional<Box> moved;
+  // Whether Mask::texture has a penumbra radius, a blocker distance and a cascade beside visibility: 8 bytes a pixel
+  // and light instead of 2. Visibility is the same.
+  bool mask_details = false;
   DrawCasters draw;            // optional when every light brings its maps
   const void* user = nullptr;  // passed on to the caller's own techniques; the library never reads it
 };

@@ -63,10 +63,12 @@ struct LightFrame {
   std::vector<Product> products;  // all that this frame made for the light
 };
 
-// The result: an RGBA16F array with one layer for each light, of the size of the depth texture, one texel for each of
-// its pixels: R visibility 0..1; G penumbra radius at the receiver, metres (0: none); B mean distance from receiver to
-// blockers along the light, metres (0: none; after a denoiser, the distance that corresponds to the radius in G, also
-// for techniques that compute only the radius); A cascade index, plus 0.5 where the kernel is smaller than a texel.
+// The result: an array with one layer for each light, of the size of the depth texture, one texel for each of its
+// pixels. R is visibility, 0..1, and by default there is no more: R16F. With Inputs::mask_details, and where a light's
+// technique fills the mask by passes of its own (Technique::resolve), it is RGBA16F: G penumbra radius at the receiver,
+// metres (0: none); B mean distance from receiver to blockers along the light, metres (0: none; after a denoiser, the
+// distance that corresponds to the radius in G, also for techniques that compute only the radius); A cascade index,
+// plus 0.5 where the kernel is smaller than a texel.
 // Texels outside of the viewport are undefined. The mask is valid until the next render() of its view.
 struct Mask {
   const gl::Texture* texture = nullptr;

@@ -4,7 +4,7 @@
 
 namespace penumbra::shadow {
 
-// Where the mask pass writes: a layer of an RGBA16F array, or the packed form of a mask.
+// Where the mask pass writes: a layer of an array in the mask's format or its other one, or the packed form of a mask.
 struct MaskOutput {
   const gl::Texture* mask = nullptr;
   int layer = 0;

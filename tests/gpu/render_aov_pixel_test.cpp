@@ -21,6 +21,7 @@ class AovPixelTest : public RenderTest {
     add_node(scene_, wall, glm::rotate(glm::scale(glm::mat4(1), glm::vec3(0.5f)), 0.4f, glm::vec3(1, 1, 0)));
     inputs.last_camera = render::look_at({0.1f, 0.05f, 4.2f}, {0, 0, 0}, 1.0f, 0.01f);
     sun().to_light = glm::normalize(glm::vec3(0.5f, 0.6f, 1));
+    inputs.mask_details = true;
     params.set_text("technique", "pcss");
     params.set_text("sun.angle", "4");
     params.set_text("cascades.size", "64");  // so coarse that penumbrae are narrower than a texel
@@ -75,6 +76,18 @@ TEST_F(AovPixelTest, ThePicturesOfThisTestTellPixelsApart) {
     const std::vector<float> values = renderer.read_aov(aov.name);
     const auto [least, most] = std::ranges::minmax_element(values);
     EXPECT_LT(*least, *most) << aov.name;
+  }
+}
+
+TEST_F(AovPixelTest, DetailsThatTheFrameDidNotKeepAreAnError) {
+  inputs.mask_details = false;
+  draw(scene_);
+  for (const render::Aov& aov : render::aovs()) {
+    if (!aov.mask_details) {
+      renderer.read_aov(aov.name);
+      continue;
+    }
+    EXPECT_NE(message_of([&] { renderer.read_aov(aov.name); }).find(aov.name), std::string::npos) << aov.name;
   }
 }
 

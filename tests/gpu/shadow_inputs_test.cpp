@@ -116,6 +116,20 @@ TEST_F(ShadowInputs, LightsAreChecked) {
   expect_refusal("light space is not finite", with_maps([](auto& c) { c.anchor.x = NAN; }));
 }
 
+TEST_F(ShadowInputs, VisibilityIsTheSameWithAndWithoutDetails) {
+  const TriangleScene scene = box_on_ground(48);
+  for (const char* technique : {"hard", "pcss", "pcss_compute", "thesis_8x8", "thesis_8x8_compute"}) {
+    SCOPED_TRACE(technique);
+    renderer.shadows().registry().select(params, technique);
+    const std::vector<float> detailed = renderer.render(scene, params).visibilities();
+    EXPECT_EQ(renderer.mask().texture->desc().format, static_cast<GLenum>(GL_RGBA16F));
+    const std::vector<float> plain =
+        renderer.render(scene, params, [](shadow::Inputs& in) { in.mask_details = false; }).visibilities();
+    EXPECT_EQ(renderer.mask().texture->desc().format, static_cast<GLenum>(GL_R16F));
+    EXPECT_EQ(plain, detailed);
+  }
+}
+
 TEST_F(ShadowInputs, AViewMayBeAPartOfItsTextures) {
   const TriangleScene scene = box_on_ground(48);
   const shadow::Rect part{13, 5, scene.width, scene.height};

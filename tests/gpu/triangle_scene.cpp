@@ -226,6 +226,7 @@ Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& pa
                         .casters = scene.casters.value_or(bounds_of(scene)),
                         .receivers = scene.receivers.value_or(bounds_of(scene)),
                         .moved = scene.moved(),
+                        .mask_details = true,
                         .draw = geometry.casters()};
   if (adjust) adjust(inputs);
   mask_ = shadows_.render(inputs, params);

@@ -80,7 +80,8 @@ class EarlyExit : public GpuTest {
                    .camera = setup_.camera,
                    .last_camera = setup_.camera,
                    .lights = {setup_.sun},
-                   .cut = true},
+                   .cut = true,
+                   .mask_details = true},
                   params);
   }
 

@@ -67,7 +67,8 @@ std::vector<Layers> draw(Machine& machine, const scene::Scene& scene, const rend
                             .last_camera = setup.camera,
                             .lights = {setup.sun},
                             .time = 0.4,
-                            .last_time = 0.37},
+                            .last_time = 0.37,
+                            .mask_details = true},
                            params);
     Layers layers;
     for (const render::Aov& aov : render::aovs()) layers.push_back(machine.renderer->read_aov(aov.name));

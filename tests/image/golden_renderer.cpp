@@ -63,7 +63,8 @@ void GoldenRenderer::draw(const Golden& golden, const std::vector<const char*>& 
                     .lights = {setup.sun},
                     .time = time,
                     .last_time = i == 0 ? time : time - 1 / frames_a_second,
-                    .cut = i == 0},
+                    .cut = i == 0,
+                    .mask_details = true},
                    params);
   }
 }

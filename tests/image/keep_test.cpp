@@ -38,6 +38,7 @@ class Keep : public GpuTest {
   void choose(const std::string& technique, const std::vector<std::string>& assignments) {
     params_ = ParamSet(render::Renderer::params(keeping_.registry()));
     keeping_.registry().select(params_, technique);
+    inputs_.mask_details = true;
     params_.set("cascades.size", 256);
     for (const std::string& assignment : assignments) params_.assign(assignment);
   }

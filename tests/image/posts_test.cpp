@@ -86,10 +86,14 @@ class Posts : public GpuTest {
     params.set("pcss.filter_taps", 64);
     params.set("cascades.count", cascades);
     params.set("cascades.size", size);
-    const render::Frame& frame = renderer_.draw(
-        gpu_scene,
-        {.width = width, .height = height, .camera = setup.camera, .last_camera = setup.camera, .lights = {setup.sun}},
-        params);
+    const render::Frame& frame = renderer_.draw(gpu_scene,
+                                                {.width = width,
+                                                 .height = height,
+                                                 .camera = setup.camera,
+                                                 .last_camera = setup.camera,
+                                                 .lights = {setup.sun},
+                                                 .mask_details = true},
+                                                params);
     const std::vector<float> cascade = renderer_.read_aov("cascade");
     const int coarsest = static_cast<int>(*std::max_element(cascade.begin(), cascade.end()));
     const float radius = std::tan(glm::radians(sun_angle / 2)) * 3 / std::sin(glm::radians(40.0f));

@@ -31,7 +31,8 @@ render::FrameInputs SceneRun::inputs(bool cut) const {
           .lights = {setup_.sun},
           .time = time_,
           .last_time = drawn_ ? last_time_ : time_,
-          .cut = cut};
+          .cut = cut,
+          .mask_details = true};
 }
 
 Visibility SceneRun::draw(bool cut) {

@@ -62,7 +62,8 @@ class Tiles : public GpuTest {
                    .camera = setup_.camera,
                    .last_camera = setup_.camera,
                    .lights = {setup_.sun},
-                   .cut = true},
+                   .cut = true,
+                   .mask_details = true},
                   params);
     return renderer.read_aov("shadow");
   }

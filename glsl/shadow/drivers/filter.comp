@@ -6,7 +6,7 @@ layout(local_size_x = GROUP_X, local_size_y = GROUP_Y) in;
 
 layout(binding = 12) uniform usampler2D source_texels;
 #if TO_MASK
-layout(binding = 0, rgba16f) uniform writeonly restrict image2DArray mask;
+layout(binding = 0) uniform writeonly restrict image2DArray mask;  // of any format: see Mask
 uniform int mask_layer;
 #else
 layout(binding = 0, r32ui) uniform writeonly restrict uimage2D texels;

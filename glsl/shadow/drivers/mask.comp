@@ -5,7 +5,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0, r32ui) uniform writeonly restrict uimage2D texels;
 layout(binding = 1, r8ui) uniform writeonly restrict uimage2D notes;
 #else
-layout(binding = 0, rgba16f) uniform writeonly restrict image2DArray mask;
+layout(binding = 0) uniform writeonly restrict image2DArray mask;  // of any format: see Mask
 uniform int mask_layer;
 #endif
 

@@ -1,5 +1,7 @@
 #include "app/render/drawing.h"
 
+#include <algorithm>
+
 #include "app/render/stats.h"
 #include "cli/progress.h"
 #include "io/output_file.h"
@@ -18,10 +20,17 @@ void draw_still(session::RenderSession& session, int frame, const ParamSet& para
   }
 }
 
+bool wants_mask_details(const RenderOptions& options) {
+  return std::ranges::any_of(render::aovs(), [&](const render::Aov& aov) {
+    return aov.mask_details && std::ranges::find(options.aovs, aov.name) != options.aovs.end();
+  });
+}
+
 }  // namespace
 
 void draw_frames(const RenderOptions& options, session::RenderSession& session, const ParamSet& params,
                  const cli::FrameRange& range, const std::function<void(int frame)>& drawn) {
+  if (wants_mask_details(options)) session.keep_mask_details();
   cli::Progress progress("frame", options.warmup + range.count(), !options.quiet);
   for (int frame = range.first - options.warmup; frame <= range.last; ++frame) {
     if (options.warmup_still && frame <= range.first) {
