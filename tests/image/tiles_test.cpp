@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <glm/gtc/matrix_transform.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "gpu/gpu_test.h"
 #include "image/read.h"
+#include "image/scene_run.h"
 #include "render/renderer.h"
 #include "render/setup.h"
 #include "scene/gltf.h"
@@ -55,17 +57,25 @@ class Tiles : public GpuTest {
     renderer.registry().select(params, technique);
     params.set("sun.angle", angle);
     params.set("mask.tiles", tiles);
-    params.set("bias.normal_offset", normal_offset_);
-    renderer.draw(*gpu_scene_,
-                  {.width = width_,
-                   .height = height_,
-                   .camera = setup_.camera,
-                   .last_camera = setup_.camera,
-                   .lights = {setup_.sun},
-                   .cut = true,
-                   .mask_details = true},
-                  params);
+    for (const std::string& assignment : settings_) params.assign(assignment);
+    drawn_ = renderer.draw(*gpu_scene_,
+                           {.width = width_,
+                            .height = height_,
+                            .camera = setup_.camera,
+                            .last_camera = setup_.camera,
+                            .lights = lights_.empty() ? std::vector<render::Light>{setup_.sun} : lights_,
+                            .cut = true,
+                            .mask_details = true},
+                           params);
     return renderer.read_aov("shadow");
+  }
+
+  // All values of the layers of the last mask.
+  std::vector<std::vector<float>> layers() const {
+    std::vector<std::vector<float>> all;
+    for (int layer = 0; layer < drawn_.mask.texture->desc().layers; ++layer)
+      all.push_back(gl::read_floats(*drawn_.mask.texture, 4, 0, layer));
+    return all;
   }
 
   // Expects decided pixels to have the visibility that the technique computes for them, with a slack for the few that
@@ -94,13 +104,15 @@ class Tiles : public GpuTest {
 
  protected:
   render::Renderer renderer_{device_}, marks_renderer_{device_, registry_of_marks()};
-  float normal_offset_ = 0;
+  std::vector<std::string> settings_;  // "name=value"
+  std::vector<render::Light> lights_;  // none: the scene's sun
 
  private:
   int width_ = 0, height_ = 0;
   scene::Scene scene_;
   render::Setup setup_;
   std::optional<scene::GpuScene> gpu_scene_;
+  render::Frame drawn_;
 };
 
 TEST_F(Tiles, DecideMostPixelsAndMissNoPenumbra) {
@@ -130,11 +142,51 @@ TEST_F(Tiles, AreTheSameInBothDrivers) {
 
 // Receivers are shifted by several texels before they are compared with the map.
 TEST_F(Tiles, MissNoPenumbraWithANormalOffset) {
-  normal_offset_ = 4;
+  settings_ = {"bias.normal_offset=4"};
   for (const char* scene : {"posts", "courtyard"}) {
     SCOPED_TRACE(scene);
     load(scene, 320, 180);
     for (const float angle : {0.0f, 0.53f}) expect_no_penumbra_is_missed("pcss", angle);
+  }
+}
+
+TEST_F(Tiles, MissNoPenumbraOfASquareSun) {
+  settings_ = {"sun.shape=square"};
+  for (const char* scene : {"posts", "courtyard"}) {
+    SCOPED_TRACE(scene);
+    load(scene, 320, 180);
+    for (const float angle : {0.53f, 4.0f}) expect_no_penumbra_is_missed("pcss", angle);
+  }
+}
+
+// Cascades so coarse that two of them differ where a tile's receivers read both, at a wide seam.
+TEST_F(Tiles, MissNoPenumbraAtSeams) {
+  for (const char* seam : {"none", "fade", "dither"}) {
+    for (const auto& [scene, size] : {std::pair("posts", 128), {"courtyard", 512}}) {
+      settings_ = {fmt::format("cascades.seam={}", seam), "cascades.blend=0.5", fmt::format("cascades.size={}", size)};
+      SCOPED_TRACE(fmt::format("{}, {}", scene, settings_[0]));
+      load(scene, 320, 180);
+      expect_no_penumbra_is_missed("pcss", 2.0f);
+    }
+  }
+}
+
+TEST_F(Tiles, OfEachLightAreItsOwn) {
+  load("courtyard", 160, 90);
+  const std::vector<render::Light> suns{render::Sun{.to_light = render::direction_to(2.0f, 0.9f)},
+                                        render::Sun{.to_light = render::direction_to(4.0f, 0.6f)}};
+  for (const char* technique : {"pcss", "pcss_compute", "thesis_8x8", "thesis_8x8_compute"}) {
+    SCOPED_TRACE(technique);
+    std::vector<std::vector<float>> alone;
+    for (const render::Light& sun : suns) {
+      lights_ = {sun};
+      mask(renderer_, technique, 2.0f, true);
+      alone.push_back(layers()[0]);
+    }
+    lights_ = suns;
+    mask(renderer_, technique, 2.0f, true);
+    EXPECT_EQ(layers(), alone);
+    EXPECT_NE(alone[0], alone[1]);
   }
 }
 
@@ -150,6 +202,33 @@ TEST_F(Tiles, LeaveDenoisedMasksAsTheyAre) {
       double squares = 0;
       for (std::size_t i = 0; i < with.size(); ++i) squares += std::pow(with[i] - without[i], 2);
       EXPECT_LT(std::sqrt(squares / static_cast<double>(with.size())), 0.002);
+    }
+  }
+}
+
+// The share of pixels that differ by more than 1/255.
+double share_apart(const std::vector<float>& a, const std::vector<float>& b) {
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) apart += std::abs(a[i] - b[i]) > 1.0f / 255 ? 1 : 0;
+  return static_cast<double>(apart) / static_cast<double>(a.size());
+}
+
+// The history of decided pixels is kept, blended and refused like that of the others, while casters and camera move.
+TEST_F(Tiles, KeepTheHistoryAsItIs) {
+  SceneRun with("moving", 320, 180), without("moving", 320, 180);
+  for (const char* technique : {"thesis", "thesis_8x8_compute"}) {
+    with.choose(technique);
+    without.choose(technique);
+    without.params().set("mask.tiles", false);
+    for (int frame = 0; frame < 6; ++frame) {
+      SCOPED_TRACE(fmt::format("{}, frame {}", technique, frame));
+      const Visibility a = with.draw(/*cut=*/frame == 0), b = without.draw(/*cut=*/frame == 0);
+      EXPECT_LT(share_apart(a, b), 0.002);
+      EXPECT_LT(share_apart(with.read_aov("history"), without.read_aov("history")), 0.02);
+      for (SceneRun* run : {&with, &without}) {
+        run->time() += 1 / 30.0;
+        run->camera().view = glm::translate(run->camera().view, glm::vec3(0.01f, 0, 0));
+      }
     }
   }
 }
