@@ -4,6 +4,9 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 1, rg32f) uniform writeonly restrict image2DArray level;
 
+uniform vec4 drawn[8];    // by layer, the lowest and the highest texel that casters were drawn to
+uniform int level_shift;  // a texel of the level covers 2^level_shift texels of the map along each axis
+
 #if FROM_DEPTH
 #include "shadow/light_projection.glsl"
 
@@ -14,8 +17,16 @@ vec4 depths_at_edges(vec4 a, vec4 b, float height) {
 
 float least_of(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
 
-// Texels outside of the map count as empty (depth 1).
+// Whether casters were drawn to all texels of a block and of the row around it, as far as the map has them.
+bool is_drawn(ivec3 at) {
+  ivec2 first = max(4 * at.xy - 1, ivec2(0)), last = min(4 * at.xy + 4, last_texel());
+  return all(greaterThanEqual(first, ivec2(drawn[at.z].xy))) && all(lessThanEqual(last, ivec2(drawn[at.z].zw)));
+}
+
+// Texels outside of the map count as empty (depth 1), and so do blocks that no receiver reads: what the map holds there
+// depends on whether it was drawn whole.
 vec2 least_depths(ivec3 at) {
+  if (!is_drawn(at)) return vec2(1.0);
   // Rows of six texels, from the one before the block to the one after it.
   vec4 middle[6];
   vec2 ends[6];
@@ -60,6 +71,7 @@ vec2 least_depths(ivec3 at) {
 
 void main() {
   ivec3 at = ivec3(gl_GlobalInvocationID);
+  at.xy += ivec2(drawn[at.z].xy) >> level_shift;
   if (any(greaterThanEqual(at.xy, imageSize(level).xy))) return;
   imageStore(level, at, vec4(least_depths(at), 0.0, 0.0));
 }

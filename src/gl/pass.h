@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -88,6 +89,18 @@ class Pass {
   bool debug_;
   const Program* program_ = nullptr;
   ForeignAttachments foreign_;
+};
+
+// Puts the scissor box, which passes with a PassDesc::scissor change, back to what it is now.
+class KeptScissorBox {
+ public:
+  KeptScissorBox();
+  ~KeptScissorBox();
+  KeptScissorBox(const KeptScissorBox&) = delete;
+  KeptScissorBox& operator=(const KeptScissorBox&) = delete;
+
+ private:
+  std::array<GLint, 4> box_{};  // x, y, width, height
 };
 
 // Unbinds textures and samplers from the first `count` units.

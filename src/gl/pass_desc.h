@@ -49,6 +49,11 @@ struct Stencil {
   bool dont_care = false;
 };
 
+// (x, y) is the lower left texel.
+struct TexelRect {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
 // What a raster pass draws to, and all of its state: nothing is inherited from earlier passes, so they can be
 // reordered.
 struct PassDesc {
@@ -63,6 +68,7 @@ struct PassDesc {
   Blend blend = Blend::off;
   bool cull_back = false;  // counter-clockwise is front
   bool depth_clamp = false;
+  std::optional<TexelRect> scissor;  // draws change only these texels; clears are not limited
 };
 
 }  // namespace penumbra::gl

@@ -185,6 +185,9 @@ void begin_raster_state(GLuint framebuffer, const PassDesc& desc) {
   set_stencil(desc.stencil);
   set_blend(desc.blend);
   set_enabled(GL_CULL_FACE, desc.cull_back);
+  if (!desc.scissor) return;
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(desc.scissor->x, desc.scissor->y, desc.scissor->width, desc.scissor->height);
 }
 
 void unbind_textures(GLuint count) {

@@ -19,6 +19,11 @@ shadow::LightSource source_of(const Sun& sun) { return shadow::Sun{.to_light = s
 // Homogeneous coordinates: a direction, or a position.
 glm::vec4 towards(const shadow::Sun& sun) { return {sun.to_light, 0}; }
 
+scene::Overlap overlap_of(const shadow::CullVolume& volume, const shadow::Box& box) {
+  if (!volume.holds(box)) return scene::Overlap::none;
+  return volume.contains(box) ? scene::Overlap::all : scene::Overlap::part;
+}
+
 scene::CasterSubset casters_of(shadow::CasterKind kind) {
   switch (kind) {
     case shadow::CasterKind::moved_now:
@@ -52,11 +57,12 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
   const gl::Texture* drawn_motion = inputs.gbuffer.motion;
   const shadow::TextureView motion = drawn_motion != nullptr ? view_of(*drawn_motion) : shadow::TextureView{};
   const auto draw = [&](const shadow::CasterPass& casters, gl::Pass& pass) {
-    const auto reaches = [&](const scene::Bounds& box) { return casters.cull.holds(box_of(box)); };
     if (casters.kind == shadow::CasterKind::geometry) {
+      const auto reaches = [&](const scene::Bounds& box) { return casters.cull.holds(box_of(box)); };
       const glm::vec4 light = std::visit([](const auto& kind) { return towards(kind); }, casters.source);
       inputs.scene.draw_caster_geometry(device, pass, casters.program, casters.world_to_clip, light, reaches);
     } else {
+      const auto reaches = [&](const scene::Bounds& box) { return overlap_of(casters.cull, box_of(box)); };
       inputs.scene.draw_casters(device, pass, casters_of(casters.kind), casters.world_to_clip, reaches);
     }
   };

@@ -61,6 +61,7 @@ class Builder {
   std::vector<glm::vec3> triangle_normals;  // of what does not deform
   std::uint32_t deformed_triangles = 0;
   std::vector<Instance> instances;
+  std::map<const Primitive*, std::vector<MeshPart>> parts;  // of large ones that do not deform
 
  private:
   void add_node(int node) {
@@ -100,6 +101,7 @@ class Builder {
       if (!placed.base_vertex) place_rigid(primitive, placed);
       instance.base_vertex = *placed.base_vertex;
       instance.first_triangle = placed.first_triangle;
+      if (const auto found = parts.find(&primitive); found != parts.end()) instance.parts = &found->second;
     }
     // Skinned vertices are already in world space, so instance transforms do not apply to them.
     const bool copied = !node.instances.empty() && !(instance.job >= 0 && deformer_.skinned(instance.job));
@@ -133,6 +135,8 @@ class Builder {
     placed.first_triangle = static_cast<std::uint32_t>(triangle_normals.size());
     const std::vector<glm::vec3> normals = scene::triangle_normals(primitive);
     triangle_normals.insert(triangle_normals.end(), normals.begin(), normals.end());
+    if (std::vector<MeshPart> divided = parts_of(primitive); !divided.empty())
+      parts.emplace(&primitive, std::move(divided));
   }
 
   const Scene& scene_;
@@ -168,6 +172,7 @@ GpuScene::State::State(gl::Device& device, const Scene& described)
   Builder builder(scene, materials, deformer);
   deformer.upload();
   instances = std::move(builder.instances);
+  parts = std::move(builder.parts);  // moved as a whole: the instances' pointers stay valid
   positions = upload("positions", builder.rigid.positions);
   frames = upload("normals and tangents", builder.rigid.frames);
   surfaces = upload("texture coordinates and colours", builder.rigid.surfaces);

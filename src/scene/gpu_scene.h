@@ -20,6 +20,10 @@ namespace penumbra::scene {
 // Decides from an instance's world-space box whether the instance is drawn.
 using BoxTest = std::function<bool(const Bounds&)>;
 
+// How much of a world-space box a pass can show.
+enum class Overlap { none, part, all };
+using BoxOverlap = std::function<Overlap(const Bounds&)>;
+
 // Makes the program that a pass has for such surfaces the current one.
 using UseProgram = std::function<void(const SurfaceTraits&)>;
 // Orders what is drawn; any unit.
@@ -63,9 +67,10 @@ class GpuScene {
   // Draws BLEND surfaces, those with the greatest distance first.
   void draw_blended(gl::Device& device, gl::Pass& pass, const UseProgram& use, const BoxTest& visible,
                     const Distance& distance);
-  // Draws the shadow casters: opaque surfaces, and masked and blended ones where their alpha passes.
+  // Draws the shadow casters: opaque surfaces, and masked and blended ones where their alpha passes. Of a large mesh
+  // that overlaps in part, `reaches` is asked for its parts too.
   void draw_casters(gl::Device& device, gl::Pass& pass, CasterSubset casters, const glm::mat4& world_to_clip,
-                    const BoxTest& reaches);
+                    const BoxOverlap& reaches);
   // Draws the triangles of opaque and masked casters with caster_geometry_programs(stages), without the alpha test of
   // masked surfaces. Where only one face casts, a triangle whose other face is towards the light has all corners in one
   // place. `light`: homogeneous world coordinates, with w = 0 for a direction to the light, else 1.

@@ -27,16 +27,6 @@ GLenum mode_of(Topology topology) {
   return GL_TRIANGLES;
 }
 
-gl::ProgramDesc caster_program(bool masked, bool marks_moved, bool last_pose) {
-  gl::ProgramDesc program{.name = masked ? "alpha caster" : "caster",
-                          .vertex = "scene/caster.vert",
-                          .defines = {{"LAST_POSE", last_pose ? "1" : "0"},
-                                      {"MASKED", masked ? "1" : "0"},
-                                      {"MARKS_MOVED", marks_moved ? "1" : "0"}}};
-  if (masked || marks_moved) program.fragment = "scene/caster.frag";
-  return program;
-}
-
 // The state that shading reads of an instance.
 Batch shaded_batch(const Instance& instance) {
   return {.deformed = instance.job >= 0,
@@ -52,21 +42,6 @@ Batch depth_batch(const Instance& instance, bool masked) {
   Batch batch = shaded_batch(instance);
   batch.traits = {};
   if (!masked) batch.material = -1;
-  return batch;
-}
-
-// Whether triangles that are counter-clockwise as seen from the light are clockwise in its map. A map with x to the
-// right, y up and depth growing away from the light is left-handed, so a matrix that keeps their order has a negative
-// determinant.
-bool turns_round(const glm::mat4& world_to_clip) { return glm::determinant(world_to_clip) > 0; }
-
-// All casters of both faces without a material share one draw. Where only one face casts, the other face is culled like
-// back faces.
-Batch caster_batch(const Instance& instance, bool masked, bool flips) {
-  Batch batch{.deformed = instance.job >= 0, .double_sided = true, .material = masked ? instance.material : -1};
-  if (instance.faces == CasterFaces::both) return batch;
-  batch.double_sided = false;
-  batch.mirrored = (instance.mirrored != flips) != (instance.faces == CasterFaces::back);
   return batch;
 }
 
@@ -92,22 +67,40 @@ bool Batch::same_state(const Batch& other) const {
          topology == other.topology && material == other.material && traits == other.traits;
 }
 
-void DrawList::add(const Instance& instance, std::uint32_t index, Batch batch) {
-  const bool new_batch = batches.empty() || !batches.back().same_state(batch);
-  if (new_batch) {
-    batch.first = commands.size();
-    batches.push_back(batch);
-  }
+bool DrawList::begin(Batch batch) {
+  if (!batches.empty() && batches.back().same_state(batch)) return false;
+  batch.first = commands.size();
+  batches.push_back(batch);
+  return true;
+}
+
+void DrawList::add(const Instance& instance, std::uint32_t index, const Batch& batch) {
+  const bool new_batch = begin(batch);
   const auto base_vertex = static_cast<std::int32_t>(instance.base_vertex);
   if (!new_batch) {
     gl::DrawElementsCommand& previous = commands.back();
-    if (previous.first_index == instance.first_index && previous.base_vertex == base_vertex &&
-        previous.base_instance + previous.instance_count == index) {
+    if (previous.first_index == instance.first_index && previous.index_count == instance.index_count &&
+        previous.base_vertex == base_vertex && previous.base_instance + previous.instance_count == index) {
       ++previous.instance_count;
       return;
     }
   }
   commands.push_back({instance.index_count, 1, instance.first_index, base_vertex, index});
+  ++batches.back().count;
+}
+
+void DrawList::add_part(const Instance& instance, std::uint32_t index, const Batch& batch, const MeshPart& part) {
+  const bool new_batch = begin(batch);
+  const std::uint32_t first = instance.first_index + part.first_index;
+  if (!new_batch) {
+    gl::DrawElementsCommand& previous = commands.back();
+    if (previous.base_instance == index && previous.instance_count == 1 &&
+        previous.first_index + previous.index_count == first) {
+      previous.index_count += part.index_count;
+      return;
+    }
+  }
+  commands.push_back({part.index_count, 1, first, static_cast<std::int32_t>(instance.base_vertex), index});
   ++batches.back().count;
 }
 
@@ -209,47 +202,6 @@ void GpuScene::draw_blended(gl::Device& device, gl::Pass& pass, const UseProgram
   DrawList list;
   for (const std::uint32_t i : order) list.add(instances[i], i, shaded_batch(instances[i]));
   state_->draw(device, pass, list, use);
-}
-
-void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const CasterDraw& which,
-                                   const glm::mat4& world_to_clip, const BoxTest& reaches) const {
-  const bool flips = turns_round(world_to_clip);
-  for (const bool masked : {false, true}) {
-    DrawList list;
-    for (std::uint32_t i = 0; i < instances.size(); ++i) {
-      const Instance& instance = instances[i];
-      if (!instance.faces || instance.casts != (masked ? CastMode::by_alpha : CastMode::always)) continue;
-      if (!(instance.moved ? which.moved : which.still)) continue;
-      if (!reaches(which.last_pose ? instance.last_box : instance.box)) continue;
-      list.add(instance, i, caster_batch(instance, masked, flips));
-    }
-    if (list.commands.empty()) continue;
-    pass.use(caster_program(masked, which.marks, which.last_pose)).set("world_to_clip", world_to_clip);
-    draw(device, pass, list);
-  }
-}
-
-void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, CasterSubset casters, const glm::mat4& world_to_clip,
-                            const BoxTest& reaches) {
-  const auto draw = [&](const CasterDraw& which) { state_->draw_casters(device, pass, which, world_to_clip, reaches); };
-  switch (casters) {
-    case CasterSubset::all:
-      draw({.still = true, .moved = true});
-      break;
-    case CasterSubset::all_and_moved:
-      // Casters that did not move only occlude, so they need no fragment stage: they are drawn first and write no mark.
-      gl::glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-      draw({.still = true});
-      gl::glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-      draw({.moved = true, .marks = true});
-      break;
-    case CasterSubset::moved_now:
-      draw({.moved = true, .marks = true});
-      break;
-    case CasterSubset::moved_last:
-      draw({.moved = true, .marks = true, .last_pose = true});
-      break;
-  }
 }
 
 // The casters of which these faces cast shadows.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "scene/gpu_scene_deform.h"
 #include "scene/gpu_scene_materials.h"
 #include "scene/gpu_scene_vertices.h"
+#include "scene/mesh_parts.h"
 #include "scene/posed_geometry.h"
 #include "scene/surface_traits.h"
 
@@ -30,7 +32,8 @@ struct Instance {
   // Which faces cast shadows by the present choice of casters; nothing if none does.
   std::optional<CasterFaces> faces = CasterFaces::both;
   std::uint32_t first_index = 0, index_count = 0, base_vertex = 0, first_triangle = 0;
-  Bounds local;  // bounds in node space, unless it deforms
+  Bounds local;                                  // bounds in node space, unless it deforms
+  const std::vector<MeshPart>* parts = nullptr;  // of a large mesh that does not deform
 
   // In the present pose.
   glm::mat4 world{1};
@@ -53,7 +56,11 @@ struct DrawList {
   std::vector<gl::DrawElementsCommand> commands;
   std::vector<Batch> batches;
 
-  void add(const Instance& instance, std::uint32_t index, Batch batch);
+  void add(const Instance& instance, std::uint32_t index, const Batch& batch);
+  void add_part(const Instance& instance, std::uint32_t index, const Batch& batch, const MeshPart& part);
+
+ private:
+  bool begin(Batch batch);  // whether the batch is a new one
 };
 
 // Consecutive instances of one primitive.
@@ -69,6 +76,9 @@ struct CasterDraw {
   bool last_pose = false;  // draws the last pose instead of the present one
 };
 
+// The program that draws the depth of casters and, `marks_moved`, writes 1 to fragment output 0.
+gl::ProgramDesc caster_program(bool masked, bool marks_moved, bool last_pose);
+
 // A pose on the GPU: the deformed vertices at one time.
 struct PosedVertices {
   std::optional<double> time;
@@ -83,6 +93,7 @@ struct GpuScene::State {
   const std::uint64_t id;
   Materials materials;
   Deformer deformer;
+  std::map<const Primitive*, std::vector<MeshPart>> parts;
   std::vector<Instance> instances;
   gl::Buffer positions, frames, surfaces, indices, triangle_normals;  // of all primitives, undeformed
   gl::Buffer deformed_surfaces;
@@ -110,7 +121,7 @@ struct GpuScene::State {
   void draw_unindexed(gl::Device& device, gl::Pass& pass, const DrawList& list) const;
   std::vector<Run> nearest_first(AlphaMode mode, const BoxTest& visible, const Distance& distance) const;
   void draw_casters(gl::Device& device, gl::Pass& pass, const CasterDraw& which, const glm::mat4& world_to_clip,
-                    const BoxTest& reaches) const;
+                    const BoxOverlap& reaches) const;
   DrawList caster_geometry(std::optional<CasterFaces> faces, const BoxTest& reaches) const;
 };
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "convex.h"
+
 namespace penumbra::shadow {
 
 namespace {
@@ -56,15 +58,6 @@ Range view_range(const CascadeInputs& in) {
   return {std::max(step_down(std::max(range.min, 0.0), 3), far * 1e-3), far};
 }
 
-// The frustum's corner at a depth, in view space, for NDC x and y of -1 or 1.
-glm::dvec3 frustum_corner(const glm::dmat4& projection, double depth, double ndc_x, double ndc_y) {
-  const bool perspective = projection[2][3] != 0;
-  const double scale = perspective ? depth : 1.0;
-  const double shift_x = perspective ? projection[2][0] : -projection[3][0];
-  const double shift_y = perspective ? projection[2][1] : -projection[3][1];
-  return {(ndc_x + shift_x) / projection[0][0] * scale, (ndc_y + shift_y) / projection[1][1] * scale, -depth};
-}
-
 // The smallest sphere, with its centre on the frustum's axis, that contains the part of the frustum between two depths.
 Sphere frustum_sphere(const CascadeInputs& in, double near, double far) {
   const glm::dmat4 projection(in.projection);
@@ -86,20 +79,6 @@ Sphere frustum_sphere(const CascadeInputs& in, double near, double far) {
   return sphere;
 }
 
-// Keeps the part of a polygon with dot(p, normal) <= limit.
-std::vector<glm::dvec3> clipped(const std::vector<glm::dvec3>& polygon, const glm::dvec3& normal, double limit) {
-  std::vector<glm::dvec3> kept;
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec3& a = polygon[i];
-    const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
-    const double da = glm::dot(a, normal) - limit;
-    const double db = glm::dot(b, normal) - limit;
-    if (da <= 0) kept.push_back(a);
-    if ((da < 0 && db > 0) || (da > 0 && db < 0)) kept.push_back(glm::mix(a, b, da / (da - db)));
-  }
-  return kept;
-}
-
 // A square column along the light, or a pyramid that widens towards it: `half` wide at the depth `base`, and `slope`
 // more for each metre towards the light.
 struct Column {
@@ -114,13 +93,13 @@ Range range_within(const Column& column, const std::array<glm::dvec3, 8>& corner
       {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
   Range range{1e30, -1e30};
   for (const auto& face : faces) {
-    std::vector<glm::dvec3> polygon;
+    Polygon polygon;
     for (const int corner : face) polygon.push_back(corners[static_cast<size_t>(corner)]);
     const double half = column.half + column.slope * column.base;
-    polygon = clipped(polygon, {1, 0, column.slope}, half + column.center.x);
-    polygon = clipped(polygon, {-1, 0, column.slope}, half - column.center.x);
-    polygon = clipped(polygon, {0, 1, column.slope}, half + column.center.y);
-    polygon = clipped(polygon, {0, -1, column.slope}, half - column.center.y);
+    polygon = clipped(polygon, HalfSpace{{1, 0, column.slope}, half + column.center.x});
+    polygon = clipped(polygon, HalfSpace{{-1, 0, column.slope}, half - column.center.x});
+    polygon = clipped(polygon, HalfSpace{{0, 1, column.slope}, half + column.center.y});
+    polygon = clipped(polygon, HalfSpace{{0, -1, column.slope}, half - column.center.y});
     for (const glm::dvec3& point : polygon) range = {std::min(range.min, point.z), std::max(range.max, point.z)};
   }
   return range;
@@ -143,6 +122,14 @@ glm::dmat4 clip_from_world(const Cascades& cascades, const Cascade& cascade) {
 }
 
 }  // namespace
+
+glm::dvec3 frustum_corner(const glm::dmat4& projection, double depth, double ndc_x, double ndc_y) {
+  const bool perspective = projection[2][3] != 0;
+  const double scale = perspective ? depth : 1.0;
+  const double shift_x = perspective ? projection[2][0] : -projection[3][0];
+  const double shift_y = perspective ? projection[2][1] : -projection[3][1];
+  return {(ndc_x + shift_x) / projection[0][0] * scale, (ndc_y + shift_y) / projection[1][1] * scale, -depth};
+}
 
 Cascades fit_cascades(const CascadeInputs& in) {
   assert(in.count >= 1 && in.count <= max_cascades && in.size >= 1);
@@ -195,9 +182,12 @@ CullVolume cull_volume(const Cascades& cascades, int index) {
   const auto side = [&](const glm::dvec3& direction, double limit) {
     return glm::dvec4(-direction, glm::dot(direction, cascades.anchor) + limit);
   };
-  const double half = cascade.half_extent;
-  return {.planes = {side(axes[0], half + cascade.center.x), side(-axes[0], half - cascade.center.x),
-                     side(axes[1], half + cascade.center.y), side(-axes[1], half - cascade.center.y),
+  const TexelRange drawn = cascades.drawn_texels(index);
+  const double texel = 2.0 * cascade.half_extent / cascades.size;
+  const glm::dvec2 origin = glm::dvec2(cascade.center) - static_cast<double>(cascade.half_extent);
+  const glm::dvec2 low = origin + glm::dvec2(drawn.first) * texel;
+  const glm::dvec2 high = origin + glm::dvec2(drawn.last + 1) * texel;
+  return {.planes = {side(axes[0], high.x), side(-axes[0], -low.x), side(axes[1], high.y), side(-axes[1], -low.y),
                      side(axes[2], cascade.far_z)}};
 }
 

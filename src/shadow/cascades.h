@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "volume.h"
@@ -13,6 +14,16 @@ constexpr int max_cascades = 8;
 // `world_to_light`: x and y across the light, z along its rays, growing away from the light. It is left-handed: the
 // matrix is orthogonal with determinant -1.
 
+// Lowest and highest texel of a layer of a shadow map, both included.
+struct TexelRange {
+  glm::ivec2 first{0}, last{0};
+
+  bool operator==(const TexelRange&) const = default;
+  bool contains(const TexelRange& other) const {
+    return glm::all(glm::lessThanEqual(first, other.first)) && glm::all(glm::greaterThanEqual(last, other.last));
+  }
+};
+
 // One cascade: a square layer of the shadow map. The map's depth is linear: 0 at near_z, 1 at far_z.
 struct Cascade {
   glm::vec2 center{0};    // light space, metres; a whole number of texels from the world's origin
@@ -20,6 +31,8 @@ struct Cascade {
   float near_z = 0;  // nearer to the light than every caster that can shadow the cascade, so depths need no clamping
   float far_z = 1;
   glm::dmat4 world_to_clip{1};  // x, y in -1..1, z in 0..1
+  // The texels that casters are drawn to; the others are empty (depth 1). Absent: all. See narrow_to_receivers().
+  std::optional<TexelRange> drawn;
 };
 
 // The cascades of a directional light, finest first. Each contains the whole view frustum up to its range, so where a
@@ -32,6 +45,10 @@ struct Cascades {
 
   float texel(int index) const {
     return 2.0f * items[static_cast<size_t>(index)].half_extent / static_cast<float>(size);
+  }
+  // Cascade::drawn, or all texels.
+  TexelRange drawn_texels(int index) const {
+    return items[static_cast<size_t>(index)].drawn.value_or(TexelRange{glm::ivec2(0), glm::ivec2(size - 1)});
   }
 };
 
@@ -48,11 +65,15 @@ struct CascadeInputs {
   float distance = 0;         // range of the last cascade, metres; 0: as far as receivers lie in the view
 };
 
+// The corner of a projection's frustum at a depth in metres, in view space, for NDC x and y.
+glm::dvec3 frustum_corner(const glm::dmat4& projection, double depth, double ndc_x, double ndc_y);
+
 Cascades fit_cascades(const CascadeInputs& inputs);
 
-// The column above a cascade, unbounded towards the light. A caster outside of it can't shadow a receiver that reads
-// the cascade: a receiver whose search disc is not within the cascade reads a coarser one, and the last cascade, which
-// covers the frustum widened by the light's cone up to the highest caster, contains the discs of all receivers.
+// The column above the drawn part of a cascade, unbounded towards the light. A caster outside of it can't shadow a
+// receiver that reads the cascade: a receiver whose search disc is not within the cascade reads a coarser one, and the
+// last cascade, which covers the frustum widened by the light's cone up to the highest caster, contains the discs of
+// all receivers.
 CullVolume cull_volume(const Cascades& cascades, int index);
 
 }  // namespace penumbra::shadow

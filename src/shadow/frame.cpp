@@ -20,13 +20,34 @@ namespace {
 constexpr const char* movement_map_name = "movement map";  // names of their targets
 constexpr const char* shadow_map_name = "shadow map";
 
+FitInputs fit_inputs(const Inputs& inputs, const ParamSet& params) {
+  return {.view = inputs.view.view,
+          .projection = inputs.view.projection,
+          .casters = inputs.casters,
+          .receivers = inputs.receivers,
+          .params = params};
+}
+
 LightProjection projection_of(const Inputs& inputs, const Light& light, const ParamSet& params) {
-  if (light.maps) return light.maps->projection;
-  return fit_projection(light.source, {.view = inputs.view.view,
-                                       .projection = inputs.view.projection,
-                                       .casters = inputs.casters,
-                                       .receivers = inputs.receivers,
-                                       .params = params});
+  return light.maps ? light.maps->projection : fit_projection(light.source, fit_inputs(inputs, params));
+}
+
+// Whether all that reads the light's maps reads them only near receivers of the view.
+bool reads_light_discs(const LightWork& work, const std::vector<const Recipe*>& recipes) {
+  const bool denoiser_reads_maps =
+      work.denoiser != nullptr && std::ranges::find(work.denoiser->needs, "shadow_map") != work.denoiser->needs.end();
+  return work.technique.reads_light_discs && work.forward.reads_light_discs && !denoiser_reads_maps &&
+         std::ranges::all_of(recipes, &Recipe::reads_light_discs);
+}
+
+// Limits what is drawn of the maps to what is read.
+void narrow_projection(const LightWork& work, const std::vector<const Recipe*>& recipes) {
+  if (work.light.maps || !reads_light_discs(work, recipes)) return;
+  const Inputs& inputs = work.inputs;
+  ReadBounds bounds{.jitter = inputs.view.jitter, .moved = {}};
+  if (!work.remembered.empty() && !nothing_moved(inputs.moved)) bounds.moved = inputs.moved;
+  LightProjection& projection = work.frame.projection;
+  projection = narrowed(projection, work.light.source, fit_inputs(inputs, work.params()), bounds);
 }
 
 MovementForm movement_form(const ParamSet& params) {
@@ -60,10 +81,16 @@ void plan_history(const LightWork& work, bool has_shadow_map) {
 
 // Decides which layers of the shadow map still hold what they would be drawn with.
 void keep_layers(const LightWork& work, const gl::Texture& map) {
-  const MapContent now = content_of(work.device, map, work.frame.projection, work.light.source);
+  LightProjection& projection = work.frame.projection;
+  MapContent& last = work.state.map;
+  const MapContent now = content_of(work.device, map, projection, work.light.source);
   if (work.state.follows && work.params().get_bool("maps.keep"))
-    work.frame.kept_layers = unchanged_layers(work.state.map, now, work.inputs.moved);
-  work.state.map = now;
+    work.frame.kept_layers = unchanged_layers(last, now, work.inputs.moved);
+  for (int i = 0; i < projection.layers(); ++i) {
+    const auto layer = static_cast<size_t>(i);
+    if (work.frame.kept_layers[layer]) projection.set_drawn_texels(i, last.layers[layer].drawn);
+  }
+  last = content_of(work.device, map, projection, work.light.source);
 }
 
 // The shadow map, drawn or supplied by the caller, and the movement map.
@@ -199,6 +226,7 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, const ViewS
                        .denoiser = denoiser,
                        .remembered = remembered_by(denoiser, state.params)};
   const Wanted wanted = wanted_of(work);
+  narrow_projection(work, wanted.recipes);
   // A technique's own passes and recipes may draw casters without a shadow map, but only the movement map, which is
   // drawn with the shadow map, shows where casters moved.
   const bool may_draw_casters = technique.resolve || !wanted.recipes.empty();

@@ -62,8 +62,8 @@ enum class CasterKind {
                     // because only the surface's other face does, is left out or has all corners in one place
 };
 
-// One call to the caller's code: draw these casters with these matrices. The framebuffer, viewport, depth test and
-// culling state are set; the callback binds its own programs and vertex arrays. Both sides of every triangle cast
+// One call to the caller's code: draw these casters with these matrices. The framebuffer, viewport, scissor, depth test
+// and culling state are set; the callback binds its own programs and vertex arrays. Both sides of every triangle cast
 // shadows unless the caller decides otherwise, and polygon offset stays off. A caster that is drawn in several of these
 // passes must get bit-identical depths in each, so compute positions by the same expressions (`invariant gl_Position`).
 // The kinds from depth_and_moved to moved_last are requested only when the denoiser keeps a history.
@@ -106,7 +106,9 @@ struct Inputs {
   Rect viewport;        // the part of the textures that the view was drawn to; all of it if the size is 0
   std::span<const Light> lights;
   // World bounds; unused when every light brings its maps. A single point (min = max) is valid; the default (min > max)
-  // is an unset box, which check() rejects.
+  // is an unset box, which check() rejects. `receivers` must hold all surfaces whose shadows are computed, those drawn
+  // forward too: casters are drawn only to texels of the maps that what the view sees of this box can read (see
+  // Technique::reads_light_discs).
   Box casters{glm::vec3(1), glm::vec3(-1)}, receivers{glm::vec3(1), glm::vec3(-1)};
   // World bounds of the casters that moved since the view's last frame, enclosing their present and their last
   // positions. Absent: unknown, so any caster may have moved. An empty box (min > max): none moved, and no movement map

@@ -13,7 +13,8 @@ MapContent content_of(const gl::Device& device, const gl::Texture& map, const Li
                      .layers = {}};
   for (int i = 0; i < content.count; ++i) {
     content.layers[static_cast<size_t>(i)] = {.world_to_clip = projection.world_to_clip(i),
-                                              .cull = projection.cull_volume(i)};
+                                              .cull = projection.cull_volume(i),
+                                              .drawn = projection.drawn_texels(i)};
   }
   return content;
 }
@@ -24,7 +25,9 @@ LayerSet unchanged_layers(const MapContent& last, const MapContent& now, const s
                         last.shader_changes == now.shader_changes && last.source == now.source;
   if (!same_map) return unchanged;
   for (size_t i = 0; i < static_cast<size_t>(now.count); ++i) {
-    unchanged[i] = last.layers[i] == now.layers[i] && !may_hold_moved(now.layers[i].cull, moved);
+    const MapContent::Layer& held = last.layers[i];
+    unchanged[i] = held.world_to_clip == now.layers[i].world_to_clip && held.drawn.contains(now.layers[i].drawn) &&
+                   !may_hold_moved(held.cull, moved);
   }
   return unchanged;
 }

@@ -17,8 +17,7 @@ struct MapContent {
   struct Layer {
     glm::mat4 world_to_clip{1};
     CullVolume cull;
-
-    bool operator==(const Layer&) const = default;
+    TexelRange drawn;
   };
   std::uint64_t texture = 0;         // its serial; 0: there is no map
   std::uint64_t shader_changes = 0;  // gl::ShaderLibrary::changes()
@@ -29,8 +28,8 @@ struct MapContent {
 MapContent content_of(const gl::Device& device, const gl::Texture& map, const LightProjection& projection,
                       const LightSource& source);
 
-// The layers that would be drawn as they were: with the same projection and culling, and without a caster that moved.
-// `moved`: Inputs::moved.
+// The layers that need not be drawn again: those with the same projection to which no more texels would be drawn, and
+// without a caster that moved. `moved`: Inputs::moved.
 LayerSet unchanged_layers(const MapContent& last, const MapContent& now, const std::optional<Box>& moved);
 
 }  // namespace penumbra::shadow

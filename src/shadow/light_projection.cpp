@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "receiver_region.h"
 #include "shared/shadow_block.h"
 
 namespace penumbra::shadow {
@@ -35,6 +36,21 @@ float least_depth(const glm::dmat3& world_to_light, const Box& box, const glm::d
   const glm::dvec3 low = glm::dvec3(box.min) - eye;
   const glm::dvec3 high = glm::dvec3(box.max) - eye;
   return static_cast<float>(glm::dot(glm::min(along * low, along * high), glm::dvec3(1)));
+}
+
+CascadeInputs cascade_inputs(const LightSource& source, const FitInputs& inputs) {
+  const Sun& sun = std::get<Sun>(source);
+  const ParamSet& params = inputs.params;
+  return {.view = inputs.view,
+          .projection = inputs.projection,
+          .to_light = sun.to_light,
+          .tan_half_angle = shape_of(source, params).extent,
+          .casters = inputs.casters,
+          .receivers = inputs.receivers,
+          .count = params.get_int("cascades.count"),
+          .size = params.get_int("cascades.size"),
+          .split_blend = params.get_float("cascades.split"),
+          .distance = params.get_float("cascades.distance")};
 }
 
 template <class Value>
@@ -76,6 +92,10 @@ std::optional<TexelRange> LightProjection::texels_of(int layer, const Box& world
                     glm::ivec2(glm::clamp(glm::floor(high) + 1.0, 0.0, last))};
 }
 
+void LightProjection::set_drawn_texels(int layer, const TexelRange& texels) {
+  cascades_.items.at(static_cast<size_t>(layer)).drawn = texels;
+}
+
 void LightProjection::write(glsl::ShadowBlock& block, const glm::dmat4& view_to_world,
                             const std::optional<Box>& moved) const {
   const glm::dvec3 eye(view_to_world[3]);
@@ -104,18 +124,19 @@ std::string LightProjection::fault() const {
 }
 
 LightProjection fit_projection(const LightSource& source, const FitInputs& inputs) {
-  const Sun& sun = std::get<Sun>(source);
-  const ParamSet& params = inputs.params;
-  return fit_cascades({.view = inputs.view,
-                       .projection = inputs.projection,
-                       .to_light = sun.to_light,
-                       .tan_half_angle = shape_of(source, params).extent,
-                       .casters = inputs.casters,
-                       .receivers = inputs.receivers,
-                       .count = params.get_int("cascades.count"),
-                       .size = params.get_int("cascades.size"),
-                       .split_blend = params.get_float("cascades.split"),
-                       .distance = params.get_float("cascades.distance")});
+  return fit_cascades(cascade_inputs(source, inputs));
+}
+
+LightProjection narrowed(const LightProjection& projection, const LightSource& source, const FitInputs& inputs,
+                         const ReadBounds& read) {
+  // A block of the pyramid's base, the texel beside it, and what techniques read beside a receiver's own texel.
+  constexpr double margin = 8;
+  Cascades cascades = projection.cascades();
+  ReadMargins margins{.texels = margin + inputs.params.get_float("bias.normal_offset"),
+                      .ndc = glm::max(std::abs(read.jitter.x), std::abs(read.jitter.y))};
+  if (read.moved) margins.nearest = least_depth(cascades.world_to_light, *read.moved, cascades.anchor);
+  narrow_to_receivers(cascades, cascade_inputs(source, inputs), margins);
+  return cascades;
 }
 
 LightShape shape_of(const LightSource& /*source*/, const ParamSet& params) {

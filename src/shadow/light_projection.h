@@ -41,11 +41,6 @@ struct LightShape {
   bool operator==(const LightShape&) const = default;
 };
 
-// Lowest and highest texel of a layer, both included.
-struct TexelRange {
-  glm::ivec2 first{0}, last{0};
-};
-
 // Places the layers of a light's shadow map in the world, and converts their depths. A layer stores linear depth along
 // the light: 0 at its near plane, 1 at its far plane.
 class LightProjection {
@@ -65,6 +60,9 @@ class LightProjection {
   // The texels of a layer that a box in the world may cover, widened by one texel to each side for rounding; none if
   // the box lies outside of the layer.
   std::optional<TexelRange> texels_of(int layer, const Box& world_box) const;
+  // The texels that casters are drawn to; the others are empty: no receiver of the view reads them.
+  TexelRange drawn_texels(int layer) const { return cascades_.drawn_texels(layer); }
+  void set_drawn_texels(int layer, const TexelRange& texels);
   // Only for a sun.
   const Cascades& cascades() const { return cascades_; }
 
@@ -85,7 +83,16 @@ struct FitInputs {
   const ParamSet& params;
 };
 
+// What receivers of the view may read besides their discs; see narrowed().
+struct ReadBounds {
+  glm::vec2 jitter{0};       // of the camera, NDC
+  std::optional<Box> moved;  // world bounds of moved casters that a history looks for
+};
+
 LightProjection fit_projection(const LightSource& source, const FitInputs& inputs);
+// The same projection, of which only what receivers of the view can read is drawn: see narrow_to_receivers().
+LightProjection narrowed(const LightProjection& projection, const LightSource& source, const FitInputs& inputs,
+                         const ReadBounds& read);
 
 // The size that the parameters give the light.
 LightShape shape_of(const LightSource& source, const ParamSet& params);

@@ -30,6 +30,8 @@ struct Recipe {
   // receivers, the view, casters, other parameters or the number of the frame. It is then not made again as long as
   // these are the same (parameter maps.keep).
   bool depends_only_on_needs = false;
+  // Whether what receivers read of it depends on the maps only as Technique::reads_light_discs says.
+  bool reads_light_discs = false;
   // Makes it by its own passes, and returns the texture, which it gets from PassContext::target() and which nothing may
   // change until it is made again.
   std::function<const gl::Texture&(const PassContext&)> build;

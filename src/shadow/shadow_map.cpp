@@ -1,5 +1,7 @@
 #include "shadow_map.h"
 
+#include <optional>
+
 #include "movement_map.h"
 
 namespace penumbra::shadow {
@@ -12,13 +14,28 @@ const gl::Texture& shadow_map_target(gl::Device& device, std::string_view name, 
                               .layers = projection.layers()});
 }
 
+namespace {
+
+// Nothing if casters are drawn to the whole layer.
+std::optional<gl::TexelRect> scissor_of(const LightProjection& projection, int layer) {
+  const TexelRange drawn = projection.drawn_texels(layer);
+  const glm::ivec2 size = drawn.last - drawn.first + 1;
+  if (size == glm::ivec2(projection.size())) return std::nullopt;
+  return gl::TexelRect{.x = drawn.first.x, .y = drawn.first.y, .width = size.x, .height = size.y};
+}
+
+}  // namespace
+
 void draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs) {
+  std::optional<gl::KeptScissorBox> callers_scissor;
   for (int i = 0; i < inputs.projection.layers(); ++i) {
     if (inputs.kept[static_cast<size_t>(i)]) continue;
     gl::PassDesc desc{.name = "shadow map",
                       .depth = gl::Attachment{.texture = &inputs.map, .layer = i, .clear = glm::vec4(1)},
                       .depth_test = gl::DepthTest::less_equal,
                       .depth_write = true};
+    desc.scissor = scissor_of(inputs.projection, i);
+    if (desc.scissor && !callers_scissor) callers_scissor.emplace();
     const CullVolume cull = inputs.projection.cull_volume(i);
     const bool marks = inputs.moved != nullptr && may_hold_moved(cull, inputs.moved_bounds);
     if (marks) desc.colors = {{.texture = inputs.moved, .layer = i, .clear = glm::vec4(0)}};

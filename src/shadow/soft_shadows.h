@@ -75,8 +75,9 @@ class SoftShadows {
   // #version 450 line, in which every global name begins with "penumbra_", and which defines
   //   float penumbra_shadow_visibility(vec3 view_position, vec3 geometric_normal_world, vec2 pixel)
   // where `geometric_normal_world` has unit length and points to the viewer's side of the surface, and `pixel` is the
-  // pixel's position in the mask. Programs of gl::ShaderLibrary use forward_program(): the file to include and the
-  // defines; there the function is called shadow_visibility(). `light`: its overrides are applied to the parameters.
+  // pixel's position in the mask; `view_position` must lie in the view and in Inputs::receivers. Programs of
+  // gl::ShaderLibrary use forward_program(): the file to include and the defines; there the function is called
+  // shadow_visibility(). `light`: its overrides are applied to the parameters.
   std::string forward_source(const ParamSet& params, const Light& light = {}) const;
   ForwardProgram forward_program(const ParamSet& params, const Light& light = {}) const;
   // Binds what that function reads for one light of the mask, by its index in Mask::lights: textures and samplers of

@@ -60,6 +60,10 @@ struct Technique {
   bool denoisable = true;
   // For techniques without `glsl`: the name of the technique that computes shadows on blended surfaces instead.
   std::string stand_in = {};
+  // Whether it reads the light's maps only near receivers of the view: in texels around the receiver, and within
+  // search_radius() (glsl/shadow/search.glsl). Casters are then drawn only where such discs lie, if the same holds for
+  // all else that reads the maps; otherwise in the whole maps.
+  bool reads_light_discs = false;
 };
 
 }  // namespace penumbra::shadow

@@ -19,10 +19,10 @@ struct CullVolume {
   // space, metres.
   std::array<glm::dvec4, 6> planes{};
 
-  bool operator==(const CullVolume&) const = default;
-
   // Conservative: false only if the box lies outside of the volume.
   bool holds(const Box& world_box) const;
+  // Whether the whole box lies inside of the volume, so that what it contains need not be tested.
+  bool contains(const Box& world_box) const;
 };
 
 }  // namespace penumbra::shadow

@@ -55,6 +55,16 @@ TEST_F(GlPass, InheritsNoState) {
   EXPECT_EQ(gl::read_floats(depth, 1), (std::vector<float>(4, 0.5f)));
 }
 
+TEST_F(GlPass, ScissorsLimitDrawsAndNoClears) {
+  draw({.name = "p",
+        .colors = {{.texture = &color, .clear = glm::vec4(9)}},
+        .scissor = gl::TexelRect{.x = 1, .y = 0, .width = 1, .height = 1}},
+       {1, 2, 3, 4});
+  EXPECT_EQ(gl::read_floats(color, 4), (std::vector<float>{9, 9, 9, 9, 1, 2, 3, 4, 9, 9, 9, 9, 9, 9, 9, 9}));
+  draw({.name = "p", .colors = {{.texture = &color}}}, {1, 2, 3, 4});
+  EXPECT_EQ(gl::read_floats(color, 4), (std::vector<float>{1, 2, 3, 4, 1, 2, 3, 4, 1, 2, 3, 4, 1, 2, 3, 4}));
+}
+
 TEST_F(GlPass, ClearsReachFloatsAndBothKindsOfIntegers) {
   const gl::Texture& uints = device.target("uints", {.format = GL_RG32UI});
   const gl::Texture& ints = device.target("ints", {.format = GL_R32I});

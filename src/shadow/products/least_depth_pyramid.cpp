@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <bit>
 
 #include "../pass_context.h"
@@ -6,6 +8,28 @@
 namespace penumbra::shadow {
 
 namespace {
+
+constexpr int base_shift = 2;  // 4 texels of the map along a side
+
+// Everything empty.
+void clear(const gl::Texture& pyramid) {
+  constexpr glm::vec2 empty(1);
+  for (int level = 0; level < pyramid.desc().levels; ++level)
+    gl::glClearTexImage(pyramid.id(), level, GL_RG, GL_FLOAT, &empty);
+}
+
+// Limits a level to what casters were drawn to: the program begins at its first texel in each layer. Returns its
+// largest size.
+glm::ivec2 set_region(const gl::Program& program, const LightProjection& projection, int shift) {
+  glm::ivec2 largest(0);
+  for (int i = 0; i < projection.layers(); ++i) {
+    const TexelRange drawn = projection.drawn_texels(i);
+    program.set(fmt::format("drawn[{}]", i), glm::vec4(drawn.first, drawn.last));
+    largest = glm::max(largest, (drawn.last >> shift) - (drawn.first >> shift) + 1);
+  }
+  program.set("level_shift", shift);
+  return largest;
+}
 
 // RG32F; texel (x, y) of level l holds the least depth of the 4·2^l texels squared from (x, y)·4·2^l on, and the least
 // depth beside an edge among them (1 if they have none).
@@ -22,14 +46,13 @@ const gl::Texture& build(const PassContext& context) {
                                                          .layers = layers,
                                                          .levels = levels});
   gl::Pass pass(context.device(), {.name = "depth pyramid"});
-  context.use(pass, "base");
-  pyramid.bind_image(1, GL_WRITE_ONLY, 0);
-  pass.dispatch(side, side, layers);
-  context.use(pass, "level");
-  for (int level = 1; level < levels; ++level) {
-    pyramid.bind_image(0, GL_READ_ONLY, level - 1);
+  clear(pyramid);
+  for (int level = 0; level < levels; ++level) {
+    const gl::Program& program = context.use(pass, level == 0 ? "base" : "level");
+    const glm::ivec2 size = set_region(program, projection, level + base_shift);
+    if (level > 0) pyramid.bind_image(0, GL_READ_ONLY, level - 1);
     pyramid.bind_image(1, GL_WRITE_ONLY, level);
-    pass.dispatch(side >> level, side >> level, layers);
+    pass.dispatch(size.x, size.y, layers);
   }
   return pyramid;
 }
@@ -47,6 +70,7 @@ Recipe least_depth_pyramid() {
               "depth beside an edge.",
           .source = "Greene, Kass and Miller 1993, Hierarchical Z-buffer visibility",
           .depends_only_on_needs = true,
+          .reads_light_discs = true,
           .build = build,
           .programs = [](const ParamSet&) {
             return std::vector<gl::ProgramDesc>{program("base", "1"), program("level", "0")};

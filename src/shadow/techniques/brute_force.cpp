@@ -22,7 +22,8 @@ Technique brute_force() {
                   {.name = "filter", .count_parameter = "brute_force.filter_taps"},
                   {.name = "disocclusion", .count_parameter = "brute_force.filter_taps"}},
       .pattern = "hammersley",
-      .scramble = "shift"};
+      .scramble = "shift",
+      .reads_light_discs = true};
 }
 
 }  // namespace penumbra::shadow

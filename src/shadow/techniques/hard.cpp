@@ -8,7 +8,8 @@ Technique hard() {
           .source = "Williams 1978, Casting curved shadows on curved surfaces; Reeves et al. 1987",
           .glsl = "shadow/techniques/hard.glsl",
           .needs = {"shadow_map"},
-          .params = {}};
+          .params = {},
+          .reads_light_discs = true};
 }
 
 }  // namespace penumbra::shadow

@@ -8,7 +8,8 @@ Technique none() {
           .source = "",
           .glsl = "shadow/techniques/none.glsl",
           .needs = {},
-          .params = {}};
+          .params = {},
+          .reads_light_discs = true};
 }
 
 }  // namespace penumbra::shadow

@@ -30,7 +30,8 @@ Technique pcss() {
       .samples = {{.name = "blocker", .count_parameter = "pcss.blocker_taps", .step = SampleSet::Step::blocker},
                   {.name = "filter", .count_parameter = "pcss.filter_taps"},
                   {.name = "disocclusion", .count_parameter = "pcss.disocclusion_taps"}},
-      .decides_tiles = true};
+      .decides_tiles = true,
+      .reads_light_discs = true};
 }
 
 }  // namespace penumbra::shadow

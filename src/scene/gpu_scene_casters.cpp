@@ -1,0 +1,89 @@
+// Draws the depth of shadow casters.
+#include <glm/glm.hpp>
+
+#include "gl/api.h"
+#include "scene/gpu_scene.h"
+#include "scene/gpu_scene_boxes.h"
+#include "scene/gpu_scene_state.h"
+
+namespace penumbra::scene {
+
+namespace {
+
+// Whether triangles that are counter-clockwise as seen from the light are clockwise in its map. A map with x to the
+// right, y up and depth growing away from the light is left-handed, so a matrix that keeps their order has a negative
+// determinant.
+bool turns_round(const glm::mat4& world_to_clip) { return glm::determinant(world_to_clip) > 0; }
+
+// All casters of both faces without a material share one draw. Where only one face casts, the other face is culled like
+// back faces.
+Batch caster_batch(const Instance& instance, bool masked, bool flips) {
+  Batch batch{.deformed = instance.job >= 0, .double_sided = true, .material = masked ? instance.material : -1};
+  if (instance.faces == CasterFaces::both) return batch;
+  batch.double_sided = false;
+  batch.mirrored = (instance.mirrored != flips) != (instance.faces == CasterFaces::back);
+  return batch;
+}
+
+}  // namespace
+
+gl::ProgramDesc caster_program(bool masked, bool marks_moved, bool last_pose) {
+  gl::ProgramDesc program{.name = masked ? "alpha caster" : "caster",
+                          .vertex = "scene/caster.vert",
+                          .defines = {{"LAST_POSE", last_pose ? "1" : "0"},
+                                      {"MASKED", masked ? "1" : "0"},
+                                      {"MARKS_MOVED", marks_moved ? "1" : "0"}}};
+  if (masked || marks_moved) program.fragment = "scene/caster.frag";
+  return program;
+}
+
+void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const CasterDraw& which,
+                                   const glm::mat4& world_to_clip, const BoxOverlap& reaches) const {
+  const bool flips = turns_round(world_to_clip);
+  for (const bool masked : {false, true}) {
+    DrawList list;
+    for (std::uint32_t i = 0; i < instances.size(); ++i) {
+      const Instance& instance = instances[i];
+      if (!instance.faces || instance.casts != (masked ? CastMode::by_alpha : CastMode::always)) continue;
+      if (!(instance.moved ? which.moved : which.still)) continue;
+      const Overlap overlap = reaches(which.last_pose ? instance.last_box : instance.box);
+      if (overlap == Overlap::none) continue;
+      const Batch batch = caster_batch(instance, masked, flips);
+      if (overlap == Overlap::all || instance.parts == nullptr || which.last_pose) {
+        list.add(instance, i, batch);
+        continue;
+      }
+      for (const MeshPart& part : *instance.parts) {
+        if (reaches(transformed(part.box, instance.world)) != Overlap::none) list.add_part(instance, i, batch, part);
+      }
+    }
+    if (list.commands.empty()) continue;
+    pass.use(caster_program(masked, which.marks, which.last_pose)).set("world_to_clip", world_to_clip);
+    draw(device, pass, list);
+  }
+}
+
+void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, CasterSubset casters, const glm::mat4& world_to_clip,
+                            const BoxOverlap& reaches) {
+  const auto draw = [&](const CasterDraw& which) { state_->draw_casters(device, pass, which, world_to_clip, reaches); };
+  switch (casters) {
+    case CasterSubset::all:
+      draw({.still = true, .moved = true});
+      break;
+    case CasterSubset::all_and_moved:
+      // Casters that did not move only occlude, so they need no fragment stage: they are drawn first and write no mark.
+      gl::glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+      draw({.still = true});
+      gl::glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+      draw({.moved = true, .marks = true});
+      break;
+    case CasterSubset::moved_now:
+      draw({.moved = true, .marks = true});
+      break;
+    case CasterSubset::moved_last:
+      draw({.moved = true, .marks = true, .last_pose = true});
+      break;
+  }
+}
+
+}  // namespace penumbra::scene

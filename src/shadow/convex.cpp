@@ -1,0 +1,59 @@
+#include "convex.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace penumbra::shadow {
+
+namespace {
+
+// The points of a convex polygon in a plane with that normal, in order around their middle.
+void sort_around(Polygon& points, const glm::dvec3& normal) {
+  glm::dvec3 middle(0);
+  for (const glm::dvec3& point : points) middle += point / static_cast<double>(points.size());
+  const glm::dvec3 other = std::abs(normal.x) < std::abs(normal.y) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 x = glm::cross(normal, other);
+  const glm::dvec3 y = glm::cross(normal, x);
+  const auto angle = [&](const glm::dvec3& point) {
+    return std::atan2(glm::dot(point - middle, y) / glm::length(y), glm::dot(point - middle, x) / glm::length(x));
+  };
+  std::ranges::sort(points, {}, angle);
+}
+
+}  // namespace
+
+Polygon clipped(const Polygon& polygon, const HalfSpace& side) {
+  Polygon kept;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3& a = polygon[i];
+    const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
+    const double da = glm::dot(a, side.normal) - side.limit;
+    const double db = glm::dot(b, side.normal) - side.limit;
+    if (da <= 0) kept.push_back(a);
+    if ((da < 0 && db > 0) || (da > 0 && db < 0)) kept.push_back(glm::mix(a, b, da / (da - db)));
+  }
+  return kept;
+}
+
+std::vector<Polygon> clipped(const std::vector<Polygon>& faces, const HalfSpace& side) {
+  std::vector<Polygon> result;
+  Polygon cut;
+  for (const Polygon& face : faces) {
+    // Where the outline crosses the plane; points on the plane belong to the cut too.
+    for (size_t i = 0; i < face.size(); ++i) {
+      const glm::dvec3& a = face[i];
+      const glm::dvec3& b = face[(i + 1) % face.size()];
+      const double da = glm::dot(a, side.normal) - side.limit;
+      const double db = glm::dot(b, side.normal) - side.limit;
+      if (da == 0) cut.push_back(a);
+      if ((da < 0 && db > 0) || (da > 0 && db < 0)) cut.push_back(glm::mix(a, b, da / (da - db)));
+    }
+    if (Polygon kept = clipped(face, side); !kept.empty()) result.push_back(std::move(kept));
+  }
+  if (result.empty() || cut.size() < 3) return result;
+  sort_around(cut, side.normal);
+  result.push_back(std::move(cut));
+  return result;
+}
+
+}  // namespace penumbra::shadow

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace penumbra::shadow {
+
+using Polygon = std::vector<glm::dvec3>;  // convex
+
+// The points with dot(p, normal) <= limit.
+struct HalfSpace {
+  glm::dvec3 normal{0};
+  double limit = 0;
+};
+
+Polygon clipped(const Polygon& polygon, const HalfSpace& side);
+
+// The faces of a convex body's part within a half-space, with the one that the cut makes. None if nothing is left.
+std::vector<Polygon> clipped(const std::vector<Polygon>& faces, const HalfSpace& side);
+
+}  // namespace penumbra::shadow

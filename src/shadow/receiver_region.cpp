@@ -1,0 +1,114 @@
+#include "receiver_region.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "convex.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+// The frustum is taken a little wider than the view, for rounding and the corners of pixels.
+constexpr double frustum_width = 1.02;
+
+// The view's sides, and for a perspective view the plane through the camera, in light space. An orthographic view may
+// show what lies behind its camera. `width`: of the view in NDC, 1 for the view itself.
+std::vector<HalfSpace> view_sides(const CascadeInputs& in, const Cascades& cascades, double width) {
+  const glm::dmat3 view_to_light = cascades.world_to_light * glm::inverse(glm::dmat3(glm::dmat4(in.view)));
+  const glm::dmat4 projection(in.projection);
+  const auto point = [&](double depth, double ndc_x, double ndc_y) {
+    return view_to_light * frustum_corner(projection, depth, ndc_x * width, ndc_y * width);
+  };
+  const auto plane = [](const glm::dvec3& normal, const glm::dvec3& on_it, const glm::dvec3& inside) {
+    const HalfSpace side{normal, glm::dot(normal, on_it)};
+    return glm::dot(normal, inside) <= side.limit ? side : HalfSpace{-side.normal, -side.limit};
+  };
+  static constexpr std::array<glm::dvec2, 4> corners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  const glm::dvec3 inside = point(1, 0, 0);
+  std::vector<HalfSpace> sides;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const glm::dvec2& a = corners[i];
+    const glm::dvec2& b = corners[(i + 1) % corners.size()];
+    const glm::dvec3 start = point(0, a.x, a.y);
+    const glm::dvec3 end = point(1, a.x, a.y);
+    sides.push_back(plane(glm::normalize(glm::cross(end - start, point(1, b.x, b.y) - start)), start, inside));
+  }
+  const bool perspective = projection[2][3] != 0;
+  if (perspective) sides.push_back(plane(view_to_light * glm::dvec3(0, 0, 1), glm::dvec3(0), inside));
+  return sides;
+}
+
+std::vector<Polygon> box_faces(const Box& box, const Cascades& cascades) {
+  static constexpr std::array<std::array<size_t, 4>, 6> faces = {
+      {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
+  const std::array<glm::dvec3, 8> corners = box.corners();
+  std::vector<Polygon> polygons;
+  for (const auto& face : faces) {
+    Polygon& polygon = polygons.emplace_back();
+    for (const size_t corner : face) polygon.push_back(cascades.world_to_light * (corners[corner] - cascades.anchor));
+  }
+  return polygons;
+}
+
+std::array<HalfSpace, 4> column_sides(const Cascade& cascade) {
+  const double half = cascade.half_extent;
+  const glm::dvec2 center(cascade.center);
+  return {{{{1, 0, 0}, half + center.x},
+           {{-1, 0, 0}, half - center.x},
+           {{0, 1, 0}, half + center.y},
+           {{0, -1, 0}, half - center.y}}};
+}
+
+std::vector<Polygon> within(std::vector<Polygon> faces, std::span<const HalfSpace> sides) {
+  for (const HalfSpace& side : sides) faces = clipped(faces, side);
+  return faces;
+}
+
+struct LightBounds {
+  glm::dvec3 low{1e30}, high{-1e30};
+};
+
+// The bounds of a body in light space; a point within the cascade if nothing is left of it: then the view sees no
+// receiver there.
+LightBounds bounds_of(const std::vector<Polygon>& faces, const Cascade& cascade) {
+  LightBounds bounds;
+  for (const Polygon& face : faces) {
+    for (const glm::dvec3& point : face) bounds = {glm::min(bounds.low, point), glm::max(bounds.high, point)};
+  }
+  if (bounds.low.x > bounds.high.x) bounds.low = bounds.high = glm::dvec3(cascade.center, cascade.near_z);
+  return bounds;
+}
+
+// The texels of a map that a rectangle touches, in whole blocks: a camera that moves a little then needs the same ones
+// (see kept_maps.h).
+TexelRange texels_around(const glm::dvec2& low, const glm::dvec2& high, int size) {
+  const double block = std::max(size / 128, 1);
+  const auto last = static_cast<double>(size - 1);
+  return {glm::ivec2(glm::clamp(glm::floor(low / block) * block, 0.0, last)),
+          glm::ivec2(glm::clamp((glm::floor(high / block) + 1.0) * block - 1.0, 0.0, last))};
+}
+
+}  // namespace
+
+void narrow_to_receivers(Cascades& cascades, const CascadeInputs& inputs, const ReadMargins& margins) {
+  const std::vector<Polygon> seen =
+      within(box_faces(inputs.receivers, cascades), view_sides(inputs, cascades, frustum_width + margins.ndc));
+  // A disc is as wide in finer cascades as in the last one, whose casters bound it.
+  double nearest = margins.nearest;
+  for (const Cascade& cascade : cascades.items) nearest = std::min<double>(nearest, cascade.near_z);
+  for (size_t i = 0; i < cascades.items.size(); ++i) {
+    Cascade& cascade = cascades.items[i];
+    const LightBounds receivers = bounds_of(within(seen, column_sides(cascade)), cascade);
+    const double texel = cascades.texel(static_cast<int>(i));
+    const double disc = inputs.tan_half_angle * std::max(receivers.high.z - nearest, 0.0);
+    // A disc's bounds are read from 2 × 2 texels of a pyramid, each less than twice as wide as the disc.
+    const double beyond = 5 * (disc + 1.5 * texel) + margins.texels * texel;
+    const glm::dvec2 origin = glm::dvec2(cascade.center) - static_cast<double>(cascade.half_extent);
+    cascade.drawn = texels_around((glm::dvec2(receivers.low) - beyond - origin) / texel,
+                                  (glm::dvec2(receivers.high) + beyond - origin) / texel, cascades.size);
+  }
+}
+
+}  // namespace penumbra::shadow

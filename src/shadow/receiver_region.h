@@ -1,0 +1,22 @@
+#pragma once
+
+#include <limits>
+
+#include "cascades.h"
+
+namespace penumbra::shadow {
+
+struct ReadMargins {
+  double texels = 0;  // by which receivers may read beyond their discs
+  double ndc = 0;     // by which receivers may lie beyond the view's sides
+  // Light-space depth, metres, of what receivers look for, if that is nearer to the light than all casters.
+  double nearest = std::numeric_limits<double>::max();
+};
+
+// Narrows the part of each cascade that is drawn (Cascade::drawn) to what receivers of the view can read: the part of
+// the receivers' box that the view sees, as far as the cascade contains it, widened by the discs of the light and by
+// what a pyramid reads beside them. `inputs`: those that the cascades were fitted to. Only for techniques and products
+// that read the map nowhere else (Technique::reads_light_discs).
+void narrow_to_receivers(Cascades& cascades, const CascadeInputs& inputs, const ReadMargins& margins);
+
+}  // namespace penumbra::shadow

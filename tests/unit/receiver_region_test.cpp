@@ -1,0 +1,143 @@
+#include "shadow/receiver_region.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "shadow/light_projection.h"
+
+namespace penumbra::shadow {
+namespace {
+
+CascadeInputs town(float elevation, float sun_angle) {
+  CascadeInputs in;
+  in.view = glm::lookAt(glm::vec3(3, 1.7f, 8), glm::vec3(0, 1, 0), glm::vec3(0, 1, 0));
+  in.projection = glm::perspective(0.9f, 16.0f / 9.0f, 0.1f, 200.0f);
+  in.to_light = {std::cos(glm::radians(elevation)), std::sin(glm::radians(elevation)), 0};
+  in.tan_half_angle = std::tan(glm::radians(sun_angle) / 2);
+  in.casters = in.receivers = {{-60, 0, -60}, {60, 9, 60}};
+  return in;
+}
+
+// Calls `test` for points of the receivers' box that the view sees.
+template <class Test>
+int for_each_seen(const CascadeInputs& in, const Test& test) {
+  const glm::dmat4 world_to_clip = glm::dmat4(in.projection) * glm::dmat4(in.view);
+  int seen = 0;
+  for (int x = 0; x <= 80; ++x) {
+    for (int y = 0; y <= 6; ++y) {
+      for (int z = 0; z <= 80; ++z) {
+        const glm::dvec3 point = glm::mix(glm::dvec3(in.receivers.min), glm::dvec3(in.receivers.max),
+                                          glm::dvec3(x / 80.0, y / 6.0, z / 80.0));
+        const glm::dvec4 clip = world_to_clip * glm::dvec4(point, 1);
+        if (clip.w <= 0 || std::abs(clip.x) > clip.w || std::abs(clip.y) > clip.w) continue;
+        ++seen;
+        test(point);
+      }
+    }
+  }
+  return seen;
+}
+
+// How many points have a disc that is not drawn whole, in a cascade that contains the point.
+int cut_discs(const CascadeInputs& in) {
+  Cascades cascades = fit_cascades(in);
+  narrow_to_receivers(cascades, in, {});
+  int cut = 0;
+  const int seen = for_each_seen(in, [&](const glm::dvec3& world) {
+    const glm::dvec3 point = cascades.world_to_light * (world - cascades.anchor);
+    for (int i = 0; i < in.count; ++i) {
+      const Cascade& cascade = cascades.items[static_cast<size_t>(i)];
+      const glm::dvec2 from_center = glm::abs(glm::dvec2(point) - glm::dvec2(cascade.center));
+      if (std::max(from_center.x, from_center.y) > cascade.half_extent) continue;
+      const double half = cascade.half_extent;
+      const double texel = cascades.texel(i);
+      const double disc = in.tan_half_angle * (point.z - cascades.items.back().near_z);
+      const glm::dvec2 place = (glm::dvec2(point) - glm::dvec2(cascade.center) + half) / texel;
+      const TexelRange drawn = cascades.drawn_texels(i);
+      const glm::dvec2 low = glm::max(place - disc / texel, 0.0);
+      const glm::dvec2 high = glm::min(place + disc / texel, static_cast<double>(in.size));
+      const bool whole = glm::all(glm::lessThanEqual(glm::dvec2(drawn.first), low)) &&
+                         glm::all(glm::greaterThanEqual(glm::dvec2(drawn.last + 1), high));
+      if (!whole) ++cut;
+    }
+  });
+  EXPECT_GT(seen, 100);
+  return cut;
+}
+
+TEST(ReceiverRegion, HoldsTheDiscOfEveryReceiverThatTheViewSees) {
+  for (const float elevation : {5.0f, 45.0f, 90.0f}) {
+    for (const float angle : {0.0f, 0.53f, 8.0f}) {
+      CascadeInputs in = town(elevation, angle);
+      EXPECT_EQ(cut_discs(in), 0) << elevation << ", " << angle;
+      in.distance = 20;
+      EXPECT_EQ(cut_discs(in), 0) << elevation << ", " << angle << ", within 20 m";
+      in.distance = 0;
+      in.projection = glm::ortho(-30.0f, 20.0f, -5.0f, 10.0f, 0.0f, 100.0f);
+      EXPECT_EQ(cut_discs(in), 0) << elevation << ", " << angle << ", orthographic";
+      in.view = glm::lookAt(glm::vec3(0, 40, 0), glm::vec3(1, 0, 0), glm::vec3(0, 0, 1));
+      EXPECT_EQ(cut_discs(in), 0) << elevation << ", " << angle << ", from above";
+    }
+  }
+}
+
+double drawn_share(const LightProjection& projection, int layer) {
+  const TexelRange texels = projection.drawn_texels(layer);
+  const glm::dvec2 size(texels.last - texels.first + 1);
+  return size.x * size.y / (static_cast<double>(projection.size()) * projection.size());
+}
+
+TEST(ReceiverRegion, LeavesOutWhatTheViewDoesNotSee) {
+  const CascadeInputs in = town(45, 0.53f);
+  Cascades cascades = fit_cascades(in);
+  const LightProjection whole(cascades);
+  narrow_to_receivers(cascades, in, {});
+  const LightProjection narrow(cascades);
+  for (int i = 0; i < narrow.layers(); ++i) {
+    EXPECT_EQ(drawn_share(whole, i), 1.0) << i;
+    EXPECT_LE(drawn_share(narrow, i), 1.0) << i;
+    EXPECT_EQ(whole.world_to_clip(i), narrow.world_to_clip(i)) << i;
+  }
+  const int last = narrow.layers() - 1;
+  EXPECT_LT(drawn_share(narrow, last), 0.6);
+  // Behind the camera, and within the map.
+  const Box behind{{2.9f, 1, 18}, {3.1f, 2, 18.2f}};
+  EXPECT_TRUE(whole.cull_volume(last).holds(behind));
+  EXPECT_FALSE(narrow.cull_volume(last).holds(behind));
+}
+
+TEST(ReceiverRegion, IsWithinTheMapWhereTheViewSeesNoReceiver) {
+  CascadeInputs in = town(45, 0.53f);
+  in.view = glm::lookAt(glm::vec3(0, 50, 0), glm::vec3(0, 100, 1), glm::vec3(0, 1, 0));
+  Cascades cascades = fit_cascades(in);
+  narrow_to_receivers(cascades, in, {});
+  const LightProjection projection(cascades);
+  for (int i = 0; i < projection.layers(); ++i) {
+    const TexelRange texels = projection.drawn_texels(i);
+    EXPECT_TRUE(glm::all(glm::lessThanEqual(texels.first, texels.last))) << i;
+    EXPECT_TRUE(glm::all(glm::lessThan(texels.last, glm::ivec2(projection.size())))) << i;
+    EXPECT_TRUE(glm::all(glm::greaterThanEqual(texels.first, glm::ivec2(0)))) << i;
+  }
+}
+
+TEST(CullVolume, ContainsOnlyBoxesThatLieInsideItWhole) {
+  const Cascades cascades = fit_cascades(town(45, 0.53f));
+  const CullVolume volume = cull_volume(cascades, 0);
+  const Cascade& cascade = cascades.items[0];
+  const auto box_at = [&](double x) {
+    const glm::dvec3 light_space(cascade.center.x + x, cascade.center.y, cascade.near_z);
+    const glm::vec3 center(glm::transpose(cascades.world_to_light) * light_space + cascades.anchor);
+    return Box{center - 0.1f, center + 0.1f};
+  };
+  const double half = cascade.half_extent;
+  EXPECT_TRUE(volume.contains(box_at(0)));
+  EXPECT_TRUE(volume.contains(box_at(half - 0.5)));
+  EXPECT_TRUE(volume.holds(box_at(half)));
+  EXPECT_FALSE(volume.contains(box_at(half)));
+  EXPECT_FALSE(volume.contains(box_at(half + 0.5)));
+}
+
+}  // namespace
+}  // namespace penumbra::shadow
