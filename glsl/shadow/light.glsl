@@ -37,9 +37,9 @@ struct Face {
   float height;  // continued to the receiver, along the texels' row or column
 };
 
-// The face shown by the depths of the three texels next to the receiver's own, nearest first. Heights that increase evenly, or by growing steps,
-// belong to a face or its foot. Heights that increase by shrinking steps belong to the edge of an object in front of
-// the receiver.
+// The face shown by the depths of the three texels next to the receiver's own, nearest first. Heights that increase
+// evenly, or by growing steps, belong to a face or its foot. Heights that increase by shrinking steps belong to the
+// edge of an object in front of the receiver.
 Face face_beside(Receiver receiver, ivec2 at, ivec2 side, vec3 depths, float bias, Light light) {
   vec2 first = texel_offset(receiver, at + side, light);
   vec2 next = vec2(side) * texel_size(receiver, light);

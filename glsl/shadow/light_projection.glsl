@@ -156,8 +156,8 @@ vec4 gather_stored(vec2 place, Light light) {
   return textureGather(shadow_depth, vec3(place * light.map.texel_uv, float(light.layer)));
 }
 
-// Depths, metres, of the texels `first` to first + (1, 1), in the order of a Footprint; outside of the map, those of its
-// border.
+// Depths, metres, of the texels `first` to first + (1, 1), in the order of a Footprint; outside of the map, those of
+// its border.
 vec4 depths_from(ivec2 first, Light light) {
   return stored_depths(gather_stored(vec2(first + 1), light), light.map);
 }

@@ -41,8 +41,8 @@ struct Search {
   float nearest;  // least depth in it, metres
 };
 
-// One refinement step in the light's layer: all casters lie within a disc of `limit` metres; their least depth bounds the blocker distance,
-// which bounds the radius.
+// One refinement step in the light's layer: all casters lie within a disc of `limit` metres; their least depth bounds
+// the blocker distance, which bounds the radius.
 Search narrow_search(Receiver receiver, Light light, float limit) {
   float footprint = 1.5 * texel_size(receiver, light);
   float nearest = nearest_depth(receiver.position, limit + footprint, light);

@@ -41,7 +41,8 @@ struct ShadowBlock {
   int has_motion;          // 1: the caller brings motion vectors
   int casters_moved;       // 1: casters moved, and the movement map shows where
   float moved_depth;       // least light-space depth of what moved, metres
-  LayerBlock widest;       // the layer that contains every caster; apart from `layers`, because a load at an index costs more
+  // The layer that contains every caster; apart from `layers`, because a load at an index costs more.
+  LayerBlock widest;
   LayerBlock layers[SHADOW_MAX_LAYERS];
 };
 

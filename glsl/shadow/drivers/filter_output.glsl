@@ -8,5 +8,5 @@ vec4 unpacked(uint texel, ivec2 pixel) {
   // The sky has distance 0, whatever its position.
   float radius = distance_to > 0.0 ? packed_radius(light_position(view_position_at(pixel)), distance_to) : 0.0;
   return vec4(texel_visibility(texel), radius, distance_to,
-              float(notes_cascade(notes)) + (notes_under_texel(notes) ? 0.5 : 0.0));
+              float(notes_layer(notes)) + (notes_under_texel(notes) ? 0.5 : 0.0));
 }
