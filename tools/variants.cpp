@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #ifdef PENUMBRA_VIEWER
@@ -166,12 +167,18 @@ int check_variants(const std::filesystem::path& folder) {
 }  // namespace penumbra
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    fmt::print(stderr, "usage: penumbra-variants FOLDER\n");
+  const std::string_view usage = "usage: penumbra-variants FOLDER\n";
+  const std::string_view argument = argc == 2 ? argv[1] : "";
+  if (argument == "--help" || argument == "-h") {
+    fmt::print("{}", usage);
+    return 0;
+  }
+  if (argument.empty() || argument.starts_with('-')) {  // a folder whose name begins with a dash is written ./-name
+    fmt::print(stderr, "{}", usage);
     return 2;
   }
   try {
-    return penumbra::check_variants(argv[1]);
+    return penumbra::check_variants(argument);
   } catch (const std::exception& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return 1;
