@@ -112,6 +112,7 @@ float packed_distance(vec3 position, float radius) { return radius / max(shadow.
 // Light-space depth, metres, for a depth as stored in the map.
 float stored_depth(float stored, LayerBlock map) { return map.near_depth + map.depth_range * stored; }
 vec4 stored_depths(vec4 stored, LayerBlock map) { return map.near_depth + map.depth_range * stored; }
+float stored_depth(float stored, Light light) { return stored_depth(stored, light.map); }
 
 // Width of a texel of the light's layer at a position's depth, metres.
 float texel_size_at(vec3 position, Light light) { return light.map.texel; }

@@ -24,7 +24,7 @@ DepthBounds depth_bounds(vec3 position, vec2 radius, Light light) {
       stored = min(stored, texelFetch(shadow_pyramid, ivec3(x, y, light.layer), level).xy);
     }
   }
-  return DepthBounds(stored_depth(stored.x, light.map), stored_depth(stored.y, light.map));
+  return DepthBounds(stored_depth(stored.x, light), stored_depth(stored.y, light));
 }
 
 // The least depth alone, within a disc and a little beyond: 2 × 2 texels of the finest level that covers it.
@@ -32,7 +32,7 @@ float nearest_depth(vec3 position, float radius, Light light) {
   int level = pyramid_level(position, radius, light, pyramid_base, textureQueryLevels(shadow_pyramid));
   ivec2 last = max(last_texel(), 0) >> (level + 2);
   vec4 stored = pyramid_texels(shadow_pyramid, position, radius, light, pyramid_base, level, last);
-  return stored_depth(min(min(stored.x, stored.y), min(stored.z, stored.w)), light.map);
+  return stored_depth(min(min(stored.x, stored.y), min(stored.z, stored.w)), light);
 }
 
 // Bounds on where blockers can be.

@@ -111,8 +111,9 @@ PROJECTION = re.compile(r"\bshadow\.(layers|layer_count|light_extent|light_is_sq
                         r"world_to_light|moved_depth)\b|\bshadow_depth\b|\bLayerBlock\b|\blight\.(map|extent)\b")
 PROJECTION_FILE = "shadow/light_projection.glsl"
 CASCADES = re.compile(r"\b(Cascades?|fit_cascades|get<Sun>)\b")
-CASCADES_FILES = {"shadow/cascades.h", "shadow/cascades.cpp", "shadow/light_projection.h",
-                  "shadow/light_projection.cpp"}
+# light_projection.cpp alone uses the other files: they are its part for suns.
+CASCADES_FILES = {"shadow/cascades.h", "shadow/cascades.cpp", "shadow/receiver_region.h", "shadow/receiver_region.cpp",
+                  "shadow/light_projection.h", "shadow/light_projection.cpp"}
 
 
 def code_of(text):
