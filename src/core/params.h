@@ -59,7 +59,7 @@ class ParamSet {
   bool contains(std::string_view name) const;
   // The row that had this name in an earlier version; null: none had.
   const Param* renamed_from(std::string_view former_name) const;
-  // Both throw Error when the name is unknown: with the present name for a former one, else with near names.
+  // All of these throw Error for an unknown name: with the present name for a former one, else with near names.
   const Param& row(std::string_view name) const;
   const ParamValue& value(std::string_view name) const;
 
@@ -70,7 +70,7 @@ class ParamSet {
 
   void set(std::string_view name, const ParamValue& value);
   void set_text(std::string_view name, std::string_view text);
-  // "name=value", as --set takes it.
+  // "name=value", as --set takes it. Throws Error also as parse_value(), as set() and set_text() do.
   void assign(std::string_view assignment);
   void reset(std::string_view name);
   bool is_default(std::string_view name) const;

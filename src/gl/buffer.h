@@ -10,8 +10,8 @@ namespace penumbra::gl {
 
 void delete_buffer(GLuint id);
 
-// A labelled buffer object of fixed size (immutable storage, updatable with write()). Throws Error when memory runs
-// out.
+// A labelled buffer object of fixed size (immutable storage, updatable with write()). Its constructors throw Error when
+// memory runs out. Offsets and sizes are in bytes and must lie within the buffer.
 class Buffer {
  public:
   Buffer() = default;

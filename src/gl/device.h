@@ -30,9 +30,9 @@ class Device {
   Timers timers;
 
   // The texture of that name; created on first use, and again when the description changes. The reference stays valid;
-  // contents persist until the texture is created again.
+  // contents persist until the texture is created again. Throws Error as Texture's constructor does.
   const Texture& target(std::string_view name, const TextureDesc& desc);
-  // A buffer of at least `bytes` of that name, kept in the same way (grows, never shrinks).
+  // A buffer of at least `bytes` of that name, kept in the same way (grows, never shrinks). Throws Error as Buffer.
   const Buffer& scratch(std::string_view name, std::size_t bytes);
   const Sampler& sampler(const SamplerDesc& desc);
   // Deletes the targets and buffers whose names start with `prefix`, except `kept`; references to them become invalid.

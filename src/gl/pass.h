@@ -42,7 +42,7 @@ class Pass {
   Pass(const Pass&) = delete;
   Pass& operator=(const Pass&) = delete;
 
-  const Program& use(const ProgramDesc& desc);  // compile on first use, and make current
+  const Program& use(const ProgramDesc& desc);  // compiles on first use (see ShaderLibrary::get), makes current
   void draw_full_screen();                      // one triangle, for the vertex shader "shared/full_screen.vert"
   void set_cull_back(bool cull);                // double-sided materials
   void set_front_clockwise(bool clockwise);     // mirrored instances

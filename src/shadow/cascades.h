@@ -43,6 +43,7 @@ struct Cascades {
   int size = 0;  // texels along a side
   std::vector<Cascade> items;
 
+  // Width of a texel, metres.
   float texel(int index) const {
     return 2.0f * items[static_cast<size_t>(index)].half_extent / static_cast<float>(size);
   }
@@ -68,6 +69,7 @@ struct CascadeInputs {
 // The corner of a projection's frustum at a depth in metres, in view space, for NDC x and y.
 glm::dvec3 frustum_corner(const glm::dmat4& projection, double depth, double ndc_x, double ndc_y);
 
+// Fits `count` cascades to what the camera sees of the receivers. The inputs must be finite, the matrices invertible.
 Cascades fit_cascades(const CascadeInputs& inputs);
 
 // The column above the drawn part of a cascade, unbounded towards the light. A caster outside of it can't shadow a

@@ -53,7 +53,7 @@ class LightProjection {
   int size() const { return cascades_.size; }  // side of each layer, texels
   // From world space to clip space of a layer: x and y in -1..1 within the map, z in 0..1, which is the stored depth.
   glm::mat4 world_to_clip(int layer) const;
-  // Casters outside of it can't shadow any receiver that reads the layer.
+  // World space. Casters outside of it can't shadow any receiver that reads the layer.
   CullVolume cull_volume(int layer) const;
   // Casters outside of it can't shadow any receiver of the view.
   CullVolume cull_volume_of_all() const { return cull_volume(layers() - 1); }
@@ -89,6 +89,8 @@ struct ReadBounds {
   std::optional<Box> moved;  // world bounds of moved casters that a history looks for
 };
 
+// The layers that the parameters ask for, fitted to the view, the receivers and their casters. The inputs must have
+// passed check().
 LightProjection fit_projection(const LightSource& source, const FitInputs& inputs);
 // The same projection, of which only what receivers of the view can read is drawn: see narrow_to_receivers().
 LightProjection narrowed(const LightProjection& projection, const LightSource& source, const FitInputs& inputs,

@@ -63,13 +63,14 @@ class Registry {
   const Technique& find(std::string_view name) const;
   // Throws Error with near names when unknown.
   const Filter& find_filter(std::string_view name) const;
+  // Throws Error with near names when unknown.
   const Recipe& find_recipe(std::string_view name) const;
-  // Null for "none".
+  // Null for "none". Throws Error with near names when unknown.
   const Denoiser* find_denoiser(std::string_view name) const;
   // Whether the mask can depend on a parameter under the technique and the denoiser that `chosen` selects: not on those
   // that only another technique or denoiser lists in its `params`.
   bool concerns(std::string_view param, const ParamSet& chosen) const;
-  // Sets "technique" and, for a preset, its assignments.
+  // Sets "technique" and, for a preset, its assignments. Throws Error with near names when unknown.
   void select(ParamSet& params, std::string_view name) const;
   // The parameters of the library, and of every denoiser, recipe and technique.
   std::vector<Param> params() const;

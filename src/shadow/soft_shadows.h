@@ -78,6 +78,7 @@ class SoftShadows {
   // pixel's position in the mask; `view_position` must lie in the view and in Inputs::receivers. Programs of
   // gl::ShaderLibrary use forward_program(): the file to include and the defines; there the function is called
   // shadow_visibility(). `light`: its overrides are applied to the parameters.
+  // Both throw Error for overrides that name no parameter or an invalid value.
   std::string forward_source(const ParamSet& params, const Light& light = {}) const;
   ForwardProgram forward_program(const ParamSet& params, const Light& light = {}) const;
   // Binds what that function reads for one light of the mask, by its index in Mask::lights: textures and samplers of
