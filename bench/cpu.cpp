@@ -104,7 +104,7 @@ void trace_rays(benchmark::State& state, const char* name) {
   constexpr int row = 256;
   std::vector<truth::Receiver> receivers = receivers_on(geometry, row * 144);
   receivers.resize(receivers.size() / row * row);
-  const truth::Sun sun{.to_light = render::choose_setup(scene, scene::rest_pose(scene)).sun.to_light};
+  const truth::TracedSun sun{.to_light = render::choose_setup(scene, scene::rest_pose(scene)).sun.to_light};
   double rays = 0;
   for ([[maybe_unused]] auto _ : state)
     rays += static_cast<double>(tracer.trace(receivers, row, sun, {.samples = 64}).rays);

@@ -29,19 +29,19 @@ GLSL_FUNCTION float texel_distance(uint texel) { return half_value(texel & 0xfff
 GLSL_FUNCTION float texel_visibility(uint texel) { return float((texel >> 16) & 0x7fffu) / 32767.0f; }
 GLSL_FUNCTION bool texel_invalid(uint texel) { return (texel & 0x80000000u) != 0u; }
 
-// The note stored with each packed texel, eight bits: bits 0 to 3 cascade; 4 the kernel is smaller than a texel of the
-// map; 5 to 7 whether the history was used, or why it was rejected.
+// The note stored with each packed texel, eight bits: bits 0 to 3 the layer of the shadow map that was read; bit 4 set
+// if the kernel is smaller than a texel of the map; bits 5 to 7 whether the history was used, or why it was rejected.
 #define HISTORY_KEPT 0u
 #define HISTORY_NONE 1u            // there is no history: a first frame, a cut, a new size
 #define HISTORY_OFF_SCREEN 2u      // the surface was outside of the picture
 #define HISTORY_OTHER_SURFACE 3u   // another surface was visible there
 #define HISTORY_CASTER_MOVED 4u    // a caster moved that may block the light
 
-GLSL_FUNCTION uint pack_notes(int cascade, bool under_texel, uint refusal) {
-  return uint(cascade) | (under_texel ? 16u : 0u) | (refusal << 5);
+GLSL_FUNCTION uint pack_notes(int layer, bool under_texel, uint refusal) {
+  return uint(layer) | (under_texel ? 16u : 0u) | (refusal << 5);
 }
 
-GLSL_FUNCTION int notes_cascade(uint notes) { return int(notes & 15u); }
+GLSL_FUNCTION int notes_layer(uint notes) { return int(notes & 15u); }
 GLSL_FUNCTION bool notes_under_texel(uint notes) { return (notes & 16u) != 0u; }
 GLSL_FUNCTION uint notes_refusal(uint notes) { return notes >> 5; }
 

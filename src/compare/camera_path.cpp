@@ -63,7 +63,7 @@ render::FrameInputs CameraPath::frame(int frame, bool again) const {
   return inputs;
 }
 
-render::Sun CameraPath::sun(int frame) const {
+render::SunLight CameraPath::sun(int frame) const {
   return session::setup_at(prepared_, session::time_of(options_, frame)).sun;
 }
 

@@ -126,7 +126,7 @@ Json camera_of(const ComparedScene& scene) {
   return json;
 }
 
-Json sun_of(const render::Sun& sun) {
+Json sun_of(const render::SunLight& sun) {
   const Angles angles = angles_of(sun.to_light);
   return {{"to_light", json_of(sun.to_light)},
           {"azimuth", rounded(angles.azimuth)},

@@ -29,17 +29,17 @@ float exposure_factor(const LightingInputs& inputs, float white) {
 }
 
 // The uniform block of a light, with its illuminance exposed.
-glsl::DirectLightBlock block_of(const Sun& sun, float exposure) {
+glsl::DirectLightBlock block_of(const SunLight& sun, float exposure) {
   return {.to_light = sun.to_light, .pad_a = 0, .illuminance = sun.illuminance * exposure, .pad_b = 0};
 }
 
 // Illuminance in lux, first on a plane that faces the light, then on a horizontal one.
-glm::vec3 illuminance_of(const Sun& sun) { return sun.illuminance; }
-float level_share(const Sun& sun) { return std::max(sun.to_light.y, 0.0f); }
+glm::vec3 illuminance_of(const SunLight& sun) { return sun.illuminance; }
+float level_share(const SunLight& sun) { return std::max(sun.to_light.y, 0.0f); }
 
 glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
   glm::vec3 direct(0);
-  for (const Light& light : inputs.lights)
+  for (const FrameLight& light : inputs.lights)
     direct += std::visit([](const auto& kind) { return illuminance_of(kind); }, light);
   const float sky_share = inputs.params.get_float("render.sky_light");
   const float white = luminance(direct) * (1.0f + sky_share) / glm::pi<float>();
@@ -49,7 +49,7 @@ glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
   block.ground_albedo = ground_albedo;
   block.ground_light = inputs.params.get_float("render.ground_light");
   block.emission = inputs.emission_in_nits ? exposure : exposure * white;
-  for (const Light& light : inputs.lights) {
+  for (const FrameLight& light : inputs.lights) {
     std::visit(
         [&](const auto& kind) {
           const float level = level_share(kind) / glm::pi<float>();

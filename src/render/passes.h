@@ -55,7 +55,7 @@ struct FrameScene {
 
 // The lights as the shadow library takes them. A light's index is its id, under which the library keeps its maps and
 // history.
-std::vector<shadow::Light> shadow_lights(std::span<const Light> lights);
+std::vector<shadow::Light> shadow_lights(std::span<const FrameLight> lights);
 
 struct ShadowMaskInputs {
   shadow::SoftShadows& soft_shadows;
@@ -77,8 +77,8 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
 struct LightingInputs {
   const GBuffer& gbuffer;
   const shadow::Mask& mask;
-  std::span<const Light> lights;  // one for each layer of the mask
-  bool emission_in_nits = true;   // false: 1 is the luminance of white in the sun
+  std::span<const FrameLight> lights;  // one for each layer of the mask
+  bool emission_in_nits = true;        // false: 1 is the luminance of white in the sun
   const ParamSet& params;
 };
 const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inputs);  // RGBA16F, linear, exposed

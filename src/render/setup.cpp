@@ -83,7 +83,7 @@ const PlacedCamera* choose_camera(const std::vector<PlacedCamera>& placed, const
 }
 
 // 45 degrees above the horizon and to one side of the camera, so that shadows fall across the picture.
-Sun default_sun(const Camera& camera) {
+SunLight default_sun(const Camera& camera) {
   const glm::vec3 back(camera.view[0][2], camera.view[1][2], camera.view[2][2]);
   const float azimuth = std::atan2(back.x, back.z) - glm::radians(55.0f);
   // Direct sunlight at noon: 100,000 lux, a little warm.
@@ -116,7 +116,7 @@ void choose_sun(Setup& setup, const scene::Scene& scene, const scene::Pose& pose
     setup.sun = default_sun(setup.camera);
     return;
   }
-  const scene::Light& file = scene.lights[static_cast<std::size_t>(scene.nodes[*setup.sun_node].light)];
+  const scene::PunctualLight& file = scene.lights[static_cast<std::size_t>(scene.nodes[*setup.sun_node].light)];
   setup.sun = {.to_light = *to_light_of(pose.world[*setup.sun_node]), .illuminance = file.color * file.intensity};
 }
 

@@ -26,7 +26,7 @@ struct SetupRequest {
 
 struct Setup {
   Camera camera;
-  Sun sun;
+  SunLight sun;
   bool ground = false;  // the scene has no floor; add_ground() adds one
   // The nodes that camera and sun are attached to, whose animation they follow. Absent: they do not move.
   std::optional<std::size_t> camera_node, sun_node;

@@ -14,7 +14,7 @@ std::optional<shadow::Box> moved_box(const scene::GpuScene& scene, bool known) {
   return bounds.empty ? shadow::Box{glm::vec3(1), glm::vec3(-1)} : box_of(bounds);
 }
 
-shadow::LightSource source_of(const Sun& sun) { return shadow::Sun{.to_light = sun.to_light}; }
+shadow::LightSource source_of(const SunLight& sun) { return shadow::Sun{.to_light = sun.to_light}; }
 
 // Homogeneous coordinates: a direction, or a position.
 glm::vec4 towards(const shadow::Sun& sun) { return {sun.to_light, 0}; }
@@ -41,9 +41,9 @@ scene::CasterSubset casters_of(shadow::CasterKind kind) {
 
 }  // namespace
 
-std::vector<shadow::Light> shadow_lights(std::span<const Light> lights) {
+std::vector<shadow::Light> shadow_lights(std::span<const FrameLight> lights) {
   std::vector<shadow::Light> all;
-  for (const Light& light : lights) {
+  for (const FrameLight& light : lights) {
     all.push_back({.id = static_cast<int>(all.size()),
                    .source = std::visit([](const auto& kind) { return source_of(kind); }, light)});
   }

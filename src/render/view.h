@@ -27,13 +27,14 @@ Camera look_at(const glm::vec3& eye, const glm::vec3& target, float fov_y, float
 glm::mat4 projection_of(const Camera& camera, float aspect);
 glm::vec3 position_of(const Camera& camera);
 
-struct Sun {
+// A directional light with what it emits; shadow::Sun is its part that shadows depend on.
+struct SunLight {
   glm::vec3 to_light{0.4f, 0.8f, 0.4f};  // unit
   glm::vec3 illuminance{100000.0f};      // lux on a plane that faces it, linear RGB
 };
 
-// The kinds of light that a frame can have.
-using Light = std::variant<Sun>;
+// What can light a frame; shadow_lights() gives the shadow library the part that it needs.
+using FrameLight = std::variant<SunLight>;
 
 // The most lights of one frame.
 inline constexpr int max_lights = 16;

@@ -138,7 +138,8 @@ struct Camera {
 
 enum class LightKind : uint8_t { directional, point, spot };
 
-struct Light {
+// A light as the file describes it (KHR_lights_punctual), at the place of the nodes that name it.
+struct PunctualLight {
   std::string name;
   LightKind kind = LightKind::directional;
   glm::vec3 color{1};   // linear
@@ -176,7 +177,7 @@ struct Scene {
   std::vector<int> roots;  // of the file's default scene (or its first); other nodes are not drawn
   std::vector<Skin> skins;
   std::vector<Camera> cameras;
-  std::vector<Light> lights;
+  std::vector<PunctualLight> lights;
   std::vector<Animation> animations;
   std::vector<std::string> extensions_used;
 };

@@ -28,7 +28,7 @@ MaterialInfo describe_material(const Scene& scene, const Material& material) {
   return info;
 }
 
-LightInfo describe_light(const Light& light) {
+LightInfo describe_light(const PunctualLight& light) {
   LightInfo info{.name = light.name, .kind = "directional", .intensity = light.intensity, .unit = "cd"};
   if (light.kind == LightKind::directional) info.unit = "lx";
   if (light.kind == LightKind::point) info.kind = "point";

@@ -89,6 +89,7 @@ struct FinishedMaps {
   LightProjection projection;
 };
 
+// A light that casts shadows. Its colour and intensity are left to the caller: the mask is the same for all.
 struct Light {
   int id = 0;  // unique among the lights of a frame; identifies the light's maps and history from frame to frame
   LightSource source;
@@ -121,8 +122,8 @@ struct Inputs {
   // Where all lights bring their maps and there is no `draw`, no movement map can be drawn: if the parameter
   // movement.map is on, the history is then used only in frames whose box is empty.
   std::optional<Box> moved;
-  // Whether Mask::texture has a penumbra radius, a blocker distance and a cascade beside visibility: 8 bytes a pixel
-  // and light instead of 2. Visibility is the same.
+  // Whether Mask::texture has a penumbra radius, a blocker distance and a layer of the shadow map beside visibility: 8
+  // bytes a pixel and light instead of 2. Visibility is the same.
   bool mask_details = false;
   DrawCasters draw;            // optional when every light brings its maps
   const void* user = nullptr;  // passed on to the caller's own techniques; the library never reads it

@@ -50,15 +50,15 @@ struct LightFrame {
   Rect viewport;            // of the receivers' textures and the mask
   LightProjection projection;
   LightShape shape;
-  unsigned depth =
-      0;  // OpenGL name of the shadow map, one array layer for each layer of the projection; 0 if nothing needs it
+  // OpenGL name of the shadow map, one array layer for each layer of the projection; 0 if nothing needs it.
+  unsigned depth = 0;
   // The layers of the shadow map that were not drawn because they hold the same as in the last frame.
   std::bitset<max_layers> kept_layers;
   const gl::Texture* movement = nullptr;  // see movement_map.h; null unless a history uses it
   bool casters_moved = false;             // since the last frame: `movement` shows where
   bool history = false;                   // the history of the last frame is valid
-  // R8UI, only if a denoiser ran: bits 0 to 3 cascade index, bit 4 set if the kernel is smaller than a shadow map
-  // texel, bits 5 to 7 why the history was rejected (see History in docs/techniques.md).
+  // R8UI, only if a denoiser ran: bits 0 to 3 the layer of the shadow map that was read, bit 4 set if the kernel is
+  // smaller than a texel of the map, bits 5 to 7 why the history was rejected (see History in docs/techniques.md).
   const gl::Texture* notes = nullptr;
   std::vector<Product> products;  // all that this frame made for the light
 };
@@ -67,9 +67,9 @@ struct LightFrame {
 // pixels. R is visibility, 0..1, and by default there is no more: R16F. With Inputs::mask_details, and where a light's
 // technique fills the mask by passes of its own (Technique::resolve), it is RGBA16F: G penumbra radius at the receiver,
 // metres (0: none); B mean distance from receiver to blockers along the light, metres (0: none; after a denoiser, the
-// distance that corresponds to the radius in G, also for techniques that compute only the radius); A cascade index,
-// plus 0.5 where the kernel is smaller than a texel.
-// Texels outside of the viewport are undefined. The mask is valid until the next render() of its view.
+// distance that corresponds to the radius in G, also for techniques that compute only the radius); A the layer of
+// the shadow map that was read (for a sun its cascade, 0 the finest), plus 0.5 where the kernel is smaller than a
+// texel. Texels outside of the viewport are undefined. The mask is valid until the next render() of its view.
 struct Mask {
   const gl::Texture* texture = nullptr;
   std::vector<LightFrame> lights;

@@ -21,7 +21,7 @@ struct Key {
 // The casters' part of the key: triangles, their transforms, and what determines their alpha.
 Key key_of(const scene::Scene& scene, const scene::PosedGeometry& geometry);
 // The key of a picture.
-Key key_of(const Key& casters, std::span<const Receiver> receivers, int width, const Light& light,
+Key key_of(const Key& casters, std::span<const Receiver> receivers, int width, const TracedLight& light,
            const TraceOptions& options);
 
 // A checksum of a traced picture's values.

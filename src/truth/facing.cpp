@@ -5,7 +5,7 @@
 
 namespace penumbra::truth {
 
-std::vector<float> before_light(std::span<const Receiver> receivers, const Light& light) {
+std::vector<float> before_light(std::span<const Receiver> receivers, const TracedLight& light) {
   std::vector<float> before;
   before.reserve(receivers.size());
   for (const Receiver& receiver : receivers) {
@@ -20,7 +20,7 @@ std::vector<float> before_light(std::span<const Receiver> receivers, const Light
   return before;
 }
 
-std::vector<float> unshadowed(std::span<const Receiver> receivers, const Light& light) {
+std::vector<float> unshadowed(std::span<const Receiver> receivers, const TracedLight& light) {
   std::vector<float> facing;
   facing.reserve(receivers.size());
   for (const Receiver& receiver : receivers) {

@@ -83,7 +83,7 @@ void add_alpha(Hash& hash, const scene::Scene& scene, const scene::Primitive& pr
   hash.add_all(std::span(primitive.colors));
 }
 
-void add_light(Hash& hash, const Sun& sun) {
+void add_light(Hash& hash, const TracedSun& sun) {
   hash.add(sun.to_light);
   hash.add(sun.angle);
   hash.add(sun.square);
@@ -118,7 +118,7 @@ Key key_of(const scene::Scene& scene, const scene::PosedGeometry& geometry) {
   return hash.key();
 }
 
-Key key_of(const Key& casters, std::span<const Receiver> receivers, int width, const Light& light,
+Key key_of(const Key& casters, std::span<const Receiver> receivers, int width, const TracedLight& light,
            const TraceOptions& options) {
   Hash hash;
   hash.add(casters);

@@ -25,7 +25,7 @@ Sides sides_about(const glm::dvec3& axis) {
   return {x, glm::cross(x, z)};
 }
 
-SeenLight seen(const Sun& sun, const glm::dvec3& /*point*/) {
+SeenLight seen(const TracedSun& sun, const glm::dvec3& /*point*/) {
   const glm::dvec3 center = glm::normalize(sun.to_light);
   const Sides sides = sides_about(center);
   const double tangent = std::tan(sun.angle / 2);
@@ -42,7 +42,7 @@ SeenLight seen(const LocalLight& light, const glm::dvec3& point) {
 
 }  // namespace
 
-SeenLight seen_from(const Light& light, const glm::dvec3& point) {
+SeenLight seen_from(const TracedLight& light, const glm::dvec3& point) {
   return std::visit([&](const auto& kind) { return seen(kind, point); }, light);
 }
 

@@ -6,10 +6,10 @@
 
 namespace penumbra::truth {
 
-// A directional light. As a disc it has angular diameter `angle` and is sampled uniformly over the disc of radius
-// tan(angle / 2) on the tangent plane at unit distance. As a square its half side is that radius, and two of its sides
-// are horizontal, as in the shadow library's light space.
-struct Sun {
+// A directional light as rays are traced to it. As a disc it has angular diameter `angle` and is sampled uniformly over
+// the disc of radius tan(angle / 2) on the tangent plane at unit distance. As a square its half side is that radius,
+// and two of its sides are horizontal, as in the shadow library's light space.
+struct TracedSun {
   glm::dvec3 to_light{0, 1, 0};  // world space, of any length above 0
   double angle = 0.00925;        // full angle, radians, 0 to below π
   bool square = false;
@@ -24,7 +24,7 @@ struct LocalLight {
   std::optional<glm::dvec3> axis;
 };
 
-using Light = std::variant<Sun, LocalLight>;
+using TracedLight = std::variant<TracedSun, LocalLight>;
 
 // A light as seen from a point. Rays to it have the directions center + x · side_x + y · side_y, with (x, y) in the
 // unit disc, or each from −1 to 1 if `square`. They end at `far` times that vector.
@@ -34,6 +34,6 @@ struct SeenLight {
   bool square = false;
 };
 
-SeenLight seen_from(const Light& light, const glm::dvec3& point);
+SeenLight seen_from(const TracedLight& light, const glm::dvec3& point);
 
 }  // namespace penumbra::truth

@@ -17,7 +17,7 @@ struct PictureRequest {
   Key casters;  // of `scene` and `geometry`
   std::vector<Receiver> receivers;
   int width = 0;
-  Light light;
+  TracedLight light;
   TraceOptions options;
   Key key;  // of the whole request
 };

@@ -44,8 +44,8 @@ Estimate estimate_of(const LitCounts& lit, std::uint32_t points) {
 
 }  // namespace
 
-PictureTrace::PictureTrace(const EmbreeScene& scene, std::span<const Receiver> receivers, int width, const Light& light,
-                           const TraceOptions& options)
+PictureTrace::PictureTrace(const EmbreeScene& scene, std::span<const Receiver> receivers, int width,
+                           const TracedLight& light, const TraceOptions& options)
     : scene_(scene),
       receivers_(receivers),
       width_(static_cast<std::size_t>(width)),

@@ -14,7 +14,7 @@ namespace penumbra::truth {
 // Traces one picture.
 class PictureTrace {
  public:
-  PictureTrace(const EmbreeScene& scene, std::span<const Receiver> receivers, int width, const Light& light,
+  PictureTrace(const EmbreeScene& scene, std::span<const Receiver> receivers, int width, const TracedLight& light,
                const TraceOptions& options);
 
   // May be called once. Throws Interrupted.
@@ -39,7 +39,7 @@ class PictureTrace {
   const EmbreeScene& scene_;
   std::span<const Receiver> receivers_;
   std::size_t width_, height_;
-  const Light& light_;
+  const TracedLight& light_;
   const TraceOptions& options_;
   int threads_;
 

@@ -19,7 +19,7 @@ constexpr double clearance = 8;
 
 }  // namespace
 
-PixelRays::PixelRays(const EmbreeScene& scene, const Light& light) : scene_(scene), light_(light), rays_{} {
+PixelRays::PixelRays(const EmbreeScene& scene, const TracedLight& light) : scene_(scene), light_(light), rays_{} {
   std::ranges::fill(rays_.tnear, 0.0f);
   std::ranges::fill(rays_.mask, ~0U);
 }

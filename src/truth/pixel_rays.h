@@ -18,7 +18,7 @@ using LitCounts = std::array<std::uint32_t, scrambling_count>;
 // Traces the rays of one pixel at a time, in packets. Each thread has its own.
 class PixelRays {
  public:
-  PixelRays(const EmbreeScene& scene, const Light& light);
+  PixelRays(const EmbreeScene& scene, const TracedLight& light);
 
   // Sets the receiver at which the following rays start.
   void start_at(const Receiver& receiver);
@@ -36,7 +36,7 @@ class PixelRays {
   void count_lit(LitCounts& lit) const;
 
   const EmbreeScene& scene_;
-  const Light& light_;
+  const TracedLight& light_;
   long long traced_ = 0;
   SeenLight seen_;
   // Dot products with the receiver's normal of center, side_x and side_y; that of a ray is center + x · side_x + y ·

@@ -45,13 +45,13 @@ TraceOptions trace_options(const ParamSet& params, const TechniqueOptions& optio
 }
 
 // A frame's light as the tracer's light: one overload for each kind of shadow::LightSource.
-Light traced_light(const shadow::Sun& sun, const ParamSet& params) {
-  return Sun{.to_light = glm::dvec3(sun.to_light),
-             .angle = glm::radians(static_cast<double>(params.get_float("sun.angle"))),
-             .square = params.get_word("sun.shape") == "square"};
+TracedLight traced_light(const shadow::Sun& sun, const ParamSet& params) {
+  return TracedSun{.to_light = glm::dvec3(sun.to_light),
+                   .angle = glm::radians(static_cast<double>(params.get_float("sun.angle"))),
+                   .square = params.get_word("sun.shape") == "square"};
 }
 
-Light light_of(const shadow::PassContext& frame, const TechniqueOptions& options, double seconds) {
+TracedLight light_of(const shadow::PassContext& frame, const TechniqueOptions& options, double seconds) {
   if (options.local_light) return options.local_light(seconds);
   return std::visit([&](const auto& source) { return traced_light(source, frame.params()); }, frame.light().source);
 }

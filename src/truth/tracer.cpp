@@ -16,7 +16,7 @@ Tracer::~Tracer() = default;
 Tracer::Tracer(Tracer&& other) noexcept = default;
 Tracer& Tracer::operator=(Tracer&& other) noexcept = default;
 
-Traced Tracer::trace(std::span<const Receiver> receivers, int width, const Light& light,
+Traced Tracer::trace(std::span<const Receiver> receivers, int width, const TracedLight& light,
                      const TraceOptions& options) const {
   return PictureTrace(state_->scene, receivers, width, light, options).trace();
 }

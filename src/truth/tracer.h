@@ -86,7 +86,7 @@ class Tracer {
 
   // `receivers` are the pixels of a picture, row by row, `width` in each row. The result depends on them, the light,
   // samples, error and seed, but not on the number of threads. Throws Interrupted.
-  Traced trace(std::span<const Receiver> receivers, int width, const Light& light,
+  Traced trace(std::span<const Receiver> receivers, int width, const TracedLight& light,
                const TraceOptions& options = {}) const;
 
   const BuildStats& stats() const;

@@ -37,8 +37,8 @@ const std::array<Field, 3>& texel_fields() {
 
 const std::array<Field, 3>& notes_fields() {
   static const std::array<Field, 3> fields{
-      Field{"cascade", mapping_of("cascade"),
-            [](unsigned notes) { return static_cast<float>(glsl::notes_cascade(notes)); }},
+      Field{"layer of the map", mapping_of("cascade"),
+            [](unsigned notes) { return static_cast<float>(glsl::notes_layer(notes)); }},
       Field{"under a texel", mapping_of("under_texel"),
             [](unsigned notes) { return glsl::notes_under_texel(notes) ? 1.0f : 0.0f; }},
       Field{"history", mapping_of("history"),
@@ -134,9 +134,9 @@ std::string about_target(std::string_view name) {
   };
   static constexpr std::array list{
       About{"/history_and_filters/texels", "The shadow mask with its history, before the first filter: packed texels."},
-      About{
-          "/history_and_filters/notes",
-          "Beside the packed mask: the cascade, whether the kernel is under a texel, and why the history was refused."},
+      About{"/history_and_filters/notes",
+            "Beside the packed mask: the shadow map's layer, whether the kernel is under a texel, and why the history "
+            "was refused."},
       About{"/history_and_filters/history texels",
             "The packed mask that the next frame blends with; two textures take turns."},
       About{"/history_and_filters/history surfaces",
@@ -144,7 +144,7 @@ std::string about_target(std::string_view name) {
       About{"/history_and_filters/", "The shadow mask after this filter's step: packed texels."},
       About{"/movement map",
             "How much of the area around a texel has moving casters: 0 none, 1 all. Of the last frame with motion."},
-      About{"/shadow map", "Depth from the light, 0 to 1, a layer each cascade."},
+      About{"/shadow map", "Depth from the light, 0 to 1, a layer for each cascade."},
       About{"/recipes/least_depth_pyramid/",
             "The least depth from the light that a texel of each mip level covers, in green beside edges of the map."},
       About{"/tile decisions",

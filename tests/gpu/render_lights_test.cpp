@@ -30,7 +30,7 @@ class LightsTest : public RenderTest {
     std::vector<std::vector<float>> masks;  // visibility by layer
   };
 
-  Drawn draw_with(std::vector<render::Light> lights) {
+  Drawn draw_with(std::vector<render::FrameLight> lights) {
     inputs.lights = std::move(lights);
     const render::Frame& frame = draw(scene_);
     Drawn drawn{.color = renderer.read_aov("color"), .masks = {}};
@@ -40,8 +40,8 @@ class LightsTest : public RenderTest {
   }
 
   scene::Scene scene_;
-  const render::Sun warm_{.to_light = glm::normalize(glm::vec3(0.6f, 0, 1)), .illuminance = {3, 2, 1}};
-  const render::Sun cold_{.to_light = glm::normalize(glm::vec3(-0.5f, 0.3f, 1)), .illuminance = {1, 2, 4}};
+  const render::SunLight warm_{.to_light = glm::normalize(glm::vec3(0.6f, 0, 1)), .illuminance = {3, 2, 1}};
+  const render::SunLight cold_{.to_light = glm::normalize(glm::vec3(-0.5f, 0.3f, 1)), .illuminance = {1, 2, 4}};
 };
 
 TEST_F(LightsTest, TwoSunsGiveTheSumOfEach) {
@@ -93,7 +93,7 @@ TEST_F(LightsTest, BlendedSurfacesAreLitByAllAndShadowedFromTheFirst) {
 
 TEST_F(LightsTest, AFrameWithoutLightsOrWithTooManyIsRefused) {
   EXPECT_EQ(message_of([&] { draw_with({}); }), "a frame has 0 lights; 1 to 16 can be drawn");
-  EXPECT_EQ(message_of([&] { draw_with(std::vector<render::Light>(17, warm_)); }),
+  EXPECT_EQ(message_of([&] { draw_with(std::vector<render::FrameLight>(17, warm_)); }),
             "a frame has 17 lights; 1 to 16 can be drawn");
 }
 

@@ -44,7 +44,7 @@ class RenderTest : public GpuTest {
   }
 
   // The light of the frames.
-  render::Sun& sun() { return std::get<render::Sun>(inputs.lights.front()); }
+  render::SunLight& sun() { return std::get<render::SunLight>(inputs.lights.front()); }
 
   const render::Frame& draw(const scene::Scene& scene) {
     gpu_scene.emplace(device, scene);

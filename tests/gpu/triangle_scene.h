@@ -67,7 +67,7 @@ glm::vec3 sun_direction(float azimuth_degrees, float elevation_degrees);
 // The library's result for a scene, in rows from bottom to top.
 struct Shadowed {
   int width = 0, height = 0;
-  std::vector<float> mask;        // 4 a pixel: visibility, penumbra radius, blocker distance, cascade
+  std::vector<float> mask;        // 4 a pixel: visibility, penumbra radius, blocker distance, layer of the map
   std::vector<float> depth;       // as stored
   std::vector<glm::vec3> points;  // world position under each pixel
 

@@ -100,7 +100,7 @@ class CasterChoiceImage : public GpuTest {
                     .height = height,
                     .camera = camera,
                     .last_camera = camera,
-                    .lights = {render::Sun{.to_light = to_light_}}},
+                    .lights = {render::SunLight{.to_light = to_light_}}},
                    params);
     return renderer_.read_aov(aov);
   }

@@ -39,7 +39,7 @@ class SceneRun {
 
   // Of the next frame.
   render::Camera& camera() { return setup_.camera; }
-  render::Sun& sun() { return setup_.sun; }
+  render::SunLight& sun() { return setup_.sun; }
   double& time() { return time_; }
 
   int width() const { return width_; }

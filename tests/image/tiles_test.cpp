@@ -63,7 +63,7 @@ class Tiles : public GpuTest {
                             .height = height_,
                             .camera = setup_.camera,
                             .last_camera = setup_.camera,
-                            .lights = lights_.empty() ? std::vector<render::Light>{setup_.sun} : lights_,
+                            .lights = lights_.empty() ? std::vector<render::FrameLight>{setup_.sun} : lights_,
                             .cut = true,
                             .mask_details = true},
                            params);
@@ -104,8 +104,8 @@ class Tiles : public GpuTest {
 
  protected:
   render::Renderer renderer_{device_}, marks_renderer_{device_, registry_of_marks()};
-  std::vector<std::string> settings_;  // "name=value"
-  std::vector<render::Light> lights_;  // none: the scene's sun
+  std::vector<std::string> settings_;       // "name=value"
+  std::vector<render::FrameLight> lights_;  // none: the scene's sun
 
  private:
   int width_ = 0, height_ = 0;
@@ -173,12 +173,12 @@ TEST_F(Tiles, MissNoPenumbraAtSeams) {
 
 TEST_F(Tiles, OfEachLightAreItsOwn) {
   load("courtyard", 160, 90);
-  const std::vector<render::Light> suns{render::Sun{.to_light = render::direction_to(2.0f, 0.9f)},
-                                        render::Sun{.to_light = render::direction_to(4.0f, 0.6f)}};
+  const std::vector<render::FrameLight> suns{render::SunLight{.to_light = render::direction_to(2.0f, 0.9f)},
+                                             render::SunLight{.to_light = render::direction_to(4.0f, 0.6f)}};
   for (const char* technique : {"pcss", "pcss_compute", "thesis_8x8", "thesis_8x8_compute"}) {
     SCOPED_TRACE(technique);
     std::vector<std::vector<float>> alone;
-    for (const render::Light& sun : suns) {
+    for (const render::FrameLight& sun : suns) {
       lights_ = {sun};
       mask(renderer_, technique, 2.0f, true);
       alone.push_back(layers()[0]);

@@ -84,11 +84,11 @@ class Stage {
   }
 
   render::Renderer renderer(const truth::TruthTechnique& truth) { return render::Renderer(device_, truth.registry()); }
-  render::Sun& sun() { return setup_.sun; }
+  render::SunLight& sun() { return setup_.sun; }
 
   // Draws with a second sun, from another direction, from now on.
   void add_sun() {
-    second_ = render::Sun{.to_light = render::direction_to(2.0f, 0.9f), .illuminance = glm::vec3(2e4f)};
+    second_ = render::SunLight{.to_light = render::direction_to(2.0f, 0.9f), .illuminance = glm::vec3(2e4f)};
   }
 
   void draw(render::Renderer& renderer, int rays, int view = 0) {
@@ -124,7 +124,7 @@ class Stage {
   gl::Device device_{gl::ShaderFiles(), gl::Timers::Mode::off};
   scene::Scene scene_;
   render::Setup setup_;
-  std::optional<render::Sun> second_;
+  std::optional<render::SunLight> second_;
   std::optional<scene::GpuScene> gpu_scene_;
 };
 

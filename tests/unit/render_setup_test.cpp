@@ -97,7 +97,7 @@ TEST(Setup, TakesTheFilesSun) {
     scene.nodes.back().matrix = glm::rotate(glm::mat4(1), -1.5707963f, glm::vec3(1, 0, 0));
     scene.roots.push_back(light + 1);
   }
-  const render::Sun sun = setup_of(scene).sun;
+  const render::SunLight sun = setup_of(scene).sun;
   EXPECT_NEAR(sun.to_light.y, 1, 1e-6f);
   EXPECT_FLOAT_EQ(sun.illuminance.r, 8);
   EXPECT_FLOAT_EQ(sun.illuminance.b, 2);

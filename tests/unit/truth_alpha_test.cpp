@@ -12,7 +12,7 @@ namespace {
 using scene::AlphaMode;
 using scene::Filter;
 using scene::Wrap;
-using truth::Sun;
+using truth::TracedSun;
 
 // A quad at y = 1 over x and z from 0 to 4, with u = x / 4 and v = z / 4, that casts by alpha.
 struct Masked {
@@ -59,7 +59,7 @@ struct Masked {
       }
     }
     ASSERT_GT(receivers.size(), 8000U) << what;
-    const auto traced = trace_row(scene.tracer(), receivers, Sun{.angle = 0}, {.samples = 8});
+    const auto traced = trace_row(scene.tracer(), receivers, TracedSun{.angle = 0}, {.samples = 8});
     int wrong = 0;
     for (std::size_t i = 0; i < receivers.size(); ++i) {
       wrong += (traced.hard[i] == 0) != exact[i] || traced.visibility[i] != traced.hard[i] ? 1 : 0;
@@ -178,7 +178,7 @@ TEST(TruthAlpha, SharedTrianglesHaveTheSameHoles) {
     const int z = i / 80;
     receivers.push_back(receiver_at({(i % 80 + 0.5) * 0.1, 0, (z + 0.5) * 0.2}, {0, 1, 0}));
   }
-  const Sun sun{.angle = 0.05};
+  const TracedSun sun{.angle = 0.05};
   const auto flat = trace_row(scene.scene.tracer(), receivers, sun);
   const truth::Tracer tracer = scene.scene.tracer({.flat_triangles = 0});
   ASSERT_EQ(tracer.stats().instances, 2U);

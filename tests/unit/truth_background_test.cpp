@@ -34,7 +34,7 @@ class Pictures {
     PictureRequest request{.scene = &scene_.scene,
                            .casters = {1, 1},
                            .width = width,
-                           .light = truth::Sun{.to_light = {0.3, 1, 0.2}, .angle = 0.1},
+                           .light = truth::TracedSun{.to_light = {0.3, 1, 0.2}, .angle = 0.1},
                            .options = {.samples = samples},
                            .key = {number, number}};
     request.geometry.surfaces = scene_.geometry().surfaces;

@@ -40,7 +40,7 @@ float below(bool towards_sun, bool mirrored, CasterFaces faces, std::size_t flat
   const truth::Tracer tracer = scene.tracer({.flat_triangles = flat_triangles});
   EXPECT_EQ(tracer.stats().instances, flat_triangles == 0 ? 2u : 0u);
   const std::vector<truth::Receiver> receivers{receiver_at({0.1, 0, 0.1}, {0, 1, 0})};
-  return trace_row(tracer, receivers, truth::Sun{.to_light = {0, 1, 0}, .angle = 0.01}).visibility.at(0);
+  return trace_row(tracer, receivers, truth::TracedSun{.to_light = {0, 1, 0}, .angle = 0.01}).visibility.at(0);
 }
 
 TEST(TruthCasters, CastByTheFacesThatAreChosen) {

@@ -16,8 +16,8 @@ namespace {
 
 using truth::Corners;
 using truth::Receiver;
-using truth::Sun;
 using truth::Traced;
+using truth::TracedSun;
 
 // A receiver at a point of a surface's triangle, on the side of `outside`.
 Receiver receiver_on(const scene::PosedSurface& surface, std::size_t triangle, double u, double v,
@@ -74,7 +74,7 @@ const Place places[] = {{"at the origin", {0, 0, 0}},
 
 // Every point of a convex body that faces the whole sun is lit, and no point inside it is.
 TEST(TruthGeometry, ConvexBodiesHaveNeitherAcneNorLeaks) {
-  const Sun sun{.to_light = glm::normalize(glm::dvec3(0.5, 0.6, -0.4)), .angle = glm::radians(3.0)};
+  const TracedSun sun{.to_light = glm::normalize(glm::dvec3(0.5, 0.6, -0.4)), .angle = glm::radians(3.0)};
   for (const Place& place : places) {
     for (const float radius : {0.5f, 40.0f}) {
       TruthScene scene;
@@ -123,7 +123,7 @@ TEST(TruthGeometry, LargePlanesDoNotShadowThemselves) {
       }
       // 3 degrees above the plane.
       const glm::dvec3 along = glm::normalize(glm::cross(row[0].normal, glm::dvec3(0.3, 0.8, 0.5)));
-      const Sun sun{.to_light = along + 0.05 * row[0].normal, .angle = glm::radians(2.0)};
+      const TracedSun sun{.to_light = along + 0.05 * row[0].normal, .angle = glm::radians(2.0)};
       const Traced traced = trace_row(scene.tracer(), row, sun, {.samples = 16});
       EXPECT_EQ(std::ranges::count_if(traced.visibility, [](float v) { return v != 1; }), 0) << place.name;
     }
@@ -144,7 +144,7 @@ TEST(TruthGeometry, ContactShadowsReachTheMillimetre) {
     }
     const truth::Tracer tracer = scene.tracer();
     for (const double height : {0.3, 1.0, 2.0}) {
-      const Sun sun{.to_light = {1, height, 0}, .angle = glm::radians(0.53)};
+      const TracedSun sun{.to_light = {1, height, 0}, .angle = glm::radians(0.53)};
       for (const float v : trace_row(tracer, behind, sun, {.samples = 64}).visibility) EXPECT_EQ(v, 0) << height;
       for (const float v : trace_row(tracer, before, sun, {.samples = 64}).visibility) EXPECT_EQ(v, 1) << height;
     }
@@ -173,7 +173,7 @@ scene::Primitive& add_hills(TruthScene& scene, const glm::vec3& at, std::uint32_
 // Rays to a point sun that pass through the edges and corners between triangles, to the last bit.
 TEST(TruthGeometry, SharedEdgesAreWatertight) {
   constexpr std::uint32_t side = 60;
-  const Sun sun{.to_light = {0.237, 1, 0.1411}, .angle = 0};
+  const TracedSun sun{.to_light = {0.237, 1, 0.1411}, .angle = 0};
   for (const glm::vec3 at : {glm::vec3(0), glm::vec3(0.1f, 0.3f, -0.7f), glm::vec3(3000, 10, 5000)}) {
     TruthScene scene;
     const scene::Primitive& hills = add_hills(scene, at, side);
@@ -195,7 +195,7 @@ TEST(TruthGeometry, SharedEdgesAreWatertight) {
 }
 
 float hard_under(const TruthScene& scene) {
-  return trace_row(scene.tracer(), {receiver_at({0.1, 0, 0.2}, {0, 1, 0})}, Sun{}).hard[0];
+  return trace_row(scene.tracer(), {receiver_at({0.1, 0, 0.2}, {0, 1, 0})}, TracedSun{}).hard[0];
 }
 
 TEST(TruthGeometry, TrianglesCastFromBothSides) {
@@ -270,7 +270,7 @@ TEST(TruthGeometry, SharedTrianglesCastAsFlatOnesDo) {
     const int y = i / 80;
     ground.push_back(receiver_at({i % 80 * 0.1 - 4, 0, y * 0.1 - 4}, {0, 1, 0}, 8));
   }
-  const Sun sun{.to_light = {0.25, 1, 0.5}, .angle = 0.03};
+  const TracedSun sun{.to_light = {0.25, 1, 0.5}, .angle = 0.03};
   const TruthScene scene = many_balls();
   const truth::Tracer flat = scene.tracer();
   const truth::Tracer shared = scene.tracer({.flat_triangles = 100});
@@ -292,7 +292,7 @@ TEST(TruthGeometry, SharedTrianglesCastAsFlatOnesDo) {
 TEST(TruthGeometry, SharedTrianglesHaveNoAcne) {
   const TruthScene scene = many_balls();
   const truth::Tracer tracer = scene.tracer({.flat_triangles = 100});
-  const Sun sun{.to_light = {0, 1, 0}, .angle = 0};
+  const TracedSun sun{.to_light = {0, 1, 0}, .angle = 0};
   Random random(4);
   std::vector<Receiver> row;
   for (std::size_t i = 0; i < 59; ++i) {

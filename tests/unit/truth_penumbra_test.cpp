@@ -12,8 +12,8 @@ namespace {
 
 using truth::LocalLight;
 using truth::Receiver;
-using truth::Sun;
 using truth::Traced;
+using truth::TracedSun;
 
 constexpr double edge_height = 5;
 
@@ -48,7 +48,7 @@ TEST(TruthPenumbra, IsTheExactFunctionOfDiscAndSquare) {
     const double radius = edge_height * std::tan(glm::radians(angle) / 2);
     for (const bool square : {false, true}) {
       const Row row = row_across(radius, 0.25, 500, square ? square_share : disc_share);
-      const Sun sun{.angle = glm::radians(angle), .square = square};
+      const TracedSun sun{.angle = glm::radians(angle), .square = square};
       const Traced traced = trace_row(tracer, row.receivers, sun, {.samples = 4096});
       EXPECT_LT(rmse(traced.visibility, row.exact), 0.001) << angle << (square ? " square" : " disc");
       EXPECT_LT(largest_error(traced.visibility, row.exact), 0.005) << angle << (square ? " square" : " disc");
@@ -61,7 +61,7 @@ TEST(TruthPenumbra, IsTheExactFunctionOfDiscAndSquare) {
 }
 
 // An oblique sun and an edge that is not aligned with the disc's axes, so that no symmetry hides errors.
-Row oblique_row(const Sun& sun, int count) {
+Row oblique_row(const TracedSun& sun, int count) {
   const double tangent = std::tan(sun.angle / 2);
   const glm::dvec3 to_light = glm::normalize(sun.to_light);
   const glm::dvec3 u = glm::normalize(glm::cross(to_light, glm::dvec3(0.3, 0.2, 0.9)));
@@ -81,7 +81,7 @@ Row oblique_row(const Sun& sun, int count) {
 TEST(TruthPenumbra, ErrorFallsAsSamplesToTheMinusSevenTenthsOrSteeper) {
   const TruthScene scene = knife_edge();
   const truth::Tracer tracer = scene.tracer();
-  const Sun sun{.to_light = {0.7, 1, 0.5}, .angle = glm::radians(4.0)};
+  const TracedSun sun{.to_light = {0.7, 1, 0.5}, .angle = glm::radians(4.0)};
   const Row row = oblique_row(sun, 600);
   std::vector<double> x, y;
   for (int samples = 64; samples <= 4096; samples *= 2) {
@@ -106,7 +106,7 @@ TEST(TruthPenumbra, ErrorFallsAsSamplesToTheMinusSevenTenthsOrSteeper) {
 TEST(TruthPenumbra, StandardErrorIsHonest) {
   const TruthScene scene = knife_edge();
   const truth::Tracer tracer = scene.tracer();
-  const Sun sun{.to_light = {0.7, 1, 0.5}, .angle = glm::radians(4.0)};
+  const TracedSun sun{.to_light = {0.7, 1, 0.5}, .angle = glm::radians(4.0)};
   const Row row = oblique_row(sun, 2000);
   for (const int samples : {64, 256, 1024}) {
     const Traced traced = trace_row(tracer, row.receivers, sun, {.samples = samples});
@@ -137,7 +137,7 @@ TEST(TruthPenumbra, SquareSunHasHorizontalSides) {
   scene.add_quad({-60, edge_height, -60}, {60, 0, 0}, {0, 0, 120});
   const truth::Tracer tracer = scene.tracer();
   const double angle = glm::radians(6.0);
-  const Sun sun{.to_light = {0.8, 0.6, 0}, .angle = angle, .square = true};
+  const TracedSun sun{.to_light = {0.8, 0.6, 0}, .angle = angle, .square = true};
   // The sun's horizontal sides are parallel to the edge, so the edge cuts the sun parallel to them.
   const double tangent = std::tan(angle / 2);
   Row row{ground_row(-8, -5.6, 400), {}};
@@ -201,7 +201,8 @@ TEST(TruthPenumbra, ASunHalfBelowTheSurfaceIsHalfVisible) {
     receivers.push_back(receiver_at({0, 0, 0}, {std::sin(elevation), std::cos(elevation), 0}));
     exact.push_back(disc_share(t));
   }
-  const Traced traced = trace_row(tracer, receivers, Sun{.to_light = {1, 0, 0}, .angle = angle}, {.samples = 4096});
+  const Traced traced =
+      trace_row(tracer, receivers, TracedSun{.to_light = {1, 0, 0}, .angle = angle}, {.samples = 4096});
   EXPECT_LT(rmse(traced.visibility, exact), 0.001);
   EXPECT_LT(largest_error(traced.visibility, exact), 0.005);
 }

@@ -96,7 +96,7 @@ inline double largest_error(const std::vector<float>& values, const std::vector<
 }
 
 inline truth::Traced trace_row(const truth::Tracer& tracer, const std::vector<truth::Receiver>& row,
-                               const truth::Light& light, const truth::TraceOptions& options = {}) {
+                               const truth::TracedLight& light, const truth::TraceOptions& options = {}) {
   return tracer.trace(row, static_cast<int>(row.size()), light, options);
 }
 

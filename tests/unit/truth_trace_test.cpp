@@ -16,8 +16,8 @@ namespace {
 using truth::PacketPoints;
 using truth::PixelPoints;
 using truth::Receiver;
-using truth::Sun;
 using truth::Traced;
+using truth::TracedSun;
 using truth::TraceOptions;
 
 // The first points of one scrambling of a pixel.
@@ -117,7 +117,7 @@ GroundView boxes() {
   return picture;
 }
 
-const Sun wide_sun{.to_light = {0.3, 1, 0.2}, .angle = 0.15};
+const TracedSun wide_sun{.to_light = {0.3, 1, 0.2}, .angle = 0.15};
 
 TEST(TruthTrace, IsTheSameOnAnyNumberOfThreads) {
   const GroundView picture = boxes();
@@ -175,7 +175,7 @@ TEST(TruthTrace, RoundsSamplesUpAndCountsRays) {
   row[4].normal = {0, -1, 0};
   const truth::Tracer tracer = scene.tracer();
   for (const auto& [asked, given] : {std::pair(1, 8), {8, 8}, {9, 16}, {24, 24}, {250, 256}}) {
-    const Traced traced = trace_row(tracer, row, Sun{}, {.samples = asked});
+    const Traced traced = trace_row(tracer, row, TracedSun{}, {.samples = asked});
     EXPECT_EQ(traced.samples, given);
     EXPECT_EQ(traced.rays, 18 * (given + 1));
     EXPECT_EQ(traced.visibility[3], 1) << "nothing is there";
@@ -217,7 +217,7 @@ TEST(TruthTrace, WhatAgreesWithItsNeighboursIsDoneAfterTheFirstRound) {
   TruthScene scene;
   scene.add_quad({-9, 5, -9}, {18, 0, 0}, {0, 0, 18});
   const auto row = ground_row(-5, 5, 50);
-  const Traced traced = trace_row(scene.tracer(), row, Sun{}, {.samples = 8, .error = 0.0001});
+  const Traced traced = trace_row(scene.tracer(), row, TracedSun{}, {.samples = 8, .error = 0.0001});
   EXPECT_EQ(traced.samples, 64);
   EXPECT_EQ(traced.rays, 50 * 65);
 }
@@ -238,7 +238,7 @@ TEST(TruthTrace, FirstSamplesThatAgreeProveNothingBesideAPenumbra) {
     row.push_back(receiver_at({t * radius, 0, 0}, {0, 1, 0}));
     exact.push_back(disc_share(t));
   }
-  const Traced traced = trace_row(tracer, row, Sun{.angle = angle}, {.samples = 64, .error = error});
+  const Traced traced = trace_row(tracer, row, TracedSun{.angle = angle}, {.samples = 64, .error = error});
   double squares = 0, count = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
     if (exact[i] < 0.0005 || exact[i] > 0.01) continue;  // pixels in which 64 samples often all miss the sun
@@ -307,10 +307,10 @@ TEST(TruthTrace, EndsWhateverTheStackHolds) {
 TEST(TruthTrace, NothingToTraceIsNoFault) {
   const TruthScene scene;
   const truth::Tracer tracer = scene.tracer();
-  const Traced empty = tracer.trace({}, 0, Sun{});
+  const Traced empty = tracer.trace({}, 0, TracedSun{});
   EXPECT_TRUE(empty.visibility.empty());
   EXPECT_EQ(empty.samples, 0);
-  for (const float v : trace_row(tracer, ground_row(0, 1, 4), Sun{}).visibility) EXPECT_EQ(v, 1);
+  for (const float v : trace_row(tracer, ground_row(0, 1, 4), TracedSun{}).visibility) EXPECT_EQ(v, 1);
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ Camera read_camera(const tinygltf::Camera& in) {
   return camera;
 }
 
-Light read_light(const tinygltf::Light& in) {
-  Light light{.name = in.name};
+PunctualLight read_light(const tinygltf::Light& in) {
+  PunctualLight light{.name = in.name};
   if (in.type == "point") light.kind = LightKind::point;
   if (in.type == "spot") light.kind = LightKind::spot;
   if (in.color.size() == 3) light.color = glm::vec3(in.color[0], in.color[1], in.color[2]);
