@@ -246,12 +246,17 @@ TexelRange pyramid_range(vec3 position, vec2 radius, Light light, float base, in
                     clamp(ivec2(floor((origin + radius) / texel)), ivec2(0), last));
 }
 
-// The values of 2 × 2 texels, at a level where a disc touches no more.
-vec4 pyramid_texels(sampler2DArray pyramid, vec3 position, float radius, Light light, float base, int level,
-                    ivec2 last) {
+// The two channels of 2 × 2 texels, at a level where a disc touches no more.
+struct PyramidTexels {
+  vec4 x, y;
+};
+
+PyramidTexels pyramid_texels(sampler2DArray pyramid, vec3 position, float radius, Light light, float base, int level,
+                             ivec2 last) {
   TexelRange range = pyramid_range(position, vec2(radius), light, base, level, last);
-  return vec4(texelFetch(pyramid, ivec3(range.low, light.layer), level).x,
-              texelFetch(pyramid, ivec3(range.high.x, range.low.y, light.layer), level).x,
-              texelFetch(pyramid, ivec3(range.low.x, range.high.y, light.layer), level).x,
-              texelFetch(pyramid, ivec3(range.high, light.layer), level).x);
+  vec2 a = texelFetch(pyramid, ivec3(range.low, light.layer), level).xy;
+  vec2 b = texelFetch(pyramid, ivec3(range.high.x, range.low.y, light.layer), level).xy;
+  vec2 c = texelFetch(pyramid, ivec3(range.low.x, range.high.y, light.layer), level).xy;
+  vec2 d = texelFetch(pyramid, ivec3(range.high, light.layer), level).xy;
+  return PyramidTexels(vec4(a.x, b.x, c.x, d.x), vec4(a.y, b.y, c.y, d.y));
 }

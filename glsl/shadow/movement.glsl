@@ -8,6 +8,6 @@ layout(binding = 10) uniform sampler2DArray shadow_movement;
 bool movement_seen(vec3 position, float radius, Light light) {
   int level = pyramid_level(position, radius, light, 1.0, textureQueryLevels(shadow_movement));
   ivec2 last = max(textureSize(shadow_movement, 0).xy >> level, ivec2(1)) - 1;
-  vec4 moved = pyramid_texels(shadow_movement, position, radius, light, 1.0, level, last);
+  vec4 moved = pyramid_texels(shadow_movement, position, radius, light, 1.0, level, last).x;
   return max(max(moved.x, moved.y), max(moved.z, moved.w)) > 0.0;
 }

@@ -34,12 +34,16 @@ vec2 shape_point(vec2 point, Scramble scramble, Light light) {
 const int blocker_step = 0;
 const int filter_step = 1;
 
-// From the noise texture; each step reads a different part of it.
-Scramble scramble_of(Receiver receiver, int step) {
+// Two values, 0..1, of the frame's noise texture; each step reads a different part of it.
+vec2 pixel_noise(Receiver receiver, int step) {
   ivec2 mask = textureSize(sample_noise, 0) - 1;
   ivec2 at = ivec2(receiver.pixel) + (mask + 1) / 2 * step;
-  vec2 noise = toroidal_shift(texelFetch(sample_noise, at & mask, 0).xy,
-                              step == blocker_step ? shadow.noise_shift.xy : shadow.noise_shift.zw);
+  return toroidal_shift(texelFetch(sample_noise, at & mask, 0).xy,
+                        step == blocker_step ? shadow.noise_shift.xy : shadow.noise_shift.zw);
+}
+
+Scramble scramble_of(Receiver receiver, int step) {
+  vec2 noise = pixel_noise(receiver, step);
 #if SAMPLE_ROTATE
   float angle = 6.2831853 * noise.x;
   return Scramble(vec2(cos(angle), sin(angle)));

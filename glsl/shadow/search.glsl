@@ -27,12 +27,13 @@ DepthBounds depth_bounds(vec3 position, vec2 radius, Light light) {
   return DepthBounds(stored_depth(stored.x, light), stored_depth(stored.y, light));
 }
 
-// The least depth alone, within a disc and a little beyond: 2 × 2 texels of the finest level that covers it.
-float nearest_depth(vec3 position, float radius, Light light) {
+// Bounds within a disc and a little beyond: 2 × 2 texels of the finest level that covers it.
+DepthBounds bounds_near(vec3 position, float radius, Light light) {
   int level = pyramid_level(position, radius, light, pyramid_base, textureQueryLevels(shadow_pyramid));
   ivec2 last = max(last_texel(), 0) >> (level + 2);
-  vec4 stored = pyramid_texels(shadow_pyramid, position, radius, light, pyramid_base, level, last);
-  return stored_depth(min(min(stored.x, stored.y), min(stored.z, stored.w)), light);
+  PyramidTexels stored = pyramid_texels(shadow_pyramid, position, radius, light, pyramid_base, level, last);
+  return DepthBounds(stored_depth(min(min(stored.x.x, stored.x.y), min(stored.x.z, stored.x.w)), light),
+                     stored_depth(min(min(stored.y.x, stored.y.y), min(stored.y.z, stored.y.w)), light));
 }
 
 // Bounds on where blockers can be.
@@ -45,7 +46,7 @@ struct Search {
 // the blocker distance, which bounds the radius.
 Search narrow_search(Receiver receiver, Light light, float limit) {
   float footprint = 1.5 * texel_size(receiver, light);
-  float nearest = nearest_depth(receiver.position, limit + footprint, light);
+  float nearest = bounds_near(receiver.position, limit + footprint, light).least;
   float radius = penumbra_radius(receiver, receiver.position.z - nearest, light);
   return Search(min(limit, radius), nearest);
 }

@@ -15,6 +15,7 @@ namespace penumbra::shadow {
   X(hard)                      \
   X(pcf)                       \
   X(pcss)                      \
+  X(slices)                    \
   X(brute_force)
 
 // One line for each filter; each is defined in filters/<name>.cpp.

@@ -119,6 +119,31 @@ TEST_F(KnifeEdge, PcssAveragedOverRotationsMatchesTheExactFunction) {
   }
 }
 
+TEST_F(KnifeEdge, SlicesMatchTheExactFunction) {
+  constexpr int seeds = 16;
+  for (const std::string shape : {"disc", "square"}) {
+    for (const Case& c : cases) {
+      ParamSet params = parameters(*renderer_, c.angle, shape);
+      params.set("technique", std::string("slices"));
+      params.set("slices.azimuths", 32);
+      params.set("slices.samples", 32);
+      const float radius = c.height * std::tan(glm::radians(c.angle) / 2);
+      const TriangleScene scene = knife_edge(c.height, c.angle, 64);
+      Shadowed mean = renderer_->render(scene, params);
+      for (int seed = 1; seed < seeds; ++seed) {
+        params.set("sampling.seed", seed);
+        const Shadowed one = renderer_->render(scene, params);
+        for (size_t i = 0; i < mean.mask.size(); ++i) mean.mask[i] += one.mask[i];
+      }
+      for (float& value : mean.mask) value /= seeds;
+      expect_wide_kernel(*renderer_, radius);
+      const Deviation d = deviation(mean, radius, shape == "disc" ? exact_disc : exact_square);
+      EXPECT_LE(d.worst, 0.02) << shape << " sun of " << c.angle << " degrees, caster at " << c.height
+                               << " m, t = " << d.at;
+    }
+  }
+}
+
 // The exact function for a sun anywhere: a ray from the receiver misses the half-plane when a linear function of the
 // disc's point is positive, so that the visibility is that of a disc cut by a line.
 double exact_oblique(const glm::dvec3& to_light, double x, double height, double tan_half_angle) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "image/read.h"
+#include "render/receivers.h"
 #include "render/setup.h"
 #include "scene/gltf.h"
 #include "scene/pose.h"
@@ -66,6 +67,10 @@ Visibility SceneRun::draw_truth(int rays) {
   ParamSet params = reference_params();
   params.set("truth.samples", rays);
   return draw_by("truth", params);
+}
+
+std::vector<std::uint8_t> SceneRun::receivers() const {
+  return render::receivers_of(reference_, setup_.sun.to_light, params_.get_float("sun.angle"));
 }
 
 Visibility SceneRun::picture_of(const render::Renderer& renderer) const {

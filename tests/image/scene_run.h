@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -31,6 +32,9 @@ class SceneRun {
   Visibility draw_reference();
   Visibility draw_truth(int rays);
   std::vector<float> read_aov(const char* name) const { return renderer_.read_aov(name); }
+
+  // Whether each pixel of the last draw_reference() or draw_truth() shows a receiver (docs/metrics.md).
+  std::vector<std::uint8_t> receivers() const;
 
   // What the last draw_truth() traced.
   const truth::TruthTechnique::Last& traced() const { return truth_.last(); }

@@ -1,0 +1,126 @@
+// All rays from a receiver to the light that share an azimuth lie in one plane, a slice, which cuts the shadow map along
+// a line. One walk along that line, outwards, finds which of these rays are blocked: a bit mask holds rings of equal
+// area of the light, from its centre to its rim, and each texel hides those behind it. See docs/techniques.md.
+#include "shadow/search.glsl"
+#include "shadow/sampling.glsl"
+
+float read_radius(Receiver receiver, Light light) { return search_radius(receiver, light); }
+
+const int ring_count = 32;
+
+// Radius, metres, of the disc outside of which the map has no edge that can block a part of the light: a surface that
+// blocks at the disc's rim blocks beyond it too. 0 where there is no such edge at all.
+float walk_radius(Receiver receiver, Light light) {
+  float radius = light.read_radius;
+  for (int i = 0; i < 2; ++i) {
+    float edge = bounds_near(receiver.position, radius + 1.5 * texel_size(receiver, light), light).edge;
+    radius = min(radius, penumbra_radius(receiver, receiver.position.z - edge, light));
+  }
+  return radius;
+}
+
+// A point of the light's rim, -1..1. Equal shares of the argument, 0..1, are sectors of equal area.
+vec2 rim_point(float share, Light light) {
+  if (is_square(light)) {
+    float along = 2.0 * fract(4.0 * share) - 1.0;
+    vec2 point = fract(2.0 * share) < 0.5 ? vec2(1.0, along) : vec2(-along, 1.0);
+    return share < 0.5 ? point : -point;
+  }
+  float angle = 6.2831853 * share;
+  return vec2(cos(angle), sin(angle));
+}
+
+// The rings from one share of the rim's radius to another. A ring that is hidden in part is so with that probability,
+// since `dither` is uniform in 0..1.
+uint rings_between(float low, float high, float dither) {
+  vec2 ends = clamp(vec2(low * low, high * high), 0.0, 1.0) * float(ring_count) + dither;
+  int first = min(int(ends.x), ring_count), end = min(int(ends.y), ring_count);
+  if (end <= first) return 0u;
+  return (~0u >> (ring_count - (end - first))) << first;
+}
+
+// Samples are denser near the receiver, where penumbrae are narrow: the share of a slice's length at which one begins
+// that lies at that share of their number.
+float spread(float share) { return share * sqrt(share); }
+
+// A pixel's random numbers, 0..1.
+struct PixelNoise {
+  float azimuth, distance_to, ring;
+  vec2 texel;
+};
+
+PixelNoise noise_of(Receiver receiver) {
+  vec2 first = pixel_noise(receiver, blocker_step), second = pixel_noise(receiver, filter_step);
+  return PixelNoise(first.x, first.y, second.x, second);
+}
+
+// Steps of low-discrepancy sequences: the golden ratio's, and for pairs the plastic number's (Roberts 2018).
+const float golden = 0.61803399;
+const vec2 plastic = vec2(0.75487767, 0.56984029);
+
+// The distance from a receiver, metres, at which rays to the light's rim are that high above it; not 0.
+float rim_radius(Receiver receiver, float height, Light light) {
+  return max(penumbra_radius(receiver, height, light), 1e-6);
+}
+
+struct Slice {
+  uint hidden;       // rings
+  float height_sum;  // of the blockers, metres along the light
+  float blockers;
+};
+
+Slice walk(Receiver receiver, int azimuth, float radius, PixelNoise noise, float bias, Light light) {
+  Slice slice = Slice(0u, 0.0, 0.0);
+  float texel = texel_size(receiver, light);
+  vec2 place = map_place(receiver.position, light);
+  vec2 rim = rim_point(fract((float(azimuth) + noise.azimuth) / float(slices_azimuths)), light);
+  float jitter = fract(noise.distance_to + golden * float(azimuth));
+  float dither = fract(noise.ring + plastic.x * float(azimuth));
+  float begin = 0.0;
+  float hidden_to = 2.0;  // the share of the rim's radius up to which the last sample hides rays, if it blocks
+  int count = radius > 0.0 ? slices_samples : 1;
+  for (int i = 0; i < count; ++i) {
+    float end = (radius + texel) * spread(float(i + 1) / float(count));
+    float at = mix(begin, end, jitter);
+    // Moved by up to half a texel: the mean over many samples then weights texels as bilinear filters do.
+    vec2 moved = fract(noise.texel + plastic * float(azimuth * slices_samples + i)) - 0.5;
+    ivec2 cell = ivec2(floor(place + rim * (at / texel) + moved));
+    float depth = depth_at(cell, light);
+    vec2 offset = texel_offset(receiver, cell, light);
+    if (depth < blocking_depths_at(receiver, Offsets(vec4(offset.x), vec4(offset.y)), bias).x) {
+      float height = receiver.position.z - depth;
+      float per_metre = 1.0 / rim_radius(receiver, height, light);
+      float high = i + 1 < count ? end * per_metre : 2.0;
+      // Down to a lower blocker, the material of a higher one is taken to go on.
+      uint rings = rings_between(min(begin * per_metre, hidden_to), high, dither);
+      slice.hidden |= rings;
+      slice.height_sum += rings != 0u ? height : 0.0;
+      slice.blockers += rings != 0u ? 1.0 : 0.0;
+      hidden_to = high;
+    } else {
+      hidden_to = 2.0;
+    }
+    begin = end;
+  }
+  return slice;
+}
+
+Visibility visibility(Receiver receiver, Light light) {
+  float bias = depth_bias(receiver, light);
+  receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
+  float radius = walk_radius(receiver, light);
+  PixelNoise noise = noise_of(receiver);
+  int hidden = 0;
+  float height_sum = 0.0, blockers = 0.0;
+  for (int azimuth = 0; azimuth < slices_azimuths; ++azimuth) {
+    Slice slice = walk(receiver, azimuth, radius, noise, bias, light);
+    hidden += bitCount(slice.hidden);
+    height_sum += slice.height_sum;
+    blockers += slice.blockers;
+  }
+  if (hidden == 0) return fully_lit();
+  float mean = max(height_sum / blockers, 0.0);
+  float penumbra = penumbra_radius(receiver, mean, light);
+  return Visibility(1.0 - float(hidden) / float(ring_count * slices_azimuths), penumbra, mean,
+                    penumbra < texel_size(receiver, light));
+}

@@ -1,0 +1,24 @@
+#include "../technique.h"
+
+namespace penumbra::shadow {
+
+Technique slices() {
+  using enum ParamBinding;
+  return {
+      .name = "slices",
+      .summary =
+          "Integrates the light's disc along lines through the map, so that blockers at different heights add up as "
+          "they should.",
+      .source = "bit masks along slices as in Therrien et al. 2023, for lights: docs/techniques.md",
+      .glsl = "shadow/techniques/slices.glsl",
+      .needs = {"shadow_map", "least_depth_pyramid"},
+      .params =
+          {
+              {"slices.azimuths", 8, 1, 256, "slices", "Directions in which a pixel's light is followed.", compiled},
+              {"slices.samples", 8, 1, 256, "texels", "Texels that are read along each slice.", compiled},
+          },
+      .decides_tiles = true,
+      .reads_light_discs = true};
+}
+
+}  // namespace penumbra::shadow
