@@ -53,8 +53,8 @@ TEST_F(Slices, AreNearerToTheTruthThanPcssWithoutBias) {
     run.params().set("sun.angle", angle);
     const Visibility truth = run.draw_truth(256);
     const Figures pcss = figures_of(run, truth, "pcss"), slices = figures_of(run, truth, "slices");
-    std::printf("%s, %g degrees: pcss %.1f dB, bias %.4f; slices %.1f dB, bias %.4f\n", scene, static_cast<double>(angle),
-                pcss.penumbra, pcss.bias, slices.penumbra, slices.bias);
+    std::printf("%s, %g degrees: pcss %.1f dB, bias %.4f; slices %.1f dB, bias %.4f\n", scene,
+                static_cast<double>(angle), pcss.penumbra, pcss.bias, slices.penumbra, slices.bias);
     EXPECT_GE(slices.penumbra, pcss.penumbra + gain) << scene;
     EXPECT_LE(std::abs(slices.bias), bias) << scene;
   }

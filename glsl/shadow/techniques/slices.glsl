@@ -1,6 +1,6 @@
-// All rays from a receiver to the light that share an azimuth lie in one plane, a slice, which cuts the shadow map along
-// a line. One walk along that line, outwards, finds which of these rays are blocked: a bit mask holds rings of equal
-// area of the light, from its centre to its rim, and each texel hides those behind it. See docs/techniques.md.
+// All rays from a receiver to the light that share an azimuth lie in one plane, a slice, which cuts the shadow map in a
+// line. One walk along that line, outwards, finds which of these rays are blocked: a bit mask holds rings of equal area
+// of the light, from its centre to its rim, and each texel hides those behind it. See docs/techniques.md.
 #include "shadow/search.glsl"
 #include "shadow/sampling.glsl"
 
