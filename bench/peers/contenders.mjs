@@ -109,7 +109,7 @@ export class PenumbraContender {
     const file = path.join(folder, 'bench.json');
     const techniques = this.options.techniques.map((name) => this.technique(name, folder));
     await this.penumbra.run('bench', this.scene, ...sceneArgs, '--technique', ['none', ...techniques].join(','),
-      ...this.parameters(), '--frames', this.options.frames, '--warmup', 2, '-o', file, '--quiet');
+      ...this.parameters(), '--whole-frames', '--frames', this.options.frames, '--warmup', 2, '-o', file, '--quiet');
     const { version, commit, device, points } = JSON.parse(fs.readFileSync(file, 'utf8'));
     const [none, ...costs] = points[0].costs.map((cost) => cost.frame.median_ms);
     this.rows.forEach((row, i) => {

@@ -4,14 +4,19 @@ namespace penumbra::bench {
 
 namespace {
 
+using Timed = session::RenderDevice::Timed;
+
 constexpr const char* mask_pass = "shadow mask";
 
 }  // namespace
 
-Contender::Contender(const Entry& entry, const scene::Scene& scene, const cli::DeviceOptions& options, bool with_floor)
-    : device_(options), scene_(device_.device, scene), renderer_(device_.device) {
+Contender::Contender(const Entry& entry, const scene::Scene& scene, const cli::DeviceOptions& options,
+                     const Measuring& what)
+    : device_(options, what.passes ? Timed::passes : Timed::frames),
+      scene_(device_.device, scene),
+      renderer_(device_.device) {
   const shadow::Technique& technique = renderer_.registry().find(entry.params.get_word("technique"));
-  if (with_floor) floor_.emplace(technique, scene, gl::ShaderFiles(options.glsl), device_.device.timers.mode());
+  if (what.floor) floor_.emplace(technique, scene, gl::ShaderFiles(options.glsl), device_.device.timers.mode());
 }
 
 void Contender::draw(const render::FrameInputs& inputs, const ParamSet& params) {

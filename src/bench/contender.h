@@ -18,12 +18,18 @@ struct Entry {
   ParamSet params;
 };
 
+// What is measured of a contender's frames besides their time.
+struct Measuring {
+  bool passes = true;
+  bool floor = false;
+};
+
 // Draws one entry; several are drawn alternately while they are measured. Each has its own device, so that timers,
 // programs and histories are separate.
 class Contender {
  public:
   // `scene` must outlive this object.
-  Contender(const Entry& entry, const scene::Scene& scene, const cli::DeviceOptions& options, bool with_floor);
+  Contender(const Entry& entry, const scene::Scene& scene, const cli::DeviceOptions& options, const Measuring& what);
 
   // Draws one frame, then one frame of its floor (floor.h). `params` are those of the entry's technique.
   void draw(const render::FrameInputs& inputs, const ParamSet& params);

@@ -44,9 +44,11 @@ class Writer {
     for (const PassCost& pass : cost.passes) row(point, entry, pass.name, pass.ms, number(pass.share), "");
     const double frame = cost.frame.median;
     const auto share = [frame](const Summary& of) { return frame > 0 ? number(of.median / frame) : ""; };
-    row(point, entry, "sum of passes", cost.passes_sum, number(cost.sum_ratio), "");
-    row(point, entry, "shadow passes", cost.shadow, share(cost.shadow), number(cost.of_first));
-    row(point, entry, "frame", cost.frame, share(cost.frame), "");
+    if (cost.has_passes()) {
+      row(point, entry, "sum of passes", cost.passes_sum, number(cost.sum_ratio), "");
+      row(point, entry, "shadow passes", cost.shadow, share(cost.shadow), number(cost.of_first));
+    }
+    row(point, entry, "frame", cost.frame, share(cost.frame), cost.has_passes() ? "" : number(cost.of_first));
     row(point, entry, "CPU", cost.cpu, share(cost.cpu), "");
     if (!cost.floor) return;
     if (cost.floor->fetch) row(point, entry, "floor: fetches", *cost.floor->fetch, share(*cost.floor->fetch), "");

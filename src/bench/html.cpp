@@ -31,9 +31,11 @@ std::string megabytes(std::size_t bytes) { return report::fixed(static_cast<doub
 // ---- One point ----
 
 report::Table overview(const Measured& point) {
-  report::Table table{.caption = "Shadow passes of each technique, which took turns frame by frame",
+  const bool passes = point.costs.front().has_passes();
+  const std::string timed = passes ? "shadow passes" : "whole frames";
+  report::Table table{.caption = fmt::format("The {} of each technique, which took turns frame by frame", timed),
                       .columns = {{.title = "technique"},
-                                  {.title = "shadow passes", .unit = "ms", .help = "Median", .best = Best::lowest},
+                                  {.title = timed, .unit = "ms", .help = "Median", .best = Best::lowest},
                                   {.title = "of the first", .help = "Median of the ratios of single frames"},
                                   {.title = "frame", .unit = "ms", .help = "Median"},
                                   {.title = "CPU", .unit = "ms", .help = cpu_help},
@@ -48,7 +50,7 @@ report::Table overview(const Measured& point) {
   }
   for (const Cost& cost : point.costs) {
     std::vector<Cell> row{{cost.label},
-                          milliseconds(cost.shadow.median),
+                          milliseconds((passes ? cost.shadow : cost.frame).median),
                           milliseconds(cost.of_first),
                           milliseconds(cost.frame.median),
                           milliseconds(cost.cpu.median),
@@ -76,11 +78,11 @@ Html passes(const Cost& cost) {
         {{name}, milliseconds(ms.median), milliseconds(ms.min), milliseconds(ms.max), cell_of(100 * share, 1)});
   };
   for (const PassCost& pass : cost.passes) row(pass.name, pass.ms, pass.share);
-  row("sum of passes", cost.passes_sum, cost.sum_ratio);
+  if (cost.has_passes()) row("sum of passes", cost.passes_sum, cost.sum_ratio);
   row("frame", cost.frame, 1);
   row("CPU", cost.cpu, cost.frame.median > 0 ? cost.cpu.median / cost.frame.median : 0);
   Html html = to_html(table);
-  if (!cost.adds_up()) {
+  if (cost.has_passes() && !cost.adds_up()) {
     html.add(report::note(
         fmt::format("Warning: the passes make up {:.0f} % of the frame: a time is missing or counted twice.",
                     100 * cost.sum_ratio)));

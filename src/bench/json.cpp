@@ -33,16 +33,20 @@ Json json_of(const Cost& cost) {
   Json passes = Json::array();
   for (const PassCost& pass : cost.passes) passes.push_back(json_of(pass));
   Json json = {{"label", cost.label},
-               {"passes", passes},
-               {"passes_sum", json_of(cost.passes_sum)},
-               {"passes_sum_over_frame", rounded(cost.sum_ratio)},
-               {"adds_up", cost.adds_up()},
                {"frame", json_of(cost.frame)},
                {"cpu", json_of(cost.cpu)},
-               {"shadow_passes", json_of(cost.shadow)},
-               {"swept", json_of(cost.swept)},
-               {"shadow_over_first", rounded(cost.of_first)},
                {"target_bytes", cost.target_bytes}};
+  if (!cost.has_passes()) {
+    json["frame_over_first"] = rounded(cost.of_first);
+    return json;
+  }
+  json["passes"] = passes;
+  json["passes_sum"] = json_of(cost.passes_sum);
+  json["passes_sum_over_frame"] = rounded(cost.sum_ratio);
+  json["adds_up"] = cost.adds_up();
+  json["shadow_passes"] = json_of(cost.shadow);
+  json["swept"] = json_of(cost.swept);
+  json["shadow_over_first"] = rounded(cost.of_first);
   if (cost.floor) json["floor"] = json_of(*cost.floor);
   return json;
 }

@@ -1,5 +1,7 @@
 #include "bench/measure.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -103,8 +105,12 @@ class Bench {
     results_.command = options_.command;
     results_.machine = machine();
     results_.device = device_;
-    results_.timing =
-        device_.software ? "CPU clock, a finish around each pass" : "GPU timestamps, read some frames later";
+    results_.timing = timing();
+  }
+
+  std::string timing() const {
+    if (!device_.software) return "GPU timestamps, read some frames later";
+    return fmt::format("CPU clock, a finish around each {}", options_.whole_frames ? "frame" : "pass");
   }
 
   // Scenes stay loaded between visits, unless each point has its own scene.
@@ -117,7 +123,8 @@ class Bench {
     results_.scene = options_.scene.empty() ? "generated grid of casters"
                                             : std::filesystem::path(options_.scene).filename().string();
     for (const Entry& entry : results_.entries)
-      contenders_.push_back(std::make_unique<Contender>(entry, prepared_->scene, options_, options_.floor));
+      contenders_.push_back(std::make_unique<Contender>(
+          entry, prepared_->scene, options_, Measuring{.passes = !options_.whole_frames, .floor = options_.floor}));
   }
 
   session::PreparedScene scene_at(const Point& point) const {

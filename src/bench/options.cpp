@@ -48,6 +48,9 @@ void add_bench_options(CLI::App& app, Options& o) {
   app.add_flag("--floor", o.floor,
                "Also measure each technique's texture fetches alone, and one read and write of the mask")
       ->disable_flag_override();
+  app.add_flag("--whole-frames", o.whole_frames,
+               "In software: finish each frame, not each pass, and time frames alone, as an application would")
+      ->disable_flag_override();
   const std::string sweeps = fmt::format("Measure over a range of values: {}", fmt::join(sweep_names(), ", "));
   add_value(app, "--sweep", "NAME", sweeps.c_str(),
             [&o](const auto& text) { o.sweep = cli::one_of("sweep", text, sweep_names()); });
@@ -79,6 +82,8 @@ void check_together(const Options& o) {
   cli::check_together(static_cast<const cli::SceneOptions&>(o));
   cli::check_together(static_cast<const cli::DeviceOptions&>(o));
   if (o.scene.empty() && o.sweep != "casters") fail_usage("SCENE is required");
+  if (o.whole_frames && o.floor) fail_usage("--whole-frames times no passes, of which --floor is a bound");
+  if (o.whole_frames && !o.sweep.empty()) fail_usage("--whole-frames times no passes, which --sweep measures");
   if (o.quiet && o.outputs.empty()) fail_usage("--quiet without -o would neither print nor write anything");
 }
 

@@ -18,6 +18,7 @@ struct Options : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions {
   std::optional<int> frame_count, warmup;
   bool play = false;
   bool floor = false;
+  bool whole_frames = false;         // no pass is timed by itself
   std::string sweep;                 // empty: none
   std::vector<std::string> outputs;  // .json, .csv, .html
   bool quiet = false;

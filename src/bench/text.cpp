@@ -17,10 +17,10 @@ std::string pass_lines(const Cost& cost) {
   std::string text =
       fmt::format("{:<24}{:>10}{:>10}{:>10}{:>10}\n", cli::printable(cost.label), "median ms", "min", "max", "share");
   for (const PassCost& pass : cost.passes) text += line(pass.name, pass.ms, pass.share);
-  text += line("sum of passes", cost.passes_sum, cost.sum_ratio);
+  if (cost.has_passes()) text += line("sum of passes", cost.passes_sum, cost.sum_ratio);
   text += line("frame", cost.frame, 1);
   text += line("CPU", cost.cpu, cost.frame.median > 0 ? cost.cpu.median / cost.frame.median : 0);
-  if (!cost.adds_up())
+  if (cost.has_passes() && !cost.adds_up())
     text += fmt::format("  warning: the passes make up {:.0f} % of the frame: a time is missing or counted twice\n",
                         100 * cost.sum_ratio);
   return text + "\n";
@@ -37,13 +37,15 @@ std::string floor_cells(const FloorCost& floor) {
 }
 
 std::string summary_lines(const Measured& point) {
-  std::string text =
-      fmt::format("{:<24}{:>16}{:>12}{:>12}{:>12}", "shadow passes", "median ms", "of first", "CPU ms", "memory");
+  const bool passes = point.costs.front().has_passes();
+  std::string text = fmt::format("{:<24}{:>16}{:>12}{:>12}{:>12}", passes ? "shadow passes" : "whole frames",
+                                 "median ms", "of first", "CPU ms", "memory");
   if (has_floor(point)) text += fmt::format("{:>13}{:>13}{:>13}", "fetches ms", "mask/fetches", "mask copy ms");
   text += "\n";
   for (const Cost& cost : point.costs) {
-    text += fmt::format("{:<24}{:>16.3f}{:>12.3f}{:>12.3f}{:>12}", cli::printable(cost.label), cost.shadow.median,
-                        cost.of_first, cost.cpu.median, cli::bytes_text(static_cast<double>(cost.target_bytes)));
+    text += fmt::format("{:<24}{:>16.3f}{:>12.3f}{:>12.3f}{:>12}", cli::printable(cost.label),
+                        (passes ? cost.shadow : cost.frame).median, cost.of_first, cost.cpu.median,
+                        cli::bytes_text(static_cast<double>(cost.target_bytes)));
     if (cost.floor) text += floor_cells(*cost.floor);
     text += "\n";
   }

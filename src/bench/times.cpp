@@ -80,6 +80,7 @@ Cost cost_of(const PassTimes& times, const PassTimes& first) {
                            .share = cost.frame.median > 0 ? ms.median / cost.frame.median : 0,
                            .shadow = is_shadow_pass(pass.name)});
   }
+  if (!cost.has_passes()) cost.of_first = paired_ratio(times.frames, first.frames);
   return cost;
 }
 

@@ -54,10 +54,12 @@ struct Cost {
   double sum_ratio = 0;  // paired ratio of that sum to the frame
   Summary shadow;        // sum of the shadow passes in each frame
   Summary swept;         // what a sweep plots and fits: all shadow passes, or one pass
-  double of_first = 1;   // paired ratio of its shadow passes to the first contender's
+  double of_first = 1;   // paired ratio of its shadow passes, or of its frames if no pass was timed, to the first's
   std::size_t target_bytes = 0;
   std::optional<FloorCost> floor;
 
+  // Else only its frames are known: the members about passes are empty.
+  bool has_passes() const { return !passes.empty(); }
   // Whether the sum of the passes is within 10 % of the frame's time.
   bool adds_up() const { return sum_ratio > 0.9 && sum_ratio < 1.1; }
 };

@@ -34,7 +34,7 @@ void Timers::begin_frame() {
 }
 
 void Timers::begin(std::string_view name) {
-  if (!in_frame_) return;
+  if (!in_frame_ || mode_ == Mode::finish_frames) return;
   const std::string full = stack_.empty() ? std::string(name) : rows_[stack_.back().row].name + "/" + std::string(name);
   stack_.push_back(start(row_index(full)));
 }

@@ -15,11 +15,11 @@ namespace penumbra::gl {
 void delete_query(GLuint id);
 
 // Time per pass. On a GPU: timer queries, read some frames later so that they never stall. On a software rasteriser,
-// which defers work: the CPU's clock, with a glFinish before and after each pass. Passes outside of a frame are not
-// recorded.
+// which defers work: the CPU's clock, with a glFinish before and after each pass, or before and after each frame alone:
+// then no pass is recorded, and the driver may work on several at once. Passes outside of a frame are not recorded.
 class Timers {
  public:
-  enum class Mode { off, query, finish };
+  enum class Mode { off, query, finish, finish_frames };
   explicit Timers(Mode mode = Mode::off) : mode_(mode) {}
 
   Mode mode() const { return mode_; }
@@ -47,7 +47,7 @@ class Timers {
     std::size_t dispatches = 0;  // of compute
   };
   // Milliseconds of processor time that the drawing thread spent in each frame, between begin_frame() and end_frame(),
-  // as many as a row has. Time spent in the finishes of Mode::finish is left out, so it is what the program and the
+  // as many as a row has. Time spent in finishes is left out, so it is what the program and the
   // driver take to submit the frame. What the driver does in threads of its own is not in it; shaders that a software
   // rasteriser runs in the calling thread are.
   const std::vector<double>& cpu_milliseconds() const { return cpu_; }

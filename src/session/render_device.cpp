@@ -14,9 +14,11 @@ namespace penumbra::session {
 namespace {
 
 // A software rasteriser runs commands some time after they are submitted and has no GPU timer for them. There, each
-// pass is followed by glFinish() and timed with the CPU's clock.
-gl::Timers::Mode timing_of(const gl::DeviceInfo& device) {
-  return device.software ? gl::Timers::Mode::finish : gl::Timers::Mode::query;
+// pass or frame is followed by glFinish() and timed with the CPU's clock.
+gl::Timers::Mode timing_of(const gl::DeviceInfo& device, RenderDevice::Timed timed) {
+  if (timed == RenderDevice::Timed::nothing) return gl::Timers::Mode::off;
+  if (!device.software) return gl::Timers::Mode::query;
+  return timed == RenderDevice::Timed::passes ? gl::Timers::Mode::finish : gl::Timers::Mode::finish_frames;
 }
 
 }  // namespace
@@ -47,7 +49,7 @@ std::unique_ptr<gl::Context> open_context(const cli::DeviceOptions& options, con
   return context;
 }
 
-RenderDevice::RenderDevice(const cli::DeviceOptions& options, bool timed)
-    : info(gl::device_info()), device(gl::ShaderFiles(options.glsl), timed ? timing_of(info) : gl::Timers::Mode::off) {}
+RenderDevice::RenderDevice(const cli::DeviceOptions& options, Timed timed)
+    : info(gl::device_info()), device(gl::ShaderFiles(options.glsl), timing_of(info, timed)) {}
 
 }  // namespace penumbra::session

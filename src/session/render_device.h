@@ -22,8 +22,10 @@ std::unique_ptr<gl::Context> open_context(const cli::DeviceOptions& options, con
 // The current context as every command that draws uses it: its properties, the shaders (files of --glsl replace
 // built-in ones of the same name), and timers in the mode that measures correctly on this driver.
 struct RenderDevice {
-  // With `timed` false no pass is timed; on a software rasteriser this saves a glFinish() per pass.
-  explicit RenderDevice(const cli::DeviceOptions& options, bool timed = true);
+  // On a software rasteriser each pass that is timed costs a glFinish(), and each frame where only frames are. On a
+  // GPU, which does not wait for its timers, passes are timed with frames.
+  enum class Timed { nothing, frames, passes };
+  explicit RenderDevice(const cli::DeviceOptions& options, Timed timed = Timed::passes);
 
   gl::DeviceInfo info;
   gl::Device device;

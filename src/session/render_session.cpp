@@ -28,7 +28,7 @@ RenderSession::RenderSession(const cli::SceneOptions& options, const cli::Device
     : options_(options),
       prepared_(&prepared),
       context_(std::move(context)),
-      device_(device_options, timed),
+      device_(device_options, timed ? RenderDevice::Timed::passes : RenderDevice::Timed::nothing),
       scene_(std::make_unique<scene::GpuScene>(device_.device, prepared.scene)),
       renderer_(device_.device, std::move(techniques)) {
   warn_of_many(prepared.scene, device_.info);

@@ -49,6 +49,25 @@ class Bench(TestCase):
         self.assertIn("filter", {each["name"] for each in costs[1]["passes"]})
         self.assertNotIn("shadow map", {each["name"] for each in costs[2]["passes"]})
 
+    def test_whole_frames_have_no_passes_on_a_software_rasteriser(self):
+        text = self.succeed("bench", SCENE, "--technique", "none,pcss", "--whole-frames", *SMALL, "-o",
+                            self.folder / "bench.json", "-o", self.folder / "bench.csv", "-o",
+                            self.folder / "bench.html").stdout
+        data = json.loads((self.folder / "bench.json").read_text())
+        if not data["device"]["software"]:
+            self.skipTest("a GPU's timers wait for nothing, so passes are timed with frames")
+        self.assertIn("each frame", data["timing"])
+        self.assertIn("whole frames", text)
+        self.assertNotIn("warning", text)
+        for cost in data["points"][0]["costs"]:
+            self.assertNotIn("passes", cost)
+            self.assertEqual(cost["frame"]["frames"], 2)
+            self.assertGreater(cost["frame"]["min_ms"], 0)
+        self.assertEqual([cost["label"] for cost in data["points"][0]["costs"]], ["none", "pcss"])
+        self.assertEqual(data["points"][0]["costs"][0]["frame_over_first"], 1)
+        self.assertEqual({row["pass"] for row in self.read_csv()}, {"frame", "CPU"})
+        self.assertIn("whole frames", (self.folder / "bench.html").read_text())
+
     def test_says_whether_maps_were_drawn_anew_or_kept(self):
         for setting, said in ((None, "drawn anew in every frame"), ("on", "kept where nothing moved"),
                               ("off", "drawn anew in every frame")):

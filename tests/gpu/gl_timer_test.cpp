@@ -47,6 +47,26 @@ TEST_F(GlTimers, RowsNestInOrderAndPassesFillTheFrameWithoutExceedingIt) {
   }
 }
 
+TEST_F(GlTimers, WhereOnlyFramesAreFinishedNoPassHasATime) {
+  gl::Device timed(test::pass_files(), gl::Timers::Mode::finish_frames);
+  static PFNGLFINISHPROC real = nullptr;
+  static int finishes = 0;
+  real = gl::glFinish;
+  finishes = 0;
+  gl::glFinish = [] {
+    ++finishes;
+    real();
+  };
+  frames(timed, 3);
+  gl::glFinish = real;
+  const auto rows = timed.timers.rows();
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].name, "frame");
+  EXPECT_EQ(rows[0].milliseconds.size(), 3u);
+  EXPECT_GT(sum(rows[0].milliseconds), 0.0);
+  EXPECT_EQ(finishes, 6);
+}
+
 TEST_F(GlTimers, TheCpusTimeOfAFrameIsThatOfTheThreadAndLeavesOutWaiting) {
   for (const gl::Timers::Mode mode : {gl::Timers::Mode::finish, gl::Timers::Mode::query}) {
     gl::Device timed(test::pass_files(), mode);
