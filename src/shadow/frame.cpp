@@ -9,6 +9,7 @@
 
 #include "denoise_context.h"
 #include "light_block.h"
+#include "light_fit.h"
 #include "movement_map.h"
 #include "products.h"
 #include "shadow_map.h"
@@ -19,36 +20,6 @@ namespace {
 
 constexpr const char* movement_map_name = "movement map";  // names of their targets
 constexpr const char* shadow_map_name = "shadow map";
-
-FitInputs fit_inputs(const Inputs& inputs, const ParamSet& params) {
-  return {.view = inputs.view.view,
-          .projection = inputs.view.projection,
-          .casters = inputs.casters,
-          .receivers = inputs.receivers,
-          .params = params};
-}
-
-LightProjection projection_of(const Inputs& inputs, const Light& light, const ParamSet& params) {
-  return light.maps ? light.maps->projection : fit_projection(light.source, fit_inputs(inputs, params));
-}
-
-// Whether all that reads the light's maps reads them only near receivers of the view.
-bool reads_light_discs(const LightWork& work, const std::vector<const Recipe*>& recipes) {
-  const bool denoiser_reads_maps =
-      work.denoiser != nullptr && std::ranges::find(work.denoiser->needs, "shadow_map") != work.denoiser->needs.end();
-  return work.technique.reads_light_discs && work.forward.reads_light_discs && !denoiser_reads_maps &&
-         std::ranges::all_of(recipes, &Recipe::reads_light_discs);
-}
-
-// Limits what is drawn of the maps to what is read.
-void narrow_projection(const LightWork& work, const std::vector<const Recipe*>& recipes) {
-  if (work.light.maps || !reads_light_discs(work, recipes)) return;
-  const Inputs& inputs = work.inputs;
-  ReadBounds bounds{.jitter = inputs.view.jitter, .moved = {}};
-  if (!work.remembered.empty() && !nothing_moved(inputs.moved)) bounds.moved = inputs.moved;
-  LightProjection& projection = work.frame.projection;
-  projection = narrowed(projection, work.light.source, fit_inputs(inputs, work.params()), bounds);
-}
 
 MovementForm movement_form(const ParamSet& params) {
   return params.get_word("movement.map") == "average" ? MovementForm::average : MovementForm::maximum;
@@ -208,6 +179,7 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, const ViewS
   frame.shape = shape_of(light.source, state.params);
   take_shape(state, frame.shape);
   begin_frame(state, light, frame.projection.layers(), same_params);
+  if (!same_params) state.drawn_texels.reset();
 
   const Technique& technique = from.registry.find(state.params.get_word("technique"));
   const Denoiser* denoiser = denoiser_for(from.registry, technique, state.params);

@@ -87,6 +87,8 @@ struct FitInputs {
 struct ReadBounds {
   glm::vec2 jitter{0};       // of the camera, NDC
   std::optional<Box> moved;  // world bounds of moved casters that a history looks for
+
+  bool operator==(const ReadBounds&) const = default;
 };
 
 // The layers that the parameters ask for, fitted to the view, the receivers and their casters. The inputs must have

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -62,6 +64,15 @@ struct LightState {
   };
   std::map<std::string, KeptTexture, std::less<>> kept;  // by the beginning of the textures' names
   MapContent map;                                        // which the library drew or kept in the last frame
+  // What the drawn texels of the last frame's layers were computed from under these parameters, and the result.
+  struct DrawnTexels {
+    glm::mat4 view{1}, projection{1};
+    Box casters, receivers;
+    LightSource source;
+    ReadBounds read;
+    std::array<TexelRange, max_layers> of_layers;
+  };
+  std::optional<DrawnTexels> drawn_texels;
   // What recipes that depend only on their needs have made.
   struct KeptProduct {
     const gl::Texture* texture = nullptr;

@@ -10,6 +10,7 @@ struct Box {
   glm::vec3 min{0}, max{0};
 
   std::array<glm::dvec3, 8> corners() const;
+  bool operator==(const Box&) const = default;
 };
 
 // The convex volume that contains every caster which matters to one layer of a shadow map: the points in front of all

@@ -1,0 +1,64 @@
+#include "light_fit.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "movement_map.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+FitInputs fit_inputs(const Inputs& inputs, const ParamSet& params) {
+  return {.view = inputs.view.view,
+          .projection = inputs.view.projection,
+          .casters = inputs.casters,
+          .receivers = inputs.receivers,
+          .params = params};
+}
+
+// Whether all that reads the light's maps reads them only near receivers of the view.
+bool reads_light_discs(const LightWork& work, const std::vector<const Recipe*>& recipes) {
+  const bool denoiser_reads_maps =
+      work.denoiser != nullptr && std::ranges::find(work.denoiser->needs, "shadow_map") != work.denoiser->needs.end();
+  return work.technique.reads_light_discs && work.forward.reads_light_discs && !denoiser_reads_maps &&
+         std::ranges::all_of(recipes, &Recipe::reads_light_discs);
+}
+
+bool is_for(const LightState::DrawnTexels& drawn, const LightWork& work, const ReadBounds& read) {
+  const Inputs& inputs = work.inputs;
+  return drawn.view == inputs.view.view && drawn.projection == inputs.view.projection &&
+         drawn.casters == inputs.casters && drawn.receivers == inputs.receivers && drawn.source == work.light.source &&
+         drawn.read == read;
+}
+
+}  // namespace
+
+LightProjection projection_of(const Inputs& inputs, const Light& light, const ParamSet& params) {
+  return light.maps ? light.maps->projection : fit_projection(light.source, fit_inputs(inputs, params));
+}
+
+void narrow_projection(const LightWork& work, const std::vector<const Recipe*>& recipes) {
+  if (work.light.maps || !reads_light_discs(work, recipes)) return;
+  const Inputs& inputs = work.inputs;
+  ReadBounds read{.jitter = inputs.view.jitter, .moved = {}};
+  if (!work.remembered.empty() && !nothing_moved(inputs.moved)) read.moved = inputs.moved;
+  LightProjection& projection = work.frame.projection;
+  std::optional<LightState::DrawnTexels>& last = work.state.drawn_texels;
+  if (!last || !is_for(*last, work, read)) {
+    last = {.view = inputs.view.view,
+            .projection = inputs.view.projection,
+            .casters = inputs.casters,
+            .receivers = inputs.receivers,
+            .source = work.light.source,
+            .read = read,
+            .of_layers = {}};
+    const LightProjection limited = narrowed(projection, work.light.source, fit_inputs(inputs, work.params()), read);
+    for (int i = 0; i < limited.layers(); ++i) last->of_layers[static_cast<size_t>(i)] = limited.drawn_texels(i);
+  }
+  for (int i = 0; i < projection.layers(); ++i) {
+    projection.set_drawn_texels(i, last->of_layers[static_cast<size_t>(i)]);
+  }
+}
+
+}  // namespace penumbra::shadow

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "light_work.h"
+
+namespace penumbra::shadow {
+
+// The caller's projection of a light's maps, or one fitted to the view.
+LightProjection projection_of(const Inputs& inputs, const Light& light, const ParamSet& params);
+
+// Limits what is drawn of the maps that the library draws to what is read of them, if all that reads them declares
+// where it does (Technique::reads_light_discs). `recipes`: those that the frame makes.
+void narrow_projection(const LightWork& work, const std::vector<const Recipe*>& recipes);
+
+}  // namespace penumbra::shadow
