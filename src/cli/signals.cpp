@@ -1,7 +1,5 @@
 #include "cli/signals.h"
 
-#include <unistd.h>
-
 #include <csignal>
 
 #include "io/output_file.h"
@@ -10,10 +8,7 @@ namespace penumbra::cli {
 
 namespace {
 
-extern "C" void end_by_signal(int signal) {
-  io::remove_temporaries();
-  _exit(128 + signal);
-}
+extern "C" void end_by_signal(int signal) { io::exit_without_temporaries(128 + signal); }
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -53,6 +54,45 @@ void forget(const fs::path& path) {
     return;
   }
 }
+
+// Blocks signals that end the program while it exists.
+class HeldSignals {
+ public:
+  HeldSignals() {
+    sigset_t held;
+    sigemptyset(&held);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&held, signal);
+    pthread_sigmask(SIG_BLOCK, &held, &before_);
+  }
+  ~HeldSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+// A signal that ends the program is handled on any thread that doesn't block it. The handler waits until no file is
+// being created that the slots don't name yet, and none is created from then on.
+std::atomic<int> creations = 0;
+std::atomic<bool> ending = false;
+
+// Exists while a temporary is created and remembered.
+class Creation {
+ public:
+  Creation() {
+    ++creations;
+    if (!ending) return;
+    --creations;
+    for (;;) pause();  // the handler ends the program
+  }
+  ~Creation() { --creations; }
+  Creation(const Creation&) = delete;
+  Creation& operator=(const Creation&) = delete;
+
+ private:
+  HeldSignals held_;  // on this thread: the handler would wait for itself
+};
 
 [[noreturn]] void fail_write(const fs::path& path, std::string_view cause) {
   fail("cannot write {}: {}", quoted(path), cause);
@@ -137,23 +177,6 @@ std::vector<fs::path> missing_folders(const fs::path& path) {
   return missing;
 }
 
-// Blocks signals that end the program while it exists.
-class HeldSignals {
- public:
-  HeldSignals() {
-    sigset_t held;
-    sigemptyset(&held);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&held, signal);
-    pthread_sigmask(SIG_BLOCK, &held, &before_);
-  }
-  ~HeldSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  HeldSignals(const HeldSignals&) = delete;
-  HeldSignals& operator=(const HeldSignals&) = delete;
-
- private:
-  sigset_t before_{};
-};
-
 }  // namespace
 
 std::string quoted(const fs::path& path) { return fmt::format("'{}'", path.string()); }
@@ -161,6 +184,7 @@ std::string quoted(const fs::path& path) { return fmt::format("'{}'", path.strin
 OutputFile::OutputFile(fs::path path) : path_(std::move(path)), target_(target_of(path_)), stream_(is_stream(target_)) {
   if (stream_) {
     check_stream(target_, path_);
+    const Creation creation;
     temporary_ = make_temporary(path_, temporary_place(target_));
     remember(temporary_);
     return;
@@ -171,12 +195,13 @@ OutputFile::OutputFile(fs::path path) : path_(std::move(path)), target_(target_o
   fs::create_directories(folder_of(target_), error);
   try {
     if (error) fail_write(path_, error.message());
+    const Creation creation;
     temporary_ = make_temporary(path_, target_);
+    remember(temporary_);
   } catch (const Error&) {
     remove_made_folders();
     throw;
   }
-  remember(temporary_);
 }
 
 OutputFile::~OutputFile() {
@@ -209,6 +234,7 @@ void check_writable(const fs::path& path) {
   const fs::path target = target_of(path);
   if (is_stream(target)) {
     check_stream(target, path);
+    const Creation creation;
     unlink(make_temporary(path, temporary_place(target)).c_str());
     return;
   }
@@ -218,6 +244,7 @@ void check_writable(const fs::path& path) {
   while (!fs::exists(folder, error) && !error && folder.has_relative_path()) folder = folder_of(folder);
   if (error) fail_write(path, error.message());
   if (!fs::is_directory(folder, error)) fail_write(path, quoted(folder) + " is not a folder");
+  const Creation creation;
   unlink(make_temporary(path, folder / target.filename()).c_str());
 }
 
@@ -253,10 +280,13 @@ void write_files(const fs::path& folder, std::span<const std::pair<std::string, 
   for (const std::unique_ptr<OutputFile>& file : outputs.files) file->commit();
 }
 
-void remove_temporaries() noexcept {
+void exit_without_temporaries(int code) noexcept {
+  ending = true;
+  while (creations > 0) poll(nullptr, 0, /*milliseconds=*/1);
   for (Slot& slot : slots) {
     if (slot.ready) unlink(slot.name.data());
   }
+  _exit(code);
 }
 
 }  // namespace penumbra::io

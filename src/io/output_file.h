@@ -59,7 +59,8 @@ bool would_replace(const std::filesystem::path& result, const std::filesystem::p
 // `path` for an error message: in quotes, as the user gave it.
 std::string quoted(const std::filesystem::path& path);
 
-// Removes the temporaries of all existing OutputFiles. Async-signal-safe: for handlers of SIGINT and SIGTERM.
-void remove_temporaries() noexcept;
+// Removes the temporaries of all existing OutputFiles and ends the process at once with that exit code.
+// Async-signal-safe: for handlers of SIGINT and SIGTERM, on any thread.
+[[noreturn]] void exit_without_temporaries(int code) noexcept;
 
 }  // namespace penumbra::io

@@ -29,10 +29,10 @@ TEST(MeshParts, HoldEveryTriangleOnceAndInOrder) {
       EXPECT_EQ(part.first_index, next) << triangles;
       EXPECT_GT(part.index_count, 0u) << triangles;
       EXPECT_EQ(part.index_count % 3, 0u) << triangles;
-      const auto first = static_cast<float>(part.first_index / 3);
-      const auto count = static_cast<float>(part.index_count / 3);
+      const std::uint32_t first = part.first_index / 3;
+      const std::uint32_t end = first + part.index_count / 3;
       EXPECT_EQ(part.box.min, glm::vec3(first, 0, 0)) << triangles;
-      EXPECT_EQ(part.box.max, glm::vec3(first + count, 1, 0)) << triangles;
+      EXPECT_EQ(part.box.max, glm::vec3(end, 1, 0)) << triangles;
       next += part.index_count;
     }
     EXPECT_EQ(next, 3 * triangles);
