@@ -149,7 +149,9 @@ PictureArea picture_area(const Panel& panel, const gl::Texture* shown) {
   if (ImGui::IsItemHovered()) area.cursor = glm::vec2(io.MousePos.x - corner.x, io.MousePos.y - corner.y);
   const bool line = drag_line(panel, area, active);
   const glm::vec2 by(io.MouseDelta.x, io.MouseDelta.y);
-  if (active && !line && by != glm::vec2(0) && panel.status.scene != nullptr) {
+  // In the frame of the press, the pointer has come to where it was pressed.
+  const bool dragged = active && !ImGui::IsItemActivated() && by != glm::vec2(0);
+  if (dragged && !line && panel.status.scene != nullptr) {
     if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
       drag_sun(panel, by);
     } else {

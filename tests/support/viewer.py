@@ -149,8 +149,8 @@ class Viewer:
 
     def drag(self, x, y, button, until, what):
         """Drags to and fro from a pixel of the window, with pauses, until the condition holds."""
-        self.move(x, y)
-        self._desktop.xdotool("mousedown", button)
+        # At once, so that the viewer gets both in one frame as from a quick hand: the way to (x, y) is no part of the drag.
+        self._desktop.xdotool("mousemove", "--window", self.window, x, y, "mousedown", button)
         self.follow()  # otherwise the viewer would get the press at a later position of the pointer
         way = itertools.cycle([*range(1, 21), *[20] * 20, *range(19, 9, -1), *[10] * 20, *range(9, -1, -1)])
 
