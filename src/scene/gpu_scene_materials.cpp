@@ -1,9 +1,10 @@
 #include "scene/gpu_scene_materials.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
+
+#include "scene/mip_levels.h"
 
 namespace penumbra::scene {
 
@@ -50,11 +51,15 @@ glsl::MaterialBlock block_of(const Material& material) {
 
 gl::Texture upload(const Image& image, bool srgb) {
   const GLenum format = srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
-  const int levels = std::bit_width(static_cast<unsigned>(std::max(image.width, image.height)));
-  gl::Texture texture(image.name.empty() ? "image" : image.name,
-                      {.format = format, .width = image.width, .height = image.height, .levels = levels});
+  // Not by glGenerateTextureMipmap(): drivers round in different ways, up to 3 of 255 off, and software drivers compile
+  // shaders for it.
+  const std::vector<MipLevel> levels = mip_levels(image, srgb);
+  gl::Texture texture(
+      image.name.empty() ? "image" : image.name,
+      {.format = format, .width = image.width, .height = image.height, .levels = static_cast<int>(levels.size()) + 1});
   texture.upload(GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(image.rgba)));
-  texture.generate_mipmaps();
+  for (int level = 1; const MipLevel& smaller : levels)
+    texture.upload(GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(smaller.rgba)), level++);
   return texture;
 }
 
