@@ -140,6 +140,22 @@ std::vector<float> under_texel(const Source& from) {
   return of_mask(from, 4, [](const float* p, bool) { return p[3] - std::floor(p[3]) >= 0.25f ? 1.0f : 0.0f; });
 }
 
+// Of the first light's shadow map.
+std::vector<float> texel(const Source& from) {
+  const gl::Texture& depth_texture = *from.frame.gbuffer.depth;
+  const auto width = static_cast<float>(depth_texture.width()), height = static_cast<float>(depth_texture.height());
+  const glm::mat4 projection = projection_of(from.frame.camera, width / height);
+  const float pixel = 2.0f / (projection[1][1] * height);  // metres, at a distance of one metre in perspective
+  const std::vector<float> distances = depth(from), layers = cascade(from);
+  const shadow::LightProjection& maps = from.frame.mask.lights.front().projection;
+  std::vector<float> texels;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const float of_pixel = from.frame.camera.orthographic ? pixel : pixel * distances[i];
+    texels.push_back(layers[i] < 0 ? 0.0f : maps.texel(static_cast<int>(layers[i])) / of_pixel);
+  }
+  return texels;
+}
+
 std::vector<float> history(const Source& from) {
   const Pixels sky = from.read(*from.frame.gbuffer.depth, 1);
   const gl::Texture* notes = from.frame.mask.lights.front().notes;
@@ -194,6 +210,13 @@ const std::vector<Row>& rows() {
        penumbra_width},
       {detail("under_texel", "1 where the penumbra is narrower than the shadow map can show.", nearest_center),
        under_texel},
+      {{.name = "texel",
+        .help = "Width of a texel of the shadow map that is read, in widths of a pixel at the surface; 0 for the sky.",
+        .channels = v,
+        .reduction = nearest_center,
+        .in_pixels = true,
+        .mask_details = true},
+       texel},
       {{"history",
         "Why the shadow of the last frames is refused: 0 it is used, 1 there is none, 2 the surface was off screen, 3 "
         "another surface was there, 4 a caster moved; -1 for the sky.",

@@ -8,10 +8,13 @@ shadow::TextureView view_of(const gl::Texture& texture) { return {texture.id(), 
 
 shadow::Box box_of(const scene::Bounds& bounds) { return {bounds.min, bounds.max}; }
 
+shadow::Box box_or_none(const scene::Bounds& bounds) {
+  return bounds.empty ? shadow::Box{glm::vec3(1), glm::vec3(-1)} : box_of(bounds);
+}
+
 std::optional<shadow::Box> moved_box(const scene::GpuScene& scene, bool known) {
   if (!known) return {};
-  const scene::Bounds bounds = scene.moved_bounds();
-  return bounds.empty ? shadow::Box{glm::vec3(1), glm::vec3(-1)} : box_of(bounds);
+  return box_or_none(scene.moved_bounds());
 }
 
 shadow::LightSource source_of(const SunLight& sun) { return shadow::Sun{.to_light = sun.to_light}; }
@@ -79,6 +82,7 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
                                      .lights = inputs.lights,
                                      .casters = box_of(inputs.scene.casters()),
                                      .receivers = box_of(inputs.scene.receivers()),
+                                     .forward_receivers = box_or_none(inputs.scene.blended_receivers()),
                                      .moved = moved_box(inputs.scene, inputs.knows_moved),
                                      .mask_details = inputs.mask_details,
                                      .draw = draw,

@@ -262,7 +262,7 @@ void GpuScene::State::update_instances() {
   std::vector<glsl::InstanceBlock> blocks;
   blocks.reserve(instances.size());
   moved = false;
-  receivers = {};
+  receivers = blended_receivers = {};
   for (Instance& instance : instances) {
     const glm::mat4& world = instance.world = placement(instance, now->pose);
     const glm::mat4 last_world = placement(instance, last->pose);
@@ -274,6 +274,7 @@ void GpuScene::State::update_instances() {
     instance.last_box = instance.moved ? box(instance, last->pose, last_world) : instance.box;
     moved = moved || instance.moved;
     receivers.add(instance.box);
+    if (instance.alpha_mode == AlphaMode::blend) blended_receivers.add(instance.box);
     blocks.push_back({.world = world,
                       .last_world = last_world,
                       .area = glm::mat4(area_matrix(glm::mat3(world))),
@@ -323,6 +324,7 @@ bool GpuScene::has_emissive() const { return state_->emissive; }
 bool GpuScene::moved() const { return state_->moved; }
 Bounds GpuScene::casters() const { return state_->casters; }
 Bounds GpuScene::receivers() const { return state_->receivers; }
+Bounds GpuScene::blended_receivers() const { return state_->blended_receivers; }
 Bounds GpuScene::moved_bounds() const { return state_->moved_casters; }
 bool GpuScene::lit_by_file() const { return state_->lit_by_file; }
 

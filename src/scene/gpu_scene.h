@@ -85,6 +85,7 @@ class GpuScene {
   bool moved() const;         // whether anything moved between the two poses
   Bounds casters() const;     // world bounds in the present pose
   Bounds receivers() const;
+  Bounds blended_receivers() const;  // of blended surfaces alone; empty if there are none
   Bounds moved_bounds() const;  // of the casters that moved between the two poses, in both poses; empty if none did
   bool lit_by_file() const;     // the file has a directional light, so its emission is in matching units
 

@@ -107,7 +107,7 @@ struct GpuScene::State {
 
   CasterChoice choice;
   bool moved = false, blended = false, emissive = false, lit_by_file = false;
-  Bounds casters, receivers, moved_casters;
+  Bounds casters, receivers, blended_receivers, moved_casters;
 
   PosedVertices& posed_at(gl::Device& device, double time, const PosedVertices* keep);
   void set_vertex_arrays() const;

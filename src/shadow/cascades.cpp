@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "convex.h"
+#include "receiver_region.h"
 
 namespace penumbra::shadow {
 
@@ -23,18 +24,13 @@ struct Range {
 
 Box joined(const Box& a, const Box& b) { return {glm::min(a.min, b.min), glm::max(a.max, b.max)}; }
 
+LightBounds joined(const LightBounds& a, const LightBounds& b) {
+  return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
+}
+
 Sphere sphere_about(const Box& box) {
   const glm::dvec3 half = (glm::dvec3(box.max) - glm::dvec3(box.min)) * 0.5;
   return {glm::dvec3(box.min) + half, glm::length(half)};
-}
-
-// The axes of light space as rows: x horizontal, y as close to up as possible, z along the rays; left-handed.
-glm::dmat3 light_axes(const glm::dvec3& to_light) {
-  const glm::dvec3 z = -glm::normalize(to_light);
-  const glm::dvec3 horizontal = glm::cross(z, glm::dvec3(0, 1, 0));
-  const glm::dvec3 x = glm::length(horizontal) > 1e-6 ? glm::normalize(horizontal) : glm::dvec3(1, 0, 0);
-  const glm::dvec3 y = glm::cross(x, z);
-  return glm::transpose(glm::dmat3(x, y, z));
 }
 
 // Rounds up to a power of 2^(1 / steps_an_octave), so that ranges and sizes seldom change while the camera moves.
@@ -113,6 +109,90 @@ double split_distance(const Range& range, int index, int count, double blend) {
   return glm::mix(uniform, logarithmic, blend);
 }
 
+// What a cascade contains in light space, without margins: a square column about `center`, as deep as `deepest`.
+struct Region {
+  glm::dvec3 center{0};
+  double half_width = 0;
+  double deepest = 0;
+};
+
+// About the part of the frustum up to each cascade's range, or about all receivers if that is smaller. A region turns
+// with the camera without changing size.
+std::vector<Region> stable_regions(const CascadeInputs& in, const Cascades& cascades) {
+  const Range view = view_range(in);
+  const Sphere all = sphere_about(in.receivers);
+  std::vector<Region> regions;
+  for (int i = 0; i < in.count; ++i) {
+    Sphere sphere = frustum_sphere(in, view.min, split_distance(view, i, in.count, in.split_blend));
+    if (all.radius < sphere.radius) sphere = all;
+    const glm::dvec3 center = cascades.world_to_light * (sphere.center - cascades.anchor);
+    regions.push_back({center, sphere.radius, center.z + sphere.radius});
+  }
+  return regions;
+}
+
+double width_of(const LightBounds& bounds) {
+  return std::max(bounds.high.x - bounds.low.x, bounds.high.y - bounds.low.y);
+}
+
+// The receivers up to the end of each slice.
+VisibleReceivers accumulated(VisibleReceivers slices) {
+  for (size_t i = 1; i < slices.size(); ++i) {
+    slices[i].pixels += slices[i - 1].pixels;
+    slices[i].bounds = joined(slices[i].bounds, slices[i - 1].bounds);
+  }
+  return slices;
+}
+
+// The last slice of each cascade, so that the texels of the pixels' cascades, in units of the pixels' own sizes, have
+// the least geometric mean. `up_to`: see accumulated(). Some may be equal, where there are fewer slices than cascades.
+std::vector<size_t> best_splits(const VisibleReceivers& up_to, int count) {
+  // The sum over the pixels up to a slice of the logarithm of their texels, with the best cascades of which the last
+  // one ends there, and where the one before it ends.
+  struct Best {
+    double sum = 0;
+    size_t before = 0;
+  };
+  const auto sum_of = [&](size_t last, size_t before) {
+    return std::log2(std::max(width_of(up_to[last].bounds), 1e-9)) * (up_to[last].pixels - up_to[before].pixels);
+  };
+  std::vector<std::vector<Best>> best(static_cast<size_t>(count), std::vector<Best>(up_to.size()));
+  for (size_t last = 0; last < up_to.size(); ++last) {
+    best[0][last] = {std::log2(std::max(width_of(up_to[last].bounds), 1e-9)) * up_to[last].pixels, 0};
+  }
+  for (size_t cascade = 1; cascade < best.size(); ++cascade) {
+    for (size_t last = 0; last < up_to.size(); ++last) {
+      best[cascade][last] = {best[cascade - 1][last].sum, last};
+      for (size_t before = 0; before < last; ++before) {
+        const double sum = best[cascade - 1][before].sum + sum_of(last, before);
+        if (sum < best[cascade][last].sum) best[cascade][last] = {sum, before};
+      }
+    }
+  }
+  std::vector<size_t> ends(best.size(), up_to.size() - 1);
+  for (size_t cascade = best.size() - 1; cascade > 0; --cascade) {
+    ends[cascade - 1] = best[cascade][ends[cascade]].before;
+  }
+  return ends;
+}
+
+// About what the view shows up to each cascade's range; the last one about all other receivers too.
+std::vector<Region> visible_regions(const CascadeInputs& in, const Cascades& cascades) {
+  // Receivers are computed from the same depths on the GPU, in floats.
+  constexpr double rounding = 1e-4;
+  const VisibleReceivers up_to = accumulated(*in.visible);
+  std::vector<Region> regions;
+  for (const size_t end : best_splits(up_to, in.count)) {
+    LightBounds bounds = up_to[end].bounds;
+    const bool last = regions.size() + 1 == static_cast<size_t>(in.count);
+    if (last) bounds = joined(bounds, seen_bounds(in.others, in, cascades));
+    const glm::dvec3 center = 0.5 * (bounds.low + bounds.high), half = 0.5 * (bounds.high - bounds.low);
+    const double pad = rounding * (glm::length(center) + glm::length(half));
+    regions.push_back({center, std::max(half.x, half.y) + pad, bounds.high.z + pad});
+  }
+  return regions;
+}
+
 glm::dmat4 clip_from_world(const Cascades& cascades, const Cascade& cascade) {
   const double range = cascade.far_z - cascade.near_z;
   const glm::dvec3 scale{1.0 / cascade.half_extent, 1.0 / cascade.half_extent, 1.0 / range};
@@ -122,6 +202,14 @@ glm::dmat4 clip_from_world(const Cascades& cascades, const Cascade& cascade) {
 }
 
 }  // namespace
+
+glm::dmat3 light_axes(const glm::dvec3& to_light) {
+  const glm::dvec3 z = -glm::normalize(to_light);
+  const glm::dvec3 horizontal = glm::cross(z, glm::dvec3(0, 1, 0));
+  const glm::dvec3 x = glm::length(horizontal) > 1e-6 ? glm::normalize(horizontal) : glm::dvec3(1, 0, 0);
+  const glm::dvec3 y = glm::cross(x, z);
+  return glm::transpose(glm::dmat3(x, y, z));
+}
 
 glm::dvec3 frustum_corner(const glm::dmat4& projection, double depth, double ndc_x, double ndc_y) {
   const bool perspective = projection[2][3] != 0;
@@ -140,29 +228,24 @@ Cascades fit_cascades(const CascadeInputs& in) {
 
   std::array<glm::dvec3, 8> corners = joined(in.casters, in.receivers).corners();
   for (glm::dvec3& corner : corners) corner = cascades.world_to_light * (corner - cascades.anchor);
-  const Range view = view_range(in);
-  const Sphere all = sphere_about(in.receivers);
+  const std::vector<Region> regions = in.visible ? visible_regions(in, cascades) : stable_regions(in, cascades);
+  const glm::dvec3 anchor = cascades.world_to_light * cascades.anchor;
 
   for (int i = 0; i < in.count; ++i) {
-    Sphere sphere = frustum_sphere(in, view.min, split_distance(view, i, in.count, in.split_blend));
-    if (all.radius < sphere.radius) sphere = all;
-    const glm::dvec3 world_center = cascades.world_to_light * sphere.center;
-    const glm::dvec3 anchor = cascades.world_to_light * cascades.anchor;
-    const glm::dvec3 center = world_center - anchor;
+    const auto& [center, half_width, deepest] = regions[static_cast<size_t>(i)];
 
     // Margin for the search discs of receivers at the border: their radius follows from the light's size and the height
     // of casters above the deepest receiver. A finer cascade may leave some discs to the next one; the last one
     // contains all.
-    const double deepest = center.z + sphere.radius;
-    const double nearest = range_within({center, sphere.radius, deepest, in.tan_half_angle}, corners).min;
+    const double nearest = range_within({center, half_width, deepest, in.tan_half_angle}, corners).min;
     const double all_discs = in.tan_half_angle * std::max(deepest - nearest, 0.0);
-    const double margin = i + 1 < in.count ? std::min(all_discs, 0.25 * sphere.radius) : all_discs;
-    const double half = step_up(sphere.radius + margin, 16) * (1.0 + 4.0 / in.size);
+    const double margin = i + 1 < in.count ? std::min(all_discs, 0.25 * half_width) : all_discs;
+    const double half = step_up(half_width + margin, 16) * (1.0 + 4.0 / in.size);
     const double texel = 2.0 * half / in.size;
-    const glm::dvec2 snapped = glm::floor(glm::dvec2(world_center) / texel) * texel - glm::dvec2(anchor);
+    const glm::dvec2 snapped = glm::floor(glm::dvec2(center + anchor) / texel) * texel - glm::dvec2(anchor);
 
     Range range = range_within({snapped, half}, corners);
-    if (range.max < range.min) range = {center.z - sphere.radius, center.z + sphere.radius};
+    if (range.max < range.min) range = {center.z - half_width, center.z + half_width};
     const double pad = 1e-3 * (range.max - range.min) + texel;
     Cascade cascade;
     cascade.center = glm::vec2(snapped);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <vector>
@@ -24,6 +25,20 @@ struct TexelRange {
   }
 };
 
+// Bounds in light space; empty (low > high) by default.
+struct LightBounds {
+  glm::dvec3 low{1e30}, high{-1e30};
+
+  bool empty() const { return low.x > high.x; }
+};
+
+// The receivers that the view's depth texture shows within a slice of the frustum.
+struct ReceiverSlice {
+  std::uint32_t pixels = 0;  // that show them; at least 1
+  LightBounds bounds;
+};
+using VisibleReceivers = std::vector<ReceiverSlice>;  // nearest slice first; not empty
+
 // One cascade: a square layer of the shadow map. The map's depth is linear: 0 at near_z, 1 at far_z.
 struct Cascade {
   glm::vec2 center{0};    // light space, metres; a whole number of texels from the world's origin
@@ -35,8 +50,9 @@ struct Cascade {
   std::optional<TexelRange> drawn;
 };
 
-// The cascades of a directional light, finest first. Each contains the whole view frustum up to its range, so where a
-// receiver's search disc is not within one cascade, a coarser cascade contains all of it.
+// The cascades of a directional light, finest first. Each contains the whole view frustum up to its range, or what the
+// view shows of the receivers up to there. So where a receiver's search disc is not within one cascade, a coarser
+// cascade contains all of it.
 struct Cascades {
   glm::dmat3 world_to_light{1};
   glm::dvec3 anchor{0};
@@ -64,7 +80,15 @@ struct CascadeInputs {
   int size = 2048;
   float split_blend = 0.75f;  // 0 uniform, 1 logarithmic (Zhang 2006, parallel-split shadow maps, eq. 3)
   float distance = 0;         // range of the last cascade, metres; 0: as far as receivers lie in the view
+  // Absent: the cascades are fitted to the frustum and the receivers' box, and seldom change size. Else they are fitted
+  // to these receivers, and `split_blend` has no effect.
+  std::optional<VisibleReceivers> visible = {};
+  // Bounds of the receivers that `visible` may leave out (min > max: none).
+  Box others{glm::vec3(1), glm::vec3(-1)};
 };
+
+// The axes of light space as rows: x horizontal, y as close to up as possible, z along the rays; left-handed.
+glm::dmat3 light_axes(const glm::dvec3& to_light);
 
 // The corner of a projection's frustum at a depth in metres, in view space, for NDC x and y.
 glm::dvec3 frustum_corner(const glm::dmat4& projection, double depth, double ndc_x, double ndc_y);

@@ -13,6 +13,7 @@
 #include "movement_map.h"
 #include "products.h"
 #include "shadow_map.h"
+#include "visible_receivers.h"
 
 namespace penumbra::shadow {
 
@@ -175,11 +176,12 @@ ReadLight read_light(const MaskInputs& from, const Light& light, ViewState& view
 LightFrame draw_light(const MaskInputs& from, const ReadLight& read, const ViewState& view, LightFrame frame,
                       const gl::Texture& mask) {
   const auto& [light, state, same_params] = read;
-  frame.projection = projection_of(from.inputs, light, state.params);
+  const auto visible = find_visible_receivers(from.device, from.inputs, light, state.params, state.prefix);
+  frame.projection = projection_of(from.inputs, light, state.params, visible);
   frame.shape = shape_of(light.source, state.params);
   take_shape(state, frame.shape);
   begin_frame(state, light, frame.projection.layers(), same_params);
-  if (!same_params) state.drawn_texels.reset();
+  if (!same_params || visible) state.drawn_texels.reset();
 
   const Technique& technique = from.registry.find(state.params.get_word("technique"));
   const Denoiser* denoiser = denoiser_for(from.registry, technique, state.params);

@@ -111,6 +111,10 @@ struct Inputs {
   // forward too: casters are drawn only to texels of the maps that what the view sees of this box can read (see
   // Technique::reads_light_discs).
   Box casters{glm::vec3(1), glm::vec3(-1)}, receivers{glm::vec3(1), glm::vec3(-1)};
+  // World bounds of those receivers that `depth` does not hold, such as blended surfaces that are drawn forward; empty
+  // (min > max): there are none. Only read where maps are fitted to what `depth` shows (cascades.fit): elsewhere in the
+  // view no map holds anything, and receivers are lit.
+  Box forward_receivers{glm::vec3(1), glm::vec3(-1)};
   // World bounds of the casters that moved since the view's last frame, enclosing their present and their last
   // positions. Absent: unknown, so any caster may have moved. An empty box (min > max): none moved, and no movement map
   // is drawn.

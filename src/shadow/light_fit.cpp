@@ -34,8 +34,13 @@ bool is_for(const LightState::DrawnTexels& drawn, const LightWork& work, const R
 
 }  // namespace
 
-LightProjection projection_of(const Inputs& inputs, const Light& light, const ParamSet& params) {
-  return light.maps ? light.maps->projection : fit_projection(light.source, fit_inputs(inputs, params));
+LightProjection projection_of(const Inputs& inputs, const Light& light, const ParamSet& params,
+                              const std::optional<VisibleReceivers>& visible) {
+  if (light.maps) return light.maps->projection;
+  FitInputs fit = fit_inputs(inputs, params);
+  fit.visible = visible;
+  fit.others = inputs.forward_receivers;
+  return fit_projection(light.source, fit);
 }
 
 void narrow_projection(const LightWork& work, const std::vector<const Recipe*>& recipes) {

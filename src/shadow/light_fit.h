@@ -6,8 +6,9 @@
 
 namespace penumbra::shadow {
 
-// The caller's projection of a light's maps, or one fitted to the view.
-LightProjection projection_of(const Inputs& inputs, const Light& light, const ParamSet& params);
+// The caller's projection of a light's maps, or one fitted to the view. `visible`: see find_visible_receivers().
+LightProjection projection_of(const Inputs& inputs, const Light& light, const ParamSet& params,
+                              const std::optional<VisibleReceivers>& visible);
 
 // Limits what is drawn of the maps that the library draws to what is read of them, if all that reads them declares
 // where it does (Technique::reads_light_discs). `recipes`: those that the frame makes.

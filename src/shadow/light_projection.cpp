@@ -50,7 +50,9 @@ CascadeInputs cascade_inputs(const LightSource& source, const FitInputs& inputs)
           .count = params.get_int("cascades.count"),
           .size = params.get_int("cascades.size"),
           .split_blend = params.get_float("cascades.split"),
-          .distance = params.get_float("cascades.distance")};
+          .distance = params.get_float("cascades.distance"),
+          .visible = inputs.visible,
+          .others = inputs.others};
 }
 
 template <class Value>
@@ -122,6 +124,8 @@ std::string LightProjection::fault() const {
   }
   return {};
 }
+
+glm::dmat3 light_axes(const LightSource& source) { return light_axes(glm::dvec3(std::get<Sun>(source).to_light)); }
 
 LightProjection fit_projection(const LightSource& source, const FitInputs& inputs) {
   return fit_cascades(cascade_inputs(source, inputs));

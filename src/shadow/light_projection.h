@@ -51,6 +51,8 @@ class LightProjection {
 
   int layers() const { return static_cast<int>(cascades_.items.size()); }
   int size() const { return cascades_.size; }  // side of each layer, texels
+  // Width of a layer's texel, metres.
+  float texel(int layer) const { return cascades_.texel(layer); }
   // From world space to clip space of a layer: x and y in -1..1 within the map, z in 0..1, which is the stored depth.
   glm::mat4 world_to_clip(int layer) const;
   // World space. Casters outside of it can't shadow any receiver that reads the layer.
@@ -81,6 +83,9 @@ struct FitInputs {
   glm::mat4 view{1}, projection{1};  // of the camera
   Box casters, receivers;
   const ParamSet& params;
+  // Where the maps are fitted to what the view shows: that, and the bounds of the receivers that it does not hold.
+  std::optional<VisibleReceivers> visible = {};
+  Box others{glm::vec3(1), glm::vec3(-1)};
 };
 
 // What receivers of the view may read besides their discs; see narrowed().
@@ -90,6 +95,9 @@ struct ReadBounds {
 
   bool operator==(const ReadBounds&) const = default;
 };
+
+// From world directions to those of the light's space.
+glm::dmat3 light_axes(const LightSource& source);
 
 // The layers that the parameters ask for, fitted to the view, the receivers and their casters. The inputs must have
 // passed check().

@@ -66,18 +66,11 @@ std::vector<Polygon> within(std::vector<Polygon> faces, std::span<const HalfSpac
   return faces;
 }
 
-struct LightBounds {
-  glm::dvec3 low{1e30}, high{-1e30};
-};
-
-// The bounds of a body in light space; a point within the cascade if nothing is left of it: then the view sees no
-// receiver there.
-LightBounds bounds_of(const std::vector<Polygon>& faces, const Cascade& cascade) {
+LightBounds bounds_of(const std::vector<Polygon>& faces) {
   LightBounds bounds;
   for (const Polygon& face : faces) {
     for (const glm::dvec3& point : face) bounds = {glm::min(bounds.low, point), glm::max(bounds.high, point)};
   }
-  if (bounds.low.x > bounds.high.x) bounds.low = bounds.high = glm::dvec3(cascade.center, cascade.near_z);
   return bounds;
 }
 
@@ -92,6 +85,11 @@ TexelRange texels_around(const glm::dvec2& low, const glm::dvec2& high, int size
 
 }  // namespace
 
+LightBounds seen_bounds(const Box& box, const CascadeInputs& inputs, const Cascades& cascades) {
+  if (box.min.x > box.max.x) return {};
+  return bounds_of(within(box_faces(box, cascades), view_sides(inputs, cascades, frustum_width)));
+}
+
 void narrow_to_receivers(Cascades& cascades, const CascadeInputs& inputs, const ReadMargins& margins) {
   const std::vector<Polygon> seen =
       within(box_faces(inputs.receivers, cascades), view_sides(inputs, cascades, frustum_width + margins.ndc));
@@ -100,7 +98,9 @@ void narrow_to_receivers(Cascades& cascades, const CascadeInputs& inputs, const 
   for (const Cascade& cascade : cascades.items) nearest = std::min<double>(nearest, cascade.near_z);
   for (size_t i = 0; i < cascades.items.size(); ++i) {
     Cascade& cascade = cascades.items[i];
-    const LightBounds receivers = bounds_of(within(seen, column_sides(cascade)), cascade);
+    LightBounds receivers = bounds_of(within(seen, column_sides(cascade)));
+    // The view sees no receiver there: a point of the cascade.
+    if (receivers.empty()) receivers.low = receivers.high = glm::dvec3(cascade.center, cascade.near_z);
     const double texel = cascades.texel(static_cast<int>(i));
     const double disc = inputs.tan_half_angle * std::max(receivers.high.z - nearest, 0.0);
     // A disc's bounds are read from 2 × 2 texels of a pyramid, each less than twice as wide as the disc.

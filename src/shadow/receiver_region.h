@@ -13,6 +13,10 @@ struct ReadMargins {
   double nearest = std::numeric_limits<double>::max();
 };
 
+// The bounds in light space of what the view may see of a box in the world; empty for an empty box. `cascades`: only
+// their light space is read.
+LightBounds seen_bounds(const Box& box, const CascadeInputs& inputs, const Cascades& cascades);
+
 // Narrows the part of each cascade that is drawn (Cascade::drawn) to what receivers of the view can read: the part of
 // the receivers' box that the view sees, as far as the cascade contains it, widened by the discs of the light and by
 // what a pyramid reads beside them. `inputs`: those that the cascades were fitted to. Only for techniques and products

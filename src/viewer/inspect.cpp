@@ -81,6 +81,7 @@ ColorMapping mapping_of(std::string_view aov) {
   if (aov == "color" || aov == "albedo" || aov == "material") return {.scale = rgb, .fixed = true};
   if (aov == "emission") return {.scale = rgb};
   if (aov == "normal" || aov == "geometric_normal") return {.scale = vectors, .fixed = true};
+  if (aov == "texel") return {.scale = heat, .unit = "px"};
   if (aov == "motion") return {.scale = vectors, .unit = "px"};
   if (aov == "depth" || aov == "blocker" || aov == "penumbra") return {.scale = heat, .unit = "m"};
   return {.scale = heat};

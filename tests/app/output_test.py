@@ -120,7 +120,7 @@ class Output(TestCase):
                     mixed[name] += len(set(block)) > 1
                     if layer in ("depth", "normal", "geometric_normal", "cascade", "under_texel", "history"):
                         self.assertEqual(value, block[3], name)
-                    elif layer == "motion":
+                    elif layer in ("motion", "texel"):
                         self.assertEqual(value, block[3] / 2)
                     else:
                         valid = [v for v in block if v != 0] if layer in ("blocker", "penumbra") else block

@@ -57,6 +57,8 @@ std::span<const Golden> goldens() {
       // Every denoiser on two scenes, with what it keeps from frame to frame.
       {"history_thesis", "thesis", "thesis", {"filter.visibility=none"}, &history, {"history.alpha=1"}, "shadow", 4},
       {"history_foliage", "foliage", "thesis", {"sun.angle=4", "filter.visibility=none"}, &history, {"history.alpha=1"}, "shadow", 4},
+      // Maps fitted to what the view shows.
+      {"visible_posts", "posts", "pcss", {"cascades.fit=visible", "cascades.size=256"}, &rounding, {"cascades.fit=stable"}},
       // Every filter.
       {"filter_median", "foliage", "thesis", {"sun.angle=4", "filter.penumbra=median"}, &rounding, {"filter.penumbra=none"}, "blocker", 1, 0, 6},
       {"filter_box", "thesis", "thesis", {"filter.visibility=box"}, &rounding, {"filter.visibility=none"}},
@@ -77,6 +79,7 @@ std::span<const Golden> goldens() {
       {"aov_blocker", "courtyard", "pcss", {}, &rounding, {"technique=hard"}, "blocker", 1, 0, 8},
       {"aov_penumbra", "courtyard", "pcss", {}, &rounding, {"technique=hard"}, "penumbra", 1, 0, 0.2f},
       {"aov_under_texel", "courtyard", "pcss", {}, &rounding, {"technique=none"}, "under_texel"},
+      {"aov_texel", "courtyard", "pcss", {}, &rounding, {"cascades.size=1024"}, "texel", 1, 0, 0.5f},
       {"aov_history", "moving", "thesis", {"sun.angle=8"}, &history, {"movement.map=none"}, "history", 4, 0, 8, &casters},
   };
   // clang-format on

@@ -1,0 +1,106 @@
+#include "visible_receivers.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <glm/gtc/matrix_transform.hpp>
+#include <span>
+
+#include "light_frame.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+constexpr GLuint found_binding = 7;  // must match glsl/shadow/visible_receivers.comp
+constexpr int slices = 32;
+constexpr int row = 32;  // pixels that an invocation reads
+
+// std430, as in the shader.
+struct Found {
+  std::uint32_t least, greatest;
+  std::array<std::uint32_t, 2> unused;
+  std::array<glm::uvec4, slices> low, high;  // high.w: pixels
+};
+
+Found nothing_found() {
+  Found found{.least = ~0u, .greatest = 0, .unused = {}, .low = {}, .high = {}};
+  found.low.fill(glm::uvec4(~0u));
+  return found;
+}
+
+float value_of(std::uint32_t code) {
+  constexpr std::uint32_t sign = 0x80000000u;
+  return std::bit_cast<float>((code & sign) != 0 ? code & ~sign : ~code);
+}
+
+gl::ProgramDesc program(bool bounds) {
+  return {.name = bounds ? "bounds of visible receivers" : "depths of visible receivers",
+          .compute = "shadow/visible_receivers.comp",
+          .defines = {{"BOUNDS", bounds ? "1" : "0"}}};
+}
+
+// From x and y in texels and the stored depth to view space, before the division by w.
+glm::mat4 texel_to_view(const Inputs& inputs) {
+  const Rect viewport = viewport_of(inputs);
+  const glm::dvec2 size(viewport.width, viewport.height), corner(viewport.x, viewport.y);
+  const bool zero_to_one = inputs.conventions.depth_zero_to_one;
+  const glm::dvec3 scale(2.0 / size, zero_to_one ? 1.0 : 2.0);
+  const glm::dvec3 shift(-2.0 * corner / size - 1.0 - glm::dvec2(inputs.view.jitter), zero_to_one ? 0.0 : -1.0);
+  const glm::dmat4 texel_to_clip = glm::scale(glm::translate(glm::dmat4(1), shift), scale);
+  return glm::mat4(glm::inverse(glm::dmat4(inputs.view.projection)) * texel_to_clip);
+}
+
+VisibleReceivers visible_of(const Found& found) {
+  VisibleReceivers visible;
+  for (std::size_t slice = 0; slice < slices; ++slice) {
+    const glm::uvec4 &low = found.low[slice], &high = found.high[slice];
+    if (high.w == 0) continue;
+    ReceiverSlice& to = visible.emplace_back();
+    to.pixels = high.w;
+    for (glm::length_t axis = 0; axis < 3; ++axis) {
+      to.bounds.low[axis] = value_of(low[axis]);
+      to.bounds.high[axis] = value_of(high[axis]);
+    }
+  }
+  return visible;
+}
+
+}  // namespace
+
+std::optional<VisibleReceivers> find_visible_receivers(gl::Device& device, const Inputs& inputs, const Light& light,
+                                                       const ParamSet& params, const std::string& prefix) {
+  if (light.maps || params.get_word("cascades.fit") != "visible") return {};
+  const Rect viewport = viewport_of(inputs);
+  const glm::dmat3 world_to_view(glm::dmat4(inputs.view.view));
+  const gl::Buffer& buffer = device.scratch(prefix + "visible receivers", sizeof(Found));
+  Found found = nothing_found();
+  gl::write_value(buffer, found);
+  {
+    gl::Pass pass(device, {.name = "visible receivers"});
+    device.sampler({}).bind(unit_receiver_depth);
+    gl::glBindTextureUnit(unit_receiver_depth, inputs.depth.id);
+    buffer.bind_storage(found_binding);
+    for (const bool bounds : {false, true}) {
+      const gl::Program& reduce = pass.use(program(bounds));
+      reduce.set("viewport", glm::vec4(viewport.x, viewport.y, viewport.width, viewport.height));
+      reduce.set("sky_depth", inputs.conventions.reversed_z ? 0.0f : 1.0f);
+      if (bounds) {
+        reduce.set("texel_to_view", texel_to_view(inputs));
+        reduce.set("view_to_light", glm::mat4(light_axes(light.source) * glm::inverse(world_to_view)));
+        reduce.set("distance_limit", params.get_float("cascades.distance"));
+      }
+      pass.dispatch((viewport.width + row - 1) / row, viewport.height);
+    }
+  }
+  gl::glGetNamedBufferSubData(buffer.id(), 0, sizeof(found), &found);
+  VisibleReceivers visible = visible_of(found);
+  if (visible.empty()) return {};
+  return visible;
+}
+
+std::vector<gl::ProgramDesc> visible_receivers_programs() { return {program(false), program(true)}; }
+
+}  // namespace penumbra::shadow

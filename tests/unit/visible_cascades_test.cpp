@@ -1,0 +1,142 @@
+// Cascades that are fitted to the receivers which the view shows.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+#include "shadow/cascades.h"
+
+namespace penumbra::shadow {
+namespace {
+
+// A slice `width` metres wide, centred in light space, that so many pixels show.
+ReceiverSlice slice(std::uint32_t pixels, double width) {
+  return {.pixels = pixels, .bounds = {{-0.5 * width, -0.25 * width, 5}, {0.5 * width, 0.25 * width, 10}}};
+}
+
+CascadeInputs inputs(const VisibleReceivers& visible, int count) {
+  CascadeInputs in;
+  in.view = glm::lookAt(glm::vec3(0, 2, 0), glm::vec3(0, 1, -10), glm::vec3(0, 1, 0));
+  in.projection = glm::perspective(0.9f, 1.5f, 0.1f, 200.0f);
+  in.to_light = glm::normalize(glm::vec3(0.4f, 0.7f, 0.2f));
+  in.casters = in.receivers = {{-200, 0, -200}, {200, 9, 200}};
+  in.count = count;
+  in.size = 1024;
+  in.visible = visible;
+  return in;
+}
+
+// The cascade, with whatever index, in which a slice's pixels read.
+double extent_for(const Cascades& cascades, const ReceiverSlice& slice) {
+  const auto holds = [&](const Cascade& cascade) {
+    const glm::dvec2 low = glm::dvec2(slice.bounds.low) - glm::dvec2(cascade.center);
+    const glm::dvec2 high = glm::dvec2(slice.bounds.high) - glm::dvec2(cascade.center);
+    return std::max({-low.x, -low.y, high.x, high.y}) <= cascade.half_extent;
+  };
+  const auto found = std::ranges::find_if(cascades.items, holds);
+  return found == cascades.items.end() ? std::numeric_limits<double>::infinity() : found->half_extent;
+}
+
+// The mean over all pixels of the logarithm of their texels.
+double cost_of(const Cascades& cascades, const VisibleReceivers& slices) {
+  double sum = 0, pixels = 0;
+  for (const ReceiverSlice& slice : slices) {
+    sum += slice.pixels * std::log2(extent_for(cascades, slice));
+    pixels += slice.pixels;
+  }
+  return sum / pixels;
+}
+
+// The same for cascades that end at these slices.
+double cost_of_ends(const std::vector<std::size_t>& ends, const VisibleReceivers& slices) {
+  double sum = 0, pixels = 0;
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    const std::size_t end = *std::ranges::lower_bound(ends, i);
+    sum += slices[i].pixels * std::log2(0.5 * slices[end].bounds.high.x - 0.5 * slices[end].bounds.low.x);
+    pixels += slices[i].pixels;
+  }
+  return sum / pixels;
+}
+
+TEST(VisibleCascades, EndWhereThePixelsTexelsBecomeFinest) {
+  const VisibleReceivers slices{slice(1000, 1), slice(10, 1.5), slice(3000, 9),
+                                slice(40, 20),  slice(900, 33), slice(900, 90)};
+  for (const int count : {1, 2, 3, 4}) {
+    // Every choice of the slices at which all cascades but the last end.
+    double best = std::numeric_limits<double>::infinity();
+    const std::size_t last = slices.size() - 1;
+    for (unsigned chosen = 0; chosen < 1u << last; ++chosen) {
+      std::vector<std::size_t> ends;
+      for (std::size_t i = 0; i < last; ++i) {
+        if ((chosen >> i & 1u) != 0) ends.push_back(i);
+      }
+      ends.push_back(last);
+      if (ends.size() == static_cast<std::size_t>(count)) best = std::min(best, cost_of_ends(ends, slices));
+    }
+    // A cascade's width is rounded up to a sixteenth of an octave, and has a margin of two texels on each side.
+    const double cost = cost_of(fit_cascades(inputs(slices, count)), slices);
+    EXPECT_GE(cost, best - 1e-3) << count;
+    EXPECT_LE(cost, best + 1.0 / 16 + 0.02) << count;
+  }
+}
+
+TEST(VisibleCascades, MayBeMoreThanThereAreSlices) {
+  const VisibleReceivers slices{slice(7, 2), slice(5, 3)};
+  const Cascades cascades = fit_cascades(inputs(slices, 4));
+  ASSERT_EQ(cascades.items.size(), 4u);
+  for (const ReceiverSlice& each : slices) EXPECT_TRUE(std::isfinite(extent_for(cascades, each)));
+  for (std::size_t i = 1; i < cascades.items.size(); ++i)
+    EXPECT_GE(cascades.items[i].half_extent, cascades.items[i - 1].half_extent);
+}
+
+TEST(VisibleCascades, OfASinglePointHaveAnExtent) {
+  VisibleReceivers point{slice(1, 0)};
+  point[0].bounds.low.z = point[0].bounds.high.z;
+  for (const Cascade& cascade : fit_cascades(inputs(point, 4)).items) {
+    EXPECT_GT(cascade.half_extent, 0);
+    EXPECT_GT(cascade.far_z, cascade.near_z);
+  }
+}
+
+// A receiver's disc is as wide as the light's cone at the height of the highest caster.
+TEST(VisibleCascades, TheLastHoldsTheDiscsOfItsReceivers) {
+  CascadeInputs in = inputs({slice(100, 2), slice(100, 6)}, 3);
+  in.tan_half_angle = std::tan(glm::radians(5.0f));
+  in.casters = {{-1000, 0, -1000}, {1000, 80, 1000}};
+  const Cascades cascades = fit_cascades(in);
+  const glm::dmat3 to_world = glm::transpose(cascades.world_to_light);
+  for (const double x : {-3.0, 3.0}) {
+    for (const double edge : {-1.0, 1.0}) {
+      const glm::dvec3 receiver(x, 0, 10);
+      // The ray from the receiver to an edge of the sun, up to the top of the casters' box.
+      const glm::dvec3 ray = glm::dvec3(edge * in.tan_half_angle, 0, -1);
+      const double height = (cascades.anchor + to_world * receiver).y;
+      const glm::dvec3 top = receiver + ray * ((80 - height) / (to_world * ray).y);
+      const Cascade& last = cascades.items.back();
+      EXPECT_LE(std::abs(top.x - last.center.x), last.half_extent) << x << ", " << edge;
+      EXPECT_GE(top.z, last.near_z);
+    }
+  }
+}
+
+TEST(VisibleCascades, TheLastHoldsOtherReceiversInTheViewAlone) {
+  const VisibleReceivers slices{slice(1000, 1), slice(1000, 2)};
+  CascadeInputs in = inputs(slices, 2);
+  const Cascades without = fit_cascades(in);
+  in.others = {{-1, 0, -40}, {1, 2, -38}};
+  const Cascades ahead = fit_cascades(in);
+  for (const glm::dvec3& corner : in.others.corners()) {
+    const glm::dvec4 clip = ahead.items.back().world_to_clip * glm::dvec4(corner, 1);
+    EXPECT_LE(std::max(std::abs(clip.x), std::abs(clip.y)), 1.0);
+  }
+  EXPECT_EQ(ahead.items.front().half_extent, without.items.front().half_extent);
+  in.others = {{-1, 0, 38}, {1, 2, 40}};  // behind the camera
+  EXPECT_EQ(fit_cascades(in).items.back().half_extent, without.items.back().half_extent);
+}
+
+}  // namespace
+}  // namespace penumbra::shadow
