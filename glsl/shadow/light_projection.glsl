@@ -128,10 +128,12 @@ vec2 map_place(vec3 position, Light light) {
 
 ivec2 last_texel() { return ivec2(shadow.map_size) - 1; }
 
-// Depth in a texel of the light's layer, metres; coordinates outside of the map are clamped to its border.
+// Depth in a texel of the light's layer, metres. Outside of the map there are no casters: it is the far plane's there,
+// as where the sampler's border is read.
 float depth_at(ivec2 texel, Light light) {
   ivec2 within = clamp(texel, ivec2(0), last_texel());
-  return stored_depth(texelFetch(shadow_depth, ivec3(within, light.layer), 0).x, light.map);
+  float stored = texelFetch(shadow_depth, ivec3(within, light.layer), 0).x;
+  return stored_depth(within == texel ? stored : 1.0, light.map);
 }
 
 // Offset of a texel's centre from the receiver.
@@ -157,8 +159,8 @@ vec4 gather_stored(vec2 place, Light light) {
   return textureGather(shadow_depth, vec3(place * light.map.texel_uv, float(light.layer)));
 }
 
-// Depths, metres, of the texels `first` to first + (1, 1), in the order of a Footprint; outside of the map, those of
-// its border.
+// Depths, metres, of the texels `first` to first + (1, 1), in the order of a Footprint; outside of the map, its far
+// plane's.
 vec4 depths_from(ivec2 first, Light light) {
   return stored_depths(gather_stored(vec2(first + 1), light), light.map);
 }

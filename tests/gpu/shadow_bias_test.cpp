@@ -38,7 +38,7 @@ TEST_F(ShadowBias, LitPlanesDoNotShadowThemselves) {
   for (const bool tilted : {false, true}) {
     for (const float elevation : {1.0f, 10.0f, 30.0f, 60.0f, 90.0f}) {
       for (const float angle : {0.0f, 0.53f, 2.0f, 8.0f}) {
-        for (const std::string technique : {"hard", "pcf", "pcss", "brute_force"}) {
+        for (const std::string technique : {"hard", "pcf", "pcss", "slices", "brute_force"}) {
           TriangleScene scene = lone_plane(tilted);
           scene.to_light = sun_direction(35, elevation);
           if (glm::dot(plane_normal(scene), scene.to_light) <= std::sin(glm::radians(angle) / 2)) continue;
@@ -93,7 +93,7 @@ double gap_in_texels(TriangleRenderer& renderer, const std::string& technique, f
 }
 
 TEST_F(ShadowBias, ContactShadowsStartAtTheContact) {
-  for (const std::string technique : {"hard", "pcss", "brute_force"}) {
+  for (const std::string technique : {"hard", "pcss", "slices", "brute_force"}) {
     for (const float elevation : {10.0f, 30.0f, 60.0f}) {
       for (const float height : {0.1f, 0.3f, 1.5f}) {
         EXPECT_LE(gap_in_texels(*renderer_, technique, elevation, height), 2)
@@ -118,7 +118,7 @@ TriangleScene lit_crease(float azimuth, float elevation) {
 }
 
 TEST_F(ShadowBias, LitFacesDoNotShadowEachOtherWhereTheyMeet) {
-  for (const std::string technique : {"hard", "pcss", "brute_force", "every texel"}) {
+  for (const std::string technique : {"hard", "pcss", "slices", "brute_force", "every texel"}) {
     for (const float azimuth : {270.0f, 310.0f, 200.0f}) {
       for (const float elevation : {10.0f, 35.0f, 60.0f, 80.0f}) {
         const TriangleScene scene = lit_crease(azimuth, elevation);
@@ -154,7 +154,7 @@ TriangleScene boxes() {
 }
 
 TEST_F(ShadowBias, FragmentAndComputeGiveTheSameMask) {
-  for (const std::string technique : {"none", "hard", "pcf", "pcss", "brute_force"}) {
+  for (const std::string technique : {"none", "hard", "pcf", "pcss", "slices", "brute_force"}) {
     for (const std::string shape : {"disc", "square"}) {
       ParamSet params = renderer_->params();
       params.set("technique", technique);
@@ -181,7 +181,7 @@ double mean_difference(const Shadowed& a, const Shadowed& b) {
   return sum / (a.width * a.height);
 }
 
-TEST_F(ShadowBias, PcssTendsToHardShadowsAsTheSunShrinks) {
+TEST_F(ShadowBias, SoftShadowsTendToHardOnesAsTheSunShrinks) {
   ParamSet params = renderer_->params();
   params.set("technique", std::string("hard"));
   const auto soft = [&](float angle) {
@@ -192,6 +192,8 @@ TEST_F(ShadowBias, PcssTendsToHardShadowsAsTheSunShrinks) {
   params.set("sun.angle", 0.0f);
   const Shadowed hard = renderer_->render(boxes(), params);
   EXPECT_EQ(mean_difference(soft(0), hard), 0);
+  params.set("technique", std::string("slices"));
+  EXPECT_EQ(mean_difference(renderer_->render(boxes(), params), hard), 0);
   params.set("technique", std::string("brute_force"));
   params.set("brute_force.every_texel", true);
   EXPECT_EQ(mean_difference(renderer_->render(boxes(), params), hard), 0);

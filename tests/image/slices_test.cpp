@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -39,11 +40,12 @@ Figures figures_of(SceneRun& run, const Visibility& truth, const char* technique
   return {decibels(rmse(picture, truth, penumbra)), error / receivers};
 }
 
-// `gain`: dB in the penumbra over pcss with 16/16 taps, and `bias`: greatest, both with 8 slices of 8 samples.
+// What 8 slices of 8 samples reach at least.
 struct Case {
   const char* scene;
-  float angle;
-  double gain, bias;
+  float angle;  // of the sun, degrees
+  double gain;  // dB in the penumbra over pcss with 16/16 taps
+  double bias;  // the greatest that is allowed, whatever its sign
 };
 
 TEST_F(Slices, AreNearerToTheTruthThanPcssWithoutBias) {
@@ -58,6 +60,42 @@ TEST_F(Slices, AreNearerToTheTruthThanPcssWithoutBias) {
     EXPECT_GE(slices.penumbra, pcss.penumbra + gain) << scene;
     EXPECT_LE(std::abs(slices.bias), bias) << scene;
   }
+}
+
+// A software rasteriser ends loops after a limit. At a seam the most slices and samples run twice in a pixel.
+TEST_F(Slices, OfTheMostSamplesAreComplete) {
+  SceneRun run("posts", 48, 32);
+  const auto draw = [&](double share) {
+    run.choose("slices");
+    run.params().set("sun.angle", 4.0f);
+    run.params().set("cascades.blend", 0.5f);
+    for (const char* name : {"slices.azimuths", "slices.samples"})
+      run.params().set(name, static_cast<int>(share * run.params().row(name).max));
+    return run.draw(/*cut=*/true);
+  };
+  const Visibility half = draw(0.5), all = draw(1);
+  const Visibility truth = run.draw_truth(256);
+  const std::vector<std::size_t> penumbra = penumbra_of(truth);
+  ASSERT_GT(penumbra.size(), 50u);
+  EXPECT_LT(rmse(all, half, penumbra), 0.02);
+}
+
+// Beyond the edge of the only map there are no casters: one that reaches the edge must not go on there.
+TEST_F(Slices, SeeNothingBesideTheMap) {
+  SceneRun run("posts", 160, 90);
+  const auto draw = [&](const char* technique) {
+    run.choose(technique);
+    run.params().set("sun.angle", 20.0f);
+    for (const char* setting : {"cascades.count=1", "cascades.distance=3", "cascades.size=256"})
+      run.params().assign(setting);
+    for (const char* name : {"slices.azimuths", "slices.samples"}) run.params().set(name, 32);
+    return run.draw(/*cut=*/true);
+  };
+  const Visibility slices = draw("slices"), reference = draw("brute_force");
+  double darkest = 0;
+  for (std::size_t i = 0; i < slices.size(); ++i)
+    darkest = std::min(darkest, static_cast<double>(slices[i]) - static_cast<double>(reference[i]));
+  EXPECT_GT(darkest, -0.06);
 }
 
 }  // namespace

@@ -78,9 +78,8 @@ Slice walk(Receiver receiver, int azimuth, float radius, PixelNoise noise, float
   float dither = fract(noise.ring + plastic.x * float(azimuth));
   float begin = 0.0;
   float hidden_to = 2.0;  // the share of the rim's radius up to which the last sample hides rays, if it blocks
-  int count = radius > 0.0 ? slices_samples : 1;
-  for (int i = 0; i < count; ++i) {
-    float end = (radius + texel) * spread(float(i + 1) / float(count));
+  for (int i = 0; i < slices_samples; ++i) {
+    float end = (radius + texel) * spread(float(i + 1) / float(slices_samples));
     float at = mix(begin, end, jitter);
     // Moved by up to half a texel: the mean over many samples then weights texels as bilinear filters do.
     vec2 moved = fract(noise.texel + plastic * float(azimuth * slices_samples + i)) - 0.5;
@@ -90,7 +89,7 @@ Slice walk(Receiver receiver, int azimuth, float radius, PixelNoise noise, float
     if (depth < blocking_depths_at(receiver, Offsets(vec4(offset.x), vec4(offset.y)), bias).x) {
       float height = receiver.position.z - depth;
       float per_metre = 1.0 / rim_radius(receiver, height, light);
-      float high = i + 1 < count ? end * per_metre : 2.0;
+      float high = i + 1 < slices_samples ? end * per_metre : 2.0;
       // Down to a lower blocker, the material of a higher one is taken to go on.
       uint rings = rings_between(min(begin * per_metre, hidden_to), high, dither);
       slice.hidden |= rings;
@@ -105,10 +104,24 @@ Slice walk(Receiver receiver, int azimuth, float radius, PixelNoise noise, float
   return slice;
 }
 
+// The shadow of the light's centre, filtered over the map's texel.
+Visibility unsliced(Receiver receiver, float bias, Light light) {
+  Footprint footprint = fetch_footprint(receiver, vec2(0.0), light);
+  vec4 blocks = blocking_texels(receiver, footprint, bias);
+  float covered = bilinear(blocks, footprint.weight);
+  if (covered == 0.0) return fully_lit();
+  float height_sum = bilinear(blocks * (receiver.position.z - footprint.depths), footprint.weight);
+  float mean = max(height_sum / covered, 0.0);
+  float penumbra = penumbra_radius(receiver, mean, light);
+  return Visibility(1.0 - covered, penumbra, mean, penumbra < texel_size(receiver, light));
+}
+
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
   receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
   float radius = walk_radius(receiver, light);
+  // The map can't show a penumbra so narrow. Where none is near, pixels of decided tiles are computed in this way too.
+  if (radius < 0.5 * texel_size(receiver, light)) return unsliced(receiver, bias, light);
   PixelNoise noise = noise_of(receiver);
   int hidden = 0;
   float height_sum = 0.0, blockers = 0.0;

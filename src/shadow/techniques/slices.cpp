@@ -14,8 +14,9 @@ Technique slices() {
       .needs = {"shadow_map", "least_depth_pyramid"},
       .params =
           {
-              {"slices.azimuths", 8, 1, 256, "slices", "Directions in which a pixel's light is followed.", compiled},
-              {"slices.samples", 8, 1, 256, "texels", "Texels that are read along each slice.", compiled},
+              // Mesa's software rasteriser ends loops after 65,535 iterations in total, and a seam draws two layers.
+              {"slices.azimuths", 8, 1, 128, "slices", "Directions in which a pixel's light is followed.", compiled},
+              {"slices.samples", 8, 1, 128, "texels", "Texels that are read along each slice.", compiled},
           },
       .decides_tiles = true,
       .reads_light_discs = true};
