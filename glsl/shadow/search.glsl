@@ -27,13 +27,22 @@ DepthBounds depth_bounds(vec3 position, vec2 radius, Light light) {
   return DepthBounds(stored_depth(stored.x, light), stored_depth(stored.y, light));
 }
 
-// Bounds within a disc and a little beyond: 2 × 2 texels of the finest level that covers it.
-DepthBounds bounds_near(vec3 position, float radius, Light light) {
-  int level = pyramid_level(position, radius, light, pyramid_base, textureQueryLevels(shadow_pyramid));
+// The finest level at which a disc touches at most 2 × 2 texels.
+int disc_level(vec3 position, float radius, Light light) {
+  return pyramid_level(position, radius, light, pyramid_base, textureQueryLevels(shadow_pyramid));
+}
+
+// Bounds over the texels of such a level that a disc touches.
+DepthBounds level_bounds(vec3 position, float radius, int level, Light light) {
   ivec2 last = max(last_texel(), 0) >> (level + 2);
   PyramidTexels stored = pyramid_texels(shadow_pyramid, position, radius, light, pyramid_base, level, last);
   return DepthBounds(stored_depth(min(min(stored.x.x, stored.x.y), min(stored.x.z, stored.x.w)), light),
                      stored_depth(min(min(stored.y.x, stored.y.y), min(stored.y.z, stored.y.w)), light));
+}
+
+// Bounds within a disc and a little beyond.
+DepthBounds bounds_near(vec3 position, float radius, Light light) {
+  return level_bounds(position, radius, disc_level(position, radius, light), light);
 }
 
 // Bounds on where blockers can be.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
@@ -32,10 +33,13 @@ Visibility visibility(Receiver receiver, Light light) { return Visibility(0.5, 0
 shadow::Registry registry_of_marks() {
   shadow::Registry::Contents contents = shadow::built_in_registry().contents();
   for (shadow::Technique& technique : contents.techniques) {
-    if (technique.name == "pcss") technique.glsl = "test/marks.glsl";
+    if (technique.decides_tiles) technique.glsl = "test/marks.glsl";
   }
   return shadow::Registry(std::move(contents));
 }
+
+// Those for which tiles are decided.
+constexpr std::array techniques{"pcss", "slices"};
 
 class Tiles : public GpuTest {
  protected:
@@ -119,7 +123,9 @@ TEST_F(Tiles, DecideMostPixelsAndMissNoPenumbra) {
   for (const char* scene : {"posts", "foliage", "fence", "steps", "courtyard", "thesis"}) {
     SCOPED_TRACE(scene);
     load(scene, 320, 180);
-    for (const float angle : {0.0f, 0.53f, 2.0f, 8.0f}) expect_no_penumbra_is_missed("pcss", angle);
+    for (const float angle : {0.0f, 0.53f, 2.0f, 8.0f}) {
+      for (const char* technique : techniques) expect_no_penumbra_is_missed(technique, angle);
+    }
   }
   load("posts", 640, 360);
   EXPECT_GT(expect_no_penumbra_is_missed("pcss", 0.53f), 0.6);
@@ -146,7 +152,9 @@ TEST_F(Tiles, MissNoPenumbraWithANormalOffset) {
   for (const char* scene : {"posts", "courtyard"}) {
     SCOPED_TRACE(scene);
     load(scene, 320, 180);
-    for (const float angle : {0.0f, 0.53f}) expect_no_penumbra_is_missed("pcss", angle);
+    for (const float angle : {0.0f, 0.53f}) {
+      for (const char* technique : techniques) expect_no_penumbra_is_missed(technique, angle);
+    }
   }
 }
 
@@ -155,7 +163,9 @@ TEST_F(Tiles, MissNoPenumbraOfASquareSun) {
   for (const char* scene : {"posts", "courtyard"}) {
     SCOPED_TRACE(scene);
     load(scene, 320, 180);
-    for (const float angle : {0.53f, 4.0f}) expect_no_penumbra_is_missed("pcss", angle);
+    for (const float angle : {0.53f, 4.0f}) {
+      for (const char* technique : techniques) expect_no_penumbra_is_missed(technique, angle);
+    }
   }
 }
 
@@ -166,8 +176,18 @@ TEST_F(Tiles, MissNoPenumbraAtSeams) {
       settings_ = {fmt::format("cascades.seam={}", seam), "cascades.blend=0.5", fmt::format("cascades.size={}", size)};
       SCOPED_TRACE(fmt::format("{}, {}", scene, settings_[0]));
       load(scene, 320, 180);
-      expect_no_penumbra_is_missed("pcss", 2.0f);
+      for (const char* technique : techniques) expect_no_penumbra_is_missed(technique, 2.0f);
     }
+  }
+}
+
+// Sheets a few millimetres above what they shadow: finer layers show contacts that coarser ones do not.
+TEST_F(Tiles, MissNoContactWhereReceiversReadAFinerLayer) {
+  for (const char* settings : {"cascades.size=256", "bias.normal_offset=4"}) {
+    SCOPED_TRACE(settings);
+    settings_ = {settings};
+    load("coincident", 160, 96);
+    for (const char* technique : techniques) expect_no_penumbra_is_missed(technique, 2.0f);
   }
 }
 

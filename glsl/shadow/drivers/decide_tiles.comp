@@ -41,24 +41,48 @@ Box box_of(Pixels pixels, vec2 range) {
   return box;
 }
 
-// The receiver of the box that is farthest from the light, at the box's centre.
-Receiver receiver_in_box(Box box) {
-  return Receiver(vec3(0.5 * (box.low.xy + box.high.xy), box.high.z), vec3(0.0, 0.0, -1.0), vec2(0.0),
+// A receiver at the box's centre, at this depth.
+Receiver receiver_in_box(Box box, float depth) {
+  return Receiver(vec3(0.5 * (box.low.xy + box.high.xy), depth), vec3(0.0, 0.0, -1.0), vec2(0.0),
                   Surroundings(vec4(0.0), 0.0, 0.0, 0.0), vec2(0.0), false);
 }
 
-// The layers in which the verdict is checked: those that contain the discs of the box's receivers, two at a seam. A
-// receiver's own disc may be bounded less tightly, so that it reads a coarser layer; the verdict holds there too.
+// Bounds of what search_radius() gives the receivers of a box, metres. It reads the texels of the pyramid that a disc
+// around a receiver touches. Such discs touch at least what the disc touches that they have in common, in texels that
+// are as wide or wider, and at most what a disc touches that contains them all.
+struct SearchRadii {
+  float least, most;
+};
+
+SearchRadii search_radii(Receiver shallowest, Receiver deepest, float box_radius, Light widest) {
+  float near_disc = penumbra_radius(shallowest, shallowest.position.z - least_depth(widest), widest);
+  float far_disc = penumbra_radius(deepest, deepest.position.z - least_depth(widest), widest);
+  float footprint = 1.5 * texel_size(deepest, widest);
+  float all = far_disc + footprint + box_radius;
+  float nearest = bounds_near(deepest.position, all, widest).least;
+  SearchRadii radii;
+  radii.most = min(far_disc, penumbra_radius(deepest, deepest.position.z - nearest, widest));
+  radii.least = 0.0;
+  float shared_disc = near_disc + footprint - box_radius;
+  if (shared_disc > 0.0) {
+    int level = disc_level(shallowest.position, near_disc + footprint, widest);
+    nearest = level_bounds(shallowest.position, shared_disc, level, widest).least;
+    radii.least = min(near_disc, penumbra_radius(shallowest, shallowest.position.z - nearest, widest));
+  }
+  return radii;
+}
+
+// The layers that the box's receivers read, two at a seam: the verdict must hold in all of them.
 struct Layers {
   int first, last;
   bool outside;  // some lie in none
 };
 
-Layers layers_of(Receiver deepest, float radius, float box_radius, Light light) {
+Layers layers_of(Receiver shallowest, Receiver deepest, SearchRadii radii, float box_radius, Light light) {
   Layers layers;
-  layers.first = finest_layer(deepest, max(radius - box_radius, 0.0), light);
-  layers.last = finest_layer(deepest, radius + box_radius, light);
-  float edge = layer_edge(layers.last, deepest.position, radius + box_radius);
+  layers.first = finest_layer(shallowest, radii.least - box_radius, light);
+  layers.last = finest_layer(deepest, radii.most + box_radius, light);
+  float edge = layer_edge(layers.last, deepest.position, radii.most + box_radius);
   if (layers.last == light.layers - 1) {
     layers.outside = edge > 1.0;
   } else if (cascades_seam != cascades_seam_none && edge > 1.0 - cascades_blend) {
@@ -137,13 +161,15 @@ bool decide_tile(Pixels pixels, out Decision decision) {
   vec2 half_widths = 0.5 * (box.high.xy - box.low.xy);
   float box_radius = max(half_widths.x, half_widths.y);
   Light light = frame_light();
-  Receiver deepest = receiver_in_box(box);
+  Receiver deepest = receiver_in_box(box, box.high.z);
   Light widest = with_widest_layer(deepest, light);
   float widest_radius = penumbra_radius(deepest, deepest.position.z - least_depth(widest), light);
   vec2 margins = half_widths + (2.0 + bias_normal_offset) * texel_size(deepest, widest);
   float nearest = depth_bounds(deepest.position, margins + widest_radius, widest).least;
   float radius = min(widest_radius, penumbra_radius(deepest, deepest.position.z - nearest, light));
-  Layers layers = layers_of(deepest, radius, box_radius, light);
+  Receiver shallowest = receiver_in_box(box, box.low.z);
+  SearchRadii radii = search_radii(shallowest, deepest, box_radius, widest);
+  Layers layers = layers_of(shallowest, deepest, radii, box_radius, light);
   if (layers.outside) return false;
   light.read_radius = radius;
   // The coarser layer of a seam comes first, so that the decision names the finer one.
