@@ -1,13 +1,14 @@
 """Validates every shader variant that the program can build.
 
 `penumbra-variants FOLDER` writes the stages of each variant and compiles each program with the driver; the reference
-compiler, glslangValidator, then reads every file.
+compiler, glslangValidator, then reads every file. Names that `#if` tests must be defined.
 """
 
 import argparse
 import concurrent.futures
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -19,6 +20,14 @@ def validate(files):
     return result.stdout + result.stderr if result.returncode else ""
 
 
+def undefined_names(file):
+    """Messages for names that a stage tests with #if and never defines, which strict compilers refuse."""
+    text = file.read_text()
+    defined = set(re.findall(r"#\s*define\s+(\w+)", text))
+    tested = {name for line in re.findall(r"#\s*(?:el)?if\s+(.*)", text) for name in re.findall(r"[A-Za-z_]\w*", line)}
+    return "".join(f"{file.name}: #if {name}, which is not defined\n" for name in sorted(tested - defined - {"defined"}))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=pathlib.Path, help="the executable penumbra-variants")
@@ -28,7 +37,7 @@ def main():
         files = sorted(path for path in pathlib.Path(folder).rglob("*") if path.suffix in (".vert", ".frag", ".comp"))
         batches = [files[i : i + 64] for i in range(0, len(files), 64)]
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            messages = [text for text in pool.map(validate, batches) if text]
+            messages = [text for text in (*pool.map(validate, batches), *map(undefined_names, files)) if text]
     for text in messages:
         print(text, end="")
     print(f"shader variants: {len(files)} stages, driver {'accepts' if compiled else 'REFUSES some'}, "

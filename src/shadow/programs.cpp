@@ -178,7 +178,9 @@ gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& param
 gl::ProgramDesc Programs::decide_tiles(const Technique& technique) const {
   const std::string folder = folder_of(owner_of(technique));
   return {.name = "decide tiles",
-          .compute = including(folder, {folder + "/preamble.glsl", "shadow/drivers/decide_tiles.comp"})};
+          .compute = including(folder, {folder + "/preamble.glsl", "shadow/drivers/decide_tiles.comp"}),
+          // It reads no sample points, but the preamble of a technique that has some asks for it.
+          .defines = {{"SAMPLE_ROTATE", "0"}}};
 }
 
 gl::ProgramDesc Programs::decided(const MaskForm& form) const {
