@@ -133,10 +133,8 @@ LightProjection fit_projection(const LightSource& source, const FitInputs& input
 
 LightProjection narrowed(const LightProjection& projection, const LightSource& source, const FitInputs& inputs,
                          const ReadBounds& read) {
-  // A block of the pyramid's base, the texel beside it, and what techniques read beside a receiver's own texel.
-  constexpr double margin = 8;
   Cascades cascades = projection.cascades();
-  ReadMargins margins{.texels = margin + inputs.params.get_float("bias.normal_offset"),
+  ReadMargins margins{.texels = read_margin + inputs.params.get_float("bias.normal_offset"),
                       .ndc = glm::max(std::abs(read.jitter.x), std::abs(read.jitter.y))};
   if (read.moved) margins.nearest = least_depth(cascades.world_to_light, *read.moved, cascades.anchor);
   narrow_to_receivers(cascades, cascade_inputs(source, inputs), margins);

@@ -30,6 +30,10 @@ struct Sun {
 // Most layers that a shadow map can have.
 constexpr int max_layers = 8;
 
+// Texels by which receivers may read a map beyond their discs, without bias.normal_offset: at least a block of the
+// depth pyramid's base (4), the texel beside it, and the 3 texels beside a receiver's own that techniques read.
+constexpr double read_margin = 8;
+
 // The kinds of light.
 using LightSource = std::variant<Sun>;
 

@@ -60,9 +60,11 @@ struct Technique {
   bool denoisable = true;
   // For techniques without `glsl`: the name of the technique that computes shadows on blended surfaces instead.
   std::string stand_in = {};
-  // Whether it reads the light's maps only near receivers of the view: in texels around the receiver, and within
-  // search_radius() (glsl/shadow/search.glsl). Casters are then drawn only where such discs lie, if the same holds for
-  // all else that reads the maps; otherwise in the whole maps.
+  // Whether it reads the light's maps only near receivers of the view. Texels: at most read_margin (light_projection.h)
+  // texels beyond the disc of search_radius() (glsl/shadow/search.glsl) around the receiver. Pyramids: for discs of at
+  // most that radius and 1.5 texels, 2 × 2 texels of the finest level that covers the disc (covering_level() in
+  // glsl/lib/kernel.glsl), as bounds_near() does. Casters are then drawn only there, if the same holds for all else
+  // that reads the maps; otherwise in the whole maps.
   bool reads_light_discs = false;
 };
 

@@ -33,7 +33,8 @@ shadow::Registry reading_anywhere() {
 class NarrowedMaps : public GpuTest {
  protected:
   struct Drawn {
-    std::vector<float> mask, color;
+    std::vector<float> mask;  // of each pixel visibility, penumbra radius, blocker distance and layer
+    std::vector<float> color;
     std::size_t texels = 0;  // of the map's layers together that casters are drawn to
     std::size_t kept = 0;    // layers
   };
@@ -55,7 +56,8 @@ class NarrowedMaps : public GpuTest {
                .camera = setup.camera,
                .last_camera = setup.camera,
                .lights = {setup.sun},
-               .cut = true};
+               .cut = true,
+               .mask_details = true};
   }
 
   void choose(const std::string& technique) {
@@ -139,6 +141,29 @@ TEST_F(NarrowedMaps, PcssIsTheSame) {
 }
 
 TEST_F(NarrowedMaps, HardShadowsAreTheSame) { compare("courtyard", "hard"); }
+
+TEST_F(NarrowedMaps, SlicesAreTheSame) {
+  for (const char* scene : {"courtyard", "posts"}) compare(scene, "slices");
+}
+
+TEST_F(NarrowedMaps, BruteForceIsTheSame) {
+  compare("foliage", "brute_force");
+  for (const bool every_texel : {false, true}) {
+    open("posts", "brute_force");
+    params_.set("brute_force.every_texel", every_texel);
+    expect_same(every_texel ? "every texel" : "256 taps");
+  }
+}
+
+TEST_F(NarrowedMaps, ReceiversThatAreMovedReadTheSameOfASquareSun) {
+  for (const char* technique : {"hard", "pcss", "slices"}) {
+    open("courtyard", technique);
+    params_.set("sun.shape", std::string("square"));
+    params_.set("sun.angle", 4.0f);
+    params_.set("bias.normal_offset", 8.0f);
+    expect_same(technique);
+  }
+}
 
 TEST_F(NarrowedMaps, TheThesisIsTheSame) { compare("foliage", "thesis"); }
 

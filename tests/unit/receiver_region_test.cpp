@@ -97,7 +97,10 @@ TEST(ReceiverRegion, LeavesOutWhatTheViewDoesNotSee) {
   const LightProjection narrow(cascades);
   for (int i = 0; i < narrow.layers(); ++i) {
     EXPECT_EQ(drawn_share(whole, i), 1.0) << i;
-    EXPECT_LE(drawn_share(narrow, i), 1.0) << i;
+    // What is seen near the camera fills the first layer.
+    if (i > 0) {
+      EXPECT_LT(drawn_share(narrow, i), 1.0) << i;
+    }
     EXPECT_EQ(whole.world_to_clip(i), narrow.world_to_clip(i)) << i;
   }
   const int last = narrow.layers() - 1;
