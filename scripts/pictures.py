@@ -24,7 +24,7 @@ FEW = ["--technique", "thesis_8x8", "--set", "filter.penumbra=none", "--set", "f
 
 def techniques():
     return {f"technique_{name}": SOFT + ["--technique", name]
-            for name in ("none", "hard", "pcf", "pcss", "slices", "brute_force", "thesis", "thesis_8x8")}
+            for name in ("none", "hard", "pcf", "pcss", "slices", "brute_force", "hybrid", "thesis", "thesis_8x8")}
 
 
 def patterns():

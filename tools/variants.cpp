@@ -23,6 +23,7 @@
 #include "gl/pass.h"
 #include "gl/shader_source.h"
 #include "render/renderer.h"
+#include "session/techniques.h"
 
 namespace penumbra {
 namespace {
@@ -43,7 +44,7 @@ std::array<Stage, 3> stages_of(const gl::ProgramDesc& program) {
 }
 
 std::vector<Variant> all_variants(gl::Device& device) {
-  render::Renderer renderer(device);
+  render::Renderer renderer(device, session::all_techniques());
   const ParamSet defaults(render::Renderer::params(renderer.registry()));
   std::vector<gl::ProgramDesc> programs = renderer.all_programs(defaults);
 #ifdef PENUMBRA_VIEWER

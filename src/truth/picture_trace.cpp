@@ -64,17 +64,18 @@ PictureTrace::PictureTrace(const EmbreeScene& scene, std::span<const Receiver> r
 }
 
 void PictureTrace::trace_pixel(std::size_t pixel, PixelRays& rays) {
-  const PixelPoints points(options_.seed, static_cast<std::uint32_t>(pixel));
+  const PixelPoints points(options_.seed, static_cast<std::uint32_t>(pixel), options_.scramblings);
   rays.start_at(receivers_[pixel]);
   LitCounts lit{};
   if (!lit_.empty()) lit = lit_[pixel];
   rays.trace(points, points_[pixel], wanted_[pixel], lit);
-  if (points_[pixel] == 0) out_.hard[pixel] = rays.center_lit() ? 1.0f : 0.0f;
+  const bool estimates = options_.scramblings == Scramblings::eight;
+  if (points_[pixel] == 0 && estimates) out_.hard[pixel] = rays.center_lit() ? 1.0f : 0.0f;
   if (!lit_.empty()) lit_[pixel] = lit;
   points_[pixel] = wanted_[pixel];
   const Estimate estimate = estimate_of(lit, points_[pixel]);
   out_.visibility[pixel] = estimate.mean;
-  out_.standard_error[pixel] = estimate.standard_error;
+  if (estimates) out_.standard_error[pixel] = estimate.standard_error;
 }
 
 void PictureTrace::trace_tile(std::size_t tile, PixelRays& rays) {

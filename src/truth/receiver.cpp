@@ -79,23 +79,36 @@ Receiver receiver_at(const Eye& eye, const Ray& ray, const Corners& corners) {
   return receiver;
 }
 
+Receiver receiver_of(const scene::PosedGeometry& geometry, const Eye& eye, const glm::uvec2& drawn,
+                     const glm::ivec2& pixel) {
+  if (drawn.x >= geometry.surfaces.size()) return {};
+  const auto corners = world_triangle(geometry.surfaces[drawn.x], drawn.y);
+  return corners ? receiver_at(eye, eye.ray(pixel.x, pixel.y), *corners) : Receiver{};
+}
+
 }  // namespace
 
 std::vector<Receiver> receivers_of(const scene::PosedGeometry& geometry, const EyeRays& rays,
                                    std::span<const glm::uvec2> drawn) {
   assert(drawn.size() == static_cast<std::size_t>(rays.width) * static_cast<std::size_t>(rays.height));
-  std::vector<Receiver> receivers(drawn.size());
+  std::vector<Receiver> receivers;
+  receivers.reserve(drawn.size());
   const Eye eye(rays);
   for (int y = 0; y < rays.height; ++y) {
-    for (int x = 0; x < rays.width; ++x) {
-      const std::size_t pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(rays.width) + static_cast<std::size_t>(x);
-      const glm::uvec2 which = drawn[pixel];
-      if (which.x >= geometry.surfaces.size()) continue;
-      const auto corners = world_triangle(geometry.surfaces[which.x], which.y);
-      if (corners) receivers[pixel] = receiver_at(eye, eye.ray(x, y), *corners);
-    }
+    for (int x = 0; x < rays.width; ++x)
+      receivers.push_back(receiver_of(geometry, eye, drawn[receivers.size()], {x, y}));
   }
+  return receivers;
+}
+
+std::vector<Receiver> receivers_of(const scene::PosedGeometry& geometry, const EyeRays& rays,
+                                   std::span<const glm::uvec2> drawn, std::span<const std::uint32_t> pixels) {
+  std::vector<Receiver> receivers;
+  receivers.reserve(pixels.size());
+  const Eye eye(rays);
+  const auto width = static_cast<std::uint32_t>(rays.width);
+  for (const std::uint32_t pixel : pixels)
+    receivers.push_back(receiver_of(geometry, eye, drawn[pixel], {pixel % width, pixel / width}));
   return receivers;
 }
 

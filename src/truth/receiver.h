@@ -34,5 +34,8 @@ constexpr std::uint32_t no_surface = 0xffffffff;
 // nearest to the ray. Triangles without area, points and lines are no receivers.
 std::vector<Receiver> receivers_of(const scene::PosedGeometry& geometry, const EyeRays& rays,
                                    std::span<const glm::uvec2> drawn);
+// The same for some pixels, given by their indices in `drawn`.
+std::vector<Receiver> receivers_of(const scene::PosedGeometry& geometry, const EyeRays& rays,
+                                   std::span<const glm::uvec2> drawn, std::span<const std::uint32_t> pixels);
 
 }  // namespace penumbra::truth

@@ -60,20 +60,23 @@ constexpr float unit(std::uint32_t bits) { return static_cast<float>(bits >> 8U)
 
 }  // namespace
 
-PixelPoints::PixelPoints(std::uint32_t seed, std::uint32_t pixel) {
+PixelPoints::PixelPoints(std::uint32_t seed, std::uint32_t pixel, Scramblings scramblings) {
   const std::uint32_t of_pixel = hash(hash(seed) ^ pixel);
+  const bool one = scramblings == Scramblings::one;
+  stride_ = one ? packet_width : 1;
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const std::uint32_t own = hash(of_pixel + 0x9e3779b9U * static_cast<std::uint32_t>(lane));
+    const std::uint32_t own = hash(of_pixel + 0x9e3779b9U * static_cast<std::uint32_t>(one ? 0 : lane));
+    starts_[lane] = static_cast<std::uint32_t>(one ? lane : 0);
     seeds_x_[lane] = hash(own ^ 0x85ebca6bU);
     seeds_y_[lane] = hash(own ^ 0xc2b2ae35U);
   }
 }
 
 TRUTH_WIDE_VECTORS void PixelPoints::square(std::uint32_t index, PacketPoints& points) const {
-  const std::uint32_t second = second_dimension(index);
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    points.x[lane] = unit(reversed_bits(scrambled(index, seeds_x_[lane])));
-    points.y[lane] = unit(reversed_bits(scrambled(second, seeds_y_[lane])));
+    const std::uint32_t own = index * stride_ + starts_[lane];
+    points.x[lane] = unit(reversed_bits(scrambled(own, seeds_x_[lane])));
+    points.y[lane] = unit(reversed_bits(scrambled(second_dimension(own), seeds_y_[lane])));
   }
 }
 

@@ -11,6 +11,10 @@ constexpr int scrambling_count = 8;
 // Rays that are traced together: one point of each scrambling.
 constexpr int packet_width = scrambling_count;
 
+// One: all points of a pixel are the first ones of a single scrambling. They cover the light more evenly, but nothing
+// estimates their error.
+enum class Scramblings { eight, one };
+
 // A point of each scrambling, in the unit square or the unit disc.
 struct PacketPoints {
   alignas(32) std::array<float, packet_width> x;
@@ -24,12 +28,15 @@ struct PacketPoints {
 class PixelPoints {
  public:
   // Points of different pixels, scramblings and seeds are independent.
-  PixelPoints(std::uint32_t seed, std::uint32_t pixel);
+  PixelPoints(std::uint32_t seed, std::uint32_t pixel, Scramblings scramblings = Scramblings::eight);
 
-  // Point number `index` of each scrambling, in the unit square [0, 1)².
+  // Point number `index` of each scrambling, in the unit square [0, 1)²; of a single scrambling, the points from
+  // `index` · packet_width on.
   void square(std::uint32_t index, PacketPoints& points) const;
 
  private:
+  std::uint32_t stride_ = 1;
+  alignas(32) std::array<std::uint32_t, packet_width> starts_{};
   alignas(32) std::array<std::uint32_t, packet_width> seeds_x_;
   alignas(32) std::array<std::uint32_t, packet_width> seeds_y_;
 };

@@ -13,28 +13,14 @@
 #include "shadow/pass_context.h"
 #include "truth/background_tracer.h"
 #include "truth/facing.h"
+#include "truth/frame_rays.h"
+#include "truth/hybrid.h"
 #include "truth/light_pictures.h"
 #include "truth/picture_request.h"
 
 namespace penumbra::truth {
 
 namespace {
-
-// The receivers of a frame's pixels.
-std::vector<Receiver> receivers_of(gl::Device& device, const render::FrameScene& frame,
-                                   const scene::PosedGeometry& geometry) {
-  const gl::Texture& ids =
-      render::draw_surface_ids(device, {.scene = frame.scene, .view = frame.view, .depth = frame.depth});
-  const std::vector<unsigned> values = gl::read_uints(ids, 2);
-  std::vector<glm::uvec2> drawn;
-  drawn.reserve(values.size() / 2);
-  for (std::size_t i = 0; i < values.size(); i += 2)
-    drawn.emplace_back(values[i] == 0 ? no_surface : values[i] - 1, values[i + 1]);
-  const EyeRays rays{.clip_to_world = glm::inverse(glm::dmat4(frame.view.world_to_clip)),
-                     .width = ids.width(),
-                     .height = ids.height()};
-  return receivers_of(geometry, rays, drawn);
-}
 
 TraceOptions trace_options(const ParamSet& params, const TechniqueOptions& options) {
   return {.samples = params.get_int("truth.samples"),
@@ -44,27 +30,8 @@ TraceOptions trace_options(const ParamSet& params, const TechniqueOptions& optio
           .progress = options.progress};
 }
 
-// A frame's light as the tracer's light: one overload for each kind of shadow::LightSource.
-TracedLight traced_light(const shadow::Sun& sun, const ParamSet& params) {
-  return TracedSun{.to_light = glm::dvec3(sun.to_light),
-                   .angle = glm::radians(static_cast<double>(params.get_float("sun.angle"))),
-                   .square = params.get_word("sun.shape") == "square"};
-}
-
 TracedLight light_of(const shadow::PassContext& frame, const TechniqueOptions& options, double seconds) {
-  if (options.local_light) return options.local_light(seconds);
-  return std::visit([&](const auto& source) { return traced_light(source, frame.params()); }, frame.light().source);
-}
-
-// Writes visibility only: ray tracing gives no penumbra radius.
-void fill_mask(const shadow::PassContext& frame, const std::vector<float>& visibility) {
-  const gl::Texture& mask = frame.mask();
-  [[maybe_unused]] const shadow::Rect whole{0, 0, mask.width(), mask.height()};
-  assert(frame.frame().viewport == whole);
-  std::vector<glm::vec4> texels;
-  texels.reserve(visibility.size());
-  for (const float v : visibility) texels.emplace_back(v, 0.0f, 0.0f, 0.0f);
-  mask.upload(GL_RGBA, GL_FLOAT, std::as_bytes(std::span(texels)), 0, frame.frame().layer);
+  return options.local_light ? options.local_light(seconds) : traced_light(frame);
 }
 
 }  // namespace
@@ -109,7 +76,7 @@ PictureRequest TruthTechnique::State::request(const shadow::PassContext& frame, 
                          .width = frame.mask().width(),
                          .light = light_of(frame, options, user.time),
                          .options = trace_options(frame.params(), options)};
-  request.receivers = receivers_of(frame.device(), user, request.geometry);
+  request.receivers = receivers_of(request.geometry, eye_rays(user), drawn_surfaces(frame.device(), user));
   request.casters = key_of(*request.scene, request.geometry);
   request.key = key_of(request.casters, request.receivers, request.width, request.light, request.options);
   return request;
@@ -215,9 +182,7 @@ void TruthTechnique::State::resolve_later(const shadow::PassContext& frame, Ligh
 }
 
 void TruthTechnique::State::resolve(const shadow::PassContext& frame) {
-  const auto* user = static_cast<const render::FrameScene*>(frame.inputs().user);
-  if (user == nullptr) fail("technique 'truth' traces a renderer's scene, and Inputs::user has none");
-  PictureRequest wanted = request(frame, *user);
+  PictureRequest wanted = request(frame, frame_scene(frame, "truth"));
   const LightId id{.view = frame.inputs().view.id, .light = frame.light().id};
   const gl::Pass pass(frame.device(), {.name = "ray trace"});
   if (options.background) {
@@ -268,6 +233,7 @@ shadow::Registry TruthTechnique::registry(const shadow::Registry& base) const {
       .denoisable = false,
       .stand_in = "brute_force",
   });
+  contents.techniques.push_back(hybrid(state_->options.threads));
   return shadow::Registry(std::move(contents));
 }
 

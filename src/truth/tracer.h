@@ -12,6 +12,7 @@
 #include "scene/posed_geometry.h"
 #include "truth/light.h"
 #include "truth/receiver.h"
+#include "truth/sampling.h"
 
 namespace penumbra::truth {
 
@@ -44,6 +45,9 @@ struct TraceOptions {
   // in a penumbra that they missed: if a neighbour has another visibility, it continues to 2 / error samples.
   double error = 0;
   std::uint32_t seed = 0;
+  // With Scramblings::one the samples cover the light more evenly, but Traced has visibility alone, and `error` must be
+  // 0.
+  Scramblings scramblings = Scramblings::eight;
   int threads = 0;  // 0: one for each core
   // Called repeatedly on the thread that called trace(), with the share of the work that is done, 0 to 1; with `error`
   // it is an estimate, which never falls. If it returns false, trace() stops and throws Interrupted.

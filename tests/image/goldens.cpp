@@ -57,6 +57,9 @@ std::span<const Golden> goldens() {
       // Every denoiser on two scenes, with what it keeps from frame to frame.
       {"history_thesis", "thesis", "thesis", {"filter.visibility=none"}, &history, {"history.alpha=1"}, "shadow", 4},
       {"history_foliage", "foliage", "thesis", {"sun.angle=4", "filter.visibility=none"}, &history, {"history.alpha=1"}, "shadow", 4},
+      // Traced where the map can't decide: rays are the same with every rasteriser.
+      {"hybrid_posts", "posts", "hybrid", {"sun.angle=2"}, &rounding, {"technique=hard"}},
+      {"hybrid_foliage", "foliage", "hybrid", {"sun.angle=4"}, &rounding, {"technique=hard"}},
       // Maps fitted to what the view shows.
       {"visible_posts", "posts", "pcss", {"cascades.fit=visible", "cascades.size=256"}, &rounding, {"cascades.fit=stable"}},
       // Every filter.

@@ -72,6 +72,10 @@ TEST_P(Receivers, LieOnThePlaneAndFaceTheEye) {
       for (const std::uint32_t triangle : {0U, 1U}) {
         const std::vector<glm::uvec2> drawn(width * height, glm::uvec2(0, triangle));
         const auto receivers = receivers_of(scene.geometry(), rays, drawn);
+        const std::uint32_t some[] = {3, 77, 150};
+        const auto subset = receivers_of(scene.geometry(), rays, drawn, some);
+        ASSERT_EQ(subset.size(), 3u);
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(subset[i].position, receivers[some[i]].position) << p.name;
         const glm::dvec3 a(glm::vec3(at + glm::vec3(-9, 0, 9)));
         const glm::dvec3 normal = glm::normalize(glm::cross(glm::dvec3(glm::vec3(at + glm::vec3(9, 1, 9))) - a,
                                                             glm::dvec3(glm::vec3(at + glm::vec3(9, 2, -9))) - a));

@@ -49,6 +49,20 @@ TEST(TruthSampling, EveryElementaryIntervalHasOnePoint) {
   }
 }
 
+// So do the points of a single scrambling, which come eight at a time and are those of the first of eight.
+TEST(TruthSampling, OneScramblingComesInOrder) {
+  for (std::uint32_t pixel = 0; pixel < 20; ++pixel) {
+    const PixelPoints one(7, pixel, truth::Scramblings::one);
+    std::vector<glm::dvec2> points;
+    PacketPoints packet;
+    for (std::uint32_t index = 0; index < 8; ++index) {
+      one.square(index, packet);
+      for (std::size_t i = 0; i < truth::packet_width; ++i) points.emplace_back(packet.x[i], packet.y[i]);
+    }
+    EXPECT_EQ(points, points_of(PixelPoints(7, pixel), 0, 64));
+  }
+}
+
 // Over pixels, scramblings and seeds, each point is uniformly distributed, and any two are independent.
 TEST(TruthSampling, ScramblingsAreIndependent) {
   const auto correlation = [](auto first, auto second) {

@@ -1,8 +1,7 @@
 // Decides tiles of 8 × 8 pixels that no penumbra reaches: where the shadow map has no edge within the disc that can
 // block light from a tile's receivers, it shows one surface there, and each receiver lies either on that surface and is
 // lit, or below it and is in shadow. All other tiles are listed: the technique computes their pixels.
-#include "shadow/search.glsl"
-#include "shadow/drivers/gbuffer.glsl"
+#include "shadow/decide.glsl"
 #include "shadow/drivers/tiles.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -89,47 +88,6 @@ Layers layers_of(Receiver shallowest, Receiver deepest, SearchRadii radii, float
     ++layers.last;
   }
   return layers;
-}
-
-// Whether no edge of the map can block light from a part of the box.
-bool edges_are_clear(Receiver deepest, float radius, vec2 half_widths, Light light) {
-  float margin = (2.0 + bias_normal_offset) * texel_size(deepest, light);
-  for (int i = 0; i < 4; ++i) {
-    float nearest = depth_bounds(deepest.position, half_widths + radius + margin, light).edge;
-    if (nearest >= deepest.position.z) return true;
-    float needed = penumbra_radius(deepest, deepest.position.z - nearest, light);
-    if (needed >= radius) return false;
-    radius = needed;
-  }
-  return false;
-}
-
-// What is known of a pixel.
-const int in_shadow = 0, lit = 1, faces_away = 2, undecided = 3;
-
-struct PixelState {
-  int kind;
-  float blocker_distance;  // metres, of a pixel in shadow
-};
-
-// Where no edge of the map is near, the four texels around a pixel show whether it is lit.
-PixelState decide_pixel(ivec2 pixel, Light light) {
-  if (is_sky(pixel)) return PixelState(lit, 0.0);
-  Receiver receiver = receiver_at(pixel);
-  if (light_cosine(receiver) <= 0.0) return PixelState(faces_away, 0.0);
-  receiver = offset_receiver(receiver, light);
-  Footprint footprint = fetch_footprint(receiver, vec2(0.0), light);
-  vec4 heights = heights_above(receiver, footprint.depths, footprint.offsets);
-  float texel = texel_size(receiver, light);
-  float bias = depth_bias(receiver, light);
-  float bend = unresolved_bend * texel * length(receiver.gradient);
-  float least = min(min(heights.x, heights.y), min(heights.z, heights.w));
-  float most = max(max(heights.x, heights.y), max(heights.z, heights.w));
-  // As in with_surroundings(): a bend is forgiven only where a texel shows the receiver's own surface.
-  if (least <= bias && most <= bias + bend) return PixelState(lit, 0.0);
-  bool covered = least > bias + bend + 2.0 * texel;
-  return PixelState(covered ? in_shadow : undecided,
-                    receiver.position.z - bilinear(footprint.depths, footprint.weight));
 }
 
 // Whether all pixels are decided.

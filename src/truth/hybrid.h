@@ -1,0 +1,11 @@
+#pragma once
+
+#include "shadow/technique.h"
+
+namespace penumbra::truth {
+
+// The technique `hybrid`: the shadow map decides the pixels that no penumbra reaches, and rays the others. It works
+// only in frames of a render::Renderer, whose scene it reads. `threads`: of the tracer; 0: one for each core.
+shadow::Technique hybrid(int threads);
+
+}  // namespace penumbra::truth

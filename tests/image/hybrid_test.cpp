@@ -1,0 +1,92 @@
+// The technique hybrid: what the map decides is right, and rays mend the rest.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "gpu/gpu_test.h"
+#include "image/scene_run.h"
+
+namespace penumbra::test {
+namespace {
+
+class Hybrid : public GpuTest {};
+
+std::vector<std::size_t> receivers_of(const SceneRun& run) {
+  std::vector<std::size_t> receivers;
+  const std::vector<std::uint8_t> shown = run.receivers();
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (shown[i] != 0) receivers.push_back(i);
+  }
+  return receivers;
+}
+
+double bias_of(const Visibility& picture, const Visibility& truth, const std::vector<std::size_t>& pixels) {
+  double sum = 0;
+  for (const std::size_t i : pixels) sum += static_cast<double>(picture[i]) - static_cast<double>(truth[i]);
+  return sum / static_cast<double>(pixels.size());
+}
+
+Visibility draw(SceneRun& run, const char* technique, int rays = 16) {
+  run.params().set("technique", std::string(technique));
+  run.params().set("hybrid.rays", rays);
+  return run.draw(/*cut=*/true);
+}
+
+TEST_F(Hybrid, IsNearerToTheTruthThanAnyTechniqueThatReadsTheMapAlone) {
+  // `gain`: least, of 16 rays over pcss with 16/16 taps, dB over all receivers.
+  struct Case {
+    const char* scene;
+    float angle;
+    double gain;
+  };
+  for (const auto& [scene, angle, gain] : {Case{"posts", 0.53f, 10}, {"courtyard", 0.53f, 4}, {"foliage", 2, 4}}) {
+    SceneRun run(scene, 320, 180);
+    run.params().set("sun.angle", angle);
+    const Visibility truth = run.draw_truth(256);
+    const std::vector<std::size_t> receivers = receivers_of(run);
+    const Visibility pcss = draw(run, "pcss"), hybrid = draw(run, "hybrid");
+    const double of_pcss = decibels(rmse(pcss, truth, receivers)), of_hybrid = decibels(rmse(hybrid, truth, receivers));
+    std::printf("%s, %g degrees: pcss %.1f dB, hybrid %.1f dB\n", scene, static_cast<double>(angle), of_pcss,
+                of_hybrid);
+    EXPECT_GE(of_hybrid, of_pcss + gain) << scene;
+    EXPECT_LE(std::abs(bias_of(hybrid, truth, receivers)), 0.0005) << scene;
+  }
+}
+
+// With many rays only the map's verdicts are left to differ from the truth.
+TEST_F(Hybrid, LeavesToRaysWhatTheMapDoesNotShow) {
+  for (const char* scene : {"posts", "steps", "fence"}) {
+    SceneRun run(scene, 320, 180);
+    run.params().set("sun.angle", 2.0f);
+    const Visibility truth = run.draw_truth(1024), hybrid = draw(run, "hybrid", 1024);
+    std::size_t wrong = 0;
+    const std::vector<std::size_t> receivers = receivers_of(run);
+    for (const std::size_t i : receivers) wrong += std::abs(hybrid[i] - truth[i]) > 0.1f ? 1 : 0;
+    EXPECT_LE(static_cast<double>(wrong), 1e-3 * static_cast<double>(receivers.size())) << scene;
+  }
+}
+
+TEST_F(Hybrid, DrawsTheSameEachTime) {
+  SceneRun first("posts", 160, 90), second("posts", 160, 90);
+  const Visibility once = draw(first, "hybrid");
+  EXPECT_EQ(once, draw(first, "hybrid"));
+  EXPECT_EQ(once, draw(second, "hybrid"));
+}
+
+// Nothing moves but the sun's angle, so the tracer of the frame before serves again; a sky alone needs none.
+TEST_F(Hybrid, FollowsItsParametersAndDrawsASky) {
+  SceneRun run("posts", 160, 90);
+  const Visibility narrow = draw(run, "hybrid");
+  run.params().set("sun.angle", 8.0f);
+  EXPECT_NE(draw(run, "hybrid"), narrow);
+  run.camera().view = glm::mat4(1);
+  run.camera().view[3] = glm::vec4(0, -1000, 0, 1);  // above all surfaces, looking ahead
+  for (const float visibility : draw(run, "hybrid")) ASSERT_EQ(visibility, -1);
+}
+
+}  // namespace
+}  // namespace penumbra::test
