@@ -153,8 +153,7 @@ int run_help(const Arguments& arguments) {
   if (const Param* present = params.renamed_from(name))
     cli::fail_usage("parameter '{}' is now called '{}'", name, present->name);
   const std::vector<std::string> near = near_names(name, explained_names());
-  if (near.empty())
-    cli::fail_usage("nothing is called '{}'; see penumbra list, and what it can list with --help", name);
+  if (near.empty()) cli::fail_usage("nothing is called '{}'; see penumbra list --help", name);
   cli::fail_usage("nothing is called '{}'; did you mean '{}'?", name, fmt::join(near, "' or '"));
 }
 

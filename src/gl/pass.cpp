@@ -120,8 +120,4 @@ void Pass::check() const {
   if (debug_) check_errors("");
 }
 
-KeptScissorBox::KeptScissorBox() { glGetIntegerv(GL_SCISSOR_BOX, box_.data()); }
-
-KeptScissorBox::~KeptScissorBox() { glScissor(box_[0], box_[1], box_[2], box_[3]); }
-
 }  // namespace penumbra::gl

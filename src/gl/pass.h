@@ -91,18 +91,6 @@ class Pass {
   ForeignAttachments foreign_;
 };
 
-// Puts the scissor box, which passes with a PassDesc::scissor change, back to what it is now.
-class KeptScissorBox {
- public:
-  KeptScissorBox();
-  ~KeptScissorBox();
-  KeptScissorBox(const KeptScissorBox&) = delete;
-  KeptScissorBox& operator=(const KeptScissorBox&) = delete;
-
- private:
-  std::array<GLint, 4> box_{};  // x, y, width, height
-};
-
 // Unbinds textures and samplers from the first `count` units.
 void unbind_textures(GLuint count);
 

@@ -187,7 +187,8 @@ void begin_raster_state(GLuint framebuffer, const PassDesc& desc) {
   set_enabled(GL_CULL_FACE, desc.cull_back);
   if (!desc.scissor) return;
   glEnable(GL_SCISSOR_TEST);
-  glScissor(desc.scissor->x, desc.scissor->y, desc.scissor->width, desc.scissor->height);
+  // Not glScissor(), which changes the boxes of all viewports.
+  glScissorIndexed(0, desc.scissor->x, desc.scissor->y, desc.scissor->width, desc.scissor->height);
 }
 
 void unbind_textures(GLuint count) {

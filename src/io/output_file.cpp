@@ -35,8 +35,7 @@ struct Slot {
 };
 std::array<Slot, 16> slots;
 
-void remember(const fs::path& path) {
-  const std::string& name = path.native();
+void remember(const std::string& name) {
   if (name.size() >= PATH_MAX) return;
   for (Slot& slot : slots) {
     if (slot.used.exchange(true)) continue;
@@ -73,7 +72,8 @@ class HeldSignals {
 };
 
 // A signal that ends the program is handled on any thread that doesn't block it. The handler waits until no file is
-// being created that the slots don't name yet, and none is created from then on.
+// being created that the slots don't name yet, and none is created from then on. While a Creation exists, its thread
+// neither allocates nor takes a lock: the thread that the handler runs on may hold that lock.
 std::atomic<int> creations = 0;
 std::atomic<bool> ending = false;
 
@@ -122,15 +122,33 @@ fs::path target_of(const fs::path& path) {
   return target;
 }
 
-// Creates an empty file beside `target` that only this user may read and write.
-fs::path make_temporary(const fs::path& path, const fs::path& target) {
+// The name of a temporary beside `target`, for mkostemp().
+std::string pattern_beside(const fs::path& target) {
   constexpr size_t longest = 200;  // bytes of the name, so that it and its ending fit a file system's 255
   const std::string name = fmt::format(".{}.XXXXXX", target.filename().string().substr(0, longest));
-  std::string pattern = (folder_of(target) / name).string();
-  const int file = mkostemp(pattern.data(), O_CLOEXEC);
-  if (file < 0) fail_write(path, std::strerror(errno));
+  return (folder_of(target) / name).string();
+}
+
+// Creates an empty file beside `target` that only this user may read and write, and that a signal handler knows.
+fs::path make_temporary(const fs::path& path, const fs::path& target) {
+  std::string name = pattern_beside(target);
+  int file = -1, fault = 0;
+  {
+    const Creation creation;
+    file = mkostemp(name.data(), O_CLOEXEC);
+    fault = errno;
+    if (file >= 0) remember(name);
+  }
+  if (file < 0) fail_write(path, std::strerror(fault));
   close(file);
-  return pattern;
+  return name;
+}
+
+// Whether a file can be created beside `target`.
+void try_temporary(const fs::path& path, const fs::path& target) {
+  const fs::path temporary = make_temporary(path, target);
+  unlink(temporary.c_str());
+  forget(temporary);
 }
 
 // Where what goes to a device, a pipe or an open file is collected.
@@ -184,9 +202,7 @@ std::string quoted(const fs::path& path) { return fmt::format("'{}'", path.strin
 OutputFile::OutputFile(fs::path path) : path_(std::move(path)), target_(target_of(path_)), stream_(is_stream(target_)) {
   if (stream_) {
     check_stream(target_, path_);
-    const Creation creation;
     temporary_ = make_temporary(path_, temporary_place(target_));
-    remember(temporary_);
     return;
   }
   refuse_all_but_files(path_, target_);
@@ -195,9 +211,7 @@ OutputFile::OutputFile(fs::path path) : path_(std::move(path)), target_(target_o
   fs::create_directories(folder_of(target_), error);
   try {
     if (error) fail_write(path_, error.message());
-    const Creation creation;
     temporary_ = make_temporary(path_, target_);
-    remember(temporary_);
   } catch (const Error&) {
     remove_made_folders();
     throw;
@@ -234,8 +248,7 @@ void check_writable(const fs::path& path) {
   const fs::path target = target_of(path);
   if (is_stream(target)) {
     check_stream(target, path);
-    const Creation creation;
-    unlink(make_temporary(path, temporary_place(target)).c_str());
+    try_temporary(path, temporary_place(target));
     return;
   }
   refuse_all_but_files(path, target);
@@ -244,8 +257,7 @@ void check_writable(const fs::path& path) {
   while (!fs::exists(folder, error) && !error && folder.has_relative_path()) folder = folder_of(folder);
   if (error) fail_write(path, error.message());
   if (!fs::is_directory(folder, error)) fail_write(path, quoted(folder) + " is not a folder");
-  const Creation creation;
-  unlink(make_temporary(path, folder / target.filename()).c_str());
+  try_temporary(path, folder / target.filename());
 }
 
 fs::path place_of(const fs::path& path) {
@@ -281,8 +293,9 @@ void write_files(const fs::path& folder, std::span<const std::pair<std::string, 
 }
 
 void exit_without_temporaries(int code) noexcept {
+  constexpr int longest_wait = 1000;  // milliseconds: no disk may keep the program from ending
   ending = true;
-  while (creations > 0) poll(nullptr, 0, /*milliseconds=*/1);
+  for (int waited = 0; creations > 0 && waited < longest_wait; ++waited) poll(nullptr, 0, /*milliseconds=*/1);
   for (Slot& slot : slots) {
     if (slot.ready) unlink(slot.name.data());
   }

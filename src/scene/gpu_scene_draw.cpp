@@ -104,10 +104,17 @@ void DrawList::add_part(const Instance& instance, std::uint32_t index, const Bat
   ++batches.back().count;
 }
 
+// A camera that moves never needs a larger buffer.
+std::size_t GpuScene::State::most_commands() const {
+  std::size_t most = 0;
+  for (const Instance& instance : instances) most += instance.parts != nullptr ? instance.parts->size() : 1;
+  return most;
+}
+
 void GpuScene::State::draw(gl::Device& device, gl::Pass& pass, const DrawList& list, const UseProgram& use) const {
   if (list.commands.empty()) return;
   const auto bytes = std::as_bytes(std::span(list.commands));
-  const gl::Buffer& commands = device.scratch("draw commands", bytes.size());
+  const gl::Buffer& commands = device.scratch("draw commands", most_commands() * sizeof(gl::DrawElementsCommand));
   commands.write(bytes);
   instance_blocks.bind_storage(instances_binding);
   const SurfaceTraits* used = nullptr;
@@ -129,7 +136,7 @@ void GpuScene::State::draw_unindexed(gl::Device& device, gl::Pass& pass, const D
   if (list.commands.empty()) return;
   const std::vector<gl::DrawArraysCommand> draws = without_indices(list.commands);
   const auto bytes = std::as_bytes(std::span(draws));
-  const gl::Buffer& commands = device.scratch("draw commands", bytes.size());
+  const gl::Buffer& commands = device.scratch("draw commands", most_commands() * sizeof(gl::DrawElementsCommand));
   commands.write(bytes);
   instance_blocks.bind_storage(instances_binding);
   indices.bind_storage(indices_binding);

@@ -112,6 +112,7 @@ struct GpuScene::State {
   PosedVertices& posed_at(gl::Device& device, double time, const PosedVertices* keep);
   void set_vertex_arrays() const;
   void update_instances();
+  std::size_t most_commands() const;  // of a draw of all instances, in parts
   void choose_faces();
   void update_caster_bounds();
   // `use`: called with the traits of the batches that follow, where they differ from those before; absent: the caller

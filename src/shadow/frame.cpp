@@ -181,7 +181,7 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, const ViewS
   frame.shape = shape_of(light.source, state.params);
   take_shape(state, frame.shape);
   begin_frame(state, light, frame.projection.layers(), same_params);
-  if (!same_params || visible) state.drawn_texels.reset();
+  if (visible) state.drawn_texels.reset();
 
   const Technique& technique = from.registry.find(state.params.get_word("technique"));
   const Denoiser* denoiser = denoiser_for(from.registry, technique, state.params);

@@ -77,6 +77,7 @@ bool take_params(LightState& state, const GivenParams& given, const Light& light
   state.params = std::move(own);
   state.programs.clear();
   state.samples.clear();
+  if (!same) state.drawn_texels.reset();
   state.uploaded = false;
   state.changed = true;
   return same;

@@ -27,7 +27,6 @@ std::optional<gl::TexelRect> scissor_of(const LightProjection& projection, int l
 }  // namespace
 
 void draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs) {
-  std::optional<gl::KeptScissorBox> callers_scissor;
   for (int i = 0; i < inputs.projection.layers(); ++i) {
     if (inputs.kept[static_cast<size_t>(i)]) continue;
     gl::PassDesc desc{.name = "shadow map",
@@ -35,7 +34,6 @@ void draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs) {
                       .depth_test = gl::DepthTest::less_equal,
                       .depth_write = true};
     desc.scissor = scissor_of(inputs.projection, i);
-    if (desc.scissor && !callers_scissor) callers_scissor.emplace();
     const CullVolume cull = inputs.projection.cull_volume(i);
     const bool marks = inputs.moved != nullptr && may_hold_moved(cull, inputs.moved_bounds);
     if (marks) desc.colors = {{.texture = inputs.moved, .layer = i, .clear = glm::vec4(0)}};

@@ -73,9 +73,12 @@ TEST_F(RenderSteadyFrame, AFrameOfAnotherSizeIsSeenToMakeObjects) {
 
 TEST_F(RenderSteadyFrame, MakesNothingAndAsksNothingUnderAnyTechnique) {
   for (const std::string& name : renderer->registry().names()) {
-    SCOPED_TRACE(name);
-    renderer->registry().select(params, name);
-    expect_steady();
+    for (const bool keep : {true, false}) {
+      SCOPED_TRACE(name + (keep ? "" : ", maps drawn anew"));
+      renderer->registry().select(params, name);
+      params.set("maps.keep", keep);
+      expect_steady();
+    }
   }
 }
 
@@ -88,6 +91,34 @@ TEST_F(RenderSteadyFrame, GeneratesTheShaderOfBlendedSurfacesOnce) {
   files.put(name, "not compiled again");
   draw();
   EXPECT_EQ(files.read(name), "not compiled again");
+}
+
+// A field of 40 × 40 small squares, which is culled in parts.
+scene::Primitive field() {
+  scene::Primitive field;
+  for (int i = 0; i < 1600; ++i) {
+    const glm::vec3 at(i % 40 - 20, i / 40 - 20, 0);
+    const auto first = static_cast<std::uint32_t>(field.positions.size());
+    for (const glm::vec3& corner : {glm::vec3(0), {0.5f, 0, 0}, {0.5f, 0.5f, 0}, {0, 0.5f, 0}}) {
+      field.positions.push_back(at + corner);
+      field.normals.emplace_back(0, 0, 1);
+    }
+    for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) field.indices.push_back(first + corner);
+  }
+  return field;
+}
+
+TEST_F(RenderSteadyFrame, MakesNothingWhileTheCameraShowsMoreAndMore) {
+  scene = {};
+  add_node(scene, field(), glm::mat4(1));
+  for (float distance = 0.5f; distance < 40; distance *= 1.5f) {
+    inputs.camera = inputs.last_camera = render::look_at({0, 0, distance}, {0, 0, 0}, 1.0f, 0.01f);
+    const GlCalls creations(GlCalls::Kind::creations);
+    draw();
+    if (distance > 0.5f) {
+      EXPECT_EQ(creations.counts(), Counts()) << distance;
+    }
+  }
 }
 
 TEST_F(RenderSteadyFrame, MakesNothingWithHistoryWhileACasterMoves) {

@@ -142,7 +142,11 @@ class Disturbed {
     EXPECT_EQ(integers(GL_ACTIVE_TEXTURE)[0], GL_TEXTURE5);
     EXPECT_EQ(integers(GL_PROVOKING_VERTEX)[0], GL_FIRST_VERTEX_CONVENTION);
     EXPECT_EQ(integers(GL_LOGIC_OP_MODE)[0], GL_CLEAR);
-    EXPECT_EQ(integers<4>(GL_SCISSOR_BOX), (std::array<GLint, 4>{0, 0, 1, 1}));
+    for (GLuint viewport = 1; viewport < 16; ++viewport) {
+      std::array<GLint, 4> box{};
+      gl::glGetIntegeri_v(GL_SCISSOR_BOX, viewport, box.data());
+      EXPECT_EQ(box, (std::array<GLint, 4>{0, 0, 1, 1})) << viewport;
+    }
     for (const GLenum color : {GL_COLOR_CLEAR_VALUE, GL_BLEND_COLOR}) {
       std::array<GLfloat, 4> values{};
       gl::glGetFloatv(color, values.data());

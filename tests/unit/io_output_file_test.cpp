@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/error.h"
@@ -194,6 +195,25 @@ TEST_F(OutputFileTest, ASignalHandlerCanEndTheProcessWithoutLeavingTemporaries) 
   EXPECT_EQ(files().size(), 1u);
   EXPECT_EXIT(exit_without_temporaries(7), testing::ExitedWithCode(7), "");
   EXPECT_TRUE(files().empty());
+}
+
+// The process creates files without a pause while the signal arrives on another thread.
+[[noreturn]] void create_until_a_signal(const fs::path& folder, useconds_t after) {
+  std::signal(SIGTERM, [](int) { exit_without_temporaries(7); });
+  const std::thread creator([&] {
+    for (;;) const OutputFile file(folder / "x.txt");
+  });
+  usleep(after);
+  std::raise(SIGTERM);
+  std::abort();  // the handler does not return
+}
+
+TEST_F(OutputFileTest, ASignalWhileFilesAreCreatedLeavesNone) {
+  GTEST_FLAG_SET(death_test_style, "fast");
+  for (useconds_t run = 0; run < 60; ++run) {
+    EXPECT_EXIT(create_until_a_signal(folder_, 1000 + 13 * run), testing::ExitedWithCode(7), "");
+    ASSERT_TRUE(files().empty()) << run;
+  }
 }
 
 TEST_F(OutputFileTest, RefusesPlacesThatCannotBeWritten) {
