@@ -219,10 +219,9 @@ OutputFile::OutputFile(fs::path path) : path_(std::move(path)), target_(target_o
 }
 
 OutputFile::~OutputFile() {
-  forget(temporary_);
-  if (committed_) return;
-  unlink(temporary_.c_str());
-  remove_made_folders();
+  if (!committed_) unlink(temporary_.c_str());
+  forget(temporary_);  // last, as a signal may arrive before
+  if (!committed_) remove_made_folders();
 }
 
 // Removes only empty folders: another program may have written into them meanwhile.

@@ -31,7 +31,7 @@ struct ForwardProgram {
 //     polygon mode, clip control, point and line size;
 //   - the program, the vertex array, the draw and read framebuffers, textures and samplers of units 0 to 15, images of
 //     units 0 to 7, the buffers of indirect draws and dispatches: all are unbound.
-// It changes without resetting: the viewport, the scissor box of viewport 0, the blend function and equation, uniform
+// It changes without resetting: all viewports, the scissor box of viewport 0, the blend function and equation, uniform
 // buffer bindings 0 to 2, storage buffer binding 7, and with them the generic bindings GL_UNIFORM_BUFFER and
 // GL_SHADER_STORAGE_BUFFER. All other state is unchanged, including pixel-store state and the buffers bound for pixel
 // transfers, except for what the caster callback and the caller's own techniques change. After an Error any of the

@@ -82,7 +82,8 @@ class Disturbed {
     gl::glBindVertexArray(vertex_array_);
     for (const GLenum capability : capabilities) gl::glEnable(capability);
     gl::glDisable(GL_DITHER);
-    gl::glScissor(0, 0, 1, 1);
+    for (GLuint viewport = 0; viewport < 16; ++viewport)
+      gl::glScissorIndexed(viewport, static_cast<GLint>(viewport), 0, 1, 1);
     gl::glViewport(3, 3, 1, 1);
     gl::glStencilFunc(GL_NEVER, 1, 0xff);
     gl::glStencilOp(GL_INCR, GL_INCR, GL_INCR);
@@ -145,7 +146,7 @@ class Disturbed {
     for (GLuint viewport = 1; viewport < 16; ++viewport) {
       std::array<GLint, 4> box{};
       gl::glGetIntegeri_v(GL_SCISSOR_BOX, viewport, box.data());
-      EXPECT_EQ(box, (std::array<GLint, 4>{0, 0, 1, 1})) << viewport;
+      EXPECT_EQ(box, (std::array<GLint, 4>{static_cast<GLint>(viewport), 0, 1, 1})) << viewport;
     }
     for (const GLenum color : {GL_COLOR_CLEAR_VALUE, GL_BLEND_COLOR}) {
       std::array<GLfloat, 4> values{};
