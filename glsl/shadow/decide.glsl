@@ -26,11 +26,8 @@ struct PixelState {
   float blocker_distance;  // metres, of a pixel in shadow
 };
 
-// Where no edge of the map is near, the four texels around a pixel show whether it is lit.
-PixelState decide_pixel(ivec2 pixel, Light light) {
-  if (is_sky(pixel)) return PixelState(lit, 0.0);
-  Receiver receiver = receiver_at(pixel);
-  if (light_cosine(receiver) <= 0.0) return PixelState(faces_away, 0.0);
+// Where no edge of the map is near, the four texels around a receiver that faces the light show whether it is lit.
+PixelState decide_receiver(Receiver receiver, Light light) {
   receiver = offset_receiver(receiver, light);
   Footprint footprint = fetch_footprint(receiver, vec2(0.0), light);
   vec4 heights = heights_above(receiver, footprint.depths, footprint.offsets);
@@ -44,4 +41,11 @@ PixelState decide_pixel(ivec2 pixel, Light light) {
   bool covered = least > bias + bend + 2.0 * texel;
   return PixelState(covered ? in_shadow : undecided,
                     receiver.position.z - bilinear(footprint.depths, footprint.weight));
+}
+
+PixelState decide_pixel(ivec2 pixel, Light light) {
+  if (is_sky(pixel)) return PixelState(lit, 0.0);
+  Receiver receiver = receiver_at(pixel);
+  if (light_cosine(receiver) <= 0.0) return PixelState(faces_away, 0.0);
+  return decide_receiver(receiver, light);
 }

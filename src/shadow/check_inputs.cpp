@@ -185,6 +185,8 @@ void check(const Inputs& inputs, TextureChecks& checks) {
                     checks);
   }
   check_viewport(inputs.viewport, inputs.depth);
+  const Box& forward = inputs.forward_receivers;
+  if (!glm::all(glm::greaterThan(forward.min, forward.max))) check_box("forward receivers", forward);
   const bool none_moved = inputs.moved && glm::all(glm::greaterThan(inputs.moved->min, inputs.moved->max));
   if (inputs.moved && !none_moved) check_finite("moved casters", *inputs.moved);
   check_lights(inputs, checks);

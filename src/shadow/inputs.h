@@ -135,7 +135,8 @@ struct Inputs {
 
 // Throws Error, in one line that names the input and the fault, for: textures that don't exist, have the wrong size or
 // a format that does not suit their use; matrices that are not finite or not invertible; boxes that are empty or not
-// finite (`moved` may be empty); lights without direction, without maps, or with the same id as another.
+// finite (`moved` and `forward_receivers` may be empty); lights without direction, without maps, or with the same id as
+// another.
 void check(const Inputs& inputs);
 
 // Inputs::viewport, or the whole depth texture if that has no size.

@@ -43,7 +43,7 @@ std::vector<Param> map_rows() {
       word(
           "cascades.fit", {"stable", "visible"},
           "What cascades are fitted to: what the camera could see, so that shadows stay still while it moves (stable), "
-          "or the depth buffer of each frame, so that texels are several times finer (visible)."),
+          "or the depth buffer of each frame, so that texels lie where pixels do (visible)."),
       {"cascades.split", 0.75f, 0, 1, "", "Spacing of the cascades: 0 uniform, 1 logarithmic.", host},
       {"cascades.distance", 0.0f, 0, 1e7, "m", "Range of the last cascade; 0: as far as the view sees the scene.",
        host},

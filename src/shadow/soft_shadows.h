@@ -52,6 +52,9 @@ struct ForwardProgram {
 // maps.keep. All are drawn anew after View::cut, after an Error, in frames whose View::last_view or last_projection are
 // not the matrices of the view's last frame, and when a shader changed (gl::ShaderLibrary::changed()).
 //
+// Waiting. With the parameter cascades.fit=visible, render() waits once a light until the GPU has finished all earlier
+// work and has found what the depth texture shows. No other step of the library's own reads back what the GPU computes.
+//
 // Throws Error for bad input (see check()) and for shaders that do not compile. A caller's texture is checked again
 // only when its name, size or use differs from the last frame of the view.
 class SoftShadows {

@@ -45,6 +45,12 @@ TEST_F(ShadowInputs, MatricesAndBoxesAreChecked) {
   expect_refusal("the bounding box of the moved casters is not finite", [](Inputs& in) {
     in.moved = shadow::Box{glm::vec3(0), {0, NAN, 0}};
   });
+  expect_refusal("the bounding box of the forward receivers is not finite", [](Inputs& in) {
+    in.forward_receivers = {glm::vec3(0), {0, NAN, 0}};
+  });
+  expect_refusal("the bounding box of the forward receivers is empty", [](Inputs& in) {
+    in.forward_receivers = {{0, 2, 0}, {1, 1, 1}};
+  });
   EXPECT_NO_THROW(renderer.render(box_on_ground(48), params, [](Inputs& in) {
     in.moved = shadow::Box{glm::vec3(infinite), glm::vec3(-infinite)};
   })) << "none moved";

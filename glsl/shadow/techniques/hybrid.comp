@@ -18,7 +18,7 @@ int verdict_of(ivec2 pixel) {
   if (choice.outside) return undecided;
   light = with_layer(light, choice.layer);
   if (!edges_are_clear(receiver, radius, vec2(0.0), light)) return undecided;
-  return decide_pixel(pixel, light).kind;
+  return decide_receiver(receiver, light).kind;
 }
 
 void main() {
