@@ -27,6 +27,13 @@ def techniques():
             for name in ("none", "hard", "pcf", "pcss", "slices", "brute_force", "hybrid", "thesis", "thesis_8x8")}
 
 
+def layers():
+    below = WIDE + ["--sun-angle", "2", "--technique"]
+    fine = [setting for name in ("azimuths", "samples") for setting in ("--set", f"slices.{name}=32")]
+    rows = {f"layers_{count}": below + ["slices", *fine, "--set", f"maps.layers={count}"] for count in (1, 2)}
+    return {**rows, "layers_truth": below + ["truth"]}
+
+
 def patterns():
     names = ("vogel", "regular", "uniform", "poisson", "poisson_hierarchical", "hammersley", "halton")
     return {f"pattern_{name}": WIDE + FEW + ["--set", f"sampling.filter_pattern={name}", "--set",
@@ -55,7 +62,7 @@ def histories():
     return rows
 
 
-PICTURES = {**techniques(), **patterns(), **noises(), **filters(), **histories()}
+PICTURES = {**techniques(), **layers(), **patterns(), **noises(), **filters(), **histories()}
 
 
 def draw(program, name):

@@ -1,4 +1,4 @@
-// Alpha test of shadow casters, and the output that marks casters that moved.
+// Alpha test of shadow casters, the test against a first layer of depths, and the output that marks casters that moved.
 #if MASKED
 #include "scene/material.glsl"
 
@@ -12,7 +12,17 @@ in Caster {
 layout(location = 0) out float moved;
 #endif
 
+#if BEHIND
+layout(binding = 13) uniform sampler2DArray first_layer;
+uniform int map_layer;
+uniform float least_gap;
+#endif
+
 void main() {
+#if BEHIND
+  float first = texelFetch(first_layer, ivec3(ivec2(gl_FragCoord.xy), map_layer), 0).x;
+  if (gl_FragCoord.z <= first + least_gap) discard;
+#endif
 #if MASKED
   if (base_color(caster.uv, caster.color).a < material.alpha_cutoff) discard;
 #endif

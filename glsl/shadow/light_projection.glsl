@@ -128,13 +128,15 @@ vec2 map_place(vec3 position, Light light) {
 
 ivec2 last_texel() { return ivec2(shadow.map_size) - 1; }
 
-// Depth in a texel of the light's layer, metres. Outside of the map there are no casters: it is the far plane's there,
-// as where the sampler's border is read.
-float depth_at(ivec2 texel, Light light) {
+// Depth in a texel of the light's layer of a map, metres. Outside of the map there are no casters: it is the far plane's
+// there, as where the sampler's border is read.
+float depth_in(sampler2DArray map, ivec2 texel, Light light) {
   ivec2 within = clamp(texel, ivec2(0), last_texel());
-  float stored = texelFetch(shadow_depth, ivec3(within, light.layer), 0).x;
+  float stored = texelFetch(map, ivec3(within, light.layer), 0).x;
   return stored_depth(within == texel ? stored : 1.0, light.map);
 }
+
+float depth_at(ivec2 texel, Light light) { return depth_in(shadow_depth, texel, light); }
 
 // Offset of a texel's centre from the receiver.
 vec2 texel_offset(Receiver receiver, ivec2 texel, Light light) {

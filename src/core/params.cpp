@@ -112,6 +112,8 @@ ParamValue checked_value(const Param& param, const ParamValue& value) {
 
 std::vector<ParamValue> representative_values(const Param& param) {
   if (std::holds_alternative<bool>(param.default_value)) return {false, true};
+  if (std::holds_alternative<int>(param.default_value) && param.max == param.min + 1)
+    return {static_cast<int>(param.min), static_cast<int>(param.max)};
   if (param.choices.empty()) return {param.default_value};
   return {param.choices.begin(), param.choices.end()};
 }

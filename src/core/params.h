@@ -43,8 +43,8 @@ ParamValue parse_value(const Param& param, std::string_view text);
 // Checks type and range of a typed value (a preset's); ints convert to float. Throws Error as parse_value.
 ParamValue checked_value(const Param& param, const ParamValue& value);
 
-// Values that between them reach every branch that a compiled parameter can open: both switches, every word, and a
-// number's default.
+// Values that between them reach every branch that a compiled parameter can open: both switches, every word, both
+// values of an integer that has two, and another number's default.
 std::vector<ParamValue> representative_values(const Param& param);
 
 // The declared rows and their present values. Copyable: a preset is a copy with changes; copies share the rows.

@@ -36,10 +36,15 @@ scene::CasterSubset casters_of(shadow::CasterKind kind) {
     case shadow::CasterKind::depth_and_moved:
       return scene::CasterSubset::all_and_moved;
     case shadow::CasterKind::depth:
+    case shadow::CasterKind::second_depth:
     case shadow::CasterKind::geometry:
       break;
   }
   return scene::CasterSubset::all;
+}
+
+scene::FirstLayer first_layer_of(const shadow::CasterPass& casters) {
+  return {.texture = casters.first.texture, .layer = casters.layer, .gap = casters.first.gap};
 }
 
 }  // namespace
@@ -66,7 +71,11 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
       inputs.scene.draw_caster_geometry(device, pass, casters.program, casters.world_to_clip, light, reaches);
     } else {
       const auto reaches = [&](const scene::Bounds& box) { return overlap_of(casters.cull, box_of(box)); };
-      inputs.scene.draw_casters(device, pass, casters_of(casters.kind), casters.world_to_clip, reaches);
+      if (casters.kind == shadow::CasterKind::second_depth) {
+        inputs.scene.draw_casters_behind(device, pass, first_layer_of(casters), casters.world_to_clip, reaches);
+      } else {
+        inputs.scene.draw_casters(device, pass, casters_of(casters.kind), casters.world_to_clip, reaches);
+      }
     }
   };
   return inputs.soft_shadows.render({.view = {.view = inputs.camera.view,

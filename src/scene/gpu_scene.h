@@ -39,6 +39,13 @@ enum class CasterSubset {
   moved_last,  // casters that moved, at their last position; writes 1 to output 0
 };
 
+// Depths that an earlier pass left, for drawing what lies behind them.
+struct FirstLayer {
+  unsigned texture = 0;  // OpenGL name of an array of depths
+  int layer = 0;         // of the array
+  float gap = 0;         // least difference of depths
+};
+
 // A scene on the GPU: one set of vertex buffers, one index buffer and one instance buffer for all primitives. `scene`
 // must outlive this object and stay unchanged.
 class GpuScene {
@@ -71,6 +78,10 @@ class GpuScene {
   // that overlaps in part, `reaches` is asked for its parts too.
   void draw_casters(gl::Device& device, gl::Pass& pass, CasterSubset casters, const glm::mat4& world_to_clip,
                     const BoxOverlap& reaches);
+  // Draws the depth of all casters behind the first layer: of double-sided materials both faces, of others only the
+  // face towards the light, unless they were told to cast from their back faces.
+  void draw_casters_behind(gl::Device& device, gl::Pass& pass, const FirstLayer& first, const glm::mat4& world_to_clip,
+                           const BoxOverlap& reaches);
   // Draws the triangles of opaque and masked casters with caster_geometry_programs(stages), without the alpha test of
   // masked surfaces. Where only one face casts, a triangle whose other face is towards the light has all corners in one
   // place. `light`: homogeneous world coordinates, with w = 0 for a direction to the light, else 1.

@@ -15,25 +15,43 @@ namespace {
 // determinant.
 bool turns_round(const glm::mat4& world_to_clip) { return glm::determinant(world_to_clip) > 0; }
 
+// Behind the first layer only one face of single-sided materials casts: a closed object's underside would hide what
+// lies below it.
+CasterFaces faces_of(const Instance& instance, bool behind) {
+  const bool one_face = behind && *instance.faces == CasterFaces::both && !instance.double_sided;
+  return one_face ? CasterFaces::front : *instance.faces;
+}
+
 // All casters of both faces without a material share one draw. Where only one face casts, the other face is culled like
 // back faces.
-Batch caster_batch(const Instance& instance, bool masked, bool flips) {
+Batch caster_batch(const Instance& instance, CasterFaces faces, bool masked, bool flips) {
   Batch batch{.deformed = instance.job >= 0, .double_sided = true, .material = masked ? instance.material : -1};
-  if (instance.faces == CasterFaces::both) return batch;
+  if (faces == CasterFaces::both) return batch;
   batch.double_sided = false;
-  batch.mirrored = (instance.mirrored != flips) != (instance.faces == CasterFaces::back);
+  batch.mirrored = (instance.mirrored != flips) != (faces == CasterFaces::back);
   return batch;
+}
+
+constexpr GLuint first_layer_unit = 13;  // glsl/scene/caster.frag; below it are the units of materials
+
+void bind_first_layer(gl::Device& device, const gl::Program& program, const FirstLayer& first) {
+  device.sampler({}).bind(first_layer_unit);
+  gl::glBindTextureUnit(first_layer_unit, first.texture);
+  program.set("map_layer", first.layer);
+  program.set("least_gap", first.gap);
 }
 
 }  // namespace
 
-gl::ProgramDesc caster_program(bool masked, bool marks_moved, bool last_pose) {
+gl::ProgramDesc caster_program(const CasterDraw& which, bool masked) {
+  const bool behind = which.behind != nullptr;
   gl::ProgramDesc program{.name = masked ? "alpha caster" : "caster",
                           .vertex = "scene/caster.vert",
-                          .defines = {{"LAST_POSE", last_pose ? "1" : "0"},
+                          .defines = {{"LAST_POSE", which.last_pose ? "1" : "0"},
                                       {"MASKED", masked ? "1" : "0"},
-                                      {"MARKS_MOVED", marks_moved ? "1" : "0"}}};
-  if (masked || marks_moved) program.fragment = "scene/caster.frag";
+                                      {"MARKS_MOVED", which.marks ? "1" : "0"},
+                                      {"BEHIND", behind ? "1" : "0"}}};
+  if (masked || which.marks || behind) program.fragment = "scene/caster.frag";
   return program;
 }
 
@@ -48,7 +66,7 @@ void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const Cas
       if (!(instance.moved ? which.moved : which.still)) continue;
       const Overlap overlap = reaches(which.last_pose ? instance.last_box : instance.box);
       if (overlap == Overlap::none) continue;
-      const Batch batch = caster_batch(instance, masked, flips);
+      const Batch batch = caster_batch(instance, faces_of(instance, which.behind != nullptr), masked, flips);
       if (overlap == Overlap::all || instance.parts == nullptr || which.last_pose) {
         list.add(instance, i, batch);
         continue;
@@ -58,7 +76,9 @@ void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const Cas
       }
     }
     if (list.commands.empty()) continue;
-    pass.use(caster_program(masked, which.marks, which.last_pose)).set("world_to_clip", world_to_clip);
+    const gl::Program& program = pass.use(caster_program(which, masked));
+    program.set("world_to_clip", world_to_clip);
+    if (which.behind != nullptr) bind_first_layer(device, program, *which.behind);
     draw(device, pass, list);
   }
 }
@@ -84,6 +104,11 @@ void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, CasterSubset cas
       draw({.moved = true, .marks = true, .last_pose = true});
       break;
   }
+}
+
+void GpuScene::draw_casters_behind(gl::Device& device, gl::Pass& pass, const FirstLayer& first,
+                                   const glm::mat4& world_to_clip, const BoxOverlap& reaches) {
+  state_->draw_casters(device, pass, {.still = true, .moved = true, .behind = &first}, world_to_clip, reaches);
 }
 
 }  // namespace penumbra::scene

@@ -182,7 +182,7 @@ void GpuScene::draw_depth(gl::Device& device, gl::Pass& pass, const glm::mat4& w
         list.add(state_->instances[i], i, depth_batch(state_->instances[i], masked));
     }
     if (list.commands.empty()) continue;
-    pass.use(caster_program(masked, /*marks_moved=*/false, /*last_pose=*/false)).set("world_to_clip", world_to_clip);
+    pass.use(caster_program({}, masked)).set("world_to_clip", world_to_clip);
     state_->draw(device, pass, list);
   }
 }
@@ -243,7 +243,7 @@ void GpuScene::draw_caster_geometry(gl::Device& device, gl::Pass& pass, const gl
 }
 
 std::array<gl::ProgramDesc, 2> GpuScene::caster_geometry_programs(const gl::ProgramDesc& stages) {
-  const gl::ProgramDesc caster = caster_program(/*masked=*/false, /*marks_moved=*/false, /*last_pose=*/false);
+  const gl::ProgramDesc caster = caster_program({}, /*masked=*/false);
   gl::ProgramDesc both_faces = stages;
   both_faces.vertex = caster.vertex;
   both_faces.defines.insert(both_faces.defines.end(), caster.defines.begin(), caster.defines.end());
@@ -255,9 +255,10 @@ std::array<gl::ProgramDesc, 2> GpuScene::caster_geometry_programs(const gl::Prog
 std::vector<gl::ProgramDesc> GpuScene::programs() {
   std::vector<gl::ProgramDesc> programs = Deformer::programs();
   for (const bool masked : {false, true}) {
-    programs.push_back(caster_program(masked, /*marks_moved=*/false, /*last_pose=*/false));
-    for (const bool last_pose : {false, true})
-      programs.push_back(caster_program(masked, /*marks_moved=*/true, last_pose));
+    const FirstLayer first;
+    for (const CasterDraw& which :
+         {CasterDraw{}, {.marks = true}, {.marks = true, .last_pose = true}, {.behind = &first}})
+      programs.push_back(caster_program(which, masked));
   }
   return programs;
 }

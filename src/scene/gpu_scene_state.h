@@ -72,12 +72,13 @@ struct Run {
 // Which casters a draw includes, and what it writes.
 struct CasterDraw {
   bool still = false, moved = false;
-  bool marks = false;      // writes 1 to fragment output 0
-  bool last_pose = false;  // draws the last pose instead of the present one
+  bool marks = false;                  // writes 1 to fragment output 0
+  bool last_pose = false;              // draws the last pose instead of the present one
+  const FirstLayer* behind = nullptr;  // draws only what lies behind these depths
 };
 
-// The program that draws the depth of casters and, `marks_moved`, writes 1 to fragment output 0.
-gl::ProgramDesc caster_program(bool masked, bool marks_moved, bool last_pose);
+// The program that draws the depth of casters as `which` says; `masked`: where their alpha passes.
+gl::ProgramDesc caster_program(const CasterDraw& which, bool masked);
 
 // A pose on the GPU: the deformed vertices at one time.
 struct PosedVertices {

@@ -38,8 +38,8 @@ enum UniformBinding : unsigned { block_params, block_shadow, block_samples, unif
 
 // A texture that a recipe made for one light in one frame.
 struct Product {
-  std::string name;  // the recipe's
-  const gl::Texture* texture = nullptr;
+  std::string name;                      // the recipe's
+  const gl::Texture* texture = nullptr;  // null: the recipe does not apply (Recipe::applies)
   gl::SamplerDesc sampler = {};
 };
 

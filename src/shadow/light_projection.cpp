@@ -76,6 +76,11 @@ glm::mat4 LightProjection::world_to_clip(int layer) const {
   return glm::mat4(cascades_.items.at(static_cast<size_t>(layer)).world_to_clip);
 }
 
+float LightProjection::depth_range(int layer) const {
+  const Cascade& cascade = cascades_.items.at(static_cast<size_t>(layer));
+  return static_cast<float>(cascade.far_z - cascade.near_z);
+}
+
 CullVolume LightProjection::cull_volume(int layer) const { return shadow::cull_volume(cascades_, layer); }
 
 std::optional<TexelRange> LightProjection::texels_of(int layer, const Box& world_box) const {

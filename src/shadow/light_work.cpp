@@ -70,7 +70,7 @@ void bind_light(gl::Device& device, const LightFrame& frame, const LightState& s
     const Product* product = find_product(frame, need);
     if (product == nullptr) throw std::logic_error(fmt::format("nothing has made the product '{}'", need));
     device.sampler(product->sampler).bind(unit);
-    product->texture->bind(unit++);
+    gl::glBindTextureUnit(unit++, product->texture != nullptr ? product->texture->id() : 0);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "../core/error.h"
 #include "light_work.h"
 #include "mask_pass.h"
+#include "products.h"
 
 namespace penumbra::shadow {
 
@@ -44,10 +45,14 @@ bool PassContext::uses_compute() const { return params().get_word("driver") == "
 const gl::Texture& PassContext::product(std::string_view recipe) const {
   const Product* product = find_product(work_.frame, recipe);
   const bool asked = std::ranges::find(owner_.needs, recipe) != owner_.needs.end();
-  if (product == nullptr || !asked) {
+  if (product == nullptr || product->texture == nullptr || !asked) {
     throw std::logic_error(fmt::format("{} '{}' does not ask for '{}'", name_of(owner_.kind), owner_.name, recipe));
   }
   return *product->texture;
+}
+
+LayerSet PassContext::unchanged_layers() const {
+  return shadow::unchanged_layers(work_, work_.registry.find_recipe(owner_.name));
 }
 
 std::string PassContext::full_name(std::string_view name) const {
@@ -126,16 +131,25 @@ void PassContext::check_draws() const {
   if (!work_.inputs.draw) fail("{} '{}' draws casters, and Inputs::draw is empty", name_of(owner_.kind), owner_.name);
 }
 
-void PassContext::draw_casters(gl::Pass& pass, CasterKind kind, int layer) const {
-  assert(kind != CasterKind::geometry);
+CasterPass PassContext::caster_pass(CasterKind kind, int layer) const {
   check_draws();
   const LightProjection& projection = work_.frame.projection;
-  work_.inputs.draw({.kind = kind,
-                     .layer = layer,
-                     .world_to_clip = projection.world_to_clip(layer),
-                     .cull = projection.cull_volume(layer),
-                     .source = light().source},
-                    pass);
+  return {.kind = kind,
+          .layer = layer,
+          .world_to_clip = projection.world_to_clip(layer),
+          .cull = projection.cull_volume(layer),
+          .source = light().source};
+}
+
+void PassContext::draw_casters(gl::Pass& pass, CasterKind kind, int layer) const {
+  assert(kind != CasterKind::geometry && kind != CasterKind::second_depth);
+  work_.inputs.draw(caster_pass(kind, layer), pass);
+}
+
+void PassContext::draw_second_depth(gl::Pass& pass, int layer, float gap) const {
+  CasterPass casters = caster_pass(CasterKind::second_depth, layer);
+  casters.first = {.texture = work_.frame.depth, .gap = gap / work_.frame.projection.depth_range(layer)};
+  work_.inputs.draw(casters, pass);
 }
 
 void PassContext::draw_caster_geometry(gl::Pass& pass, std::string_view program, const glm::mat4& world_to_clip) const {

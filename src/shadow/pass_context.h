@@ -7,6 +7,7 @@
 #include "../core/params.h"
 #include "../gl/pass.h"
 #include "inputs.h"
+#include "kept_maps.h"
 #include "light_frame.h"
 #include "technique.h"
 
@@ -57,6 +58,9 @@ class PassContext {
   int age() const;                  // how many frames the history goes back; 0: there is none
   // The texture that a recipe in the owner's `needs` made.
   const gl::Texture& product(std::string_view recipe) const;
+  // For a recipe that depends only on its needs: the layers of the shadow map that are those from which the recipe made
+  // its last texture. It may leave these layers of its texture as they are.
+  LayerSet unchanged_layers() const;
 
   // The caller's depth texture, to attach it to a pass: for a stencil test, if its format has stencil bits. OpenGL is
   // asked for its format only when the texture is another one than in the last frame.
@@ -83,9 +87,11 @@ class PassContext {
   bool uses_compute() const;
   // Draws a triangle over the viewport, or dispatches the compute program over it.
   void cover(gl::Pass& pass) const;
-  // Draws the caller's casters in a pass whose attachments have the size of a shadow map's layer; not for kind
-  // `geometry`. Throws Error without Inputs::draw.
+  // Draws the caller's casters in a pass whose attachments have the size of a shadow map's layer; not for the kinds
+  // `geometry` and `second_depth`. Throws Error without Inputs::draw.
   void draw_casters(gl::Pass& pass, CasterKind kind, int layer) const;
+  // Draws them with kind `second_depth`: only what lies deeper than the shadow map by more than `gap` metres.
+  void draw_second_depth(gl::Pass& pass, int layer, float gap) const;
   // Draws the triangles of the caller's casters with the geometry and fragment shaders of one of the owner's
   // `programs`: gl_in[].gl_Position is world_to_clip times the world position. Binds the same inputs as use(). Casters
   // that can't shadow any receiver of the view are culled; a triangle that casts no shadow because of its facing may
@@ -95,6 +101,7 @@ class PassContext {
  protected:
   const gl::ProgramDesc& own_program(std::string_view program) const;
   void check_draws() const;
+  CasterPass caster_pass(CasterKind kind, int layer) const;
   // The name of a target or buffer within the device. Notes that this frame uses it.
   std::string full_name(std::string_view name) const;
 

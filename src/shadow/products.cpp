@@ -8,6 +8,12 @@
 
 namespace penumbra::shadow {
 
+namespace {
+
+bool applies(const Recipe& recipe, const ParamSet& params) { return !recipe.applies || recipe.applies(params); }
+
+}  // namespace
+
 Wanted wanted_of(const LightWork& work) {
   std::vector<std::string_view> names;
   const auto ask = [&names](const std::vector<std::string>& needs) {
@@ -22,7 +28,7 @@ Wanted wanted_of(const LightWork& work) {
   for (const Recipe& recipe : work.registry.recipes() | std::views::reverse) {
     if (!asked(recipe.name)) continue;
     wanted.recipes.insert(wanted.recipes.begin(), &recipe);
-    ask(recipe.needs);
+    if (applies(recipe, work.params())) ask(recipe.needs);
   }
   wanted.shadow_map = asked("shadow_map");
   return wanted;
@@ -50,17 +56,27 @@ bool is_kept(const LightWork& work, std::string_view name) {
   return found != work.state.products.end() && found->second.kept;
 }
 
-// The last frame's product, if building it would give the same.
-const gl::Texture* kept_product(const LightWork& work, const Recipe& recipe) {
+// The last frame's product, if the recipe makes the same from the same needs; else null.
+LightState::KeptProduct* last_product(const LightWork& work, const Recipe& recipe) {
   const auto found = work.state.products.find(recipe.name);
   if (found == work.state.products.end()) return nullptr;
   LightState::KeptProduct& last = found->second;
-  last.kept = recipe.depends_only_on_needs && work.params().get_bool("maps.keep") &&
-              last.frame + 1 == work.state.frames && last.shape == work.frame.shape &&
-              last.shader_changes == work.device.shaders.changes() &&
-              std::ranges::all_of(recipe.needs, [&](const std::string& name) { return is_kept(work, name); }) &&
-              same_values(recipe, work.params(), last.values);
-  if (!last.kept) return nullptr;
+  const bool same = recipe.depends_only_on_needs && work.params().get_bool("maps.keep") &&
+                    last.frame + 1 == work.state.frames && last.shape == work.frame.shape &&
+                    last.shader_changes == work.device.shaders.changes() &&
+                    same_values(recipe, work.params(), last.values);
+  return same ? &last : nullptr;
+}
+
+// The last frame's product, if building it would give the same.
+const gl::Texture* kept_product(const LightWork& work, const Recipe& recipe) {
+  if (const auto found = work.state.products.find(recipe.name); found != work.state.products.end())
+    found->second.kept = false;
+  LightState::KeptProduct* kept = last_product(work, recipe);
+  if (kept == nullptr || !std::ranges::all_of(recipe.needs, [&](const auto& name) { return is_kept(work, name); }))
+    return nullptr;
+  LightState::KeptProduct& last = *kept;
+  last.kept = true;
   last.frame = work.state.frames;
   // Else its textures would be released as those that this frame did not use.
   if (work.state.changed) work.state.used.merge(work.device.names(target_prefix(work, owner_of(recipe))));
@@ -81,11 +97,18 @@ const gl::Texture& build_product(const LightWork& work, const Recipe& recipe) {
 
 }  // namespace
 
+LayerSet unchanged_layers(const LightWork& work, const Recipe& recipe) {
+  return last_product(work, recipe) != nullptr ? work.frame.kept_layers : LayerSet();
+}
+
 void build_products(const LightWork& work, const std::vector<const Recipe*>& recipes) {
   for (const Recipe* recipe : recipes) {
-    const gl::Texture* kept = kept_product(work, *recipe);
-    const gl::Texture& texture = kept != nullptr ? *kept : build_product(work, *recipe);
-    work.frame.products.push_back({.name = recipe->name, .texture = &texture, .sampler = recipe->sampler});
+    const gl::Texture* texture = nullptr;
+    if (applies(*recipe, work.params())) {
+      texture = kept_product(work, *recipe);
+      if (texture == nullptr) texture = &build_product(work, *recipe);
+    }
+    work.frame.products.push_back({.name = recipe->name, .texture = texture, .sampler = recipe->sampler});
   }
 }
 

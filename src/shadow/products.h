@@ -14,6 +14,10 @@ struct Wanted {
 };
 Wanted wanted_of(const LightWork& work);
 
+// The layers of the shadow map that are the same as in the last frame, if the recipe made a texture in that frame and
+// nothing else that it depends on changed; else none.
+LayerSet unchanged_layers(const LightWork& work, const Recipe& recipe);
+
 // Makes the products, each by its own passes, or keeps those of the last frame.
 void build_products(const LightWork& work, const std::vector<const Recipe*>& recipes);
 

@@ -80,6 +80,18 @@ std::vector<gl::Define> compiled_defines(const std::vector<Param>& own, const Pa
   return defines;
 }
 
+// The parameters of a technique, recipe or denoiser, and those of the recipes that it needs.
+std::vector<Param> params_of(const std::vector<Param>& own, const std::vector<std::string>& needs,
+                             const Registry& registry) {
+  std::vector<Param> rows = own;
+  for (const std::string& need : needs) {
+    if (is_base_map(need)) continue;
+    const std::vector<Param>& more = registry.find_recipe(need).params;
+    rows.insert(rows.end(), more.begin(), more.end());
+  }
+  return rows;
+}
+
 }  // namespace
 
 Programs::Programs(gl::Device& device, const Registry& registry) : device_(device), registry_(registry) {
@@ -154,8 +166,8 @@ std::string Programs::including(const std::string& folder, const std::vector<std
   return name;
 }
 
-std::vector<gl::Define> Programs::defines(const Technique& technique, const ParamSet& params, bool rotated) {
-  std::vector<gl::Define> defines = compiled_defines(technique.params, params);
+std::vector<gl::Define> Programs::defines(const Technique& technique, const ParamSet& params, bool rotated) const {
+  std::vector<gl::Define> defines = compiled_defines(params_of(technique.params, technique.needs, registry_), params);
   defines.insert(defines.begin(), {"SAMPLE_ROTATE", rotated ? "1" : "0"});
   return defines;
 }
@@ -221,7 +233,8 @@ std::vector<gl::ProgramDesc> Programs::own(const PassOwner& owner, const ParamSe
   if (!owner.programs) return {};
   std::vector<gl::ProgramDesc> programs = owner.programs(params);
   const std::vector<gl::Define> constants =
-      owner.technique != nullptr ? defines(*owner.technique, params, rotated) : compiled_defines(owner.params, params);
+      owner.technique != nullptr ? defines(*owner.technique, params, rotated)
+                                 : compiled_defines(params_of(owner.params, owner.needs, registry_), params);
   const std::string folder = folder_of(owner);
   for (gl::ProgramDesc& program : programs) {
     program.name = own_name(owner, program.name);
@@ -235,14 +248,14 @@ std::vector<gl::ProgramDesc> Programs::own(const PassOwner& owner, const ParamSe
 
 std::vector<std::vector<gl::Define>> Programs::all_defines(const Technique& technique, const ParamSet& defaults) const {
   std::vector<std::vector<gl::Define>> all;
-  for (const ParamSet& params : compiled_variants(technique.params, defaults)) {
+  for (const ParamSet& params : compiled_variants(params_of(technique.params, technique.needs, registry_), defaults)) {
     for (const bool rotated : {true, false}) all.push_back(defines(technique, params, rotated));
   }
   return all;
 }
 
 void Programs::add_own(std::vector<gl::ProgramDesc>& programs, const PassOwner& owner, const ParamSet& defaults) const {
-  for (const ParamSet& params : compiled_variants(owner.params, defaults)) {
+  for (const ParamSet& params : compiled_variants(params_of(owner.params, owner.needs, registry_), defaults)) {
     for (gl::ProgramDesc& program : own(owner, params, /*rotated=*/true)) programs.push_back(std::move(program));
     if (owner.technique == nullptr) continue;
     for (gl::ProgramDesc& program : own(owner, params, /*rotated=*/false)) programs.push_back(std::move(program));
@@ -262,7 +275,8 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
   for (const Recipe& recipe : registry_.recipes()) add_own(programs, owner_of(recipe), defaults);
   for (const Denoiser& denoiser : registry_.denoisers()) add_own(programs, owner_of(denoiser), defaults);
   for (const Technique& technique : registry_.techniques()) {
-    for (const ParamSet& params : compiled_variants(technique.params, defaults)) {
+    for (const ParamSet& params :
+         compiled_variants(params_of(technique.params, technique.needs, registry_), defaults)) {
       for (const bool rotated : {true, false}) {
         for (const MaskForm& form : mask_forms(rotated)) {
           if (technique.glsl.empty() || (form.tiles && !technique.decides_tiles)) continue;

@@ -27,7 +27,7 @@ class Programs {
   Programs(gl::Device& device, const Registry& registry);
 
   // The constants that a technique's GLSL is compiled with; `rotated`: see rotates_samples().
-  static std::vector<gl::Define> defines(const Technique& technique, const ParamSet& params, bool rotated);
+  std::vector<gl::Define> defines(const Technique& technique, const ParamSet& params, bool rotated) const;
 
   // The variant of the program that runs a technique's visibility() for every pixel. Variants are separate programs,
   // not branches on a uniform, because a software rasteriser runs both sides of a branch.

@@ -24,6 +24,7 @@ struct Recipe {
   std::string source;   // "Author Year, section"
   // The textures that it is made from, by name: "shadow_map", and recipes that come before it in the registry.
   std::vector<std::string> needs = {"shadow_map"};
+  // Those that are compiled are constants in the programs of all that need the recipe.
   std::vector<Param> params = {};
   gl::SamplerDesc sampler = {};  // with which its readers sample it
   // Whether the texture depends on nothing but its `needs`, its `params`, and the light's projection and shape: not on
@@ -32,6 +33,9 @@ struct Recipe {
   bool depends_only_on_needs = false;
   // Whether what receivers read of it depends on the maps only as Technique::reads_light_discs says.
   bool reads_light_discs = false;
+  // Whether it is made with these parameters; absent: always. If not, its unit has no texture, and GLSL that needs it
+  // must not read it; which it knows from the recipe's compiled parameters.
+  std::function<bool(const ParamSet&)> applies = {};
   // Makes it by its own passes, and returns the texture, which it gets from PassContext::target() and which nothing may
   // change until it is made again.
   std::function<const gl::Texture&(const PassContext&)> build;

@@ -30,7 +30,9 @@ namespace penumbra::shadow {
 #define PENUMBRA_DENOISERS(X) X(history_and_filters)
 
 // One line for each product; each is defined in products/<name>.cpp. A product comes after those that it is made from.
-#define PENUMBRA_PRODUCTS(X) X(least_depth_pyramid)
+#define PENUMBRA_PRODUCTS(X) \
+  X(least_depth_pyramid)     \
+  X(second_layer)
 
 using MakeTechnique = Technique();
 using MakeFilter = Filter();

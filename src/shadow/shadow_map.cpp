@@ -6,25 +6,24 @@
 
 namespace penumbra::shadow {
 
-const gl::Texture& shadow_map_target(gl::Device& device, std::string_view name, const LightProjection& projection) {
-  return device.target(name, {.target = GL_TEXTURE_2D_ARRAY,
-                              .format = GL_DEPTH_COMPONENT32F,
-                              .width = projection.size(),
-                              .height = projection.size(),
-                              .layers = projection.layers()});
+gl::TextureDesc shadow_map_desc(const LightProjection& projection) {
+  return {.target = GL_TEXTURE_2D_ARRAY,
+          .format = GL_DEPTH_COMPONENT32F,
+          .width = projection.size(),
+          .height = projection.size(),
+          .layers = projection.layers()};
 }
 
-namespace {
+const gl::Texture& shadow_map_target(gl::Device& device, std::string_view name, const LightProjection& projection) {
+  return device.target(name, shadow_map_desc(projection));
+}
 
-// Nothing if casters are drawn to the whole layer.
-std::optional<gl::TexelRect> scissor_of(const LightProjection& projection, int layer) {
+std::optional<gl::TexelRect> drawn_rect(const LightProjection& projection, int layer) {
   const TexelRange drawn = projection.drawn_texels(layer);
   const glm::ivec2 size = drawn.last - drawn.first + 1;
   if (size == glm::ivec2(projection.size())) return std::nullopt;
   return gl::TexelRect{.x = drawn.first.x, .y = drawn.first.y, .width = size.x, .height = size.y};
 }
-
-}  // namespace
 
 void draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs) {
   for (int i = 0; i < inputs.projection.layers(); ++i) {
@@ -33,7 +32,7 @@ void draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs) {
                       .depth = gl::Attachment{.texture = &inputs.map, .layer = i, .clear = glm::vec4(1)},
                       .depth_test = gl::DepthTest::less_equal,
                       .depth_write = true};
-    desc.scissor = scissor_of(inputs.projection, i);
+    desc.scissor = drawn_rect(inputs.projection, i);
     const CullVolume cull = inputs.projection.cull_volume(i);
     const bool marks = inputs.moved != nullptr && may_hold_moved(cull, inputs.moved_bounds);
     if (marks) desc.colors = {{.texture = inputs.moved, .layer = i, .clear = glm::vec4(0)}};

@@ -9,8 +9,13 @@
 
 namespace penumbra::shadow {
 
-// The texture that draw_shadow_map() fills, of that name: a DEPTH_COMPONENT32F array with the layers of the projection.
+// A DEPTH_COMPONENT32F array with the layers of a projection.
+gl::TextureDesc shadow_map_desc(const LightProjection& projection);
+// The texture of that name and form, which draw_shadow_map() fills.
 const gl::Texture& shadow_map_target(gl::Device& device, std::string_view name, const LightProjection& projection);
+
+// The texels of a layer that casters are drawn to, as a scissor box; nothing if these are all.
+std::optional<gl::TexelRect> drawn_rect(const LightProjection& projection, int layer);
 
 struct ShadowMapInputs {
   const gl::Texture& map;  // of shadow_map_target()

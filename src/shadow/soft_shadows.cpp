@@ -87,7 +87,7 @@ ForwardProgram SoftShadows::forward_program(const ParamSet& params, const Light&
   const ParamSet& own = state_->params_of(registry_, params, light);
   const Technique& technique = forward_technique(registry_, own);
   const bool rotated = rotates_samples(technique, own, shape_of(light.source, own));
-  return {state_->programs.forward_file(technique), Programs::defines(technique, own, rotated)};
+  return {state_->programs.forward_file(technique), state_->programs.defines(technique, own, rotated)};
 }
 
 std::string SoftShadows::forward_source(const ParamSet& params, const Light& light) const {

@@ -46,12 +46,22 @@ layout(location = 0) out float moved;
 void main() { moved = caster_moved; }
 )";
 
+constexpr const char* behind_fragment_text = R"(
+layout(binding = 15) uniform sampler2DArray first_layer;
+uniform int map_layer;
+uniform float gap;
+void main() {
+  if (gl_FragCoord.z <= texelFetch(first_layer, ivec3(gl_FragCoord.xy, map_layer), 0).x + gap) discard;
+}
+)";
+
 const gl::ProgramDesc receiver_program{
     .name = "test receivers", .vertex = "test/receiver.vert", .fragment = "test/receiver.frag"};
 
 gl::ProgramDesc caster_program(const shadow::CasterPass& casters) {
   gl::ProgramDesc program{.name = "test casters", .vertex = "test/caster.vert", .fragment = "test/caster.frag"};
   if (casters.kind == shadow::CasterKind::depth) program.fragment = "";
+  if (casters.kind == shadow::CasterKind::second_depth) program.fragment = "test/behind.frag";
   if (casters.kind == shadow::CasterKind::geometry) {
     program = casters.program;
     program.vertex = "test/caster.vert";
@@ -133,6 +143,7 @@ void Geometry::put_shaders(gl::ShaderFiles& files) {
   files.put("test/receiver.frag", receiver_fragment_text);
   files.put("test/caster.vert", caster_vertex_text);
   files.put("test/caster.frag", caster_fragment_text);
+  files.put("test/behind.frag", behind_fragment_text);
 }
 
 void Geometry::draw() const {
@@ -147,6 +158,11 @@ shadow::DrawCasters Geometry::casters() const {
     program.set("world_to_clip", casters.world_to_clip);
     program.set("only_moved", casters.kind == moved_now || casters.kind == moved_last ? 1 : 0);
     program.set("poses_ago", casters.kind == moved_last ? 1.0f : 0.0f);
+    if (casters.kind == second_depth) {
+      gl::glBindTextureUnit(15, casters.first.texture);
+      program.set("map_layer", casters.layer);
+      program.set("gap", casters.first.gap);
+    }
     draw();
   };
 }

@@ -122,5 +122,10 @@ TEST_F(Keep, AHistoryWithMovedCastersInTheShadowPassIsTheSame) {
   follow_path();
 }
 
+TEST_F(Keep, TwoLayersAreTheSame) {
+  choose("slices", {"maps.layers=2"});
+  follow_path();
+}
+
 }  // namespace
 }  // namespace penumbra::test

@@ -69,6 +69,51 @@ struct Slice {
   float blockers;
 };
 
+#if maps_layers == 2
+layout(binding = UNIT_second_layer) uniform sampler2DArray second_layer;
+#endif
+
+const float beyond_rim = 2.0;  // a share of the rim's radius: no ray
+
+// A sample's stretch of the line, and the place in it that was read: metres from the receiver.
+struct Stretch {
+  float begin, at, end;
+  bool last;  // goes on for ever
+};
+
+// The last sample of a layer, if it blocks.
+struct Blocker {
+  float hidden_to;  // share of the rim's radius up to which it hides rays; `beyond_rim`: it does not block
+  float height, at;
+};
+
+const Blocker no_blocker = Blocker(beyond_rim, 0.0, 0.0);
+
+// Whether the material of a higher blocker is taken to go on down to the next one on the line. If the map has one
+// layer, it always is, since what lies below the higher one can't be seen. A second layer shows that, so there a
+// surface ends where it falls this many times more steeply than the light's cone.
+bool goes_on(Blocker before, float height, float at, Receiver receiver, Light light) {
+  const float steepest = 4.0;
+  return maps_layers == 1 || abs(height - before.height) <= steepest * cone_slope(receiver, light) * (at - before.at);
+}
+
+// Adds the rays that a texel of that depth hides, if it is nearer to the light than `blocking`; `before`: the sample
+// before it on the line.
+Blocker add_texel(inout Slice slice, Receiver receiver, float depth, float blocking, Stretch stretch, Blocker before,
+                  float dither, Light light) {
+  if (depth >= blocking) return no_blocker;
+  float height = receiver.position.z - depth;
+  float per_metre = 1.0 / rim_radius(receiver, height, light);
+  float low = stretch.begin * per_metre;
+  if (goes_on(before, height, stretch.at, receiver, light)) low = min(low, before.hidden_to);
+  float high = stretch.last ? beyond_rim : stretch.end * per_metre;
+  uint rings = rings_between(low, high, dither);
+  slice.hidden |= rings;
+  slice.height_sum += rings != 0u ? height : 0.0;
+  slice.blockers += rings != 0u ? 1.0 : 0.0;
+  return Blocker(high, height, stretch.at);
+}
+
 Slice walk(Receiver receiver, int azimuth, float radius, PixelNoise noise, float bias, Light light) {
   Slice slice = Slice(0u, 0.0, 0.0);
   float texel = texel_size(receiver, light);
@@ -77,28 +122,21 @@ Slice walk(Receiver receiver, int azimuth, float radius, PixelNoise noise, float
   float jitter = fract(noise.distance_to + golden * float(azimuth));
   float dither = fract(noise.ring + plastic.x * float(azimuth));
   float begin = 0.0;
-  float hidden_to = 2.0;  // the share of the rim's radius up to which the last sample hides rays, if it blocks
+  Blocker before = no_blocker, second_before = no_blocker;
   for (int i = 0; i < slices_samples; ++i) {
     float end = (radius + texel) * spread(float(i + 1) / float(slices_samples));
     float at = mix(begin, end, jitter);
     // Moved by up to half a texel: the mean over many samples then weights texels as bilinear filters do.
     vec2 moved = fract(noise.texel + plastic * float(azimuth * slices_samples + i)) - 0.5;
     ivec2 cell = ivec2(floor(place + rim * (at / texel) + moved));
-    float depth = depth_at(cell, light);
     vec2 offset = texel_offset(receiver, cell, light);
-    if (depth < blocking_depths_at(receiver, Offsets(vec4(offset.x), vec4(offset.y)), bias).x) {
-      float height = receiver.position.z - depth;
-      float per_metre = 1.0 / rim_radius(receiver, height, light);
-      float high = i + 1 < slices_samples ? end * per_metre : 2.0;
-      // Down to a lower blocker, the material of a higher one is taken to go on.
-      uint rings = rings_between(min(begin * per_metre, hidden_to), high, dither);
-      slice.hidden |= rings;
-      slice.height_sum += rings != 0u ? height : 0.0;
-      slice.blockers += rings != 0u ? 1.0 : 0.0;
-      hidden_to = high;
-    } else {
-      hidden_to = 2.0;
-    }
+    float blocking = blocking_depths_at(receiver, Offsets(vec4(offset.x), vec4(offset.y)), bias).x;
+    Stretch stretch = Stretch(begin, at, end, i + 1 == slices_samples);
+    before = add_texel(slice, receiver, depth_at(cell, light), blocking, stretch, before, dither, light);
+#if maps_layers == 2
+    float behind = depth_in(second_layer, cell, light);
+    second_before = add_texel(slice, receiver, behind, blocking, stretch, second_before, dither, light);
+#endif
     begin = end;
   }
   return slice;

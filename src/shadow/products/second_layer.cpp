@@ -1,0 +1,48 @@
+#include "../pass_context.h"
+#include "../recipe.h"
+#include "../shadow_map.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+// What of a layer no caster is drawn to stays as it was: nothing reads it.
+const gl::Texture& build(const PassContext& context) {
+  const LightProjection& projection = context.frame().projection;
+  const gl::Texture& map = context.target("depth", shadow_map_desc(projection));
+  const LayerSet unchanged = context.unchanged_layers();
+  const float gap = context.params().get_float("maps.gap");
+  for (int i = 0; i < projection.layers(); ++i) {
+    if (unchanged[static_cast<size_t>(i)]) continue;
+    gl::PassDesc desc{.name = "second layer",
+                      .depth = gl::Attachment{.texture = &map, .layer = i, .clear = glm::vec4(1)},
+                      .depth_test = gl::DepthTest::less_equal,
+                      .depth_write = true};
+    desc.scissor = drawn_rect(projection, i);
+    gl::Pass pass(context.device(), desc);
+    context.draw_second_depth(pass, i, gap);
+  }
+  return map;
+}
+
+}  // namespace
+
+Recipe second_layer() {
+  using enum ParamBinding;
+  return {
+      .name = "second_layer",
+      .summary = "Depth of the nearest surface behind the one in the shadow map: 1 where there is none.",
+      .source = "Everitt 2001, Interactive order-independent transparency",
+      .params = {{"maps.layers", 1, 1, 2, "",
+                  "Surfaces along each ray of light that techniques can see: 2 keeps the shadows of what lies "
+                  "below another caster, for techniques that read them (slices).",
+                  compiled},
+                 {"maps.gap", 0.0f, 0, 10, "m",
+                  "Least distance of the second layer behind the first. What is thinner counts as one surface.", host}},
+      .depends_only_on_needs = true,
+      .reads_light_discs = true,
+      .applies = [](const ParamSet& params) { return params.get_int("maps.layers") == 2; },
+      .build = build};
+}
+
+}  // namespace penumbra::shadow
