@@ -128,8 +128,8 @@ vec2 map_place(vec3 position, Light light) {
 
 ivec2 last_texel() { return ivec2(shadow.map_size) - 1; }
 
-// Depth in a texel of the light's layer of a map, metres. Outside of the map there are no casters: it is the far plane's
-// there, as where the sampler's border is read.
+// Depth in a texel of the light's layer of a map, metres. Outside of the map there are no casters: it is the far
+// plane's there, as where the sampler's border is read.
 float depth_in(sampler2DArray map, ivec2 texel, Light light) {
   ivec2 within = clamp(texel, ivec2(0), last_texel());
   float stored = texelFetch(map, ivec3(within, light.layer), 0).x;
