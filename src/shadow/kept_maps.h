@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <bitset>
 #include <cstdint>
 #include <optional>
 
@@ -9,8 +8,6 @@
 #include "inputs.h"
 
 namespace penumbra::shadow {
-
-using LayerSet = std::bitset<max_layers>;
 
 // What the layers of a light's shadow map were drawn with.
 struct MapContent {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <bitset>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,7 +52,7 @@ struct LightFrame {
   // OpenGL name of the shadow map, one array layer for each layer of the projection; 0 if nothing needs it.
   unsigned depth = 0;
   // The layers of the shadow map that were not drawn because they hold the same as in the last frame.
-  std::bitset<max_layers> kept_layers;
+  LayerSet kept_layers;
   const gl::Texture* movement = nullptr;  // see movement_map.h; null unless a history uses it
   bool casters_moved = false;             // since the last frame: `movement` shows where
   bool history = false;                   // the history of the last frame is valid

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -29,6 +30,7 @@ struct Sun {
 
 // Most layers that a shadow map can have.
 constexpr int max_layers = 8;
+using LayerSet = std::bitset<max_layers>;
 
 // Texels by which receivers may read a map beyond their discs, without bias.normal_offset: at least a block of the
 // depth pyramid's base (4), the texel beside it, and the 3 texels beside a receiver's own that techniques read.

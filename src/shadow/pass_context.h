@@ -7,7 +7,6 @@
 #include "../core/params.h"
 #include "../gl/pass.h"
 #include "inputs.h"
-#include "kept_maps.h"
 #include "light_frame.h"
 #include "technique.h"
 
