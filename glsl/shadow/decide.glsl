@@ -1,6 +1,9 @@
 // Decides receivers that no penumbra reaches: where the shadow map has no edge within the disc that can block light
 // from a receiver, it shows one surface there, and the receiver lies either on that surface and is lit, or below it and
 // is in shadow.
+#ifndef SPLITS_AT_HORIZON
+#define SPLITS_AT_HORIZON 0  // 1: for techniques that see a part of the light over the horizon of a surface
+#endif
 #include "shadow/search.glsl"
 #include "shadow/drivers/gbuffer.glsl"
 
@@ -43,9 +46,20 @@ PixelState decide_receiver(Receiver receiver, Light light) {
                     receiver.position.z - bilinear(footprint.depths, footprint.weight));
 }
 
+// Whether the pixel faces away from the light or towards it; undecided where one part of the light may be above the
+// horizon of its surface and another part below it, if that makes a difference to the technique.
+int facing_of(Receiver receiver, Light light) {
+  float cosine = light_cosine(receiver);
+#if SPLITS_AT_HORIZON
+  float horizon = 1.5 / cone_slope(receiver, light);
+  if (abs(cosine) < horizon) return undecided;
+#endif
+  return cosine <= 0.0 ? faces_away : lit;
+}
+
 PixelState decide_pixel(ivec2 pixel, Light light) {
   if (is_sky(pixel)) return PixelState(lit, 0.0);
   Receiver receiver = receiver_at(pixel);
-  if (light_cosine(receiver) <= 0.0) return PixelState(faces_away, 0.0);
-  return decide_receiver(receiver, light);
+  int facing = facing_of(receiver, light);
+  return facing == lit ? decide_receiver(receiver, light) : PixelState(facing, 0.0);
 }

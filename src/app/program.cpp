@@ -6,6 +6,7 @@
 #include "compare/command.h"
 #include "image/read.h"
 #include "reproduce/command.h"
+#include "truth/technique.h"
 #ifdef PENUMBRA_VIEWER
 #include "viewer/command.h"
 #endif
@@ -15,7 +16,10 @@ namespace penumbra::app {
 
 namespace {
 
-int run_bench(const Arguments& arguments) { return bench::run("penumbra bench", arguments, image::image_decoder()); }
+int run_bench(const Arguments& arguments) {
+  return bench::run("penumbra bench", arguments, image::image_decoder(),
+                    [](int threads) { return truth::TruthTechnique({.threads = threads}).registry(); });
+}
 
 constexpr std::array table{
     Command{"render", "Draw a glTF scene into a PNG or EXR file", run_render},

@@ -59,7 +59,8 @@ void write(const Results& results, const std::string& output) {
 
 }  // namespace
 
-int run(const std::string& name, const cli::Arguments& arguments, const scene::ImageDecoder& decode) {
+int run(const std::string& name, const cli::Arguments& arguments, const scene::ImageDecoder& decode,
+        const RegistryOf& techniques) {
   CLI::App app(
       "Measure what shadows cost, pass by pass. Shadow maps are drawn anew in every frame unless --set maps.keep=on is "
       "given",
@@ -69,7 +70,8 @@ int run(const std::string& name, const cli::Arguments& arguments, const scene::I
   add_options(app, options);
   if (!cli::parse(app, arguments)) return 0;
   check_together(options);
-  const std::vector<Entry> entries = entries_of(options, shadow::built_in_registry());  // wrong names end it here
+  const shadow::Registry registry = techniques(options.threads.value_or(0));
+  const std::vector<Entry> entries = entries_of(options, registry);  // wrong names end it here
   options.reading.skies_chosen = std::ranges::all_of(
       entries, [&](const Entry& entry) { return cli::is_chosen(options, entry.params, "casters.skies"); });
   const std::filesystem::path scene = options.scene;
@@ -83,7 +85,7 @@ int run(const std::string& name, const cli::Arguments& arguments, const scene::I
 
   std::unique_ptr<gl::Context> context = open_hardware(options);
   if (!context) context = session::open_context(options, options);
-  Results results = measure(options, decode);
+  Results results = measure(options, decode, registry);
   results.backend = gl::to_string(context->backend());
   for (const std::string& output : options.outputs) write(results, output);
   if (!options.quiet) fmt::print("{}", text_of(results));

@@ -10,11 +10,11 @@ constexpr const char* mask_pass = "shadow mask";
 
 }  // namespace
 
-Contender::Contender(const Entry& entry, const scene::Scene& scene, const cli::DeviceOptions& options,
-                     const Measuring& what)
+Contender::Contender(const Entry& entry, const shadow::Registry& registry, const scene::Scene& scene,
+                     const cli::DeviceOptions& options, const Measuring& what)
     : device_(options, what.passes ? Timed::passes : Timed::frames),
       scene_(device_.device, scene),
-      renderer_(device_.device) {
+      renderer_(device_.device, registry) {
   const shadow::Technique& technique = renderer_.registry().find(entry.params.get_word("technique"));
   if (what.floor) floor_.emplace(technique, scene, gl::ShaderFiles(options.glsl), device_.device.timers.mode());
 }

@@ -29,7 +29,8 @@ struct Measuring {
 class Contender {
  public:
   // `scene` must outlive this object.
-  Contender(const Entry& entry, const scene::Scene& scene, const cli::DeviceOptions& options, const Measuring& what);
+  Contender(const Entry& entry, const shadow::Registry& registry, const scene::Scene& scene,
+            const cli::DeviceOptions& options, const Measuring& what);
 
   // Draws one frame, then one frame of its floor (floor.h). `params` are those of the entry's technique.
   void draw(const render::FrameInputs& inputs, const ParamSet& params);

@@ -51,9 +51,9 @@ class FrameClock {
 
 class Bench {
  public:
-  Bench(const Options& options, const scene::ImageDecoder& decode)
-      : options_(options), decode_(decode), device_(gl::device_info()) {
-    results_.entries = entries_of(options, shadow::built_in_registry());
+  Bench(const Options& options, const scene::ImageDecoder& decode, const shadow::Registry& registry)
+      : options_(options), decode_(decode), registry_(registry), device_(gl::device_info()) {
+    results_.entries = entries_of(options, registry);
     if (options.sweep == "casters" && !options.scene.empty())
       model_ = cli::read_scene(options.scene, options.reading, decode);
     results_.sweep = make_sweep(options.sweep, limits());
@@ -123,8 +123,9 @@ class Bench {
     results_.scene = options_.scene.empty() ? "generated grid of casters"
                                             : std::filesystem::path(options_.scene).filename().string();
     for (const Entry& entry : results_.entries)
-      contenders_.push_back(std::make_unique<Contender>(
-          entry, prepared_->scene, options_, Measuring{.passes = !options_.whole_frames, .floor = options_.floor}));
+      contenders_.push_back(
+          std::make_unique<Contender>(entry, registry_, prepared_->scene, options_,
+                                      Measuring{.passes = !options_.whole_frames, .floor = options_.floor}));
   }
 
   session::PreparedScene scene_at(const Point& point) const {
@@ -182,6 +183,7 @@ class Bench {
 
   const Options& options_;
   const scene::ImageDecoder& decode_;
+  const shadow::Registry& registry_;
   gl::DeviceInfo device_;
   Results results_;
   std::optional<scene::Scene> model_;  // the scene that a sweep of casters copies
@@ -192,6 +194,8 @@ class Bench {
 
 }  // namespace
 
-Results measure(const Options& options, const scene::ImageDecoder& decode) { return Bench(options, decode).run(); }
+Results measure(const Options& options, const scene::ImageDecoder& decode, const shadow::Registry& registry) {
+  return Bench(options, decode, registry).run();
+}
 
 }  // namespace penumbra::bench

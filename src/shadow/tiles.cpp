@@ -10,14 +10,16 @@ namespace penumbra::shadow {
 
 namespace {
 
-// The beginning of the list: its commands for no tiles, and its capacity.
-std::array<std::uint32_t, 12> empty_list(std::size_t capacity) {
-  return {256, 0, 1, /*listed*/ 0, 1, 0, 0, /*decided*/ 0, 1, 0, 0, static_cast<std::uint32_t>(capacity)};
-}
-
 int tiles_across(int pixels) { return (pixels + Tiles::size - 1) / Tiles::size; }
 
 }  // namespace
+
+glm::ivec2 tile_count(const Rect& viewport) { return {tiles_across(viewport.width), tiles_across(viewport.height)}; }
+
+// Its commands, for no tiles, and its capacity.
+std::array<std::uint32_t, 12> empty_tile_list(std::size_t capacity) {
+  return {256, 0, 1, /*listed*/ 0, 1, 0, 0, /*decided*/ 0, 1, 0, 0, static_cast<std::uint32_t>(capacity)};
+}
 
 bool decides_tiles(const LightWork& work) {
   const Rect& viewport = work.frame.viewport;
@@ -28,9 +30,9 @@ bool decides_tiles(const LightWork& work) {
 Tiles decide_tiles(const LightWork& work) {
   const PassOwner owner = owner_of(work.technique);
   const PassContext context(work, owner);
-  const int width = tiles_across(work.frame.viewport.width), height = tiles_across(work.frame.viewport.height);
-  const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  const auto head = empty_list(count);
+  const glm::ivec2 size = tile_count(work.frame.viewport);
+  const std::size_t count = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+  const auto head = empty_tile_list(count);
   // As large as the mask, not the viewport: a view whose size varies from frame to frame then keeps its texture.
   const gl::TextureDesc of_mask{
       .format = GL_RGBA32UI, .width = tiles_across(work.mask.width()), .height = tiles_across(work.mask.height())};
@@ -42,7 +44,7 @@ Tiles decide_tiles(const LightWork& work) {
   bind_inputs(work, owner);
   tiles.decisions.bind_image(0, GL_WRITE_ONLY);
   tiles.list.bind_storage(tile_list_binding);
-  pass.dispatch(width, height);
+  pass.dispatch(size.x, size.y);
   return tiles;
 }
 

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+
 #include "light_work.h"
 
 namespace penumbra::shadow {
@@ -19,6 +23,11 @@ constexpr GLuint tile_list_binding = 7;  // storage buffer
 // Of the commands in the list, bytes.
 constexpr std::size_t listed_draw_offset = 12;
 constexpr std::size_t decided_draw_offset = 28;
+
+// How many tiles cover a viewport along each axis.
+glm::ivec2 tile_count(const Rect& viewport);
+// The beginning of a list without tiles.
+std::array<std::uint32_t, 12> empty_tile_list(std::size_t capacity);
 
 // Whether the technique and the parameters allow it. Not for viewports smaller than a tile: the fragment driver draws
 // listed tiles as points, whose centres must lie inside.

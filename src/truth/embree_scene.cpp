@@ -224,6 +224,7 @@ void EmbreeSceneBuilder::add(RTCScene object, const scene::PosedSurface& surface
   if (test->alpha != nullptr || test->faces != scene::CasterFaces::both) {
     rtcSetGeometryUserData(geometry.get(), test.get());
     rtcSetGeometryOccludedFilterFunction(geometry.get(), pass_through_holes);
+    rtcSetGeometryIntersectFilterFunction(geometry.get(), pass_through_holes);
     out_.tests_.push_back(std::move(test));
   }
   rtcCommitGeometry(geometry.get());

@@ -1,71 +1,153 @@
 #include "truth/hybrid.h"
 
 #include <cstdint>
+#include <glm/gtc/packing.hpp>
 #include <memory>
+#include <optional>
+#include <span>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "gl/api.h"
+#include "shadow/samples.h"
+#include "shadow/tiles.h"
+#include "truth/cache.h"
 #include "truth/frame_rays.h"
-#include "truth/picture_request.h"
+#include "truth/penumbra_trace.h"
 
 namespace penumbra::truth {
 
 namespace {
 
-// As in glsl/shadow/decide.glsl.
-constexpr unsigned verdict_lit = 1, verdict_undecided = 3;
+// As in glsl/shadow/techniques.
+constexpr GLuint left_binding = 6, results_binding = 7, unit_surface_ids = shadow::first_pass_unit;
+struct LeftPixel {
+  std::uint32_t at, surface, triangle;
+};
+constexpr std::size_t count_bytes = sizeof(std::uint32_t);
 
-constexpr const char* program_name = "verdicts";
+// The casters of the last frame, as rays see them.
+struct KeptCasters {
+  std::optional<EmbreeScene> scene;
+  Key key;
 
-// What the map decides of each pixel, rows bottom to top.
-std::vector<unsigned> read_verdicts(const shadow::PassContext& frame) {
-  const gl::Texture& verdicts =
-      frame.target(program_name, {.format = GL_R8UI, .width = frame.mask().width(), .height = frame.mask().height()});
-  gl::Pass pass(frame.device(), {.name = program_name});
-  frame.use(pass, program_name);
-  verdicts.bind_image(0, GL_WRITE_ONLY);
-  pass.dispatch(frame.frame().viewport.width, frame.frame().viewport.height);
-  return gl::read_uints(verdicts, 1);
-}
-
-// The visibility of some pixels.
-std::vector<float> traced(const shadow::PassContext& frame, PictureTracer& tracer,
-                          const std::vector<std::uint32_t>& pixels, int threads) {
-  const render::FrameScene& user = frame_scene(frame, "hybrid");
-  const std::vector<glm::uvec2> drawn = drawn_surfaces(frame.device(), user);
-  const gl::Pass pass(frame.device(), {.name = "rays"});
-  PictureRequest request{
-      .scene = &user.scene.scene(),
-      .geometry = user.scene.posed_geometry(),
-      .width = static_cast<int>(pixels.size()),
-      .light = traced_light(frame),
-      .options = {
-          .samples = frame.params().get_int("hybrid.rays"), .scramblings = Scramblings::one, .threads = threads}};
-  request.receivers = receivers_of(request.geometry, eye_rays(user), drawn, pixels);
-  request.casters = key_of(*request.scene, request.geometry);
-  return tracer.trace(request).traced.visibility;
-}
-
-void resolve(const shadow::PassContext& frame, PictureTracer& tracer, int threads) {
-  const std::vector<unsigned> verdicts = read_verdicts(frame);
-  std::vector<float> visibility(verdicts.size());
-  std::vector<std::uint32_t> undecided;
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    visibility[i] = verdicts[i] == verdict_lit ? 1.0f : 0.0f;
-    if (verdicts[i] == verdict_undecided) undecided.push_back(static_cast<std::uint32_t>(i));
+  const EmbreeScene& of(const scene::Scene& from, const scene::PosedGeometry& geometry) {
+    const Key wanted = key_of(from, geometry);
+    if (!scene || key != wanted) {
+      scene.reset();  // released first, so that two never exist at the same time
+      scene.emplace(from, geometry, BuildOptions{});
+      key = wanted;
+    }
+    return *scene;
   }
-  if (!undecided.empty()) {
-    const std::vector<float> of_rays = traced(frame, tracer, undecided, threads);
-    for (std::size_t i = 0; i < undecided.size(); ++i) visibility[undecided[i]] = of_rays[i];
+};
+
+// One frame.
+class HybridFrame {
+ public:
+  HybridFrame(const shadow::PassContext& context, KeptCasters& casters, int threads)
+      : context_(context),
+        user_(frame_scene(context, "hybrid")),
+        casters_(casters),
+        threads_(threads),
+        left_(context.scratch("left pixels", count_bytes + sizeof(LeftPixel) * pixel_count())) {}
+
+  void resolve() const {
+    const gl::Texture& ids =
+        render::draw_surface_ids(context_.device(), {.scene = user_.scene, .view = user_.view, .depth = user_.depth});
+    const gl::Buffer& tiles = decide_tiles();
+    decide_pixels(tiles, ids);
+    const std::vector<DrawnPixel> left = read_left();
+    if (!left.empty()) trace(left);
   }
-  fill_mask(frame, visibility);
-}
+
+ private:
+  std::size_t pixel_count() const {
+    return static_cast<std::size_t>(context_.mask().width()) * static_cast<std::size_t>(context_.mask().height());
+  }
+
+  void use(gl::Pass& pass, const char* program) const {
+    context_.use(pass, program).set("mask_layer", context_.frame().layer);
+    context_.mask().bind_image(0, GL_WRITE_ONLY);
+  }
+
+  // Returns the list of the tiles that are not decided.
+  const gl::Buffer& decide_tiles() const {
+    const glm::ivec2 tiles = shadow::tile_count(context_.frame().viewport);
+    const auto capacity = static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
+    const auto head = shadow::empty_tile_list(capacity);
+    const gl::Buffer& list = context_.scratch("tile list", sizeof(head) + sizeof(std::uint32_t) * capacity);
+    list.write(std::as_bytes(std::span(head)));
+    gl::Pass pass(context_.device(), {.name = "tile decisions"});
+    use(pass, "tiles");
+    list.bind_storage(shadow::tile_list_binding);
+    pass.dispatch(tiles.x, tiles.y);
+    return list;
+  }
+
+  void decide_pixels(const gl::Buffer& tiles, const gl::Texture& ids) const {
+    gl::write_value(left_, std::uint32_t{0});
+    gl::Pass pass(context_.device(), {.name = "pixel decisions"});
+    use(pass, "pixels");
+    tiles.bind_storage(shadow::tile_list_binding);
+    left_.bind_storage(left_binding);
+    context_.device().sampler({}).bind(unit_surface_ids);
+    ids.bind(unit_surface_ids);
+    pass.dispatch_indirect(tiles);
+  }
+
+  std::vector<DrawnPixel> read_left() const {
+    const gl::Pass pass(context_.device(), {.name = "rays"});
+    std::uint32_t count = 0;
+    gl::glGetNamedBufferSubData(left_.id(), 0, sizeof(count), &count);
+    std::vector<LeftPixel> read(count);
+    gl::glGetNamedBufferSubData(left_.id(), count_bytes, static_cast<GLsizeiptr>(sizeof(LeftPixel) * count),
+                                read.data());
+    std::vector<DrawnPixel> left;
+    left.reserve(count);
+    // Surface 0 is none: it becomes no_surface.
+    for (const LeftPixel& pixel : read)
+      left.push_back({.pixel = {pixel.at & 0xffffU, pixel.at >> 16U}, .drawn = {pixel.surface - 1, pixel.triangle}});
+    return left;
+  }
+
+  void trace(std::span<const DrawnPixel> left) const {
+    gl::Pass pass(context_.device(), {.name = "rays"});
+    const scene::PosedGeometry geometry = user_.scene.posed_geometry();
+    const std::vector<PenumbraPixel> traced =
+        trace_penumbrae(casters_.of(user_.scene.scene(), geometry),
+                        {.geometry = geometry,
+                         .eye = eye_rays(user_),
+                         .pixels = left,
+                         .sun = std::get<TracedSun>(traced_light(context_)),
+                         .rays = (static_cast<std::uint32_t>(context_.params().get_int("hybrid.rays")) + 7) / 8 * 8,
+                         .seed = static_cast<std::uint32_t>(shadow::set_number(context_.params(), context_.age())),
+                         .threads = threads_});
+    std::vector<std::uint32_t> packed;
+    packed.reserve(traced.size());
+    for (const PenumbraPixel& pixel : traced)
+      packed.push_back(glm::packHalf2x16({pixel.visibility, pixel.blocker_distance}));
+    const gl::Buffer& results = context_.scratch("results", sizeof(std::uint32_t) * pixel_count());
+    results.write(std::as_bytes(std::span(packed)));
+    use(pass, "rays");
+    left_.bind_storage(left_binding);
+    results.bind_storage(results_binding);
+    pass.dispatch(static_cast<int>(packed.size()), 1);
+  }
+
+  const shadow::PassContext& context_;
+  const render::FrameScene& user_;
+  KeptCasters& casters_;
+  int threads_;
+  const gl::Buffer& left_;
+};
 
 }  // namespace
 
 shadow::Technique hybrid(int threads) {
   using enum ParamBinding;
-  const auto tracer = std::make_shared<PictureTracer>();
+  const auto casters = std::make_shared<KeptCasters>();
   return {.name = "hybrid",
           .summary =
               "The shadow map decides the pixels that no penumbra reaches; rays to the light decide the others. "
@@ -73,14 +155,15 @@ shadow::Technique hybrid(int threads) {
           .source = "edges of the map as in ADR 18; Owen-scrambled Sobol points, Embree",
           .needs = {"shadow_map", "least_depth_pyramid"},
           .params = {{"hybrid.rays", 16, 8, 4096, "rays",
-                      "Rays of each pixel that the map does not decide, rounded up to a multiple of eight.", host}},
-          .resolve = [=](const shadow::PassContext& frame) { resolve(frame, *tracer, threads); },
+                      "Rays of each pixel in penumbra, rounded up to a multiple of eight.", host}},
+          .resolve = [=](const shadow::PassContext& context) { HybridFrame(context, *casters, threads).resolve(); },
           .resolve_reads_motion = false,
           .programs =
               [](const ParamSet&) {
-                return std::vector<gl::ProgramDesc>{{.name = program_name, .compute = "shadow/techniques/hybrid.comp"}};
+                return std::vector<gl::ProgramDesc>{{.name = "tiles", .compute = "shadow/techniques/hybrid_tiles.comp"},
+                                                    {.name = "pixels", .compute = "shadow/techniques/hybrid.comp"},
+                                                    {.name = "rays", .compute = "shadow/techniques/hybrid_rays.comp"}};
               },
-          .denoisable = false,
           .stand_in = "pcss",
           .reads_light_discs = true};
 }

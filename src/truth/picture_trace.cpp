@@ -9,6 +9,8 @@
 #include <system_error>
 #include <thread>
 
+#include "truth/parallel.h"
+
 namespace penumbra::truth {
 
 namespace {
@@ -25,10 +27,6 @@ std::uint32_t points_for(int samples) {
 }
 
 std::size_t tiles_across(std::size_t pixels) { return (pixels + tile_size - 1) / tile_size; }
-
-int thread_count(int wanted) {
-  return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
 
 struct Estimate {
   float mean = 0, standard_error = 0;

@@ -19,16 +19,20 @@ constexpr double clearance = 8;
 
 }  // namespace
 
+glm::vec3 start_of(const Receiver& receiver, const EmbreeScene& scene) {
+  const glm::dvec3 place = receiver.position - scene.origin();
+  const double furthest = std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+  const double off = clearance * rounding * (receiver.extent + furthest + 2 * scene.shared_extent());
+  return glm::vec3(place + receiver.normal * off);
+}
+
 PixelRays::PixelRays(const EmbreeScene& scene, const TracedLight& light) : scene_(scene), light_(light), rays_{} {
   std::ranges::fill(rays_.tnear, 0.0f);
   std::ranges::fill(rays_.mask, ~0U);
 }
 
 void PixelRays::start_at(const Receiver& receiver) {
-  const glm::dvec3 place = receiver.position - scene_.origin();
-  const double furthest = std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)});
-  const double off = clearance * rounding * (receiver.extent + furthest + 2 * scene_.shared_extent());
-  const glm::vec3 start(place + receiver.normal * off);
+  const glm::vec3 start = start_of(receiver, scene_);
   std::ranges::fill(rays_.org_x, start.x);
   std::ranges::fill(rays_.org_y, start.y);
   std::ranges::fill(rays_.org_z, start.z);

@@ -15,6 +15,10 @@ namespace penumbra::truth {
 // For each scrambling, how many of its points are lit.
 using LitCounts = std::array<std::uint32_t, scrambling_count>;
 
+// Where rays from a receiver start, relative to the scene's origin: off its plane by as much as single precision
+// requires.
+glm::vec3 start_of(const Receiver& receiver, const EmbreeScene& scene);
+
 // Traces the rays of one pixel at a time, in packets. Each thread has its own.
 class PixelRays {
  public:

@@ -102,13 +102,11 @@ std::vector<Receiver> receivers_of(const scene::PosedGeometry& geometry, const E
 }
 
 std::vector<Receiver> receivers_of(const scene::PosedGeometry& geometry, const EyeRays& rays,
-                                   std::span<const glm::uvec2> drawn, std::span<const std::uint32_t> pixels) {
+                                   std::span<const DrawnPixel> pixels) {
   std::vector<Receiver> receivers;
   receivers.reserve(pixels.size());
   const Eye eye(rays);
-  const auto width = static_cast<std::uint32_t>(rays.width);
-  for (const std::uint32_t pixel : pixels)
-    receivers.push_back(receiver_of(geometry, eye, drawn[pixel], {pixel % width, pixel / width}));
+  for (const DrawnPixel& shown : pixels) receivers.push_back(receiver_of(geometry, eye, shown.drawn, shown.pixel));
   return receivers;
 }
 

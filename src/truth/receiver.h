@@ -34,8 +34,14 @@ constexpr std::uint32_t no_surface = 0xffffffff;
 // nearest to the ray. Triangles without area, points and lines are no receivers.
 std::vector<Receiver> receivers_of(const scene::PosedGeometry& geometry, const EyeRays& rays,
                                    std::span<const glm::uvec2> drawn);
-// The same for some pixels, given by their indices in `drawn`.
+
+// A pixel, and which surface and which of its triangles it shows.
+struct DrawnPixel {
+  glm::ivec2 pixel;
+  glm::uvec2 drawn;
+};
+// The same for some pixels.
 std::vector<Receiver> receivers_of(const scene::PosedGeometry& geometry, const EyeRays& rays,
-                                   std::span<const glm::uvec2> drawn, std::span<const std::uint32_t> pixels);
+                                   std::span<const DrawnPixel> pixels);
 
 }  // namespace penumbra::truth

@@ -55,6 +55,14 @@ constexpr std::uint32_t second_dimension(std::uint32_t index) {
   return index ^ (index >> 16U);
 }
 
+// Moves bit i to bit 2 i.
+constexpr std::uint32_t spread_bits(std::uint32_t x) {
+  x = (x | x << 8U) & 0x00ff00ffU;
+  x = (x | x << 4U) & 0x0f0f0f0fU;
+  x = (x | x << 2U) & 0x33333333U;
+  return (x | x << 1U) & 0x55555555U;
+}
+
 // The upper 24 bits as a float in [0, 1), which represents them exactly.
 constexpr float unit(std::uint32_t bits) { return static_cast<float>(bits >> 8U) * 0x1p-24f; }
 
@@ -77,6 +85,21 @@ TRUTH_WIDE_VECTORS void PixelPoints::square(std::uint32_t index, PacketPoints& p
     const std::uint32_t own = index * stride_ + starts_[lane];
     points.x[lane] = unit(reversed_bits(scrambled(own, seeds_x_[lane])));
     points.y[lane] = unit(reversed_bits(scrambled(second_dimension(own), seeds_y_[lane])));
+  }
+}
+
+PicturePoints::PicturePoints(std::uint32_t seed, std::uint32_t count)
+    : count_(count), seed_x_(hash(hash(seed) ^ 0x85ebca6bU)), seed_y_(hash(hash(seed) ^ 0xc2b2ae35U)) {}
+
+std::uint32_t PicturePoints::first(std::uint32_t x, std::uint32_t y) const {
+  return (spread_bits(x) | spread_bits(y) << 1U) * count_;
+}
+
+TRUTH_WIDE_VECTORS void PicturePoints::square(const std::array<std::uint32_t, packet_width>& indices,
+                                              PacketPoints& points) const {
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    points.x[lane] = unit(reversed_bits(scrambled(indices[lane], seed_x_)));
+    points.y[lane] = unit(reversed_bits(scrambled(second_dimension(indices[lane]), seed_y_)));
   }
 }
 

@@ -41,6 +41,24 @@ class PixelPoints {
   alignas(32) std::array<std::uint32_t, packet_width> seeds_y_;
 };
 
+// The sample points of all pixels of a picture, from one scrambled sequence: each pixel takes `count` points that
+// follow each other, and blocks of 2 × 2, 4 × 4, … pixels do too, because pixels are in Morton order. So the points of
+// a pixel cover the light evenly, those of its block do so even better, and neighbours' errors cancel when they are
+// averaged (after Ahmed and Wonka 2020, "Screen-space blue-noise diffusion of Monte Carlo sampling error via
+// hierarchical ordering of pixels").
+class PicturePoints {
+ public:
+  PicturePoints(std::uint32_t seed, std::uint32_t count);
+
+  // The index of the first point of a pixel.
+  std::uint32_t first(std::uint32_t x, std::uint32_t y) const;
+  // Any points, by their indices, in the unit square [0, 1)².
+  void square(const std::array<std::uint32_t, packet_width>& indices, PacketPoints& points) const;
+
+ private:
+  std::uint32_t count_, seed_x_, seed_y_;
+};
+
 // Maps the unit square to the unit disc with equal areas (Shirley and Chiu 1997, "A low distortion map between disk and
 // square").
 void square_to_disc(PacketPoints& points);

@@ -49,6 +49,12 @@ class Bench(TestCase):
         self.assertIn("filter", {each["name"] for each in costs[1]["passes"]})
         self.assertNotIn("shadow map", {each["name"] for each in costs[2]["passes"]})
 
+    def test_measures_rays_that_techniques_trace_as_shadow_passes(self):
+        data = self.bench(SCENE, "--technique", "pcss,hybrid", "--floor")
+        passes = {each["name"]: each for each in data["points"][0]["costs"][1]["passes"]}
+        for name in ("shadow map", "surface ids", "tile decisions", "pixel decisions", "rays"):
+            self.assertTrue(passes[name]["shadow"], name)
+
     def test_whole_frames_have_no_passes_on_a_software_rasteriser(self):
         text = self.succeed("bench", SCENE, "--technique", "none,pcss", "--whole-frames", *SMALL, "-o",
                             self.folder / "bench.json", "-o", self.folder / "bench.csv", "-o",

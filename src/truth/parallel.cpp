@@ -1,0 +1,38 @@
+#include "truth/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace penumbra::truth {
+
+namespace {
+
+// Small enough that all threads finish at nearly the same time.
+constexpr std::size_t range_size = 512;
+
+}  // namespace
+
+int thread_count(int wanted) {
+  return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+void for_ranges(int threads, std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0;
+  const auto run = [&] {
+    for (std::size_t begin = next.fetch_add(range_size); begin < count; begin = next.fetch_add(range_size))
+      work(begin, std::min(begin + range_size, count));
+  };
+  const std::size_t useful = std::min<std::size_t>(static_cast<std::size_t>(threads), count / range_size + 1);
+  std::vector<std::jthread> helpers;  // joined at the end
+  try {
+    for (std::size_t i = 1; i < useful; ++i) helpers.emplace_back(run);
+  } catch (const std::system_error&) {
+    // The system refuses another thread: the existing ones do the work.
+  }
+  run();
+}
+
+}  // namespace penumbra::truth
