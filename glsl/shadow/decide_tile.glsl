@@ -3,6 +3,7 @@
 // lit, or below it and is in shadow.
 #include "shadow/decide.glsl"
 #include "shadow/drivers/tiles.glsl"
+#include "shadow/drivers/tile_lists.glsl"
 
 // A box in light space.
 struct Box {
@@ -147,8 +148,3 @@ Pixels pixels_of(ivec2 tile) {
 
 bool in_viewport(ivec2 tile) { return all(lessThan(tile * tile_size, ivec2(shadow.viewport.zw))); }
 
-void list_undecided(ivec2 tile) {
-  uint index = atomicAdd(tile_list.listed.count, 1u);
-  atomicMax(tile_list.groups_y, index / list_row + 1u);
-  tile_list.tiles[index] = packed_tile(tile);
-}

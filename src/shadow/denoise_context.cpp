@@ -7,6 +7,7 @@
 #include "filters.h"
 #include "light_work.h"
 #include "mask_pass.h"
+#include "tiles.h"
 
 namespace penumbra::shadow {
 
@@ -32,13 +33,13 @@ History DenoiseContext::remembered(std::string_view name) const {
 }
 
 PackedMask DenoiseContext::evaluate_packed(const gl::Texture* last_surfaces) const {
-  const PackedMask packed{target("texels", of_mask(mask(), GL_R32UI)), target("notes", of_mask(mask(), GL_R8UI))};
+  PackedMask packed{target("texels", of_mask(mask(), GL_R32UI)), target("notes", of_mask(mask(), GL_R8UI))};
   const Technique& technique = work_.technique;
   if (technique.resolve) {
     technique.resolve(PassContext(work_, owner_of(technique)));
     pack(packed, last_surfaces);
   } else {
-    run_mask_pass(work_, {.packed = &packed, .last_surfaces = last_surfaces});
+    packed.decisions = run_mask_pass(work_, {.packed = &packed, .last_surfaces = last_surfaces});
   }
   work_.frame.notes = &packed.notes;
   return packed;
@@ -60,24 +61,24 @@ void DenoiseContext::bind_history(const gl::Texture& last_surfaces) const {
   shadow::bind_history(work_, last_surfaces);
 }
 
-const gl::Texture& DenoiseContext::filter(std::string_view filter, const gl::Texture& source) const {
-  if (filter == "none") return source;
-  // No pass to texels reads notes.
-  return run_filter(work_, {.filter = work_.registry.find_filter(filter),
-                            .texels = source,
-                            .notes = source,
+const gl::Texture& DenoiseContext::run(const Filter& filter, const PackedMask& source, bool to_mask) const {
+  const bool spares = source.decisions != nullptr && filter.keeps_unblocked && !filters_in_compute(work_, filter);
+  if (spares && filter_tiles_ == nullptr) filter_tiles_ = &list_filter_tiles(work_, *source.decisions);
+  return run_filter(work_, {.filter = filter,
+                            .texels = source.texels,
+                            .notes = source.notes,
                             .context = *this,
+                            .tiles = spares ? filter_tiles_ : nullptr,
                             .number = filters_run_++,
-                            .to_mask = false});
+                            .to_mask = to_mask});
+}
+
+const gl::Texture& DenoiseContext::filter(std::string_view filter, const PackedMask& source) const {
+  return filter == "none" ? source.texels : run(work_.registry.find_filter(filter), source, /*to_mask=*/false);
 }
 
 void DenoiseContext::filter_to_mask(std::string_view filter, const PackedMask& source) const {
-  run_filter(work_, {.filter = filter == "none" ? unfiltered() : work_.registry.find_filter(filter),
-                     .texels = source.texels,
-                     .notes = source.notes,
-                     .context = *this,
-                     .number = filters_run_++,
-                     .to_mask = true});
+  run(filter == "none" ? unfiltered() : work_.registry.find_filter(filter), source, /*to_mask=*/true);
 }
 
 }  // namespace penumbra::shadow

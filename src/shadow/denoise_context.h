@@ -1,5 +1,6 @@
 #pragma once
 
+#include "filter.h"
 #include "pass_context.h"
 
 namespace penumbra::shadow {
@@ -9,6 +10,9 @@ namespace penumbra::shadow {
 struct PackedMask {
   const gl::Texture& texels;
   const gl::Texture& notes;
+  // By which filters are spared the tiles that they would leave as they are (Tiles::decisions). To be handed on with
+  // texels whose blocker distances nothing but filters has changed since; null: filters run for all pixels.
+  const gl::Texture* decisions = nullptr;
 };
 
 // PassContext with the additional steps that only denoisers use.
@@ -24,9 +28,9 @@ class DenoiseContext : public PassContext {
   // last frame), each pixel's note says whether its history is valid, so that techniques can take more sample points
   // where it is not.
   PackedMask evaluate_packed(const gl::Texture* last_surfaces = nullptr) const;
-  // Packed texels after all passes of a filter; "none": `source` itself. R32UI, the size of the mask. Filters may
+  // Packed texels after all passes of a filter; "none": those of `source`. R32UI, the size of the mask. Filters may
   // follow each other: each call has textures of its own, whose contents last until the next frame.
-  const gl::Texture& filter(std::string_view filter, const gl::Texture& source) const;
+  const gl::Texture& filter(std::string_view filter, const PackedMask& source) const;
   // Fills the mask's layer (see Mask): packed texels after all passes of a filter, or as they are for "none".
   void filter_to_mask(std::string_view filter, const PackedMask& source) const;
   // Binds what glsl/shadow/history.glsl and movement.glsl read; `last_surfaces` as above.
@@ -34,8 +38,10 @@ class DenoiseContext : public PassContext {
 
  private:
   void pack(const PackedMask& target, const gl::Texture* last_surfaces) const;
+  const gl::Texture& run(const Filter& filter, const PackedMask& source, bool to_mask) const;
 
-  mutable int filters_run_ = 0;  // in this frame
+  mutable int filters_run_ = 0;                       // in this frame
+  mutable const gl::Buffer* filter_tiles_ = nullptr;  // of this frame, once a filter has asked for them
 };
 
 }  // namespace penumbra::shadow

@@ -24,6 +24,9 @@ struct Filter {
   // a group's pixels with this border into shared memory; if they do not fit into 32 KiB, the fragment variant is used
   // instead.
   std::vector<glm::ivec2> border = {};
+  // Whether it leaves a texel as it is if neither that one nor any within 3 pixels of it has a blocker distance. Such
+  // parts of the picture, where they are decided (see tiles.h), need not be filtered then.
+  bool keeps_unblocked = false;
 };
 
 }  // namespace penumbra::shadow

@@ -4,17 +4,23 @@
 
 #include <array>
 
+#include "tiles.h"
+
 namespace penumbra::shadow {
 
 namespace {
 
 constexpr std::string_view unpack_name = "unpack";
 
+// What a pass covers: the viewport, the tiles that the filter can change, or those that it leaves as they are.
+enum class Over { all, changing, kept };
+
 struct Step {
   const Filter& filter;
   int pass = 0;
   bool compute = false;
   bool to_mask = false;  // else to packed texels
+  Over over = Over::all;
 };
 
 // Shape of a group, by the tile of texels and depths that it shares.
@@ -60,7 +66,10 @@ LibraryProgram program_of(const Step& step) {
     define("BORDER_Y", border.y);
     program.desc.compute = "shadow/drivers/filter.comp";
   } else {
-    program.desc.vertex = "shared/full_screen.vert";
+    const bool tiles = step.over != Over::all;
+    define("TILES", tiles ? 1 : 0);
+    if (tiles) define("DECIDED", step.over == Over::kept ? 1 : 0);
+    program.desc.vertex = tiles ? "shadow/drivers/tile.vert" : "shared/full_screen.vert";
     program.desc.fragment = "shadow/drivers/filter.frag";
   }
   return program;
@@ -73,25 +82,57 @@ std::string_view pass_name(const Filter& filter) {
 }
 
 // One pass, from texels to `target`: texels, or a layer of the mask. Notes are needed only for the mask.
-void run_pass(const LightWork& work, const Step& step, const FilterInputs& source, const gl::Texture& texels,
-              const gl::Texture& target) {
-  const LightFrame& frame = work.frame;
-  gl::PassDesc desc{.name = pass_name(step.filter)};
-  if (!step.compute) desc.colors = {{.texture = &target, .layer = step.to_mask ? frame.layer : 0}};
-  gl::Pass pass(work.device, desc);
+struct PassInputs {
+  const FilterInputs& source;
+  const gl::Texture& texels;
+  const gl::Texture& target;
+};
+
+const gl::Program& use(gl::Pass& pass, const LightWork& work, const Step& step, const PassInputs& inputs) {
   const gl::Program& program = pass.use(work.programs.ready(program_of(step)));
   bind_inputs(work, owner_of(*work.denoiser));
   for (const GLuint unit : {unit_texels, unit_notes}) work.device.sampler({}).bind(unit);
-  texels.bind(unit_texels);
-  source.notes.bind(unit_notes);
-  if (step.compute) {
-    if (step.to_mask) program.set("mask_layer", frame.layer);
-    target.bind_image(0, GL_WRITE_ONLY);
-    pass.dispatch(frame.viewport.width, frame.viewport.height);
-  } else {
-    pass.set_viewport(frame.viewport.x, frame.viewport.y, frame.viewport.width, frame.viewport.height);
-    pass.draw_full_screen();
+  inputs.texels.bind(unit_texels);
+  inputs.source.notes.bind(unit_notes);
+  return program;
+}
+
+void run_in_compute(gl::Pass& pass, const LightWork& work, const Step& step, const PassInputs& inputs) {
+  const gl::Program& program = use(pass, work, step, inputs);
+  if (step.to_mask) program.set("mask_layer", work.frame.layer);
+  inputs.target.bind_image(0, GL_WRITE_ONLY);
+  pass.dispatch(work.frame.viewport.width, work.frame.viewport.height);
+}
+
+// Fills the tiles that the filter leaves as they are, with the texels or what they are in the mask.
+void keep_tiles(gl::Pass& pass, const LightWork& work, const Step& step, const PassInputs& inputs) {
+  if (step.to_mask) {
+    use(pass, work, {.filter = unfiltered(), .to_mask = true, .over = Over::kept}, inputs);
+    draw_tiles(pass, *inputs.source.tiles, decided_draw_offset);
+    return;
   }
+  // Copying all texels costs less than a draw of the tiles.
+  const Rect& part = work.frame.viewport;
+  gl::glCopyImageSubData(inputs.texels.id(), GL_TEXTURE_2D, 0, part.x, part.y, 0, inputs.target.id(), GL_TEXTURE_2D, 0,
+                         part.x, part.y, 0, part.width, part.height, 1);
+}
+
+void run_pass(const LightWork& work, Step step, const PassInputs& inputs) {
+  const Rect& viewport = work.frame.viewport;
+  gl::PassDesc desc{.name = pass_name(step.filter)};
+  if (!step.compute) desc.colors = {{.texture = &inputs.target, .layer = step.to_mask ? work.frame.layer : 0}};
+  gl::Pass pass(work.device, desc);
+  if (step.compute) return run_in_compute(pass, work, step, inputs);
+  pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  if (inputs.source.tiles == nullptr) {
+    use(pass, work, step, inputs);
+    pass.draw_full_screen();
+    return;
+  }
+  keep_tiles(pass, work, step, inputs);
+  step.over = Over::changing;
+  use(pass, work, step, inputs);
+  draw_tiles(pass, *inputs.source.tiles, listed_draw_offset);
 }
 
 }  // namespace
@@ -105,9 +146,13 @@ const Filter& unfiltered() {
   return filter;
 }
 
+bool filters_in_compute(const LightWork& work, const Filter& filter) {
+  return work.params().get_word("driver") == "compute" && has_compute_form(filter);
+}
+
 const gl::Texture& run_filter(const LightWork& work, const FilterInputs& inputs) {
   const Filter& filter = inputs.filter;
-  const bool compute = work.params().get_word("driver") == "compute" && has_compute_form(filter);
+  const bool compute = filters_in_compute(work, filter);
   const gl::TextureDesc packed{.format = GL_R32UI, .width = work.mask.width(), .height = work.mask.height()};
   const gl::Texture* texels = &inputs.texels;
   for (int i = 0; i < filter.passes; ++i) {
@@ -115,7 +160,7 @@ const gl::Texture& run_filter(const LightWork& work, const FilterInputs& inputs)
     const gl::Texture& target =
         to_mask ? work.mask
                 : inputs.context.target(fmt::format("filter {} {} {}", inputs.number, filter.name, i), packed);
-    run_pass(work, {.filter = filter, .pass = i, .compute = compute, .to_mask = to_mask}, inputs, *texels, target);
+    run_pass(work, {.filter = filter, .pass = i, .compute = compute, .to_mask = to_mask}, {inputs, *texels, target});
     texels = &target;
   }
   return *texels;
@@ -128,8 +173,12 @@ std::vector<LibraryProgram> filter_programs(std::span<const Filter> filters) {
     Step compute = step;
     compute.compute = true;
     if (has_compute_form(step.filter)) programs.push_back(program_of(compute));
+    Step tiles = step;
+    tiles.over = Over::changing;
+    if (step.filter.keeps_unblocked) programs.push_back(program_of(tiles));
   };
   add({.filter = unfiltered(), .to_mask = true});
+  programs.push_back(program_of({.filter = unfiltered(), .to_mask = true, .over = Over::kept}));
   for (const Filter& filter : filters) {
     for (int i = 0; i < filter.passes; ++i) add({.filter = filter, .pass = i, .to_mask = false});
     add({.filter = filter, .pass = filter.passes - 1, .to_mask = true});

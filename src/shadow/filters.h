@@ -13,13 +13,16 @@ const Filter& unfiltered();
 
 struct FilterInputs {
   const Filter& filter;
-  const gl::Texture& texels;   // packed, see PackedMask
-  const gl::Texture& notes;    // read only by passes that fill the mask
-  const PassContext& context;  // whose targets hold what a pass leaves to the next one
-  int number = 0;              // of the filters that the frame has run before: part of the targets' names
-  bool to_mask = false;        // the last pass fills the mask's layer; else packed texels
+  const gl::Texture& texels;          // packed, see PackedMask
+  const gl::Texture& notes;           // read only by passes that fill the mask
+  const PassContext& context;         // whose targets hold what a pass leaves to the next one
+  const gl::Buffer* tiles = nullptr;  // see list_filter_tiles(); null: all pixels are filtered
+  int number = 0;                     // of the filters that the frame has run before: part of the targets' names
+  bool to_mask = false;               // the last pass fills the mask's layer; else packed texels
 };
 
+// Whether the filter runs in compute shaders, for all pixels.
+bool filters_in_compute(const LightWork& work, const Filter& filter);
 // Runs all passes of a filter; returns the texture that the last one filled.
 const gl::Texture& run_filter(const LightWork& work, const FilterInputs& inputs);
 

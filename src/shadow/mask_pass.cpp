@@ -54,18 +54,12 @@ void compute_all(const LightWork& work, const MaskOutput& output) {
   }
 }
 
-void draw_tiles(gl::Pass& pass, const Tiles& tiles, std::size_t command) {
-  tiles.list.bind_storage(tile_list_binding);
-  pass.set_point_size(Tiles::size);
-  pass.draw_arrays_indirect(GL_POINTS, {.buffer = tiles.list, .offset = command});
-}
-
 void fill_decided(const LightWork& work, const MaskOutput& output, const Tiles& tiles, gl::Pass& pass) {
   set_viewport(pass, work.frame.viewport);
   use(pass, work, work.programs.decided(form_of(work, output)), output);
   work.device.sampler({}).bind(unit_decisions);
   tiles.decisions.bind(unit_decisions);
-  draw_tiles(pass, tiles, decided_draw_offset);
+  draw_tiles(pass, tiles.list, decided_draw_offset);
 }
 
 void compute_listed(const LightWork& work, const MaskOutput& output, const Tiles& tiles, gl::Pass& pass) {
@@ -77,14 +71,17 @@ void compute_listed(const LightWork& work, const MaskOutput& output, const Tiles
     tiles.list.bind_storage(tile_list_binding);
     pass.dispatch_indirect(tiles.list);
   } else {
-    draw_tiles(pass, tiles, listed_draw_offset);
+    draw_tiles(pass, tiles.list, listed_draw_offset);
   }
 }
 
 }  // namespace
 
-void run_mask_pass(const LightWork& work, const MaskOutput& output) {
-  if (!decides_tiles(work)) return compute_all(work, output);
+const gl::Texture* run_mask_pass(const LightWork& work, const MaskOutput& output) {
+  if (!decides_tiles(work)) {
+    compute_all(work, output);
+    return nullptr;
+  }
   const Tiles tiles = decide_tiles(work);
   if (form_of(work, output).compute) {
     {
@@ -99,6 +96,7 @@ void run_mask_pass(const LightWork& work, const MaskOutput& output) {
     fill_decided(work, output, tiles, pass);
     compute_listed(work, output, tiles, pass);
   }
+  return &tiles.decisions;
 }
 
 void bind_history(const LightWork& work, const gl::Texture& last_surfaces) {

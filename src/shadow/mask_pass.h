@@ -13,8 +13,9 @@ struct MaskOutput {
 };
 
 // Runs the technique's visibility() for every pixel, or for those of the tiles that a penumbra can reach (see tiles.h),
-// with fragment or compute shaders as the parameter "driver" says.
-void run_mask_pass(const LightWork& work, const MaskOutput& output);
+// with fragment or compute shaders as the parameter "driver" says. Returns Tiles::decisions, or null where no
+// tiles were decided.
+const gl::Texture* run_mask_pass(const LightWork& work, const MaskOutput& output);
 
 // Binds what glsl/shadow/history.glsl and movement.glsl read; `last_surfaces` as above.
 void bind_history(const LightWork& work, const gl::Texture& last_surfaces);

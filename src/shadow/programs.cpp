@@ -204,6 +204,10 @@ gl::ProgramDesc Programs::decided(const MaskForm& form) const {
            .defines = {{"DECIDED", "1"}, {"PACKED", form.packed ? "1" : "0"}, {"HISTORY", form.history ? "1" : "0"}}}});
 }
 
+gl::ProgramDesc Programs::filter_tiles() const {
+  return ready({.desc = {.name = "filter tiles", .compute = "shadow/drivers/filter_tiles.comp"}});
+}
+
 gl::ProgramDesc Programs::pack(bool history) const {
   return ready({.desc = {.name = "pack mask",
                          .vertex = "shared/full_screen.vert",
@@ -263,7 +267,7 @@ void Programs::add_own(std::vector<gl::ProgramDesc>& programs, const PassOwner& 
 }
 
 std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
-  std::vector<gl::ProgramDesc> programs{pack(true), pack(false)};
+  std::vector<gl::ProgramDesc> programs{pack(true), pack(false), filter_tiles()};
   for (gl::ProgramDesc& program : visible_receivers_programs()) programs.push_back(std::move(program));
   for (const MaskForm& form : {MaskForm{}, {.packed = true}, {.packed = true, .history = true}}) {
     programs.push_back(decided(form));

@@ -42,6 +42,8 @@ class Programs {
   // The programs that decide tiles and that fill the mask with them.
   gl::ProgramDesc decide_tiles(const Technique& technique) const;
   gl::ProgramDesc decided(const MaskForm& form) const;
+  // The program that lists the tiles that filters can change.
+  gl::ProgramDesc filter_tiles() const;
   // Whether the driver can draw tiles as points: OpenGL 4.5 guarantees neither points of their size nor storage buffers
   // in vertex shaders. Asked of OpenGL once, by the first frame: programs are listed without a context too.
   bool draws_tiles() const;

@@ -12,6 +12,14 @@ namespace {
 
 int tiles_across(int pixels) { return (pixels + Tiles::size - 1) / Tiles::size; }
 
+const gl::Buffer& begin_list(const PassContext& context, const char* name, const glm::ivec2& tiles) {
+  const std::size_t count = static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
+  const auto head = empty_tile_list(count);
+  const gl::Buffer& list = context.scratch(name, sizeof(head) + sizeof(std::uint32_t) * count);
+  list.write(std::as_bytes(std::span(head)));
+  return list;
+}
+
 }  // namespace
 
 glm::ivec2 tile_count(const Rect& viewport) { return {tiles_across(viewport.width), tiles_across(viewport.height)}; }
@@ -31,14 +39,10 @@ Tiles decide_tiles(const LightWork& work) {
   const PassOwner owner = owner_of(work.technique);
   const PassContext context(work, owner);
   const glm::ivec2 size = tile_count(work.frame.viewport);
-  const std::size_t count = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
-  const auto head = empty_tile_list(count);
   // As large as the mask, not the viewport: a view whose size varies from frame to frame then keeps its texture.
   const gl::TextureDesc of_mask{
       .format = GL_RGBA32UI, .width = tiles_across(work.mask.width()), .height = tiles_across(work.mask.height())};
-  const Tiles tiles{context.target("tile decisions", of_mask),
-                    context.scratch("tile list", sizeof(head) + sizeof(std::uint32_t) * count)};
-  tiles.list.write(std::as_bytes(std::span(head)));
+  const Tiles tiles{context.target("tile decisions", of_mask), begin_list(context, "tile list", size)};
   gl::Pass pass(work.device, {.name = "tile decisions"});
   pass.use(work.programs.decide_tiles(work.technique));
   bind_inputs(work, owner);
@@ -46,6 +50,26 @@ Tiles decide_tiles(const LightWork& work) {
   tiles.list.bind_storage(tile_list_binding);
   pass.dispatch(size.x, size.y);
   return tiles;
+}
+
+const gl::Buffer& list_filter_tiles(const LightWork& work, const gl::Texture& decisions) {
+  const PassOwner owner = owner_of(*work.denoiser);
+  const glm::ivec2 size = tile_count(work.frame.viewport);
+  const gl::Buffer& list = begin_list(PassContext(work, owner), "filter tiles", size);
+  gl::Pass pass(work.device, {.name = "filter tiles"});
+  pass.use(work.programs.filter_tiles());
+  bind_inputs(work, owner);
+  work.device.sampler({}).bind(unit_decisions);
+  decisions.bind(unit_decisions);
+  list.bind_storage(tile_list_binding);
+  pass.dispatch(size.x, size.y);
+  return list;
+}
+
+void draw_tiles(gl::Pass& pass, const gl::Buffer& list, std::size_t command) {
+  list.bind_storage(tile_list_binding);
+  pass.set_point_size(Tiles::size);
+  pass.draw_arrays_indirect(GL_POINTS, {.buffer = list, .offset = command});
 }
 
 }  // namespace penumbra::shadow

@@ -13,7 +13,7 @@ namespace penumbra::shadow {
 struct Tiles {
   static constexpr int size = 8;  // pixels along each side
 
-  // RGBA32UI, one texel a tile: its Decision (see glsl/shadow/drivers/tiles.glsl); undefined for tiles in the list.
+  // RGBA32UI, one texel a tile: its Decision (see glsl/shadow/drivers/tiles.glsl), or no_decision.
   const gl::Texture& decisions;
   // See TileList there.
   const gl::Buffer& list;
@@ -35,5 +35,12 @@ bool decides_tiles(const LightWork& work);
 
 // In a pass of its own.
 Tiles decide_tiles(const LightWork& work);
+
+// In a pass of its own, the list of the tiles whose packed texels a filter with Filter::keeps_unblocked can change; its
+// "decided" ones are those that such filters leave as they are.
+const gl::Buffer& list_filter_tiles(const LightWork& work, const gl::Texture& decisions);
+
+// Draws the tiles of one of a list's two commands, as points: the current program's vertex shader is tile.vert.
+void draw_tiles(gl::Pass& pass, const gl::Buffer& list, std::size_t command);
 
 }  // namespace penumbra::shadow

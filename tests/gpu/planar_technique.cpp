@@ -237,8 +237,8 @@ shadow::Denoiser filtering_twice() {
           .source = "made up",
           .denoise = [](const shadow::DenoiseContext& context) {
             const shadow::PackedMask seen = context.evaluate_packed();
-            const gl::Texture& once = context.filter("box", seen.texels);
-            const gl::Texture& twice = context.filter("box", once);
+            const gl::Texture& once = context.filter("box", seen);
+            const gl::Texture& twice = context.filter("box", {once, seen.notes, seen.decisions});
             recorded.filtered = {&seen.texels, &once, &twice};
             context.filter_to_mask("none", {twice, seen.notes});
           }};

@@ -253,6 +253,19 @@ TEST_F(Tiles, KeepTheHistoryAsItIs) {
   }
 }
 
+// Filters are fragment shaders that leave decided tiles out, or compute shaders that run for all pixels.
+TEST_F(Tiles, AreLeftOutByFiltersThatWouldNotChangeThem) {
+  load("posts", 317, 179);
+  for (const char* filter : {"none", "box", "gaussian", "bilateral_separable"}) {
+    SCOPED_TRACE(filter);
+    settings_ = {fmt::format("filter.visibility={}", filter), "cascades.size=512"};
+    mask(renderer_, "thesis_8x8", 4.0f, true);
+    const std::vector<std::vector<float>> fragment = layers();
+    mask(renderer_, "thesis_8x8_compute", 4.0f, true);
+    EXPECT_EQ(fragment, layers());
+  }
+}
+
 // Sizes at which the last tiles are cut off, and pictures smaller than a tile.
 TEST_F(Tiles, CoverPicturesOfAnySize) {
   for (const auto& [width, height] : {std::pair(97, 61), {8, 8}, {9, 3}, {1, 1}}) {

@@ -15,6 +15,11 @@ uvec4 packed_decision(Decision decision) {
   return uvec4(decision.lit, packHalf2x16(vec2(decision.blocker_distance, radius)), uint(decision.layer));
 }
 
+const uvec4 no_decision = uvec4(0u, 0u, 0u, ~0u);  // of a tile in the list of those to compute
+
+// Whether no pixel of a decided tile has a blocker distance.
+bool is_unblocked(uvec4 texel) { return texel.w != no_decision.w && (texel.z & 0xffffu) == 0u; }
+
 Decision unpacked_decision(uvec4 texel) {
   vec2 lengths = unpackHalf2x16(texel.z);
   return Decision(texel.xy, lengths.x, lengths.y, int(texel.w));

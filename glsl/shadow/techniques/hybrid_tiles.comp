@@ -24,6 +24,6 @@ void main() {
   if (decide_tile(pixels, decision)) {
     store_tile(pixels, decision);
   } else {
-    list_undecided(tile);
+    list_tile(tile);
   }
 }

@@ -10,7 +10,8 @@ Filter bilateral() {
       .glsl = "shadow/filters/bilateral.glsl",
       .of = Filter::Of::visibility,
       .passes = 1,
-      .border = {{51, 51}}};
+      .border = {{51, 51}},
+      .keeps_unblocked = true};
 }
 
 }  // namespace penumbra::shadow

@@ -9,7 +9,8 @@ Filter bilateral_separable() {
           .glsl = "shadow/filters/bilateral_separable.glsl",
           .of = Filter::Of::visibility,
           .passes = 2,
-          .border = {{51, 2}, {2, 51}}};
+          .border = {{51, 2}, {2, 51}},
+          .keeps_unblocked = true};
 }
 
 }  // namespace penumbra::shadow

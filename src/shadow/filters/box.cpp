@@ -9,7 +9,8 @@ Filter box() {
           .glsl = "shadow/filters/box.glsl",
           .of = Filter::Of::visibility,
           .passes = 2,
-          .border = {{45, 2}, {2, 45}}};
+          .border = {{45, 2}, {2, 45}},
+          .keeps_unblocked = true};
 }
 
 }  // namespace penumbra::shadow

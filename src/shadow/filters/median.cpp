@@ -9,7 +9,8 @@ Filter median() {
           .glsl = "shadow/filters/median.glsl",
           .of = Filter::Of::penumbra,
           .passes = 1,
-          .border = {{1, 1}}};
+          .border = {{1, 1}},
+          .keeps_unblocked = true};
 }
 
 }  // namespace penumbra::shadow
