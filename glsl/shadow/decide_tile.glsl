@@ -147,4 +147,3 @@ Pixels pixels_of(ivec2 tile) {
 }
 
 bool in_viewport(ivec2 tile) { return all(lessThan(tile * tile_size, ivec2(shadow.viewport.zw))); }
-

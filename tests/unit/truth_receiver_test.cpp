@@ -73,7 +73,10 @@ TEST_P(Receivers, LieOnThePlaneAndFaceTheEye) {
         const std::vector<glm::uvec2> drawn(width * height, glm::uvec2(0, triangle));
         const auto receivers = receivers_of(scene.geometry(), rays, drawn);
         const std::uint32_t some[] = {3, 77, 150};
-        const auto subset = receivers_of(scene.geometry(), rays, drawn, some);
+        std::vector<truth::DrawnPixel> pixels;
+        for (const std::uint32_t i : some)
+          pixels.push_back({{i % static_cast<unsigned>(width), i / static_cast<unsigned>(width)}, drawn[i]});
+        const auto subset = receivers_of(scene.geometry(), rays, pixels);
         ASSERT_EQ(subset.size(), 3u);
         for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(subset[i].position, receivers[some[i]].position) << p.name;
         const glm::dvec3 a(glm::vec3(at + glm::vec3(-9, 0, 9)));
