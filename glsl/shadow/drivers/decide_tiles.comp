@@ -12,6 +12,7 @@ void main() {
     imageStore(decisions, tile, packed_decision(decision));
     list_decided(tile);
   } else {
+    imageStore(decisions, tile, no_decision);
     list_tile(tile);
   }
 }
