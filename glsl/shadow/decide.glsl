@@ -36,7 +36,7 @@ PixelState decide_receiver(Receiver receiver, Light light) {
   vec4 heights = heights_above(receiver, footprint.depths, footprint.offsets);
   float texel = texel_size(receiver, light);
   float bias = depth_bias(receiver, light);
-  float bend = unresolved_bend * texel * length(receiver.gradient);
+  float bend = unresolved_bend * texel * texel_slope(receiver, light);
   float least = min(min(heights.x, heights.y), min(heights.z, heights.w));
   float most = max(max(heights.x, heights.y), max(heights.z, heights.w));
   // As in with_surroundings(): a bend is forgiven only where a texel shows the receiver's own surface.

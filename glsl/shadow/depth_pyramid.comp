@@ -41,18 +41,18 @@ vec2 least_depths(ivec3 at) {
     middle[2 * j + 1] = vec4(cells[0].y, cells[1].xy, cells[2].x);
     ends[2 * j + 1] = vec2(cells[0].x, cells[2].y);
   }
-  float height = stored_edge_height(light);
+  vec2 heights = stored_edge_heights(light);
   vec4 least = vec4(1.0), edges = vec4(1.0);
-  for (int row = 0; row < 5; ++row) edges = min(edges, depths_at_edges(middle[row], middle[row + 1], height));
+  for (int row = 0; row < 5; ++row) edges = min(edges, depths_at_edges(middle[row], middle[row + 1], heights.y));
   vec4 right, beyond;
   for (int row = 1; row < 5; ++row) {
     vec4 texels = middle[row];
     least = min(least, texels);
-    edges = min(edges, depths_at_edges(texels, vec4(ends[row].x, texels.xyz), height));
+    edges = min(edges, depths_at_edges(texels, vec4(ends[row].x, texels.xyz), heights.x));
     right[row - 1] = texels.w;
     beyond[row - 1] = ends[row].y;
   }
-  edges = min(edges, depths_at_edges(right, beyond, height));
+  edges = min(edges, depths_at_edges(right, beyond, heights.x));
   return vec2(least_of(least), least_of(edges));
 }
 #else

@@ -22,7 +22,7 @@ Receiver offset_receiver(Receiver receiver, Light light) {
 
 // Bias along the light, metres: the error of rounding, and the parameters bias.constant and bias.slope in texel widths.
 float depth_bias(Receiver receiver, Light light) {
-  float texels = bias_constant + bias_slope * length(receiver.gradient);
+  float texels = bias_constant + bias_slope * texel_slope(receiver, light);
   return depth_rounding(receiver, light) + texel_size(receiver, light) * texels;
 }
 
@@ -42,7 +42,7 @@ struct Face {
 // edge of an object in front of the receiver.
 Face face_beside(Receiver receiver, ivec2 at, ivec2 side, vec3 depths, float bias, Light light) {
   vec2 first = texel_offset(receiver, at + side, light);
-  vec2 next = vec2(side) * texel_size(receiver, light);
+  vec2 next = vec2(side) * texel_extent(receiver, light);
   Offsets offsets = Offsets(first.x + next.x * vec4(0.0, 1.0, 2.0, 2.0), first.y + next.y * vec4(0.0, 1.0, 2.0, 2.0));
   vec3 heights = heights_above(receiver, depths.xyzz, offsets).xyz;
   float near = heights.y - heights.x;
@@ -67,10 +67,11 @@ vec4 lit_slopes(Receiver receiver, float bias, Light light) {
   Face left = face_beside(receiver, at, ivec2(-1, 0), vec3(left_down.x, far_left.zw), bias, light);
   Face down = face_beside(receiver, at, ivec2(0, -1), vec3(left_down.z, far_down.xw), bias, light);
   // From the row of texels to the receiver's, and from their column to the receiver's.
-  vec2 to_receiver = -texel_offset(receiver, at, light) / texel_size(receiver, light);
+  vec2 texel = texel_extent(receiver, light);
+  vec2 to_receiver = -texel_offset(receiver, at, light) / texel;
   vec2 across = vec2(right.rise - left.rise, up.rise - down.rise) * to_receiver;
   vec4 heights = vec4(right.height, up.height, left.height, down.height) + across.yxyx;
-  return step(heights, vec4(bias)) * vec4(right.rise, up.rise, left.rise, down.rise) / texel_size(receiver, light);
+  return step(heights, vec4(bias)) * vec4(right.rise, up.rise, left.rise, down.rise) / texel.xyxy;
 }
 
 // Tolerance in texel widths: a texel that is in front of the receiver's plane by less still counts as the same surface,
@@ -89,7 +90,7 @@ Receiver with_surroundings(Receiver receiver, float bias, float steepest, Light 
   // between them.
   bool one_surface = abs(heights.x + heights.z - heights.y - heights.w) <= 0.25 * least + bias;
   bool nearer = any(lessThan(footprint.depths, vec4(receiver.position.z - bias)));
-  float bend = unresolved_bend * texel * length(receiver.gradient);
+  float bend = unresolved_bend * texel * texel_slope(receiver, light);
   receiver.surroundings.slopes = lit_slopes(receiver, bias, light);
   receiver.surroundings.steepest = steepest;
   receiver.surroundings.covered = least > bias && one_surface && nearer ? 1.5 * texel : 0.0;

@@ -55,7 +55,10 @@ vec3 view_position_of(Receiver receiver) { return receiver.position * mat3(shado
 
 // A receiver's normal in view space, and in axes that are the same for all layers and constant while the light is.
 vec3 view_normal_of(Receiver receiver) { return view_direction(receiver.normal); }
-vec3 shared_normal_of(Receiver receiver) { return receiver.normal; }
+vec3 shared_normal_of(Receiver receiver) {
+  vec2 turn = shadow.axes_turn, across = receiver.normal.xy;
+  return vec3(turn.x * across.x - turn.y * across.y, turn.y * across.x + turn.x * across.y, receiver.normal.z);
+}
 
 // A receiver from its position in view space and its normal in light space.
 Receiver make_receiver(vec3 view_position, vec3 light_normal, vec2 pixel) {
@@ -88,12 +91,14 @@ vec4 penumbra_radii(Receiver receiver, vec4 blocker_distances, Light light) {
 // light.
 float cone_slope(Receiver receiver, Light light) { return 1.0 / max(light.extent, 1.0 / max_plane_slope); }
 
-// Least difference between the stored depths of neighbouring texels of the light's layer that makes an edge. Along a
-// surface with smaller ones no texel can be in such a cone from a point of the surface, unless it borders the point.
-float stored_edge_height(Light light) {
+// Least difference between the stored depths of neighbouring texels of the light's layer, in a row and in a column,
+// that makes an edge. Along a surface with smaller ones no texel can be in such a cone from a point of the surface,
+// unless it borders the point.
+vec2 stored_edge_heights(Light light) {
   const float diagonal = 0.5;  // texels along a diagonal lie further apart than their rows and columns
   float slope = 1.0 / max(light.extent, 1.0 / max_plane_slope);
-  return (diagonal * light.map.texel * slope + 2.0 * light.map.rounding) / light.map.depth_range;
+  vec2 along = diagonal * (light.map.texel * light.map.texel_shares) * slope;
+  return (along + 2.0 * light.map.rounding) / light.map.depth_range;
 }
 
 // Conversion between the blocker distance in a packed texel and the penumbra radius that filters need, for a receiver
@@ -114,9 +119,16 @@ float stored_depth(float stored, LayerBlock map) { return map.near_depth + map.d
 vec4 stored_depths(vec4 stored, LayerBlock map) { return map.near_depth + map.depth_range * stored; }
 float stored_depth(float stored, Light light) { return stored_depth(stored, light.map); }
 
-// Width of a texel of the light's layer at a position's depth, metres.
+// Width of a texel of the light's layer at a position's depth, metres, or its height where that is larger.
 float texel_size_at(vec3 position, Light light) { return light.map.texel; }
 float texel_size(Receiver receiver, Light light) { return texel_size_at(receiver.position, light); }
+
+// Width and height of a texel, metres.
+vec2 texel_extent_at(vec3 position, Light light) { return light.map.texel * light.map.texel_shares; }
+vec2 texel_extent(Receiver receiver, Light light) { return texel_extent_at(receiver.position, light); }
+
+// Slope of the receiver's plane in depth per width of a texel, over texel_size().
+float texel_slope(Receiver receiver, Light light) { return length(receiver.gradient * light.map.texel_shares); }
 
 // Upper bound of the error along the light that rounding in the map and in light space causes, metres.
 float depth_rounding(Receiver receiver, Light light) { return light.map.rounding; }
@@ -140,7 +152,8 @@ float depth_at(ivec2 texel, Light light) { return depth_in(shadow_depth, texel, 
 
 // Offset of a texel's centre from the receiver.
 vec2 texel_offset(Receiver receiver, ivec2 texel, Light light) {
-  vec2 center = (vec2(texel) + 0.5) * light.map.texel - 0.5 / light.map.widths_per_metre + light.map.center;
+  vec2 extent = texel_extent(receiver, light);
+  vec2 center = (vec2(texel) + 0.5) * extent - 0.5 / light.map.widths_per_metre + light.map.center;
   return center - receiver.position.xy;
 }
 
@@ -170,7 +183,7 @@ vec4 depths_from(ivec2 first, Light light) {
 Footprint fetch_footprint(Receiver receiver, vec2 offset, Light light) {
   vec2 at = map_place(receiver.position, light) - 0.5 + offset * (light.map.widths_per_metre * shadow.map_size);
   vec2 first = floor(at);
-  float texel = texel_size(receiver, light);
+  vec2 texel = texel_extent(receiver, light);
   Footprint footprint;
   footprint.depths = stored_depths(gather_stored(first + 1.0, light), light.map);
   footprint.weight = at - first;
@@ -185,13 +198,13 @@ vec4 plane_depths(Receiver receiver, Offsets at) { return receiver.gradient.x * 
 
 // Layers.
 
-// Largest distance of a disc's rim from the centre of a layer along either axis, in units of half the layer's width;
-// above 1 the disc is not completely within the layer.
+// Largest distance of a disc's rim from the centre of a layer along either axis, in units of half the layer's width
+// along it; above 1 the disc is not completely within the layer.
 float layer_edge(int layer, vec3 position, float radius) {
   LayerBlock map = shadow.layers[layer];
-  vec2 d = abs(position.xy - map.center);
-  float inside = 2.0 * map.widths_per_metre * (max(d.x, d.y) + radius + 1.5 * map.texel);
-  return position.z - map.near_depth > map.depth_range * 1.0001 ? 2.0 : inside;
+  vec2 rim = abs(position.xy - map.center) + radius + 1.5 * map.texel;
+  vec2 inside = 2.0 * map.widths_per_metre * rim;
+  return position.z - map.near_depth > map.depth_range * 1.0001 ? 2.0 : max(inside.x, inside.y);
 }
 
 // The finest layer that contains the whole disc, or the last layer if none does.
@@ -233,9 +246,14 @@ float most_moved_distance(Receiver receiver) { return receiver.position.z - shad
 
 // Pyramids over the light's layer of the map, whose level 0 has one texel for `base` texels of the map along each axis.
 
-// The finest level of so many at which a disc touches at most 2 × 2 texels.
+// The finest level of so many at which a rectangle of these half widths touches at most 2 × 2 texels.
+int pyramid_level(vec3 position, vec2 radius, Light light, float base, int levels) {
+  vec2 square = radius / light.map.texel_shares;
+  return covering_level(max(square.x, square.y), base * texel_size_at(position, light), levels);
+}
+
 int pyramid_level(vec3 position, float radius, Light light, float base, int levels) {
-  return covering_level(radius, base * texel_size_at(position, light), levels);
+  return pyramid_level(position, vec2(radius), light, base, levels);
 }
 
 // The texels of a level that a rectangle of these half widths touches; `last` is the level's last texel.
@@ -244,7 +262,7 @@ struct TexelRange {
 };
 
 TexelRange pyramid_range(vec3 position, vec2 radius, Light light, float base, int level, ivec2 last) {
-  float texel = base * light.map.texel * exp2(float(level));
+  vec2 texel = base * texel_extent_at(position, light) * exp2(float(level));
   vec2 origin = position.xy - light.map.center + 0.5 / light.map.widths_per_metre;
   return TexelRange(clamp(ivec2(floor((origin - radius) / texel)), ivec2(0), last),
                     clamp(ivec2(floor((origin + radius) / texel)), ivec2(0), last));

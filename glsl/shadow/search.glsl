@@ -14,8 +14,7 @@ struct DepthBounds {
 
 // Bounds over a rectangle of these half widths and a little beyond: at most 5 × 5 texels of a level.
 DepthBounds depth_bounds(vec3 position, vec2 radius, Light light) {
-  float quarter = 0.25 * max(radius.x, radius.y);
-  int level = pyramid_level(position, quarter, light, pyramid_base, textureQueryLevels(shadow_pyramid));
+  int level = pyramid_level(position, 0.25 * radius, light, pyramid_base, textureQueryLevels(shadow_pyramid));
   ivec2 last = max(last_texel(), 0) >> (level + 2);
   TexelRange range = pyramid_range(position, radius, light, pyramid_base, level, last);
   vec2 stored = vec2(1.0);

@@ -1,21 +1,27 @@
 // Finds what the view's depth texture shows of the receivers, for cascades that are fitted to it (Lauritzen, Salvi and
 // Lefohn 2010, Sample distribution shadow maps). The first run, with BOUNDS 0, finds the least and the greatest stored
 // depth. The second one divides the distances between them into slices, of equal ratios of far to near, and finds for
-// each slice how many pixels show it and its bounds in light space.
+// each slice how many pixels show it and its extents along several directions across the light.
 #include "shared/language.h"
 
 const uint slices = 32u;
-// Each invocation reads a row of pixels: they mostly lie in one slice.
-const int row = 32;
-layout(local_size_x = 4, local_size_y = 16) in;
+// Each invocation reads a block of pixels, which mostly lie in one slice.
+const int block_size = 8;
+layout(local_size_x = 8, local_size_y = 8) in;
+const uint invocations = 64u;
 
 layout(binding = 2) uniform sampler2D receiver_depth;
 
+// Of each slice: the extents along DIRECTIONS directions in light space's x and y, of which the first is the x axis and
+// each other one is turned by half a turn / DIRECTIONS more; then the depths along the light.
+const uint measures = uint(DIRECTIONS) + 1u;
+const uint all_measures = slices * measures;
+
 // Floats in an order-preserving code: see code_of().
 layout(std430, binding = 7) restrict buffer Found {
-  uint least, greatest;             // stored depth
-  uint unused0, unused1;
-  uvec4 low[slices], high[slices];  // metres; w of `high`: how many pixels
+  uint least, greatest;  // stored depth
+  uint pixels[slices];
+  uint low[all_measures], high[all_measures];  // metres
 } found;
 
 uniform vec4 viewport;  // x, y, width, height; texels
@@ -27,15 +33,14 @@ uint code_of(float value) {
   return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
 }
 
-// The pixels that an invocation reads: a part of a line of the viewport.
-struct Row {
-  ivec2 first;
-  int count;
+// The pixels that an invocation reads, low to high exclusive.
+struct Pixels {
+  ivec2 low, high;
 };
 
-Row own_row() {
-  ivec2 at = ivec2(gl_GlobalInvocationID.xy) * ivec2(row, 1);
-  return Row(ivec2(viewport.xy) + at, at.y < int(viewport.w) ? min(int(viewport.z) - at.x, row) : 0);
+Pixels own_pixels() {
+  ivec2 at = block_size * ivec2(gl_GlobalInvocationID.xy);
+  return Pixels(ivec2(viewport.xy) + at, ivec2(viewport.xy) + min(at + block_size, ivec2(viewport.zw)));
 }
 
 bool is_receiver(float depth) { return depth != sky_depth && !isnan(depth) && !isinf(depth); }
@@ -53,35 +58,55 @@ vec3 view_position(vec2 at, float depth) {
   return view.xyz / view.w;
 }
 
-shared uint group_low[3u * slices], group_high[3u * slices], group_count[slices];
+shared uint group_low[all_measures], group_high[all_measures], group_pixels[slices];
 
-// What some pixels show of one slice.
+// What some pixels show of one slice: extents along four directions, half a right angle apart, and depths.
 struct Part {
   int slice;
-  uint count;
-  vec3 low, high;
+  uint pixels;
+  vec4 low, high;
+  vec2 depths;
 };
 
-Part empty_part(int slice) { return Part(slice, 0u, vec3(1e30), vec3(-1e30)); }
+Part empty_part(int slice) { return Part(slice, 0u, vec4(1e30), vec4(-1e30), vec2(1e30, -1e30)); }
 
+vec4 along_four(vec2 place) {
+  return vec4(place.x, (place.x + place.y) * sqrt(0.5), place.y, (place.y - place.x) * sqrt(0.5));
+}
+
+// Most parts change nothing, and looking first is cheaper than an atomic operation.
+void add_range(uint index, float low, float high) {
+  uint low_code = code_of(low), high_code = code_of(high);
+  if (low_code < group_low[index]) atomicMin(group_low[index], low_code);
+  if (high_code > group_high[index]) atomicMax(group_high[index], high_code);
+}
+
+// The octagon about the part is measured instead of each pixel: it extends beyond them by a little of a block.
 void add(Part part) {
-  if (part.count == 0u) return;
-  for (int axis = 0; axis < 3; ++axis) {
-    atomicMin(group_low[3 * part.slice + axis], code_of(part.low[axis]));
-    atomicMax(group_high[3 * part.slice + axis], code_of(part.high[axis]));
+  if (part.pixels == 0u) return;
+  const int steps = DIRECTIONS / 4;
+  const float right_angle = 1.57079633;
+  // The fifth direction is opposite to the first.
+  vec4 next_low = vec4(part.low.yzw, -part.high.x), next_high = vec4(part.high.yzw, -part.low.x);
+  uint first = uint(part.slice) * measures;
+  for (int step = 0; step < steps; ++step) {
+    float angle = 0.5 * right_angle * float(step) / float(steps);
+    // A direction between two of the four is this sum of them.
+    float of_first = sin(0.5 * right_angle - angle) * sqrt(2.0), of_next = sin(angle) * sqrt(2.0);
+    vec4 low = of_first * part.low + of_next * next_low, high = of_first * part.high + of_next * next_high;
+    for (int i = 0; i < 4; ++i) add_range(first + uint(i * steps + step), low[i], high[i]);
   }
-  atomicAdd(group_count[part.slice], part.count);
+  add_range(first + uint(DIRECTIONS), part.depths.x, part.depths.y);
+  atomicAdd(group_pixels[part.slice], part.pixels);
 }
 
 void main() {
   uint own = gl_LocalInvocationIndex;
-  if (own < slices) {
-    group_count[own] = 0u;
-    for (uint axis = 0u; axis < 3u; ++axis) {
-      group_low[3u * own + axis] = 0xffffffffu;
-      group_high[3u * own + axis] = 0u;
-    }
+  for (uint i = own; i < all_measures; i += invocations) {
+    group_low[i] = 0xffffffffu;
+    group_high[i] = 0u;
   }
+  if (own < slices) group_pixels[own] = 0u;
   barrier();
 
   vec2 middle = viewport.xy + 0.5 * viewport.zw;
@@ -92,32 +117,35 @@ void main() {
   float near = max(min(a, b), far * 1e-3);
   float slices_a_ratio = float(slices) / max(log2(far / near), 1e-6);
 
-  Row pixels = own_row();
+  Pixels pixels = own_pixels();
   Part part = empty_part(0);
-  for (int i = 0; i < pixels.count; ++i) {
-    ivec2 at = pixels.first + ivec2(i, 0);
-    float depth = texelFetch(receiver_depth, at, 0).x;
-    if (!is_receiver(depth)) continue;
-    vec3 position = view_position(vec2(at) + 0.5, depth);
-    float away = -position.z;
-    if (away > far * 1.0001 || isnan(away)) continue;
-    int slice = clamp(int(log2(max(away, near) / near) * slices_a_ratio), 0, int(slices) - 1);
-    if (slice != part.slice) {
-      add(part);
-      part = empty_part(slice);
+  for (int y = pixels.low.y; y < pixels.high.y; ++y) {
+    for (int x = pixels.low.x; x < pixels.high.x; ++x) {
+      float depth = texelFetch(receiver_depth, ivec2(x, y), 0).x;
+      if (!is_receiver(depth)) continue;
+      vec3 position = view_position(vec2(x, y) + 0.5, depth);
+      float away = -position.z;
+      if (away > far * 1.0001 || isnan(away)) continue;
+      int slice = clamp(int(log2(max(away, near) / near) * slices_a_ratio), 0, int(slices) - 1);
+      if (slice != part.slice) {
+        add(part);
+        part = empty_part(slice);
+      }
+      vec3 place = mat3(view_to_light) * position;
+      vec4 across = along_four(place.xy);
+      part = Part(slice, part.pixels + 1u, min(part.low, across), max(part.high, across),
+                  vec2(min(part.depths.x, place.z), max(part.depths.y, place.z)));
     }
-    vec3 place = mat3(view_to_light) * position;
-    part = Part(slice, part.count + 1u, min(part.low, place), max(part.high, place));
   }
   add(part);
   barrier();
 
-  if (own >= slices || group_count[own] == 0u) return;
-  for (uint axis = 0u; axis < 3u; ++axis) {
-    atomicMin(found.low[own][axis], group_low[3u * own + axis]);
-    atomicMax(found.high[own][axis], group_high[3u * own + axis]);
+  for (uint i = own; i < all_measures; i += invocations) {
+    if (group_pixels[i / measures] == 0u) continue;
+    atomicMin(found.low[i], group_low[i]);
+    atomicMax(found.high[i], group_high[i]);
   }
-  atomicAdd(found.high[own].w, group_count[own]);
+  if (own < slices && group_pixels[own] > 0u) atomicAdd(found.pixels[own], group_pixels[own]);
 }
 
 #else
@@ -131,11 +159,13 @@ void main() {
   }
   barrier();
 
-  Row pixels = own_row();
+  Pixels pixels = own_pixels();
   vec2 range = vec2(1e30, -1e30);
-  for (int i = 0; i < pixels.count; ++i) {
-    float depth = texelFetch(receiver_depth, pixels.first + ivec2(i, 0), 0).x;
-    if (is_receiver(depth)) range = vec2(min(range.x, depth), max(range.y, depth));
+  for (int y = pixels.low.y; y < pixels.high.y; ++y) {
+    for (int x = pixels.low.x; x < pixels.high.x; ++x) {
+      float depth = texelFetch(receiver_depth, ivec2(x, y), 0).x;
+      if (is_receiver(depth)) range = vec2(min(range.x, depth), max(range.y, depth));
+    }
   }
   if (range.x <= range.y) {
     atomicMin(group_least, code_of(range.x));

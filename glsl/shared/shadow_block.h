@@ -11,13 +11,15 @@ GLSL_BEGIN
 // The placement of one layer of a light's shadow map, and the range of its depths. Only
 // glsl/shadow/light_projection.glsl reads it.
 struct LayerBlock {
-  vec2 center;             // of the map, light space, metres
-  float widths_per_metre;  // map widths
-  float texel;             // width of a texel, metres
-  float near_depth;        // light-space depth that the map stores as 0, metres
-  float depth_range;       // from near_depth to the depth that the map stores as 1, metres
-  float rounding;          // bias along the light that covers rounding, metres
-  float texel_uv;          // width of a texel in texture coordinates
+  vec2 center;            // of the map, light space, metres
+  vec2 widths_per_metre;  // map widths and heights
+  vec2 texel_shares;      // width and height of a texel over the larger of both
+  float texel;            // the larger of both, metres
+  float near_depth;       // light-space depth that the map stores as 0, metres
+  float depth_range;      // from near_depth to the depth that the map stores as 1, metres
+  float rounding;         // bias along the light that covers rounding, metres
+  float texel_uv;         // width of a texel in texture coordinates
+  float unused;
 };
 
 struct ShadowBlock {
@@ -41,6 +43,8 @@ struct ShadowBlock {
   int has_motion;          // 1: the caller brings motion vectors
   int casters_moved;       // 1: casters moved, and the movement map shows where
   float moved_depth;       // least light-space depth of what moved, metres
+  vec2 axes_turn;          // cosine and sine of the angle by which the light's x and y axes are turned in this frame
+  vec2 unused;
   // The layer that contains every caster; apart from `layers`, because a load at an index costs more.
   LayerBlock widest;
   LayerBlock layers[SHADOW_MAX_LAYERS];

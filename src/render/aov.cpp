@@ -140,7 +140,7 @@ std::vector<float> under_texel(const Source& from) {
   return of_mask(from, 4, [](const float* p, bool) { return p[3] - std::floor(p[3]) >= 0.25f ? 1.0f : 0.0f; });
 }
 
-// Of the first light's shadow map.
+// Of the first light's shadow map: the side of a square of the texel's area.
 std::vector<float> texel(const Source& from) {
   const gl::Texture& depth_texture = *from.frame.gbuffer.depth;
   const auto width = static_cast<float>(depth_texture.width()), height = static_cast<float>(depth_texture.height());
@@ -151,7 +151,8 @@ std::vector<float> texel(const Source& from) {
   std::vector<float> texels;
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const float of_pixel = from.frame.camera.orthographic ? pixel : pixel * distances[i];
-    texels.push_back(layers[i] < 0 ? 0.0f : maps.texel(static_cast<int>(layers[i])) / of_pixel);
+    const glm::vec2 of_map = layers[i] < 0 ? glm::vec2(0) : maps.texel(static_cast<int>(layers[i]));
+    texels.push_back((of_map.x == of_map.y ? of_map.x : std::sqrt(of_map.x * of_map.y)) / of_pixel);
   }
   return texels;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "convex.h"
@@ -36,6 +37,10 @@ Sphere sphere_about(const Box& box) {
 // Rounds up to a power of 2^(1 / steps_an_octave), so that ranges and sizes seldom change while the camera moves.
 double step_up(double value, double steps_an_octave) {
   return value <= 0 ? 0 : std::exp2(std::ceil(std::log2(value) * steps_an_octave - 1e-9) / steps_an_octave);
+}
+
+glm::dvec2 step_up(const glm::dvec2& value, double steps_an_octave) {
+  return {step_up(value.x, steps_an_octave), step_up(value.y, steps_an_octave)};
 }
 
 double step_down(double value, double steps_an_octave) {
@@ -75,11 +80,10 @@ Sphere frustum_sphere(const CascadeInputs& in, double near, double far) {
   return sphere;
 }
 
-// A square column along the light, or a pyramid that widens towards it: `half` wide at the depth `base`, and `slope`
-// more for each metre towards the light.
+// A column along the light, or a pyramid that widens towards it: it extends by `half` from its centre at the depth
+// `base`, and by `slope` more for each metre towards the light.
 struct Column {
-  glm::dvec2 center{0};
-  double half = 0;
+  glm::dvec2 center{0}, half{0};
   double base = 0, slope = 0;
 };
 
@@ -91,11 +95,11 @@ Range range_within(const Column& column, const std::array<glm::dvec3, 8>& corner
   for (const auto& face : faces) {
     Polygon polygon;
     for (const int corner : face) polygon.push_back(corners[static_cast<size_t>(corner)]);
-    const double half = column.half + column.slope * column.base;
-    polygon = clipped(polygon, HalfSpace{{1, 0, column.slope}, half + column.center.x});
-    polygon = clipped(polygon, HalfSpace{{-1, 0, column.slope}, half - column.center.x});
-    polygon = clipped(polygon, HalfSpace{{0, 1, column.slope}, half + column.center.y});
-    polygon = clipped(polygon, HalfSpace{{0, -1, column.slope}, half - column.center.y});
+    const glm::dvec2 half = column.half + column.slope * column.base;
+    polygon = clipped(polygon, HalfSpace{{1, 0, column.slope}, half.x + column.center.x});
+    polygon = clipped(polygon, HalfSpace{{-1, 0, column.slope}, half.x - column.center.x});
+    polygon = clipped(polygon, HalfSpace{{0, 1, column.slope}, half.y + column.center.y});
+    polygon = clipped(polygon, HalfSpace{{0, -1, column.slope}, half.y - column.center.y});
     for (const glm::dvec3& point : polygon) range = {std::min(range.min, point.z), std::max(range.max, point.z)};
   }
   return range;
@@ -109,10 +113,10 @@ double split_distance(const Range& range, int index, int count, double blend) {
   return glm::mix(uniform, logarithmic, blend);
 }
 
-// What a cascade contains in light space, without margins: a square column about `center`, as deep as `deepest`.
+// What a cascade contains in light space, without margins: a column about `center`, as deep as `deepest`.
 struct Region {
   glm::dvec3 center{0};
-  double half_width = 0;
+  glm::dvec2 half_width{0};
   double deepest = 0;
 };
 
@@ -126,76 +130,109 @@ std::vector<Region> stable_regions(const CascadeInputs& in, const Cascades& casc
     Sphere sphere = frustum_sphere(in, view.min, split_distance(view, i, in.count, in.split_blend));
     if (all.radius < sphere.radius) sphere = all;
     const glm::dvec3 center = cascades.world_to_light * (sphere.center - cascades.anchor);
-    regions.push_back({center, sphere.radius, center.z + sphere.radius});
+    regions.push_back({center, glm::dvec2(sphere.radius), center.z + sphere.radius});
   }
   return regions;
-}
-
-double width_of(const LightBounds& bounds) {
-  return std::max(bounds.high.x - bounds.low.x, bounds.high.y - bounds.low.y);
 }
 
 // The receivers up to the end of each slice.
 VisibleReceivers accumulated(VisibleReceivers slices) {
   for (size_t i = 1; i < slices.size(); ++i) {
-    slices[i].pixels += slices[i - 1].pixels;
-    slices[i].bounds = joined(slices[i].bounds, slices[i - 1].bounds);
+    ReceiverSlice& slice = slices[i];
+    const ReceiverSlice& before = slices[i - 1];
+    slice.pixels += before.pixels;
+    slice.depths = {std::min(slice.depths.x, before.depths.x), std::max(slice.depths.y, before.depths.y)};
+    for (size_t k = 0; k < slice.extents.size(); ++k) {
+      const glm::dvec2 &a = slice.extents[k], &b = before.extents[k];
+      slice.extents[k] = {std::min(a.x, b.x), std::max(a.y, b.y)};
+    }
   }
   return slices;
 }
 
-// The last slice of each cascade, so that the texels of the pixels' cascades, in units of the pixels' own sizes, have
-// the least geometric mean. `up_to`: see accumulated(). Some may be equal, where there are fewer slices than cascades.
-std::vector<size_t> best_splits(const VisibleReceivers& up_to, int count) {
+// Half the width and height of a cascade about receivers. A texel is at most so many times as long as it is wide: what
+// reads maps takes the larger of both where it can't tell them apart.
+glm::dvec2 half_width_of(const LightBounds& bounds) {
+  constexpr double most = 4;
+  const glm::dvec2 half = 0.5 * (glm::dvec2(bounds.high) - glm::dvec2(bounds.low));
+  return glm::max(half, std::max(glm::max(half.x, half.y) / most, 1e-9));
+}
+
+// The x axis of the cascades' light space, a measured direction, and the last slice of each cascade.
+struct VisibleFit {
+  double sum = 0;  // over the pixels of the logarithm of their texels' longer sides
+  int x_axis = 0;
+  std::vector<size_t> ends;
+};
+
+// With so many cascades along an axis, so that the longer sides of the texels of the pixels' cascades, in units of the
+// pixels' own sizes, have the least geometric mean. `up_to`: see accumulated(). Some ends may be equal, where there are
+// fewer slices than cascades.
+VisibleFit best_splits(const VisibleReceivers& up_to, int count, int x_axis) {
+  // Of the longer sides of the texels of a cascade that ends at each slice: they decide how wide most edges appear.
+  std::vector<double> logarithms;
+  for (const ReceiverSlice& slice : up_to) {
+    const glm::dvec2 half = half_width_of(slice.bounds(x_axis));
+    logarithms.push_back(std::log2(glm::max(half.x, half.y)));
+  }
   // The sum over the pixels up to a slice of the logarithm of their texels, with the best cascades of which the last
   // one ends there, and where the one before it ends.
   struct Best {
     double sum = 0;
     size_t before = 0;
   };
-  const auto sum_of = [&](size_t last, size_t before) {
-    return std::log2(std::max(width_of(up_to[last].bounds), 1e-9)) * (up_to[last].pixels - up_to[before].pixels);
-  };
   std::vector<std::vector<Best>> best(static_cast<size_t>(count), std::vector<Best>(up_to.size()));
-  for (size_t last = 0; last < up_to.size(); ++last) {
-    best[0][last] = {std::log2(std::max(width_of(up_to[last].bounds), 1e-9)) * up_to[last].pixels, 0};
-  }
+  for (size_t last = 0; last < up_to.size(); ++last) best[0][last] = {logarithms[last] * up_to[last].pixels, 0};
   for (size_t cascade = 1; cascade < best.size(); ++cascade) {
     for (size_t last = 0; last < up_to.size(); ++last) {
       best[cascade][last] = {best[cascade - 1][last].sum, last};
       for (size_t before = 0; before < last; ++before) {
-        const double sum = best[cascade - 1][before].sum + sum_of(last, before);
+        const double sum =
+            best[cascade - 1][before].sum + logarithms[last] * (up_to[last].pixels - up_to[before].pixels);
         if (sum < best[cascade][last].sum) best[cascade][last] = {sum, before};
       }
     }
   }
-  std::vector<size_t> ends(best.size(), up_to.size() - 1);
+  VisibleFit fit{best.back().back().sum, x_axis, std::vector<size_t>(best.size(), up_to.size() - 1)};
   for (size_t cascade = best.size() - 1; cascade > 0; --cascade) {
-    ends[cascade - 1] = best[cascade][ends[cascade]].before;
+    fit.ends[cascade - 1] = best[cascade][fit.ends[cascade]].before;
   }
-  return ends;
+  return fit;
 }
 
-// About what the view shows up to each cascade's range; the last one about all other receivers too.
-std::vector<Region> visible_regions(const CascadeInputs& in, const Cascades& cascades) {
+VisibleFit best_fit(const VisibleReceivers& up_to, const CascadeInputs& in) {
+  VisibleFit best = best_splits(up_to, in.count, 0);
+  for (int x_axis = 1; in.may_turn && x_axis < measured_directions / 2; ++x_axis) {
+    VisibleFit fit = best_splits(up_to, in.count, x_axis);
+    if (fit.sum < best.sum) best = std::move(fit);
+  }
+  return best;
+}
+
+// About what the view shows up to each cascade's range; the last one about all other receivers too. Turns the light
+// space.
+std::vector<Region> visible_regions(const CascadeInputs& in, Cascades& cascades) {
   // Receivers are computed from the same depths on the GPU, in floats.
   constexpr double rounding = 1e-4;
   const VisibleReceivers up_to = accumulated(*in.visible);
+  const VisibleFit fit = best_fit(up_to, in);
+  cascades.turn = fit.x_axis * (glm::pi<double>() / measured_directions);
+  cascades.world_to_light = light_axes(in.to_light, cascades.turn);
   std::vector<Region> regions;
-  for (const size_t end : best_splits(up_to, in.count)) {
-    LightBounds bounds = up_to[end].bounds;
+  for (const size_t end : fit.ends) {
+    LightBounds bounds = up_to[end].bounds(fit.x_axis);
     const bool last = regions.size() + 1 == static_cast<size_t>(in.count);
     if (last) bounds = joined(bounds, seen_bounds(in.others, in, cascades));
     const glm::dvec3 center = 0.5 * (bounds.low + bounds.high), half = 0.5 * (bounds.high - bounds.low);
     const double pad = rounding * (glm::length(center) + glm::length(half));
-    regions.push_back({center, std::max(half.x, half.y) + pad, bounds.high.z + pad});
+    regions.push_back({center, half_width_of(bounds) + pad, bounds.high.z + pad});
   }
   return regions;
 }
 
 glm::dmat4 clip_from_world(const Cascades& cascades, const Cascade& cascade) {
   const double range = cascade.far_z - cascade.near_z;
-  const glm::dvec3 scale{1.0 / cascade.half_extent, 1.0 / cascade.half_extent, 1.0 / range};
+  const glm::dvec3 scale{1.0 / glm::dvec2(cascade.half_extent), 1.0 / range};
   const glm::dvec3 origin{cascade.center.x, cascade.center.y, cascade.near_z};
   const glm::dmat4 to_light = glm::dmat4(cascades.world_to_light) * glm::translate(glm::dmat4(1), -cascades.anchor);
   return glm::scale(glm::dmat4(1), scale) * glm::translate(glm::dmat4(1), -origin) * to_light;
@@ -203,12 +240,19 @@ glm::dmat4 clip_from_world(const Cascades& cascades, const Cascade& cascade) {
 
 }  // namespace
 
-glm::dmat3 light_axes(const glm::dvec3& to_light) {
+LightBounds ReceiverSlice::bounds(int x_axis) const {
+  const auto x = static_cast<size_t>(x_axis);
+  const glm::dvec2 &along_x = extents.at(x), &along_y = extents.at(x + measured_directions / 2);
+  return {{along_x.x, along_y.x, depths.x}, {along_x.y, along_y.y, depths.y}};
+}
+
+glm::dmat3 light_axes(const glm::dvec3& to_light, double turn) {
   const glm::dvec3 z = -glm::normalize(to_light);
   const glm::dvec3 horizontal = glm::cross(z, glm::dvec3(0, 1, 0));
   const glm::dvec3 x = glm::length(horizontal) > 1e-6 ? glm::normalize(horizontal) : glm::dvec3(1, 0, 0);
   const glm::dvec3 y = glm::cross(x, z);
-  return glm::transpose(glm::dmat3(x, y, z));
+  const double along = std::cos(turn), across = std::sin(turn);
+  return glm::transpose(glm::dmat3(along * x + across * y, along * y - across * x, z));
 }
 
 glm::dvec3 frustum_corner(const glm::dmat4& projection, double depth, double ndc_x, double ndc_y) {
@@ -226,9 +270,9 @@ Cascades fit_cascades(const CascadeInputs& in) {
   cascades.anchor = glm::dvec3(glm::inverse(glm::dmat4(in.view))[3]);
   cascades.size = in.size;
 
+  const std::vector<Region> regions = in.visible ? visible_regions(in, cascades) : stable_regions(in, cascades);
   std::array<glm::dvec3, 8> corners = joined(in.casters, in.receivers).corners();
   for (glm::dvec3& corner : corners) corner = cascades.world_to_light * (corner - cascades.anchor);
-  const std::vector<Region> regions = in.visible ? visible_regions(in, cascades) : stable_regions(in, cascades);
   const glm::dvec3 anchor = cascades.world_to_light * cascades.anchor;
 
   for (int i = 0; i < in.count; ++i) {
@@ -239,17 +283,19 @@ Cascades fit_cascades(const CascadeInputs& in) {
     // contains all.
     const double nearest = range_within({center, half_width, deepest, in.tan_half_angle}, corners).min;
     const double all_discs = in.tan_half_angle * std::max(deepest - nearest, 0.0);
-    const double margin = i + 1 < in.count ? std::min(all_discs, 0.25 * half_width) : all_discs;
-    const double half = step_up(half_width + margin, 16) * (1.0 + 4.0 / in.size);
-    const double texel = 2.0 * half / in.size;
+    const glm::dvec2 margin =
+        i + 1 < in.count ? glm::min(glm::dvec2(all_discs), 0.25 * half_width) : glm::dvec2(all_discs);
+    const glm::dvec2 half = step_up(half_width + margin, 16) * (1.0 + 4.0 / in.size);
+    const glm::dvec2 texel = 2.0 * half / static_cast<double>(in.size);
     const glm::dvec2 snapped = glm::floor(glm::dvec2(center + anchor) / texel) * texel - glm::dvec2(anchor);
 
     Range range = range_within({snapped, half}, corners);
-    if (range.max < range.min) range = {center.z - half_width, center.z + half_width};
-    const double pad = 1e-3 * (range.max - range.min) + texel;
+    const double wider = glm::max(half_width.x, half_width.y);
+    if (range.max < range.min) range = {center.z - wider, center.z + wider};
+    const double pad = 1e-3 * (range.max - range.min) + glm::max(texel.x, texel.y);
     Cascade cascade;
     cascade.center = glm::vec2(snapped);
-    cascade.half_extent = static_cast<float>(half);
+    cascade.half_extent = glm::vec2(half);
     cascade.near_z = static_cast<float>(range.min - pad);
     cascade.far_z = static_cast<float>(range.max + pad);
     cascade.world_to_clip = clip_from_world(cascades, cascade);
@@ -266,8 +312,8 @@ CullVolume cull_volume(const Cascades& cascades, int index) {
     return glm::dvec4(-direction, glm::dot(direction, cascades.anchor) + limit);
   };
   const TexelRange drawn = cascades.drawn_texels(index);
-  const double texel = 2.0 * cascade.half_extent / cascades.size;
-  const glm::dvec2 origin = glm::dvec2(cascade.center) - static_cast<double>(cascade.half_extent);
+  const glm::dvec2 half(cascade.half_extent), texel = 2.0 * half / static_cast<double>(cascades.size);
+  const glm::dvec2 origin = glm::dvec2(cascade.center) - half;
   const glm::dvec2 low = origin + glm::dvec2(drawn.first) * texel;
   const glm::dvec2 high = origin + glm::dvec2(drawn.last + 1) * texel;
   return {.planes = {side(axes[0], high.x), side(-axes[0], -low.x), side(axes[1], high.y), side(-axes[1], -low.y),

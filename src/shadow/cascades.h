@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -32,17 +33,25 @@ struct LightBounds {
   bool empty() const { return low.x > high.x; }
 };
 
+// Directions in light space's x and y, along which receivers are measured: the first is the x axis, each other one is
+// turned towards the y axis by the same angle more. They share half a turn.
+constexpr int measured_directions = 32;
+
 // The receivers that the view's depth texture shows within a slice of the frustum.
 struct ReceiverSlice {
-  std::uint32_t pixels = 0;  // that show them; at least 1
-  LightBounds bounds;
+  std::uint32_t pixels = 0;                             // that show them; at least 1
+  std::array<glm::dvec2, measured_directions> extents;  // x: lowest, y: highest place along each direction, metres
+  glm::dvec2 depths{0};                                 // least and greatest, metres
+
+  // Bounds in a light space whose x axis is a measured direction of the first quarter turn.
+  LightBounds bounds(int x_axis) const;
 };
 using VisibleReceivers = std::vector<ReceiverSlice>;  // nearest slice first; not empty
 
-// One cascade: a square layer of the shadow map. The map's depth is linear: 0 at near_z, 1 at far_z.
+// One cascade: a layer of the shadow map. The map's depth is linear: 0 at near_z, 1 at far_z.
 struct Cascade {
-  glm::vec2 center{0};    // light space, metres; a whole number of texels from the world's origin
-  float half_extent = 1;  // of the layer, metres
+  glm::vec2 center{0};       // light space, metres; a whole number of texels from the world's origin
+  glm::vec2 half_extent{1};  // of the layer, metres
   float near_z = 0;  // nearer to the light than every caster that can shadow the cascade, so depths need no clamping
   float far_z = 1;
   glm::dmat4 world_to_clip{1};  // x, y in -1..1, z in 0..1
@@ -55,12 +64,13 @@ struct Cascade {
 // cascade contains all of it.
 struct Cascades {
   glm::dmat3 world_to_light{1};
+  double turn = 0;  // of world_to_light about its z axis, from light_axes(), radians
   glm::dvec3 anchor{0};
   int size = 0;  // texels along a side
   std::vector<Cascade> items;
 
-  // Width of a texel, metres.
-  float texel(int index) const {
+  // Width and height of a texel, metres.
+  glm::vec2 texel(int index) const {
     return 2.0f * items[static_cast<size_t>(index)].half_extent / static_cast<float>(size);
   }
   // Cascade::drawn, or all texels.
@@ -83,12 +93,14 @@ struct CascadeInputs {
   // Absent: the cascades are fitted to the frustum and the receivers' box, and seldom change size. Else they are fitted
   // to these receivers, and `split_blend` has no effect.
   std::optional<VisibleReceivers> visible = {};
+  bool may_turn = true;  // the x and y axes, to fit `visible`; not for a light whose shape has corners
   // Bounds of the receivers that `visible` may leave out (min > max: none).
   Box others{glm::vec3(1), glm::vec3(-1)};
 };
 
-// The axes of light space as rows: x horizontal, y as close to up as possible, z along the rays; left-handed.
-glm::dmat3 light_axes(const glm::dvec3& to_light);
+// The axes of light space as rows: x horizontal, y as close to up as possible, z along the rays; left-handed. `turn`:
+// x and y are then turned about z, radians, x towards y.
+glm::dmat3 light_axes(const glm::dvec3& to_light, double turn = 0);
 
 // The corner of a projection's frustum at a depth in metres, in view space, for NDC x and y.
 glm::dvec3 frustum_corner(const glm::dmat4& projection, double depth, double ndc_x, double ndc_y);

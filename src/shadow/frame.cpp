@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -176,13 +177,6 @@ ReadLight read_light(const MaskInputs& from, const Light& light, ViewState& view
 LightFrame draw_light(const MaskInputs& from, const ReadLight& read, const ViewState& view, LightFrame frame,
                       const gl::Texture& mask) {
   const auto& [light, state, same_params] = read;
-  const auto visible = find_visible_receivers(from.device, from.inputs, light, state.params, state.prefix);
-  frame.projection = projection_of(from.inputs, light, state.params, visible);
-  frame.shape = shape_of(light.source, state.params);
-  take_shape(state, frame.shape);
-  begin_frame(state, light, frame.projection.layers(), same_params);
-  if (visible) state.drawn_texels.reset();
-
   const Technique& technique = from.registry.find(state.params.get_word("technique"));
   const Denoiser* denoiser = denoiser_for(from.registry, technique, state.params);
   const LightWork work{.device = from.device,
@@ -200,10 +194,19 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, const ViewS
                        .denoiser = denoiser,
                        .remembered = remembered_by(denoiser, state.params)};
   const Wanted wanted = wanted_of(work);
-  narrow_projection(work, wanted.recipes);
   // A technique's own passes and recipes may draw casters without a shadow map, but only the movement map, which is
   // drawn with the shadow map, shows where casters moved.
   const bool may_draw_casters = technique.resolve || !wanted.recipes.empty();
+  std::optional<VisibleReceivers> visible;
+  if (wanted.shadow_map || may_draw_casters) {
+    visible = find_visible_receivers(from.device, from.inputs, light, state.params, state.prefix);
+  }
+  frame.projection = projection_of(from.inputs, light, state.params, visible);
+  frame.shape = shape_of(light.source, state.params);
+  take_shape(state, frame.shape);
+  begin_frame(state, light, frame.projection.layers(), same_params);
+  if (visible) state.drawn_texels.reset();
+  narrow_projection(work, wanted.recipes);
   const bool has_shadow_map = wanted.shadow_map || (may_draw_casters && asks_for_movement(work));
   plan_history(work, has_shadow_map);
   if (!has_shadow_map || light.maps) state.map = {};

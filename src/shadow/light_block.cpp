@@ -5,11 +5,11 @@ namespace penumbra::shadow {
 namespace {
 
 // Offsets by the rules of std140; a test compares them with the driver's.
-static_assert(sizeof(glsl::LayerBlock) == 32);
+static_assert(sizeof(glsl::LayerBlock) == 48);
 static_assert(offsetof(glsl::ShadowBlock, viewport) == 320);
 static_assert(offsetof(glsl::ShadowBlock, depth_to_ndc) == 384);
 static_assert(offsetof(glsl::ShadowBlock, light_extent) == 400);
-static_assert(offsetof(glsl::ShadowBlock, layers) == 464);
+static_assert(offsetof(glsl::ShadowBlock, layers) == 496);
 
 // ShadowBlock::pixel_size: metres that a pixel spans where clip w is 1, then factor and offset that give clip w from
 // view-space z.

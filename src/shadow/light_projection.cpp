@@ -18,16 +18,19 @@ static_assert(SHADOW_MAX_LAYERS == max_layers && max_cascades <= max_layers);
 // `shift`: where the origin of the cascades' light space lies in the view's, whose origin is the camera.
 glsl::LayerBlock layer_block(const Cascade& cascade, int size, const glm::dvec3& shift) {
   const float range = cascade.far_z - cascade.near_z;
-  const float texel = 2.0f * cascade.half_extent / static_cast<float>(size);
+  const glm::vec2 texel = 2.0f * cascade.half_extent / static_cast<float>(size);
+  const float larger = glm::max(texel.x, texel.y);
   // A few units in the last place of the map's stored and the rasteriser's interpolated depths.
-  const float rounding = 4e-7f * (range + 2.0f * cascade.half_extent);
+  const float rounding = 4e-7f * (range + 2.0f * glm::max(cascade.half_extent.x, cascade.half_extent.y));
   return {.center = cascade.center + glm::vec2(shift),
           .widths_per_metre = 0.5f / cascade.half_extent,
-          .texel = texel,
+          .texel_shares = texel / larger,
+          .texel = larger,
           .near_depth = cascade.near_z + static_cast<float>(shift.z),
           .depth_range = range,
           .rounding = rounding,
-          .texel_uv = 1.0f / static_cast<float>(size)};
+          .texel_uv = 1.0f / static_cast<float>(size),
+          .unused = 0};
 }
 
 // Least depth along the rays, relative to the camera, of a box.
@@ -52,6 +55,7 @@ CascadeInputs cascade_inputs(const LightSource& source, const FitInputs& inputs)
           .split_blend = params.get_float("cascades.split"),
           .distance = params.get_float("cascades.distance"),
           .visible = inputs.visible,
+          .may_turn = !shape_of(source, params).square,
           .others = inputs.others};
 }
 
@@ -61,11 +65,11 @@ bool all_finite(const Value* values, int count) {
 }
 
 std::string cascade_fault(const Cascade& cascade, size_t index) {
-  const bool finite = all_finite(glm::value_ptr(cascade.center), 2) && std::isfinite(cascade.half_extent) &&
-                      std::isfinite(cascade.near_z) && std::isfinite(cascade.far_z) &&
-                      all_finite(glm::value_ptr(cascade.world_to_clip), 16);
+  const bool finite = all_finite(glm::value_ptr(cascade.center), 2) &&
+                      all_finite(glm::value_ptr(cascade.half_extent), 2) && std::isfinite(cascade.near_z) &&
+                      std::isfinite(cascade.far_z) && all_finite(glm::value_ptr(cascade.world_to_clip), 16);
   if (!finite) return fmt::format("cascade {} is not finite", index);
-  if (!(cascade.half_extent > 0) || !(cascade.far_z > cascade.near_z))
+  if (!(cascade.half_extent.x > 0) || !(cascade.half_extent.y > 0) || !(cascade.far_z > cascade.near_z))
     return fmt::format("cascade {} has no extent", index);
   return {};
 }
@@ -110,6 +114,7 @@ void LightProjection::write(glsl::ShadowBlock& block, const glm::dmat4& view_to_
   const glm::dvec3 shift = world_to_light * (cascades_.anchor - eye);
   block.view_to_light = glm::mat4(glm::dmat4(world_to_light * glm::dmat3(view_to_world)));
   block.world_to_light = glm::mat4(glm::dmat4(world_to_light));
+  block.axes_turn = {std::cos(cascades_.turn), std::sin(cascades_.turn)};
   block.layer_count = layers();
   block.map_size = static_cast<float>(size());
   // If it is unknown what moved, assume the near plane of the last layer, which contains every caster.

@@ -57,8 +57,8 @@ class LightProjection {
 
   int layers() const { return static_cast<int>(cascades_.items.size()); }
   int size() const { return cascades_.size; }  // side of each layer, texels
-  // Width of a layer's texel, metres.
-  float texel(int layer) const { return cascades_.texel(layer); }
+  // Width and height of a layer's texel, metres.
+  glm::vec2 texel(int layer) const { return cascades_.texel(layer); }
   // Distance from a layer's near plane to its far plane along the light, metres.
   float depth_range(int layer) const;
   // From world space to clip space of a layer: x and y in -1..1 within the map, z in 0..1, which is the stored depth.

@@ -53,12 +53,11 @@ std::vector<Polygon> box_faces(const Box& box, const Cascades& cascades) {
 }
 
 std::array<HalfSpace, 4> column_sides(const Cascade& cascade) {
-  const double half = cascade.half_extent;
-  const glm::dvec2 center(cascade.center);
-  return {{{{1, 0, 0}, half + center.x},
-           {{-1, 0, 0}, half - center.x},
-           {{0, 1, 0}, half + center.y},
-           {{0, -1, 0}, half - center.y}}};
+  const glm::dvec2 half(cascade.half_extent), center(cascade.center);
+  return {{{{1, 0, 0}, half.x + center.x},
+           {{-1, 0, 0}, half.x - center.x},
+           {{0, 1, 0}, half.y + center.y},
+           {{0, -1, 0}, half.y - center.y}}};
 }
 
 std::vector<Polygon> within(std::vector<Polygon> faces, std::span<const HalfSpace> sides) {
@@ -101,11 +100,13 @@ void narrow_to_receivers(Cascades& cascades, const CascadeInputs& inputs, const 
     LightBounds receivers = bounds_of(within(seen, column_sides(cascade)));
     // The view sees no receiver there: a point of the cascade.
     if (receivers.empty()) receivers.low = receivers.high = glm::dvec3(cascade.center, cascade.near_z);
-    const double texel = cascades.texel(static_cast<int>(i));
+    const glm::dvec2 texel(cascades.texel(static_cast<int>(i)));
     const double disc = inputs.tan_half_angle * std::max(receivers.high.z - nearest, 0.0);
-    // A disc's bounds are read from 2 × 2 texels of a pyramid, each less than twice as wide as the disc.
-    const double beyond = 5 * (disc + 1.5 * texel) + margins.texels * texel;
-    const glm::dvec2 origin = glm::dvec2(cascade.center) - static_cast<double>(cascade.half_extent);
+    // A disc's bounds are read from 2 × 2 texels of a pyramid, each less than twice as wide as the disc along the axis
+    // where texels are smaller.
+    const double larger = glm::max(texel.x, texel.y), smaller = glm::min(texel.x, texel.y);
+    const glm::dvec2 beyond = 5 * (disc + 1.5 * larger) * (texel / smaller) + margins.texels * larger;
+    const glm::dvec2 origin = glm::dvec2(cascade.center) - glm::dvec2(cascade.half_extent);
     cascade.drawn = texels_around((glm::dvec2(receivers.low) - beyond - origin) / texel,
                                   (glm::dvec2(receivers.high) + beyond - origin) / texel, cascades.size);
   }

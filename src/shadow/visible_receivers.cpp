@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/gtc/matrix_transform.hpp>
 #include <span>
+#include <string>
 
 #include "light_frame.h"
 
@@ -15,18 +16,19 @@ namespace {
 
 constexpr GLuint found_binding = 7;  // must match glsl/shadow/visible_receivers.comp
 constexpr int slices = 32;
-constexpr int row = 32;  // pixels that an invocation reads
+constexpr int block_size = 8;                      // pixels along each side that an invocation reads
+constexpr int measures = measured_directions + 1;  // the last one: depths
 
 // std430, as in the shader.
 struct Found {
   std::uint32_t least, greatest;
-  std::array<std::uint32_t, 2> unused;
-  std::array<glm::uvec4, slices> low, high;  // high.w: pixels
+  std::array<std::uint32_t, slices> pixels;
+  std::array<std::array<std::uint32_t, measures>, slices> low, high;
 };
 
 Found nothing_found() {
-  Found found{.least = ~0u, .greatest = 0, .unused = {}, .low = {}, .high = {}};
-  found.low.fill(glm::uvec4(~0u));
+  Found found{.least = ~0u, .greatest = 0, .pixels = {}, .low = {}, .high = {}};
+  for (auto& low : found.low) low.fill(~0u);
   return found;
 }
 
@@ -38,7 +40,7 @@ float value_of(std::uint32_t code) {
 gl::ProgramDesc program(bool bounds) {
   return {.name = bounds ? "bounds of visible receivers" : "depths of visible receivers",
           .compute = "shadow/visible_receivers.comp",
-          .defines = {{"BOUNDS", bounds ? "1" : "0"}}};
+          .defines = {{"BOUNDS", bounds ? "1" : "0"}, {"DIRECTIONS", std::to_string(measured_directions)}}};
 }
 
 // From x and y in texels and the stored depth to view space, before the division by w.
@@ -55,14 +57,14 @@ glm::mat4 texel_to_view(const Inputs& inputs) {
 VisibleReceivers visible_of(const Found& found) {
   VisibleReceivers visible;
   for (std::size_t slice = 0; slice < slices; ++slice) {
-    const glm::uvec4 &low = found.low[slice], &high = found.high[slice];
-    if (high.w == 0) continue;
+    if (found.pixels[slice] == 0) continue;
+    const auto range = [&](std::size_t measure) {
+      return glm::dvec2(value_of(found.low[slice][measure]), value_of(found.high[slice][measure]));
+    };
     ReceiverSlice& to = visible.emplace_back();
-    to.pixels = high.w;
-    for (glm::length_t axis = 0; axis < 3; ++axis) {
-      to.bounds.low[axis] = value_of(low[axis]);
-      to.bounds.high[axis] = value_of(high[axis]);
-    }
+    to.pixels = found.pixels[slice];
+    for (std::size_t k = 0; k < measured_directions; ++k) to.extents[k] = range(k);
+    to.depths = range(measured_directions);
   }
   return visible;
 }
@@ -91,7 +93,7 @@ std::optional<VisibleReceivers> find_visible_receivers(gl::Device& device, const
         reduce.set("view_to_light", glm::mat4(light_axes(light.source) * glm::inverse(world_to_view)));
         reduce.set("distance_limit", params.get_float("cascades.distance"));
       }
-      pass.dispatch((viewport.width + row - 1) / row, viewport.height);
+      pass.dispatch((viewport.width + block_size - 1) / block_size, (viewport.height + block_size - 1) / block_size);
     }
   }
   gl::glGetNamedBufferSubData(buffer.id(), 0, sizeof(found), &found);

@@ -78,7 +78,7 @@ double gap_in_texels(TriangleRenderer& renderer, const std::string& technique, f
   ParamSet params = renderer.params();
   params.set("technique", technique);
   const Shadowed shadowed = renderer.render(scene, params);
-  const float texel = renderer.mask().lights[0].projection.cascades().texel(0);
+  const float texel = renderer.mask().lights[0].projection.cascades().texel(0).x;
   const double sun = glm::radians(static_cast<double>(elevation));
   const double on_ground = texel / std::sin(sun);
   const double shadow_length = height / std::tan(sun);

@@ -116,7 +116,7 @@ TEST_F(ShadowInputs, LightsAreChecked) {
   expect_refusal("light 0: 0 cascades, 1 to 8 fit", with_maps([](auto& c) { c.items.clear(); }));
   expect_refusal("has 1 maps for 2 layers", with_maps([](auto& c) { c.items.resize(2); }));
   expect_refusal("maps of 64×64 and a projection for 32", with_maps([](auto& c) { c.size = 32; }));
-  expect_refusal("cascade 0 has no extent", with_maps([](auto& c) { c.items[0].half_extent = 0; }));
+  expect_refusal("cascade 0 has no extent", with_maps([](auto& c) { c.items[0].half_extent.y = 0; }));
   expect_refusal("cascade 0 has no extent", with_maps([](auto& c) { c.items[0].far_z = -1; }));
   expect_refusal("cascade 0 is not finite", with_maps([](auto& c) { c.items[0].near_z = NAN; }));
   expect_refusal("light space is not finite", with_maps([](auto& c) { c.anchor.x = NAN; }));

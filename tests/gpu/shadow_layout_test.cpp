@@ -95,12 +95,14 @@ TEST_F(ShadowLayout, BlocksLieAsTheDriverReadsThem) {
   expect_offset(light, "shadow.has_motion", offsetof(ShadowBlock, has_motion));
   expect_offset(light, "shadow.casters_moved", offsetof(ShadowBlock, casters_moved));
   expect_offset(light, "shadow.moved_depth", offsetof(ShadowBlock, moved_depth));
+  expect_offset(light, "shadow.axes_turn", offsetof(ShadowBlock, axes_turn));
   expect_offset(light, "shadow.widest.texel", offsetof(ShadowBlock, widest) + offsetof(LayerBlock, texel));
   for (std::size_t i : {std::size_t{0}, std::size_t{SHADOW_MAX_LAYERS - 1}}) {
     const std::string layer = fmt::format("shadow.layers[{}].", i);
     const std::size_t at = offsetof(ShadowBlock, layers) + i * sizeof(LayerBlock);
     expect_offset(light, layer + "center", at + offsetof(LayerBlock, center));
     expect_offset(light, layer + "widths_per_metre", at + offsetof(LayerBlock, widths_per_metre));
+    expect_offset(light, layer + "texel_shares", at + offsetof(LayerBlock, texel_shares));
     expect_offset(light, layer + "texel", at + offsetof(LayerBlock, texel));
     expect_offset(light, layer + "near_depth", at + offsetof(LayerBlock, near_depth));
     expect_offset(light, layer + "depth_range", at + offsetof(LayerBlock, depth_range));

@@ -139,7 +139,10 @@ class MovementLookUp : public MovementPyramid {
     glsl::ShadowBlock block{};
     block.layer_count = 2;
     block.map_size = size;
-    block.layers[1] = {.center = center, .widths_per_metre = 1 / width, .texel = width / size};
+    block.layers[1] = {.center = center,
+                       .widths_per_metre = glm::vec2(1 / width),
+                       .texel_shares = glm::vec2(1),
+                       .texel = width / size};
     const gl::Buffer uniforms = gl::Buffer("light", sizeof(block));
     gl::write_value(uniforms, block);
     const gl::Buffer storage = gl::Buffer::of("queries", std::span<const Query>(queries));

@@ -76,7 +76,7 @@ class KnifeEdge : public TriangleTest {
     return params;
   }
   static void expect_wide_kernel(const TriangleRenderer& renderer, float radius) {
-    ASSERT_GE(radius / renderer.mask().lights[0].projection.cascades().texel(0), 24) << "the case is framed too wide";
+    ASSERT_GE(radius / renderer.mask().lights[0].projection.cascades().texel(0).x, 24) << "the case is framed too wide";
   }
 };
 
@@ -251,7 +251,7 @@ double width_at(TriangleRenderer& renderer, int cascades, int size, bool far_obj
           std::max(coarsest, static_cast<int>(shadowed.mask[4 * static_cast<size_t>(y * shadowed.width + x) + 3]));
     }
   }
-  *kernel_texels = radius / renderer.mask().lights[0].projection.cascades().texel(coarsest);
+  *kernel_texels = radius / renderer.mask().lights[0].projection.cascades().texel(coarsest).x;
   std::vector<double> profile;
   for (size_t i = 0; i < sum.size(); ++i) profile.push_back(count[i] > 0 ? sum[i] / count[i] : std::nan(""));
   return width_10_90(profile, 2.4 * radius / bins);

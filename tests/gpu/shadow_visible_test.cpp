@@ -12,11 +12,14 @@ namespace {
 
 class ShadowVisible : public TriangleTest {
  protected:
+  static constexpr float sun_angle = 0.53f;  // degrees
+
   ParamSet params(const char* fit = "visible") const {
     ParamSet params = renderer_->params();
     params.set("technique", std::string("pcss"));
     params.set("cascades.fit", std::string(fit));
     params.set("cascades.size", 256);
+    params.set("sun.angle", sun_angle);
     return params;
   }
   // The cascades of the last frame.
@@ -35,16 +38,20 @@ class ShadowVisible : public TriangleTest {
     return bounds;
   }
 
-  // Whether the last cascade holds the bounds, and how much wider it is.
+  // Whether the last cascade holds the bounds, and how much longer it is, without what the light's discs need.
   double excess_width(const shadow::LightBounds& bounds) const {
     const shadow::Cascade& last = cascades().items.back();
     const glm::dvec2 center(last.center);
-    EXPECT_GE(bounds.low.x, center.x - static_cast<double>(last.half_extent));
-    EXPECT_GE(bounds.low.y, center.y - static_cast<double>(last.half_extent));
-    EXPECT_LE(bounds.high.x, center.x + static_cast<double>(last.half_extent));
-    EXPECT_LE(bounds.high.y, center.y + static_cast<double>(last.half_extent));
+    const glm::dvec2 half(last.half_extent);
+    EXPECT_GE(bounds.low.x, center.x - half.x);
+    EXPECT_GE(bounds.low.y, center.y - half.y);
+    EXPECT_LE(bounds.high.x, center.x + half.x);
+    EXPECT_LE(bounds.high.y, center.y + half.y);
     const glm::dvec2 size = glm::dvec2(bounds.high) - glm::dvec2(bounds.low);
-    return 2.0 * static_cast<double>(last.half_extent) / std::max(size.x, size.y);
+    // At the depth of the deepest receiver.
+    const double disc = std::tan(glm::radians(0.5 * static_cast<double>(sun_angle))) *
+                        (bounds.high.z - static_cast<double>(last.near_z));
+    return 2.0 * (std::max(half.x, half.y) - disc) / std::max(size.x, size.y);
   }
 };
 
@@ -60,9 +67,9 @@ TEST_F(ShadowVisible, CascadesAreAsWideAsWhatTheViewShows) {
   const TriangleScene scene = small_in_large();
   const Shadowed picture = renderer_->render(scene, params());
   EXPECT_LE(excess_width(shown(picture)), 1.15);
-  const float visible = cascades().texel(0);
+  const glm::vec2 visible = cascades().texel(0);
   renderer_->render(scene, params("stable"));
-  EXPECT_GT(cascades().texel(3), 100 * visible);
+  EXPECT_GT(cascades().texel(3).x, 100 * visible.x);
 }
 
 // The same picture with its depths stored in other ways.
@@ -73,8 +80,9 @@ TEST_F(ShadowVisible, ConventionsAndViewportsChangeNothing) {
   const auto expect_same = [&](const char* what) {
     ASSERT_EQ(cascades().items.size(), as_stored.items.size());
     for (std::size_t i = 0; i < as_stored.items.size(); ++i) {
-      EXPECT_FLOAT_EQ(cascades().items[i].half_extent, as_stored.items[i].half_extent) << what << ", cascade " << i;
-      EXPECT_LE(glm::length(cascades().items[i].center - as_stored.items[i].center), 2 * as_stored.texel(3)) << what;
+      EXPECT_FLOAT_EQ(cascades().items[i].half_extent.x, as_stored.items[i].half_extent.x) << what << ", cascade " << i;
+      EXPECT_FLOAT_EQ(cascades().items[i].half_extent.y, as_stored.items[i].half_extent.y) << what << ", cascade " << i;
+      EXPECT_LE(glm::length(cascades().items[i].center - as_stored.items[i].center), 2 * as_stored.texel(3).x) << what;
     }
   };
   const int size = expected.width;
@@ -121,14 +129,70 @@ TEST_F(ShadowVisible, AViewOfTheSkyIsDrawn) {
 TEST_F(ShadowVisible, ForwardReceiversAreWithinTheLastCascade) {
   const TriangleScene scene = small_in_large();
   renderer_->render(scene, params());
-  const float alone = cascades().items.back().half_extent;
+  const auto area = [&] { return cascades().items.back().half_extent.x * cascades().items.back().half_extent.y; };
+  const float alone = area();
   const shadow::Box beyond{{-6, -12, -15}, {0, -10, -9}};  // in the view, behind the ground
   renderer_->render(scene, params(), [&](shadow::Inputs& in) { in.forward_receivers = beyond; });
-  EXPECT_GT(cascades().items.back().half_extent, alone);
+  EXPECT_GT(area(), alone);
   for (const glm::dvec3& corner : beyond.corners()) {
     const glm::dvec4 clip = cascades().items.back().world_to_clip * glm::dvec4(corner, 1);
     EXPECT_LE(std::max(std::abs(clip.x), std::abs(clip.y)), 1.0);
   }
+}
+
+// A long strip of ground, seen along its length and aslant to the light's axes.
+TriangleScene strip() {
+  TriangleScene scene = half_plane_over_ground(128);
+  scene.view = glm::lookAt(glm::vec3(-1.6f, 1, -1.8f), glm::vec3(0, 0, 0), glm::vec3(0, 1, 0));
+  scene.projection = perspective(0.5f, 1, 0.1f);
+  return scene;
+}
+
+// The sum over the pixels of visibility · (1 − visibility), which grows with the width of penumbrae.
+double softness(const Shadowed& picture) {
+  double sum = 0;
+  for (const float visibility : picture.visibilities()) sum += visibility * (1.0 - visibility);
+  return sum;
+}
+
+TEST_F(ShadowVisible, TurnedAndLongTexelsDoNotChangeSoftness) {
+  const TriangleScene scene = strip();
+  for (const char* technique : {"pcss", "slices", "brute_force"}) {
+    const auto with = [&](const char* fit, float angle) {
+      ParamSet own = params(fit);
+      own.set("technique", std::string(technique));
+      own.set("cascades.size", 1024);
+      own.set("sun.angle", angle);
+      return own;
+    };
+    for (const float angle : {2.0f, 6.0f}) {
+      const double expected = softness(renderer_->render(scene, with("stable", angle)));
+      const double found = softness(renderer_->render(scene, with("visible", angle)));
+      const glm::vec2 texel = cascades().texel(0);
+      EXPECT_NE(cascades().turn, 0);
+      EXPECT_GT(std::max(texel.x, texel.y), 1.2f * std::min(texel.x, texel.y));
+      EXPECT_GT(expected, 100) << "the picture shows too little of a penumbra";
+      EXPECT_NEAR(found / expected, 1, 0.03) << technique << ", " << angle << " degrees";
+    }
+  }
+}
+
+// A square light has sides, which must not turn with the view.
+TEST_F(ShadowVisible, ASquareLightIsNotTurned) {
+  ParamSet square = params();
+  square.set("sun.shape", std::string("square"));
+  renderer_->render(strip(), square);
+  EXPECT_EQ(cascades().turn, 0);
+}
+
+TEST_F(ShadowVisible, AreNotLookedForWhereNothingReadsMaps) {
+  ParamSet none = params();
+  none.set("technique", std::string("none"));
+  renderer_->render(strip(), none);
+  const glm::vec2 half = cascades().items.back().half_extent;
+  none.set("cascades.fit", std::string("stable"));
+  renderer_->render(strip(), none);
+  EXPECT_EQ(cascades().items.back().half_extent, half);
 }
 
 // What a frame kept of the last one's maps must not hide that another part of the scene is seen.

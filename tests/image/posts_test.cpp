@@ -98,7 +98,7 @@ class Posts : public GpuTest {
     const int coarsest = static_cast<int>(*std::max_element(cascade.begin(), cascade.end()));
     const float radius = std::tan(glm::radians(sun_angle / 2)) * 3 / std::sin(glm::radians(40.0f));
     return {width_10_90(profile_of(setup.camera, renderer_.read_aov("shadow"))),
-            radius / frame.mask.lights[0].projection.cascades().texel(std::clamp(coarsest, 0, cascades - 1))};
+            radius / frame.mask.lights[0].projection.cascades().texel(std::clamp(coarsest, 0, cascades - 1)).x};
   }
 
   gl::Device device_;

@@ -74,7 +74,7 @@ TEST(Cascades, GrowAndNest) {
         EXPECT_LE(std::max(std::abs(p.x), std::abs(p.y)), 1.0) << "cascade " << i << " of " << count;
       }
       if (i == 0) continue;
-      EXPECT_LT(cascades.items[i - 1].half_extent, cascades.items[i].half_extent);
+      EXPECT_LT(cascades.items[i - 1].half_extent.x, cascades.items[i].half_extent.x);
     }
   }
 }
@@ -167,7 +167,7 @@ TEST(CullVolume, KeepsWhatCanCastAndDropsTheRest) {
   };
   const double x = cascade.center.x;
   const double y = cascade.center.y;
-  const double half = cascade.half_extent;
+  const double half = cascade.half_extent.x;
   EXPECT_TRUE(volume.holds(box_at({x, y, cascade.near_z - 50})));
   EXPECT_TRUE(volume.holds(box_at({x + half * 0.99, y, cascade.near_z})));
   EXPECT_FALSE(volume.holds(box_at({x + half + 1, y, cascade.near_z})));

@@ -50,9 +50,8 @@ int cut_discs(const CascadeInputs& in) {
     for (int i = 0; i < in.count; ++i) {
       const Cascade& cascade = cascades.items[static_cast<size_t>(i)];
       const glm::dvec2 from_center = glm::abs(glm::dvec2(point) - glm::dvec2(cascade.center));
-      if (std::max(from_center.x, from_center.y) > cascade.half_extent) continue;
-      const double half = cascade.half_extent;
-      const double texel = cascades.texel(i);
+      const glm::dvec2 half(cascade.half_extent), texel(cascades.texel(i));
+      if (glm::any(glm::greaterThan(from_center, half))) continue;
       const double disc = in.tan_half_angle * (point.z - cascades.items.back().near_z);
       const glm::dvec2 place = (glm::dvec2(point) - glm::dvec2(cascade.center) + half) / texel;
       const TexelRange drawn = cascades.drawn_texels(i);
@@ -134,7 +133,7 @@ TEST(CullVolume, ContainsOnlyBoxesThatLieInsideItWhole) {
     const glm::vec3 center(glm::transpose(cascades.world_to_light) * light_space + cascades.anchor);
     return Box{center - 0.1f, center + 0.1f};
   };
-  const double half = cascade.half_extent;
+  const double half = cascade.half_extent.x;
   EXPECT_TRUE(volume.contains(box_at(0)));
   EXPECT_TRUE(volume.contains(box_at(half - 0.5)));
   EXPECT_TRUE(volume.holds(box_at(half)));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
@@ -13,9 +14,20 @@
 namespace penumbra::shadow {
 namespace {
 
-// A slice `width` metres wide, centred in light space, that so many pixels show.
-ReceiverSlice slice(std::uint32_t pixels, double width) {
-  return {.pixels = pixels, .bounds = {{-0.5 * width, -0.25 * width, 5}, {0.5 * width, 0.25 * width, 10}}};
+// A slice that is a rectangle, `width` metres long and half as wide, centred in light space, that so many pixels show.
+// `turn`: the angle of its long side, radians.
+ReceiverSlice slice(std::uint32_t pixels, double width, double turn = 0) {
+  ReceiverSlice made{.pixels = pixels, .extents = {}, .depths = {5, 10}};
+  for (std::size_t k = 0; k < made.extents.size(); ++k) {
+    const double angle = glm::pi<double>() * static_cast<double>(k) / measured_directions - turn;
+    const double reach = width * (0.5 * std::abs(std::cos(angle)) + 0.25 * std::abs(std::sin(angle)));
+    made.extents[k] = {-reach, reach};
+  }
+  return made;
+}
+
+int x_axis(const Cascades& cascades) {
+  return static_cast<int>(std::lround(cascades.turn * measured_directions / glm::pi<double>()));
 }
 
 CascadeInputs inputs(const VisibleReceivers& visible, int count) {
@@ -30,22 +42,24 @@ CascadeInputs inputs(const VisibleReceivers& visible, int count) {
   return in;
 }
 
-// The cascade, with whatever index, in which a slice's pixels read.
-double extent_for(const Cascades& cascades, const ReceiverSlice& slice) {
+// The width of a square of the area of the cascade, with whatever index, in which a slice's pixels read.
+double width_for(const Cascades& cascades, const ReceiverSlice& slice) {
   const auto holds = [&](const Cascade& cascade) {
-    const glm::dvec2 low = glm::dvec2(slice.bounds.low) - glm::dvec2(cascade.center);
-    const glm::dvec2 high = glm::dvec2(slice.bounds.high) - glm::dvec2(cascade.center);
-    return std::max({-low.x, -low.y, high.x, high.y}) <= cascade.half_extent;
+    const LightBounds bounds = slice.bounds(x_axis(cascades));
+    const glm::dvec2 center(cascade.center), half(cascade.half_extent);
+    return glm::all(glm::greaterThanEqual(glm::dvec2(bounds.low), center - half)) &&
+           glm::all(glm::lessThanEqual(glm::dvec2(bounds.high), center + half));
   };
   const auto found = std::ranges::find_if(cascades.items, holds);
-  return found == cascades.items.end() ? std::numeric_limits<double>::infinity() : found->half_extent;
+  if (found == cascades.items.end()) return std::numeric_limits<double>::infinity();
+  return 2.0 * std::sqrt(found->half_extent.x * found->half_extent.y);
 }
 
 // The mean over all pixels of the logarithm of their texels.
 double cost_of(const Cascades& cascades, const VisibleReceivers& slices) {
   double sum = 0, pixels = 0;
   for (const ReceiverSlice& slice : slices) {
-    sum += slice.pixels * std::log2(extent_for(cascades, slice));
+    sum += slice.pixels * std::log2(width_for(cascades, slice));
     pixels += slice.pixels;
   }
   return sum / pixels;
@@ -56,7 +70,9 @@ double cost_of_ends(const std::vector<std::size_t>& ends, const VisibleReceivers
   double sum = 0, pixels = 0;
   for (std::size_t i = 0; i < slices.size(); ++i) {
     const std::size_t end = *std::ranges::lower_bound(ends, i);
-    sum += slices[i].pixels * std::log2(0.5 * slices[end].bounds.high.x - 0.5 * slices[end].bounds.low.x);
+    const LightBounds bounds = slices[end].bounds(0);
+    const glm::dvec2 size = glm::dvec2(bounds.high) - glm::dvec2(bounds.low);
+    sum += slices[i].pixels * std::log2(std::sqrt(size.x * size.y));
     pixels += slices[i].pixels;
   }
   return sum / pixels;
@@ -84,20 +100,49 @@ TEST(VisibleCascades, EndWhereThePixelsTexelsBecomeFinest) {
   }
 }
 
+// A cascade is as long and as wide as what it shows, whichever way that lies.
+TEST(VisibleCascades, TurnWithWhatTheyShow) {
+  constexpr double step = glm::pi<double>() / measured_directions;
+  for (const int turn : {0, 1, 7, 16, 27}) {
+    CascadeInputs in = inputs({slice(1000, 40, turn * step)}, 1);
+    const Cascades turned = fit_cascades(in);
+    EXPECT_EQ(x_axis(turned), turn % (measured_directions / 2)) << turn;
+    const glm::dmat3 from_unturned = turned.world_to_light * glm::transpose(light_axes(in.to_light));
+    const glm::dvec3 far_end = from_unturned * glm::dvec3(20 * std::cos(turn * step), 20 * std::sin(turn * step), 5);
+    const glm::vec2 half = turned.items[0].half_extent;
+    EXPECT_LE(std::abs(far_end.x - turned.items[0].center.x), half.x) << turn;
+    EXPECT_LE(std::abs(far_end.y - turned.items[0].center.y), half.y) << turn;
+    EXPECT_NEAR(std::max(half.x, half.y) / std::min(half.x, half.y), 2, 0.1) << turn;
+    EXPECT_NEAR(std::max(half.x, half.y), 20, 1) << turn;
+    in.may_turn = false;
+    EXPECT_EQ(fit_cascades(in).world_to_light, light_axes(in.to_light)) << turn;
+  }
+}
+
+// A texel's width and height never differ by more than a factor of four (and a step of its size).
+TEST(VisibleCascades, AreNotNarrowStripes) {
+  VisibleReceivers line{slice(1000, 40)};
+  for (glm::dvec2& extent : line[0].extents) extent *= 1e-3;
+  line[0].extents[0] = {-20, 20};
+  const glm::vec2 half = fit_cascades(inputs(line, 1)).items[0].half_extent;
+  EXPECT_LE(std::max(half.x, half.y) / std::min(half.x, half.y), 4 * 1.05f);
+}
+
 TEST(VisibleCascades, MayBeMoreThanThereAreSlices) {
   const VisibleReceivers slices{slice(7, 2), slice(5, 3)};
   const Cascades cascades = fit_cascades(inputs(slices, 4));
   ASSERT_EQ(cascades.items.size(), 4u);
-  for (const ReceiverSlice& each : slices) EXPECT_TRUE(std::isfinite(extent_for(cascades, each)));
+  for (const ReceiverSlice& each : slices) EXPECT_TRUE(std::isfinite(width_for(cascades, each)));
   for (std::size_t i = 1; i < cascades.items.size(); ++i)
-    EXPECT_GE(cascades.items[i].half_extent, cascades.items[i - 1].half_extent);
+    EXPECT_GE(cascades.items[i].half_extent.x, cascades.items[i - 1].half_extent.x);
 }
 
 TEST(VisibleCascades, OfASinglePointHaveAnExtent) {
   VisibleReceivers point{slice(1, 0)};
-  point[0].bounds.low.z = point[0].bounds.high.z;
+  point[0].depths = {10, 10};
   for (const Cascade& cascade : fit_cascades(inputs(point, 4)).items) {
-    EXPECT_GT(cascade.half_extent, 0);
+    EXPECT_GT(cascade.half_extent.x, 0);
+    EXPECT_GT(cascade.half_extent.y, 0);
     EXPECT_GT(cascade.far_z, cascade.near_z);
   }
 }
@@ -117,7 +162,7 @@ TEST(VisibleCascades, TheLastHoldsTheDiscsOfItsReceivers) {
       const double height = (cascades.anchor + to_world * receiver).y;
       const glm::dvec3 top = receiver + ray * ((80 - height) / (to_world * ray).y);
       const Cascade& last = cascades.items.back();
-      EXPECT_LE(std::abs(top.x - last.center.x), last.half_extent) << x << ", " << edge;
+      EXPECT_LE(std::abs(top.x - last.center.x), last.half_extent.x) << x << ", " << edge;
       EXPECT_GE(top.z, last.near_z);
     }
   }

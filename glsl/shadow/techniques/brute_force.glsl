@@ -12,7 +12,7 @@ struct Region {
 
 Region texels_within(Receiver receiver, float radius, Light light) {
   vec2 center = map_place(receiver.position, light);
-  float texels = radius / texel_size(receiver, light);
+  vec2 texels = radius / texel_extent(receiver, light);
   return Region(clamp(ivec2(floor(center - texels)), ivec2(0), last_texel()),
                 clamp(ivec2(floor(center + texels)), ivec2(0), last_texel()));
 }

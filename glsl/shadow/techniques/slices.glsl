@@ -116,7 +116,8 @@ Blocker add_texel(inout Slice slice, Receiver receiver, float depth, float block
 
 Slice walk(Receiver receiver, int azimuth, float radius, PixelNoise noise, float bias, Light light) {
   Slice slice = Slice(0u, 0.0, 0.0);
-  float texel = texel_size(receiver, light);
+  float rim_texel = texel_size(receiver, light);
+  vec2 texel = texel_extent(receiver, light);
   vec2 place = map_place(receiver.position, light);
   vec2 rim = rim_point(fract((float(azimuth) + noise.azimuth) / float(slices_azimuths)), light);
   float jitter = fract(noise.distance_to + golden * float(azimuth));
@@ -124,7 +125,7 @@ Slice walk(Receiver receiver, int azimuth, float radius, PixelNoise noise, float
   float begin = 0.0;
   Blocker before = no_blocker, second_before = no_blocker;
   for (int i = 0; i < slices_samples; ++i) {
-    float end = (radius + texel) * spread(float(i + 1) / float(slices_samples));
+    float end = (radius + rim_texel) * spread(float(i + 1) / float(slices_samples));
     float at = mix(begin, end, jitter);
     // Moved by up to half a texel: the mean over many samples then weights texels as bilinear filters do.
     vec2 moved = fract(noise.texel + plastic * float(azimuth * slices_samples + i)) - 0.5;
