@@ -5,7 +5,8 @@
 #include "shared/language.h"
 
 const uint slices = 32u;
-// Each invocation reads a block of pixels, which mostly lie in one slice.
+// Each invocation reads a block of pixels, and adds it to one slice: that of its farthest pixel. Cascades hold what the
+// slices before them hold too, so that near slices stay as small as what they show.
 const int block_size = 8;
 layout(local_size_x = 8, local_size_y = 8) in;
 const uint invocations = 64u;
@@ -60,15 +61,13 @@ vec3 view_position(vec2 at, float depth) {
 
 shared uint group_low[all_measures], group_high[all_measures], group_pixels[slices];
 
-// What some pixels show of one slice: extents along four directions, half a right angle apart, and depths.
+// What a block of pixels shows: extents along four directions, half a right angle apart, and depths along the light.
 struct Part {
-  int slice;
   uint pixels;
+  float farthest;  // from the camera
   vec4 low, high;
   vec2 depths;
 };
-
-Part empty_part(int slice) { return Part(slice, 0u, vec4(1e30), vec4(-1e30), vec2(1e30, -1e30)); }
 
 vec4 along_four(vec2 place) {
   return vec4(place.x, (place.x + place.y) * sqrt(0.5), place.y, (place.y - place.x) * sqrt(0.5));
@@ -82,13 +81,12 @@ void add_range(uint index, float low, float high) {
 }
 
 // The octagon about the part is measured instead of each pixel: it extends beyond them by a little of a block.
-void add(Part part) {
-  if (part.pixels == 0u) return;
+void add(Part part, int slice) {
   const int steps = DIRECTIONS / 4;
   const float right_angle = 1.57079633;
   // The fifth direction is opposite to the first.
   vec4 next_low = vec4(part.low.yzw, -part.high.x), next_high = vec4(part.high.yzw, -part.low.x);
-  uint first = uint(part.slice) * measures;
+  uint first = uint(slice) * measures;
   for (int step = 0; step < steps; ++step) {
     float angle = 0.5 * right_angle * float(step) / float(steps);
     // A direction between two of the four is this sum of them.
@@ -97,7 +95,7 @@ void add(Part part) {
     for (int i = 0; i < 4; ++i) add_range(first + uint(i * steps + step), low[i], high[i]);
   }
   add_range(first + uint(DIRECTIONS), part.depths.x, part.depths.y);
-  atomicAdd(group_pixels[part.slice], part.pixels);
+  atomicAdd(group_pixels[slice], part.pixels);
 }
 
 void main() {
@@ -118,7 +116,7 @@ void main() {
   float slices_a_ratio = float(slices) / max(log2(far / near), 1e-6);
 
   Pixels pixels = own_pixels();
-  Part part = empty_part(0);
+  Part part = Part(0u, 0.0, vec4(1e30), vec4(-1e30), vec2(1e30, -1e30));
   for (int y = pixels.low.y; y < pixels.high.y; ++y) {
     for (int x = pixels.low.x; x < pixels.high.x; ++x) {
       float depth = texelFetch(receiver_depth, ivec2(x, y), 0).x;
@@ -126,18 +124,15 @@ void main() {
       vec3 position = view_position(vec2(x, y) + 0.5, depth);
       float away = -position.z;
       if (away > far * 1.0001 || isnan(away)) continue;
-      int slice = clamp(int(log2(max(away, near) / near) * slices_a_ratio), 0, int(slices) - 1);
-      if (slice != part.slice) {
-        add(part);
-        part = empty_part(slice);
-      }
       vec3 place = mat3(view_to_light) * position;
       vec4 across = along_four(place.xy);
-      part = Part(slice, part.pixels + 1u, min(part.low, across), max(part.high, across),
+      part = Part(part.pixels + 1u, max(part.farthest, away), min(part.low, across), max(part.high, across),
                   vec2(min(part.depths.x, place.z), max(part.depths.y, place.z)));
     }
   }
-  add(part);
+  if (part.pixels > 0u) {
+    add(part, clamp(int(log2(max(part.farthest, near) / near) * slices_a_ratio), 0, int(slices) - 1));
+  }
   barrier();
 
   for (uint i = own; i < all_measures; i += invocations) {
