@@ -1,11 +1,14 @@
 // Decides receivers that no penumbra reaches: where the shadow map has no edge within the disc that can block light
 // from a receiver, it shows one surface there, and the receiver lies either on that surface and is lit, or below it and
 // is in shadow.
-#ifndef SPLITS_AT_HORIZON
-#define SPLITS_AT_HORIZON 0  // 1: for techniques that see a part of the light over the horizon of a surface
+#ifndef LEAVES_TO_RAYS
+#define LEAVES_TO_RAYS 0  // 1: what the map may show wrongly is left undecided
 #endif
 #include "shadow/search.glsl"
 #include "shadow/drivers/gbuffer.glsl"
+#if LEAVES_TO_RAYS
+#include "shadow/techniques/hybrid_masked.glsl"
+#endif
 
 // Whether no edge of the map can block light from receivers within these half widths, of which this is the one that is
 // farthest from the light. `radius`: bounds their discs.
@@ -13,7 +16,13 @@ bool edges_are_clear(Receiver deepest, float radius, vec2 half_widths, Light lig
   float margin = (2.0 + bias_normal_offset) * texel_size(deepest, light);
   for (int i = 0; i < 4; ++i) {
     float nearest = depth_bounds(deepest.position, half_widths + radius + margin, light).edge;
-    if (nearest >= deepest.position.z) return true;
+    if (nearest >= deepest.position.z) {
+#if LEAVES_TO_RAYS
+      return masks_are_clear(deepest, radius, half_widths, light);
+#else
+      return true;
+#endif
+    }
     float needed = penumbra_radius(deepest, deepest.position.z - nearest, light);
     if (needed >= radius) return false;
     radius = needed;
@@ -46,11 +55,11 @@ PixelState decide_receiver(Receiver receiver, Light light) {
                     receiver.position.z - bilinear(footprint.depths, footprint.weight));
 }
 
-// Whether the pixel faces away from the light or towards it; undecided where one part of the light may be above the
-// horizon of its surface and another part below it, if that makes a difference to the technique.
+// Whether the pixel faces away from the light or towards it; for rays, undecided where one part of the light may be
+// above the horizon of its surface and another part below it.
 int facing_of(Receiver receiver, Light light) {
   float cosine = light_cosine(receiver);
-#if SPLITS_AT_HORIZON
+#if LEAVES_TO_RAYS
   float horizon = 1.5 / cone_slope(receiver, light);
   if (abs(cosine) < horizon) return undecided;
 #endif

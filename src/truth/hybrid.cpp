@@ -14,6 +14,7 @@
 #include "shadow/tiles.h"
 #include "truth/cache.h"
 #include "truth/frame_rays.h"
+#include "truth/masked_casters.h"
 #include "truth/penumbra_trace.h"
 
 namespace penumbra::truth {
@@ -21,7 +22,8 @@ namespace penumbra::truth {
 namespace {
 
 // As in glsl/shadow/techniques.
-constexpr GLuint left_binding = 6, results_binding = 7, unit_surface_ids = shadow::first_pass_unit;
+constexpr GLuint left_binding = 6, results_binding = 7, unit_surface_ids = shadow::first_pass_unit,
+                 unit_masked = unit_surface_ids + 1;
 struct LeftPixel {
   std::uint32_t at, surface, triangle;
 };
@@ -51,13 +53,15 @@ class HybridFrame {
         user_(frame_scene(context, "hybrid")),
         casters_(casters),
         threads_(threads),
+        geometry_(user_.scene.posed_geometry()),
         left_(context.scratch("left pixels", count_bytes + sizeof(LeftPixel) * pixel_count())) {}
 
   void resolve() const {
+    const gl::Texture* masked = upload_masked();
     const gl::Texture& ids =
         render::draw_surface_ids(context_.device(), {.scene = user_.scene, .view = user_.view, .depth = user_.depth});
-    const gl::Buffer& tiles = decide_tiles();
-    decide_pixels(tiles, ids);
+    const gl::Buffer& tiles = decide_tiles(masked);
+    decide_pixels(tiles, ids, masked);
     const std::vector<DrawnPixel> left = read_left();
     if (!left.empty()) trace(left);
   }
@@ -67,29 +71,59 @@ class HybridFrame {
     return static_cast<std::size_t>(context_.mask().width()) * static_cast<std::size_t>(context_.mask().height());
   }
 
-  void use(gl::Pass& pass, const char* program) const {
-    context_.use(pass, program).set("mask_layer", context_.frame().layer);
+  const gl::Program& use(gl::Pass& pass, const char* name) const {
+    const gl::Program& program = context_.use(pass, name);
+    program.set("mask_layer", context_.frame().layer);
     context_.mask().bind_image(0, GL_WRITE_ONLY);
+    return program;
+  }
+
+  // Null if there is none.
+  const gl::Texture* upload_masked() const {
+    if (!context_.params().get_bool("hybrid.masked_casters")) return nullptr;
+    const gl::Pass pass(context_.device(), {.name = "masked casters"});
+    const MaskedCasters casters = MaskedCasters::of(geometry_, context_.frame().projection);
+    if (casters.side == 0) return nullptr;
+    const gl::Texture& texture =
+        context_.target("masked casters", {.target = GL_TEXTURE_2D_ARRAY,
+                                           .format = GL_R32F,
+                                           .width = casters.side,
+                                           .height = casters.side,
+                                           .layers = static_cast<int>(casters.layers.size()),
+                                           .levels = static_cast<int>(casters.layers.front().size())});
+    for (int layer = 0; layer < texture.desc().layers; ++layer) {
+      const auto& levels = casters.layers[static_cast<std::size_t>(layer)];
+      for (int level = 0; level < texture.desc().levels; ++level)
+        texture.upload(GL_RED, GL_FLOAT, std::as_bytes(std::span(levels[static_cast<std::size_t>(level)])), level,
+                       layer);
+    }
+    return &texture;
+  }
+
+  void use_decision(gl::Pass& pass, const char* program, const gl::Texture* masked) const {
+    use(pass, program).set("has_masked_casters", masked != nullptr ? 1 : 0);
+    context_.device().sampler({}).bind(unit_masked);
+    if (masked != nullptr) masked->bind(unit_masked);
   }
 
   // Returns the list of the tiles that are not decided.
-  const gl::Buffer& decide_tiles() const {
+  const gl::Buffer& decide_tiles(const gl::Texture* masked) const {
     const glm::ivec2 tiles = shadow::tile_count(context_.frame().viewport);
     const auto capacity = static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
     const auto head = shadow::empty_tile_list(capacity);
     const gl::Buffer& list = context_.scratch("tile list", sizeof(head) + sizeof(std::uint32_t) * capacity);
     list.write(std::as_bytes(std::span(head)));
     gl::Pass pass(context_.device(), {.name = "tile decisions"});
-    use(pass, "tiles");
+    use_decision(pass, "tiles", masked);
     list.bind_storage(shadow::tile_list_binding);
     pass.dispatch(tiles.x, tiles.y);
     return list;
   }
 
-  void decide_pixels(const gl::Buffer& tiles, const gl::Texture& ids) const {
+  void decide_pixels(const gl::Buffer& tiles, const gl::Texture& ids, const gl::Texture* masked) const {
     gl::write_value(left_, std::uint32_t{0});
     gl::Pass pass(context_.device(), {.name = "pixel decisions"});
-    use(pass, "pixels");
+    use_decision(pass, "pixels", masked);
     tiles.bind_storage(shadow::tile_list_binding);
     left_.bind_storage(left_binding);
     context_.device().sampler({}).bind(unit_surface_ids);
@@ -114,10 +148,9 @@ class HybridFrame {
 
   void trace(std::span<const DrawnPixel> left) const {
     gl::Pass pass(context_.device(), {.name = "rays"});
-    const scene::PosedGeometry geometry = user_.scene.posed_geometry();
     const std::vector<PenumbraPixel> traced =
-        trace_penumbrae(casters_.of(user_.scene.scene(), geometry),
-                        {.geometry = geometry,
+        trace_penumbrae(casters_.of(user_.scene.scene(), geometry_),
+                        {.geometry = geometry_,
                          .eye = eye_rays(user_),
                          .pixels = left,
                          .sun = std::get<TracedSun>(traced_light(context_)),
@@ -140,6 +173,7 @@ class HybridFrame {
   const render::FrameScene& user_;
   KeptCasters& casters_;
   int threads_;
+  scene::PosedGeometry geometry_;
   const gl::Buffer& left_;
 };
 
@@ -155,7 +189,11 @@ shadow::Technique hybrid(int threads) {
           .source = "edges of the map as in ADR 18; Owen-scrambled Sobol points, Embree",
           .needs = {"shadow_map", "least_depth_pyramid"},
           .params = {{"hybrid.rays", 16, 8, 4096, "rays",
-                      "Rays of each pixel in penumbra, rounded up to a multiple of eight.", host}},
+                      "Rays of each pixel in penumbra, rounded up to a multiple of eight.", host},
+                     {"hybrid.masked_casters", true, 0, 1, "",
+                      "Leaves to rays whatever casters with an alpha mask may shadow, because the map can miss what is "
+                      "left of them by the mask.",
+                      host}},
           .resolve = [=](const shadow::PassContext& context) { HybridFrame(context, *casters, threads).resolve(); },
           .resolve_reads_motion = false,
           .programs =

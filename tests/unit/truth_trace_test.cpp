@@ -14,6 +14,7 @@ namespace penumbra::test {
 namespace {
 
 using truth::PacketPoints;
+using truth::PicturePoints;
 using truth::PixelPoints;
 using truth::Receiver;
 using truth::Traced;
@@ -64,6 +65,31 @@ TEST(TruthSampling, OneScramblingComesInOrder) {
 }
 
 // Over pixels, scramblings and seeds, each point is uniformly distributed, and any two are independent.
+// Of the points of a pixel, of a block of 2 × 2 pixels and of a block of 4 × 4, one is in each of as many equal
+// columns, and one in each of as many equal rows.
+TEST(TruthTrace, PointsOfBlocksOfPixelsCoverTheLightEvenly) {
+  constexpr std::uint32_t count = 16;
+  const PicturePoints points(3, count);
+  for (const std::uint32_t side : {1u, 2u, 4u}) {
+    std::vector<std::uint32_t> columns(side * side * count), rows(columns.size());
+    for (std::uint32_t pixel = 0; pixel < side * side; ++pixel) {
+      const std::uint32_t first = points.first(8 + pixel % side, 12 + pixel / side);
+      for (std::uint32_t i = 0; i < count; i += 8) {
+        truth::PacketPoints packet;
+        points.square({first + i, first + i + 1, first + i + 2, first + i + 3, first + i + 4, first + i + 5,
+                       first + i + 6, first + i + 7},
+                      packet);
+        for (std::size_t lane = 0; lane < 8; ++lane) {
+          ++columns[static_cast<std::size_t>(packet.x[lane] * static_cast<float>(columns.size()))];
+          ++rows[static_cast<std::size_t>(packet.y[lane] * static_cast<float>(rows.size()))];
+        }
+      }
+    }
+    EXPECT_EQ(columns, std::vector<std::uint32_t>(columns.size(), 1)) << side;
+    EXPECT_EQ(rows, std::vector<std::uint32_t>(rows.size(), 1)) << side;
+  }
+}
+
 TEST(TruthSampling, ScramblingsAreIndependent) {
   const auto correlation = [](auto first, auto second) {
     double sum = 0;

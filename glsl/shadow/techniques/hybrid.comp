@@ -1,5 +1,5 @@
 // Writes the mask of those pixels of the listed tiles that the map decides; the others are left to rays.
-#define SPLITS_AT_HORIZON 1
+#define LEAVES_TO_RAYS 1
 #include "shadow/decide_tile.glsl"
 #include "shadow/techniques/hybrid_mask.glsl"
 

@@ -1,5 +1,5 @@
 // Writes the mask of tiles that the map decides as a whole, and lists the others.
-#define SPLITS_AT_HORIZON 1
+#define LEAVES_TO_RAYS 1
 #include "shadow/decide_tile.glsl"
 #include "shadow/techniques/hybrid_mask.glsl"
 
