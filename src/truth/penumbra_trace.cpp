@@ -14,9 +14,6 @@ namespace penumbra::truth {
 namespace {
 
 constexpr std::uint32_t no_slot = ~0u;
-// At the rim of a penumbra, less than one in so many of the first rays of a pixel and its neighbours differ from the
-// others.
-constexpr std::uint32_t rim_share = 6;
 
 // Where a pixel's rays start, and the cosines of the angles between its surface's normal and the light's centre and
 // sides: see SeenLight.
@@ -202,7 +199,7 @@ class PenumbraTrace {
 
   void complete(const std::vector<Count>& probed, std::size_t begin, std::size_t end, std::vector<PenumbraPixel>& out) {
     Packets packets(scene_, light_, points_, /*measures=*/false, counts_);
-    std::vector<std::size_t> doubtful, rim;
+    std::vector<std::size_t> doubtful;
     for (std::size_t slot = begin; slot < end; ++slot) {
       if (!starts_[slot].there) continue;
       std::uint32_t traced = 0;
@@ -213,27 +210,12 @@ class PenumbraTrace {
           .visibility = own.lit > 0 ? 1.0f : 0.0f,
           .blocker_distance = measured.hits > 0 ? measured.distance / static_cast<float>(measured.hits) : 0.0f};
       if (around.lit == 0 || around.lit == traced) continue;
-      const std::uint32_t fewer = std::min(around.lit, traced - around.lit);
-      (rim_share * fewer < traced ? rim : doubtful).push_back(slot);
-    }
-    trace_to(2 * probes_, rim, packets, out);
-    trace_to(2 * probes_, doubtful, packets, out);
-    for (const std::size_t slot : rim) {
-      if (out[slot].visibility > 0 && out[slot].visibility < 1) doubtful.push_back(slot);
-    }
-    trace_to(request_.rays, doubtful, packets, out);
-  }
-
-  // Traces rays until each of these pixels has so many. They have a quarter or a half of all rays before.
-  void trace_to(std::uint32_t rays, const std::vector<std::size_t>& slots, Packets& packets,
-                std::vector<PenumbraPixel>& out) {
-    const std::uint32_t first = rays == request_.rays ? 2 * probes_ : probes_;
-    for (const std::size_t slot : slots) {
-      for (std::uint32_t ray = first; ray < rays; ++ray) packets.add(slot, starts_[slot], point(slot, ray));
+      doubtful.push_back(slot);
+      for (std::uint32_t ray = probes_; ray < request_.rays; ++ray) packets.add(slot, starts_[slot], point(slot, ray));
     }
     packets.finish();
-    for (const std::size_t slot : slots)
-      out[slot].visibility = static_cast<float>(counts_[slot].lit) / static_cast<float>(rays);
+    for (const std::size_t slot : doubtful)
+      out[slot].visibility = static_cast<float>(counts_[slot].lit) / static_cast<float>(request_.rays);
   }
 
   const EmbreeScene& scene_;

@@ -27,10 +27,9 @@ struct PenumbraPixel {
 };
 
 // Most pixels that a shadow map can't decide are fully lit or in full shadow nevertheless. So a quarter of the rays is
-// traced first, and the others where these differ from each other or from a neighbour's. Where few do, which is at the
-// rim of a penumbra, half of the rays are enough if those of the pixel itself agree. Where rays agree, the pixel has
-// that visibility: too bright at the lit rim of a penumbra, and too dark at the other, so that the mean error is nearly
-// 0. The result does not depend on the number of threads, nor on the order of the pixels.
+// traced first, and the others where these differ from each other or from a neighbour's. Where all agree, the pixel has
+// that visibility: a little too bright at the lit rim of a penumbra, and too dark at the other. The result does not
+// depend on the number of threads, nor on the order of the pixels.
 std::vector<PenumbraPixel> trace_penumbrae(const EmbreeScene& scene, const PenumbraRequest& request);
 
 }  // namespace penumbra::truth
