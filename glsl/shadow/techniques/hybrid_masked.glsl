@@ -5,8 +5,7 @@ uniform int has_masked_casters;
 
 // The least depth, metres, of such casters over a rectangle of these half widths and a little beyond.
 float masked_depth(vec3 position, vec2 radius, Light light) {
-  float quarter = 0.25 * max(radius.x, radius.y);
-  int level = pyramid_level(position, quarter, light, pyramid_base, textureQueryLevels(masked_casters));
+  int level = pyramid_level(position, 0.25 * radius, light, pyramid_base, textureQueryLevels(masked_casters));
   ivec2 last = max(last_texel(), 0) >> (level + 2);
   TexelRange range = pyramid_range(position, radius, light, pyramid_base, level, last);
   float stored = 1.0;
