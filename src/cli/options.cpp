@@ -81,7 +81,7 @@ void add_time_options(CLI::App& app, SceneOptions& o) {
 
 void add_technique_option(CLI::App& app, ShadowOptions& o) {
   add_value(app, "--technique", "NAME",
-            "Shadow technique or preset, in place of a preset file's; see penumbra list techniques",
+            "Shadow technique or preset, in place of a preset file's; see penumbra list techniques (slices_denoised)",
             [&o](const auto& text) { o.technique = text; });
 }
 
@@ -171,10 +171,21 @@ void assign(ParamSet& params, const std::string& assignment) {
   }
 }
 
-bool is_chosen(const ShadowOptions& options, const ParamSet& params, std::string_view name) {
+namespace {
+
+bool is_assigned(const ShadowOptions& options, std::string_view name) {
   const std::string start = fmt::format("{}=", name);
-  const auto sets = [&](const std::string& assignment) { return assignment.starts_with(start); };
-  return !params.is_default(name) || std::ranges::any_of(options.assignments, sets);
+  return std::ranges::any_of(options.assignments, [&](const std::string& text) { return text.starts_with(start); });
+}
+
+}  // namespace
+
+bool names_technique(const ShadowOptions& options) {
+  return !options.technique.empty() || !options.presets.empty() || is_assigned(options, "technique");
+}
+
+bool is_chosen(const ShadowOptions& options, const ParamSet& params, std::string_view name) {
+  return !params.is_default(name) || is_assigned(options, name);
 }
 
 ParamSet resolve_params(const ShadowOptions& options, const shadow::Registry& registry) {
@@ -185,7 +196,8 @@ ParamSet resolve_params(const ShadowOptions& options, const shadow::Registry& re
     check_map_memory(params);
   }
   try {
-    if (!options.technique.empty()) registry.select(params, options.technique);
+    const std::string& technique = names_technique(options) ? options.technique : options.otherwise;
+    if (!technique.empty()) registry.select(params, technique);
     if (!options.sun_angle.empty()) params.set_text("sun.angle", options.sun_angle);
     if (!options.exposure.empty()) set_exposure(params, options.exposure);
   } catch (const Error& error) {

@@ -39,6 +39,8 @@ struct SceneOptions {
 struct ShadowOptions {
   std::vector<std::string> presets, assignments;
   std::string technique, sun_angle, exposure;
+  // The technique or preset where the user names none; empty: the library's default.
+  std::string otherwise;
 };
 
 struct DeviceOptions {
@@ -62,9 +64,13 @@ void check_together(const SceneOptions& options);
 void check_together(const DeviceOptions& options);
 
 // The values to render with: defaults, then the preset files, then --technique, --sun-angle and --exposure, then every
-// --set in the order given. The order of different options on the command line does not matter. Throws UsageError if
+// --set in the order given. Without a preset file, --technique and --set technique=NAME, `otherwise` takes the place of
+// --technique. The order of different options on the command line does not matter. Throws UsageError if
 // the command line is wrong, and Error if a preset is.
 ParamSet resolve_params(const ShadowOptions& options, const shadow::Registry& registry);
+
+// Whether the user names a technique: by --technique, a preset file or --set technique=NAME.
+bool names_technique(const ShadowOptions& options);
 
 // Whether the user set a parameter: by --set, or to another value than its default. `params` are the resolved ones.
 bool is_chosen(const ShadowOptions& options, const ParamSet& params, std::string_view name);

@@ -150,8 +150,12 @@ std::vector<float> texel(const Source& from) {
   const shadow::LightProjection& maps = from.frame.mask.lights.front().projection;
   std::vector<float> texels;
   for (std::size_t i = 0; i < layers.size(); ++i) {
+    if (layers[i] < 0) {  // the sky
+      texels.push_back(0);
+      continue;
+    }
     const float of_pixel = from.frame.camera.orthographic ? pixel : pixel * distances[i];
-    const glm::vec2 of_map = layers[i] < 0 ? glm::vec2(0) : maps.texel(static_cast<int>(layers[i]));
+    const glm::vec2 of_map = maps.texel(static_cast<int>(layers[i]));
     texels.push_back((of_map.x == of_map.y ? of_map.x : std::sqrt(of_map.x * of_map.y)) / of_pixel);
   }
   return texels;

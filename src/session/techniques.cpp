@@ -50,6 +50,15 @@ std::string technique_label(const ParamSet& params) {
   return best != nullptr ? best->name : params.get_word("technique");
 }
 
+void choose_technique(ParamSet& params, const shadow::Registry& registry, const std::string& name) {
+  const std::string last = technique_label(params);
+  const auto preset = std::ranges::find(registry.presets(), last, &shadow::Preset::name);
+  if (preset != registry.presets().end()) {
+    for (const std::string& assignment : preset->assignments) params.reset(assignment.substr(0, assignment.find('=')));
+  }
+  registry.select(params, name);
+}
+
 truth::TechniqueOptions truth_options(const CacheOptions& cache, const cli::DeviceOptions& device,
                                       truth::TechniqueOptions more) {
   more.cache = cache.folder();

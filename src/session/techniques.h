@@ -16,6 +16,13 @@ const shadow::Registry& all_techniques();
 // several match), else the technique.
 std::string technique_label(const ParamSet& params);
 
+// What commands draw with where the user names no technique.
+constexpr const char* usual_technique = "slices_denoised";
+
+// Chooses a technique or preset. What technique_label() named before goes back to its defaults, so that the filters of
+// one preset do not stay with the next.
+void choose_technique(ParamSet& params, const shadow::Registry& registry, const std::string& name);
+
 // The technique `truth` as the options have it: where its pictures are kept, how many threads trace. `more` has the
 // rest.
 truth::TechniqueOptions truth_options(const CacheOptions& cache, const cli::DeviceOptions& device,

@@ -89,12 +89,18 @@ std::vector<Preset> presets() {
       {"thesis_8x8", "pcss", "The fast form of the thesis's method, figure 4.12: 8/8 taps and filters, no history.",
        thesis_8x8}};
   for (Preset& preset : all) preset.assignments.emplace_back("driver=fragment");
+  const Preset denoised{"slices_denoised",
+                        "slices",
+                        "Slices with few samples, and a filter that removes their noise.",
+                        {"slices.azimuths=6", "slices.samples=8", "denoiser=history_and_filters",
+                         "filter.penumbra=none", "filter.visibility=bilateral_separable"}};
   for (const Preset& preset :
        std::vector{Preset{"pcss", "pcss", "", {}}, Preset{"brute_force", "brute_force", "", {}}, all[0], all[1]}) {
     all.push_back(
         {preset.name + "_compute", preset.technique, preset.name + " in compute shaders.", preset.assignments});
     all.back().assignments.emplace_back("driver=compute");
   }
+  all.insert(all.begin(), denoised);
   return all;
 }
 

@@ -39,7 +39,7 @@ void choose_b(const Panel& panel) {
   for (const std::string& name : registry.names()) {
     if (ImGui::Selectable(name.c_str(), name == current)) {
       comparison.params = panel.state.document.params;
-      registry.select(comparison.params, name);
+      session::choose_technique(comparison.params, registry, name);
       if (truth::is_reference(name)) truth::make_reference(comparison.params);
     }
     panel.widgets.mark("b=" + name);

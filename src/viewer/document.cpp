@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
+#include "session/techniques.h"
+
 namespace penumbra::viewer {
 
 namespace {
@@ -33,10 +35,15 @@ void add_frames(std::vector<std::string>& arguments, const cli::FrameRange& rang
   if (fps != cli::SceneOptions{}.fps) add(arguments, "--fps", fmt::format("{}", fps));
 }
 
+// The technique or preset that the parameters are nearest to, and what differs from it.
 void add_params(std::vector<std::string>& arguments, const ParamSet& params) {
-  if (!params.is_default("technique")) add(arguments, "--technique", params.get_word("technique"));
+  const std::string technique = session::technique_label(params);
+  add(arguments, "--technique", technique);
+  ParamSet base = params;
+  for (const Param& row : params.rows()) base.reset(row.name);
+  session::all_techniques().select(base, technique);
   for (const Param& row : params.rows()) {
-    if (row.name == "technique" || params.is_default(row.name)) continue;
+    if (params.value(row.name) == base.value(row.name)) continue;
     add(arguments, "--set", row.name + "=" + to_text(params.value(row.name)));
   }
 }

@@ -37,7 +37,7 @@ void choose_technique(const Panel& panel, ParamSet& params) {
   const shadow::Registry& registry = panel.status.techniques;
   const std::string current = session::technique_label(params);
   const auto item = [&](const std::string& name, const std::string& summary) {
-    if (ImGui::Selectable(name.c_str(), name == current)) registry.select(params, name);
+    if (ImGui::Selectable(name.c_str(), name == current)) session::choose_technique(params, registry, name);
     panel.widgets.mark("technique=" + name);
     tooltip(summary);
   };

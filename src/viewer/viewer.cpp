@@ -34,7 +34,9 @@ Document document_of(const ViewOptions& options) {
   Document document;
   document.options = static_cast<const cli::SceneOptions&>(options);
   document.options.frames = cli::FrameRange{};
-  document.params = cli::resolve_params(options, session::all_techniques());
+  cli::ShadowOptions shadows = options;
+  shadows.otherwise = session::usual_technique;
+  document.params = cli::resolve_params(shadows, session::all_techniques());
   document.options.reading.skies_chosen = cli::is_chosen(options, document.params, "casters.skies");
   return document;
 }

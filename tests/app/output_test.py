@@ -38,7 +38,7 @@ class Output(TestCase):
 
     def test_summary_is_one_line(self):
         result = self.succeed("render", POSTS, "-o", self.folder / "x.png", *SMALL)
-        self.assertRegex(result.stdout, r"^wrote \S+x\.png \(96×54, pcss, \d+\.\d\d s\)\n$")
+        self.assertRegex(result.stdout, r"^wrote \S+x\.png \(96×54, slices_denoised, \d+\.\d\d s\)\n$")
         self.assertEqual(result.stderr, "")
 
     def test_summary_counts_the_aovs_that_were_asked_for(self):

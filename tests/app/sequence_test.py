@@ -42,10 +42,24 @@ class Sequence(TestCase):
         self.assertEqual(self.files(), ["100%.png"])
 
     def test_a_frame_is_the_picture_of_its_time(self):
-        self.draw("x.png", "--frames", "2:4", "--fps", "4", "--time", "0.25")
-        self.draw("still.png", "--time", "1.0")
+        fit = ("--set", "cascades.fit=stable")
+        self.draw("x.png", "--frames", "2:4", "--fps", "4", "--time", "0.25", *fit)
+        self.draw("still.png", "--time", "1.0", *fit)
         self.assertEqual((self.folder / "still.png").read_bytes(), (self.folder / "x_0003.png").read_bytes())
         self.assertNotEqual((self.folder / "x_0002.png").read_bytes(), (self.folder / "x_0003.png").read_bytes())
+
+    def test_only_maps_of_single_pictures_are_fitted_to_them(self):
+        def drawn(*arguments):
+            self.draw("x.png", *arguments)
+            path = self.folder / ("x_0000.png" if "--frames" in arguments else "x.png")
+            return path.read_bytes()
+
+        stable, visible = (("--set", f"cascades.fit={fit}") for fit in ("stable", "visible"))
+        single = drawn()
+        self.assertEqual(single, drawn(*visible))
+        self.assertNotEqual(single, drawn(*stable))
+        self.assertEqual(drawn("--technique", "slices_denoised"), drawn(*stable))
+        self.assertEqual(drawn("--frames", "0:0"), drawn(*stable))
 
     def test_a_frame_does_not_depend_on_where_the_sequence_starts(self):
         self.draw("a.png", "--frames", "1:3", "--aov", "shadow,motion")
@@ -78,7 +92,7 @@ class Sequence(TestCase):
 
     def test_the_summary_names_first_and_last(self):
         result = self.draw("x.png", "--frames", "0:2")
-        self.assertRegex(result.stdout, r"^wrote \S+x_0000\.png to \S+x_0002\.png \(96×54, pcss, .* s\)\n$")
+        self.assertRegex(result.stdout, r"^wrote \S+x_0000\.png to \S+x_0002\.png \(96×54, slices_denoised, .* s\)\n$")
         self.assertEqual(result.stderr, "", "progress is for terminals")
 
 

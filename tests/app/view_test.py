@@ -12,21 +12,21 @@ from window import SMALL_MAPS, STEPS, WindowTest, read
 class Picture(WindowTest):
     def test_a_technique_and_a_parameter_change_the_picture(self):
         with self.view(STEPS) as viewer:
-            pcss = viewer.rest()
-            self.assertGreater(len(pcss.colors()), 30)
+            usual = viewer.rest()
+            self.assertGreater(len(usual.colors()), 30)
             viewer.choose("technique", "none")
-            none = viewer.changed(pcss)
-            self.assertGreater(none.differing(pcss, by=16), 0.01)
+            none = viewer.changed(usual)
+            self.assertGreater(none.differing(usual, by=16), 0.01)
             # No shadows: nothing is darker, but for the little that the automatic exposure takes back.
-            self.assertTrue(all(light > dark - 8 for rows in zip(none.rows, pcss.rows) for light, dark in zip(*rows)))
-            viewer.choose("technique", "pcss")
-            self.assertEqual(viewer.changed(none), pcss)
+            self.assertTrue(all(light > dark - 8 for rows in zip(none.rows, usual.rows) for light, dark in zip(*rows)))
+            viewer.choose("technique", "slices_denoised")
+            self.assertEqual(viewer.changed(none), usual)
             viewer.find("sun.angle")
             viewer.fill_in("sun.angle", "8", lambda: viewer.has("sun.angle reset"), "another angle")
-            wide = viewer.changed(pcss)
-            self.assertGreater(wide.differing(pcss, by=16), 0.001)
+            wide = viewer.changed(usual)
+            self.assertGreater(wide.differing(usual, by=16), 0.001)
             viewer.click("sun.angle reset", lambda: not viewer.has("sun.angle reset"), "the default")
-            self.assertEqual(viewer.changed(wide), pcss)
+            self.assertEqual(viewer.changed(wide), usual)
 
     def test_a_word_is_chosen_from_a_list(self):
         with self.view(STEPS, "--set", "sun.angle=8") as viewer:

@@ -43,7 +43,7 @@ Rendered rendered(const Arguments& arguments) {
   app::add_render_options(app, result.options);
   EXPECT_TRUE(cli::parse(app, {arguments.begin() + 1, arguments.end()}));
   app::check_together(result.options);
-  result.params = cli::resolve_params(result.options, session::all_techniques());
+  result.params = app::params_of(result.options);
   return result;
 }
 
@@ -157,7 +157,12 @@ TEST_F(ViewerDocument, RenderDrawsWhatIsShown) {
 TEST_F(ViewerDocument, DefaultsAreNotSpelledOut) {
   Document document = plain();
   EXPECT_EQ(render_arguments(document, "out.png", 0, ""),
-            (Arguments{"render", "a.glb", "--size=1280x720", "-o", "out.png"}));
+            (Arguments{"render", "a.glb", "--size=1280x720", "-o", "out.png", "--technique=pcss"}));
+  session::all_techniques().select(document.params, "thesis");
+  document.params.set("filter.width", 0.2f);
+  EXPECT_EQ(render_arguments(document, "out.png", 0, ""),
+            (Arguments{"render", "a.glb", "--size=1280x720", "-o", "out.png", "--technique=thesis",
+                       "--set=filter.width=0.2"}));
 }
 
 TEST_F(ViewerDocument, APictureAtRestIsOfOneMomentAndASequenceComesToItsFirst) {

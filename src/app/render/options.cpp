@@ -4,6 +4,7 @@
 
 #include "cli/output_names.h"
 #include "render/renderer.h"
+#include "session/techniques.h"
 
 namespace penumbra::app {
 
@@ -63,6 +64,16 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
   cli::add_shadow_options(app, options);
   session::add_cache_options(app, options);
   cli::add_device_options(app, options);
+}
+
+ParamSet params_of(const RenderOptions& options) {
+  cli::ShadowOptions shadows = options;
+  shadows.otherwise = session::usual_technique;
+  if (!options.frames && !cli::names_technique(options)) {
+    // In the first place, so that the user's own value counts.
+    shadows.assignments.insert(shadows.assignments.begin(), "cascades.fit=visible");
+  }
+  return cli::resolve_params(shadows, session::all_techniques());
 }
 
 void check_together(const RenderOptions& o) {

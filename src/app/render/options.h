@@ -20,6 +20,10 @@ struct RenderOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions
   bool quiet = false;
 };
 
+// The values to render with. Where the user names no technique they are those of session::usual_technique, and maps of
+// a single picture are fitted to what it shows, unless the user sets cascades.fit.
+ParamSet params_of(const RenderOptions& options);
+
 void add_render_options(CLI::App& app, RenderOptions& options);
 
 // Throws UsageError for options that can't be combined.

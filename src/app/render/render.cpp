@@ -44,7 +44,7 @@ std::FILE* summary_stream(const RenderOptions& options) {
 void render_files(RenderOptions options) {
   const Clock::time_point start = Clock::now();
   const cli::OutputNames names(options.output, options.frames.has_value());
-  const ParamSet params = cli::resolve_params(options, session::all_techniques());
+  const ParamSet params = params_of(options);
   const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});
   cli::clean_up_on_signals();
   session::limit_threads(options);

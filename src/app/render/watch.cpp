@@ -115,12 +115,12 @@ class Watch {
 Watch::Watch(RenderOptions options)
     : options_(std::move(options)),
       names_(options_.output, /* sequence= */ false),
-      params_(cli::resolve_params(options_, session::all_techniques())),
+      params_(params_of(options_)),
       truth_(session::truth_options(options_, options_)) {
   check_files(options_, names_);
   files_.set_files(inputs());
   if (!options_.glsl.empty()) files_.add_folder(options_.glsl);
-  params_ = cli::resolve_params(options_, session::all_techniques());  // files may have changed before the watch began
+  params_ = params_of(options_);  // files may have changed before the watch began
   options_.reading.skies_chosen = cli::is_chosen(options_, params_, "casters.skies");
   prepared_ = std::make_unique<session::PreparedScene>(
       session::load_scene(options_, image::image_decoder(cli::limits_of(options_.reading))));
@@ -177,7 +177,7 @@ void Watch::take(const Paths& changed) {
 void Watch::update(const Change& change) {
   std::string line;
   try {
-    if (params_due_) params_ = cli::resolve_params(options_, session::all_techniques());
+    if (params_due_) params_ = params_of(options_);
     params_due_ = false;
     if (scene_due_) reload_scene();
     scene_due_ = false;
