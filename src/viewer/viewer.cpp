@@ -34,7 +34,7 @@ Document document_of(const ViewOptions& options) {
   Document document;
   document.options = static_cast<const cli::SceneOptions&>(options);
   document.options.frames = cli::FrameRange{};
-  cli::ShadowOptions shadows = options;
+  auto shadows = static_cast<const cli::ShadowOptions&>(options);
   shadows.otherwise = session::usual_technique;
   document.params = cli::resolve_params(shadows, session::all_techniques());
   document.options.reading.skies_chosen = cli::is_chosen(options, document.params, "casters.skies");

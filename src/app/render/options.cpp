@@ -67,7 +67,7 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
 }
 
 ParamSet params_of(const RenderOptions& options) {
-  cli::ShadowOptions shadows = options;
+  auto shadows = static_cast<const cli::ShadowOptions&>(options);
   shadows.otherwise = session::usual_technique;
   if (!options.frames && !cli::names_technique(options)) {
     // In the first place, so that the user's own value counts.
