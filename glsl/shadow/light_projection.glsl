@@ -180,21 +180,41 @@ vec4 depths_from(ivec2 first, Light light) {
   return stored_depths(gather_stored(vec2(first + 1), light), light.map);
 }
 
-Footprint fetch_footprint(Receiver receiver, vec2 offset, Light light) {
-  vec2 at = map_place(receiver.position, light) - 0.5 + offset * (light.map.widths_per_metre * shadow.map_size);
-  vec2 first = floor(at);
+// A point at an offset from the receiver, in texels from the centre of the map's first texel.
+vec2 texel_place(Receiver receiver, vec2 offset, Light light) {
+  return map_place(receiver.position, light) - 0.5 + offset * (light.map.widths_per_metre * shadow.map_size);
+}
+
+// Offsets of the four texels around a point at that offset, of which the last lies at a bilinear weight's distance.
+Offsets footprint_offsets(Receiver receiver, vec2 offset, vec2 weight, Light light) {
   vec2 texel = texel_extent(receiver, light);
-  Footprint footprint;
-  footprint.depths = stored_depths(gather_stored(first + 1.0, light), light.map);
-  footprint.weight = at - first;
-  vec2 low = offset - footprint.weight * texel;
+  vec2 low = offset - weight * texel;
   vec2 high = low + texel;
-  footprint.offsets = Offsets(vec4(low.x, high.x, high.x, low.x), vec4(high.y, high.y, low.y, low.y));
-  return footprint;
+  return Offsets(vec4(low.x, high.x, high.x, low.x), vec4(high.y, high.y, low.y, low.y));
+}
+
+Footprint fetch_footprint(Receiver receiver, vec2 offset, Light light) {
+  vec2 at = texel_place(receiver, offset, light);
+  vec2 first = floor(at);
+  vec2 weight = at - first;
+  return Footprint(stored_depths(gather_stored(first + 1.0, light), light.map),
+                   footprint_offsets(receiver, offset, weight, light), weight);
 }
 
 // How much deeper than the receiver its plane lies at offsets, metres.
 vec4 plane_depths(Receiver receiver, Offsets at) { return receiver.gradient.x * at.x + receiver.gradient.y * at.y; }
+
+// The share of the four texels around a point that lie at or behind the receiver's plane less the bias, weighted
+// bilinearly: one fetch of a sampler that compares and filters. It compares all four with one depth, the least of the
+// plane at their centres: with a greater one, a lit plane would shadow itself.
+float compared_share(sampler2DArrayShadow map, Receiver receiver, vec2 offset, float bias, Light light) {
+  vec2 at = texel_place(receiver, offset, light);
+  vec4 plane = plane_depths(receiver, footprint_offsets(receiver, offset, fract(at), light));
+  float depth = receiver.position.z + min(min(plane.x, plane.y), min(plane.z, plane.w)) - bias;
+  float stored = (depth - light.map.near_depth) / light.map.depth_range;
+  vec4 place = vec4((at + 0.5) * light.map.texel_uv, float(light.layer), min(stored, 1.0));
+  return textureGrad(map, place, vec2(0.0), vec2(0.0));  // there are no derivatives in compute shaders
+}
 
 // Layers.
 

@@ -10,6 +10,7 @@
 #include "light_work.h"
 #include "mask_pass.h"
 #include "products.h"
+#include "shadow_map.h"
 
 namespace penumbra::shadow {
 
@@ -67,6 +68,13 @@ const gl::Texture& PassContext::receiver_depth() const {
   if (known.id() != depth.id || known.width() != depth.width || known.height() != depth.height) {
     known = gl::Texture::wrap(depth.id, gl::describe("soft shadows: depth", depth.id));
   }
+  return known;
+}
+
+const gl::Texture& PassContext::shadow_map() const {
+  gl::Texture& known = work_.state.shadow_map;
+  const gl::TextureDesc desc = shadow_map_desc(work_.frame.projection);
+  if (known.id() != work_.frame.depth || known.desc() != desc) known = gl::Texture::wrap(work_.frame.depth, desc);
   return known;
 }
 

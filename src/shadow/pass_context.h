@@ -64,6 +64,8 @@ class PassContext {
   // The caller's depth texture, to attach it to a pass: for a stencil test, if its format has stencil bits. OpenGL is
   // asked for its format only when the texture is another one than in the last frame.
   const gl::Texture& receiver_depth() const;
+  // The light's shadow map, drawn or supplied by the caller, for products that are another way to read it.
+  const gl::Texture& shadow_map() const;
 
   // A texture or buffer of this light in this view, allocated on first use and again only when the description changes.
   // Contents last until the name is next used in a later frame, but only history() reports whether they are still

@@ -14,6 +14,9 @@ namespace penumbra::shadow {
   X(none)                      \
   X(hard)                      \
   X(pcf)                       \
+  X(pcf_hardware)              \
+  X(pcf_tent)                  \
+  X(pcf_poisson)               \
   X(pcss)                      \
   X(slices)                    \
   X(brute_force)
@@ -31,6 +34,7 @@ namespace penumbra::shadow {
 
 // One line for each product; each is defined in products/<name>.cpp. A product comes after those that it is made from.
 #define PENUMBRA_PRODUCTS(X) \
+  X(compared_depth)          \
   X(least_depth_pyramid)     \
   X(second_layer)
 

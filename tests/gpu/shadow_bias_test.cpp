@@ -38,7 +38,8 @@ TEST_F(ShadowBias, LitPlanesDoNotShadowThemselves) {
   for (const bool tilted : {false, true}) {
     for (const float elevation : {1.0f, 10.0f, 30.0f, 60.0f, 90.0f}) {
       for (const float angle : {0.0f, 0.53f, 2.0f, 8.0f}) {
-        for (const std::string technique : {"hard", "pcf", "pcss", "slices", "brute_force"}) {
+        for (const std::string technique :
+             {"hard", "pcf", "pcf_hardware", "pcf_tent", "pcf_poisson", "pcss", "slices", "brute_force"}) {
           TriangleScene scene = lone_plane(tilted);
           scene.to_light = sun_direction(35, elevation);
           if (glm::dot(plane_normal(scene), scene.to_light) <= std::sin(glm::radians(angle) / 2)) continue;
@@ -154,7 +155,8 @@ TriangleScene boxes() {
 }
 
 TEST_F(ShadowBias, FragmentAndComputeGiveTheSameMask) {
-  for (const std::string technique : {"none", "hard", "pcf", "pcss", "slices", "brute_force"}) {
+  for (const std::string technique :
+       {"none", "hard", "pcf", "pcf_hardware", "pcf_tent", "pcf_poisson", "pcss", "slices", "brute_force"}) {
     for (const std::string shape : {"disc", "square"}) {
       ParamSet params = renderer_->params();
       params.set("technique", technique);
