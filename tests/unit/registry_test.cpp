@@ -212,10 +212,10 @@ TEST(Registry, RefusesDenoisersThatCanNotRun) {
   EXPECT_EQ(complain({.name = "blur", .denoise = nothing}), "");
   EXPECT_EQ(complain({.name = "blur"}), "denoiser 'blur' has no denoise");
   EXPECT_EQ(complain({.name = "none", .denoise = nothing}), "a denoiser can't have the name 'none'");
-  EXPECT_EQ(
-      complain({.name = "blur", .needs = {"moments"}, .denoise = nothing}),
-      "unknown product that denoiser 'blur' needs 'moments'; known: shadow_map, least_depth_pyramid, second_layer, "
-      "movement_map");
+  EXPECT_EQ(complain({.name = "blur", .needs = {"moments"}, .denoise = nothing}),
+            "unknown product that denoiser 'blur' needs 'moments'; known: shadow_map, compared_depth, "
+            "least_depth_pyramid, second_layer, "
+            "movement_map");
 }
 
 TEST(Registry, TheDenoiserIsAParameterWithNearNames) {
