@@ -1,4 +1,5 @@
-// Bounds for the blocker search: the least depth over a disc, read from the pyramid.
+// Bounds for the blocker search: the least depth over a disc, read from the pyramid; and what is drawn where they leave
+// less than a texel.
 #include "shadow/light.glsl"
 
 // Least depths over 4 · 2^level texels squared: the product of that name.
@@ -64,4 +65,27 @@ float search_radius(Receiver receiver, Light light) {
   light = with_widest_layer(receiver, light);
   float all = penumbra_radius(receiver, receiver.position.z - least_depth(light), light);
   return narrow_search(receiver, light, all).radius;
+}
+
+// Radius, metres, of the disc outside of which the map has no edge that can block a part of the light: a surface that
+// blocks at the disc's rim blocks beyond it too. 0 where there is no such edge at all.
+float edge_radius(Receiver receiver, Light light) {
+  float radius = light.read_radius;
+  for (int i = 0; i < 2; ++i) {
+    float edge = bounds_near(receiver.position, radius + 1.5 * texel_size(receiver, light), light).edge;
+    radius = min(radius, penumbra_radius(receiver, receiver.position.z - edge, light));
+  }
+  return radius;
+}
+
+// The shadow of the light's centre, filtered over the map's texel.
+Visibility centre_shadow(Receiver receiver, float bias, Light light) {
+  Footprint footprint = fetch_footprint(receiver, vec2(0.0), light);
+  vec4 blocks = blocking_texels(receiver, footprint, bias);
+  float covered = bilinear(blocks, footprint.weight);
+  if (covered == 0.0) return fully_lit();
+  float height_sum = bilinear(blocks * (receiver.position.z - footprint.depths), footprint.weight);
+  float mean = max(height_sum / covered, 0.0);
+  float penumbra = penumbra_radius(receiver, mean, light);
+  return Visibility(1.0 - covered, penumbra, mean, penumbra < texel_size(receiver, light));
 }

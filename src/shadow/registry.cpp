@@ -19,6 +19,7 @@ namespace penumbra::shadow {
   X(pcf_poisson)               \
   X(pcss)                      \
   X(slices)                    \
+  X(backprojection)            \
   X(brute_force)
 
 // One line for each filter; each is defined in filters/<name>.cpp.

@@ -45,6 +45,8 @@ std::span<const Golden> goldens() {
       {"pcss_compute_fence", "fence", "pcss_compute", {}, &rounding, {"technique=hard"}},
       {"slices_posts", "posts", "slices", {"sun.angle=2"}, &rounding, {"technique=hard"}},
       {"slices_foliage", "foliage", "slices", {"sun.angle=4"}, &rounding, {"technique=pcss"}},
+      {"backprojection_posts", "posts", "backprojection", {"sun.angle=2"}, &rounding, {"technique=hard"}},
+      {"backprojection_foliage", "foliage", "backprojection", {"sun.angle=4"}, &rounding, {"technique=pcss"}},
       {"slices_denoised_posts", "posts", "slices_denoised", {"sun.angle=2"}, &rounding, {"technique=hard"}},
       {"slices_denoised_foliage", "foliage", "slices_denoised", {"sun.angle=4"}, &rounding, {"technique=pcss"}},
       {"brute_force_posts", "posts", "brute_force", {"sun.angle=2"}, &rounding, {"technique=hard"}},

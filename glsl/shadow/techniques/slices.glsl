@@ -8,17 +8,6 @@ float read_radius(Receiver receiver, Light light) { return search_radius(receive
 
 const int ring_count = 32;
 
-// Radius, metres, of the disc outside of which the map has no edge that can block a part of the light: a surface that
-// blocks at the disc's rim blocks beyond it too. 0 where there is no such edge at all.
-float walk_radius(Receiver receiver, Light light) {
-  float radius = light.read_radius;
-  for (int i = 0; i < 2; ++i) {
-    float edge = bounds_near(receiver.position, radius + 1.5 * texel_size(receiver, light), light).edge;
-    radius = min(radius, penumbra_radius(receiver, receiver.position.z - edge, light));
-  }
-  return radius;
-}
-
 // A point of the light's rim, -1..1. Equal shares of the argument, 0..1, are sectors of equal area.
 vec2 rim_point(float share, Light light) {
   if (is_square(light)) {
@@ -143,24 +132,12 @@ Slice walk(Receiver receiver, int azimuth, float radius, PixelNoise noise, float
   return slice;
 }
 
-// The shadow of the light's centre, filtered over the map's texel.
-Visibility unsliced(Receiver receiver, float bias, Light light) {
-  Footprint footprint = fetch_footprint(receiver, vec2(0.0), light);
-  vec4 blocks = blocking_texels(receiver, footprint, bias);
-  float covered = bilinear(blocks, footprint.weight);
-  if (covered == 0.0) return fully_lit();
-  float height_sum = bilinear(blocks * (receiver.position.z - footprint.depths), footprint.weight);
-  float mean = max(height_sum / covered, 0.0);
-  float penumbra = penumbra_radius(receiver, mean, light);
-  return Visibility(1.0 - covered, penumbra, mean, penumbra < texel_size(receiver, light));
-}
-
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
   receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
-  float radius = walk_radius(receiver, light);
+  float radius = edge_radius(receiver, light);
   // The map can't show a penumbra so narrow. Where none is near, pixels of decided tiles are computed in this way too.
-  if (radius < 0.5 * texel_size(receiver, light)) return unsliced(receiver, bias, light);
+  if (radius < 0.5 * texel_size(receiver, light)) return centre_shadow(receiver, bias, light);
   PixelNoise noise = noise_of(receiver);
   int hidden = 0;
   float height_sum = 0.0, blockers = 0.0;
