@@ -25,11 +25,6 @@ uvec2 surface_bits(ivec2 pixel, Receiver receiver) {
                packSnorm2x16(octahedral_encode(shared_normal_of(receiver))));
 }
 
-// Width of a pixel at a position in view space, metres.
-float pixel_width(vec3 position) {
-  return max(shadow.pixel_size.x, shadow.pixel_size.y) * abs(shadow.pixel_size.z * position.z + shadow.pixel_size.w);
-}
-
 // The tolerances within which a surface of the last frame counts as the receiver's.
 struct Likeness {
   vec3 position;      // view space

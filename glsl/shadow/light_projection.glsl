@@ -53,6 +53,11 @@ vec3 view_direction(vec3 light_space_direction) { return light_space_direction *
 vec3 light_position(vec3 view_position) { return mat3(shadow.view_to_light) * view_position; }
 vec3 view_position_of(Receiver receiver) { return receiver.position * mat3(shadow.view_to_light); }
 
+// Width of a pixel at a position in view space, metres.
+float pixel_width(vec3 position) {
+  return max(shadow.pixel_size.x, shadow.pixel_size.y) * abs(shadow.pixel_size.z * position.z + shadow.pixel_size.w);
+}
+
 // A receiver's normal in view space, and in axes that are the same for all layers and constant while the light is.
 vec3 view_normal_of(Receiver receiver) { return view_direction(receiver.normal); }
 vec3 shared_normal_of(Receiver receiver) {

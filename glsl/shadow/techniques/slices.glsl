@@ -103,25 +103,28 @@ Blocker add_texel(inout Slice slice, Receiver receiver, float depth, float block
   return Blocker(high, height, stretch.at);
 }
 
-Slice walk(Receiver receiver, int azimuth, float radius, PixelNoise noise, float bias, Light light) {
+// `share`: the slice's place on the rim, as for rim_point(); `index`: its number among the pixel's slices.
+Slice walk(Receiver receiver, float share, int index, float radius, PixelNoise noise, float bias, Light light) {
   Slice slice = Slice(0u, 0.0, 0.0);
   float rim_texel = texel_size(receiver, light);
   vec2 texel = texel_extent(receiver, light);
   vec2 place = map_place(receiver.position, light);
-  vec2 rim = rim_point(fract((float(azimuth) + noise.azimuth) / float(slices_azimuths)), light);
-  float jitter = fract(noise.distance_to + golden * float(azimuth));
-  float dither = fract(noise.ring + plastic.x * float(azimuth));
+  vec2 rim = rim_point(fract(share), light);
+  float jitter = fract(noise.distance_to + golden * float(index));
+  float dither = fract(noise.ring + plastic.x * float(index));
   float begin = 0.0;
   Blocker before = no_blocker, second_before = no_blocker;
-  for (int i = 0; i < slices_samples; ++i) {
-    float end = (radius + rim_texel) * spread(float(i + 1) / float(slices_samples));
+  // More than two samples a texel would read the same texels again.
+  int samples = min(int(2.0 * radius / rim_texel) + 3, slices_samples);
+  for (int i = 0; i < samples; ++i) {
+    float end = (radius + rim_texel) * spread(float(i + 1) / float(samples));
     float at = mix(begin, end, jitter);
     // Moved by up to half a texel: the mean over many samples then weights texels as bilinear filters do.
-    vec2 moved = fract(noise.texel + plastic * float(azimuth * slices_samples + i)) - 0.5;
+    vec2 moved = fract(noise.texel + plastic * float(index * slices_samples + i)) - 0.5;
     ivec2 cell = ivec2(floor(place + rim * (at / texel) + moved));
     vec2 offset = texel_offset(receiver, cell, light);
     float blocking = blocking_depths_at(receiver, Offsets(vec4(offset.x), vec4(offset.y)), bias).x;
-    Stretch stretch = Stretch(begin, at, end, i + 1 == slices_samples);
+    Stretch stretch = Stretch(begin, at, end, i + 1 == samples);
     before = add_texel(slice, receiver, depth_at(cell, light), blocking, stretch, before, dither, light);
 #if maps_layers == 2
     float behind = depth_in(second_layer, cell, light);
@@ -132,6 +135,14 @@ Slice walk(Receiver receiver, int azimuth, float radius, PixelNoise noise, float
   return slice;
 }
 
+// How many times slices.azimuths slices a pixel in a penumbra gets, whose mean blocker is that high: more where the
+// penumbra is narrow on the screen, since there no filter finds neighbours that it could average.
+int rounds_for(Receiver receiver, float height, Light light) {
+  const int most = clamp(32767 / (slices_azimuths * slices_samples), 1, 4);
+  float width = 2.0 * penumbra_radius(receiver, max(height, 0.0), light) / pixel_width(view_position_of(receiver));
+  return min(1 + int(float(slices_narrow) / max(width, 0.01)), most);
+}
+
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
   receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
@@ -139,17 +150,24 @@ Visibility visibility(Receiver receiver, Light light) {
   // The map can't show a penumbra so narrow. Where none is near, pixels of decided tiles are computed in this way too.
   if (radius < 0.5 * texel_size(receiver, light)) return centre_shadow(receiver, bias, light);
   PixelNoise noise = noise_of(receiver);
-  int hidden = 0;
+  int hidden = 0, rounds = 1;
   float height_sum = 0.0, blockers = 0.0;
-  for (int azimuth = 0; azimuth < slices_azimuths; ++azimuth) {
-    Slice slice = walk(receiver, azimuth, radius, noise, bias, light);
-    hidden += bitCount(slice.hidden);
-    height_sum += slice.height_sum;
-    blockers += slice.blockers;
+  for (int turn = 0; turn < rounds; ++turn) {
+    // Each round's slices lie between those of the others.
+    float first = noise.azimuth + float(turn) / float(rounds);
+    for (int azimuth = 0; azimuth < slices_azimuths; ++azimuth) {
+      float share = (float(azimuth) + first) / float(slices_azimuths);
+      Slice slice = walk(receiver, share, turn * slices_azimuths + azimuth, radius, noise, bias, light);
+      hidden += bitCount(slice.hidden);
+      height_sum += slice.height_sum;
+      blockers += slice.blockers;
+    }
+    if (turn == 0 && hidden > 0 && hidden < ring_count * slices_azimuths)
+      rounds = rounds_for(receiver, height_sum / blockers, light);
   }
   if (hidden == 0) return fully_lit();
   float mean = max(height_sum / blockers, 0.0);
   float penumbra = penumbra_radius(receiver, mean, light);
-  return Visibility(1.0 - float(hidden) / float(ring_count * slices_azimuths), penumbra, mean,
+  return Visibility(1.0 - float(hidden) / float(ring_count * slices_azimuths * rounds), penumbra, mean,
                     penumbra < texel_size(receiver, light));
 }
