@@ -72,7 +72,7 @@ std::vector<Param> sampling_rows() {
            "What differs from pixel to pixel: a rotation of the points (disc suns) or a shift on the torus."),
       with_default(
           word(
-              "sampling.noise", {"none", "white", "blue", "void_and_cluster"},
+              "sampling.noise", {"none", "white", "blue", "void_and_cluster", "interleaved_gradient"},
               "Tile of 64 × 64 pixels that sets each pixel's rotation or shift; none: all pixels use the same points."),
           "blue"),
       word("sampling.blocker_sequence", sequences,

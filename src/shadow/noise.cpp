@@ -32,6 +32,26 @@ std::vector<std::uint16_t> shuffled(int count, std::uint64_t seed) {
   return ranks;
 }
 
+// fract(52.9829189 · fract(0.06711056 x + 0.00583715 y)), the second channel with x and y swapped, the third mirrored.
+// The seed moves the pattern, by an amount that Jimenez proposes for consecutive frames.
+double gradient_noise(int pixel, int size, int channel, std::uint64_t seed) {
+  const double shift = 5.588238 * static_cast<double>(seed % 64);
+  const double x = (channel == 2 ? size - 1 - pixel % size : pixel % size) + shift;
+  const double y = pixel / size + shift;
+  const double phase = channel == 1 ? 0.06711056 * y + 0.00583715 * x : 0.06711056 * x + 0.00583715 * y;
+  return std::fmod(52.9829189 * std::fmod(phase, 1), 1);
+}
+
+std::vector<std::uint16_t> interleaved_gradient(int size, int channel, std::uint64_t seed) {
+  std::vector<int> order(static_cast<std::size_t>(size * size));
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](int pixel) { return gradient_noise(pixel, size, channel, seed); });
+  std::vector<std::uint16_t> ranks(order.size());
+  for (std::size_t rank = 0; rank < order.size(); ++rank)
+    ranks[static_cast<std::size_t>(order[rank])] = static_cast<std::uint16_t>(rank);
+  return ranks;
+}
+
 NoiseTile white(int size, int channels, std::uint64_t seed) {
   NoiseTile tile{size, channels, std::vector<std::uint16_t>(static_cast<std::size_t>(size * size * channels))};
   for (int channel = 0; channel < channels; ++channel) {
@@ -67,7 +87,7 @@ void transform(std::complex<double>* values, int size, int stride) {
 }  // namespace
 
 const std::vector<std::string>& noise_kinds() {
-  static const std::vector<std::string> kinds{"white", "blue", "void_and_cluster"};
+  static const std::vector<std::string> kinds{"white", "blue", "void_and_cluster", "interleaved_gradient"};
   return kinds;
 }
 
@@ -84,6 +104,10 @@ NoiseTile make_noise(std::string_view kind, int size, int channels, std::uint64_
     for (int channel = 0; channel < channels; ++channel) {
       set_channel(tile, channel, void_and_cluster(size, channel_seed(seed, channel)));
       report((channel + 1.0) / channels);
+    }
+  } else if (kind == "interleaved_gradient") {
+    for (int channel = 0; channel < channels; ++channel) {
+      set_channel(tile, channel, interleaved_gradient(size, channel, seed));
     }
   } else if (kind != "white") {
     fail_unknown("noise", kind, noise_kinds());

@@ -30,7 +30,7 @@ constexpr int least_noise_size = 16;
 constexpr int largest_noise_size = 256;
 constexpr int most_noise_channels = 3;
 
-// The kinds of noise: white, blue, void_and_cluster.
+// The kinds of noise: white, blue, void_and_cluster, interleaved_gradient.
 const std::vector<std::string>& noise_kinds();
 
 // Progress callback; receives the fraction done, 0 to 1. It must not throw, because other threads wait for the thread
@@ -44,6 +44,8 @@ using NoiseProgress = std::function<void(double)>;
 //   swaps under simulated annealing.
 // - void_and_cluster: each channel separately (Ulichney 1993, "The void-and-cluster method for dither array
 //   generation").
+// - interleaved_gradient: each channel separately; any 3 × 3 pixels have values spread nearly evenly (Jimenez 2014, "Next
+//   generation post processing in Call of Duty: Advanced Warfare"), but at the tile's edges, where it does not repeat.
 NoiseTile make_noise(std::string_view kind, int size, int channels, std::uint64_t seed, int threads = 0,
                      const NoiseProgress& progress = {});
 

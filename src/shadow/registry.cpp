@@ -94,11 +94,12 @@ std::vector<Preset> presets() {
       {"thesis_8x8", "pcss", "The fast form of the thesis's method, figure 4.12: 8/8 taps and filters, no history.",
        thesis_8x8}};
   for (Preset& preset : all) preset.assignments.emplace_back("driver=fragment");
-  const Preset denoised{"slices_denoised",
-                        "slices",
-                        "Slices with few samples, and a filter that removes their noise.",
-                        {"slices.azimuths=6", "slices.samples=8", "denoiser=history_and_filters",
-                         "filter.penumbra=none", "filter.visibility=bilateral_separable"}};
+  const Preset denoised{
+      "slices_denoised",
+      "slices",
+      "Slices with few samples, and a filter that removes their noise.",
+      {"slices.azimuths=6", "slices.samples=8", "slices.narrow=8", "sampling.noise=interleaved_gradient",
+       "denoiser=history_and_filters", "filter.penumbra=none", "filter.visibility=bilateral_separable"}};
   for (const Preset& preset :
        std::vector{Preset{"pcss", "pcss", "", {}}, Preset{"brute_force", "brute_force", "", {}}, all[0], all[1]}) {
     all.push_back(

@@ -59,7 +59,7 @@ std::vector<float> penumbra_radii(const Shadowed& shadowed) {
 }
 
 TEST_F(ShadowSampling, WithoutNoiseEveryPixelOfAColumnIsTheSame) {
-  for (const std::string noise : {"none", "white", "blue", "void_and_cluster"}) {
+  for (const std::string noise : {"none", "white", "blue", "void_and_cluster", "interleaved_gradient"}) {
     params_->set("sampling.noise", noise);
     const Shadowed shadowed = draw();
     int differ = 0;

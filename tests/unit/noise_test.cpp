@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 #include "core/error.h"
@@ -34,6 +35,27 @@ TEST(Noise, BlueNoiseHasHardlyAnyLowFrequencies) {
   }
 }
 
+// Standard deviation of the mean of 3 × 3 pixels; 0.096 for white noise.
+double deviation_of_means(const NoiseTile& tile, int channel) {
+  double squares = 0;
+  const int last = tile.size - 2;
+  for (int y = 1; y <= last; ++y) {
+    for (int x = 1; x <= last; ++x) {
+      double sum = 0;
+      for (int i = 0; i < 9; ++i) sum += tile.value((y + i / 3 - 1) * tile.size + x + i % 3 - 1, channel);
+      squares += (sum / 9 - 0.5) * (sum / 9 - 0.5);
+    }
+  }
+  return std::sqrt(squares / (last * last));
+}
+
+TEST(Noise, NinePixelsOfInterleavedGradientNoiseHaveNearlyTheSameMean) {
+  for (int channel = 0; channel < 2; ++channel) {
+    EXPECT_LT(deviation_of_means(built_in_noise("interleaved_gradient"), channel), 0.04);
+    EXPECT_GT(deviation_of_means(built_in_noise("white"), channel), 0.08);
+  }
+}
+
 // FNV-1a hash of the ranks.
 std::uint64_t digest(const NoiseTile& tile) {
   std::uint64_t hash = 0xcbf29ce484222325U;
@@ -47,6 +69,7 @@ TEST(Noise, IsTheSameOnEveryMachine) {
   EXPECT_EQ(digest(make_noise("white", 16, 2, 5)), 11397280655061326889U);
   EXPECT_EQ(digest(make_noise("blue", 16, 2, 5, 1)), blue_digest);
   EXPECT_EQ(digest(make_noise("void_and_cluster", 16, 2, 5)), 15497227018239437017U);
+  EXPECT_EQ(digest(make_noise("interleaved_gradient", 16, 2, 5)), 1682607693411162813U);
 }
 
 TEST(Noise, IsTheSameForEveryNumberOfThreads) { EXPECT_EQ(digest(make_noise("blue", 16, 2, 5, 3)), blue_digest); }
