@@ -64,7 +64,7 @@ TEST_F(ShadowSampling, WithoutNoiseEveryPixelOfAColumnIsTheSame) {
     const Shadowed shadowed = draw();
     int differ = 0;
     for (int x = 0; x < side; ++x) {
-      differ += std::abs(shadowed.visibility(x, 10) - shadowed.visibility(x, 70)) > grid ? 1 : 0;
+      differ += std::abs(shadowed.visibility(x, 10) - shadowed.visibility(x, 72)) > grid ? 1 : 0;
     }
     if (noise == "none") {
       EXPECT_EQ(differ, 0);
