@@ -36,8 +36,9 @@ std::vector<std::uint16_t> shuffled(int count, std::uint64_t seed) {
 // The seed moves the pattern, by an amount that Jimenez proposes for consecutive frames.
 double gradient_noise(int pixel, int size, int channel, std::uint64_t seed) {
   const double shift = 5.588238 * static_cast<double>(seed % 64);
-  const double x = (channel == 2 ? size - 1 - pixel % size : pixel % size) + shift;
-  const double y = pixel / size + shift;
+  const int column = pixel % size, row = pixel / size;
+  const double x = (channel == 2 ? size - 1 - column : column) + shift;
+  const double y = row + shift;
   const double phase = channel == 1 ? 0.06711056 * y + 0.00583715 * x : 0.06711056 * x + 0.00583715 * y;
   return std::fmod(52.9829189 * std::fmod(phase, 1), 1);
 }

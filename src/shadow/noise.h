@@ -44,8 +44,8 @@ using NoiseProgress = std::function<void(double)>;
 //   swaps under simulated annealing.
 // - void_and_cluster: each channel separately (Ulichney 1993, "The void-and-cluster method for dither array
 //   generation").
-// - interleaved_gradient: each channel separately; any 3 × 3 pixels have values spread nearly evenly (Jimenez 2014, "Next
-//   generation post processing in Call of Duty: Advanced Warfare"), but at the tile's edges, where it does not repeat.
+// - interleaved_gradient: each channel separately; any 3 × 3 pixels have nearly the same mean, but at the tile's edges,
+//   where it does not continue (Jimenez 2014, "Next generation post processing in Call of Duty: Advanced Warfare").
 NoiseTile make_noise(std::string_view kind, int size, int channels, std::uint64_t seed, int threads = 0,
                      const NoiseProgress& progress = {});
 
