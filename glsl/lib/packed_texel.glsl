@@ -29,6 +29,16 @@ GLSL_FUNCTION float texel_distance(uint texel) { return half_value(texel & 0xfff
 GLSL_FUNCTION float texel_visibility(uint texel) { return float((texel >> 16) & 0x7fffu) / 32767.0f; }
 GLSL_FUNCTION bool texel_invalid(uint texel) { return (texel & 0x80000000u) != 0u; }
 
+// With history.mean a texel that was blended with its history also holds how many frames it averages, in bits 15 and 0
+// to 3. Its distance then has bits 4 to 14 alone: see blended_distance().
+const uint most_frames = 31u;
+
+GLSL_FUNCTION uint with_frames(uint texel, uint frames) {
+  return (texel & 0xffff7ff0u) | (frames & 15u) | ((frames & 16u) << 11);
+}
+
+GLSL_FUNCTION uint texel_frames(uint texel) { return (texel & 15u) | ((texel >> 11) & 16u); }
+
 // The note stored with each packed texel, eight bits: bits 0 to 3 the layer of the shadow map that was read; bit 4 set
 // if the kernel is smaller than a texel of the map; bits 5 to 7 whether the history was used, or why it was rejected.
 #define HISTORY_KEPT 0u

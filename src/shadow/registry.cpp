@@ -100,13 +100,19 @@ std::vector<Preset> presets() {
       "Slices with few samples, and a filter that removes their noise.",
       {"slices.azimuths=6", "slices.samples=8", "slices.narrow=8", "sampling.noise=interleaved_gradient",
        "denoiser=history_and_filters", "filter.penumbra=none", "filter.visibility=bilateral_separable"}};
+  Preset history = denoised;
+  history.name = "slices_history";
+  history.summary = "The same for sequences: other samples in each frame, which add up, and a filter that narrows.";
+  history.assignments.insert(history.assignments.end(),
+                             {"sampling.blocker_sequence=shift", "sampling.filter_sequence=shift", "history.reuse=true",
+                              "history.mean=true", "history.alpha=0.03"});
   for (const Preset& preset :
        std::vector{Preset{"pcss", "pcss", "", {}}, Preset{"brute_force", "brute_force", "", {}}, all[0], all[1]}) {
     all.push_back(
         {preset.name + "_compute", preset.technique, preset.name + " in compute shaders.", preset.assignments});
     all.back().assignments.emplace_back("driver=compute");
   }
-  all.insert(all.begin(), denoised);
+  all.insert(all.begin(), {denoised, history});
   return all;
 }
 

@@ -49,6 +49,8 @@ std::span<const Golden> goldens() {
       {"backprojection_foliage", "foliage", "backprojection", {"sun.angle=4"}, &rounding, {"technique=pcss"}},
       {"slices_denoised_posts", "posts", "slices_denoised", {"sun.angle=2"}, &rounding, {"technique=hard"}},
       {"slices_denoised_foliage", "foliage", "slices_denoised", {"sun.angle=4"}, &rounding, {"technique=pcss"}},
+      {"slices_history_thesis", "thesis", "slices_history", {}, &history, {"history.mean=false"}, "shadow", 4},
+      {"slices_history_moving", "moving", "slices_history", {"sun.angle=8"}, &history, {"history.mean=false", "movement.map=none"}, "shadow", 4, 0, 1, &casters},
       {"brute_force_posts", "posts", "brute_force", {"sun.angle=2"}, &rounding, {"technique=hard"}},
       {"brute_force_fence", "fence", "brute_force", {}, &rounding, {"technique=hard"}},
       {"brute_force_compute_posts", "posts", "brute_force_compute", {"sun.angle=2"}, &rounding, {"technique=hard"}},

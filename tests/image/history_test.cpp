@@ -7,6 +7,9 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "gpu/gpu_test.h"
 #include "image/scene_run.h"
@@ -43,6 +46,31 @@ TEST_F(ShadowHistory, AStillPictureGetsNoWorse) {
   }
 }
 
+// Each frame has other samples, and all count equally, so that noise goes; the filter narrows, so that blur goes too.
+TEST_F(ShadowHistory, AStillSequenceOfSlicesNeverGetsWorse) {
+  SceneRun run("thesis", 160, 90);
+  run.choose("slices_history");
+  run.params().set("cascades.size", 1024);
+  const Visibility truth = run.draw_truth(256);
+  const std::vector<std::size_t> penumbra = penumbra_of(truth);
+  double first = 0, best = 0, flicker = 0;
+  Visibility last;
+  for (int frame = 1; frame <= 64; ++frame) {
+    const Visibility picture = run.draw(/*cut=*/frame == 1);
+    const double quality = decibels(rmse(picture, truth, penumbra));
+    if (frame == 1) first = quality;
+    EXPECT_GE(quality, best - 0.02) << "frame " << frame;
+    best = std::max(best, quality);
+    if (frame > 1) flicker = std::max(flicker, mean_error(picture, last, penumbra));
+    last = picture;
+    if (frame == 64) {
+      std::printf("thesis.glb 160x90, slices_history: %.2f dB, after 64 frames %.2f dB, ", first, quality);
+      std::printf("the greatest difference of successive frames %.5f\n", flicker);
+      EXPECT_GE(quality, first + 2);
+    }
+  }
+}
+
 // Shadows of the last frames, and where they were and are no more.
 class Trail {
  public:
@@ -72,8 +100,8 @@ struct Stop {
 // The references are drawn once for all movement maps, on which brute_force does not depend.
 class MovingAndStopping {
  public:
-  MovingAndStopping() {
-    at_rest_.choose("thesis");
+  explicit MovingAndStopping(std::string preset) : preset_(std::move(preset)) {
+    at_rest_.choose(preset_);
     for (int frame = begin; frame <= stop; ++frame) {
       at_rest_.time() = frame * step;
       references_.push_back(at_rest_.draw_reference());
@@ -83,7 +111,7 @@ class MovingAndStopping {
   Stop under(const std::string& map, const std::string& present) {
     SceneRun run(scene, width, height);
     for (SceneRun* each : {&run, &at_rest_}) {
-      each->choose("thesis");
+      each->choose(preset_);
       each->params().set("movement.map", map);
       each->params().set("movement.present", present);
     }
@@ -104,8 +132,8 @@ class MovingAndStopping {
       if (mean_error(run.draw(), reference, behind) <= result.at_rest + 1 / 255.0) result.recovered = frame - stop + 1;
     }
     std::printf(
-        "moving.glb %dx%d, movement map %s, %s: mean error of the trail %.4f, at rest %.4f, recovered after %d\n",
-        width, height, map.c_str(), present.c_str(), result.moving, result.at_rest, result.recovered);
+        "moving.glb %dx%d, %s, movement map %s, %s: mean error of the trail %.4f, at rest %.4f, recovered after %d\n",
+        width, height, preset_.c_str(), map.c_str(), present.c_str(), result.moving, result.at_rest, result.recovered);
     return result;
   }
 
@@ -115,12 +143,13 @@ class MovingAndStopping {
   static constexpr double step = 1 / 30.0;
   static constexpr int begin = 44, stop = 60, end = 120;  // at 2 s everything stops
 
+  std::string preset_;
   SceneRun at_rest_{scene, width, height};
   std::vector<Visibility> references_;  // of the frames from `begin` to `stop`
 };
 
 TEST_F(ShadowHistory, NoGhostFollowsACasterWithAMovementMap) {
-  MovingAndStopping caster;
+  MovingAndStopping caster("thesis");
   const Stop without = caster.under("none", "own_pass");
   EXPECT_GT(without.moving, 0.1) << "there is no ghost to be avoided";
   EXPECT_GT(without.recovered, 10);
@@ -131,6 +160,13 @@ TEST_F(ShadowHistory, NoGhostFollowsACasterWithAMovementMap) {
       EXPECT_EQ(with.recovered, 1);
     }
   }
+}
+
+TEST_F(ShadowHistory, NoGhostFollowsACasterInASequenceOfSlices) {
+  const Stop stop = MovingAndStopping("slices_history").under("maximum", "own_pass");
+  EXPECT_LE(stop.moving, stop.at_rest + 1 / 255.0);
+  EXPECT_GE(stop.recovered, 0);
+  EXPECT_LE(stop.recovered, 2);
 }
 
 // A step along the path: a turn of at most 1 degree and a way of at most 5 cm.

@@ -4,7 +4,7 @@ layout(binding = 13) uniform usampler2D source_notes;
 // See Mask.
 vec4 unpacked(uint texel, ivec2 pixel) {
   uint notes = texelFetch(source_notes, pixel, 0).x;
-  float distance_to = texel_distance(texel);
+  float distance_to = blended_distance(texel);
   // The sky has distance 0, whatever its position.
   float radius = distance_to > 0.0 ? packed_radius(light_position(view_position_at(pixel)), distance_to) : 0.0;
   return vec4(texel_visibility(texel), radius, distance_to,

@@ -19,6 +19,17 @@ float last_visibility(Reprojection last) {
   return sum;
 }
 
+// How many frames the history averages: the least of the four pixels.
+uint last_frames(Reprojection last) {
+  uint least = most_frames;
+  for (int i = 0; i < 4; ++i) {
+    if (last.weights[i] == 0.0) continue;
+    ivec2 tap = last.corner + ivec2(i & 1, i >> 1) + ivec2(shadow.viewport.xy);
+    least = min(least, texel_frames(texelFetch(last_texels, tap, 0).x));
+  }
+  return least;
+}
+
 // Least mean blocker distance, metres, among a pixel and its neighbours, because the narrowest penumbra must not be
 // blurred. At a penumbra's rim, where few blocker taps may find no blocker, a neighbour's distance is used.
 float penumbra_distance(ivec2 pixel, uint texel) {
@@ -34,16 +45,16 @@ float penumbra_distance(ivec2 pixel, uint texel) {
 }
 
 // Weight of the present frame. Each bilinear look-up blurs with a variance of x(1 − x) pixels squared, x being the
-// fractional part of the motion in pixels; with a weight of α this accumulates to (1 − α)/α times as much. α is chosen
-// so that the accumulated blur is no wider than the visibility filter's kernel: narrow penumbrae, which have little
-// noise, stay sharp while the camera moves.
-float present_weight(Reprojection last, Receiver receiver, float distance_to) {
+// fractional part of the motion in pixels; with a weight of α this accumulates to (1 − α)/α times as much. `alpha` is
+// raised so that the accumulated blur is no wider than the visibility filter's kernel: narrow penumbrae, which have
+// little noise, stay sharp while the camera moves.
+float present_weight(Reprojection last, Receiver receiver, float distance_to, float alpha) {
   vec2 part = vec2(last.weights.y + last.weights.w, last.weights.z + last.weights.w);
   vec2 blur = part * (1.0 - part);
   float variance = max(blur.x, blur.y);
   float width = 2.0 * packed_radius(receiver.position, distance_to) / pixel_width(view_position_of(receiver));
   float sigma = min(filter_width * width, filter_max_sigma);
-  return max(history_alpha, variance / max(variance + sigma * sigma, 1e-6));
+  return max(alpha, variance / max(variance + sigma * sigma, 1e-6));
 }
 
 Kept blend(ivec2 pixel) {
@@ -51,11 +62,18 @@ Kept blend(ivec2 pixel) {
   if (is_sky(pixel)) return Kept(now, uvec2(floatBitsToUint(shadow.sky_depth), 0u));
   Receiver receiver = receiver_at(pixel);
   uvec2 surface = surface_bits(pixel, receiver);
-  if (texel_invalid(now)) return Kept(now, surface);
+  bool counts = history_mean != 0;
+  uint first = counts ? with_frames(now, 1u) : now;
+  if (texel_invalid(now)) return Kept(first, surface);
   // The mask pass accepted the history, but this program may round differently and reject it.
   Reprojection last = reproject(receiver, pixel);
-  if (last.refusal != HISTORY_KEPT) return Kept(now, surface);
-  float weight = present_weight(last, receiver, penumbra_distance(pixel, now));
+  if (last.refusal != HISTORY_KEPT) return Kept(first, surface);
+  uint frames = last_frames(last) + 1u;
+  float alpha = counts && frames <= most_frames ? max(history_alpha, 1.0 / float(frames)) : history_alpha;
+  float weight = present_weight(last, receiver, penumbra_distance(pixel, now), alpha);
   float visibility = mix(last_visibility(last), texel_visibility(now), weight);
-  return Kept(pack_texel(texel_distance(now), visibility, false), surface);
+  uint texel = pack_texel(texel_distance(now), visibility, false);
+  // An exponential mean with a weight of α has the variance of a mean over 2/α − 1 frames.
+  if (counts) texel = with_frames(texel, min(min(frames, uint(2.0 / weight - 0.5)), most_frames));
+  return Kept(texel, surface);
 }
