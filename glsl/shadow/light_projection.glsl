@@ -58,6 +58,9 @@ float pixel_width(vec3 position) {
   return max(shadow.pixel_size.x, shadow.pixel_size.y) * abs(shadow.pixel_size.z * position.z + shadow.pixel_size.w);
 }
 
+// Direction in which the camera sees a position in view space, or the opposite one.
+vec3 view_ray(vec3 position) { return normalize(shadow.pixel_size.z * position + vec3(0.0, 0.0, shadow.pixel_size.w)); }
+
 // A receiver's normal in view space, and in axes that are the same for all layers and constant while the light is.
 vec3 view_normal_of(Receiver receiver) { return view_direction(receiver.normal); }
 vec3 shared_normal_of(Receiver receiver) {
@@ -124,6 +127,18 @@ float stored_depth(float stored, LayerBlock map) { return map.near_depth + map.d
 vec4 stored_depths(vec4 stored, LayerBlock map) { return map.near_depth + map.depth_range * stored; }
 float stored_depth(float stored, Light light) { return stored_depth(stored, light.map); }
 
+ivec2 last_texel() { return ivec2(shadow.map_size) - 1; }
+
+// Depth as the light's layer stores it, for a depth in light space, metres; and the same for differences of depths.
+float stored_of(float depth, Light light) { return (depth - light.map.near_depth) / light.map.depth_range; }
+float stored_difference(float difference, Light light) { return difference / light.map.depth_range; }
+
+// Stored depth in a texel of the light's layer; 1 outside of the map, where there are no casters.
+float stored_at(ivec2 texel, Light light) {
+  ivec2 within = clamp(texel, ivec2(0), last_texel());
+  return within == texel ? texelFetch(shadow_depth, ivec3(within, light.layer), 0).x : 1.0;
+}
+
 // Width of a texel of the light's layer at a position's depth, metres, or its height where that is larger.
 float texel_size_at(vec3 position, Light light) { return light.map.texel; }
 float texel_size(Receiver receiver, Light light) { return texel_size_at(receiver.position, light); }
@@ -143,7 +158,8 @@ vec2 map_place(vec3 position, Light light) {
   return ((position.xy - light.map.center) * light.map.widths_per_metre + 0.5) * shadow.map_size;
 }
 
-ivec2 last_texel() { return ivec2(shadow.map_size) - 1; }
+// An offset in texels of the light's layer.
+vec2 map_offset(vec2 offset, Light light) { return offset * light.map.widths_per_metre * shadow.map_size; }
 
 // Depth in a texel of the light's layer of a map, metres. Outside of the map there are no casters: it is the far
 // plane's there, as where the sampler's border is read.

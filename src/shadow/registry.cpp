@@ -17,6 +17,11 @@ namespace penumbra::shadow {
   X(pcf_hardware)              \
   X(pcf_tent)                  \
   X(pcf_poisson)               \
+  X(vsm)                       \
+  X(evsm)                      \
+  X(msm)                       \
+  X(esm)                       \
+  X(csm_fourier)               \
   X(pcss)                      \
   X(slices)                    \
   X(backprojection)            \
@@ -37,6 +42,11 @@ namespace penumbra::shadow {
 #define PENUMBRA_PRODUCTS(X) \
   X(compared_depth)          \
   X(least_depth_pyramid)     \
+  X(vsm_moments)             \
+  X(evsm_moments)            \
+  X(msm_moments)             \
+  X(esm_depths)              \
+  X(fourier_terms)           \
   X(second_layer)
 
 using MakeTechnique = Technique();

@@ -1,0 +1,1 @@
+float log_space_factor() { return esm_exponent; }

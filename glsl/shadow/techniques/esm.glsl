@@ -1,0 +1,51 @@
+// Exponential shadow maps (Annen et al. 2008): where nothing of the kernel lies behind the receiver, the depth test is
+// nearly exp(c · (z - d)), whose mean is exp(-c · d) times a mean that does not depend on the receiver.
+#include "shadow/prefiltered.glsl"
+#include "shadow/sampling.glsl"
+
+layout(binding = UNIT_esm_depths) uniform sampler2DArray esm_depths;
+
+const float greatest_power = 60.0;  // a sum of a few exponentials of it stays finite
+
+float read_radius(Receiver receiver, Light light) { return filter_reach(receiver, esm_radius); }
+
+// Bilinear, of exponentials of four texels relative to the receiver's, so that none overflows.
+float exponential_at(vec2 at, int level, float depth, Light light) {
+  ivec2 last = textureSize(esm_depths, level).xy - 1;
+  at = at * vec2(last + 1) - 0.5;
+  ivec2 low = clamp(ivec2(floor(at)), ivec2(0), last), high = clamp(ivec2(floor(at)) + 1, ivec2(0), last);
+  vec4 logarithms = vec4(texelFetch(esm_depths, ivec3(low.x, high.y, light.layer), level).x,
+                         texelFetch(esm_depths, ivec3(high, light.layer), level).x,
+                         texelFetch(esm_depths, ivec3(high.x, low.y, light.layer), level).x,
+                         texelFetch(esm_depths, ivec3(low, light.layer), level).x);
+  return bilinear(exp(min(esm_exponent * (logarithms - depth), greatest_power)), fract(at));
+}
+
+float filtered_exponential(FilteredPlace place, float depth, Light light) {
+  int level = min(int(place.level + 0.5), textureQueryLevels(esm_depths) - 1);
+  float sum = 0.0;
+  for (int i = 0; i < place.points; ++i) {
+    sum += exponential_at(place.first + float(i) * place.next, level, depth, light);
+  }
+  return sum / float(place.points);
+}
+
+float compared_share(Receiver receiver, Light light) {
+  float bias = depth_bias(receiver, light);
+  Scramble scramble = filter_scramble(receiver);
+  float lit = 0.0;
+  for (int i = 0; i < esm_fallback_taps; ++i) {
+    lit += lit_share(receiver, esm_radius * filter_point(i, scramble, light), bias, light);
+  }
+  return lit / float(esm_fallback_taps);
+}
+
+Visibility visibility(Receiver receiver, Light light) {
+  FilteredPlace place = filtered_place(esm_depths, receiver, esm_radius, esm_shrink, light);
+  float depth = stored_of(receiver.position.z - depth_bias(receiver, light), light);
+  float lit = filtered_exponential(place, depth, light);
+  if (esm_classification == esm_classification_threshold && lit > 1.0 + esm_threshold) {
+    lit = compared_share(receiver, light);
+  }
+  return of_constant_kernel(min(lit, 1.0), esm_radius, receiver, light);
+}

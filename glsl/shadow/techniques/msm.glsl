@@ -1,0 +1,31 @@
+// Moment shadow maps (Peters and Klein 2015): of all distributions of depth with the four moments of the kernel, none
+// has a greater share behind the receiver than this bound.
+#include "shadow/prefiltered.glsl"
+
+layout(binding = UNIT_msm_moments) uniform sampler2DArray msm_moments;
+
+float read_radius(Receiver receiver, Light light) { return filter_reach(receiver, msm_radius); }
+
+// Mixed with those of depths that are spread evenly over the range, so that rounding leaves them moments of a
+// distribution.
+vec4 biased(vec4 moments) {
+  bool rounded = msm_format == msm_format_unorm16;
+  return mix(moments, vec4(0.0, 1.0 / 3.0, 0.0, 1.0 / 5.0), rounded ? max(msm_moment_bias, 6e-5) : msm_moment_bias);
+}
+
+// Three times the variance of a plane's depths under the kernel is the square of the least distance before their mean at
+// which the bound leaves the plane wholly lit: with four moments, a normal distribution looks like three points, of which
+// the outer ones lie there.
+float plane_bias(Receiver receiver, Light light) {
+  return sqrt(3.0) * 0.5 * light.read_radius * length(receiver.gradient);
+}
+
+Visibility visibility(Receiver receiver, Light light) {
+  FilteredPlace place = filtered_place(msm_moments, receiver, msm_radius, msm_shrink, light);
+  vec4 moments = filtered_texel(msm_moments, place, 0, 1, light);
+  if (msm_format == msm_format_unorm16) moments = unpacked_moments(moments);
+  float bias = depth_bias(receiver, light) + plane_bias(receiver, light);
+  float depth = stored_of(receiver.position.z - bias, light);
+  float lit = without_bleeding(hamburger_bound(2.0 * depth - 1.0, biased(moments)), msm_bleeding);
+  return of_constant_kernel(lit, msm_radius, receiver, light);
+}

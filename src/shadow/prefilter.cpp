@@ -1,0 +1,152 @@
+#include "prefilter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "lib/prefilter.glsl"
+#include "pass_context.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+constexpr int most_taps = 9;  // on one side of a kernel's centre, and the centre
+
+std::string radius_of(const FilteredMap& map) { return map.prefix + ".radius"; }
+std::string shrink_of(const FilteredMap& map) { return map.prefix + ".shrink"; }
+
+int slices_of(const FilteredMap& map, const ParamSet& params) { return map.slices ? map.slices(params) : 1; }
+
+// The passes that fill one layer's slices.
+class LayerPasses {
+ public:
+  LayerPasses(const PassContext& context, gl::Pass& pass, const gl::Texture& filtered, int slices, int layer)
+      : context_(context), pass_(pass), filtered_(filtered), slices_(slices), layer_(layer) {}
+
+  void fill(int shrink, float radius) {
+    const glm::vec2 texel = context_.frame().projection.texel(layer_) * static_cast<float>(shrink);
+    const int level = glsl::kernel_level(radius / std::min(texel.x, texel.y), filtered_.desc().levels);
+    from_depth(level, shrink << level);
+    const glm::vec2 texels = radius / (texel * std::exp2(static_cast<float>(level)));
+    if (std::max(texels.x, texels.y) > 1) {
+      const gl::Texture& rows = context_.target("rows", {.target = GL_TEXTURE_2D_ARRAY,
+                                                         .format = filtered_.desc().format,
+                                                         .width = filtered_.width(),
+                                                         .height = filtered_.height(),
+                                                         .layers = slices_,
+                                                         .levels = filtered_.desc().levels});
+      blur({.texture = filtered_, .slice = first_slice()}, {.texture = rows}, level, {1, 0}, texels.x);
+      blur({.texture = rows}, {.texture = filtered_, .slice = first_slice()}, level, {0, 1}, texels.y);
+    }
+    for (int coarser = level + 1; coarser < filtered_.desc().levels; ++coarser) halve(coarser);
+  }
+
+ private:
+  struct Slices {
+    const gl::Texture& texture;
+    int slice = 0;
+  };
+
+  int first_slice() const { return layer_ * slices_; }
+
+  void dispatch(const gl::Texture& target, int level) {
+    target.bind_image(0, GL_WRITE_ONLY, level);
+    const int side = std::max(1, target.width() >> level);
+    pass_.dispatch(side, side, slices_);
+  }
+
+  void from_depth(int level, int block) {
+    const gl::Program& program = context_.use(pass_, "from depth");
+    program.set("map_layer", layer_);
+    program.set("first_slice", first_slice());
+    program.set("block", block);
+    dispatch(filtered_, level);
+  }
+
+  void blur(const Slices& from, const Slices& to, int level, const glm::ivec2& axis, float radius) {
+    const gl::Program& program = context_.use(pass_, "blur");
+    from.texture.bind(first_pass_unit);
+    program.set("source_level", level);
+    program.set("first_slices", glm::ivec2(from.slice, to.slice));
+    program.set("axis", axis);
+    for (int i = 0; i < most_taps; ++i) {
+      const float weight = i == 0 ? 1 : radius > 0 ? glsl::kernel_weight(static_cast<float>(i) / radius) : 0;
+      program.set(fmt::format("weights[{}]", i), i == 0 ? glsl::kernel_weight(0) : weight);
+    }
+    dispatch(to.texture, level);
+  }
+
+  void halve(int level) {
+    const gl::Program& program = context_.use(pass_, "halve");
+    filtered_.bind(first_pass_unit);
+    program.set("finer_level", level - 1);
+    program.set("first_slice", first_slice());
+    dispatch(filtered_, level);
+  }
+
+  const PassContext& context_;
+  gl::Pass& pass_;
+  const gl::Texture& filtered_;
+  int slices_, layer_;
+};
+
+const gl::Texture& build(const FilteredMap& map, const PassContext& context) {
+  const ParamSet& params = context.params();
+  const LightProjection& projection = context.frame().projection;
+  const int shrink = params.get_int(shrink_of(map));
+  const int slices = slices_of(map, params);
+  const auto side = std::bit_ceil(static_cast<unsigned>((projection.size() + shrink - 1) / shrink));
+  const gl::Texture& filtered = context.target("filtered", {.target = GL_TEXTURE_2D_ARRAY,
+                                                            .format = map.format(params),
+                                                            .width = static_cast<int>(side),
+                                                            .height = static_cast<int>(side),
+                                                            .layers = projection.layers() * slices,
+                                                            .levels = static_cast<int>(std::bit_width(side))});
+  gl::Pass pass(context.device(), {.name = "filtered map"});
+  const LayerSet unchanged = context.unchanged_layers();
+  for (int i = 0; i < projection.layers(); ++i) {
+    if (unchanged[static_cast<size_t>(i)]) continue;
+    LayerPasses(context, pass, filtered, slices, i).fill(shrink, params.get_float(radius_of(map)));
+  }
+  return filtered;
+}
+
+std::vector<Param> params_of(const FilteredMap& map) {
+  using enum ParamBinding;
+  std::vector<Param> rows{
+      {radius_of(map), map.radius, 0, 1000, "m",
+       "Radius of the filter, which is perpendicular to the light: a Gaussian of half that standard deviation.",
+       uniform},
+      {shrink_of(map), 2, 1, 4, "texels", "Texels of the shadow map along each side of a texel of the filtered map.",
+       uniform}};
+  rows.insert(rows.end(), map.params.begin(), map.params.end());
+  return rows;
+}
+
+}  // namespace
+
+Recipe filtered_map(const FilteredMap& map) {
+  return {.name = map.name,
+          .summary = map.summary,
+          .source = map.source,
+          .params = params_of(map),
+          .sampler = map.sampled ? gl::SamplerDesc{.min_filter = GL_LINEAR_MIPMAP_NEAREST,
+                                                   .mag_filter = GL_LINEAR,
+                                                   .max_anisotropy = 8}
+                                 : gl::SamplerDesc{},
+          .depends_only_on_needs = true,
+          .build = [map](const PassContext& context) -> const gl::Texture& { return build(map, context); },
+          .programs =
+              [map](const ParamSet&) {
+                const char* log_space = map.log_space ? "1" : "0";
+                return std::vector<gl::ProgramDesc>{
+                    {.name = "from depth", .compute = map.function},
+                    {.name = "blur", .compute = "shadow/prefilter/blur.comp", .defines = {{"LOG_SPACE", log_space}}},
+                    {.name = "halve", .compute = "shadow/prefilter/halve.comp", .defines = {{"LOG_SPACE", log_space}}}};
+              }};
+}
+
+}  // namespace penumbra::shadow

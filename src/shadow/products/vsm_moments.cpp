@@ -1,0 +1,14 @@
+#include "../prefilter.h"
+
+namespace penumbra::shadow {
+
+Recipe vsm_moments() {
+  return filtered_map({.name = "vsm_moments",
+                       .prefix = "vsm",
+                       .summary = "The first two moments of depth, filtered.",
+                       .source = "Donnelly and Lauritzen 2006, Variance shadow maps",
+                       .function = "shadow/prefilter/vsm.comp",
+                       .format = [](const ParamSet&) { return GL_RG32F; }});
+}
+
+}  // namespace penumbra::shadow

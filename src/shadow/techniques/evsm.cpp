@@ -1,0 +1,19 @@
+#include "../technique.h"
+
+namespace penumbra::shadow {
+
+Technique evsm() {
+  return {
+      .name = "evsm",
+      .summary =
+          "Exponential variance shadow maps: variance shadow maps of depth under exponential warps, which bleed less.",
+      .source = "Lauritzen and McCool 2008, Layered variance shadow maps",
+      .glsl = "shadow/techniques/evsm.glsl",
+      .needs = {"shadow_map", "evsm_moments"},
+      .params = {{"evsm.least_deviation", 0.01f, 0, 10, "m",
+                  "Least standard deviation of the depth within a kernel: hides what the moments' rounding leaves."},
+                 {"evsm.bleeding", 0.0f, 0, 0.99, "",
+                  "What is darker than this becomes black: less light bleeds through, and penumbrae narrow."}}};
+}
+
+}  // namespace penumbra::shadow

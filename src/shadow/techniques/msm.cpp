@@ -1,0 +1,18 @@
+#include "../technique.h"
+
+namespace penumbra::shadow {
+
+Technique msm() {
+  return {.name = "msm",
+          .summary = "Moment shadow maps: a filter of constant radius in one fetch, by four moments of depth.",
+          .source = "Peters and Klein 2015, Moment shadow mapping",
+          .glsl = "shadow/techniques/msm.glsl",
+          .needs = {"shadow_map", "msm_moments"},
+          .params = {{"msm.moment_bias", 3e-7f, 0, 0.1, "",
+                      "Share of evenly spread depths that is mixed into the moments, against their rounding; at least "
+                      "0.00006 in unorm16."},
+                     {"msm.bleeding", 0.0f, 0, 0.99, "",
+                      "What is darker than this becomes black: less light bleeds through, and penumbrae narrow."}}};
+}
+
+}  // namespace penumbra::shadow

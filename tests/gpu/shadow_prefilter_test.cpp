@@ -1,0 +1,153 @@
+// Techniques that filter a map before it is compared (vsm, evsm, msm, esm, csm_fourier), against the closed form of a
+// straight edge under their kernel, and in the cases that their authors name as failures.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <string>
+#include <vector>
+
+#include "gpu/triangle_scene.h"
+
+namespace penumbra::test {
+namespace {
+
+constexpr float radius = 0.25f;
+
+const std::vector<std::string>& techniques() {
+  static const std::vector<std::string> names{"vsm", "evsm", "msm", "esm", "csm_fourier"};
+  return names;
+}
+
+class PrefilterTest : public TriangleTest {
+ protected:
+  ParamSet parameters(const std::string& technique) const {
+    ParamSet params = renderer_->params();
+    params.set("technique", technique);
+    params.set("cascades.count", 1);
+    params.set("cascades.size", 512);
+    params.set(technique + ".radius", radius);
+    if (params.contains(technique + ".bleeding")) params.set(technique + ".bleeding", 0.0f);
+    return params;
+  }
+};
+
+// Share of the kernel that lies at or beyond so many radii from its centre, along an axis.
+double kernel_beyond(double at) {
+  const auto weight = [](double t) { return std::max(std::exp(-2 * t * t) - std::exp(-2.0), 0.0); };
+  constexpr int steps = 2000;
+  double beyond = 0, all = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double t = -1 + (i + 0.5) * 2 / steps;
+    all += weight(t);
+    if (t >= at) beyond += weight(t);
+  }
+  return beyond / all;
+}
+
+TEST_F(PrefilterTest, AnEdgeIsTheIntegralOfTheKernelInMetres) {
+  for (const std::string& technique : techniques()) {
+    for (const int shrink : {1, 2}) {
+      ParamSet params = parameters(technique);
+      params.set(technique + ".shrink", shrink);
+      TriangleScene scene = half_plane_over_ground(256);
+      scene.height = 4;
+      scene.projection = orthographic(0.7f, 0.7f * 4 / 256, 0.1f, 5);
+      const Shadowed shadowed = renderer_->render(scene, params);
+      double worst = 0;
+      for (int x = 0; x < shadowed.width; ++x) {
+        const auto at = static_cast<double>(shadowed.point(x, 1).x / radius);
+        if (std::abs(at) > 1.5) continue;
+        worst = std::max(worst, std::abs(static_cast<double>(shadowed.visibility(x, 1)) - kernel_beyond(-at)));
+      }
+      // The series of 16 terms does not reach the ends of its range.
+      EXPECT_LE(worst, technique == "csm_fourier" ? 0.06 : 0.03) << technique << ", shrink " << shrink;
+    }
+  }
+}
+
+TEST_F(PrefilterTest, SixteenBitsGiveTheSameEdge) {
+  for (const auto& [technique, format] : {std::pair{"msm", "unorm16"}, {"evsm", "float16"}}) {
+    ParamSet params = parameters(technique);
+    TriangleScene scene = half_plane_over_ground(256);
+    scene.height = 4;
+    scene.projection = orthographic(0.7f, 0.7f * 4 / 256, 0.1f, 5);
+    const Shadowed full = renderer_->render(scene, params);
+    params.set(fmt::format("{}.format", technique), std::string(format));
+    const Shadowed half = renderer_->render(scene, params);
+    double worst = 0;
+    for (int x = 0; x < full.width; ++x)
+      worst = std::max(worst, std::abs(static_cast<double>(full.visibility(x, 1) - half.visibility(x, 1))));
+    EXPECT_LE(worst, 0.06) << technique;
+    EXPECT_GT(worst, 0) << technique << ": the format changes nothing";
+  }
+}
+
+// At the higher caster's edge the kernel holds both casters' depths. Their variance leaves light on what lies below
+// both.
+TEST_F(PrefilterTest, LightBleedsWhereTwoCastersLieAboveEachOther) {
+  const auto below = [&](const std::string& technique) {
+    TriangleScene scene;
+    scene.add_quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+    scene.add_quad({-4, 4, -4}, {0, 0, 8}, {4, 0, 0});  // high, over the left half
+    scene.add_quad({-4, 1, -4}, {0, 0, 8}, {8, 0, 0});  // low, over everything
+    scene.width = 128;
+    scene.height = 4;
+    scene.view = glm::lookAt(glm::vec3(0, 0.5f, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+    scene.projection = orthographic(0.2f, 0.2f * 4 / 128, 0.1f, 2);
+    const Shadowed shadowed = renderer_->render(scene, parameters(technique));
+    double most = 0;
+    for (int x = 0; x < shadowed.width; ++x) most = std::max(most, static_cast<double>(shadowed.visibility(x, 1)));
+    return most;
+  };
+  EXPECT_GT(below("vsm"), 0.3);
+  EXPECT_LE(below("evsm"), 0.05);
+  EXPECT_LE(below("msm"), 0.05);
+  EXPECT_LE(below("esm"), 0.05);
+}
+
+TEST_F(PrefilterTest, FullShadowIsDarkBelowOneCaster) {
+  for (const std::string& technique : techniques()) {
+    TriangleScene scene = half_plane_over_ground(64);
+    scene.projection = orthographic(1.5f, 1.5f, 0.1f, 5);
+    const Shadowed shadowed = renderer_->render(scene, parameters(technique));
+    float most = 0;
+    for (int x = 0; x < shadowed.width; ++x)
+      if (shadowed.point(x, 32).x < -2 * radius) most = std::max(most, shadowed.visibility(x, 32));
+    EXPECT_LE(most, 0.02f) << technique;
+  }
+}
+
+// With a receiver in front of a part of its kernel's depths, the exponential is greater than 1.
+TEST_F(PrefilterTest, ReceiversThatFailExponentialsAreCompared) {
+  TriangleScene scene;
+  scene.add_quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+  scene.add_quad({-4, 1, -4}, {0, 0, 8}, {4, 0, 0});     // a shelf, seen from above, and its edge
+  scene.add_quad({-4, 3, -4}, {0, 0, 8}, {3.9f, 0, 0});  // shadows the shelf up to 10 cm from its edge
+  scene.width = 128;
+  scene.height = 4;
+  scene.view = glm::lookAt(glm::vec3(-0.4f, 2, 0), glm::vec3(-0.4f, 0, 0), glm::vec3(0, 0, -1));
+  scene.projection = orthographic(0.35f, 0.35f * 4 / 128, 0.1f, 2);
+  const auto mean_with = [&](const std::string& classification) {
+    ParamSet params = parameters("esm");
+    params.set("esm.classification", classification);
+    const Shadowed shadowed = renderer_->render(scene, params);
+    double sum = 0;
+    int count = 0;
+    for (int x = 0; x < shadowed.width; ++x) {
+      const float at = shadowed.point(x, 1).x;
+      if (at < -0.3f || at > -0.15f) continue;
+      sum += static_cast<double>(shadowed.visibility(x, 1));
+      ++count;
+    }
+    return sum / count;
+  };
+  EXPECT_GE(mean_with("none"), 0.85);      // the far ground beside the shelf lights it
+  EXPECT_LE(mean_with("threshold"), 0.6);  // the share of the kernel under the roof
+}
+
+}  // namespace
+}  // namespace penumbra::test
