@@ -54,10 +54,13 @@ FilteredPlace filtered_place(sampler2DArray map, Receiver receiver, float radius
   return FilteredPlace(at - 0.5 * float(points - 1) * next, next, points, log2(across));
 }
 
+// By a shift: software renderers answer textureSize() for one level in all pixels that they shade together.
+ivec2 last_of_level(sampler2DArray map, int level) { return ivec2((textureSize(map, 0).x >> level) - 1); }
+
 // Bilinear, in a level. Samplers of GPUs round the weights to 8 bits, which shows in differences of moments, and those of
 // software renderers take a hundred times as long.
 vec4 level_texel(sampler2DArray map, vec2 at, int slice, int level) {
-  ivec2 last = textureSize(map, level).xy - 1;
+  ivec2 last = last_of_level(map, level);
   at = clamp(at * vec2(last + 1) - 0.5, vec2(0.0), vec2(last));
   ivec2 low = ivec2(at), high = min(low + 1, last);
   vec2 weight = at - vec2(low);

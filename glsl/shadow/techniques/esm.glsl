@@ -11,7 +11,7 @@ float read_radius(Receiver receiver, Light light) { return filter_reach(receiver
 
 // Bilinear, of exponentials of four texels relative to the receiver's, so that none overflows.
 float exponential_at(vec2 at, int level, float depth, Light light) {
-  ivec2 last = textureSize(esm_depths, level).xy - 1;
+  ivec2 last = last_of_level(esm_depths, level);
   at = at * vec2(last + 1) - 0.5;
   ivec2 low = clamp(ivec2(floor(at)), ivec2(0), last), high = clamp(ivec2(floor(at)) + 1, ivec2(0), last);
   vec4 logarithms = vec4(texelFetch(esm_depths, ivec3(low.x, high.y, light.layer), level).x,

@@ -13,9 +13,9 @@ vec4 biased(vec4 moments) {
   return mix(moments, vec4(0.0, 1.0 / 3.0, 0.0, 1.0 / 5.0), rounded ? max(msm_moment_bias, 6e-5) : msm_moment_bias);
 }
 
-// Three times the variance of a plane's depths under the kernel is the square of the least distance before their mean at
-// which the bound leaves the plane wholly lit: with four moments, a normal distribution looks like three points, of which
-// the outer ones lie there.
+// The distance before the mean of a plane's depths under the kernel at which the bound leaves the plane wholly lit: with
+// four moments a normal distribution looks like three points, of which the outer ones lie √3 standard deviations from
+// the mean.
 float plane_bias(Receiver receiver, Light light) {
   return sqrt(3.0) * 0.5 * light.read_radius * length(receiver.gradient);
 }
