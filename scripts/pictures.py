@@ -24,8 +24,8 @@ FEW = ["--technique", "thesis_8x8", "--set", "filter.penumbra=none", "--set", "f
 
 def techniques():
     return {f"technique_{name}": SOFT + ["--technique", name]
-            for name in ("none", "hard", "pcf", "pcf_hardware", "pcf_tent", "pcf_poisson", "pcss", "slices", "backprojection",
-                         "brute_force", "hybrid", "thesis", "thesis_8x8")}
+            for name in ("none", "hard", "pcf", "pcf_hardware", "pcf_tent", "pcf_poisson", "vsm", "evsm", "msm", "esm",
+                         "csm_fourier", "pcss", "slices", "backprojection", "brute_force", "hybrid", "thesis", "thesis_8x8")}
 
 
 def layers():

@@ -28,6 +28,9 @@ float filter_reach(Receiver receiver, float radius) {
   return radius + max(length(steps.right), length(steps.up));
 }
 
+// Standard deviation, metres, of the depths that a kernel of the light's read radius holds of the receiver's plane.
+float plane_deviation(Receiver receiver, Light light) { return 0.5 * light.read_radius * length(receiver.gradient); }
+
 // Where a filtered map is read for a pixel: points in a row along the longer side of the pixel's outline, at the level
 // whose texels are as wide as its shorter side, but not a finer one than that which holds the kernel.
 struct FilteredPlace {
@@ -57,8 +60,8 @@ FilteredPlace filtered_place(sampler2DArray map, Receiver receiver, float radius
 // By a shift: software renderers answer textureSize() for one level in all pixels that they shade together.
 ivec2 last_of_level(sampler2DArray map, int level) { return ivec2((textureSize(map, 0).x >> level) - 1); }
 
-// Bilinear, in a level. Samplers of GPUs round the weights to 8 bits, which shows in differences of moments, and those of
-// software renderers take a hundred times as long.
+// Bilinear, in a level. Not by a sampler: GPUs round its weights to 8 bits, which shows in differences of moments, and
+// llvmpipe takes a hundred times as long.
 vec4 level_texel(sampler2DArray map, vec2 at, int slice, int level) {
   ivec2 last = last_of_level(map, level);
   at = clamp(at * vec2(last + 1) - 0.5, vec2(0.0), vec2(last));

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gpu/triangle_scene.h"
+#include "support/alike.h"
 
 namespace penumbra::test {
 namespace {
@@ -118,6 +119,83 @@ TEST_F(PrefilterTest, FullShadowIsDarkBelowOneCaster) {
     for (int x = 0; x < shadowed.width; ++x)
       if (shadowed.point(x, 32).x < -2 * radius) most = std::max(most, shadowed.visibility(x, 32));
     EXPECT_LE(most, 0.02f) << technique;
+  }
+}
+
+TEST_F(PrefilterTest, LitPlanesDoNotShadowThemselves) {
+  for (const std::string& technique : techniques()) {
+    ParamSet params = parameters(technique);
+    if (params.contains(technique + ".plane_bias")) params.set(technique + ".plane_bias", 1.8f);
+    for (const float elevation : {10.0f, 30.0f, 60.0f, 90.0f}) {
+      TriangleScene scene;
+      scene.add_quad({-4, 0, -4}, {0, 1, 8}, {8, 0.5f, 0});
+      scene.to_light = sun_direction(35, elevation);
+      scene.view = glm::lookAt(glm::vec3(0, 3, 4), glm::vec3(0), glm::vec3(0, 1, 0));
+      scene.projection = perspective(0.8f, 1, 0.1f);
+      const Shadowed shadowed = renderer_->render(scene, params);
+      int receivers = 0, dark = 0;
+      for (int y = 0; y < scene.height; ++y) {
+        for (int x = 0; x < scene.width; ++x) {
+          if (shadowed.sky(x, y)) continue;
+          ++receivers;
+          dark += shadowed.visibility(x, y) < 0.9f ? 1 : 0;
+        }
+      }
+      ASSERT_GT(receivers, 1000);
+      EXPECT_LE(dark, receivers / 1000) << technique << ", sun at " << elevation << " degrees";
+    }
+  }
+}
+
+// Levels of a filtered map differ from pixel to pixel, which drivers shade in groups.
+TEST_F(PrefilterTest, FragmentAndComputeGiveTheSameMask) {
+  TriangleScene scene;
+  scene.add_quad({-60, 0, -60}, {0, 0, 120}, {120, 0, 0});
+  for (int i = 0; i < 7; ++i) {
+    const auto x = static_cast<float>(2 * i - 6);
+    scene.add_box({x, 0, -2 - x}, {x + 0.6f, 0.4f + 0.5f * static_cast<float>(i), -1 - x});
+  }
+  scene.to_light = sun_direction(60, 35);
+  scene.width = 160;
+  scene.height = 90;
+  scene.view = glm::lookAt(glm::vec3(1, 3, 8), glm::vec3(0, 0.5f, 0), glm::vec3(0, 1, 0));
+  scene.projection = perspective(0.95f, 16.0f / 9.0f, 0.1f);
+  for (const std::string& technique : techniques()) {
+    ParamSet params = parameters(technique);
+    params.set("cascades.count", 3);
+    params.set(technique + ".radius", 0.08f);
+    const Shadowed fragment = renderer_->render(scene, params);
+    params.set("driver", std::string("compute"));
+    SCOPED_TRACE(technique);
+    expect_same_visibility(fragment.visibilities(), renderer_->render(scene, params).visibilities(), 16);
+  }
+}
+
+// Far from the camera a pixel is wider than the kernel: coarser levels widen it, instead of leaving aliases.
+TEST_F(PrefilterTest, DistantShadowsAreFilteredOverThePixel) {
+  TriangleScene scene;
+  scene.add_quad({-20, 0, -20}, {0, 0, 40}, {40, 0, 0});
+  for (int i = 0; i < 200; ++i) {
+    const float x = -20 + 0.2f * static_cast<float>(i);
+    scene.add_quad({x, 2, -20}, {0, 0, 40}, {0.1f, 0, 0});  // a fence over half of the ground
+  }
+  scene.width = scene.height = 32;
+  scene.view = glm::lookAt(glm::vec3(0, 1, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+  scene.projection = orthographic(10, 10, 0.1f, 2);  // a pixel is 0.6 m wide
+  for (const std::string& technique : techniques()) {
+    ParamSet params = parameters(technique);
+    params.set("cascades.size", 1024);
+    params.set(technique + ".radius", 0.0f);
+    const Shadowed shadowed = renderer_->render(scene, params);
+    float least = 1, most = 0;
+    for (int y = 8; y < 24; ++y) {
+      for (int x = 8; x < 24; ++x) {
+        least = std::min(least, shadowed.visibility(x, y));
+        most = std::max(most, shadowed.visibility(x, y));
+      }
+    }
+    EXPECT_GE(least, 0.35f) << technique;
+    EXPECT_LE(most, 0.65f) << technique;
   }
 }
 

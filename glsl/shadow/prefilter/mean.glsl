@@ -1,6 +1,6 @@
 // A weighted mean of texels of a filtered map. With LOG_SPACE a texel holds log(m) / c of the mean m of exp(c · depth)
-// over what it covers, and the mean of texels is that of their exponentials, computed without their overflow (Salvi 2008,
-// Rendering filtered shadows with exponential shadow maps).
+// over what it covers, and the mean of texels is that of their exponentials, computed without their overflow (Salvi
+// 2008, Rendering filtered shadows with exponential shadow maps).
 struct Mean {
   vec4 sum;
   float weight;

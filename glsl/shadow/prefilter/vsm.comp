@@ -1,4 +1,4 @@
-// The first two moments of depth, counted from the middle of the layer's range, which leaves more digits for the variance.
+// The first two moments of depth, counted from the middle of the layer's range: more digits are left for the variance.
 #define LOG_SPACE 0
 
 vec4 of_depth(float depth, int slice) {

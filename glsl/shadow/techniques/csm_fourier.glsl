@@ -1,5 +1,5 @@
-// Convolution shadow maps (Annen et al. 2007): the depth test is a step, 1 where the depth z in the map is not less than
-// the receiver's depth d. Its Fourier series
+// Convolution shadow maps (Annen et al. 2007): the depth test is a step, 1 where the depth z in the map is not less
+// than the receiver's depth d. Its Fourier series
 //   1/2 + Σ 2 / (π n) · sin(n ω (z - d)), n = 1, 3, 5, …
 // splits into functions of z, whose means the product has, and functions of d.
 #include "shadow/prefiltered.glsl"

@@ -17,7 +17,8 @@ float bound_of(vec2 moments, float warped, float slope, float deviation) {
 Visibility visibility(Receiver receiver, Light light) {
   FilteredPlace place = filtered_place(evsm_moments, receiver, evsm_radius, evsm_shrink, light);
   vec4 moments = filtered_texel(evsm_moments, place, 0, 1, light);
-  float depth = clamp(stored_of(receiver.position.z - depth_bias(receiver, light), light), 0.0, 1.0);
+  float bias = depth_bias(receiver, light) + evsm_plane_bias * plane_deviation(receiver, light);
+  float depth = clamp(stored_of(receiver.position.z - bias, light), 0.0, 1.0);
   vec2 warped = warped_depth(depth);
   vec2 slopes = abs(warped) * warp_exponents();
   float deviation = 2.0 * stored_difference(evsm_least_deviation, light);

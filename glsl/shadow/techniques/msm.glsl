@@ -13,18 +13,13 @@ vec4 biased(vec4 moments) {
   return mix(moments, vec4(0.0, 1.0 / 3.0, 0.0, 1.0 / 5.0), rounded ? max(msm_moment_bias, 6e-5) : msm_moment_bias);
 }
 
-// The distance before the mean of a plane's depths under the kernel at which the bound leaves the plane wholly lit: with
-// four moments a normal distribution looks like three points, of which the outer ones lie √3 standard deviations from
-// the mean.
-float plane_bias(Receiver receiver, Light light) {
-  return sqrt(3.0) * 0.5 * light.read_radius * length(receiver.gradient);
-}
-
+// With four moments a plane's depths under the kernel look like three points, of which the nearest lies √3 standard
+// deviations before their mean: a receiver there is wholly lit.
 Visibility visibility(Receiver receiver, Light light) {
   FilteredPlace place = filtered_place(msm_moments, receiver, msm_radius, msm_shrink, light);
   vec4 moments = filtered_texel(msm_moments, place, 0, 1, light);
   if (msm_format == msm_format_unorm16) moments = unpacked_moments(moments);
-  float bias = depth_bias(receiver, light) + plane_bias(receiver, light);
+  float bias = depth_bias(receiver, light) + msm_plane_bias * plane_deviation(receiver, light);
   float depth = stored_of(receiver.position.z - bias, light);
   float lit = without_bleeding(hamburger_bound(2.0 * depth - 1.0, biased(moments)), msm_bleeding);
   return of_constant_kernel(lit, msm_radius, receiver, light);

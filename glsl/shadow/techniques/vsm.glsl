@@ -1,5 +1,5 @@
-// Variance shadow maps (Donnelly and Lauritzen 2006): of all distributions of depth with the kernel's mean and variance,
-// none has a greater share behind the receiver than Chebyshev's bound.
+// Variance shadow maps (Donnelly and Lauritzen 2006): of all distributions of depth with the kernel's mean and
+// variance, none has a greater share behind the receiver than Chebyshev's bound.
 #include "shadow/prefiltered.glsl"
 
 layout(binding = UNIT_vsm_moments) uniform sampler2DArray vsm_moments;
