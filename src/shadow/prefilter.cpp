@@ -105,23 +105,27 @@ const gl::Texture& build(const FilteredMap& map, const PassContext& context) {
                                                             .height = static_cast<int>(side),
                                                             .layers = projection.layers() * slices,
                                                             .levels = static_cast<int>(std::bit_width(side))});
+  const float radius = map.radius > 0 ? params.get_float(radius_of(map)) : 0;
   gl::Pass pass(context.device(), {.name = "filtered map"});
   const LayerSet unchanged = context.unchanged_layers();
   for (int i = 0; i < projection.layers(); ++i) {
     if (unchanged[static_cast<size_t>(i)]) continue;
-    LayerPasses(context, pass, filtered, slices, i).fill(shrink, params.get_float(radius_of(map)));
+    LayerPasses(context, pass, filtered, slices, i).fill(shrink, radius);
   }
   return filtered;
 }
 
 std::vector<Param> params_of(const FilteredMap& map) {
   using enum ParamBinding;
-  std::vector<Param> rows{
-      {radius_of(map), map.radius, 0, 1000, "m",
-       "Radius of the filter, which is perpendicular to the light: a Gaussian of half that standard deviation.",
-       uniform},
-      {shrink_of(map), 2, 1, 4, "texels", "Texels of the shadow map along each side of a texel of the filtered map.",
-       uniform}};
+  std::vector<Param> rows{{shrink_of(map), 2, 1, 4, "texels",
+                           "Texels of the shadow map along each side of a texel of the filtered map.", uniform}};
+  if (map.radius > 0) {
+    rows.insert(
+        rows.begin(),
+        {radius_of(map), map.radius, 0, 1000, "m",
+         "Radius of the filter, which is perpendicular to the light: a Gaussian of half that standard deviation.",
+         uniform});
+  }
   rows.insert(rows.end(), map.params.begin(), map.params.end());
   return rows;
 }

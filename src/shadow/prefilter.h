@@ -19,7 +19,7 @@ namespace penumbra::shadow {
 // power of two: texels beyond the shadow map are those of an empty map.
 struct FilteredMap {
   std::string name;    // of the recipe
-  std::string prefix;  // of its parameters PREFIX.radius and PREFIX.shrink
+  std::string prefix;  // of its parameters, PREFIX.radius and PREFIX.shrink
   std::string summary;
   std::string source;
   // GLSL file that defines `vec4 of_depth(float depth, int slice)` and then includes shadow/prefilter/from_depth.glsl.
@@ -31,7 +31,7 @@ struct FilteredMap {
   std::vector<Param> params = {};
   // The means are those of exponentials: see glsl/shadow/prefilter/mean.glsl.
   bool log_space = false;
-  float radius = 0.05f;  // default, metres
+  float radius = 0.05f;  // default, metres; 0: there is no such parameter, and level 0 is not filtered
   // False: readers fetch texels and filter these themselves.
   bool sampled = true;
 };

@@ -22,6 +22,7 @@ namespace penumbra::shadow {
   X(msm)                       \
   X(esm)                       \
   X(csm_fourier)               \
+  X(cssm)                      \
   X(pcss)                      \
   X(slices)                    \
   X(backprojection)            \
@@ -47,6 +48,7 @@ namespace penumbra::shadow {
   X(msm_moments)             \
   X(esm_depths)              \
   X(fourier_terms)           \
+  X(cssm_terms)              \
   X(second_layer)
 
 using MakeTechnique = Technique();
