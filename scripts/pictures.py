@@ -25,7 +25,7 @@ FEW = ["--technique", "thesis_8x8", "--set", "filter.penumbra=none", "--set", "f
 def techniques():
     return {f"technique_{name}": SOFT + ["--technique", name]
             for name in ("none", "hard", "pcf", "pcf_hardware", "pcf_tent", "pcf_poisson", "vsm", "evsm", "msm", "esm",
-                         "csm_fourier", "pcss", "slices", "backprojection", "brute_force", "hybrid", "thesis", "thesis_8x8")}
+                         "csm_fourier", "cssm", "pcss", "slices", "backprojection", "brute_force", "hybrid", "thesis", "thesis_8x8")}
 
 
 def layers():
@@ -56,6 +56,17 @@ def filters():
     return rows
 
 
+def failures():
+    scene = ["scenes/failures.glb", "--size", "320x180"]
+    wide = [setting for name in ("vsm", "evsm", "esm") for setting in ("--set", f"{name}.radius=0.2")]
+    settings = {"vsm": ["--set", "vsm.bleeding=0"], "esm": ["--set", "esm.classification=none"],
+                "csm_fourier": ["--set", "csm_fourier.terms=4"]}
+    shown = {"bleeding": ("vsm", "evsm", "truth"), "contact": ("csm_fourier", "msm", "truth"),
+             "shelf": ("esm", "vsm", "truth")}
+    return {f"failure_{camera}_{name}": scene + wide + ["--camera", camera, "--technique", name] + settings.get(name, [])
+            for camera, names in shown.items() for name in names}
+
+
 def histories():
     still = MOVING + ["--technique", "thesis", "--frames", "44:60"]
     rows = {f"history_map_{name}": still + ["--set", f"movement.map={name}"] for name in ("none", "average", "maximum")}
@@ -63,7 +74,7 @@ def histories():
     return rows
 
 
-PICTURES = {**techniques(), **layers(), **patterns(), **noises(), **filters(), **histories()}
+PICTURES = {**techniques(), **layers(), **patterns(), **noises(), **filters(), **failures(), **histories()}
 
 
 def draw(program, name):

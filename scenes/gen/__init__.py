@@ -10,6 +10,7 @@ SCENES = {
     "thesis": story.thesis,
     "moving": story.moving,
     "fence": measure.fence,
+    "failures": measure.failures,
     "foliage": story.foliage,
     "coincident": contact.coincident,
     "tent": contact.tent,

@@ -164,3 +164,40 @@ def _wires(shape, x0, field, z, diameter):
     for i in range(1, 12):
         x = x0 + field * i / 12
         shape.add(rod((x, 0.05, z), (x, 1.22, z), diameter / 2, 6))
+
+
+def failures(low=0.5, high=4.0, azimuth=90.0, elevation=60.0):
+    """What maps that are filtered before they are compared get wrong: boards above each other, a post on the ground, a
+    shelf below a roof.
+
+    low, high: heights of the two boards, metres; azimuth, elevation: of the sun, degrees
+    """
+    glb = Glb()
+    paint, ground = glb.material("board", (0.5, 0.42, 0.3), 0.8), glb.material("ground", PAVING)
+    glb.camera("main", (0.5, 4.5, 8.5), (0.2, 0.5, -0.5), 45.0)
+    glb.sun(azimuth, elevation)
+    glb.add("ground", plane(-12.0, -12.0, 12.0, 12.0), ground)
+
+    def towards_sun(point, rise):
+        """Where a ray of the sun's centre that passes through a point is higher by `rise`."""
+        sun = vec.sun_direction(azimuth, elevation)
+        return vec.add(point, vec.scale(sun, rise / sun[1]))
+
+    def board(name, center, half_x, half_z):
+        shape = box(-half_x, -0.03, -half_z, half_x, 0.03, half_z)
+        glb.add(name, shape, paint, translation=center)
+
+    # The shadow of the high board ends in the middle of the low one's.
+    below = (-3.0, 0.0, 0.0)
+    board("low board", towards_sun(below, low), 0.9, 0.9)
+    board("high board", vec.add(towards_sun(below, high), (0.0, 0.0, -0.9)), 0.9, 0.9)
+    glb.camera("bleeding", vec.add(below, (-2.2, 1.0, 0.7)), vec.add(below, (0.0, 0.0, 0.1)), 45.0)
+    # A post that touches the ground, under a net of beams.
+    glb.add("post", box(-0.08, 0.0, -0.08, 0.08, 1.2, 0.08, "-y"), paint, translation=(0.4, 0.0, 0.0))
+    glb.camera("contact", (0.2, 0.9, 1.6), (0.1, 0.1, 0.0), 40.0)
+    # A shelf whose far edge is seen beside the ground, and a roof that shadows the shelf up to 10 cm from this edge.
+    shelf = (3.2, 1.6, 0.0)
+    board("shelf", shelf, 0.5, 0.9)
+    board("roof", vec.add(towards_sun(vec.add(shelf, (0.0, 0.03, 0.0)), 1.5), (0.1, 0.0, 0.0)), 0.5, 0.9)
+    glb.camera("shelf", (2.2, 2.9, 1.2), vec.add(shelf, (-0.25, 0.0, 0.0)), 40.0)
+    return glb

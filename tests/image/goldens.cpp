@@ -49,6 +49,8 @@ std::span<const Golden> goldens() {
       {"esm_foliage", "foliage", "esm", {}, &rounding, {"technique=hard"}},
       {"csm_fourier_posts", "posts", "csm_fourier", {}, &rounding, {"technique=hard"}},
       {"csm_fourier_foliage", "foliage", "csm_fourier", {}, &rounding, {"technique=hard"}},
+      {"cssm_posts", "posts", "cssm", {"sun.angle=2"}, &rounding, {"technique=hard"}},
+      {"cssm_foliage", "foliage", "cssm", {"sun.angle=2"}, &rounding, {"technique=hard"}},
       {"pcss_posts", "posts", "pcss", {"sun.angle=2"}, &rounding, {"technique=hard"}},
       {"pcss_foliage", "foliage", "pcss", {"sun.angle=2"}, &rounding, {"technique=hard"}},
       {"pcss_compute_posts", "posts", "pcss_compute", {"sun.angle=2"}, &rounding, {"technique=hard"}},

@@ -12,7 +12,7 @@ Technique msm() {
       .params = {{"msm.plane_bias", 0.9f, 0, 10, "",
                   "Bias in standard deviations of a plane's depth under the kernel: at 1.8 no slope shadows itself, "
                   "less keeps contacts darker."},
-                 {"msm.moment_bias", 3e-7f, 0, 0.1, "",
+                 {"msm.moment_bias", 3e-6f, 0, 0.1, "",
                   "Share of evenly spread depths that is mixed into the moments, against their rounding; at least "
                   "0.00006 in unorm16."},
                  {"msm.bleeding", 0.0f, 0, 0.99, "",
