@@ -27,35 +27,30 @@ glm::mat4 world_to_depth(const Inputs& inputs) {
   return glm::mat4(projection) * inputs.view.view;
 }
 
-// Half the difference of two neighbouring values of a depth format; for floats, over the value.
-struct DepthRounding {
-  float absolute = 0, relative = 0;
-};
-
-DepthRounding rounding_of(GLenum format) {
+// Between two depths that a texture can hold; 0: it holds floats.
+float spacing_of(GLenum format) {
   switch (format) {
     case GL_DEPTH_COMPONENT16:
-      return {.absolute = std::ldexp(1.0f, -17)};
+      return std::ldexp(1.0f, -16);
     case GL_DEPTH_COMPONENT24:
     case GL_DEPTH24_STENCIL8:
-      return {.absolute = std::ldexp(1.0f, -25)};
+      return std::ldexp(1.0f, -24);
     default:
-      return {.relative = std::ldexp(1.0f, -24)};
+      return 0;
   }
 }
 
 void copy_receivers(const PassContext& context, const gl::Texture& depth_stencil) {
   const Inputs& inputs = context.inputs();
-  const DepthRounding rounding = rounding_of(context.receiver_depth().desc().format);
   const Rect& viewport = context.frame().viewport;
-  gl::Pass pass(context.device(),
-                {.name = "receivers",
-                 .colors = {{.texture = &context.mask(), .layer = context.frame().layer}},
-                 .depth = gl::Attachment{.texture = &depth_stencil},
-                 .depth_write = true});
+  gl::Pass pass(context.device(), {.name = "receivers",
+                                   .colors = {{.texture = &context.mask(), .layer = context.frame().layer}},
+                                   .depth = gl::Attachment{.texture = &depth_stencil},
+                                   .depth_write = true});
   const gl::Program& program = context.use(pass, "receivers");
-  program.set("stored_rounding", glm::vec2(rounding.absolute, rounding.relative));
-  program.set("camera_distance", static_cast<float>(glm::length(glm::dvec3(glm::inverse(glm::dmat4(inputs.view.view))[3]))));
+  program.set("stored_spacing", spacing_of(context.receiver_depth().desc().format));
+  program.set("camera_distance",
+              static_cast<float>(glm::length(glm::dvec3(glm::inverse(glm::dmat4(inputs.view.view))[3]))));
   pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
   pass.draw_full_screen();
 }
@@ -71,14 +66,13 @@ void count_volumes(const PassContext& context, const gl::Texture& depth_stencil)
   const gl::Buffer& volumes = context.scratch("volumes", sizeof(Volumes));
   gl::write_value(volumes, Volumes{world_to_clip, world_to_clip * glm::vec4(along, 0)});
   const bool reversed = inputs.conventions.reversed_z;
-  gl::Pass pass(context.device(),
-                {.name = "shadow volumes",
-                 .depth = gl::Attachment{.texture = &depth_stencil},
-                 .depth_test = reversed ? gl::DepthTest::greater : gl::DepthTest::less,
-                 .stencil = gl::Stencil{.front = {.depth_fail = gl::StencilOp::decrement_wrap},
-                                        .back = {.depth_fail = gl::StencilOp::increment_wrap},
-                                        .clear = 0},
-                 .depth_clamp = true});
+  gl::Pass pass(context.device(), {.name = "shadow volumes",
+                                   .depth = gl::Attachment{.texture = &depth_stencil},
+                                   .depth_test = reversed ? gl::DepthTest::greater : gl::DepthTest::less,
+                                   .stencil = gl::Stencil{.front = {.depth_fail = gl::StencilOp::decrement_wrap},
+                                                          .back = {.depth_fail = gl::StencilOp::increment_wrap},
+                                                          .clear = 0},
+                                   .depth_clamp = true});
   pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
   volumes.bind_uniform(volumes_binding);
   context.draw_caster_geometry(pass, "volumes", glm::mat4(1));
@@ -98,9 +92,9 @@ void darken(const PassContext& context, const gl::Texture& depth_stencil) {
 
 void resolve(const PassContext& context) {
   // Not the caller's texture, even if it has a stencil: that is the caller's.
-  const gl::Texture& depth_stencil = context.target("depth and stencil", {.format = GL_DEPTH32F_STENCIL8,
-                                                                          .width = context.mask().width(),
-                                                                          .height = context.mask().height()});
+  const gl::Texture& depth_stencil = context.target(
+      "depth and stencil",
+      {.format = GL_DEPTH32F_STENCIL8, .width = context.mask().width(), .height = context.mask().height()});
   copy_receivers(context, depth_stencil);
   count_volumes(context, depth_stencil);
   darken(context, depth_stencil);
