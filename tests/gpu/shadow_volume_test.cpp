@@ -186,32 +186,56 @@ TEST_F(ShadowVolume, ThreeTrianglesMayShareAnEdge) {
   expect_rays(scene, "the other way");
 }
 
-// Surfaces of two triangles, some of which reach behind the camera, under a sun that is at least 1 degree above them.
+// A surface of two triangles around a place, seen from 2 m before it, under a sun at that elevation above it.
+TriangleScene tilted(const glm::vec3& place, float size, float tilt, float elevation) {
+  const glm::mat3 turn(glm::rotate(glm::rotate(glm::mat4(1), tilt, {1, 0.3f, 0.2f}), 2 * tilt, {0, 1, 0}));
+  TriangleScene scene;
+  scene.add_quad(place - size * (turn[0] - turn[2]), 2 * size * turn[0], -2 * size * turn[2]);
+  scene.width = scene.height = 64;
+  const glm::mat4 view = glm::lookAt(turn * glm::vec3(0.3f, 0.6f, 2), glm::vec3(0), glm::vec3(0, 1, 0));
+  scene.view = glm::mat4(glm::dmat4(view) * glm::translate(glm::dmat4(1), -glm::dvec3(place)));
+  scene.projection = perspective(1, 1, 0.1f);
+  scene.to_light = turn * sun_direction(130, elevation);
+  return scene;
+}
+
+// Some reach behind the camera. The receivers are drawn at the origin, as by an engine that draws relative to the
+// camera, and the casters there or far from it.
 TEST_F(ShadowVolume, NoSurfaceShadowsItself) {
-  int shown = 0;
+  std::ptrdiff_t shown = 0;
   for (const float away : {0.0f, 2000.0f}) {
     for (const float size : {1.0f, 30.0f, 1000.0f}) {
       for (const float tilt : {0.0f, 0.3f, 0.9f}) {
-        const glm::mat3 turn(glm::rotate(glm::rotate(glm::mat4(1), tilt, {1, 0.3f, 0.2f}), 2 * tilt, {0, 1, 0}));
-        TriangleScene scene;
-        const glm::vec3 middle(away, 0.7f * away, -away);
-        scene.add_quad(middle - size * (turn[0] - turn[2]), 2 * size * turn[0], -2 * size * turn[2]);
-        scene.width = scene.height = 64;
-        const glm::vec3 eye = middle + turn * glm::vec3(0.3f, 0.6f, 2);
-        scene.view = glm::lookAt(eye, middle, glm::vec3(0, 1, 0));
-        scene.projection = perspective(1, 1, 0.1f);
         for (const float elevation : {1.0f, 10.0f, 60.0f}) {
-          scene.to_light = turn * sun_direction(130, elevation);
-          const Shadowed shadowed = draw(scene);
-          int dark = 0;
-          for (const float visibility : shadowed.visibilities()) dark += visibility != 1 ? 1 : 0;
-          EXPECT_EQ(dark, 0) << size << " m, tilt " << tilt << ", sun " << elevation << ", at " << away;
-          shown += static_cast<int>(std::ranges::count_if(shadowed.depth, [](float depth) { return depth > 0; }));
+          const TriangleScene scene = tilted(glm::vec3(away, 0.7f * away, -away), size, tilt, elevation);
+          const Geometry casters(scene);
+          const Shadowed shadowed = draw(tilted(glm::vec3(0), size, tilt, elevation), [&](shadow::Inputs& in) {
+            in.view.view = scene.view;
+            in.casters = in.receivers = shadow::Box{glm::vec3(-5000), glm::vec3(5000)};
+            in.draw = casters.casters();
+          });
+          const std::vector<float> seen = shadowed.visibilities();
+          EXPECT_EQ(std::ranges::count(seen, 1.0f), std::ssize(seen))
+              << size << " m, tilt " << tilt << ", sun " << elevation << ", at " << away;
+          shown += std::ranges::count_if(shadowed.depth, [](float depth) { return depth > 0; });
         }
       }
     }
   }
   EXPECT_GT(shown, 50000);
+}
+
+TEST_F(ShadowVolume, WhatFacesAwayIsDarkThoughNothingCasts) {
+  TriangleScene scene = box_on_ground(96);
+  scene.to_light = sun_direction(200, 40);
+  const Shadowed bare = draw(scene, [](shadow::Inputs& in) { in.draw = [](const shadow::CasterPass&, gl::Pass&) {}; });
+  int dark = 0;
+  for (std::size_t i = 0; i < bare.depth.size(); ++i) {
+    const bool on_box = bare.points[i].y > 1e-4f && bare.points[i].y < 1.9999f && bare.depth[i] > 0;
+    EXPECT_EQ(bare.mask[4 * i], on_box ? 0 : 1) << i;
+    dark += on_box ? 1 : 0;
+  }
+  EXPECT_GT(dark, 200);
 }
 
 // The stencil counts modulo 256: a receiver that lies in a multiple of so many volumes counts as lit.
