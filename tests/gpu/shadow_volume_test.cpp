@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "gpu/render_scenes.h"
 #include "gpu/triangle_scene.h"
 
 namespace penumbra::test {
@@ -192,58 +191,6 @@ TEST_F(ShadowVolume, ThreeTrianglesMayShareAnEdge) {
   expect_rays(scene, "the other way");
 }
 
-// A surface of two triangles around a place, seen from 2 m before it, under a sun at that elevation above it.
-TriangleScene tilted(const glm::vec3& place, float size, float tilt, float elevation) {
-  const glm::mat3 turn(glm::rotate(glm::rotate(glm::mat4(1), tilt, {1, 0.3f, 0.2f}), 2 * tilt, {0, 1, 0}));
-  TriangleScene scene;
-  scene.add_quad(place - size * (turn[0] - turn[2]), 2 * size * turn[0], -2 * size * turn[2]);
-  scene.width = scene.height = 64;
-  const glm::mat4 view = glm::lookAt(turn * glm::vec3(0.3f, 0.6f, 2), glm::vec3(0), glm::vec3(0, 1, 0));
-  scene.view = glm::mat4(glm::dmat4(view) * glm::translate(glm::dmat4(1), -glm::dvec3(place)));
-  scene.projection = perspective(1, 1, 0.1f);
-  scene.to_light = turn * sun_direction(130, elevation);
-  return scene;
-}
-
-// Some reach behind the camera. The receivers are drawn at the origin, as by an engine that draws relative to the
-// camera, and the casters there or far from it.
-TEST_F(ShadowVolume, NoSurfaceShadowsItself) {
-  std::ptrdiff_t shown = 0;
-  for (const float away : {0.0f, 2000.0f}) {
-    for (const float size : {1.0f, 30.0f, 1000.0f}) {
-      for (const float tilt : {0.0f, 0.3f, 0.9f}) {
-        for (const float elevation : {1.0f, 10.0f, 60.0f}) {
-          const TriangleScene scene = tilted(glm::vec3(away, 0.7f * away, -away), size, tilt, elevation);
-          const Geometry casters(scene);
-          const Shadowed shadowed = draw(tilted(glm::vec3(0), size, tilt, elevation), [&](shadow::Inputs& in) {
-            in.view.view = scene.view;
-            in.casters = in.receivers = shadow::Box{glm::vec3(-5000), glm::vec3(5000)};
-            in.draw = casters.casters();
-          });
-          const std::vector<float> seen = shadowed.visibilities();
-          EXPECT_EQ(std::ranges::count(seen, 1.0f), std::ssize(seen))
-              << size << " m, tilt " << tilt << ", sun " << elevation << ", at " << away;
-          shown += std::ranges::count_if(shadowed.depth, [](float depth) { return depth > 0; });
-        }
-      }
-    }
-  }
-  EXPECT_GT(shown, 50000);
-}
-
-TEST_F(ShadowVolume, WhatFacesAwayIsDarkThoughNothingCasts) {
-  TriangleScene scene = box_on_ground(96);
-  scene.to_light = sun_direction(200, 40);
-  const Shadowed bare = draw(scene, [](shadow::Inputs& in) { in.draw = [](const shadow::CasterPass&, gl::Pass&) {}; });
-  int dark = 0;
-  for (std::size_t i = 0; i < bare.depth.size(); ++i) {
-    const bool on_box = bare.points[i].y > 1e-4f && bare.points[i].y < 1.9999f && bare.depth[i] > 0;
-    EXPECT_EQ(bare.mask[4 * i], on_box ? 0 : 1) << i;
-    dark += on_box ? 1 : 0;
-  }
-  EXPECT_GT(dark, 200);
-}
-
 // The stencil counts modulo 256: a receiver that lies in a multiple of so many volumes counts as lit.
 TEST_F(ShadowVolume, ManyLayersHideTheSunUnlessTheirNumberIsAMultipleOf256) {
   params_.set("cascades.size", 16);  // blended surfaces get maps
@@ -275,98 +222,6 @@ TEST_F(ShadowVolume, TheFarPlaneClipsNoVolume) {
   const Comparison c = compare(scene, near);
   EXPECT_EQ(c.wrong, 0);
   EXPECT_GE(c.dark, 500);
-}
-
-TEST_F(ShadowVolume, ConventionsFormatsViewportsAndJitterChangeNothing) {
-  const TriangleScene scene = below_a_roof({-0.4f, 0.6f, 0.1f});
-  const Shadowed expected = draw(scene);
-  const auto differ = [&](const Shadowed& other) {
-    int count = 0;
-    for (std::size_t i = 0; i < expected.depth.size(); ++i) count += expected.mask[4 * i] != other.mask[4 * i] ? 1 : 0;
-    return count;
-  };
-  // The middle of the picture as a view of its own, shifted by fractions of a pixel.
-  const shadow::Rect middle{.x = 20, .y = 10, .width = 60, .height = 72};
-  const glm::vec2 part(96.0f / 60, 96.0f / 72), begin((96.0f - 40) / 60 - 1, (96.0f - 20) / 72 - 1),
-      jitter(0.007f, -0.012f);
-  const glm::mat4 of_middle(part.x, 0, 0, 0, 0, part.y, 0, 0, 0, 0, 1, 0, begin.x - jitter.x, begin.y - jitter.y, 0, 1);
-  const Shadowed own = draw(scene, [&](shadow::Inputs& in) {
-    in.viewport = middle;
-    in.view.projection = of_middle * in.view.projection;
-    in.view.jitter = jitter;
-  });
-  for (int y = middle.y; y < middle.y + middle.height; ++y) {
-    for (int x = middle.x; x < middle.x + middle.width; ++x)
-      EXPECT_EQ(own.visibility(x, y), expected.visibility(x, y)) << x << ", " << y;
-  }
-  std::vector<float> away = expected.depth;
-  for (float& stored : away) stored = 1 - stored;
-  const glm::mat4 flip(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 1, 1);
-  const glm::mat4 widen(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2, 0, 0, 0, -1, 1);
-  for (const GLenum format : {GL_R32F, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT16}) {
-    gl::Texture depth("depth", {.format = format, .width = 96, .height = 96});
-    const GLenum channels = format == GL_R32F ? GL_RED : GL_DEPTH_COMPONENT;
-    for (const bool reversed : {true, false}) {
-      for (const bool from_zero : {true, false}) {
-        depth.upload(channels, GL_FLOAT, std::as_bytes(std::span(reversed ? expected.depth : away)));
-        const Shadowed other = draw(scene, [&](shadow::Inputs& in) {
-          in.depth.id = depth.id();
-          in.conventions.reversed_z = reversed;
-          in.conventions.depth_zero_to_one = from_zero;
-          if (!reversed) in.view.projection = flip * in.view.projection;
-          if (!from_zero) in.view.projection = widen * in.view.projection;
-        });
-        // 16 bits at a distance of 8 m with a near plane at 0.1 m: 10 mm.
-        EXPECT_LE(differ(other), format == GL_DEPTH_COMPONENT16 ? 96 : 2) << format << reversed << from_zero;
-      }
-    }
-  }
-}
-
-TEST_F(ShadowVolume, OtherParametersAndTheSkyDoNotMatter) {
-  TriangleScene scene = box_on_ground(96);
-  scene.view = glm::lookAt(glm::vec3(2, 2, 6), glm::vec3(0, 1.5f, 0), glm::vec3(0, 1, 0));
-  const Shadowed expected = draw(scene);
-  const auto sky = static_cast<int>(std::ranges::count(expected.depth, 0.0f));
-  EXPECT_GT(sky, 500);
-  EXPECT_EQ(compare(scene, expected).wrong, 0) << "with the sky lit";
-  params_.set("driver", std::string("compute"));
-  params_.set("sun.angle", 8.0f);
-  params_.set("cascades.size", 16);
-  params_.set("filter.visibility", std::string("box"));
-  EXPECT_EQ(draw(scene).mask, expected.mask);
-  const std::vector<float> before = expected.mask;
-  EXPECT_TRUE(std::ranges::all_of(before, [](float v) { return v == 0 || v == 1; }));
-}
-
-// A square with one side over a ground, under a sun above it.
-class ShadowVolumeFaces : public RenderTest {
- protected:
-  int dark_pixels(const glm::mat4& placed, const char* faces) {
-    scene::Scene scene;
-    const glm::mat4 lying = glm::rotate(glm::mat4(1), -1.5707963f, {1, 0, 0});
-    add_node(scene, square(), glm::scale(glm::mat4(1), glm::vec3(4)) * lying);
-    add_node(scene, square(), glm::translate(glm::mat4(1), {0, 1, 0}) * placed * lying);
-    inputs.camera = inputs.last_camera = render::look_at({0, 0.9f, 3.9f}, {0, 0, 0}, 1.2f, 0.01f);
-    sun().to_light = glm::normalize(glm::vec3(0.1f, 1, 0.1f));
-    params.set_text("technique", "shadow_volume");
-    params.set_text("casters.faces", faces);
-    draw(scene);
-    int dark = 0;
-    const std::vector<float> depth = renderer.read_aov("depth"), shadow = renderer.read_aov("shadow");
-    for (std::size_t i = 0; i < depth.size(); ++i) dark += depth[i] > 0 && shadow[i] < 0.5f ? 1 : 0;
-    return dark;
-  }
-};
-
-TEST_F(ShadowVolumeFaces, MirroredInstancesCastByTheFaceThatTheyShow) {
-  const glm::mat4 plain(1), mirrored = glm::scale(glm::mat4(1), {-1, 1, 1});
-  const int shadow = dark_pixels(plain, "front");
-  EXPECT_GT(shadow, 50);
-  EXPECT_EQ(dark_pixels(mirrored, "front"), shadow);
-  EXPECT_EQ(dark_pixels(mirrored, "both"), shadow);
-  EXPECT_EQ(dark_pixels(plain, "back"), 0);
-  EXPECT_EQ(dark_pixels(mirrored, "back"), 0);
 }
 
 }  // namespace
