@@ -1,5 +1,8 @@
 // Shadow volumes: what lies behind each of the casters' triangles is counted in a stencil, by depth-fail.
 #include <cmath>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
 
 #include "../pass_context.h"
 #include "../technique.h"
@@ -103,25 +106,28 @@ void resolve(const PassContext& context) {
 }  // namespace
 
 Technique shadow_volume() {
-  return {.name = "shadow_volume",
-          .summary = "The shadow of the light's centre, exact at every pixel: volumes behind the casters' triangles.",
-          .source =
-              "Crow 1977, Shadow algorithms for computer graphics; Everitt and Kilgard 2002, Practical and robust "
-              "stenciled shadow volumes for hardware-accelerated rendering",
-          .glsl = {},
-          .needs = {},
-          .resolve = resolve,
-          .resolve_reads_motion = false,
-          .programs =
-              [](const ParamSet&) {
-                const std::string folder = "shadow/techniques/shadow_volume";
-                return std::vector<gl::ProgramDesc>{
-                    {.name = "receivers", .vertex = "shared/full_screen.vert", .fragment = folder + "_receivers.frag"},
-                    {.name = "volumes", .geometry = folder + ".geom"},
-                    {.name = "shadowed", .vertex = "shared/full_screen.vert", .fragment = folder + "_shadowed.frag"}};
-              },
-          .denoisable = false,
-          .stand_in = "hard"};
+  return {
+      .name = "shadow_volume",
+      .summary =
+          "The shadow of the light's centre without a map: the volumes behind the casters' triangles, of which those "
+          "with an alpha mask count as whole.",
+      .source =
+          "Crow 1977, Shadow algorithms for computer graphics; Everitt and Kilgard 2002, Practical and robust "
+          "stenciled shadow volumes for hardware-accelerated rendering",
+      .glsl = {},
+      .needs = {},
+      .resolve = resolve,
+      .resolve_reads_motion = false,
+      .programs =
+          [](const ParamSet&) {
+            const std::string folder = "shadow/techniques/shadow_volume";
+            return std::vector<gl::ProgramDesc>{
+                {.name = "receivers", .vertex = "shared/full_screen.vert", .fragment = folder + "_receivers.frag"},
+                {.name = "volumes", .geometry = folder + ".geom"},
+                {.name = "shadowed", .vertex = "shared/full_screen.vert", .fragment = folder + "_shadowed.frag"}};
+          },
+      .denoisable = false,
+      .stand_in = "hard"};
 }
 
 }  // namespace penumbra::shadow
