@@ -5,7 +5,7 @@
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 6) out;
 
-layout(std140, binding = 3) uniform Volumes {
+layout(std140, binding = 2) uniform Volumes {
   mat4 world_to_camera_clip;
   vec4 apex;  // clip space
 };

@@ -16,7 +16,7 @@ struct Volumes {
   glm::mat4 world_to_clip;
   glm::vec4 apex;  // clip space: the point at infinity where the light's rays meet
 };
-constexpr GLuint volumes_binding = uniform_binding_count;
+constexpr GLuint volumes_binding = block_samples;  // the technique has no sample points
 
 // From world space to the clip space whose depths, 0..1, are those of the receivers' texture.
 glm::mat4 world_to_depth(const Inputs& inputs) {
