@@ -24,8 +24,14 @@ FEW = ["--technique", "thesis_8x8", "--set", "filter.penumbra=none", "--set", "f
 
 def techniques():
     return {f"technique_{name}": SOFT + ["--technique", name]
-            for name in ("none", "hard", "pcf", "pcf_hardware", "pcf_tent", "pcf_poisson", "vsm", "evsm", "msm", "esm",
-                         "csm_fourier", "cssm", "pcss", "slices", "backprojection", "brute_force", "hybrid", "thesis", "thesis_8x8")}
+            for name in ("none", "hard", "shadow_volume", "pcf", "pcf_hardware", "pcf_tent", "pcf_poisson", "vsm", "evsm",
+                         "msm", "esm", "csm_fourier", "cssm", "pcss", "slices", "backprojection", "brute_force", "hybrid",
+                         "thesis", "thesis_8x8")}
+
+
+def volumes():
+    wires = ["scenes/fence.glb", "--size", "320x180", "--set", "cascades.size=1024"]
+    return {f"volume_{name}": wires + ["--technique", name] for name in ("hard", "shadow_volume")}
 
 
 def layers():
@@ -74,7 +80,11 @@ def histories():
     return rows
 
 
+<<<<<<< HEAD
 PICTURES = {**techniques(), **layers(), **patterns(), **noises(), **filters(), **failures(), **histories()}
+=======
+PICTURES = {**techniques(), **volumes(), **layers(), **patterns(), **noises(), **filters(), **histories()}
+>>>>>>> main
 
 
 def draw(program, name):

@@ -13,6 +13,7 @@ namespace penumbra::shadow {
 #define PENUMBRA_TECHNIQUES(X) \
   X(none)                      \
   X(hard)                      \
+  X(shadow_volume)             \
   X(pcf)                       \
   X(pcf_hardware)              \
   X(pcf_tent)                  \

@@ -31,6 +31,8 @@ std::span<const Golden> goldens() {
       {"none_foliage", "foliage", "none", {}, &rounding, {}},
       {"hard_posts", "posts", "hard", {}, &rounding, {"technique=none"}},
       {"hard_foliage", "foliage", "hard", {}, &rounding, {"technique=none"}},
+      {"shadow_volume_posts", "posts", "shadow_volume", {}, &rounding, {"technique=none"}},
+      {"shadow_volume_foliage", "foliage", "shadow_volume", {}, &rounding, {"technique=none", "technique=hard"}},
       {"pcf_posts", "posts", "pcf", {}, &rounding, {"technique=hard"}},
       {"pcf_foliage", "foliage", "pcf", {}, &rounding, {"technique=hard"}},
       {"pcf_hardware_posts", "posts", "pcf_hardware", {}, &rounding, {"technique=none"}},

@@ -1,0 +1,38 @@
+// The shadow volume of one triangle: a tetrahedron of which one corner is the point at infinity where the light's rays
+// meet. It is closed by itself, so no triangle needs to know its neighbours.
+#include "shadow/light_projection.glsl"
+
+layout(triangles) in;
+layout(triangle_strip, max_vertices = 6) out;
+
+layout(std140, binding = 2) uniform Volumes {
+  mat4 world_to_camera_clip;
+  vec4 apex;  // clip space
+};
+
+// Triangles with a common edge must get the same positions for its ends, so that nothing is left between their volumes.
+invariant gl_Position;
+
+void emit(vec4 position) {
+  gl_Position = position;
+  EmitVertex();
+}
+
+void main() {
+  vec3 a = gl_in[0].gl_Position.xyz;
+  vec3 b = gl_in[1].gl_Position.xyz;
+  vec3 c = gl_in[2].gl_Position.xyz;
+  float along = light_direction(cross(b - a, c - a)).z;
+  if (along == 0.0) return;  // it has no area as seen from the light, or is one that casts no shadow
+  vec4 corners[3] = vec4[](world_to_camera_clip * gl_in[0].gl_Position, world_to_camera_clip * gl_in[1].gl_Position,
+                           world_to_camera_clip * gl_in[2].gl_Position);
+  // Seen from outside of the volume, the corners of each face are in counter-clockwise order.
+  int second = along < 0.0 ? 1 : 2;
+  vec4 last = corners[3 - second];
+  emit(corners[0]);
+  emit(corners[second]);
+  emit(last);
+  emit(apex);
+  emit(corners[0]);
+  emit(corners[second]);
+}

@@ -1,0 +1,133 @@
+// Shadow volumes: what lies behind each of the casters' triangles is counted in a stencil, by depth-fail.
+#include <cmath>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "../pass_context.h"
+#include "../technique.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+// What shadow_volume.geom reads.
+struct Volumes {
+  glm::mat4 world_to_clip;
+  glm::vec4 apex;  // clip space: the point at infinity where the light's rays meet
+};
+constexpr GLuint volumes_binding = block_samples;  // the technique has no sample points
+
+// From world space to the clip space whose depths, 0..1, are those of the receivers' texture.
+glm::mat4 world_to_depth(const Inputs& inputs) {
+  glm::dmat4 projection(inputs.view.projection);
+  for (glm::length_t column = 0; column < 4; ++column) {
+    const double w = projection[column].w;
+    projection[column].x += w * static_cast<double>(inputs.view.jitter.x);
+    projection[column].y += w * static_cast<double>(inputs.view.jitter.y);
+    if (!inputs.conventions.depth_zero_to_one) projection[column].z = 0.5 * (projection[column].z + w);
+  }
+  return glm::mat4(projection) * inputs.view.view;
+}
+
+// Between two depths that a texture can hold; 0: it holds floats.
+float spacing_of(GLenum format) {
+  switch (format) {
+    case GL_DEPTH_COMPONENT16:
+      return std::ldexp(1.0f, -16);
+    case GL_DEPTH_COMPONENT24:
+    case GL_DEPTH24_STENCIL8:
+      return std::ldexp(1.0f, -24);
+    default:
+      return 0;
+  }
+}
+
+void copy_receivers(const PassContext& context, const gl::Texture& depth_stencil) {
+  const Inputs& inputs = context.inputs();
+  const Rect& viewport = context.frame().viewport;
+  gl::Pass pass(context.device(), {.name = "receivers",
+                                   .colors = {{.texture = &context.mask(), .layer = context.frame().layer}},
+                                   .depth = gl::Attachment{.texture = &depth_stencil},
+                                   .depth_write = true});
+  const gl::Program& program = context.use(pass, "receivers");
+  program.set("stored_spacing", spacing_of(context.receiver_depth().desc().format));
+  program.set("camera_distance",
+              static_cast<float>(glm::length(glm::dvec3(glm::inverse(glm::dmat4(inputs.view.view))[3]))));
+  pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  pass.draw_full_screen();
+}
+
+// Everitt and Kilgard 2002: of the faces behind a receiver, those that the camera sees from outside are subtracted from
+// those that it sees from inside. The difference is the number of volumes that hold the receiver, wherever the camera
+// is.
+void count_volumes(const PassContext& context, const gl::Texture& depth_stencil) {
+  const Inputs& inputs = context.inputs();
+  const Rect& viewport = context.frame().viewport;
+  const glm::mat4 world_to_clip = world_to_depth(inputs);
+  const glm::dvec3 along = glm::transpose(light_axes(context.light().source))[2];
+  const gl::Buffer& volumes = context.scratch("volumes", sizeof(Volumes));
+  gl::write_value(volumes, Volumes{world_to_clip, world_to_clip * glm::vec4(along, 0)});
+  const bool reversed = inputs.conventions.reversed_z;
+  gl::Pass pass(context.device(), {.name = "shadow volumes",
+                                   .depth = gl::Attachment{.texture = &depth_stencil},
+                                   .depth_test = reversed ? gl::DepthTest::greater : gl::DepthTest::less,
+                                   .stencil = gl::Stencil{.front = {.depth_fail = gl::StencilOp::decrement_wrap},
+                                                          .back = {.depth_fail = gl::StencilOp::increment_wrap},
+                                                          .clear = 0},
+                                   .depth_clamp = true});
+  pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  volumes.bind_uniform(volumes_binding);
+  context.draw_caster_geometry(pass, "volumes", glm::mat4(1));
+}
+
+void darken(const PassContext& context, const gl::Texture& depth_stencil) {
+  const gl::StencilFace inside{.test = gl::StencilTest::not_equal};
+  const Rect& viewport = context.frame().viewport;
+  gl::Pass pass(context.device(), {.name = "shadowed receivers",
+                                   .colors = {{.texture = &context.mask(), .layer = context.frame().layer}},
+                                   .depth = gl::Attachment{.texture = &depth_stencil},
+                                   .stencil = gl::Stencil{.front = inside, .back = inside}});
+  context.use(pass, "shadowed");
+  pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  pass.draw_full_screen();
+}
+
+void resolve(const PassContext& context) {
+  // Not the caller's texture, even if it has a stencil: that is the caller's.
+  const gl::Texture& depth_stencil = context.target(
+      "depth and stencil",
+      {.format = GL_DEPTH32F_STENCIL8, .width = context.mask().width(), .height = context.mask().height()});
+  copy_receivers(context, depth_stencil);
+  count_volumes(context, depth_stencil);
+  darken(context, depth_stencil);
+}
+
+}  // namespace
+
+Technique shadow_volume() {
+  return {
+      .name = "shadow_volume",
+      .summary =
+          "The shadow of the light's centre without a map: the volumes behind the casters' triangles, of which those "
+          "with an alpha mask count as whole.",
+      .source =
+          "Crow 1977, Shadow algorithms for computer graphics; Everitt and Kilgard 2002, Practical and robust "
+          "stenciled shadow volumes for hardware-accelerated rendering",
+      .glsl = {},
+      .needs = {},
+      .resolve = resolve,
+      .resolve_reads_motion = false,
+      .programs =
+          [](const ParamSet&) {
+            const std::string folder = "shadow/techniques/shadow_volume";
+            return std::vector<gl::ProgramDesc>{
+                {.name = "receivers", .vertex = "shared/full_screen.vert", .fragment = folder + "_receivers.frag"},
+                {.name = "volumes", .geometry = folder + ".geom"},
+                {.name = "shadowed", .vertex = "shared/full_screen.vert", .fragment = folder + "_shadowed.frag"}};
+          },
+      .denoisable = false,
+      .stand_in = "hard"};
+}
+
+}  // namespace penumbra::shadow

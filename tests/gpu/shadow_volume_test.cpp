@@ -1,0 +1,228 @@
+// The technique shadow_volume against closed forms, and against rays through the triangles.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <string>
+#include <vector>
+
+#include "gpu/triangle_scene.h"
+
+namespace penumbra::test {
+namespace {
+
+// Distances along a ray below this, metres, are those of the surface that the ray starts on.
+constexpr double on_surface = 1e-4;
+
+// Where the line from a point towards the light meets the triangle: metres from the point, not a number if it does not.
+double distance_to(const Triangle& triangle, const glm::dvec3& from, const glm::dvec3& to_light) {
+  const glm::dvec3 u = glm::dvec3(triangle.b) - glm::dvec3(triangle.a);
+  const glm::dvec3 v = glm::dvec3(triangle.c) - glm::dvec3(triangle.a);
+  const glm::dvec3 across = glm::cross(to_light, v);
+  const double determinant = glm::dot(u, across);
+  const glm::dvec3 start = from - glm::dvec3(triangle.a);
+  const glm::dvec3 turned = glm::cross(start, u);
+  const double s = glm::dot(start, across) / determinant;
+  const double t = glm::dot(to_light, turned) / determinant;
+  return s >= 0 && t >= 0 && s + t <= 1 ? glm::dot(v, turned) / determinant : std::nan("");
+}
+
+// Whether the camera sees a point of a surface on the side that the sun lights, and nothing is between it and the sun.
+bool lit(const TriangleScene& scene, const glm::dvec3& from) {
+  const glm::dvec3 to_light(scene.to_light);
+  const glm::dvec3 to_eye = glm::dvec3(glm::inverse(glm::dmat4(scene.view))[3]) - from;
+  return std::ranges::none_of(scene.triangles, [&](const Triangle& triangle) {
+    const double distance = distance_to(triangle, from, to_light);
+    if (!(std::abs(distance) <= on_surface)) return distance > 0;
+    const glm::dvec3 normal(glm::cross(triangle.b - triangle.a, triangle.c - triangle.a));
+    return glm::dot(normal, to_light) * glm::dot(normal, to_eye) < 0;
+  });
+}
+
+struct Comparison {
+  int lit = 0, dark = 0, wrong = 0;  // pixels; edges are neither
+};
+
+// Compares pixels with rays. Where points within `tolerance` metres in x and z disagree there is an edge.
+Comparison compare(const TriangleScene& scene, const Shadowed& shadowed, double tolerance = 2e-4) {
+  Comparison result;
+  for (int y = 0; y < shadowed.height; ++y) {
+    for (int x = 0; x < shadowed.width; ++x) {
+      if (shadowed.sky(x, y)) {
+        result.wrong += shadowed.visibility(x, y) != 1 ? 1 : 0;
+        continue;
+      }
+      const glm::dvec3 point(shadowed.point(x, y));
+      const bool expected = lit(scene, point);
+      const std::array<glm::dvec3, 4> around{glm::dvec3(1, 0, 0), {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}};
+      const bool edge = std::ranges::any_of(
+          around, [&](const glm::dvec3& way) { return lit(scene, point + tolerance * way) != expected; });
+      if (edge) continue;
+      ++(expected ? result.lit : result.dark);
+      result.wrong += shadowed.visibility(x, y) != (expected ? 1 : 0) ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+// A ground of 10 m, the sun, and a camera that sees most of it from above.
+TriangleScene ground(int side = 96) {
+  TriangleScene scene;
+  scene.add_quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
+  scene.view = glm::lookAt(glm::vec3(2, 5, 6), glm::vec3(0), glm::vec3(0, 1, 0));
+  scene.projection = perspective(0.8f, 1, 0.1f);
+  scene.width = scene.height = side;
+  scene.to_light = sun_direction(60, 40);
+  return scene;
+}
+
+class ShadowVolume : public TriangleTest {
+ protected:
+  void SetUp() override {
+    TriangleTest::SetUp();
+    params_ = renderer_->params();
+    params_.set("technique", std::string("shadow_volume"));
+  }
+  Shadowed draw(const TriangleScene& scene, const TriangleRenderer::Adjust& adjust = {}) {
+    return renderer_->render(scene, params_, adjust);
+  }
+  void expect_rays(const TriangleScene& scene, const std::string& what, int least_dark = 100) {
+    const Comparison c = compare(scene, draw(scene));
+    EXPECT_EQ(c.wrong, 0) << what;
+    EXPECT_GE(c.dark, least_dark) << what;
+    EXPECT_GE(c.lit, 100) << what;
+  }
+
+  ParamSet params_{std::vector<Param>{}};
+};
+
+// The square is 1 m above the ground, and the sun's rays descend 1 m over 1 m along x. It is moved in steps of an
+// eighth of a pixel: the shadow's edges must pass the pixels' centres when they should.
+TEST_F(ShadowVolume, ASquaresShadowIsExactToAFractionOfAPixel) {
+  constexpr int side = 64;
+  constexpr float pixel = 4.0f / side;
+  for (int step = 0; step < 8; ++step) {
+    const float moved = pixel * (0.0625f + 0.125f * static_cast<float>(step));
+    TriangleScene scene;
+    scene.add_quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4});
+    scene.add_quad({0.5f + moved, 1, 0.5f + moved}, {1, 0, 0}, {0, 0, -1});
+    scene.width = scene.height = side;
+    scene.view = glm::lookAt(glm::vec3(0, 0.5f, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+    scene.projection = orthographic(2, 2, 0.05f, 5);
+    scene.to_light = glm::normalize(glm::vec3(1, 1, 0));
+    const Shadowed shadowed = draw(scene);
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        const float at_x = -2 + pixel * (static_cast<float>(x) + 0.5f);
+        const float at_z = 2 - pixel * (static_cast<float>(y) + 0.5f);
+        const bool dark = at_x > -0.5f + moved && at_x < 0.5f + moved && at_z > -0.5f + moved && at_z < 0.5f + moved;
+        ASSERT_EQ(shadowed.visibility(x, y), dark ? 0 : 1) << x << ", " << y << ", step " << step;
+      }
+    }
+  }
+}
+
+TEST_F(ShadowVolume, BoxesAndWhatFacesAwayAgreeWithRays) {
+  for (const float elevation : {10.0f, 40.0f, 75.0f}) {
+    for (const float azimuth : {20.0f, 110.0f, 200.0f, 290.0f}) {
+      TriangleScene scene = box_on_ground(96);
+      scene.add_box({1.5f, 2.5f, -0.4f}, {1.9f, 2.9f, 0.3f});
+      scene.to_light = sun_direction(azimuth, elevation);
+      expect_rays(scene, std::to_string(azimuth) + ", " + std::to_string(elevation), azimuth < 90 ? 0 : 200);
+    }
+  }
+}
+
+// The eye is in the shadow of a roof and of a box on it.
+TriangleScene below_a_roof(const glm::vec3& eye) {
+  TriangleScene scene = ground();
+  scene.add_box({-1, 1.5f, -1}, {1, 1.55f, 1});
+  scene.add_box({-0.2f, 1.6f, -0.2f}, {0.2f, 2, 0.2f});
+  scene.to_light = sun_direction(80, 60);
+  scene.view = glm::lookAt(eye, glm::vec3(-3, 0, 1), glm::vec3(0, 1, 0));
+  scene.projection = perspective(1.2f, 1, 0.1f);
+  return scene;
+}
+
+TEST_F(ShadowVolume, TheCameraMayBeInsideVolumes) {
+  for (const glm::vec3 eye : {glm::vec3(-0.4f, 0.6f, 0.1f), {0, 1.2f, 0}, {-0.9f, 0.2f, -0.3f}}) {
+    const TriangleScene scene = below_a_roof(eye);
+    ASSERT_FALSE(lit(scene, eye));
+    expect_rays(scene, "inside, eye at x = " + std::to_string(eye.x));
+  }
+}
+
+TEST_F(ShadowVolume, TheCameraMayLookTowardsTheSun) {
+  TriangleScene scene = ground();
+  scene.add_quad({-1, 0.3f, -3}, {2, 0, 0}, {0, 1.5f, 0});
+  scene.to_light = sun_direction(180, 25);
+  scene.view = glm::lookAt(glm::vec3(0, 1, 4), glm::vec3(0, 0, -3), glm::vec3(0, 1, 0));
+  const Comparison c = compare(scene, draw(scene));
+  EXPECT_GE(c.dark, 100);
+  EXPECT_EQ(c.wrong, 0);
+}
+
+TEST_F(ShadowVolume, OpenMeshesCastFromBothSides) {
+  TriangleScene scene = ground();
+  scene.triangles.push_back({{-1, 1, 1}, {1, 1.4f, 0.8f}, {0.2f, 0.8f, -1}});  // alone
+  for (int i = 0; i < 8; ++i) {                                                // a strip that winds about an axis
+    const auto at = [&](int k, float side) {
+      const float angle = 0.5f * static_cast<float>(k);
+      return glm::vec3(-2 + 0.4f * static_cast<float>(k), 1.2f, -1.5f) +
+             0.3f * side * glm::vec3(0, std::sin(angle), std::cos(angle));
+    };
+    scene.triangles.push_back({at(i, -1), at(i + 1, -1), at(i, 1)});
+    scene.triangles.push_back({at(i, 1), at(i + 1, -1), at(i + 1, 1)});
+  }
+  expect_rays(scene, "front");
+  for (Triangle& triangle : scene.triangles) std::swap(triangle.b, triangle.c);
+  expect_rays(scene, "turned over");
+}
+
+TEST_F(ShadowVolume, ThreeTrianglesMayShareAnEdge) {
+  TriangleScene scene = ground();
+  const glm::vec3 low(-0.5f, 1, 0.7f), high(0.4f, 1.6f, -0.6f);
+  for (const glm::vec3 third : {glm::vec3(-1.2f, 1.1f, -0.8f), {1.3f, 0.9f, 0.5f}, {0.1f, 2.2f, 0.2f}})
+    scene.triangles.push_back({low, high, third});
+  expect_rays(scene, "two one way, one the other");
+  std::swap(scene.triangles.back().a, scene.triangles.back().b);
+  expect_rays(scene, "the other way");
+}
+
+// The stencil counts modulo 256: a receiver that lies in a multiple of so many volumes counts as lit.
+TEST_F(ShadowVolume, ManyLayersHideTheSunUnlessTheirNumberIsAMultipleOf256) {
+  params_.set("cascades.size", 16);  // blended surfaces get maps
+  const auto centre = [&](int layers) {
+    TriangleScene scene = ground(32);
+    for (int i = 0; i < layers; ++i) scene.add_quad({-3, 1 + 0.002f * static_cast<float>(i), 2}, {3, 0, 0}, {0, 0, -3});
+    scene.to_light = glm::normalize(glm::vec3(0.1f, 1, 0));
+    scene.view = glm::lookAt(glm::vec3(-1.2f, 0.5f, 0.8f), glm::vec3(-1.2f, 0, 0.8f), glm::vec3(0, 0, -1));
+    scene.projection = orthographic(0.2f, 0.2f, 0.05f, 5);
+    return draw(scene).visibility(16, 16);
+  };
+  for (const int layers : {1, 2, 255, 257, 300, 511}) EXPECT_EQ(centre(layers), 0) << layers;
+  EXPECT_EQ(centre(256), 1) << "a limit of the stencil's 8 bits";
+}
+
+// The volumes reach to infinity, and their caps may lie wholly beyond the far plane.
+TEST_F(ShadowVolume, TheFarPlaneClipsNoVolume) {
+  TriangleScene scene = ground();
+  scene.add_quad({-20, 0, -25}, {40, 0, 0}, {0, 15, 0});
+  scene.to_light = sun_direction(175, 25);
+  scene.view = glm::lookAt(glm::vec3(0, 2, 8), glm::vec3(0, 0.5f, 0), glm::vec3(0, 1, 0));
+  scene.projection = perspective(0.8f, 1, 0.1f);
+  const Shadowed endless = draw(scene);
+  EXPECT_EQ(compare(scene, endless).wrong, 0);
+  glm::mat4 limited = glm::perspectiveRH_ZO(0.8f, 1.0f, 0.1f, 14.0f);
+  const glm::mat4 reversed(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 1, 1);
+  scene.projection = reversed * limited;
+  const Shadowed near = draw(scene);
+  const Comparison c = compare(scene, near);
+  EXPECT_EQ(c.wrong, 0);
+  EXPECT_GE(c.dark, 500);
+}
+
+}  // namespace
+}  // namespace penumbra::test
