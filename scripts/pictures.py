@@ -80,11 +80,7 @@ def histories():
     return rows
 
 
-<<<<<<< HEAD
-PICTURES = {**techniques(), **layers(), **patterns(), **noises(), **filters(), **failures(), **histories()}
-=======
-PICTURES = {**techniques(), **volumes(), **layers(), **patterns(), **noises(), **filters(), **histories()}
->>>>>>> main
+PICTURES = {**techniques(), **volumes(), **layers(), **patterns(), **noises(), **filters(), **failures(), **histories()}
 
 
 def draw(program, name):
