@@ -9,6 +9,10 @@ namespace penumbra::reproduce {
 // needed.
 using MakeFigure = Finding (*)(Workbench& bench);
 
+// What chapter 2 says of other techniques, without a figure.
+Finding section_2_2(Workbench& bench);
+Finding section_2_3(Workbench& bench);
+
 // Points and noise: no scene.
 Finding figure_2_8(Workbench& bench);
 Finding figure_2_9(Workbench& bench);

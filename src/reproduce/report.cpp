@@ -25,7 +25,9 @@ std::string scene_name(const Workbench& bench) {
   return std::filesystem::path(bench.options().scene).filename().string();
 }
 
-std::string heading(const Finding& finding) { return fmt::format("Figure {}: {}", finding.id, finding.title); }
+std::string heading(const Finding& finding) {
+  return fmt::format("{} {}: {}", finding.kind, finding.id, finding.title);
+}
 
 Html badge(const Finding& finding) {
   const std::string verdict = finding.verdict();
