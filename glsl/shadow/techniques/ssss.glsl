@@ -1,5 +1,5 @@
-// What the technique ssss softens: the hard shadow, how far from each pixel its blocker is, and how far around the pixel
-// a penumbra can come from. See docs/techniques.md.
+// What the technique ssss softens: the hard shadow, how far from each pixel its blocker is, and how far around it a
+// penumbra can come from. See docs/techniques.md.
 #include "shadow/search.glsl"
 
 float read_radius(Receiver receiver, Light light) { return search_radius(receiver, light); }

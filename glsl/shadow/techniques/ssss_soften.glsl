@@ -3,23 +3,23 @@
 #include "shadow/drivers/gbuffer.glsl"
 #include "shadow/shadowed.glsl"
 
-layout(binding = 8) uniform sampler2DArray hard_shadow;  // what ssss.glsl computes, with layers as in a mask
+layout(binding = 8) uniform sampler2DArray hard_shadow;  // what ssss.glsl computes, with channels as in a mask
 
-// The receiver of a pixel, with what maps offsets on its plane to pixels.
+// The receiver of a pixel, and the map from offsets on its plane to the picture.
 struct Surface {
   Receiver receiver;
-  vec3 position;        // view space
-  vec3 normal;          // the same
-  vec3 along_x, along_y;  // view space: a step on the plane of 1 m along the light's x or y
-  vec2 pixel;           // where the picture shows it
-  vec2 longest;         // unit vector of the light's x and y along which a metre on the plane covers most pixels
-  float pixels;         // how many
+  vec3 position;          // view space
+  vec3 normal;            // the same
+  vec3 along_x, along_y;  // view space: a step on the plane by 1 m along the light's x or y
+  vec2 place;             // shown_at() of the position
+  vec2 longest;           // unit vector of the light's x and y along which a metre on the plane covers most pixels
+  float pixels;           // how many
 };
 
-// The pixel at which the picture shows a point in view space, plus a constant. Not for points behind the camera.
-vec2 shown_at(vec3 position) {
-  return position.xy / (shadow.pixel_size.xy * (shadow.pixel_size.z * position.z + shadow.pixel_size.w));
-}
+float clip_w(vec3 position) { return shadow.pixel_size.z * position.z + shadow.pixel_size.w; }
+
+// Where the picture shows a point in view space, pixels plus a constant, if the point is not behind the camera.
+vec2 shown_at(vec3 position) { return position.xy / (shadow.pixel_size.xy * clip_w(position)); }
 
 Surface surface_at(ivec2 pixel) {
   Surface surface;
@@ -28,25 +28,29 @@ Surface surface_at(ivec2 pixel) {
   surface.normal = view_normal_of(surface.receiver);
   surface.along_x = view_direction(vec3(1.0, 0.0, surface.receiver.gradient.x));
   surface.along_y = view_direction(vec3(0.0, 1.0, surface.receiver.gradient.y));
-  surface.pixel = shown_at(surface.position);
-  // The Jacobian of the map from offsets to pixels, by differences over a pixel's width; its larger singular value.
-  float small = pixel_width(surface.position);
-  vec2 x = (shown_at(surface.position + small * surface.along_x) - surface.pixel) / small;
-  vec2 y = (shown_at(surface.position + small * surface.along_y) - surface.pixel) / small;
-  float angle = 0.5 * atan(2.0 * dot(x, y), dot(x, x) - dot(y, y));
+  surface.place = shown_at(surface.position);
+  // The larger singular value of the Jacobian, which differences over a fraction of a pixel give.
+  float small = 0.1 * pixel_width(surface.position);
+  vec2 x = (shown_at(surface.position + small * surface.along_x) - surface.place) / small;
+  vec2 y = (shown_at(surface.position + small * surface.along_y) - surface.place) / small;
+  vec2 twice = vec2(dot(x, x) - dot(y, y), 2.0 * dot(x, y));
+  float angle = twice == vec2(0.0) ? 0.0 : 0.5 * atan(twice.y, twice.x);
   surface.longest = vec2(cos(angle), sin(angle));
   surface.pixels = length(mat2(x, y) * surface.longest);
   return surface;
 }
 
-// How much offsets within a radius are shortened along surface.longest, so that they cover at most ssss.most_pixels.
+// By how much offsets within a radius are shortened along surface.longest to cover at most ssss.most_pixels.
 float shortening(Surface surface, float radius) { return min(1.0, ssss_most_pixels / (surface.pixels * radius)); }
 
-// The pixel that shows a point of the plane at an offset in the light's x and y, metres.
+// The pixel that shows a point of the plane at an offset in the light's x and y, metres. Not in the viewport if the
+// point is behind the camera.
 ivec2 pixel_at(Surface surface, vec2 offset, float shorter) {
   offset -= (1.0 - shorter) * dot(offset, surface.longest) * surface.longest;
   vec3 to = surface.position + offset.x * surface.along_x + offset.y * surface.along_y;
-  return ivec2(floor(surface.receiver.pixel + 0.5 + shown_at(to) - surface.pixel));
+  if (clip_w(to) <= 0.0) return ivec2(-1);
+  vec2 moved = clamp(shown_at(to) - surface.place, -ssss_most_pixels, ssss_most_pixels);
+  return ivec2(floor(surface.receiver.pixel + 0.5 + moved));
 }
 
 bool in_viewport(ivec2 pixel) {
@@ -54,62 +58,61 @@ bool in_viewport(ivec2 pixel) {
   return all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(shadow.viewport.zw)));
 }
 
-// Mean blocker distance.
+// Whether a pixel that is not lit is so because something blocks the light, not because it faces away from it.
+bool has_blocker(vec4 hard) { return hard.x < 1.0 && hard.z > 0.0; }
 
 struct Blockers {
   float height_sum;  // metres along the light
   float weight;
 };
 
-// Adds the blocker of a pixel in shadow, if it lies within the cone from the receiver to the light. It need not be on
-// the receiver's surface: its place in light space is known.
-void add_blocker(inout Blockers blockers, Surface surface, ivec2 pixel, float slack, float weight, Light light) {
+// Adds what blocks a pixel, if it lies within the cone from the receiver to the light. The pixel may belong to another
+// surface: where its blocker is in light space is known all the same.
+void add_blocker(inout Blockers blockers, Surface surface, ivec2 pixel, float bias, float slack, Light light) {
   if (!in_viewport(pixel)) return;
   vec4 hard = texelFetch(hard_shadow, ivec3(pixel, 0), 0);
-  if (hard.z <= 0.0 || hard.x >= 1.0) return;
+  if (!has_blocker(hard)) return;
+  const float half_rounding = 1.0 / 1024.0;  // bound of the relative error of hard.z
   vec3 blocker = light_position(view_position_at(pixel)) - vec3(0.0, 0.0, hard.z);
-  vec3 from_receiver = blocker - surface.receiver.position;
-  float height = -from_receiver.z;
-  float above_plane = dot(surface.receiver.gradient, from_receiver.xy) + height;
-  vec2 aside = abs(from_receiver.xy);
-  float beside = is_square(light) ? max(aside.x, aside.y) : length(aside);
-  if (min(height, above_plane) <= 0.0) return;
-  if (beside > penumbra_radius(surface.receiver, height, light) + slack) return;
-  blockers.height_sum += weight * (1.0 - hard.x) * height;
-  blockers.weight += weight * (1.0 - hard.x);
+  vec3 to = blocker - surface.receiver.position;
+  float height = -to.z;
+  float above_plane = dot(surface.receiver.gradient, to.xy) - to.z;
+  if (min(height, above_plane) <= bias + half_rounding * hard.z) return;
+  vec2 aside = abs(to.xy);
+  float distance_to = is_square(light) ? max(aside.x, aside.y) : length(aside);
+  if (distance_to > penumbra_radius(surface.receiver, height, light) + slack) return;
+  blockers.height_sum += (1.0 - hard.x) * height;
+  blockers.weight += 1.0 - hard.x;
 }
 
-// 0: there is none.
+// Mean distance, metres along the light, of the blockers of pixels whose places on the receiver's plane are within the
+// radius; 0: there is none.
 float mean_blocker_distance(Surface surface, ivec2 pixel, float radius, Light light) {
+  float bias = depth_bias(surface.receiver, light);
   float slack = 0.5 * (pixel_width(surface.position) + texel_size(surface.receiver, light));
   Scramble scramble = blocker_scramble(surface.receiver);
   float shorter = shortening(surface, radius);
   Blockers blockers = Blockers(0.0, 0.0);
-  add_blocker(blockers, surface, pixel, slack, 0.5, light);
+  add_blocker(blockers, surface, pixel, bias, slack, light);
   for (int i = 0; i < ssss_search_taps; ++i) {
-    vec2 point = blocker_point(i, scramble, light);
-    // More taps near the pixel, where those that lie in the cone of a low blocker are; each with its share of the area.
-    float away = length(point);
-    add_blocker(blockers, surface, pixel_at(surface, radius * away * point, shorter), slack, away, light);
+    ivec2 at = pixel_at(surface, radius * blocker_point(i, scramble, light), shorter);
+    add_blocker(blockers, surface, at, bias, slack, light);
   }
   return blockers.weight > 0.0 ? blockers.height_sum / blockers.weight : 0.0;
 }
 
-// Filter.
-
-// Weight of a pixel in the filter: 0 to 1, by its distance from the receiver's plane and by its normal. A surface that
-// bends by an angle leaves the plane by no more than its sine times the distance.
+// Weight of a pixel in the filter, 0 to 1: by its distance from the receiver's plane and by its normal. A surface that
+// bends by an angle leaves the plane by no more than the distance times the angle's sine.
 float bilateral_weight(Surface surface, ivec2 pixel) {
-  vec3 normal = view_direction(light_normal_at(pixel));
   vec3 to = view_position_at(pixel) - surface.position;
-  float cosine = clamp(dot(normal, surface.normal), 0.0, 1.0);
+  float cosine = clamp(dot(view_direction(light_normal_at(pixel)), surface.normal), 0.0, 1.0);
   float allowed = ssss_edge * pixel_width(surface.position) + sqrt(1.0 - cosine * cosine) * length(to);
-  float by_plane = clamp(2.0 - abs(dot(surface.normal, to)) / allowed, 0.0, 1.0);
-  float by_normal = clamp(2.0 - (1.0 - cosine) / max(1.0 - ssss_turn, 1e-6), 0.0, 1.0);
-  return by_plane * by_normal;
+  float turn = (1.0 - cosine) / max(1.0 - cos(radians(ssss_turn)), 1e-6);
+  return clamp(2.0 - abs(dot(surface.normal, to)) / allowed, 0.0, 1.0) * clamp(2.0 - turn, 0.0, 1.0);
 }
 
-float softened(Surface surface, ivec2 pixel, float own, float radius, Light light) {
+// The mean of the hard shadow over the pixels that show the disc around the receiver on its own surface.
+float softened(Surface surface, float own, float radius, Light light) {
   Scramble scramble = filter_scramble(surface.receiver);
   float shorter = shortening(surface, radius);
   float sum = 0.0, weights = 0.0;
@@ -117,7 +120,7 @@ float softened(Surface surface, ivec2 pixel, float own, float radius, Light ligh
     ivec2 at = pixel_at(surface, radius * filter_point(i, scramble, light), shorter);
     if (!in_viewport(at) || is_sky(at)) continue;
     vec4 hard = texelFetch(hard_shadow, ivec3(at, 0), 0);
-    if (hard.x < 1.0 && hard.z <= 0.0) continue;  // its surface faces away from the light
+    if (hard.x < 1.0 && !has_blocker(hard)) continue;
     float weight = bilateral_weight(surface, at);
     sum += weight * hard.x;
     weights += weight;
@@ -128,18 +131,13 @@ float softened(Surface surface, ivec2 pixel, float own, float radius, Light ligh
 // See Mask in the library's headers.
 vec4 soft_pixel(ivec2 pixel) {
   vec4 hard = texelFetch(hard_shadow, ivec3(pixel, 0), 0);
-  bool faces = hard.x >= 1.0 || hard.z > 0.0;
-  if (is_sky(pixel) || !faces) return vec4(hard.x, 0.0, 0.0, hard.w);
+  // Of the sky, of surfaces that face away, and of pixels that no penumbra reaches, the hard shadow is exact.
+  if (is_sky(pixel) || (hard.x < 1.0 && !has_blocker(hard))) return vec4(hard.x, 0.0, 0.0, hard.w);
   Surface surface = surface_at(pixel);
   Light light = with_layer(frame_light(), int(hard.w));
-  float distance_to = hard.z;
-  float visible = hard.x;
-  if (hard.y > 0.0) {
-    distance_to = mean_blocker_distance(surface, pixel, hard.y, light);
-    float radius = penumbra_radius(surface.receiver, distance_to, light);
-    if (radius > 0.0) visible = softened(surface, pixel, hard.x, radius, light);
-  }
+  float distance_to = hard.y > 0.0 ? mean_blocker_distance(surface, pixel, hard.y, light) : hard.z;
   float radius = penumbra_radius(surface.receiver, distance_to, light);
+  float visible = hard.y > 0.0 && radius > 0.0 ? softened(surface, hard.x, radius, light) : hard.x;
   bool under_texel = distance_to > 0.0 && radius < texel_size(surface.receiver, light);
   return mask_texel(Shadowed(Visibility(visible, radius, distance_to, under_texel), light.layer));
 }

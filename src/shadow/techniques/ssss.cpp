@@ -35,7 +35,8 @@ Technique ssss() {
   return {
       .name = "ssss",
       .summary =
-          "Screen-space soft shadows: the hard shadow is blurred in the picture, by a kernel that follows the blockers' "
+          "Screen-space soft shadows: the hard shadow is blurred in the picture, by a kernel that follows the "
+          "blockers' "
           "distance and stops at edges.",
       .source =
           "MohammadBagher et al. 2010, Screen-space percentage-closer soft shadows; Zheng and Saito 2011, Screen space "
@@ -50,8 +51,8 @@ Technique ssss() {
                "Radius of both kernels in the picture, at most; wider penumbrae become narrower.", uniform},
               {"ssss.edge", 1.0f, 0.01, 100, "px",
                "How far from a receiver's plane, in widths of a pixel, others count as the same surface.", uniform},
-              {"ssss.turn", 0.866f, 0, 1, "",
-               "Cosine of the angle between normals up to which neighbours count as the same surface.", uniform},
+              {"ssss.turn", 30.0f, 0, 90, "deg",
+               "Largest angle between a receiver's normal and those that count as the same surface.", uniform},
           },
       .samples = {{.name = "blocker", .count_parameter = "ssss.search_taps", .step = SampleSet::Step::blocker},
                   {.name = "filter", .count_parameter = "ssss.taps"}},
