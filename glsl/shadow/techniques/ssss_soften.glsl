@@ -44,12 +44,13 @@ Surface surface_at(ivec2 pixel) {
 float shortening(Surface surface, float radius) { return min(1.0, ssss_most_pixels / (surface.pixels * radius)); }
 
 // The pixel that shows a point of the plane at an offset in the light's x and y, metres. Not in the viewport if the
-// point is behind the camera.
+// point is behind the camera, or if perspective takes it farther than ssss.most_pixels away.
 ivec2 pixel_at(Surface surface, vec2 offset, float shorter) {
   offset -= (1.0 - shorter) * dot(offset, surface.longest) * surface.longest;
   vec3 to = surface.position + offset.x * surface.along_x + offset.y * surface.along_y;
   if (clip_w(to) <= 0.0) return ivec2(-1);
-  vec2 moved = clamp(shown_at(to) - surface.place, -ssss_most_pixels, ssss_most_pixels);
+  vec2 moved = shown_at(to) - surface.place;
+  if (length(moved) > ssss_most_pixels) return ivec2(-1);
   return ivec2(floor(surface.receiver.pixel + 0.5 + moved));
 }
 
@@ -60,6 +61,14 @@ bool in_viewport(ivec2 pixel) {
 
 // Whether a pixel that is not lit is so because something blocks the light, not because it faces away from it.
 bool has_blocker(vec4 hard) { return hard.x < 1.0 && hard.z > 0.0; }
+
+// Bound of the relative error of a blocker distance, which is stored as a half float.
+const float distance_rounding = 1.0 / 1024.0;
+
+// Length of an offset in the light's x and y by which its shape is a disc of radius 1.
+float shape_length(vec2 offset, Light light) {
+  return is_square(light) ? max(abs(offset.x), abs(offset.y)) : length(offset);
+}
 
 struct Blockers {
   float height_sum;  // metres along the light
@@ -72,15 +81,12 @@ void add_blocker(inout Blockers blockers, Surface surface, ivec2 pixel, float bi
   if (!in_viewport(pixel)) return;
   vec4 hard = texelFetch(hard_shadow, ivec3(pixel, 0), 0);
   if (!has_blocker(hard)) return;
-  const float half_rounding = 1.0 / 1024.0;  // bound of the relative error of hard.z
   vec3 blocker = light_position(view_position_at(pixel)) - vec3(0.0, 0.0, hard.z);
   vec3 to = blocker - surface.receiver.position;
   float height = -to.z;
   float above_plane = dot(surface.receiver.gradient, to.xy) - to.z;
-  if (min(height, above_plane) <= bias + half_rounding * hard.z) return;
-  vec2 aside = abs(to.xy);
-  float distance_to = is_square(light) ? max(aside.x, aside.y) : length(aside);
-  if (distance_to > penumbra_radius(surface.receiver, height, light) + slack) return;
+  if (min(height, above_plane) <= bias + distance_rounding * hard.z) return;
+  if (shape_length(to.xy, light) > penumbra_radius(surface.receiver, height, light) + slack) return;
   blockers.height_sum += (1.0 - hard.x) * height;
   blockers.weight += 1.0 - hard.x;
 }
@@ -111,21 +117,38 @@ float bilateral_weight(Surface surface, ivec2 pixel) {
   return clamp(2.0 - abs(dot(surface.normal, to)) / allowed, 0.0, 1.0) * clamp(2.0 - turn, 0.0, 1.0);
 }
 
-// The mean of the hard shadow over the pixels that show the disc around the receiver on its own surface.
+struct Sum {
+  float lit;
+  float weight;
+};
+
+// A pixel of another surface that lies below the receiver's plane shows whether the light that goes there passes the
+// plane. It does not if what blocks the pixel is above the plane.
+void add_other_surface(inout Sum sum, Surface surface, ivec2 pixel, vec4 hard, float radius, float share, Light light) {
+  vec3 to = light_position(view_position_at(pixel)) - surface.receiver.position;
+  float below_plane = to.z - dot(surface.receiver.gradient, to.xy);
+  if (below_plane < 0.0 || shape_length(to.xy, light) > radius) return;
+  bool blocks = below_plane < (1.0 - distance_rounding) * hard.z;
+  sum.lit += share * (blocks ? hard.x : 1.0);
+  sum.weight += share;
+}
+
+// The mean of the hard shadow over the pixels that show the disc around the receiver on its plane.
 float softened(Surface surface, float own, float radius, Light light) {
   Scramble scramble = filter_scramble(surface.receiver);
   float shorter = shortening(surface, radius);
-  float sum = 0.0, weights = 0.0;
+  Sum sum = Sum(0.0, 0.0);
   for (int i = 0; i < ssss_taps; ++i) {
     ivec2 at = pixel_at(surface, radius * filter_point(i, scramble, light), shorter);
     if (!in_viewport(at) || is_sky(at)) continue;
     vec4 hard = texelFetch(hard_shadow, ivec3(at, 0), 0);
     if (hard.x < 1.0 && !has_blocker(hard)) continue;
     float weight = bilateral_weight(surface, at);
-    sum += weight * hard.x;
-    weights += weight;
+    sum.lit += weight * hard.x;
+    sum.weight += weight;
+    if (weight < 1.0) add_other_surface(sum, surface, at, hard, radius, 1.0 - weight, light);
   }
-  return weights > 0.0 ? sum / weights : own;
+  return sum.weight > 0.0 ? sum.lit / sum.weight : own;
 }
 
 // See Mask in the library's headers.

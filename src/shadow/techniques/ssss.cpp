@@ -47,7 +47,7 @@ Technique ssss() {
           {
               {"ssss.search_taps", 16, 1, 256, "taps", "Pixels that the blocker search reads.", compiled},
               {"ssss.taps", 32, 1, 256, "taps", "Pixels of the hard shadow that are averaged.", compiled},
-              {"ssss.most_pixels", 64.0f, 1, 512, "px",
+              {"ssss.most_pixels", 128.0f, 1, 512, "px",
                "Radius of both kernels in the picture, at most; wider penumbrae become narrower.", uniform},
               {"ssss.edge", 1.0f, 0.01, 100, "px",
                "How far from a receiver's plane, in widths of a pixel, others count as the same surface.", uniform},
