@@ -25,8 +25,8 @@ FEW = ["--technique", "thesis_8x8", "--set", "filter.penumbra=none", "--set", "f
 def techniques():
     return {f"technique_{name}": SOFT + ["--technique", name]
             for name in ("none", "hard", "shadow_volume", "pcf", "pcf_hardware", "pcf_tent", "pcf_poisson", "vsm", "evsm",
-                         "msm", "esm", "csm_fourier", "cssm", "pcss", "slices", "backprojection", "brute_force", "hybrid",
-                         "thesis", "thesis_8x8")}
+                         "msm", "esm", "csm_fourier", "cssm", "pcss", "slices", "backprojection", "ssss", "brute_force",
+                         "hybrid", "thesis", "thesis_8x8")}
 
 
 def volumes():
@@ -39,6 +39,14 @@ def layers():
     fine = [setting for name in ("azimuths", "samples") for setting in ("--set", f"slices.{name}=32")]
     rows = {f"layers_{count}": below + ["slices", *fine, "--set", f"maps.layers={count}"] for count in (1, 2)}
     return {**rows, "layers_truth": below + ["truth"]}
+
+
+def screen_space():
+    # A post hides a part of its shadow; a shadow wider than the picture.
+    post = ["scenes/posts.glb", "--eye", "3.8,1.7,-1.95", "--target", "-1,0,-2.05", "--fov", "30", "--sun-angle", "8",
+            "--size", "320x180", "--technique"]
+    return {"screen_silhouette": post + ["ssss"], "screen_silhouette_truth": post + ["truth"],
+            "screen_outside": WIDE + ["--sun-angle", "2", "--technique", "ssss"]}
 
 
 def patterns():
@@ -80,7 +88,8 @@ def histories():
     return rows
 
 
-PICTURES = {**techniques(), **volumes(), **layers(), **patterns(), **noises(), **filters(), **failures(), **histories()}
+PICTURES = {**techniques(), **volumes(), **layers(), **screen_space(), **patterns(), **noises(), **filters(), **failures(),
+            **histories()}
 
 
 def draw(program, name):

@@ -27,6 +27,7 @@ namespace penumbra::shadow {
   X(pcss)                      \
   X(slices)                    \
   X(backprojection)            \
+  X(ssss)                      \
   X(brute_force)
 
 // One line for each filter; each is defined in filters/<name>.cpp.

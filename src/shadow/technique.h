@@ -58,7 +58,7 @@ struct Technique {
   bool decides_tiles = false;
   // Whether the denoiser that the parameters choose is applied to its result.
   bool denoisable = true;
-  // For techniques without `glsl`: the name of the technique that computes shadows on blended surfaces instead.
+  // The name of the technique that computes shadows on blended surfaces instead. Techniques without `glsl` need one.
   std::string stand_in = {};
   // Whether it reads the light's maps only near receivers of the view. Texels: at most read_margin (light_projection.h)
   // texels beyond the disc of search_radius() (glsl/shadow/search.glsl) around the receiver. Pyramids: for discs of at

@@ -145,7 +145,7 @@ TEST_F(ShadowInputs, AViewMayBeAPartOfItsTextures) {
   constexpr int width = 80;
   constexpr int height = 64;
   for (const char* technique :
-       {"hard", "pcss", "slices", "backprojection", "pcss_compute", "thesis_8x8", "thesis_8x8_compute"}) {
+       {"hard", "pcss", "slices", "backprojection", "ssss", "pcss_compute", "thesis_8x8", "thesis_8x8_compute"}) {
     renderer.shadows().registry().select(params, technique);
     params.set("sampling.noise", std::string("none"));  // its tile is fixed to the textures
     const Shadowed whole = renderer.render(scene, params);

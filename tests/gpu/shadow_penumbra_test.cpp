@@ -10,20 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "gpu/exact_penumbra.h"
 #include "gpu/triangle_scene.h"
 
 namespace penumbra::test {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-// Visibility of a disc or a square sun at zenith under a half-plane, t = distance to its edge over the penumbra's
-// radius.
-double exact_disc(double t) {
-  t = std::clamp(t, -1.0, 1.0);
-  return 0.5 + (t * std::sqrt(1 - t * t) + std::asin(t)) / pi;
-}
-double exact_square(double t) { return 0.5 + 0.5 * std::clamp(t, -1.0, 1.0); }
 
 // A half-plane x < 0 at a height above the plane y = 0, with a camera between the two. Receivers extend 2.5 penumbra
 // radii to each side of the edge.
@@ -188,15 +179,6 @@ TEST_F(KnifeEdge, BlockersAtTwoHeightsAddUpAsTheyShould) {
   EXPECT_GE(deviation(renderer_->render(scene, params), low * slope, exact).worst, 0.1);
 }
 
-// The exact function for a sun anywhere: a ray from the receiver misses the half-plane when a linear function of the
-// disc's point is positive, so that the visibility is that of a disc cut by a line.
-double exact_oblique(const glm::dvec3& to_light, double x, double height, double tan_half_angle) {
-  const glm::dvec3 u = glm::normalize(glm::cross(to_light, glm::dvec3(0.31, 0.2, 0.93)));
-  const glm::dvec3 w = glm::cross(to_light, u);
-  const auto along = [&](const glm::dvec3& d) { return height * d.x + x * d.y; };
-  return exact_disc(along(to_light) / (tan_half_angle * std::hypot(along(u), along(w))));
-}
-
 // PCSS assumes that blockers are parallel to the light's disc, so its penumbra has an error under an oblique sun. The
 // test bounds it.
 TEST_F(KnifeEdge, ObliqueSunsAreOffByNoMoreThanPcssItselfIs) {
@@ -238,19 +220,6 @@ TEST_F(KnifeEdge, ObliqueSunsAreOffByNoMoreThanPcssItselfIs) {
       EXPECT_LE(worst, bound);
     }
   }
-}
-
-// Distance over which a rising profile goes from 10 to 90 % of its range.
-double width_10_90(const std::vector<double>& profile, double step) {
-  const auto crossing = [&](double level) {
-    for (size_t i = 1; i < profile.size(); ++i) {
-      if (profile[i - 1] < level && profile[i] >= level) {
-        return static_cast<double>(i - 1) + (level - profile[i - 1]) / (profile[i] - profile[i - 1]);
-      }
-    }
-    return std::nan("");
-  };
-  return (crossing(0.9) - crossing(0.1)) * step;
 }
 
 // The width of the knife edge's penumbra under a sun of 8 degrees, `distance` metres from a camera that sees the plane
