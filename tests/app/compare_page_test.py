@@ -1,6 +1,7 @@
 """The page of penumbra compare in a browser: no errors, sliders, zoom, tables, and how it looks."""
 
 import browser
+from desktop import wait_for
 from pictures import scene
 from support import TestCase, main, temporary_folder, run
 
@@ -146,7 +147,8 @@ class Page(TestCase):
     def test_the_command_can_be_copied(self):
         button = self.browser.one("button.copy")
         self.browser.click(button)
-        self.assertIn(self.browser.text(button), ("Copied", "Selected"))
+        # The browser answers the page's request for the clipboard later.
+        wait_for(lambda: self.browser.text(button) in ("Copied", "Selected"), "the button's answer")
         self.assertTrue(self.script("return document.querySelector('code').textContent")
                         .startswith("penumbra compare '"))
 
