@@ -124,6 +124,10 @@ float stored_depth(float stored, LayerBlock map) { return map.near_depth + map.d
 vec4 stored_depths(vec4 stored, LayerBlock map) { return map.near_depth + map.depth_range * stored; }
 float stored_depth(float stored, Light light) { return stored_depth(stored, light.map); }
 
+// The depth as the map stores it, for a light-space depth, metres; and how many metres there are from 0 to 1.
+float depth_to_store(float depth, Light light) { return (depth - light.map.near_depth) / light.map.depth_range; }
+float stored_metres(Light light) { return light.map.depth_range; }
+
 // Width of a texel of the light's layer at a position's depth, metres, or its height where that is larger.
 float texel_size_at(vec3 position, Light light) { return light.map.texel; }
 float texel_size(Receiver receiver, Light light) { return texel_size_at(receiver.position, light); }

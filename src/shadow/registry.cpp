@@ -21,6 +21,7 @@ namespace penumbra::shadow {
   X(pcss)                      \
   X(slices)                    \
   X(backprojection)            \
+  X(vssm)                      \
   X(brute_force)
 
 // One line for each filter; each is defined in filters/<name>.cpp.
@@ -38,6 +39,8 @@ namespace penumbra::shadow {
 #define PENUMBRA_PRODUCTS(X) \
   X(compared_depth)          \
   X(least_depth_pyramid)     \
+  X(greatest_depth_pyramid)  \
+  X(depth_sums)              \
   X(second_layer)
 
 using MakeTechnique = Technique();

@@ -1,0 +1,132 @@
+// Variance soft shadow maps: both steps of percentage-closer soft shadows read a kernel's mean depth and variance from a
+// summed-area table. See docs/techniques.md.
+#include "shadow/search.glsl"
+#include "shadow/sampling.glsl"
+#include "shadow/depth_moments.glsl"
+
+layout(binding = UNIT_greatest_depth_pyramid) uniform sampler2DArray greatest_pyramid;
+
+float read_radius(Receiver receiver, Light light) { return search_radius(receiver, light); }
+
+// Upper bound of the depth within a disc, metres.
+float greatest_near(vec3 position, float radius, Light light) {
+  int level = pyramid_level(position, radius, light, pyramid_base, textureQueryLevels(greatest_pyramid));
+  ivec2 last = textureSize(greatest_pyramid, level).xy - 1;
+  vec4 stored = pyramid_texels(greatest_pyramid, position, radius, light, pyramid_base, level, last).x;
+  return stored_depth(max(max(stored.x, stored.y), max(stored.z, stored.w)), light);
+}
+
+// What is known of a part of the map.
+struct Share {
+  float hidden;      // share of it that blocks
+  float height_sum;  // metres along the light: mean height of the blockers over the receiver, times `hidden`
+};
+
+Share mixed(Share a, Share b, float weight) {
+  return Share(mix(a.hidden, b.hidden, weight), mix(a.height_sum, b.height_sum, weight));
+}
+
+// The half width of the square that stands for a disc: it has the same variance.
+float square_half(float radius, Light light) { return is_square(light) ? radius : 0.8660254 * radius; }
+
+// Every texel of a small rectangle around the receiver, weighted by the area in common.
+Share compared_texels(Receiver receiver, vec2 half_width, float bias, Light light) {
+  vec2 texel = texel_extent(receiver, light);
+  half_width = max(half_width, 0.5 * texel);
+  vec2 place = map_place(receiver.position, light);
+  ivec2 first = ivec2(floor(place - half_width / texel)), last = ivec2(floor(place + half_width / texel));
+  Share share = Share(0.0, 0.0);
+  for (int y = first.y; y <= last.y; y += 2) {
+    for (int x = first.x; x <= last.x; x += 2) {
+      vec4 depths = depths_from(ivec2(x, y), light);
+      vec2 low = texel_offset(receiver, ivec2(x, y), light);
+      Offsets at = Offsets(low.x + texel.x * vec4(0.0, 1.0, 1.0, 0.0), low.y + texel.y * vec4(1.0, 1.0, 0.0, 0.0));
+      vec4 width = max(min(at.x + 0.5 * texel.x, half_width.x) - max(at.x - 0.5 * texel.x, -half_width.x), 0.0);
+      vec4 height = max(min(at.y + 0.5 * texel.y, half_width.y) - max(at.y - 0.5 * texel.y, -half_width.y), 0.0);
+      vec4 blocks = width * height * vec4(lessThan(depths, blocking_depths_at(receiver, at, bias)));
+      share.hidden += dot(blocks, vec4(1.0));
+      share.height_sum += dot(blocks, receiver.position.z - depths);
+    }
+  }
+  float area = 4.0 * half_width.x * half_width.y;
+  return Share(share.hidden / area, share.height_sum / area);
+}
+
+// Points in a part of a kernel, compared.
+Share compared_points(Receiver receiver, vec2 offset, vec2 half_width, vec2 noise, float bias, Light light) {
+  Share share = Share(0.0, 0.0);
+  for (int i = 0; i < vssm_taps * vssm_taps; ++i) {
+    vec2 cell = vec2(i % vssm_taps, i / vssm_taps);
+    vec2 at = offset + half_width * (2.0 * (cell + noise) / float(vssm_taps) - 1.0);
+    Footprint footprint = fetch_footprint(receiver, at, light);
+    vec4 blocks = blocking_texels(receiver, footprint, bias);
+    share.hidden += bilinear(blocks, footprint.weight);
+    share.height_sum += bilinear(blocks * (receiver.position.z - footprint.depths), footprint.weight);
+  }
+  float points = float(vssm_taps * vssm_taps);
+  return Share(share.hidden / points, share.height_sum / points);
+}
+
+// The share by Chebyshev's inequality, which is an equality for two planes that face the light, one of them the
+// receiver's. Where the receiver's own tilt makes this much of the variance, the part is not such a case.
+const float greatest_tilt = 0.1;
+
+// Returns false where mean and variance do not suffice.
+bool share_by_moments(Receiver receiver, vec2 offset, vec2 half_width, float bias, Light light, out Share share) {
+  Moments moments = depth_moments(receiver.position + vec3(offset, 0.0), half_width, light);
+  Offsets at = Offsets(vec4(offset.x), vec4(offset.y));
+  float blocking = blocking_depths_at(receiver, at, bias).x - receiver.position.z;
+  float variance = variance_of(moments);
+  vec2 tilt = receiver.gradient * half_width;
+  float of_plane = dot(tilt, tilt) / 3.0;
+  float in_front = blocking - moments.mean;
+  share = Share(0.0, 0.0);
+  // As flat as the receiver: nothing else is in it.
+  if (in_front <= 0.0) return variance <= 1.2 * of_plane + bias * bias;
+  if (of_plane > greatest_tilt * variance && of_plane > greatest_tilt * in_front * in_front) return false;
+  float lit = variance / (variance + in_front * in_front);
+  float height = lit * max(plane_depths(receiver, at).x, blocking) - moments.mean;
+  share = Share(1.0 - lit, clamp(height, 0.0, 1e30));
+  return true;
+}
+
+// A kernel around the receiver: all its texels if it is small, else its moments or those of its parts.
+Share kernel_share(Receiver receiver, float radius, int step, float bias, Light light) {
+  vec2 half_width = vec2(square_half(radius, light));
+  vec2 texels = half_width / texel_extent(receiver, light);
+  if (max(texels.x, texels.y) <= vssm_small) return compared_texels(receiver, half_width, bias, light);
+  Share share;
+  if (share_by_moments(receiver, vec2(0.0), half_width, bias, light, share)) return share;
+  vec2 noise = pixel_noise(receiver, step);
+  vec2 part = half_width / float(vssm_cells);
+  Share sum = Share(0.0, 0.0);
+  for (int i = 0; i < vssm_cells * vssm_cells; ++i) {
+    vec2 offset = part * (2.0 * vec2(i % vssm_cells, i / vssm_cells) + 1.0) - half_width;
+    if (!share_by_moments(receiver, offset, part, bias, light, share)) {
+      share = compared_points(receiver, offset, part, noise, bias, light);
+    }
+    sum.hidden += share.hidden;
+    sum.height_sum += share.height_sum;
+  }
+  float parts = float(vssm_cells * vssm_cells);
+  return Share(sum.hidden / parts, sum.height_sum / parts);
+}
+
+Visibility visibility(Receiver receiver, Light light) {
+  float bias = depth_bias(receiver, light);
+  Search search = narrow_search(receiver, light, light.read_radius);
+  if (search.nearest >= receiver.position.z - bias) return fully_lit();
+  receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
+  float texel = texel_size(receiver, light);
+  // No edge is so near that it could make a penumbra.
+  if (edge_radius(receiver, light) < 0.5 * texel) return centre_shadow(receiver, bias, light);
+  float reach = search.radius + 1.5 * texel;
+  float least_blocking = receiver.position.z - bias - reach * length(receiver.gradient);
+  bool dark = greatest_near(receiver.position, reach, light) < least_blocking;
+  Share found = kernel_share(receiver, search.radius, blocker_step, bias, light);
+  if (found.hidden <= 0.0 && !dark) return fully_lit();
+  float mean = clamp(found.height_sum / max(found.hidden, 1e-6), 0.0, receiver.position.z - search.nearest);
+  float penumbra = penumbra_radius(receiver, mean, light);
+  float hidden = dark ? 1.0 : kernel_share(receiver, penumbra, filter_step, bias, light).hidden;
+  return Visibility(1.0 - hidden, penumbra, mean, penumbra < texel);
+}
