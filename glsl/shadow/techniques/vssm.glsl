@@ -11,7 +11,7 @@ float read_radius(Receiver receiver, Light light) { return search_radius(receive
 // Upper bound of the depth within a disc, metres.
 float greatest_near(vec3 position, float radius, Light light) {
   int level = pyramid_level(position, radius, light, pyramid_base, textureQueryLevels(greatest_pyramid));
-  ivec2 last = textureSize(greatest_pyramid, level).xy - 1;
+  ivec2 last = max(last_texel(), 0) >> (level + 2);
   vec4 stored = pyramid_texels(greatest_pyramid, position, radius, light, pyramid_base, level, last).x;
   return stored_depth(max(max(stored.x, stored.y), max(stored.z, stored.w)), light);
 }
@@ -85,8 +85,8 @@ bool share_by_moments(Receiver receiver, vec2 offset, vec2 half_width, float bia
   if (in_front <= 0.0) return variance <= 1.2 * of_plane + bias * bias;
   if (of_plane > greatest_tilt * variance && of_plane > greatest_tilt * in_front * in_front) return false;
   float lit = variance / (variance + in_front * in_front);
-  float height = lit * max(plane_depths(receiver, at).x, blocking) - moments.mean;
-  share = Share(1.0 - lit, clamp(height, 0.0, 1e30));
+  // (2.22) and (2.23), solved for the blockers' mean: it is in_front + variance / in_front before the receiver.
+  share = Share(1.0 - lit, max(in_front - (1.0 - lit) * blocking, 0.0));
   return true;
 }
 
