@@ -68,25 +68,31 @@ Share compared_points(Receiver receiver, vec2 offset, vec2 half_width, vec2 nois
 }
 
 // The share by Chebyshev's inequality, which is an equality for two planes that face the light, one of them the
-// receiver's. Where the receiver's own tilt makes this much of the variance, the part is not such a case.
-const float greatest_tilt = 0.1;
+// receiver's. Nothing may lie behind the receiver by more than this share of the blockers' height.
+const float greatest_behind = 0.1;
 
 // Returns false where mean and variance do not suffice.
 bool share_by_moments(Receiver receiver, vec2 offset, vec2 half_width, float bias, Light light, out Share share) {
-  Moments moments = depth_moments(receiver.position + vec3(offset, 0.0), half_width, light);
+  vec3 middle = receiver.position + vec3(offset, 0.0);
+  Moments moments = depth_moments(middle, half_width, light);
   Offsets at = Offsets(vec4(offset.x), vec4(offset.y));
   float blocking = blocking_depths_at(receiver, at, bias).x - receiver.position.z;
+  float tilt = dot(abs(receiver.gradient), half_width);
   float variance = variance_of(moments);
-  vec2 tilt = receiver.gradient * half_width;
-  float of_plane = dot(tilt, tilt) / 3.0;
   float in_front = blocking - moments.mean;
   share = Share(0.0, 0.0);
   // As flat as the receiver: nothing else is in it.
-  if (in_front <= 0.0) return variance <= 1.2 * of_plane + bias * bias;
-  if (of_plane > greatest_tilt * variance && of_plane > greatest_tilt * in_front * in_front) return false;
-  float lit = variance / (variance + in_front * in_front);
-  // (2.22) and (2.23), solved for the blockers' mean: it is in_front + variance / in_front before the receiver.
-  share = Share(1.0 - lit, max(in_front - (1.0 - lit) * blocking, 0.0));
+  if (in_front <= 0.0) return variance <= 0.4 * tilt * tilt + bias * bias;
+  float behind = greatest_near(middle, max(half_width.x, half_width.y), light) - receiver.position.z - blocking;
+  // (2.22) and (2.23), solved for the blockers' mean height.
+  float height = in_front + variance / in_front;
+  if (behind < -2.0 * tilt) {
+    share = Share(1.0, in_front - blocking);
+    return true;
+  }
+  if (behind > greatest_behind * height) return false;
+  float hidden = in_front / height;
+  share = Share(hidden, max(in_front - hidden * blocking, 0.0));
   return true;
 }
 
