@@ -52,16 +52,26 @@ Share compared_texels(Receiver receiver, vec2 half_width, float bias, Light ligh
   return Share(share.hidden / area, share.height_sum / area);
 }
 
+// 1 for blockers at these heights that can hide a part of the light, where texels are at such offsets; else 0. In the
+// filter step, where `in_cone` is false, all count.
+vec4 counting(Receiver receiver, Offsets at, vec4 heights, float margin, bool in_cone, Light light) {
+  if (!in_cone) return vec4(1.0);
+  return within_cone(penumbra_radii(receiver, heights, light) + margin, is_square(light), at.x, at.y);
+}
+
 // Points in a part of a kernel, compared.
-Share compared_points(Receiver receiver, vec2 offset, vec2 half_width, vec2 noise, float bias, Light light) {
+Share compared_points(Receiver receiver, vec2 offset, vec2 half_width, vec2 noise, float bias, bool in_cone,
+                      Light light) {
   Share share = Share(0.0, 0.0);
   for (int i = 0; i < vssm_taps * vssm_taps; ++i) {
     vec2 cell = vec2(i % vssm_taps, i / vssm_taps);
     vec2 at = offset + half_width * (2.0 * (cell + noise) / float(vssm_taps) - 1.0);
     Footprint footprint = fetch_footprint(receiver, at, light);
+    vec4 heights = receiver.position.z - footprint.depths;
     vec4 blocks = blocking_texels(receiver, footprint, bias);
+    blocks *= counting(receiver, footprint.offsets, heights, 1.5 * texel_size(receiver, light), in_cone, light);
     share.hidden += bilinear(blocks, footprint.weight);
-    share.height_sum += bilinear(blocks * (receiver.position.z - footprint.depths), footprint.weight);
+    share.height_sum += bilinear(blocks * heights, footprint.weight);
   }
   float points = float(vssm_taps * vssm_taps);
   return Share(share.hidden / points, share.height_sum / points);
@@ -96,21 +106,33 @@ bool share_by_moments(Receiver receiver, vec2 offset, vec2 half_width, float bia
   return true;
 }
 
+// A part of a kernel, of which only blockers within the light's cone count if `in_cone`.
+Share part_share(Receiver receiver, vec2 offset, vec2 half_width, vec2 noise, float bias, bool in_cone, Light light) {
+  Share share;
+  if (!share_by_moments(receiver, offset, half_width, bias, light, share)) {
+    return compared_points(receiver, offset, half_width, noise, bias, in_cone, light);
+  }
+  vec4 height = vec4(share.height_sum / max(share.hidden, 1e-6));
+  vec2 nearest = max(abs(offset) - half_width, 0.0);
+  Offsets at = Offsets(vec4(nearest.x), vec4(nearest.y));
+  float counts = counting(receiver, at, height, 0.0, in_cone, light).x;
+  return Share(counts * share.hidden, counts * share.height_sum);
+}
+
 // A kernel around the receiver: all its texels if it is small, else its moments or those of its parts.
 Share kernel_share(Receiver receiver, float radius, int step, float bias, Light light) {
   vec2 half_width = vec2(square_half(radius, light));
   vec2 texels = half_width / texel_extent(receiver, light);
   if (max(texels.x, texels.y) <= vssm_small) return compared_texels(receiver, half_width, bias, light);
+  bool search = step == blocker_step;
   Share share;
-  if (share_by_moments(receiver, vec2(0.0), half_width, bias, light, share)) return share;
+  if (!search && share_by_moments(receiver, vec2(0.0), half_width, bias, light, share)) return share;
   vec2 noise = pixel_noise(receiver, step);
   vec2 part = half_width / float(vssm_cells);
   Share sum = Share(0.0, 0.0);
   for (int i = 0; i < vssm_cells * vssm_cells; ++i) {
     vec2 offset = part * (2.0 * vec2(i % vssm_cells, i / vssm_cells) + 1.0) - half_width;
-    if (!share_by_moments(receiver, offset, part, bias, light, share)) {
-      share = compared_points(receiver, offset, part, noise, bias, light);
-    }
+    share = part_share(receiver, offset, part, noise, bias, search, light);
     sum.hidden += share.hidden;
     sum.height_sum += share.height_sum;
   }
@@ -130,6 +152,8 @@ Visibility visibility(Receiver receiver, Light light) {
   float least_blocking = receiver.position.z - bias - reach * length(receiver.gradient);
   bool dark = greatest_near(receiver.position, reach, light) < least_blocking;
   Share found = kernel_share(receiver, search.radius, blocker_step, bias, light);
+  // Near the receiver the cone is narrow, so that a search of a wide disc can miss a blocker that touches the receiver.
+  if (found.hidden <= 0.0) found = compared_texels(receiver, vec2(0.0), bias, light);
   if (found.hidden <= 0.0 && !dark) return fully_lit();
   float mean = clamp(found.height_sum / max(found.hidden, 1e-6), 0.0, receiver.position.z - search.nearest);
   float penumbra = penumbra_radius(receiver, mean, light);
