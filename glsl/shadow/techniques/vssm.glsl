@@ -112,19 +112,21 @@ Share part_share(Receiver receiver, vec2 offset, vec2 half_width, vec2 noise, fl
   if (!share_by_moments(receiver, offset, half_width, bias, light, share)) {
     return compared_points(receiver, offset, half_width, noise, bias, in_cone, light);
   }
-  vec4 height = vec4(share.height_sum / max(share.hidden, 1e-6));
-  vec2 nearest = max(abs(offset) - half_width, 0.0);
-  Offsets at = Offsets(vec4(nearest.x), vec4(nearest.y));
-  float counts = counting(receiver, at, height, 0.0, in_cone, light).x;
+  if (!in_cone) return share;
+  // How much of the part lies within the cone at its blockers' mean height.
+  float cone = penumbra_radius(receiver, share.height_sum / max(share.hidden, 1e-6), light);
+  vec2 distance_to = is_square(light) ? vec2(max(abs(offset.x), abs(offset.y)), max(half_width.x, half_width.y))
+                                      : vec2(length(offset), length(half_width));
+  float counts = clamp(0.5 * (cone + distance_to.y - distance_to.x) / distance_to.y, 0.0, 1.0);
   return Share(counts * share.hidden, counts * share.height_sum);
 }
 
 // A kernel around the receiver: all its texels if it is small, else its moments or those of its parts.
 Share kernel_share(Receiver receiver, float radius, int step, float bias, Light light) {
+  bool search = step == blocker_step;
   vec2 half_width = vec2(square_half(radius, light));
   vec2 texels = half_width / texel_extent(receiver, light);
   if (max(texels.x, texels.y) <= vssm_small) return compared_texels(receiver, half_width, bias, light);
-  bool search = step == blocker_step;
   Share share;
   if (!search && share_by_moments(receiver, vec2(0.0), half_width, bias, light, share)) return share;
   vec2 noise = pixel_noise(receiver, step);
