@@ -25,7 +25,7 @@ FEW = ["--technique", "thesis_8x8", "--set", "filter.penumbra=none", "--set", "f
 def techniques():
     return {f"technique_{name}": SOFT + ["--technique", name]
             for name in ("none", "hard", "shadow_volume", "pcf", "pcf_hardware", "pcf_tent", "pcf_poisson", "pcss",
-                         "slices", "backprojection", "brute_force", "hybrid", "thesis", "thesis_8x8")}
+                         "slices", "backprojection", "vssm", "brute_force", "hybrid", "thesis", "thesis_8x8")}
 
 
 def volumes():

@@ -214,7 +214,7 @@ TEST(Registry, RefusesDenoisersThatCanNotRun) {
   EXPECT_EQ(complain({.name = "none", .denoise = nothing}), "a denoiser can't have the name 'none'");
   EXPECT_EQ(complain({.name = "blur", .needs = {"moments"}, .denoise = nothing}),
             "unknown product that denoiser 'blur' needs 'moments'; known: shadow_map, compared_depth, "
-            "least_depth_pyramid, second_layer, "
+            "least_depth_pyramid, greatest_depth_pyramid, depth_sums, second_layer, "
             "movement_map");
 }
 

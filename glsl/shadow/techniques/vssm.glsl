@@ -79,7 +79,7 @@ Share compared_points(Receiver receiver, vec2 offset, vec2 half_width, vec2 nois
 
 // The share by Chebyshev's inequality, which is an equality for two planes that face the light, one of them the
 // receiver's. Nothing may lie behind the receiver by more than this share of the blockers' height.
-const float greatest_behind = 0.1;
+const float greatest_behind = 0.03;
 
 // Returns false where mean and variance do not suffice.
 bool share_by_moments(Receiver receiver, vec2 offset, vec2 half_width, float bias, Light light, out Share share) {
