@@ -178,7 +178,7 @@ TEST_F(KnifeEdge, VssmWidensWithTheCastersHeight) {
       const Deviation d = deviation(shadowed, radius, shape == "disc" ? exact_disc : exact_square);
       std::printf("vssm, %s, %.2f degrees, %.0f m: off by %.3f at %.2f\n", shape.c_str(), static_cast<double>(c.angle),
                   static_cast<double>(c.height), d.worst, d.at);
-      EXPECT_LE(d.worst, shape == "disc" ? 0.05 : 0.02)
+      EXPECT_LE(d.worst, shape == "disc" ? 0.03 : 0.005)
           << shape << " sun of " << c.angle << " degrees, caster at " << c.height << " m, t = " << d.at;
     }
   }

@@ -156,7 +156,7 @@ TEST_F(NarrowedMaps, BruteForceIsTheSame) {
 }
 
 TEST_F(NarrowedMaps, ReceiversThatAreMovedReadTheSameOfASquareSun) {
-  for (const char* technique : {"hard", "pcss", "slices", "backprojection", "vssm"}) {
+  for (const char* technique : {"hard", "pcss", "slices", "backprojection"}) {
     open("courtyard", technique);
     params_.set("sun.shape", std::string("square"));
     params_.set("sun.angle", 4.0f);

@@ -100,7 +100,7 @@ bool share_by_moments(Receiver receiver, vec2 offset, vec2 half_width, float bia
     share = Share(1.0, in_front - blocking);
     return true;
   }
-  if (behind > greatest_behind * height) return false;
+  if (behind > 2.0 * tilt + greatest_behind * height || tilt > 0.05 * height) return false;
   float hidden = in_front / height;
   share = Share(hidden, max(in_front - hidden * blocking, 0.0));
   return true;
