@@ -78,8 +78,9 @@ Share compared_points(Receiver receiver, vec2 offset, vec2 half_width, vec2 nois
 }
 
 // The share by Chebyshev's inequality, which is an equality for two planes that face the light, one of them the
-// receiver's. Nothing may lie behind the receiver by more than this share of the blockers' height.
-const float greatest_behind = 0.03;
+// receiver's. In units of the blockers' mean height, what may lie behind the receiver's own plane, and how far that
+// plane may depart from its middle.
+const float greatest_behind = 0.03, greatest_tilt = 0.05;
 
 // Returns false where mean and variance do not suffice.
 bool share_by_moments(Receiver receiver, vec2 offset, vec2 half_width, float bias, Light light, out Share share) {
@@ -100,7 +101,8 @@ bool share_by_moments(Receiver receiver, vec2 offset, vec2 half_width, float bia
     share = Share(1.0, in_front - blocking);
     return true;
   }
-  if (behind > 2.0 * tilt + greatest_behind * height || tilt > 0.05 * height) return false;
+  // The pyramid's texels can reach as far again beyond the part as the part itself.
+  if (behind > 2.0 * tilt + greatest_behind * height || tilt > greatest_tilt * height) return false;
   float hidden = in_front / height;
   share = Share(hidden, max(in_front - hidden * blocking, 0.0));
   return true;
