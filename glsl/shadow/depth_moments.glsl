@@ -4,7 +4,7 @@
 layout(binding = UNIT_depth_sums) uniform usampler2DArray depth_sums;
 
 struct Moments {
-  float mean;        // of depth less the position's, metres
+  float mean;         // of depth less the position's, metres
   float mean_square;  // of the same, metres²
 };
 

@@ -22,10 +22,6 @@ struct Share {
   float height_sum;  // metres along the light: mean height of the blockers over the receiver, times `hidden`
 };
 
-Share mixed(Share a, Share b, float weight) {
-  return Share(mix(a.hidden, b.hidden, weight), mix(a.height_sum, b.height_sum, weight));
-}
-
 // The half width of the square that stands for a disc: it has the same variance.
 float square_half(float radius, Light light) { return is_square(light) ? radius : 0.8660254 * radius; }
 
