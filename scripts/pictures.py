@@ -25,8 +25,8 @@ FEW = ["--technique", "thesis_8x8", "--set", "filter.penumbra=none", "--set", "f
 def techniques():
     return {f"technique_{name}": SOFT + ["--technique", name]
             for name in ("none", "hard", "shadow_volume", "pcf", "pcf_hardware", "pcf_tent", "pcf_poisson", "vsm", "evsm",
-                         "msm", "esm", "csm_fourier", "cssm", "pcss", "slices", "backprojection", "ssss", "brute_force",
-                         "hybrid", "thesis", "thesis_8x8")}
+                         "msm", "esm", "csm_fourier", "cssm", "pcss", "slices", "backprojection", "ssss", "vssm",
+                         "brute_force", "hybrid", "thesis", "thesis_8x8")}
 
 
 def volumes():

@@ -132,6 +132,7 @@ ivec2 last_texel() { return ivec2(shadow.map_size) - 1; }
 // Depth as the light's layer stores it, for a depth in light space, metres; and the same for differences of depths.
 float stored_of(float depth, Light light) { return (depth - light.map.near_depth) / light.map.depth_range; }
 float stored_difference(float difference, Light light) { return difference / light.map.depth_range; }
+float stored_metres(Light light) { return light.map.depth_range; }  // from 0 to 1
 
 // Stored depth in a texel of the light's layer; 1 outside of the map, where there are no casters.
 float stored_at(ivec2 texel, Light light) {

@@ -28,6 +28,7 @@ namespace penumbra::shadow {
   X(slices)                    \
   X(backprojection)            \
   X(ssss)                      \
+  X(vssm)                      \
   X(brute_force)
 
 // One line for each filter; each is defined in filters/<name>.cpp.
@@ -51,6 +52,8 @@ namespace penumbra::shadow {
   X(esm_depths)              \
   X(fourier_terms)           \
   X(cssm_terms)              \
+  X(greatest_depth_pyramid)  \
+  X(depth_sums)              \
   X(second_layer)
 
 using MakeTechnique = Technique();

@@ -39,7 +39,7 @@ TEST_F(ShadowBias, LitPlanesDoNotShadowThemselves) {
     for (const float elevation : {1.0f, 10.0f, 30.0f, 60.0f, 90.0f}) {
       for (const float angle : {0.0f, 0.53f, 2.0f, 8.0f}) {
         for (const std::string technique : {"hard", "pcf", "pcf_hardware", "pcf_tent", "pcf_poisson", "pcss", "slices",
-                                            "backprojection", "ssss", "brute_force"}) {
+                                            "backprojection", "ssss", "vssm", "brute_force"}) {
           TriangleScene scene = lone_plane(tilted);
           scene.to_light = sun_direction(35, elevation);
           if (glm::dot(plane_normal(scene), scene.to_light) <= std::sin(glm::radians(angle) / 2)) continue;
@@ -94,7 +94,7 @@ double gap_in_texels(TriangleRenderer& renderer, const std::string& technique, f
 }
 
 TEST_F(ShadowBias, ContactShadowsStartAtTheContact) {
-  for (const std::string technique : {"hard", "pcss", "slices", "backprojection", "ssss", "brute_force"}) {
+  for (const std::string technique : {"hard", "pcss", "slices", "backprojection", "ssss", "vssm", "brute_force"}) {
     for (const float elevation : {10.0f, 30.0f, 60.0f}) {
       for (const float height : {0.1f, 0.3f, 1.5f}) {
         EXPECT_LE(gap_in_texels(*renderer_, technique, elevation, height), 2)
@@ -120,7 +120,7 @@ TriangleScene lit_crease(float azimuth, float elevation) {
 
 TEST_F(ShadowBias, LitFacesDoNotShadowEachOtherWhereTheyMeet) {
   for (const std::string technique :
-       {"hard", "pcss", "slices", "backprojection", "ssss", "brute_force", "every texel"}) {
+       {"hard", "pcss", "slices", "backprojection", "ssss", "vssm", "brute_force", "every texel"}) {
     for (const float azimuth : {270.0f, 310.0f, 200.0f}) {
       for (const float elevation : {10.0f, 35.0f, 60.0f, 80.0f}) {
         const TriangleScene scene = lit_crease(azimuth, elevation);
@@ -157,7 +157,7 @@ TriangleScene boxes() {
 
 TEST_F(ShadowBias, FragmentAndComputeGiveTheSameMask) {
   for (const std::string technique : {"none", "hard", "pcf", "pcf_hardware", "pcf_tent", "pcf_poisson", "pcss",
-                                      "slices", "backprojection", "ssss", "brute_force"}) {
+                                      "slices", "backprojection", "ssss", "vssm", "brute_force"}) {
     for (const std::string shape : {"disc", "square"}) {
       ParamSet params = renderer_->params();
       params.set("technique", technique);

@@ -125,7 +125,7 @@ TEST_F(ShadowInputs, LightsAreChecked) {
 TEST_F(ShadowInputs, VisibilityIsTheSameWithAndWithoutDetails) {
   const TriangleScene scene = box_on_ground(48);
   for (const char* technique :
-       {"hard", "pcss", "slices", "backprojection", "pcss_compute", "thesis_8x8", "thesis_8x8_compute"}) {
+       {"hard", "pcss", "slices", "backprojection", "vssm", "pcss_compute", "thesis_8x8", "thesis_8x8_compute"}) {
     SCOPED_TRACE(technique);
     renderer.shadows().registry().select(params, technique);
     const std::vector<float> detailed = renderer.render(scene, params).visibilities();
@@ -144,8 +144,8 @@ TEST_F(ShadowInputs, AViewMayBeAPartOfItsTextures) {
   const shadow::Rect part{13, 5, scene.width, scene.height};
   constexpr int width = 80;
   constexpr int height = 64;
-  for (const char* technique :
-       {"hard", "pcss", "slices", "backprojection", "ssss", "pcss_compute", "thesis_8x8", "thesis_8x8_compute"}) {
+  for (const char* technique : {"hard", "pcss", "slices", "backprojection", "ssss", "vssm", "pcss_compute",
+                                "thesis_8x8", "thesis_8x8_compute"}) {
     renderer.shadows().registry().select(params, technique);
     params.set("sampling.noise", std::string("none"));  // its tile is fixed to the textures
     const Shadowed whole = renderer.render(scene, params);

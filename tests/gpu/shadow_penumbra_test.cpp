@@ -157,6 +157,24 @@ TEST_F(KnifeEdge, SlicesAndBackprojectionMatchTheExactFunction) {
   }
 }
 
+// One surface above another is the case in which means and variances say all. The filter is a square, also for a disc.
+TEST_F(KnifeEdge, VssmWidensWithTheCastersHeight) {
+  for (const std::string shape : {"disc", "square"}) {
+    for (const Case& c : cases) {
+      ParamSet params = parameters(*renderer_, c.angle, shape);
+      params.set("technique", std::string("vssm"));
+      const float radius = c.height * std::tan(glm::radians(c.angle) / 2);
+      const Shadowed shadowed = renderer_->render(knife_edge(c.height, c.angle, 128), params);
+      expect_wide_kernel(*renderer_, radius);
+      const Deviation d = deviation(shadowed, radius, shape == "disc" ? exact_disc : exact_square);
+      std::printf("vssm, %s, %.2f degrees, %.0f m: off by %.3f at %.2f\n", shape.c_str(), static_cast<double>(c.angle),
+                  static_cast<double>(c.height), d.worst, d.at);
+      EXPECT_LE(d.worst, shape == "disc" ? 0.03 : 0.005)
+          << shape << " sun of " << c.angle << " degrees, caster at " << c.height << " m, t = " << d.at;
+    }
+  }
+}
+
 // Half-planes on both sides of a slit, the right one four times as high as the left. What each of them hides of the sun
 // is exact; with one mean height for both, the error is more than a tenth.
 TEST_F(KnifeEdge, BlockersAtTwoHeightsAddUpAsTheyShould) {

@@ -157,7 +157,7 @@ double softness(const Shadowed& picture) {
 
 TEST_F(ShadowVisible, TurnedAndLongTexelsDoNotChangeSoftness) {
   const TriangleScene scene = strip();
-  for (const char* technique : {"pcss", "slices", "backprojection", "brute_force"}) {
+  for (const char* technique : {"pcss", "slices", "backprojection", "vssm", "brute_force"}) {
     const auto with = [&](const char* fit, float angle) {
       ParamSet own = params(fit);
       own.set("technique", std::string(technique));

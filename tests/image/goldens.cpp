@@ -63,6 +63,8 @@ std::span<const Golden> goldens() {
       {"backprojection_foliage", "foliage", "backprojection", {"sun.angle=4"}, &rounding, {"technique=pcss"}},
       {"ssss_posts", "posts", "ssss", {"sun.angle=2"}, &rounding, {"technique=hard"}},
       {"ssss_foliage", "foliage", "ssss", {"sun.angle=4"}, &rounding, {"technique=pcss"}},
+      {"vssm_posts", "posts", "vssm", {"sun.angle=2"}, &rounding, {"technique=hard"}},
+      {"vssm_foliage", "foliage", "vssm", {"sun.angle=4"}, &rounding, {"technique=pcss"}},
       {"slices_denoised_posts", "posts", "slices_denoised", {"sun.angle=2"}, &rounding, {"technique=hard"}},
       {"slices_denoised_foliage", "foliage", "slices_denoised", {"sun.angle=4"}, &rounding, {"technique=pcss"}},
       {"slices_history_thesis", "thesis", "slices_history", {}, &history, {"technique=hard", "history.mean=false"}, "shadow", 4},

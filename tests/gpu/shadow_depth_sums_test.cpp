@@ -1,0 +1,173 @@
+// What is made from a shadow map for vssm: sums of which nothing is lost, and greatest depths.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "gpu/triangle_scene.h"
+#include "shadow/pass_context.h"
+
+namespace penumbra::test {
+namespace {
+
+constexpr const char* technique_text = R"(
+#include "shadow/light.glsl"
+float read_radius(Receiver receiver, Light light) { return 0.0; }
+Visibility visibility(Receiver receiver, Light light) { return fully_lit(); }
+)";
+
+// What the technique "reading" saw of the products, by layer.
+std::vector<std::vector<unsigned>> sums;
+std::vector<std::vector<std::vector<float>>> greatest;  // and by level
+
+void read_products(const shadow::PassContext& context) {
+  const gl::Texture& table = context.product("depth_sums");
+  const gl::Texture& pyramid = context.product("greatest_depth_pyramid");
+  sums.clear();
+  greatest.clear();
+  for (int layer = 0; layer < table.desc().layers; ++layer) {
+    sums.push_back(gl::read_uints(table, 4, 0, layer));
+    greatest.emplace_back();
+    for (int level = 0; level < pyramid.desc().levels; ++level)
+      greatest.back().push_back(gl::read_floats(pyramid, 1, level, layer));
+  }
+}
+
+shadow::Registry registry() {
+  shadow::Registry::Contents contents = shadow::built_in_registry().contents();
+  contents.techniques.push_back({.name = "reading",
+                                 .summary = "Reads products back.",
+                                 .source = "made up",
+                                 .glsl = "test/reading.glsl",
+                                 .needs = {"shadow_map", "depth_sums", "greatest_depth_pyramid"},
+                                 .resolve = read_products});
+  return shadow::Registry(std::move(contents));
+}
+
+std::vector<float> random_depths(int size, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> any(0, 1);
+  std::vector<float> depths(static_cast<size_t>(size) * static_cast<size_t>(size));
+  for (float& depth : depths) depth = any(random);
+  depths.front() = 0;
+  depths.back() = 1;
+  return depths;
+}
+
+class DepthSums : public GpuTest {
+ protected:
+  void make(const std::vector<std::vector<float>>& layers, int size, int halvings) {
+    renderer.device().shaders.files().put("test/reading.glsl", technique_text);
+    const gl::Texture maps("maps", {.target = GL_TEXTURE_2D_ARRAY,
+                                    .format = GL_R32F,
+                                    .width = size,
+                                    .height = size,
+                                    .layers = static_cast<int>(layers.size())});
+    for (size_t i = 0; i < layers.size(); ++i)
+      maps.upload(GL_RED, GL_FLOAT, std::as_bytes(std::span(layers[i])), 0, static_cast<int>(i));
+    const shadow::Cascades cascades{.size = size, .items = std::vector<shadow::Cascade>(layers.size())};
+    const TriangleScene scene = box_on_ground(8);
+    const shadow::Light light{.source = shadow::Sun{scene.to_light},
+                              .maps = shadow::FinishedMaps{.depth = {maps.id(), size, size}, .projection = cascades}};
+    ParamSet params = renderer.params();
+    params.set("technique", std::string("reading"));
+    params.set("depth_sums.halvings", halvings);
+    renderer.render(scene, params, [&light](shadow::Inputs& inputs) { inputs.lights = std::span(&light, 1); });
+  }
+
+  // Sums of depth and of its square over table texels from (x0, y0) up to but without (x1, y1).
+  static std::pair<std::uint64_t, std::uint64_t> inside(int layer, int side, int x0, int y0, int x1, int y1) {
+    const auto at = [&](int x, int y, size_t channel) -> std::uint64_t {
+      if (x == 0 || y == 0) return 0;
+      const std::vector<unsigned>& table = sums.at(static_cast<size_t>(layer));
+      const size_t texel = 4 * (static_cast<size_t>(y - 1) * static_cast<size_t>(side) + static_cast<size_t>(x - 1));
+      return table.at(texel + channel) | static_cast<std::uint64_t>(table.at(texel + channel + 1)) << 32;
+    };
+    const auto sum = [&](size_t channel) {
+      return at(x1, y1, channel) - at(x0, y1, channel) - at(x1, y0, channel) + at(x0, y0, channel);
+    };
+    return {sum(0), sum(2)};
+  }
+  // The fixed-point number of depth 1.
+  static double most(int size) { return std::exp2(32 - std::bit_width(static_cast<unsigned>(size - 1) | 1u)) - 1; }
+
+  TriangleRenderer renderer{registry()};
+};
+
+TEST_F(DepthSums, EachTexelComesBackFromTheTableOfAnySize) {
+  for (const int size : {2, 3, 64, 255, 257, 700}) {
+    const std::vector<std::vector<float>> layers{random_depths(size, 1), random_depths(size, 2)};
+    make(layers, size, 0);
+    for (int layer = 0; layer < 2; ++layer) {
+      for (int i = 0; i < size * size; ++i) {
+        const int x = i % size, y = i / size;
+        const auto [depth, square] = inside(layer, size, x, y, x + 1, y + 1);
+        const double exact =
+            static_cast<double>(layers[static_cast<size_t>(layer)][static_cast<size_t>(i)]) * most(size);
+        ASSERT_NEAR(static_cast<double>(depth), exact, 0.51 + exact * 1e-7) << size << ": " << x << ", " << y;
+        ASSERT_EQ(square, depth * depth) << size << ": " << x << ", " << y;
+      }
+    }
+  }
+}
+
+TEST_F(DepthSums, RectanglesOfALargeMapAreThoseOfDoubles) {
+  constexpr int size = 4096;
+  const std::vector<float> depths = random_depths(size, 3);
+  for (const int halvings : {1, 3}) {
+    make({depths}, size, halvings);
+    const int side = size >> halvings;
+    std::mt19937 random(4);
+    std::uniform_int_distribution<int> corner(0, side - 1), small(1, 6);
+    for (int i = 0; i < 300; ++i) {
+      int x0 = corner(random), y0 = corner(random), x1 = x0 + small(random), y1 = y0 + small(random);
+      if (i % 3 == 0) x1 = x0 + 1 + corner(random) / 8;
+      if (i == 0) x0 = y0 = 0, x1 = y1 = side;
+      x1 = std::min(x1, side), y1 = std::min(y1, side);
+      double depth = 0, square = 0;
+      for (int y = y0 << halvings; y < y1 << halvings; ++y) {
+        for (int x = x0 << halvings; x < x1 << halvings; ++x) {
+          const double one = static_cast<double>(depths[static_cast<size_t>(y * size + x)]) * most(size);
+          depth += one;
+          square += one * one;
+        }
+      }
+      const auto [found, found_square] = inside(0, side, x0, y0, x1, y1);
+      // The roundings of single texels, at most half a step each, add up as those of a random walk.
+      const double texels = static_cast<double>(x1 - x0) * (y1 - y0) * (1 << (2 * halvings));
+      ASSERT_NEAR(static_cast<double>(found), depth, 2 * std::sqrt(texels));
+      ASSERT_NEAR(static_cast<double>(found_square), square, 4 * most(size) * std::sqrt(texels));
+    }
+  }
+}
+
+TEST_F(DepthSums, GreatestDepthsAreExactAtEveryLevel) {
+  for (const int size : {4, 30, 64, 100}) {
+    std::vector<float> depths = random_depths(size, 5);
+    for (float& depth : depths) depth *= 0.5f;
+    make({depths}, size, 1);
+    for (size_t level = 0; level < greatest.at(0).size(); ++level) {
+      const std::vector<float>& found = greatest[0][level];
+      const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(found.size()))));
+      const int block = 4 << level;
+      for (int i = 0; i < side * side; ++i) {
+        const int x0 = i % side * block, y0 = i / side * block;
+        float expected = std::max(x0, y0) + block > size ? 1.0f : 0.0f;
+        for (int y = y0; y < std::min(y0 + block, size); ++y) {
+          for (int x = x0; x < std::min(x0 + block, size); ++x)
+            expected = std::max(expected, depths[static_cast<size_t>(y * size + x)]);
+        }
+        ASSERT_EQ(found[static_cast<size_t>(i)], expected) << size << ", level " << level << ", " << i;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test

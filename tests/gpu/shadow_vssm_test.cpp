@@ -1,0 +1,63 @@
+// What variance soft shadow maps promise where means and variances alone would fail.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <string>
+
+#include "gpu/triangle_scene.h"
+
+namespace penumbra::test {
+namespace {
+
+class Vssm : public TriangleTest {
+ protected:
+  Shadowed draw(const TriangleScene& scene, float angle) {
+    ParamSet params = renderer_->params();
+    params.set("technique", std::string("vssm"));
+    params.set("sun.angle", angle);
+    params.set("cascades.count", 1);
+    params.set("cascades.size", 512);
+    return renderer_->render(scene, params);
+  }
+};
+
+// A ground seen from above, and casters whose shadows fall elsewhere: so that the maps' depths reach far.
+TriangleScene ground(float elevation) {
+  TriangleScene scene;
+  scene.add_quad({-20, 0, -20}, {0, 0, 40}, {40, 0, 0});
+  scene.to_light = sun_direction(70, elevation);
+  scene.view = glm::lookAt(glm::vec3(0, 8, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+  scene.projection = orthographic(3, 3, 0.1f, 10);
+  return scene;
+}
+
+TEST_F(Vssm, UnshadowedPlanesAreFullyLitHoweverTilted) {
+  for (const float elevation : {15.0f, 30.0f, 60.0f, 90.0f}) {
+    for (const float angle : {0.53f, 2.0f, 8.0f}) {
+      TriangleScene scene = ground(elevation);
+      scene.add_box({-18, 0, -18}, {-17, 5, -17});
+      for (const float visibility : draw(scene, angle).visibilities())
+        ASSERT_EQ(visibility, 1) << "elevation " << elevation << ", sun of " << angle << " degrees";
+    }
+  }
+}
+
+// Roofs at two heights: their depths vary within a kernel, for which Chebyshev's inequality alone lets light through.
+TEST_F(Vssm, UnderRoofsAtTwoHeightsItIsDark) {
+  for (const float elevation : {60.0f, 90.0f}) {
+    for (const float angle : {0.53f, 2.0f, 8.0f}) {
+      TriangleScene scene = ground(elevation);
+      const glm::vec3 beside = scene.to_light / scene.to_light.y;
+      const glm::vec3 low = 10.0f * beside, high = 15.0f * beside;
+      scene.add_quad({low.x - 15, 10, low.z - 15}, {0, 0, 30}, {15.5f, 0, 0});
+      scene.add_quad({high.x, 15, high.z - 15}, {0, 0, 30}, {15, 0, 0});
+      for (const float visibility : draw(scene, angle).visibilities())
+        ASSERT_EQ(visibility, 0) << "elevation " << elevation << ", sun of " << angle << " degrees";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
