@@ -119,7 +119,8 @@ TriangleScene lit_crease(float azimuth, float elevation) {
 }
 
 TEST_F(ShadowBias, LitFacesDoNotShadowEachOtherWhereTheyMeet) {
-  for (const std::string technique : {"hard", "pcss", "slices", "backprojection", "vssm", "brute_force", "every texel"}) {
+  for (const std::string technique :
+       {"hard", "pcss", "slices", "backprojection", "vssm", "brute_force", "every texel"}) {
     for (const float azimuth : {270.0f, 310.0f, 200.0f}) {
       for (const float elevation : {10.0f, 35.0f, 60.0f, 80.0f}) {
         const TriangleScene scene = lit_crease(azimuth, elevation);

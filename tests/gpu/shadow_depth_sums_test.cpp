@@ -95,9 +95,7 @@ class DepthSums : public GpuTest {
     return {sum(0), sum(2)};
   }
   // The fixed-point number of depth 1.
-  static double most(int size) {
-    return std::exp2(32 - std::bit_width(static_cast<unsigned>(size - 1) | 1u)) - 1;
-  }
+  static double most(int size) { return std::exp2(32 - std::bit_width(static_cast<unsigned>(size - 1) | 1u)) - 1; }
 
   TriangleRenderer renderer{registry()};
 };
@@ -110,7 +108,8 @@ TEST_F(DepthSums, EachTexelComesBackFromTheTableOfAnySize) {
       for (int i = 0; i < size * size; ++i) {
         const int x = i % size, y = i / size;
         const auto [depth, square] = inside(layer, size, x, y, x + 1, y + 1);
-        const double exact = static_cast<double>(layers[static_cast<size_t>(layer)][static_cast<size_t>(i)]) * most(size);
+        const double exact =
+            static_cast<double>(layers[static_cast<size_t>(layer)][static_cast<size_t>(i)]) * most(size);
         ASSERT_NEAR(static_cast<double>(depth), exact, 0.51 + exact * 1e-7) << size << ": " << x << ", " << y;
         ASSERT_EQ(square, depth * depth) << size << ": " << x << ", " << y;
       }

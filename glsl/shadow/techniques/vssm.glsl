@@ -1,5 +1,5 @@
-// Variance soft shadow maps: both steps of percentage-closer soft shadows read a kernel's mean depth and variance from a
-// summed-area table. See docs/techniques.md.
+// Variance soft shadow maps: both steps of percentage-closer soft shadows read the mean and the variance of depth in a
+// kernel from a summed-area table. See docs/techniques.md.
 #include "shadow/search.glsl"
 #include "shadow/sampling.glsl"
 #include "shadow/depth_moments.glsl"

@@ -7,8 +7,8 @@ namespace {
 
 constexpr int invocations = 64;  // of a work group, which sums a row or a column
 
-// RGBA32UI; texel (x, y) holds the sums over all blocks from (0, 0) to (x, y): of depth in fixed point, lower and higher
-// word, and of its square.
+// RGBA32UI; texel (x, y) holds the sums over all blocks from (0, 0) to (x, y): of depth in fixed point, lower and
+// higher word, and of its square.
 const gl::Texture& build(const PassContext& context) {
   const LightProjection& projection = context.frame().projection;
   const int halvings = context.params().get_int("depth_sums.halvings");
@@ -38,8 +38,9 @@ Recipe depth_sums() {
   return {
       .name = "depth_sums",
       .summary = "Summed-area table of stored depth and of its square, as integers modulo 2^64, which lose nothing.",
-      .source = "Hensley et al. 2005, Fast summed-area table generation; Lauritzen 2007, Summed-area variance shadow "
-                "maps",
+      .source =
+          "Hensley et al. 2005, Fast summed-area table generation; Lauritzen 2007, Summed-area variance shadow "
+          "maps",
       .params = {{"depth_sums.halvings", 1, 0, 3, "",
                   "How often the table's sides are half as long as the map's: with 1, a texel of the table, 16 bytes, "
                   "sums 2 × 2 texels of the map.",
