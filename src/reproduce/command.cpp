@@ -23,7 +23,7 @@ struct Entry {
 
 // In the order of the page.
 constexpr std::array figures{
-    Entry{section_2_2, 12}, Entry{section_2_3, 2}, Entry{figure_2_8, 1},  Entry{figure_2_9, 2},  Entry{figure_2_10, 1},
+    Entry{section_2_2, 12}, Entry{section_2_3, 3}, Entry{figure_2_8, 1},  Entry{figure_2_9, 2},  Entry{figure_2_10, 1},
     Entry{figure_2_11, 0},  Entry{figure_2_12, 0}, Entry{figure_2_13, 0}, Entry{figure_2_14, 2}, Entry{figure_4_1, 3},
     Entry{figure_4_2, 6},   Entry{figure_4_3, 4},  Entry{figure_4_4, 4},  Entry{figure_4_5, 4},  Entry{figure_4_6, 2},
     Entry{figure_4_7, 12},  Entry{figure_4_8, 3},  Entry{figure_4_9, 5},  Entry{figure_4_10, 3}, Entry{figure_4_11, 1},

@@ -1,5 +1,5 @@
-// Variance soft shadow maps: both steps of percentage-closer soft shadows read a kernel's mean depth and variance from
-// a summed-area table. See docs/techniques.md.
+// Variance soft shadow maps: both steps of percentage-closer soft shadows read the mean and the variance of depth in a
+// kernel from a summed-area table. See docs/techniques.md.
 #include "shadow/search.glsl"
 #include "shadow/sampling.glsl"
 #include "shadow/depth_moments.glsl"
@@ -89,7 +89,8 @@ bool share_by_moments(Receiver receiver, vec2 offset, vec2 half_width, float bia
   float in_front = blocking - moments.mean;
   share = Share(0.0, 0.0);
   // As flat as the receiver: nothing else is in it.
-  if (in_front <= 0.0) return variance <= 0.4 * tilt * tilt + bias * bias;
+  bool flat_part = variance <= 0.4 * tilt * tilt + bias * bias;
+  if (in_front <= (flat_part ? 0.2 * tilt + bias : 0.0)) return flat_part;
   float behind = greatest_near(middle, max(half_width.x, half_width.y), light) - receiver.position.z - blocking;
   // (2.22) and (2.23), solved for the blockers' mean height.
   float height = in_front + variance / in_front;
@@ -153,7 +154,9 @@ Visibility visibility(Receiver receiver, Light light) {
   bool dark = greatest_near(receiver.position, reach, light) < least_blocking;
   Share found = kernel_share(receiver, search.radius, blocker_step, bias, light);
   // Near the receiver the cone is narrow, so that a search of a wide disc can miss a blocker that touches the receiver.
-  if (found.hidden <= 0.0) found = compared_texels(receiver, vec2(0.0), bias, light);
+  // Less than this share is what roundness of the ground looks like; no height can be taken from it.
+  const float least_found = 0.004;
+  if (found.hidden < least_found) found = compared_texels(receiver, vec2(0.0), bias, light);
   if (found.hidden <= 0.0 && !dark) return fully_lit();
   float mean = clamp(found.height_sum / max(found.hidden, 1e-6), 0.0, receiver.position.z - search.nearest);
   float penumbra = penumbra_radius(receiver, mean, light);
