@@ -93,7 +93,9 @@ TEST_F(ShadowForward, EveryTechniqueServesAnEnginesShaderWithNamesOfItsOwn) {
   for (const shadow::Technique& technique : renderer.shadows().registry().techniques()) {
     params.set("technique", technique.name);
     const std::vector<float> mask = renderer.render(box_on_ground(), params).visibilities();
-    EXPECT_LT(mean_difference(drawn_forward(renderer, params), mask), rounding) << technique.name;
+    // A stand-in is another method.
+    const double allowed = technique.stand_in.empty() ? rounding : 4 * rounding;
+    EXPECT_LT(mean_difference(drawn_forward(renderer, params), mask), allowed) << technique.name;
     if (technique.name == "none") continue;
     EXPECT_GT(mean_difference(mask, std::vector<float>(mask.size(), 1)), 10 * rounding) << "there is a shadow";
   }
