@@ -21,12 +21,11 @@ TECHNIQUES = ("none", "hard", "shadow_volume", "pcf_hardware", "pcf_tent", "pcf"
               "brute_force", "hybrid")
 OPTIONS = ("--sun-angle", "1", "--size", "1280x720", "--warmup", "0", "--cost-frames", "3", "--set", "maps.keep=off")
 
-# What the report's page says of a plot's parts.
-STYLE = """<style>
-text { font: 13px sans-serif; fill: #333 } .axis-title { fill: #555 } path { fill: none }
-.grid { stroke: #e3e3e0 } .axis { stroke: #777 } .front { stroke: #b5541c; stroke-width: 1.8; stroke-dasharray: 5 4 }
-.dot { fill: #777; stroke: #fff; stroke-width: 1.5 } .dot.on-front { fill: #b5541c }
-</style><rect width='100%' height='100%' fill='#fff'/>"""
+# How the parts of a plot look, which the report's page says in its style sheet.
+LOOKS = {"grid": "fill='none' stroke='#e3e3e0'", "axis": "fill='none' stroke='#777'",
+         "front": "fill='none' stroke='#b5541c' stroke-width='1.8' stroke-dasharray='5 4'",
+         "dot": "fill='#777' stroke='#fff'", "dot on-front": "fill='#b5541c' stroke='#fff'",
+         "tick": "fill='#555'", "axis-title": "fill='#555'", "label": "fill='#222'"}
 
 
 def table(rows):
@@ -50,8 +49,10 @@ def sections(folder):
     for scene, plot in zip(scenes, plots):
         name = pathlib.Path(scene).stem
         opening, rest = plot.split(">", 1)
+        rest = re.sub("class='([^']*)'", lambda match: LOOKS[match.group(1)], rest)
         picture = PICTURES / f"comparison_{name}.svg"
-        picture.write_text(f"{opening} xmlns='http://www.w3.org/2000/svg'>{STYLE}{rest}\n", encoding="utf-8")
+        picture.write_text(f"{opening} xmlns='http://www.w3.org/2000/svg' font-family='sans-serif' font-size='13'>"
+                           f"<rect width='100%' height='100%' fill='#fff'/>{rest}\n", encoding="utf-8")
         text.append(f"## {name}\n\n![cost over error]({picture.relative_to(DOCUMENT.parent)})\n\n"
                     + table([row for row in rows if row["scene"] == scene]))
     return "\n\n".join(text)
