@@ -262,6 +262,30 @@ TEST_F(PrefilterTest, ReceiversThatFailExponentialsAreCompared) {
   };
   EXPECT_GE(mean_with("none"), 0.85);      // the far ground beside the shelf lights it
   EXPECT_LE(mean_with("threshold"), 0.6);  // the share of the kernel under the roof
+  EXPECT_NEAR(mean_with("greatest"), mean_with("threshold"), 0.02);
+}
+
+// Beside a narrow gap in a shelf, the exponential of the ground below the gap makes up for what a roof takes: the
+// result is below 1, and wrong. The greatest depth shows that the kernel reaches behind the receiver.
+TEST_F(PrefilterTest, TheGreatestDepthFindsWhatTheThresholdMisses) {
+  TriangleScene scene;
+  scene.add_quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+  scene.add_quad({-4, 0.02f, -4}, {0, 0, 8}, {3.9f, 0, 0});  // a shelf up to x = -0.1, little above the ground
+  scene.add_quad({-4, 3, -4}, {0, 0, 8}, {3.75f, 0, 0});     // its roof, up to x = -0.25
+  scene.width = 64;
+  scene.height = 4;
+  scene.view = glm::lookAt(glm::vec3(-0.22f, 2, 0), glm::vec3(-0.22f, 0, 0), glm::vec3(0, 0, -1));
+  scene.projection = orthographic(0.02f, 0.02f * 4 / 64, 0.1f, 2);
+  const auto middle = [&](const std::string& classification) {
+    ParamSet params = parameters("esm");
+    params.set("esm.classification", classification);
+    params.set("esm.threshold", 0.5f);
+    const Shadowed shadowed = renderer_->render(scene, params);
+    return static_cast<double>(shadowed.visibility(32, 1));
+  };
+  const double unclassified = middle("none");
+  EXPECT_NEAR(middle("threshold"), unclassified, 1e-6);
+  EXPECT_LT(middle("greatest"), unclassified - 0.05) << unclassified;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Exponential shadow maps (Annen et al. 2008): where nothing of the kernel lies behind the receiver, the depth test is
 // nearly exp(c · (z - d)), whose mean is exp(-c · d) times a mean that does not depend on the receiver.
 #include "shadow/prefiltered.glsl"
+#include "shadow/greatest_depth.glsl"
 #include "shadow/sampling.glsl"
 
 layout(binding = UNIT_esm_depths) uniform sampler2DArray esm_depths;
@@ -40,12 +41,25 @@ float compared_share(Receiver receiver, Light light) {
   return lit / float(esm_fallback_taps);
 }
 
+// Whether a part of the kernel may lie behind the receiver's plane, by more than what makes the result too great by the
+// threshold. The bound is over a square of texels at least as large as the kernel, so it never misses one.
+bool may_lie_before_depths(Receiver receiver, Light light) {
+  float radius = light.read_radius;
+  float deepest = receiver.position.z + radius * length(receiver.gradient);
+  float behind = greatest_near(receiver.position, radius, light) - deepest;
+  return stored_difference(behind, light) > log(1.0 + esm_threshold) / esm_exponent;
+}
+
+bool fails(float lit, Receiver receiver, Light light) {
+  if (esm_classification == esm_classification_none) return false;
+  if (esm_classification == esm_classification_threshold) return lit > 1.0 + esm_threshold;
+  return may_lie_before_depths(receiver, light);
+}
+
 Visibility visibility(Receiver receiver, Light light) {
   FilteredPlace place = filtered_place(esm_depths, receiver, esm_radius, esm_shrink, light);
   float depth = stored_of(receiver.position.z - depth_bias(receiver, light), light);
   float lit = filtered_exponential(place, depth, light);
-  if (esm_classification == esm_classification_threshold && lit > 1.0 + esm_threshold) {
-    lit = compared_share(receiver, light);
-  }
+  if (fails(lit, receiver, light)) lit = compared_share(receiver, light);
   return of_constant_kernel(min(lit, 1.0), esm_radius, receiver, light);
 }

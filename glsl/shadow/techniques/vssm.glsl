@@ -3,18 +3,9 @@
 #include "shadow/search.glsl"
 #include "shadow/sampling.glsl"
 #include "shadow/depth_moments.glsl"
-
-layout(binding = UNIT_greatest_depth_pyramid) uniform sampler2DArray greatest_pyramid;
+#include "shadow/greatest_depth.glsl"
 
 float read_radius(Receiver receiver, Light light) { return search_radius(receiver, light); }
-
-// Upper bound of the depth within a disc, metres.
-float greatest_near(vec3 position, float radius, Light light) {
-  int level = pyramid_level(position, radius, light, pyramid_base, textureQueryLevels(greatest_pyramid));
-  ivec2 last = max(last_texel(), 0) >> (level + 2);
-  vec4 stored = pyramid_texels(greatest_pyramid, position, radius, light, pyramid_base, level, last).x;
-  return stored_depth(max(max(stored.x, stored.y), max(stored.z, stored.w)), light);
-}
 
 // What is known of a part of the map.
 struct Share {
