@@ -33,7 +33,7 @@ void choose_b(const Panel& panel) {
       "The technique of picture B. Choosing one copies A's values; after that only sun, exposure and render options "
       "follow "
       "A. Truth and brute force are drawn without history and filters.");
-  const bool open = ImGui::BeginCombo("##b", current.c_str(), ImGuiComboFlags_HeightLarge);
+  const bool open = ImGui::BeginCombo("##b", current.c_str(), ImGuiComboFlags_HeightLargest);
   panel.widgets.mark("b");
   if (!open) return;
   for (const std::string& name : registry.names()) {

@@ -42,7 +42,7 @@ void choose_technique(const Panel& panel, ParamSet& params) {
     tooltip(summary);
   };
   row("technique", "How shadows are computed.");
-  const bool open = ImGui::BeginCombo("##technique", current.c_str(), ImGuiComboFlags_HeightLarge);
+  const bool open = ImGui::BeginCombo("##technique", current.c_str(), ImGuiComboFlags_HeightLargest);
   panel.widgets.mark("technique");
   if (!open) return;
   for (const shadow::Technique& technique : registry.techniques()) item(technique.name, technique.summary);
