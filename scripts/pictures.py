@@ -58,7 +58,8 @@ def patterns():
 
 def noises():
     return {f"noise_{name}": WIDE + FEW + ["--set", "pcss.filter_taps=1", "--set", f"sampling.noise={name}"]
-            for name in ("none", "white", "blue", "void_and_cluster", "interleaved_gradient")}
+            for name in ("none", "white", "blue", "void_and_cluster", "interleaved_gradient", "spatiotemporal",
+                         "heitz_belcour")}
 
 
 def filters():

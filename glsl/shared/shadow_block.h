@@ -31,7 +31,8 @@ struct ShadowBlock {
   vec4 viewport;           // xy: its lowest pixel; zw: size, pixels
   vec4 jitter;             // NDC; xy: of this frame; zw: of the last one
   vec4 pixel_size;         // xy: metres that a pixel spans where clip w is 1; zw: clip w is z · view z + w
-  vec4 noise_shift;        // toroidal shift of the noise; xy: blocker step; zw: filter step
+  vec4 noise_shift;        // toroidal shift of the noise's values; xy: blocker step; zw: filter step
+  ivec4 noise_place[2];    // of both steps; xy: pixels added to the pixel's; z: frame of the noise texture; w: of keys
   vec2 depth_to_ndc;       // x: scale; y: offset
   float sky_depth;         // stored depth of pixels that show nothing
   int octahedral_normals;  // 1: normals are octahedral; 0: xyz

@@ -9,6 +9,7 @@
 #include "image/write.h"
 #include "io/output_file.h"
 #include "shadow/noise.h"
+#include "shadow/sample_keys.h"
 #include "shadow/sampling.h"
 
 namespace penumbra::app {
@@ -40,7 +41,7 @@ std::uint64_t parse_seed(const std::string& text) {
   return static_cast<std::uint64_t>(cli::parse_count("--seed", text, 0, 1 << 30));
 }
 
-// 8-bit, unused channels 0.
+// 8-bit, unused channels 0; frames from top to bottom.
 void write_noise_png(const std::string& path, const shadow::NoiseTile& tile) {
   const int channels = tile.channels == 1 ? 1 : 3;
   std::vector<std::uint8_t> pixels(static_cast<std::size_t>(tile.count() * channels));
@@ -50,7 +51,7 @@ void write_noise_png(const std::string& path, const shadow::NoiseTile& tile) {
           static_cast<std::uint8_t>(tile.rank(pixel, c) * 256 / tile.count());
     }
   }
-  image::write_png(path, tile.size, tile.size, channels, pixels);
+  image::write_png(path, tile.size, tile.size * tile.frames, channels, pixels);
 }
 
 void write_noise_exr(const std::string& path, const shadow::NoiseTile& tile) {
@@ -60,21 +61,23 @@ void write_noise_exr(const std::string& path, const shadow::NoiseTile& tile) {
   for (int pixel = 0; pixel < tile.count(); ++pixel) {
     for (int c = 0; c < tile.channels; ++c) layer.pixels.push_back(tile.value(pixel, c));
   }
-  image::write_exr(path, tile.size, tile.size, std::span(&layer, 1));
+  image::write_exr(path, tile.size, tile.size * tile.frames, std::span(&layer, 1));
 }
 
-// Little-endian 16-bit ranks, as the library embeds them.
-void write_noise_ranks(const std::string& path, const shadow::NoiseTile& tile) {
+// Little-endian 16-bit numbers, as the library embeds them.
+void write_numbers(const std::string& path, const std::vector<std::uint16_t>& numbers) {
   std::string bytes;
-  for (const std::uint16_t rank : tile.ranks) {
-    bytes += static_cast<char>(rank & 0xffU);
-    bytes += static_cast<char>(rank >> 8U);
+  for (const std::uint16_t number : numbers) {
+    bytes += static_cast<char>(number & 0xffU);
+    bytes += static_cast<char>(number >> 8U);
   }
   io::write_text(path, bytes);
 }
 
-int parse_noise_size(const std::string& text) {
-  const int size = cli::parse_count("--size", text, shadow::least_noise_size, shadow::largest_noise_size);
+void write_noise_ranks(const std::string& path, const shadow::NoiseTile& tile) { write_numbers(path, tile.ranks); }
+
+int parse_noise_size(const std::string& text, int largest) {
+  const int size = cli::parse_count("--size", text, shadow::least_noise_size, largest);
   if (size % shadow::least_noise_size != 0) {
     cli::fail_usage("--size can't be '{}': it takes a multiple of {}", text, shadow::least_noise_size);
   }
@@ -93,7 +96,9 @@ int bake_noise(const Arguments& arguments) {
   app.add_option("--kind", kind, fmt::format("{}", fmt::join(shadow::noise_kinds(), ", ")))
       ->type_name("KIND")
       ->capture_default_str();
-  app.add_option("--size", size, "Side in pixels, a multiple of 16")->type_name("N")->capture_default_str();
+  app.add_option("--size", size, "Side in pixels, a multiple of 16 (spatiotemporal: at most 64)")
+      ->type_name("N")
+      ->capture_default_str();
   app.add_option("--channels", channels, "Values per pixel, 1 to 3")->type_name("N")->capture_default_str();
   app.add_option("--threads", threads, "Threads that compute; 0: one per core. The result is the same")
       ->type_name("N")
@@ -101,7 +106,8 @@ int bake_noise(const Arguments& arguments) {
   if (!cli::parse(app, arguments)) return 0;
   const std::string format = format_of(common.output, {".exr", ".png", ".u16"});
   cli::one_of("noise", kind, shadow::noise_kinds());
-  const int side = parse_noise_size(size);
+  const int side = parse_noise_size(
+      size, kind == "spatiotemporal" ? shadow::largest_spatiotemporal_size : shadow::largest_noise_size);
   const int values = cli::parse_count("--channels", channels, 1, shadow::most_noise_channels);
   const std::uint64_t seed = parse_seed(common.seed);
   const int most_threads = cli::parse_count("--threads", threads, 0, 1024);
@@ -115,6 +121,35 @@ int bake_noise(const Arguments& arguments) {
   fmt::print("wrote {} ({} noise, {} × {}, power of low over high frequencies", common.output, kind, tile.size,
              tile.size);
   for (int c = 0; c < tile.channels; ++c) fmt::print(" {:.2g}", shadow::low_to_high_power(tile, c));
+  fmt::print(")\n");
+  return 0;
+}
+
+int bake_keys(const Arguments& arguments) {
+  CLI::App app(
+      "Make a tile of keys by which the sample points of neighbouring pixels differ: blue noise of their errors",
+      "penumbra bake keys");
+  Common common;
+  std::string size = "64";
+  add_common(app, common, ".u16: x, y and order of each pixel's key, 16 bits each, little endian, row by row");
+  app.add_option("--size", size, "Side in pixels, a multiple of 16")->type_name("N")->capture_default_str();
+  if (!cli::parse(app, arguments)) return 0;
+  format_of(common.output, {".u16"});
+  const int side = parse_noise_size(size, shadow::largest_noise_size);
+  const std::uint64_t seed = parse_seed(common.seed);
+  io::check_writable(common.output);
+  cli::Progress progress(/* part= */ "", 100, !common.quiet);
+  const shadow::KeyTile tile =
+      shadow::make_sample_keys(side, seed, [&](double done) { progress.set_done(static_cast<int>(100 * done)); });
+  std::vector<std::uint16_t> numbers;
+  for (const shadow::SampleKey& key : tile.keys) numbers.insert(numbers.end(), {key.x, key.y, key.order});
+  write_numbers(common.output, numbers);
+  if (common.quiet) return 0;
+  fmt::print("wrote {} (keys, {} × {}, power of the error's low over high frequencies", common.output, side, side);
+  for (const int count : {1, 4, 16}) {
+    fmt::print("{} {:.2g} with {} samples", count == 1 ? "" : ",",
+               shadow::low_to_high_power(shadow::key_errors(tile, count, {0.6f, 0.8f}, 0.1f), side), count);
+  }
   fmt::print(")\n");
   return 0;
 }
@@ -158,15 +193,16 @@ int bake_points(const Arguments& arguments) {
 }  // namespace
 
 int run_bake(const Arguments& arguments) {
-  const std::vector<std::string> kinds{"noise", "points"};
-  if (arguments.empty()) cli::fail_usage("what to bake is missing: {}", fmt::join(kinds, " or "));
+  const std::vector<std::string> kinds{"noise", "keys", "points"};
+  if (arguments.empty()) cli::fail_usage("what to bake is missing: {}", fmt::join(kinds, ", "));
   const Arguments rest(arguments.begin() + 1, arguments.end());
   if (arguments.front() == "noise") return bake_noise(rest);
+  if (arguments.front() == "keys") return bake_keys(rest);
   if (arguments.front() == "points") return bake_points(rest);
   if (arguments.front() == "--help" || arguments.front() == "-h") {
     fmt::print(
-        "usage: penumbra bake noise|points [OPTIONS] -o FILE; see penumbra bake noise --help and penumbra bake points "
-        "--help\n");
+        "usage: penumbra bake noise|keys|points [OPTIONS] -o FILE; see penumbra bake noise --help, penumbra bake keys "
+        "--help and penumbra bake points --help\n");
     return 0;
   }
   cli::fail_unknown_usage("thing to bake", arguments.front(), kinds);

@@ -35,7 +35,7 @@ constexpr std::array table{
     Command{"compare", "Compare techniques with the truth: tables and an HTML page", compare::run},
     Command{"bench", "Measure what shadows cost, pass by pass", run_bench},
     Command{"reproduce", "Draw and measure the figures of the thesis again: an HTML page", reproduce::run},
-    Command{"bake", "Make noise tiles and sets of sample points", run_bake},
+    Command{"bake", "Make noise tiles, keys and sets of sample points", run_bake},
     Command{"help", "Explain a parameter, technique, filter, denoiser, product, AOV or sub-command", run_help},
     Command{"doctor", "Print which OpenGL backends work here", run_doctor},
 };

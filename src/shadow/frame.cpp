@@ -100,7 +100,7 @@ void draw_maps(const LightWork& work) {
 void upload_samples(const LightWork& work, const Technique& technique, const char* name) {
   if (technique.samples.empty()) return;
   const Samples::Tables wanted{.set = set_number(work.params(), static_cast<int>(work.state.age)),
-                               .rotated = rotates_samples(technique, work.params(), work.frame.shape)};
+                               .scramble = scramble_of(technique, work.params(), work.frame.shape)};
   LightState::SampleTables& tables = work.state.samples[technique.name];
   if (tables.buffer != nullptr && tables.holds == wanted && work.state.uploaded) return;
   const std::vector<glm::vec4> points = work.samples.tables(technique, work.params(), wanted);
@@ -121,7 +121,7 @@ void upload_blocks(const LightWork& work) {
   upload_samples(work, work.technique, "samples");
   if (&work.forward != &work.technique) upload_samples(work, work.forward, "samples of the stand-in");
   state.uploaded = true;
-  const LightTraits traits{.noise_shift = noise_shift(state.params, age), .last_jitter = work.view.last_jitter};
+  const LightTraits traits{.noise = noise_read(state.params, age), .last_jitter = work.view.last_jitter};
   state.shadow_block = &work.device.scratch(work.prefix() + "light", sizeof(glsl::ShadowBlock));
   gl::write_value(*state.shadow_block, shadow_block(work.inputs, work.frame, traits));
 }

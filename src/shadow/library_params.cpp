@@ -72,8 +72,10 @@ std::vector<Param> sampling_rows() {
            "What differs from pixel to pixel: a rotation of the points (disc suns) or a shift on the torus."),
       with_default(
           word(
-              "sampling.noise", {"none", "white", "blue", "void_and_cluster", "interleaved_gradient"},
-              "Tile of 64 × 64 pixels that sets each pixel's rotation or shift; none: all pixels use the same points."),
+              "sampling.noise",
+              {"none", "white", "blue", "void_and_cluster", "interleaved_gradient", "spatiotemporal", "heitz_belcour"},
+              "Tile of 64 × 64 pixels that sets each pixel's rotation or shift (none: all pixels use the same points), "
+              "or, heitz_belcour, which of Sobol's points it uses."),
           "blue"),
       word("sampling.blocker_sequence", sequences,
            "The blocker search's points from frame to frame: the same (still), shifted, or the next of 16 sets."),

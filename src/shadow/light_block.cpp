@@ -1,5 +1,7 @@
 #include "light_block.h"
 
+#include <algorithm>
+
 namespace penumbra::shadow {
 
 namespace {
@@ -7,9 +9,9 @@ namespace {
 // Offsets by the rules of std140; a test compares them with the driver's.
 static_assert(sizeof(glsl::LayerBlock) == 48);
 static_assert(offsetof(glsl::ShadowBlock, viewport) == 320);
-static_assert(offsetof(glsl::ShadowBlock, depth_to_ndc) == 384);
-static_assert(offsetof(glsl::ShadowBlock, light_extent) == 400);
-static_assert(offsetof(glsl::ShadowBlock, layers) == 496);
+static_assert(offsetof(glsl::ShadowBlock, depth_to_ndc) == 416);
+static_assert(offsetof(glsl::ShadowBlock, light_extent) == 432);
+static_assert(offsetof(glsl::ShadowBlock, layers) == 528);
 
 // ShadowBlock::pixel_size: metres that a pixel spans where clip w is 1, then factor and offset that give clip w from
 // view-space z.
@@ -34,7 +36,8 @@ glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, co
   block.viewport = {light.viewport.x, light.viewport.y, light.viewport.width, light.viewport.height};
   block.jitter = {inputs.view.jitter, traits.last_jitter};
   block.pixel_size = pixel_size(inputs.view.projection, light.viewport);
-  block.noise_shift = traits.noise_shift;
+  block.noise_shift = traits.noise.shift;
+  std::ranges::copy(traits.noise.place, block.noise_place);
   block.depth_to_ndc = zero_to_one ? glm::vec2(1, 0) : glm::vec2(2, -1);
   block.sky_depth = conventions.reversed_z ? 0.0f : 1.0f;
   block.octahedral_normals = conventions.octahedral_normals ? 1 : 0;

@@ -3,13 +3,14 @@
 #include <glm/glm.hpp>
 
 #include "light_frame.h"
+#include "samples.h"
 #include "shared/shadow_block.h"
 
 namespace penumbra::shadow {
 
 // Values for the uniform block that come from a light's state.
 struct LightTraits {
-  glm::vec4 noise_shift{0};  // see samples.h
+  NoiseRead noise;
   glm::vec2 last_jitter{0};
 };
 

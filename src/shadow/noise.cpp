@@ -53,18 +53,22 @@ std::vector<std::uint16_t> interleaved_gradient(int size, int channel, std::uint
   return ranks;
 }
 
-NoiseTile white(int size, int channels, std::uint64_t seed) {
-  NoiseTile tile{size, channels, std::vector<std::uint16_t>(static_cast<std::size_t>(size * size * channels))};
+NoiseTile white(int size, int channels, int frames, std::uint64_t seed) {
+  NoiseTile tile{.size = size, .channels = channels, .frames = frames, .ranks = {}};
+  tile.ranks.resize(static_cast<std::size_t>(tile.count() * channels));
   for (int channel = 0; channel < channels; ++channel) {
     set_channel(tile, channel, shuffled(tile.count(), channel_seed(seed, channel)));
   }
   return tile;
 }
 
-void check(int size, int channels) {
+void check(std::string_view kind, int size, int channels) {
   if (size < least_noise_size || size > largest_noise_size || size % least_noise_size != 0) {
     fail("noise of {0} × {0} pixels: the side is a multiple of {1} from {1} to {2}", size, least_noise_size,
          largest_noise_size);
+  }
+  if (kind == "spatiotemporal" && size > largest_spatiotemporal_size) {
+    fail("spatiotemporal noise of {0} × {0} pixels: it can have {1} × {1}", size, largest_spatiotemporal_size);
   }
   if (channels < 1 || channels > most_noise_channels) {
     fail("noise of {} channels: there can be 1 to {}", channels, most_noise_channels);
@@ -88,23 +92,26 @@ void transform(std::complex<double>* values, int size, int stride) {
 }  // namespace
 
 const std::vector<std::string>& noise_kinds() {
-  static const std::vector<std::string> kinds{"white", "blue", "void_and_cluster", "interleaved_gradient"};
+  static const std::vector<std::string> kinds{"white", "blue", "void_and_cluster", "interleaved_gradient",
+                                              "spatiotemporal"};
   return kinds;
 }
 
 NoiseTile make_noise(std::string_view kind, int size, int channels, std::uint64_t seed, int threads,
                      const NoiseProgress& progress) {
-  check(size, channels);
+  check(kind, size, channels);
   const auto report = [&](double done) {
     if (progress) progress(done);
   };
-  NoiseTile tile = white(size, channels, seed);
+  const int frames = kind == "spatiotemporal" ? spatiotemporal_frames : 1;
+  NoiseTile tile = white(size, channels, frames, seed);
   if (kind == "blue") {
     anneal(tile, seed, threads, report);
-  } else if (kind == "void_and_cluster") {
+  } else if (kind == "void_and_cluster" || kind == "spatiotemporal") {
     for (int channel = 0; channel < channels; ++channel) {
-      set_channel(tile, channel, void_and_cluster(size, channel_seed(seed, channel)));
-      report((channel + 1.0) / channels);
+      set_channel(tile, channel, void_and_cluster(size, frames, channel_seed(seed, channel), [&](double done) {
+                    report((channel + done) / channels);
+                  }));
     }
   } else if (kind == "interleaved_gradient") {
     for (int channel = 0; channel < channels; ++channel) {
@@ -118,24 +125,24 @@ NoiseTile make_noise(std::string_view kind, int size, int channels, std::uint64_
 
 NoiseTile built_in_noise(std::string_view kind) {
   const auto tile = [](const auto& ranks) {
-    return NoiseTile{built_in_noise_size, 2, std::vector<std::uint16_t>(ranks.begin(), ranks.end())};
+    const auto frames = static_cast<int>(ranks.size() / built_in_noise_values);
+    return NoiseTile{built_in_noise_side, 2, frames, std::vector<std::uint16_t>(ranks.begin(), ranks.end())};
   };
-  if (kind == "blue") return tile(blue_ranks);
-  if (kind == "void_and_cluster") return tile(void_and_cluster_ranks);
-  return make_noise(kind, built_in_noise_size, 2, 1);
+  if (kind == "blue") return tile(blue_tile);
+  if (kind == "void_and_cluster") return tile(void_and_cluster_tile);
+  if (kind == "spatiotemporal") return tile(spatiotemporal_tile);
+  return make_noise(kind, built_in_noise_side, 2, 1);
 }
 
-double low_to_high_power(const NoiseTile& tile, int channel) {
-  const int size = tile.size;
-  Row field;
-  for (int pixel = 0; pixel < tile.count(); ++pixel) field.emplace_back(tile.value(pixel, channel) - 0.5);
+double low_to_high_power(const std::vector<double>& picture, int size) {
+  Row field(picture.begin(), picture.end());
   for (int row = 0; row < size; ++row) transform(&field[static_cast<std::size_t>(row * size)], size, 1);
   for (int column = 0; column < size; ++column) transform(&field[static_cast<std::size_t>(column)], size, size);
   double low = 0;
   double high = 0;
   int lows = 0;
   int highs = 0;
-  for (int pixel = 1; pixel < tile.count(); ++pixel) {
+  for (int pixel = 1; pixel < size * size; ++pixel) {
     const int u = pixel % size;
     const int v = pixel / size;
     const double frequency = std::hypot(std::min(u, size - u), std::min(v, size - v)) / size;
@@ -149,6 +156,17 @@ double low_to_high_power(const NoiseTile& tile, int channel) {
     }
   }
   return (low / lows) / (high / highs);
+}
+
+double low_to_high_power(const NoiseTile& tile, int channel) {
+  const int pixels = tile.size * tile.size;
+  double sum = 0;
+  for (int frame = 0; frame < tile.frames; ++frame) {
+    std::vector<double> picture;
+    for (int pixel = 0; pixel < pixels; ++pixel) picture.push_back(tile.value(frame * pixels + pixel, channel) - 0.5);
+    sum += low_to_high_power(picture, tile.size);
+  }
+  return sum / tile.frames;
 }
 
 }  // namespace penumbra::shadow

@@ -104,8 +104,9 @@ const gl::ProgramDesc& PassContext::own_program(std::string_view program) const 
   const std::string key = fmt::format("{} {}", name_of(owner_.kind), owner_.name);
   auto own = state.programs.find(key);
   if (own == state.programs.end()) {
-    const bool rotated = owner_.technique != nullptr && rotates_samples(*owner_.technique, params(), work_.frame.shape);
-    own = state.programs.emplace(key, work_.programs.own(owner_, params(), rotated)).first;
+    const Scramble scramble =
+        owner_.technique != nullptr ? scramble_of(*owner_.technique, params(), work_.frame.shape) : Scramble::shift;
+    own = state.programs.emplace(key, work_.programs.own(owner_, params(), scramble)).first;
   }
   const std::string name = Programs::own_name(owner_, program);
   const auto found = std::ranges::find(own->second, name, &gl::ProgramDesc::name);

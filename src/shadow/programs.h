@@ -10,6 +10,7 @@
 #include "../core/params.h"
 #include "pass_context.h"
 #include "registry.h"
+#include "samples.h"
 
 namespace penumbra::shadow {
 
@@ -26,13 +27,13 @@ class Programs {
  public:
   Programs(gl::Device& device, const Registry& registry);
 
-  // The constants that a technique's GLSL is compiled with; `rotated`: see rotates_samples().
-  std::vector<gl::Define> defines(const Technique& technique, const ParamSet& params, bool rotated) const;
+  // The constants that a technique's GLSL is compiled with.
+  std::vector<gl::Define> defines(const Technique& technique, const ParamSet& params, Scramble scramble) const;
 
   // The variant of the program that runs a technique's visibility() for every pixel. Variants are separate programs,
   // not branches on a uniform, because a software rasteriser runs both sides of a branch.
   struct MaskForm {
-    bool rotated = true;
+    Scramble scramble = Scramble::rotate;
     bool compute = false;
     bool packed = false;   // packed texels and notes, for denoisers; else the mask itself
     bool history = false;  // packed, and the notes say whether the history is valid
@@ -54,7 +55,7 @@ class Programs {
   // The file that forward programs include for a technique's visibility().
   std::string forward_file(const Technique& technique) const;
   // The owner's `programs` with these parameters, ready to be compiled; own_name() is the name that each has then.
-  std::vector<gl::ProgramDesc> own(const PassOwner& owner, const ParamSet& params, bool rotated) const;
+  std::vector<gl::ProgramDesc> own(const PassOwner& owner, const ParamSet& params, Scramble scramble) const;
   static std::string own_name(const PassOwner& owner, std::string_view program);
 
   // The defines of every variant of a technique, and all programs of every technique, recipe, filter and denoiser.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec4.hpp>
 #include <map>
@@ -17,14 +18,24 @@ namespace penumbra::shadow {
 // The values of sampling.scramble and Technique::scramble.
 const std::vector<std::string>& scramble_names();
 
-// Whether a technique's sample points differ from pixel to pixel by a rotation (points on a disc) or by a toroidal
-// shift (points in the unit square).
-bool rotates_samples(const Technique& technique, const ParamSet& params, const LightShape& shape);
+// How a technique's sample points differ from pixel to pixel: by a rotation (points on a disc), by a toroidal shift
+// (points in the unit square), or by keys (see sample_keys.h).
+enum class Scramble { rotate, shift, keys };
+Scramble scramble_of(const Technique& technique, const ParamSet& params, const LightShape& shape);
+// All that it can be for some parameters and shape.
+std::vector<Scramble> scrambles_of(const Technique& technique);
 
-// The toroidal shift of a frame's noise texture: xy for the blocker step, zw for the filter step. Each seed and, for
-// steps that shift from frame to frame, each frame adds a point of a lattice (Roberts 2018, "The unreasonable
-// effectiveness of quasirandom sequences") that covers the torus evenly.
-glm::vec4 noise_shift(const ParamSet& params, int frame);
+// How a frame reads its noise texture, for the blocker step and the filter step.
+struct NoiseRead {
+  glm::vec4 shift{0};                 // toroidal shift of the values; xy: blocker step; zw: filter step
+  std::array<glm::ivec4, 2> place{};  // of each step; xy: pixels that are added to the pixel's; z: the texture's frame;
+                                      // w: the keys' frame
+};
+// Each seed and, for steps that shift from frame to frame, each frame adds a point of a lattice (Roberts 2018, "The
+// unreasonable effectiveness of quasirandom sequences") that covers the torus evenly to the values. Spatiotemporal
+// noise goes on to its next frame, and adds a point after its last one; samples by keys go on to the next ones of their
+// 256, and seeds move their tile.
+NoiseRead noise_read(const ParamSet& params, int frame);
 
 // The number of the point set that a frame uses: steps that change from frame to frame cycle through several sets.
 int set_number(const ParamSet& params, int frame);
@@ -45,13 +56,15 @@ class Samples {
 
   // The contents of the uniform block in sample_declarations().
   struct Tables {
-    int set = 0;           // see set_number()
-    bool rotated = false;  // see rotates_samples()
+    int set = 0;  // see set_number()
+    Scramble scramble = Scramble::shift;
 
     bool operator==(const Tables&) const = default;
   };
   std::vector<glm::vec4> tables(const Technique& technique, const ParamSet& params, const Tables& of);
-  // The noise texture of that kind: RG16, 64 × 64, tileable; "none": one texel of value 0.
+  // The noise texture of that kind: RGBA16, 64 × 64, tileable; spatiotemporal: one frame above another; "none": one
+  // texel of value 0. R and G: two values, 0 to 1. Where samples differ by keys, these are the coordinates of the first
+  // one; B: the key's y · 256 + x; A: its order; both over 65535.
   const gl::Texture& noise(const std::string& kind);
 
  private:

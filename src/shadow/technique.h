@@ -13,7 +13,7 @@ class PassContext;
 
 // Sample points that a technique's GLSL reads. For a set "blocker" the library generates
 //   vec2 blocker_point(int index, Scramble scramble, Light light); // in the light's shape (disc or square), -1..1
-//   Scramble blocker_scramble(Receiver receiver); // the pixel's rotation or shift of the set
+//   Scramble blocker_scramble(Receiver receiver); // how the pixel's points differ
 struct SampleSet {
   // Which parameters, sampling.blocker_* or sampling.filter_*, choose the set's pattern and how it changes from frame
   // to frame.

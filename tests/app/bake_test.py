@@ -1,4 +1,4 @@
-"""bake: noise tiles and sample points are the same for the same command, and what it refuses leaves no file."""
+"""bake: noise tiles, keys and sample points are the same for the same command, and what it refuses leaves no file."""
 
 import json
 import os
@@ -19,7 +19,8 @@ class Noise(TestCase):
 
     def test_the_same_command_gives_the_same_bytes(self):
         # Each kind, and each extension once: how noise is made does not depend on where it is written to.
-        for kind, extension in (("white", "exr"), ("white", "png"), ("blue", "u16"), ("void_and_cluster", "u16")):
+        for kind, extension in (("white", "exr"), ("white", "png"), ("blue", "u16"), ("void_and_cluster", "u16"),
+                                ("spatiotemporal", "exr")):
             command = ("--kind", kind, "--size", "16", "--seed", "7")
             first, _ = self.bake(f"a.{extension}", *command, "--threads", "1")
             again, _ = self.bake(f"b.{extension}", *command, "--threads", "3")
@@ -56,7 +57,25 @@ class Noise(TestCase):
             self.assertIn(value, error)
             self.assertEqual(self.refuse("bake", "noise", "-o", NOWHERE, option, value, code=2), error)
         self.assertIn(".txt", self.refuse("bake", "noise", "-o", self.folder / "tile.txt", code=2))
-        self.assertIn("noise or points", self.refuse("bake", code=2))
+        self.assertIn("64", self.refuse("bake", "noise", "--kind", "spatiotemporal", "--size", "80", "-o", path, code=2))
+        self.assertIn("noise, keys, points", self.refuse("bake", code=2))
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+class Keys(TestCase):
+    def test_the_same_command_gives_the_same_bytes(self):
+        baked = []
+        for name, seed in (("a.u16", "7"), ("b.u16", "7"), ("c.u16", "8")):
+            said = self.succeed("bake", "keys", "--size", "16", "--seed", seed, "-o", self.folder / name).stdout
+            self.assertRegex(said, r"keys, 16 × 16, .* 0\.\d+ with 1 samples")
+            baked.append((self.folder / name).read_bytes())
+        self.assertEqual(len(baked[0]), 16 * 16 * 3 * 2)
+        self.assertEqual(baked[0], baked[1])
+        self.assertNotEqual(baked[0], baked[2])
+
+    def test_refuses_what_it_cannot_make(self):
+        for name, size in (("a.u16", "24"), ("a.u16", "512"), ("a.png", "16")):
+            self.refuse("bake", "keys", "--size", size, "-o", self.folder / name, code=2)
         self.assertEqual(list(self.folder.iterdir()), [])
 
 

@@ -84,6 +84,7 @@ TEST_F(ShadowLayout, BlocksLieAsTheDriverReadsThem) {
   expect_offset(light, "shadow.viewport", offsetof(ShadowBlock, viewport));
   expect_offset(light, "shadow.jitter", offsetof(ShadowBlock, jitter));
   expect_offset(light, "shadow.noise_shift", offsetof(ShadowBlock, noise_shift));
+  expect_offset(light, "shadow.noise_place[0]", offsetof(ShadowBlock, noise_place));
   expect_offset(light, "shadow.depth_to_ndc", offsetof(ShadowBlock, depth_to_ndc));
   expect_offset(light, "shadow.sky_depth", offsetof(ShadowBlock, sky_depth));
   expect_offset(light, "shadow.octahedral_normals", offsetof(ShadowBlock, octahedral_normals));

@@ -147,7 +147,7 @@ class MovementLookUp : public MovementPyramid {
     gl::write_value(uniforms, block);
     const gl::Buffer storage = gl::Buffer::of("queries", std::span<const Query>(queries));
     gl::Pass pass(device, {.name = "look up"});
-    pass.use({.name = "look up", .compute = "test/look_up.comp", .defines = {{"SAMPLE_ROTATE", "1"}}});
+    pass.use({.name = "look up", .compute = "test/look_up.comp", .defines = {{"SAMPLE_SCRAMBLE", "0"}}});
     uniforms.bind_uniform(1);
     storage.bind_storage(0);
     map.bind(10);

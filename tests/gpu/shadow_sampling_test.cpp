@@ -59,7 +59,7 @@ std::vector<float> penumbra_radii(const Shadowed& shadowed) {
 }
 
 TEST_F(ShadowSampling, WithoutNoiseEveryPixelOfAColumnIsTheSame) {
-  for (const std::string noise : {"none", "white", "blue", "void_and_cluster"}) {
+  for (const std::string noise : {"none", "white", "blue", "void_and_cluster", "spatiotemporal", "heitz_belcour"}) {
     params_->set("sampling.noise", noise);
     const Shadowed shadowed = draw();
     int differ = 0;
@@ -158,6 +158,61 @@ TEST_F(ShadowSampling, FilteredBlueNoiseBeatsFilteredWhiteNoise) {
       std::printf("%s, %d filter taps: white %.1f dB, blue %.1f dB\n", pattern.c_str(), taps, white, blue);
       EXPECT_GE(blue, white + (taps == 1 ? 4 : 0)) << pattern << ", " << taps << " taps";
     }
+  }
+}
+
+// Keys are made for the errors themselves, and not for the points.
+TEST_F(ShadowSampling, FilteredKeysHaveLessErrorThanBlueNoise) {
+  params_->set("technique", std::string("brute_force"));
+  params_->set("brute_force.every_texel", true);
+  const std::vector<double> truth = blurred(draw().visibilities());
+  params_->set("technique", std::string("pcss"));
+  params_->set("pcss.blocker_taps", 64);
+  params_->set("sampling.scramble", std::string("shift"));
+  params_->set("sampling.filter_pattern", std::string("hammersley"));
+  for (const int taps : {1, 2, 4, 8, 16}) {
+    params_->set("pcss.filter_taps", taps);
+    const auto quality = [&](const char* noise) {
+      params_->set("sampling.noise", std::string(noise));
+      return psnr(blurred(draw().visibilities()), truth);
+    };
+    const double white = quality("white"), blue = quality("blue"), keys = quality("heitz_belcour");
+    std::printf("%d filter taps: white %.1f dB, blue %.1f dB, keys %.1f dB\n", taps, white, blue, keys);
+    EXPECT_GT(keys, blue + (taps == 1 ? -0.5 : 0.5)) << taps << " taps";
+  }
+}
+
+// The means of frames that follow each other, of one tap each, as they are and filtered.
+TEST_F(ShadowSampling, FramesOfKeysAndOfSpatiotemporalNoiseComplementEachOther) {
+  constexpr int frames = 16;
+  params_->set("technique", std::string("brute_force"));
+  params_->set("brute_force.every_texel", true);
+  const std::vector<float> exact = draw().visibilities();
+  params_->set("technique", std::string("pcss"));
+  params_->set("pcss.blocker_taps", 64);
+  params_->set("pcss.filter_taps", 1);
+  params_->set("sampling.scramble", std::string("shift"));
+  params_->set("sampling.filter_sequence", std::string("shift"));
+  struct Quality {
+    double as_is, filtered;
+  };
+  const auto quality = [&](const char* noise) {
+    params_->set("sampling.noise", std::string(noise));
+    std::vector<float> mean(exact.size());
+    for (int frame = 0; frame < frames; ++frame) {
+      const std::vector<float> drawn = (frame == 0 ? draw() : draw_next()).visibilities();
+      for (size_t i = 0; i < mean.size(); ++i) mean[i] += drawn[i] / frames;
+    }
+    const Quality found{.as_is = psnr({mean.begin(), mean.end()}, {exact.begin(), exact.end()}),
+                        .filtered = psnr(blurred(mean), blurred(exact))};
+    std::printf("%s: %.1f dB, filtered %.1f dB\n", noise, found.as_is, found.filtered);
+    return found;
+  };
+  const Quality blue = quality("blue");
+  for (const char* noise : {"spatiotemporal", "heitz_belcour"}) {
+    const Quality found = quality(noise);
+    EXPECT_GT(found.as_is, blue.as_is + 2) << noise;
+    EXPECT_GT(found.filtered, blue.filtered + 4) << noise;
   }
 }
 
