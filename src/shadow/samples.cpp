@@ -68,9 +68,13 @@ std::uint16_t unorm16(float value) { return static_cast<std::uint16_t>(std::lrou
 
 // The texels of Samples::noise().
 std::vector<std::uint16_t> texels_of(const NoiseTile& tile) {
+  const std::int64_t count = tile.count();
   std::vector<std::uint16_t> texels;
-  for (int pixel = 0; pixel < tile.count(); ++pixel)
-    texels.insert(texels.end(), {unorm16(tile.value(pixel, 0)), unorm16(tile.value(pixel, 1)), 0, 0});
+  for (int pixel = 0; pixel < count; ++pixel) {
+    for (int channel = 0; channel < 2; ++channel)
+      texels.push_back(static_cast<std::uint16_t>((2 * tile.rank(pixel, channel) + 1) * 65535LL / (2 * count)));
+    texels.insert(texels.end(), {0, 0});
+  }
   return texels;
 }
 
