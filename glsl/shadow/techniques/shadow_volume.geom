@@ -3,7 +3,7 @@
 #include "shadow/light_projection.glsl"
 
 layout(triangles) in;
-layout(triangle_strip, max_vertices = 6) out;
+layout(triangle_strip, max_vertices = 12) out;
 
 layout(std140, binding = 2) uniform Volumes {
   mat4 world_to_camera_clip;
@@ -13,9 +13,27 @@ layout(std140, binding = 2) uniform Volumes {
 // Triangles with a common edge must get the same positions for its ends, so that nothing is left between their volumes.
 invariant gl_Position;
 
-void emit(vec4 position) {
-  gl_Position = position;
+void emit(vec4 a, vec4 b, vec4 c) {
+  gl_Position = a;
   EmitVertex();
+  gl_Position = b;
+  EmitVertex();
+  gl_Position = c;
+  EmitVertex();
+  EndPrimitive();
+}
+
+// An order of positions, whichever: it is the same for both triangles of an edge.
+bool precedes(vec4 a, vec4 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.w < b.w; }
+
+// A side's depths are rounded in a way that depends on the corner with which it begins, and where the clipper cuts it
+// into several triangles, it does so from there. So both sides at a common edge begin with the same corner.
+void emit_side(vec4 from, vec4 to) {
+  if (precedes(from, to)) {
+    emit(from, to, apex);
+  } else {
+    emit(to, apex, from);
+  }
 }
 
 void main() {
@@ -29,10 +47,8 @@ void main() {
   // Seen from outside of the volume, the corners of each face are in counter-clockwise order.
   int second = along < 0.0 ? 1 : 2;
   vec4 last = corners[3 - second];
-  emit(corners[0]);
-  emit(corners[second]);
-  emit(last);
-  emit(apex);
-  emit(corners[0]);
-  emit(corners[second]);
+  emit(corners[0], corners[second], last);
+  emit_side(corners[second], corners[0]);
+  emit_side(last, corners[second]);
+  emit_side(corners[0], last);
 }

@@ -18,6 +18,10 @@ struct Volumes {
 };
 constexpr GLuint volumes_binding = block_samples;  // the technique has no sample points
 
+// The stencil of receivers in no volume. Where faces of a volume meet within the rasteriser's fraction of a pixel, one
+// that is entered behind a receiver can be left before it, which counts -1. This leaves room for it below.
+constexpr unsigned in_no_volume = 4;
+
 // From world space to the clip space whose depths, 0..1, are those of the receivers' texture.
 glm::mat4 world_to_depth(const Inputs& inputs) {
   glm::dmat4 projection(inputs.view.projection);
@@ -74,7 +78,7 @@ void count_volumes(const PassContext& context, const gl::Texture& depth_stencil)
                                    .depth_test = reversed ? gl::DepthTest::greater : gl::DepthTest::less,
                                    .stencil = gl::Stencil{.front = {.depth_fail = gl::StencilOp::decrement_wrap},
                                                           .back = {.depth_fail = gl::StencilOp::increment_wrap},
-                                                          .clear = 0},
+                                                          .clear = in_no_volume},
                                    .depth_clamp = true});
   pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
   volumes.bind_uniform(volumes_binding);
@@ -82,12 +86,12 @@ void count_volumes(const PassContext& context, const gl::Texture& depth_stencil)
 }
 
 void darken(const PassContext& context, const gl::Texture& depth_stencil) {
-  const gl::StencilFace inside{.test = gl::StencilTest::not_equal};
+  const gl::StencilFace inside{.test = gl::StencilTest::less};  // the reference is less than what is stored
   const Rect& viewport = context.frame().viewport;
   gl::Pass pass(context.device(), {.name = "shadowed receivers",
                                    .colors = {{.texture = &context.mask(), .layer = context.frame().layer}},
                                    .depth = gl::Attachment{.texture = &depth_stencil},
-                                   .stencil = gl::Stencil{.front = inside, .back = inside}});
+                                   .stencil = gl::Stencil{.front = inside, .back = inside, .reference = in_no_volume}});
   context.use(pass, "shadowed");
   pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
   pass.draw_full_screen();
