@@ -24,9 +24,10 @@ GLSL_FUNCTION vec2 exponential_warp(float depth, vec2 exponents) {
   return vec2(exp(exponents.x * depth), -exp(-exponents.y * depth));
 }
 
-// Largest exponent whose warp has a square that a float of so many bits can hold: half the logarithm of its largest
-// number.
-GLSL_FUNCTION float largest_exponent(int bits) { return bits == 16 ? 5.54f : 44.3f; }
+// Largest exponent whose warp has a square that a float of so many bits can hold. With 16 bits that is half the
+// logarithm of the largest number; with 32 bits it is less, so that also a sum of 100 squares is finite: compilers may
+// add texels before they multiply by a common weight.
+GLSL_FUNCTION float largest_exponent(int bits) { return bits == 16 ? 5.54f : 42.0f; }
 
 // Four moments of depths in -1..1, as 16 bits hold them with the least loss: two pairs, each turned so that the moments
 // of every distribution fill 0..1 (Peters and Klein 2015, for depths in 0..1). Of the even ones, b4 is at
@@ -50,7 +51,8 @@ GLSL_FUNCTION vec4 unpacked_moments(vec4 stored) {
 // distribution: Chebyshev's inequality on one side (Donnelly and Lauritzen 2006).
 GLSL_FUNCTION float chebyshev_bound(float value, float mean, float variance) {
   float above = value - mean;
-  return above <= 0.0f ? 1.0f : variance / (variance + above * above);
+  // The same as variance / (variance + above²), also if the variance is too large for a float, or both are 0 in it.
+  return above <= 0.0f ? 1.0f : 1.0f / (1.0f + above * above / max(variance, 1e-37f));
 }
 
 // What remains of a bound of visibility if all that is darker than `cut` becomes 0 (Lauritzen 2007, Summed-area

@@ -45,16 +45,18 @@ const int most_points_in_a_row = 8;
 FilteredPlace filtered_place(sampler2DArray map, Receiver receiver, float radius, int shrink, Light light) {
   float side = float(textureSize(map, 0).x);
   vec2 texel = texel_extent(receiver, light) * float(shrink);
-  float least = exp2(float(kernel_level(radius / min(texel.x, texel.y), textureQueryLevels(map))));
+  // A little more than the radius: rounding must not lead to a finer level than the one that was filtered.
+  int finest = kernel_level(1.0001 * radius / min(texel.x, texel.y), textureQueryLevels(map));
   PixelSteps steps = pixel_steps(receiver);
   vec2 right = map_offset(steps.right, light) / float(shrink), up = map_offset(steps.up, light) / float(shrink);
   vec2 longer = length(right) > length(up) ? right : up;
-  float across = max(min(length(right), length(up)), least);
+  float across = max(min(length(right), length(up)), exp2(float(finest)));
   int points = clamp(int(ceil(length(longer) / across)), 1, most_points_in_a_row);
   across = max(across, length(longer) / float(points));
   vec2 next = longer / (float(points) * side);
   vec2 at = map_place(receiver.position, light) / (float(shrink) * side);
-  return FilteredPlace(at - 0.5 * float(points - 1) * next, next, points, log2(across));
+  float level = clamp(log2(across), float(finest), float(textureQueryLevels(map) - 1));
+  return FilteredPlace(at - 0.5 * float(points - 1) * next, next, points, level);
 }
 
 // By a shift: software renderers answer textureSize() for one level in all pixels that they shade together.
@@ -79,13 +81,14 @@ vec4 filtered_texel(sampler2DArray map, FilteredPlace place, int slice, int slic
   slice += light.layer * slices;
   int level = int(place.level);
   float coarser = place.level - float(level);
-  vec4 sum = vec4(0.0);
+  vec2 share = vec2(1.0 - coarser, coarser) / float(place.points);
+  vec4 mean = vec4(0.0);
   for (int i = 0; i < place.points; ++i) {
     vec2 at = place.first + float(i) * place.next;
-    sum += (1.0 - coarser) * level_texel(map, at, slice, level);
-    if (coarser > 0.0) sum += coarser * level_texel(map, at, slice, min(level + 1, textureQueryLevels(map) - 1));
+    mean += share.x * level_texel(map, at, slice, level);
+    if (coarser > 0.0) mean += share.y * level_texel(map, at, slice, level + 1);
   }
-  return sum / float(place.points);
+  return mean;
 }
 
 // What a technique returns that filters with a kernel of constant radius.

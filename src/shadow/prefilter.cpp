@@ -13,7 +13,21 @@ namespace penumbra::shadow {
 
 namespace {
 
-constexpr int most_taps = 9;  // on one side of a kernel's centre, and the centre
+constexpr int most_taps = 9;    // on one side of a kernel's centre, and the centre
+constexpr int most_block = 16;  // texels of the map along each side that one invocation averages
+
+// Of a texel and its neighbours on one side, by distance. With those of the other side they add up to 1, so that no
+// weighted sum exceeds the greatest value: the squares of warped depths use the whole range of a float.
+std::array<float, most_taps> kernel_weights(float radius) {
+  std::array<float, most_taps> weights{glsl::kernel_weight(0)};
+  float sum = weights[0];
+  for (size_t i = 1; i < weights.size() && radius > 0; ++i) {
+    weights[i] = glsl::kernel_weight(static_cast<float>(i) / radius);
+    sum += 2 * weights[i];
+  }
+  for (float& weight : weights) weight /= sum;
+  return weights;
+}
 
 std::string radius_of(const FilteredMap& map) { return map.prefix + ".radius"; }
 std::string shrink_of(const FilteredMap& map) { return map.prefix + ".shrink"; }
@@ -29,7 +43,10 @@ class LayerPasses {
   void fill(int shrink, float radius) {
     const glm::vec2 texel = context_.frame().projection.texel(layer_) * static_cast<float>(shrink);
     const int level = glsl::kernel_level(radius / std::min(texel.x, texel.y), filtered_.desc().levels);
-    from_depth(level, shrink << level);
+    int first = 0;
+    while (first < level && shrink << (first + 1) <= most_block) ++first;
+    from_depth(first, shrink << first);
+    for (int coarser = first + 1; coarser <= level; ++coarser) halve(coarser);
     const glm::vec2 texels = radius / (texel * std::exp2(static_cast<float>(level)));
     if (std::max(texels.x, texels.y) > 1) {
       const gl::Texture& rows = context_.target("rows", {.target = GL_TEXTURE_2D_ARRAY,
@@ -72,10 +89,8 @@ class LayerPasses {
     program.set("source_level", level);
     program.set("first_slices", glm::ivec2(from.slice, to.slice));
     program.set("axis", axis);
-    for (int i = 0; i < most_taps; ++i) {
-      const float weight = i == 0 ? 1 : radius > 0 ? glsl::kernel_weight(static_cast<float>(i) / radius) : 0;
-      program.set(fmt::format("weights[{}]", i), i == 0 ? glsl::kernel_weight(0) : weight);
-    }
+    const std::array<float, most_taps> weights = kernel_weights(radius);
+    for (size_t i = 0; i < weights.size(); ++i) program.set(fmt::format("weights[{}]", i), weights[i]);
     dispatch(to.texture, level);
   }
 
@@ -137,10 +152,6 @@ Recipe filtered_map(const FilteredMap& map) {
           .summary = map.summary,
           .source = map.source,
           .params = params_of(map),
-          .sampler = map.sampled ? gl::SamplerDesc{.min_filter = GL_LINEAR_MIPMAP_NEAREST,
-                                                   .mag_filter = GL_LINEAR,
-                                                   .max_anisotropy = 8}
-                                 : gl::SamplerDesc{},
           .depends_only_on_needs = true,
           .build = [map](const PassContext& context) -> const gl::Texture& { return build(map, context); },
           .programs =

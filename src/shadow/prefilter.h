@@ -10,13 +10,14 @@ namespace penumbra::shadow {
 
 // A filtered map: an array of 2D textures that holds, in one or more slices for each layer of a light's shadow map, the
 // mean of functions of the stored depth (0 to 1) over a kernel of constant radius in metres, and over wider ones in its
-// coarser levels.
+// coarser levels. Readers fetch texels and interpolate these themselves (glsl/shadow/prefiltered.glsl).
 //
 // Filtering depends on the function alone, so that all such products have the same passes: the mean over blocks of the
 // map's texels, a separable Gaussian whose standard deviation is half the radius and which ends at the radius, and a
 // chain of levels. Each layer is filtered at the level at which the radius is 4 to 8 texels (kernel_level() in
-// glsl/lib/prefilter.glsl), or level 0 if it is smaller there; its finer levels are not filled. A texture's side is a
-// power of two: texels beyond the shadow map are those of an empty map.
+// glsl/lib/prefilter.glsl), or level 0 if it is smaller there; nothing may read its finer levels, which are not
+// filtered, or not filled at all. A texture's side is a power of two: texels beyond the shadow map are those of an
+// empty map.
 struct FilteredMap {
   std::string name;    // of the recipe
   std::string prefix;  // of its parameters, PREFIX.radius and PREFIX.shrink
@@ -32,8 +33,6 @@ struct FilteredMap {
   // The means are those of exponentials: see glsl/shadow/prefilter/mean.glsl.
   bool log_space = false;
   float radius = 0.05f;  // default, metres; 0: there is no such parameter, and level 0 is not filtered
-  // False: readers fetch texels and filter these themselves.
-  bool sampled = true;
 };
 
 Recipe filtered_map(const FilteredMap& map);

@@ -11,7 +11,7 @@ layout(binding = 0) uniform writeonly restrict image2DArray target;
 uniform int source_level;
 uniform ivec2 first_slices;  // of the source and of the target
 uniform ivec2 axis;
-uniform float weights[9];  // by distance from the centre, texels; 0 beyond the kernel
+uniform float weights[9];  // by distance from the centre, texels; 0 beyond the kernel; they add up to 1
 
 void main() {
   ivec3 at = ivec3(gl_GlobalInvocationID);

@@ -14,9 +14,10 @@ void main() {
   if (any(greaterThanEqual(at.xy, imageSize(level).xy))) return;
   Light light = with_layer(frame_light(), map_layer);
   Mean mean = no_mean();
+  float share = 1.0 / float(block * block);
   for (int y = 0; y < block; ++y) {
     for (int x = 0; x < block; ++x) {
-      mean = with_value(mean, of_depth(stored_at(at.xy * block + ivec2(x, y), light), at.z), 1.0);
+      mean = with_value(mean, of_depth(stored_at(at.xy * block + ivec2(x, y), light), at.z), share);
     }
   }
   imageStore(level, ivec3(at.xy, first_slice + at.z), result_of(mean));

@@ -16,7 +16,7 @@ void main() {
   at.z += first_slice;
   Mean mean = no_mean();
   for (int i = 0; i < 4; ++i) {
-    mean = with_value(mean, texelFetch(source, ivec3(2 * at.xy + ivec2(i & 1, i >> 1), at.z), finer_level), 1.0);
+    mean = with_value(mean, texelFetch(source, ivec3(2 * at.xy + ivec2(i & 1, i >> 1), at.z), finer_level), 0.25);
   }
   imageStore(level, at, result_of(mean));
 }

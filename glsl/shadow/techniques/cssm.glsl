@@ -19,6 +19,7 @@ Square square_around(Receiver receiver, float radius, Light light) {
   float side = float(textureSize(cssm_waves, 0).x * cssm_shrink);
   vec2 texels = radius / texel_extent(receiver, light);
   float level = log2(max(max(texels.x, texels.y) / float(cssm_shrink), 1.0));
+  level = min(level, float(textureQueryLevels(cssm_waves) - 1));
   return Square(map_place(receiver.position, light) / side, 0.5 * texels / side, level);
 }
 

@@ -13,8 +13,7 @@ Recipe esm_depths() {
                                    "Factor of a layer's stored depth, 0 to 1, in the exponential: the greater, the "
                                    "less light leaks, and the more receivers fail.",
                                    ParamBinding::uniform}},
-                       .log_space = true,
-                       .sampled = false});
+                       .log_space = true});
 }
 
 }  // namespace penumbra::shadow

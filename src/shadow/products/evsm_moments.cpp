@@ -24,9 +24,9 @@ Recipe evsm_moments() {
             .help = "Format of a moment.",
             .binding = compiled,
             .choices = {"float32", "float16"}},
-           {"evsm.positive", 40.0f, 0, 44, "",
+           {"evsm.positive", 40.0f, 0, 42, "",
             "Exponent of the warp that grows towards far depths; at most 5.54 in float16.", uniform},
-           {"evsm.negative", 8.0f, 0, 44, "",
+           {"evsm.negative", 8.0f, 0, 42, "",
             "Exponent of the warp that grows towards near depths; at most 5.54 in float16.", uniform}}});
 }
 
