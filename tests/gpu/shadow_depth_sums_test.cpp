@@ -95,7 +95,9 @@ class DepthSums : public GpuTest {
     return {sum(0), sum(2)};
   }
   // The fixed-point number of depth 1.
-  static double most(int size) { return std::exp2(32 - std::bit_width(static_cast<unsigned>(size - 1) | 1u)) - 1; }
+  static double most(int size) {
+    return std::exp2(std::min(32 - static_cast<int>(std::bit_width(static_cast<unsigned>(size - 1) | 1u)), 24)) - 1;
+  }
 
   TriangleRenderer renderer{registry()};
 };
@@ -114,6 +116,17 @@ TEST_F(DepthSums, EachTexelComesBackFromTheTableOfAnySize) {
         ASSERT_EQ(square, depth * depth) << size << ": " << x << ", " << y;
       }
     }
+  }
+}
+
+// Of a map of empty texels the sum of squares is as large as it can be.
+TEST_F(DepthSums, EmptyMapsDoNotOverflow) {
+  for (const int size : {2, 16, 128, 256, 512}) {
+    make({std::vector<float>(static_cast<size_t>(size) * static_cast<size_t>(size), 1.0f)}, size, 0);
+    const auto [depth, square] = inside(0, size, 0, 0, size, size);
+    const double texels = static_cast<double>(size) * size;
+    EXPECT_EQ(static_cast<double>(depth), texels * most(size)) << size;
+    EXPECT_NEAR(static_cast<double>(square) / (texels * most(size) * most(size)), 1, 1e-9) << size;
   }
 }
 
