@@ -134,11 +134,14 @@ float stored_of(float depth, Light light) { return (depth - light.map.near_depth
 float stored_difference(float difference, Light light) { return difference / light.map.depth_range; }
 float stored_metres(Light light) { return light.map.depth_range; }  // from 0 to 1
 
-// Stored depth in a texel of the light's layer; 1 outside of the map, where there are no casters.
-float stored_at(ivec2 texel, Light light) {
+// Stored depth in a texel of the light's layer of a map; 1 outside of the map, where there are no casters.
+float stored_in(sampler2DArray map, ivec2 texel, Light light) {
   ivec2 within = clamp(texel, ivec2(0), last_texel());
-  return within == texel ? texelFetch(shadow_depth, ivec3(within, light.layer), 0).x : 1.0;
+  float stored = texelFetch(map, ivec3(within, light.layer), 0).x;
+  return within == texel ? stored : 1.0;
 }
+
+float stored_at(ivec2 texel, Light light) { return stored_in(shadow_depth, texel, light); }
 
 // Width of a texel of the light's layer at a position's depth, metres, or its height where that is larger.
 float texel_size_at(vec3 position, Light light) { return light.map.texel; }
@@ -160,14 +163,12 @@ vec2 map_place(vec3 position, Light light) {
 }
 
 // An offset in texels of the light's layer.
-vec2 map_offset(vec2 offset, Light light) { return offset * light.map.widths_per_metre * shadow.map_size; }
+vec2 map_offset(vec2 offset, Light light) { return offset * (light.map.widths_per_metre * shadow.map_size); }
 
 // Depth in a texel of the light's layer of a map, metres. Outside of the map there are no casters: it is the far
 // plane's there, as where the sampler's border is read.
 float depth_in(sampler2DArray map, ivec2 texel, Light light) {
-  ivec2 within = clamp(texel, ivec2(0), last_texel());
-  float stored = texelFetch(map, ivec3(within, light.layer), 0).x;
-  return stored_depth(within == texel ? stored : 1.0, light.map);
+  return stored_depth(stored_in(map, texel, light), light);
 }
 
 float depth_at(ivec2 texel, Light light) { return depth_in(shadow_depth, texel, light); }
@@ -204,7 +205,7 @@ vec4 depths_from(ivec2 first, Light light) {
 
 // A point at an offset from the receiver, in texels from the centre of the map's first texel.
 vec2 texel_place(Receiver receiver, vec2 offset, Light light) {
-  return map_place(receiver.position, light) - 0.5 + offset * (light.map.widths_per_metre * shadow.map_size);
+  return map_place(receiver.position, light) - 0.5 + map_offset(offset, light);
 }
 
 // Offsets of the four texels around a point at that offset, of which the last lies at a bilinear weight's distance.
@@ -233,8 +234,7 @@ float compared_share(sampler2DArrayShadow map, Receiver receiver, vec2 offset, f
   vec2 at = texel_place(receiver, offset, light);
   vec4 plane = plane_depths(receiver, footprint_offsets(receiver, offset, fract(at), light));
   float depth = receiver.position.z + min(min(plane.x, plane.y), min(plane.z, plane.w)) - bias;
-  float stored = (depth - light.map.near_depth) / light.map.depth_range;
-  vec4 place = vec4((at + 0.5) * light.map.texel_uv, float(light.layer), min(stored, 1.0));
+  vec4 place = vec4((at + 0.5) * light.map.texel_uv, float(light.layer), min(stored_of(depth, light), 1.0));
   return textureGrad(map, place, vec2(0.0), vec2(0.0));  // there are no derivatives in compute shaders
 }
 
