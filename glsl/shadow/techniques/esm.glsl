@@ -23,7 +23,7 @@ float exponential_at(vec2 at, int level, float depth, Light light) {
 }
 
 float filtered_exponential(FilteredPlace place, float depth, Light light) {
-  int level = min(int(place.level + 0.5), textureQueryLevels(esm_depths) - 1);
+  int level = int(place.level + 0.5);
   float sum = 0.0;
   for (int i = 0; i < place.points; ++i) {
     sum += exponential_at(place.first + float(i) * place.next, level, depth, light);
@@ -42,11 +42,13 @@ float compared_share(Receiver receiver, Light light) {
 }
 
 // Whether a part of the kernel may lie behind the receiver's plane, by more than what makes the result too great by the
-// threshold. The bound is over a square of texels at least as large as the kernel, so it never misses one.
+// threshold. The bound is over all texels that the kernel averages and the interpolation reads, each at most as wide as
+// a quarter of the radius or one texel of level 0; so on a plane that faces the light no failure is missed.
 bool may_lie_before_depths(Receiver receiver, Light light) {
   float radius = light.read_radius;
   float deepest = receiver.position.z + radius * length(receiver.gradient);
-  float behind = greatest_near(receiver.position, radius, light) - deepest;
+  float reach = radius + 1.5 * max(0.25 * radius, float(esm_shrink) * texel_size(receiver, light));
+  float behind = greatest_near(receiver.position, reach, light) - deepest;
   return stored_difference(behind, light) > log(1.0 + esm_threshold) / esm_exponent;
 }
 
