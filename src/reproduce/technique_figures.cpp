@@ -77,11 +77,10 @@ Finding section_2_2(Workbench& bench) {
       "results, few ring, and lowering high terms makes the step less steep; exponential shadow maps suit small "
       "kernels.";
   finding.test =
-      "Mean and root mean square over the receivers of the difference from percentage-closer filtering by 256 taps "
-      "over "
-      "the same radius, 20 or 80 cm, where it has a disc and the maps a Gaussian. Variance must be brighter on "
-      "average, and less so if its bleeding is cut; 16 "
-      "terms must be nearer than 4 and than 16 lowered ones; exponentials of 20 cm nearer than those of 80 cm.";
+      "Mean and root mean square, over the receivers, of the difference from percentage-closer filtering with 256 "
+      "taps. Both have a radius of 20 or 80 cm: a disc for the taps, a Gaussian for the maps. The variance shadow map "
+      "must be brighter on average, and less so if its bleeding is cut; 16 terms must be nearer than 4, and nearer "
+      "than 16 lowered ones; exponentials of 20 cm must be nearer than those of 80 cm.";
   finding.body = crop_tiles(bench, shown, noisiest_crop(bench));
   finding.body.add(quality_table(finding, bench, shown));
   finding.expect_at_least(brightness(bench, variance, comparison), 0);

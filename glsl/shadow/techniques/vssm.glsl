@@ -64,12 +64,12 @@ Share compared_points(Receiver receiver, vec2 offset, vec2 half_width, vec2 nois
   return Share(share.hidden / points, share.height_sum / points);
 }
 
-// The share by Chebyshev's inequality, which is an equality for two planes that face the light, one of them the
-// receiver's. In units of the blockers' mean height, what may lie behind the receiver's own plane, and how far that
-// plane may depart from its middle.
+// In units of the blockers' mean height: what may lie behind the receiver's own plane, and how far that plane may
+// depart from its middle. Found by comparing pictures with the truth: see docs/techniques.md.
 const float greatest_behind = 0.03, greatest_tilt = 0.05;
 
-// Returns false where mean and variance do not suffice.
+// The share of a part by Chebyshev's inequality, which is an equality for two planes that face the light, one of them
+// the receiver's. Returns false where mean and variance do not suffice.
 bool share_by_moments(Receiver receiver, vec2 offset, vec2 half_width, float bias, Light light, out Share share) {
   vec3 middle = receiver.position + vec3(offset, 0.0);
   Moments moments = depth_moments(middle, half_width, light);
@@ -79,17 +79,17 @@ bool share_by_moments(Receiver receiver, vec2 offset, vec2 half_width, float bia
   float variance = variance_of(moments);
   float in_front = blocking - moments.mean;
   share = Share(0.0, 0.0);
-  // As flat as the receiver: nothing else is in it.
+  // As flat as the receiver's own plane, whose variance is at most a third of tilt²: nothing else is in it.
   bool flat_part = variance <= 0.4 * tilt * tilt + bias * bias;
   if (in_front <= (flat_part ? 0.2 * tilt + bias : 0.0)) return flat_part;
   float behind = greatest_near(middle, max(half_width.x, half_width.y), light) - receiver.position.z - blocking;
-  // (2.22) and (2.23), solved for the blockers' mean height.
+  // Equations 2.22 and 2.23 of the thesis (Yang et al. 2010), solved for the blockers' mean height.
   float height = in_front + variance / in_front;
+  // The pyramid's texels can reach as far again beyond the part as the part itself: hence twice the tilt.
   if (behind < -2.0 * tilt) {
     share = Share(1.0, in_front - blocking);
     return true;
   }
-  // The pyramid's texels can reach as far again beyond the part as the part itself.
   if (behind > 2.0 * tilt + greatest_behind * height || tilt > greatest_tilt * height) return false;
   float hidden = in_front / height;
   share = Share(hidden, max(in_front - hidden * blocking, 0.0));

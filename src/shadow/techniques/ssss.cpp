@@ -36,8 +36,7 @@ Technique ssss() {
       .name = "ssss",
       .summary =
           "Screen-space soft shadows: the hard shadow is blurred in the picture, by a kernel that follows the "
-          "blockers' "
-          "distance and stops at edges.",
+          "blockers' distance and stops at edges.",
       .source =
           "MohammadBagher et al. 2010, Screen-space percentage-closer soft shadows; Zheng and Saito 2011, Screen space "
           "anisotropic blurred soft shadows; Deligiannis 2019, section 2.4",
