@@ -59,10 +59,10 @@ def sections(folder):
 
 
 def main():
-    if sys.argv[1] == "--from":
-        folder = pathlib.Path(sys.argv[2])
-    else:
-        folder = pathlib.Path(sys.argv[2])
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    folder = pathlib.Path(sys.argv[2])
+    if sys.argv[1] != "--from":
         subprocess.run([sys.argv[1], "compare", *(f"scenes/{name}.glb" for name in SCENES), "-o", folder, "--technique",
                         ",".join(TECHNIQUES), *OPTIONS], cwd=ROOT, check=True)
     before = DOCUMENT.read_text(encoding="utf-8")

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
 #include <vector>
@@ -30,7 +31,7 @@ class PrefilterTest : public TriangleTest {
     params.set("technique", technique);
     params.set("cascades.count", 1);
     params.set("cascades.size", 512);
-    params.set(technique + ".radius", radius);
+    if (params.contains(technique + ".radius")) params.set(technique + ".radius", radius);
     if (params.contains(technique + ".bleeding")) params.set(technique + ".bleeding", 0.0f);
     return params;
   }
@@ -162,10 +163,13 @@ TEST_F(PrefilterTest, FragmentAndComputeGiveTheSameMask) {
   scene.height = 90;
   scene.view = glm::lookAt(glm::vec3(1, 3, 8), glm::vec3(0, 0.5f, 0), glm::vec3(0, 1, 0));
   scene.projection = perspective(0.95f, 16.0f / 9.0f, 0.1f);
-  for (const std::string& technique : techniques()) {
+  std::vector<std::string> names = techniques();
+  names.emplace_back("cssm");
+  for (const std::string& technique : names) {
     ParamSet params = parameters(technique);
     params.set("cascades.count", 3);
-    params.set(technique + ".radius", 0.08f);
+    params.set("sun.angle", 2.0f);
+    if (params.contains(technique + ".radius")) params.set(technique + ".radius", 0.08f);
     const Shadowed fragment = renderer_->render(scene, params);
     params.set("driver", std::string("compute"));
     SCOPED_TRACE(technique);
@@ -218,8 +222,8 @@ double width_of(const Shadowed& shadowed) {
   return to - from;
 }
 
-// The squares of cssm are as wide as the sun's disc, whose penumbra has 0.687 of the square's width between a tenth and
-// nine tenths.
+// The squares of cssm are as wide as the sun's disc. Between a tenth and nine tenths a disc's penumbra has 0.687 of its
+// width, and a square's 0.8: 1.16 times as much.
 TEST_F(PrefilterTest, ConvolutionSoftShadowsAreAsWideAsTheSunAndTheHeightAsk) {
   for (const float angle : {1.0f, 2.0f, 4.0f}) {
     ParamSet params = renderer_->params();
@@ -232,7 +236,9 @@ TEST_F(PrefilterTest, ConvolutionSoftShadowsAreAsWideAsTheSunAndTheHeightAsk) {
     scene.height = 4;
     scene.projection = orthographic(0.7f, 0.7f * 4 / 256, 0.1f, 5);
     const double exact = 0.687 * 2 * 5 * std::tan(static_cast<double>(glm::radians(angle)) / 2);
-    EXPECT_NEAR(width_of(renderer_->render(scene, params)) / exact, 1, 0.3) << "a sun of " << angle << " degrees";
+    const double width = width_of(renderer_->render(scene, params)) / exact;
+    std::printf("cssm, %g degrees: %.3f of the disc's width\n", static_cast<double>(angle), width);
+    EXPECT_NEAR(width, 1.16, 0.1) << "a sun of " << angle << " degrees";
   }
 }
 

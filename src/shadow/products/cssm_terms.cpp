@@ -2,6 +2,8 @@
 
 namespace penumbra::shadow {
 
+// As fourier_terms, in the first half of a layer's slices; in the second half the same functions times the stored
+// depth, 0 to 1. The levels hold means over squares.
 Recipe cssm_terms() {
   return filtered_map(
       {.name = "cssm_terms",

@@ -2,6 +2,7 @@
 
 namespace penumbra::shadow {
 
+// R: the logarithm of the mean of exp(c z), divided by c, z the stored depth: a depth from 0 to 1.
 Recipe esm_depths() {
   return filtered_map({.name = "esm_depths",
                        .prefix = "esm",

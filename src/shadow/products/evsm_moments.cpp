@@ -2,6 +2,8 @@
 
 namespace penumbra::shadow {
 
+// RG: the means of the warp that grows towards far depths and of its square; BA, with two warps: those of the other one
+// (exponential_warp() in glsl/lib/prefilter.glsl, of 2 z - 1, z the stored depth).
 Recipe evsm_moments() {
   using enum ParamBinding;
   return filtered_map(

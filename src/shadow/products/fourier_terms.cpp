@@ -2,6 +2,8 @@
 
 namespace penumbra::shadow {
 
+// Slice i: the means of the cosine (R) and sine (G) of term 2i, and of those of term 2i + 1 (BA), each from -1 to 1
+// (fourier_frequency() in glsl/lib/fourier.glsl).
 Recipe fourier_terms() {
   return filtered_map(
       {.name = "fourier_terms",

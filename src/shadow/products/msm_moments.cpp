@@ -2,6 +2,8 @@
 
 namespace penumbra::shadow {
 
+// The means of x, x², x³ and x⁴, x = 2 z - 1 and z the stored depth; in unorm16 as packed_moments() gives them
+// (glsl/lib/prefilter.glsl).
 Recipe msm_moments() {
   return filtered_map(
       {.name = "msm_moments",

@@ -2,6 +2,7 @@
 
 namespace penumbra::shadow {
 
+// R: the mean of z - 1/2, z the stored depth; G: that of its square.
 Recipe vsm_moments() {
   return filtered_map({.name = "vsm_moments",
                        .prefix = "vsm",
