@@ -78,6 +78,37 @@ float edge_radius(Receiver receiver, Light light) {
   return radius;
 }
 
+// For techniques that spread their reads over the whole disc, so that a disc that is too wide leaves gaps between them:
+// the same radii from bounds over finer texels of the pyramid. A large texel also holds high casters that are far beyond
+// the disc.
+
+// Bounds over a disc of that radius about a receiver and a little beyond.
+DepthBounds fine_bounds(Receiver receiver, float radius, Light light) {
+  return depth_bounds(receiver.position, vec2(radius + 1.5 * texel_size(receiver, light)), light);
+}
+
+// Radius, metres, of the disc that contains what blocks light from a receiver, if nothing in a disc of radius `limit`
+// is nearer to the light than that depth.
+float narrowed_radius(Receiver receiver, float limit, float least, Light light) {
+  return min(limit, penumbra_radius(receiver, receiver.position.z - least, light));
+}
+
+float fine_search_radius(Receiver receiver, Light light) {
+  float radius = search_radius(receiver, light);
+  if (radius == 0.0) return 0.0;
+  Light widest = with_widest_layer(receiver, light);
+  return narrowed_radius(receiver, radius, fine_bounds(receiver, radius, widest).least, widest);
+}
+
+// edge_radius(), narrowed where it is above `wide` metres.
+float fine_edge_radius(Receiver receiver, float wide, Light light) {
+  float radius = edge_radius(receiver, light);
+  for (int i = 0; i < 2 && radius > wide; ++i) {
+    radius = narrowed_radius(receiver, radius, fine_bounds(receiver, radius, light).edge, light);
+  }
+  return radius;
+}
+
 // The shadow of the light's centre, filtered over the map's texel.
 Visibility centre_shadow(Receiver receiver, float bias, Light light) {
   Footprint footprint = fetch_footprint(receiver, vec2(0.0), light);

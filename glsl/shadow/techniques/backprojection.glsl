@@ -3,7 +3,7 @@
 #include "shadow/search.glsl"
 #include "shadow/sampling.glsl"
 
-float read_radius(Receiver receiver, Light light) { return search_radius(receiver, light); }
+float read_radius(Receiver receiver, Light light) { return fine_search_radius(receiver, light); }
 
 // Points of the light.
 
@@ -218,7 +218,8 @@ void add_cells(inout Cover cover, Grid grid, Receiver receiver, float bias, vec2
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
   receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
-  float radius = edge_radius(receiver, light);
+  // Cells of a narrower disc are texels.
+  float radius = fine_edge_radius(receiver, float(reads_across) * texel_size(receiver, light), light);
   // The map can't show a penumbra so narrow. Where none is near, pixels of decided tiles are computed in this way too.
   if (radius < 0.5 * texel_size(receiver, light)) return centre_shadow(receiver, bias, light);
   vec2 noise = pixel_noise(receiver, filter_step);

@@ -4,37 +4,13 @@
 #include "shadow/search.glsl"
 #include "shadow/sampling.glsl"
 
-// Bounds over a disc of that radius about a receiver and a little beyond.
-DepthBounds bounds_about(Receiver receiver, float radius, Light light) {
-  return depth_bounds(receiver.position, vec2(radius + 1.5 * texel_size(receiver, light)), light);
-}
-
-// Radius, metres, of the disc that contains what blocks light from a receiver, if nothing in a disc of radius `limit`
-// is nearer to the light than that depth.
-float narrowed_radius(Receiver receiver, float limit, float least, Light light) {
-  return min(limit, penumbra_radius(receiver, receiver.position.z - least, light));
-}
-
-// Samples are spread over the disc, so a disc that is too wide leaves gaps between them. Hence bounds over finer texels
-// of the pyramid than search_radius() reads: a large texel also holds high casters that are far beyond the disc.
-float read_radius(Receiver receiver, Light light) {
-  float radius = search_radius(receiver, light);
-  if (radius == 0.0) return 0.0;
-  Light widest = with_widest_layer(receiver, light);
-  return narrowed_radius(receiver, radius, bounds_about(receiver, radius, widest).least, widest);
-}
+float read_radius(Receiver receiver, Light light) { return fine_search_radius(receiver, light); }
 
 const int ring_count = 32;
 
-// edge_radius(), narrowed where a slice's samples would leave gaps between them.
+// A slice has more samples than a narrower disc has texels.
 float walk_radius(Receiver receiver, Light light) {
-  float radius = edge_radius(receiver, light);
-  // A slice has more samples than a narrower disc has texels.
-  float covered = 0.5 * float(slices_samples) * texel_size(receiver, light);
-  for (int i = 0; i < 2 && radius > covered; ++i) {
-    radius = narrowed_radius(receiver, radius, bounds_about(receiver, radius, light).edge, light);
-  }
-  return radius;
+  return fine_edge_radius(receiver, 0.5 * float(slices_samples) * texel_size(receiver, light), light);
 }
 
 // A point of the light's rim, -1..1. Equal shares of the argument, 0..1, are sectors of equal area.
