@@ -169,25 +169,24 @@ void add_block(inout Cover cover, inout vec2 left, inout vec2 below, vec2 begin,
   Offsets at = Offsets(offset.x + grid.texel.x * vec4(0.0, 1.0, 1.0, 0.0),
                        offset.y + grid.texel.y * vec4(1.0, 1.0, 0.0, 0.0));
   bvec4 blocking = lessThan(depths, blocking_depths_at(receiver, at, bias));
-  if (all(blocking)) {  // one occluder costs a quarter of four
-    float left_one = max(left.x, left.y), below_one = max(below.x, below.y);
-    Cell whole = Cell(begin, end, true, dot(depths, vec4(0.25)));
-    add_cell(cover, left_one, below_one, whole, grid, receiver, noise, light);
-    left = vec2(left_one);
-    below = vec2(below_one);
-    return;
-  }
-  if (!any(blocking)) {
-    left = below = vec2(0.0);
-    return;
+  bool whole = all(blocking);  // is one occluder, which costs a quarter of four
+  int count = whole ? 1 : any(blocking) ? 4 : 0;
+  if (count < 4) {
+    left = count == 0 ? vec2(0.0) : vec2(max(left.x, left.y));
+    below = count == 0 ? vec2(0.0) : vec2(max(below.x, below.y));
   }
   const int gathered[4] = int[](3, 2, 0, 1);  // rows from below, each from the left
-  vec2 size = 0.5 * (end - begin);
-  for (int quarter = 0; quarter < 4; ++quarter) {
+  vec2 size = whole ? end - begin : 0.5 * (end - begin);
+  for (int quarter = 0; quarter < count; ++quarter) {
     int column = quarter & 1, row = quarter >> 1, texel = gathered[quarter];
     vec2 corner = begin + vec2(column, row) * size;
-    Cell cell = Cell(corner, corner + size, blocking[texel], depths[texel]);
-    add_cell(cover, left[row], below[column], cell, grid, receiver, noise, light);
+    float depth = whole ? dot(depths, vec4(0.25)) : depths[texel];
+    add_cell(cover, left[row], below[column], Cell(corner, corner + size, blocking[texel], depth), grid, receiver,
+             noise, light);
+  }
+  if (whole) {
+    left = left.xx;
+    below = below.xx;
   }
 }
 
