@@ -79,7 +79,7 @@ float edge_radius(Receiver receiver, Light light) {
 }
 
 // For techniques that spread their reads over the whole disc, so that a disc that is too wide leaves gaps between them:
-// the same radii from bounds over finer texels of the pyramid. A large texel also holds high casters that are far beyond
+// the same radii from bounds over finer texels of the pyramid. A large texel also holds high casters that are far from
 // the disc.
 
 // Bounds over a disc of that radius about a receiver and a little beyond.

@@ -136,7 +136,7 @@ struct Integrating {
 };
 const std::vector<Integrating>& integrating() {
   static const std::vector<Integrating> all{{"slices", 0.02, {{"slices.azimuths", 32}, {"slices.samples", 32}}},
-                                            {"backprojection", 0.04, {{"backprojection.reads", 31}}}};
+                                            {"backprojection", 0.04, {{"backprojection.reads", 29}}}};
   return all;
 }
 

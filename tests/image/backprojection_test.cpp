@@ -38,7 +38,8 @@ struct Case {
 };
 
 TEST_F(Backprojection, IsNearerToTheTruthThanPcssWithAsManyReads) {
-  for (const auto& [scene, angle, gain] : {Case{"fence", 8, 0.5}, Case{"foliage", 8, 0.5}, Case{"thesis", 2, 0}}) {
+  for (const auto& [scene, angle, gain] :
+       {Case{"fence", 8, 3}, Case{"foliage", 8, 2}, Case{"courtyard", 8, 2.5}, Case{"thesis", 2, 0.4}}) {
     SceneRun run(scene, 320, 180);
     run.params().set("sun.angle", angle);
     const Visibility truth = run.draw_truth(256);

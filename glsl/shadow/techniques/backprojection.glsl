@@ -8,8 +8,8 @@ float read_radius(Receiver receiver, Light light) { return fine_search_radius(re
 // Points of the light.
 
 // The masks' points together are a rank-1 lattice on the torus: of n points, the one of number i is at (i, 19 i) / n.
-// Every backprojection_masks-th of them is a point of the same mask, so that masks differ by a shift. Of the odd factors
-// from 3 to 127, 19 has the second least error for random straight edges with 8 masks, and no large one with fewer.
+// Every backprojection_masks-th of them belongs to the same mask, so that masks differ by a shift. Of the odd factors
+// from 3 to 127, 19 has the second least error at random straight edges with 8 masks, and no great one with fewer.
 const int points_in_mask = 32;
 const float lattice_factor = 19.0;
 
@@ -80,8 +80,8 @@ Grid grid_of(Receiver receiver, float radius, Light light) {
   ivec2 cells = (ivec2(floor(place + reach / texel)) + 2 - first) / 2;
   bool complete = max(cells.x, cells.y) <= reads_across;
   float growth = clamp(0.5 * log2(reach / (4.0 * size)), 1.0, 1.5);
-  return Grid(reach, complete, first, complete ? cells : ivec2(reads_across), texel_offset(receiver, first, light) - 0.5 * texel,
-              texel, growth);
+  vec2 begin = texel_offset(receiver, first, light) - 0.5 * texel;
+  return Grid(reach, complete, first, complete ? cells : ivec2(reads_across), begin, texel, growth);
 }
 
 // Whether what begins at that distance in x and y is too far from the receiver to be read.

@@ -17,9 +17,9 @@ Technique backprojection() {
       .params =
           {
               // Mesa's software rasteriser ends loops after 65,535 iterations in total, and a seam draws two layers.
-              {"backprojection.reads", 9, 3, 31, "reads",
-               "Reads along each side of the area that can hide a part of the light, at most: gathers if these "
-               "reach every texel, else single texels. Even numbers count as the next odd one.",
+              {"backprojection.reads", 9, 3, 29, "reads",
+               "Gathers of four texels along each side of the area that can hide a part of the light, at most. Even "
+               "numbers count as the next odd one.",
                compiled},
               {"backprojection.masks", 8, 1, 8, "masks", "Bit masks, each of 32 points of the square around the light.",
                compiled},
