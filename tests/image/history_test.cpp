@@ -175,6 +175,50 @@ void walk(render::Camera& camera) {
   camera.view = turn * glm::translate(glm::mat4(1), glm::vec3(0.03f, 0, 0.03f)) * camera.view;
 }
 
+// Quality in the penumbra, and the mean change of the error from frame to frame of all receivers.
+struct OnPath {
+  double decibels = 0, flicker = 0;
+};
+
+// The camera circles about the scene. The ground is seen at a grazing angle, so that penumbrae are narrower in the
+// picture than their width makes them where they face the camera.
+OnPath on_path(const std::string& preset) {
+  constexpr int frames = 16;
+  SceneRun run("posts", 320, 180);
+  run.choose(preset);
+  run.params().set("sun.angle", 8.0f);
+  Visibility last;
+  OnPath result;
+  for (int frame = 0; frame < frames; ++frame) {
+    run.camera().view = run.camera().view * glm::rotate(glm::mat4(1), glm::radians(0.5f), glm::vec3(0, 1, 0));
+    const Visibility picture = run.draw(/*cut=*/frame == 0);
+    const Visibility truth = run.draw_truth(64);
+    result.decibels += decibels(rmse(picture, truth, penumbra_of(truth))) / frames;
+    Visibility error(picture.size(), -2);
+    int pairs = 0;
+    double sum = 0;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      if (truth[i] < 0) continue;
+      error[i] = picture[i] - truth[i];
+      if (frame == 0 || last[i] == -2) continue;
+      sum += std::abs(error[i] - last[i]);
+      ++pairs;
+    }
+    if (frame > 0) result.flicker += sum / pairs / (frames - 1);
+    last = error;
+  }
+  std::printf("posts.glb 320x180 under 8 degrees, the camera circles, %s: %.2f dB in the penumbra, flicker %.5f\n",
+              preset.c_str(), result.decibels, result.flicker);
+  return result;
+}
+
+TEST_F(ShadowHistory, OnACameraPathHistoryDoesNotBlurGrazingPenumbrae) {
+  const OnPath with = on_path("slices_history"), without = on_path("slices_denoised"), thesis = on_path("thesis");
+  EXPECT_GT(with.decibels, without.decibels);
+  EXPECT_LT(with.flicker, without.flicker);
+  EXPECT_LT(with.flicker, thesis.flicker);
+}
+
 // Receivers that keep their history within some pixels of one that shows what the last frame did not.
 std::vector<std::size_t> beside_disocclusions(const std::vector<float>& refusals, const Visibility& picture,
                                               int width) {
