@@ -7,6 +7,7 @@
 //   - A light's shadow map has layers; a receiver reads one of them, or two where it blends between layers.
 #include "shared/shadow_block.h"
 #include "lib/kernel.glsl"
+#include "lib/projection.glsl"
 
 layout(std140, binding = 1) uniform ShadowData { ShadowBlock shadow; };
 
@@ -56,6 +57,15 @@ vec3 view_position_of(Receiver receiver) { return receiver.position * mat3(shado
 // Width of a pixel at a position in view space, metres.
 float pixel_width(vec3 position) {
   return max(shadow.pixel_size.x, shadow.pixel_size.y) * abs(shadow.pixel_size.z * position.z + shadow.pixel_size.w);
+}
+
+// How many pixels a metre on a plane through a position takes along x and along y; view space.
+vec2 pixels_on_plane(vec3 position, vec3 normal) {
+  vec2 size = abs(shadow.pixel_size.xy * (shadow.pixel_size.z * position.z + shadow.pixel_size.w));
+  // The direction in which the point moves as depth changes.
+  vec3 ray = shadow.clip_to_view[2].xyz - position * shadow.clip_to_view[2].w;
+  return vec2(pixels_a_metre(vec3(size.x, 0.0, 0.0), ray, normal),
+              pixels_a_metre(vec3(0.0, size.y, 0.0), ray, normal));
 }
 
 // Direction in which the camera sees a position in view space, or the opposite one.

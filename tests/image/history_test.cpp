@@ -192,7 +192,11 @@ OnPath on_path(const std::string& preset) {
   for (int frame = 0; frame < frames; ++frame) {
     run.camera().view = run.camera().view * glm::rotate(glm::mat4(1), glm::radians(0.5f), glm::vec3(0, 1, 0));
     const Visibility picture = run.draw(/*cut=*/frame == 0);
-    const Visibility truth = run.draw_truth(64);
+    Visibility truth = run.draw_truth(64);
+    const std::vector<std::uint8_t> receivers = run.receivers();
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      if (receivers[i] == 0) truth[i] = -1;
+    }
     result.decibels += decibels(rmse(picture, truth, penumbra_of(truth))) / frames;
     Visibility error(picture.size(), -2);
     int pairs = 0;
@@ -214,7 +218,7 @@ OnPath on_path(const std::string& preset) {
 
 TEST_F(ShadowHistory, OnACameraPathHistoryDoesNotBlurGrazingPenumbrae) {
   const OnPath with = on_path("slices_history"), without = on_path("slices_denoised"), thesis = on_path("thesis");
-  EXPECT_GT(with.decibels, without.decibels);
+  EXPECT_GT(with.decibels, without.decibels + 0.3);
   EXPECT_LT(with.flicker, without.flicker);
   EXPECT_LT(with.flicker, thesis.flicker);
 }

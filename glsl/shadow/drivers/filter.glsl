@@ -2,7 +2,6 @@
 //   uint filtered(ivec2 pixel);
 #include "shadow/drivers/gbuffer.glsl"
 #include "lib/packed_texel.glsl"
-#include "lib/projection.glsl"
 
 // The packed texel and the stored depth of a pixel, which must be within the viewport and within Filter::border of the
 // filtered one. The drivers define these functions.
@@ -39,15 +38,11 @@ Surface surface_at(ivec2 pixel) {
   vec3 normal = view_direction(light_normal_at(pixel));
   float clip_w = shadow.pixel_size.z * at.z + shadow.pixel_size.w;
   vec2 size = abs(shadow.pixel_size.xy * clip_w);
-  // The view ray: the direction in which the point moves as depth changes.
-  vec3 ray = shadow.clip_to_view[2].xyz - at * shadow.clip_to_view[2].w;
   vec3 step_of = vec3(2.0 / shadow.viewport.zw, shadow.depth_to_ndc.x);
   vec3 above = (vec4(normal, -dot(normal, at)) * shadow.clip_to_view).xyz * step_of;
   vec3 inverse_w = (vec4(0.0, 0.0, 0.0, 1.0) * shadow.clip_to_view).xyz * step_of;
   return Surface(light_position(at), stored_depth_at(pixel), above / (filter_edge * max(size.x, size.y)), inverse_w,
-                 1.0 / clip_w,
-                 vec2(pixels_a_metre(vec3(size.x, 0.0, 0.0), ray, normal),
-                      pixels_a_metre(vec3(0.0, size.y, 0.0), ray, normal)));
+                 1.0 / clip_w, pixels_on_plane(at, normal));
 }
 
 // Distance of a neighbour from the receiver's plane, in units of filter.edge pixels at the receiver. Not for sky

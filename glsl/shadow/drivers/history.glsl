@@ -50,11 +50,11 @@ float penumbra_distance(ivec2 pixel, uint texel) {
 // little noise, stay sharp while the camera moves.
 float present_weight(Reprojection last, Receiver receiver, float distance_to, float alpha) {
   vec2 part = vec2(last.weights.y + last.weights.w, last.weights.z + last.weights.w);
-  vec2 blur = part * (1.0 - part);
-  float variance = max(blur.x, blur.y);
-  float width = 2.0 * packed_radius(receiver.position, distance_to) / pixel_width(view_position_of(receiver));
-  float sigma = min(filter_width * width, filter_max_sigma);
-  return max(alpha, variance / max(variance + sigma * sigma, 1e-6));
+  vec2 variance = part * (1.0 - part);
+  vec2 pixels = pixels_on_plane(view_position_of(receiver), view_normal_of(receiver));
+  vec2 sigma = min(filter_width * 2.0 * packed_radius(receiver.position, distance_to) * pixels, filter_max_sigma);
+  vec2 weight = variance / max(variance + sigma * sigma, 1e-6);
+  return max(alpha, max(weight.x, weight.y));
 }
 
 Kept blend(ivec2 pixel) {
