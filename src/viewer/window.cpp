@@ -206,10 +206,28 @@ void Window::play_input() {
   io.KeyAlt = keys_[GLFW_KEY_LEFT_ALT] || keys_[GLFW_KEY_RIGHT_ALT];
 }
 
+// Dear ImGui's backend asks for the window's size and for its framebuffer's, one after the other. If the window is
+// resized in between, their ratio is no scale: so both are asked for until the window has the same size before and
+// after.
+void Window::measure() {
+  constexpr int most_tries = 16;
+  glm::ivec2 before(-1), after(0), framebuffer(0);
+  for (int i = 0; i < most_tries && before != after; ++i) {
+    glfwGetWindowSize(window_, &before.x, &before.y);
+    glfwGetFramebufferSize(window_, &framebuffer.x, &framebuffer.y);
+    glfwGetWindowSize(window_, &after.x, &after.y);
+  }
+  ImGuiIO& io = ImGui::GetIO();
+  if (before == after && after.x > 0 && after.y > 0) dots_ = glm::vec2(framebuffer) / glm::vec2(after);
+  io.DisplaySize = {static_cast<float>(after.x), static_cast<float>(after.y)};
+  io.DisplayFramebufferScale = {dots_.x, dots_.y};
+}
+
 void Window::begin() {
   if (const float scale = wanted_scale(); scale != scale_) apply_scale(scale);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  measure();
   play_input();
   ImGui::NewFrame();
 }

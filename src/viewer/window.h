@@ -58,6 +58,7 @@ class Window {
     glm::vec2 at{0};  // the pointer, for a button
   };
   void record_input();
+  void measure();
   void set_up_interface();
   void play_input();
   void play_text();
@@ -71,6 +72,7 @@ class Window {
   float scale_ = 0;
   cli::Size size_;
   std::vector<std::string> dropped_;
+  glm::vec2 dots_{1};             // pixels of the framebuffer over units of the window
   glm::vec2 pointer_{0};          // at the last recorded event
   std::deque<Change> changes_;    // recorded, not given to ImGui yet
   std::array<bool, 512> keys_{};  // the keys that ImGui considers pressed; it has 512

@@ -43,6 +43,15 @@ class Size(WindowTest):
             self.resize(viewer, 800, 600)
             viewer.wait_for(lambda: viewer.rest() == before, "the first picture")
 
+    def test_a_window_that_is_resized_while_it_draws(self):
+        with self.view(STEPS) as viewer:
+            before = viewer.rest()
+            for _ in range(150):
+                for size in ((1, 1), (1200, 300)):
+                    self.desktop.xdotool("windowsize", viewer.window, *size)
+            self.resize(viewer, 800, 600)
+            viewer.wait_for(lambda: viewer.rest() == before, "the first picture")
+
     def test_it_is_minimised_and_comes_back(self):
         with self.view(STEPS) as viewer:
             before = viewer.rest()
