@@ -9,7 +9,7 @@ GLSL_BEGIN
 #define SHADOW_MAX_LAYERS 8
 
 // The placement of one layer of a light's shadow map, and the range of its depths. Only
-// glsl/shadow/light_projection.glsl reads it.
+// glsl/shadow/light_projection.glsl reads it. A lamp's are tangents instead of metres across, and −1 / depth along.
 struct LayerBlock {
   vec2 center;            // of the map, light space, metres
   vec2 widths_per_metre;  // map widths and heights
@@ -24,7 +24,7 @@ struct LayerBlock {
 
 struct ShadowBlock {
   mat4 clip_to_view;
-  mat4 view_to_light;      // orthogonal, determinant -1 (light space is left-handed); its origin is the camera
+  mat4 view_to_light;      // orthogonal, determinant -1 (light space is left-handed)
   mat4 world_to_light;     // the rotation part of view_to_light, from world space
   mat4 view_to_last_clip;  // from this frame's view space
   mat4 last_clip_to_view;  // and back
@@ -43,9 +43,11 @@ struct ShadowBlock {
   int history_valid;       // 1: the last frame's history is valid
   int has_motion;          // 1: the caller brings motion vectors
   int casters_moved;       // 1: casters moved, and the movement map shows where
-  float moved_depth;       // least light-space depth of what moved, metres
+  float moved_depth;       // least light-space depth of what moved, metres; of a lamp: along a face's axis, above 0
   vec2 axes_turn;          // cosine and sine of the angle by which the light's x and y axes are turned in this frame
-  vec2 unused;
+  float light_stretch;     // most times that a disc which faces a receiver is longer along the map than across
+  int light_is_lamp;       // 1: a lamp; 0: a sun
+  vec4 lamp;               // xyz: its centre, view space, metres; w: the cosine of its cone's half angle
   // The layer that contains every caster; apart from `layers`, because a load at an index costs more.
   LayerBlock widest;
   LayerBlock layers[SHADOW_MAX_LAYERS];

@@ -11,7 +11,8 @@ static_assert(sizeof(glsl::LayerBlock) == 48);
 static_assert(offsetof(glsl::ShadowBlock, viewport) == 320);
 static_assert(offsetof(glsl::ShadowBlock, depth_to_ndc) == 416);
 static_assert(offsetof(glsl::ShadowBlock, light_extent) == 432);
-static_assert(offsetof(glsl::ShadowBlock, layers) == 528);
+static_assert(offsetof(glsl::ShadowBlock, lamp) == 480);
+static_assert(offsetof(glsl::ShadowBlock, layers) == 544);
 
 // ShadowBlock::pixel_size: metres that a pixel spans where clip w is 1, then factor and offset that give clip w from
 // view-space z.

@@ -41,13 +41,69 @@ float least_depth(const glm::dmat3& world_to_light, const Box& box, const glm::d
   return static_cast<float>(glm::dot(glm::min(along * low, along * high), glm::dvec3(1)));
 }
 
-CascadeInputs cascade_inputs(const LightSource& source, const FitInputs& inputs) {
-  const Sun& sun = std::get<Sun>(source);
+// The face of a lamp, in units in which the lamp is a sun: tangents across, and −1 / depth along its axis. Shaders scale
+// them to metres at the depth of a receiver.
+glsl::LayerBlock layer_block(const LampMaps& lamp) {
+  const auto range = static_cast<float>(1 / lamp.near - 1 / lamp.far);
+  return {.center = glm::vec2(0),
+          .widths_per_metre = glm::vec2(static_cast<float>(0.5 / lamp.tangent)),
+          .texel_shares = glm::vec2(1),
+          .texel = static_cast<float>(2 * lamp.tangent / lamp.size),
+          .near_depth = static_cast<float>(-1 / lamp.near),
+          .depth_range = range,
+          .rounding = 4e-7f * range,
+          .texel_uv = 1.0f / static_cast<float>(lamp.size),
+          .unused = 0};
+}
+
+void write_to(glsl::ShadowBlock& block, const Cascades& cascades, const glm::dmat4& view_to_world,
+              const std::optional<Box>& moved) {
+  const glm::dvec3 eye(view_to_world[3]);
+  const glm::dmat3& world_to_light = cascades.world_to_light;
+  const glm::dvec3 shift = world_to_light * (cascades.anchor - eye);
+  block.view_to_light = glm::mat4(glm::dmat4(world_to_light * glm::dmat3(view_to_world)));
+  block.world_to_light = glm::mat4(glm::dmat4(world_to_light));
+  block.axes_turn = {std::cos(cascades.turn), std::sin(cascades.turn)};
+  block.light_stretch = 1;
+  // If it is unknown what moved, assume the near plane of the last layer, which contains every caster.
+  const double nearest = cascades.items.empty() ? 0.0 : cascades.items.back().near_z + shift.z;
+  block.moved_depth = moved ? least_depth(world_to_light, *moved, eye) : static_cast<float>(nearest);
+  for (size_t i = 0; i < cascades.items.size(); ++i) {
+    block.widest = block.layers[i] = layer_block(cascades.items[i], cascades.size, shift);
+  }
+}
+
+void write_to(glsl::ShadowBlock& block, const LampMaps& lamp, const glm::dmat4& view_to_world,
+              const std::optional<Box>& moved) {
+  block.view_to_light = glm::mat4(glm::dmat4(lamp.world_to_lamp * glm::dmat3(view_to_world)));
+  block.world_to_light = glm::mat4(glm::dmat4(lamp.world_to_lamp));
+  block.axes_turn = {1, 0};
+  block.light_is_lamp = 1;
+  block.light_stretch = static_cast<float>(lamp.greatest_stretch());
+  block.lamp = glm::vec4(glm::vec3(glm::inverse(view_to_world) * glm::dvec4(lamp.position, 1)),
+                         static_cast<float>(lamp.cone));
+  block.moved_depth = static_cast<float>(moved ? least_depth(lamp, *moved) : lamp.near);
+  for (int i = 0; i < lamp.count; ++i) block.widest = block.layers[i] = layer_block(lamp);
+}
+
+LampMaps fit(const Lamp& lamp, const FitInputs& inputs) {
+  return fit_lamp({.position = lamp.position,
+                   .axis = lamp.axis,
+                   .cone = lamp.cone,
+                   .radius = lamp.radius,
+                   .range = lamp.range,
+                   .nearest = inputs.params.get_float("lamps.near"),
+                   .size = inputs.params.get_int("lamps.size"),
+                   .casters = inputs.casters,
+                   .receivers = inputs.receivers});
+}
+
+CascadeInputs cascade_inputs(const Sun& sun, const FitInputs& inputs) {
   const ParamSet& params = inputs.params;
   return {.view = inputs.view,
           .projection = inputs.projection,
           .to_light = sun.to_light,
-          .tan_half_angle = shape_of(source, params).extent,
+          .tan_half_angle = shape_of(sun, params).extent,
           .casters = inputs.casters,
           .receivers = inputs.receivers,
           .count = params.get_int("cascades.count"),
@@ -55,7 +111,7 @@ CascadeInputs cascade_inputs(const LightSource& source, const FitInputs& inputs)
           .split_blend = params.get_float("cascades.split"),
           .distance = params.get_float("cascades.distance"),
           .visible = inputs.visible,
-          .may_turn = !shape_of(source, params).square,
+          .may_turn = !shape_of(sun, params).square,
           .others = inputs.others};
 }
 
@@ -63,6 +119,17 @@ template <class Value>
 bool all_finite(const Value* values, int count) {
   return std::all_of(values, values + count, [](Value value) { return std::isfinite(value); });
 }
+
+int layers_of(const Cascades& cascades) { return static_cast<int>(cascades.items.size()); }
+int layers_of(const LampMaps& lamp) { return lamp.count; }
+
+const glm::dmat4& clip_matrix(const Cascades& cascades, int layer) {
+  return cascades.items.at(static_cast<size_t>(layer)).world_to_clip;
+}
+glm::dmat4 clip_matrix(const LampMaps& lamp, int layer) { return lamp.world_to_clip(layer); }
+
+CullVolume volume_of(const Cascades& cascades, int layer) { return cull_volume(cascades, layer); }
+CullVolume volume_of(const LampMaps& lamp, int layer) { return lamp.cull_volume(layer); }
 
 std::string cascade_fault(const Cascade& cascade, size_t index) {
   const bool finite = all_finite(glm::value_ptr(cascade.center), 2) &&
@@ -74,91 +141,141 @@ std::string cascade_fault(const Cascade& cascade, size_t index) {
   return {};
 }
 
+std::string fault_in(const Cascades& cascades) {
+  const int layers = layers_of(cascades);
+  if (layers < 1 || layers > max_cascades) return fmt::format("{} cascades, 1 to {} fit", layers, max_cascades);
+  if (!all_finite(glm::value_ptr(cascades.world_to_light), 9) || !all_finite(glm::value_ptr(cascades.anchor), 3))
+    return "the cascades' light space is not finite";
+  for (size_t i = 0; i < cascades.items.size(); ++i) {
+    if (std::string fault = cascade_fault(cascades.items[i], i); !fault.empty()) return fault;
+  }
+  return {};
+}
+
+std::string fault_in(const LampMaps& lamp) { return lamp.fault(); }
+
+std::string fault_in(const Sun& sun) {
+  const float length = glm::length(sun.to_light);
+  return length > 0.5f && std::isfinite(length) ? std::string() : "has no direction";
+}
+
+std::string fault_in(const Lamp& lamp) {
+  constexpr float most = 1e6f;  // metres: floats hold no shorter lengths than 6 cm beyond
+  if (!all_finite(glm::value_ptr(lamp.position), 3) || glm::any(glm::greaterThan(glm::abs(lamp.position), glm::vec3(most))))
+    return "has no position";
+  if (!(lamp.radius >= 0 && lamp.radius <= most)) return "has no radius";
+  if (!(lamp.range >= 0)) return "has a range that is not 0 or more";
+  const float length = glm::length(lamp.axis);
+  if (!std::isfinite(length) || (length > 0 && std::abs(length - 1) > 1e-2f)) return "has an axis that is not of length 1";
+  constexpr float widest = 1.5708f;
+  if (length > 0 && !(lamp.cone > 0 && lamp.cone <= widest)) return "has a cone that is not between 0 and π/2";
+  return {};
+}
+
 }  // namespace
 
-glm::mat4 LightProjection::world_to_clip(int layer) const {
-  return glm::mat4(cascades_.items.at(static_cast<size_t>(layer)).world_to_clip);
+int LightProjection::layers() const {
+  return std::visit([](const auto& maps) { return layers_of(maps); }, maps_);
+}
+
+int LightProjection::size() const {
+  return std::visit([](const auto& maps) { return maps.size; }, maps_);
+}
+
+glm::vec2 LightProjection::texel(int layer) const {
+  if (const auto* lamp = std::get_if<LampMaps>(&maps_))
+    return glm::vec2(static_cast<float>(2 * lamp->tangent * lamp->far / lamp->size));
+  return cascades().texel(layer);
 }
 
 float LightProjection::depth_range(int layer) const {
-  const Cascade& cascade = cascades_.items.at(static_cast<size_t>(layer));
+  if (const auto* lamp = std::get_if<LampMaps>(&maps_))
+    return static_cast<float>(lamp->far * lamp->far * (1 / lamp->near - 1 / lamp->far));
+  const Cascade& cascade = cascades().items.at(static_cast<size_t>(layer));
   return static_cast<float>(cascade.far_z - cascade.near_z);
 }
 
-CullVolume LightProjection::cull_volume(int layer) const { return shadow::cull_volume(cascades_, layer); }
+glm::mat4 LightProjection::world_to_clip(int layer) const {
+  return std::visit([&](const auto& maps) { return glm::mat4(clip_matrix(maps, layer)); }, maps_);
+}
+
+CullVolume LightProjection::cull_volume(int layer) const {
+  return std::visit([&](const auto& maps) { return volume_of(maps, layer); }, maps_);
+}
+
+CullVolume LightProjection::cull_volume_of_all() const {
+  if (const auto* lamp = std::get_if<LampMaps>(&maps_)) return lamp->cull_volume_of_all();
+  return cull_volume(layers() - 1);
+}
 
 std::optional<TexelRange> LightProjection::texels_of(int layer, const Box& world_box) const {
   if (!cull_volume(layer).holds(world_box)) return std::nullopt;
-  const glm::dmat4& world_to_clip = cascades_.items.at(static_cast<size_t>(layer)).world_to_clip;
+  const glm::dmat4 world_to_clip =
+      std::visit([&](const auto& maps) { return glm::dmat4(clip_matrix(maps, layer)); }, maps_);
+  const auto last = static_cast<double>(size() - 1);
   glm::dvec2 low(1e30);
   glm::dvec2 high(-1e30);
   for (const glm::dvec3& corner : world_box.corners()) {
-    const glm::dvec2 clip(world_to_clip * glm::dvec4(corner, 1));
-    const glm::dvec2 texel = (clip * 0.5 + 0.5) * static_cast<double>(size());
+    const glm::dvec4 clip = world_to_clip * glm::dvec4(corner, 1);
+    // Of a lamp: beside it or behind it, where a box may cover anything.
+    if (!(clip.w > 1e-9)) return TexelRange{glm::ivec2(0), glm::ivec2(size() - 1)};
+    const glm::dvec2 texel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * static_cast<double>(size());
     low = glm::min(low, texel);
     high = glm::max(high, texel);
   }
-  const auto last = static_cast<double>(size() - 1);
   return TexelRange{glm::ivec2(glm::clamp(glm::floor(low) - 1.0, 0.0, last)),
                     glm::ivec2(glm::clamp(glm::floor(high) + 1.0, 0.0, last))};
 }
 
+TexelRange LightProjection::drawn_texels(int layer) const {
+  if (const auto* cascades = std::get_if<Cascades>(&maps_)) return cascades->drawn_texels(layer);
+  return {glm::ivec2(0), glm::ivec2(size() - 1)};
+}
+
 void LightProjection::set_drawn_texels(int layer, const TexelRange& texels) {
-  cascades_.items.at(static_cast<size_t>(layer)).drawn = texels;
+  if (auto* cascades = std::get_if<Cascades>(&maps_)) cascades->items.at(static_cast<size_t>(layer)).drawn = texels;
 }
 
 void LightProjection::write(glsl::ShadowBlock& block, const glm::dmat4& view_to_world,
                             const std::optional<Box>& moved) const {
-  const glm::dvec3 eye(view_to_world[3]);
-  const glm::dmat3& world_to_light = cascades_.world_to_light;
-  const glm::dvec3 shift = world_to_light * (cascades_.anchor - eye);
-  block.view_to_light = glm::mat4(glm::dmat4(world_to_light * glm::dmat3(view_to_world)));
-  block.world_to_light = glm::mat4(glm::dmat4(world_to_light));
-  block.axes_turn = {std::cos(cascades_.turn), std::sin(cascades_.turn)};
   block.layer_count = layers();
   block.map_size = static_cast<float>(size());
-  // If it is unknown what moved, assume the near plane of the last layer, which contains every caster.
-  const double nearest = cascades_.items.empty() ? 0.0 : cascades_.items.back().near_z + shift.z;
-  block.moved_depth = moved ? least_depth(world_to_light, *moved, eye) : static_cast<float>(nearest);
-  for (size_t i = 0; i < cascades_.items.size(); ++i) {
-    block.widest = block.layers[i] = layer_block(cascades_.items[i], cascades_.size, shift);
-  }
+  std::visit([&](const auto& maps) { write_to(block, maps, view_to_world, moved); }, maps_);
 }
 
 std::string LightProjection::fault() const {
-  if (layers() < 1 || layers() > max_cascades) return fmt::format("{} cascades, 1 to {} fit", layers(), max_cascades);
-  if (!all_finite(glm::value_ptr(cascades_.world_to_light), 9) || !all_finite(glm::value_ptr(cascades_.anchor), 3))
-    return "the cascades' light space is not finite";
-  for (size_t i = 0; i < cascades_.items.size(); ++i) {
-    if (std::string fault = cascade_fault(cascades_.items[i], i); !fault.empty()) return fault;
-  }
-  return {};
+  return std::visit([](const auto& maps) { return fault_in(maps); }, maps_);
 }
 
 glm::dmat3 light_axes(const LightSource& source) { return light_axes(glm::dvec3(std::get<Sun>(source).to_light)); }
 
 LightProjection fit_projection(const LightSource& source, const FitInputs& inputs) {
-  return fit_cascades(cascade_inputs(source, inputs));
+  if (const auto* lamp = std::get_if<Lamp>(&source)) return fit(*lamp, inputs);
+  return fit_cascades(cascade_inputs(std::get<Sun>(source), inputs));
 }
 
 LightProjection narrowed(const LightProjection& projection, const LightSource& source, const FitInputs& inputs,
                          const ReadBounds& read) {
+  const auto* sun = std::get_if<Sun>(&source);
+  if (sun == nullptr) return projection;
   Cascades cascades = projection.cascades();
   ReadMargins margins{.texels = read_margin + inputs.params.get_float("bias.normal_offset"),
                       .ndc = glm::max(std::abs(read.jitter.x), std::abs(read.jitter.y))};
   if (read.moved) margins.nearest = least_depth(cascades.world_to_light, *read.moved, cascades.anchor);
-  narrow_to_receivers(cascades, cascade_inputs(source, inputs), margins);
+  narrow_to_receivers(cascades, cascade_inputs(*sun, inputs), margins);
   return cascades;
 }
 
-LightShape shape_of(const LightSource& /*source*/, const ParamSet& params) {
+bool fits_to_view(const LightSource& source) { return std::holds_alternative<Sun>(source); }
+
+LightShape shape_of(const LightSource& source, const ParamSet& params) {
+  if (const auto* lamp = std::get_if<Lamp>(&source)) return {.extent = lamp->radius, .square = false, .lamp = true};
   return {.extent = std::tan(glm::radians(params.get_float("sun.angle")) * 0.5f),
           .square = params.get_word("sun.shape") == "square"};
 }
 
 std::string fault_of(const LightSource& source) {
-  const float length = glm::length(std::get<Sun>(source).to_light);
-  return length > 0.5f && std::isfinite(length) ? std::string() : "has no direction";
+  return std::visit([](const auto& light) { return fault_in(light); }, source);
 }
 
 }  // namespace penumbra::shadow

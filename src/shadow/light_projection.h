@@ -9,6 +9,7 @@
 
 #include "../core/params.h"
 #include "cascades.h"
+#include "lamp_maps.h"
 #include "volume.h"
 
 namespace penumbra::glsl {
@@ -28,6 +29,18 @@ struct Sun {
   bool operator==(const Sun&) const = default;
 };
 
+// A light at a place: a sphere that shines in all directions, or within a spot's cone. How bright it is, and how that
+// falls off, is left to the caller.
+struct Lamp {
+  glm::vec3 position{0};  // of its centre, world, metres
+  float radius = 0.03f;   // of the sphere, metres; 0: hard shadows
+  glm::vec3 axis{0};      // in which a spot shines, unit, world; 0: in all directions
+  float cone = 0;         // half angle of a spot's cone, radians, above 0 and at most π/2; beyond it the mask is 0
+  float range = 0;        // metres: casters and receivers further away are left out; 0: none are
+
+  bool operator==(const Lamp&) const = default;
+};
+
 // Most layers that a shadow map can have.
 constexpr int max_layers = 8;
 using LayerSet = std::bitset<max_layers>;
@@ -37,44 +50,47 @@ using LayerSet = std::bitset<max_layers>;
 constexpr double read_margin = 8;
 
 // The kinds of light.
-using LightSource = std::variant<Sun>;
+using LightSource = std::variant<Sun, Lamp>;
 
 // The size of a light's emitter, which causes the penumbra.
 struct LightShape {
-  float extent = 0;     // of a sun: the tangent of half its angular diameter
+  float extent = 0;     // of a sun: the tangent of half its angular diameter; of a lamp: its radius, metres
   bool square = false;  // else a disc
+  bool lamp = false;    // else a sun
 
   bool operator==(const LightShape&) const = default;
 };
 
-// Places the layers of a light's shadow map in the world, and converts their depths. A layer stores linear depth along
-// the light: 0 at its near plane, 1 at its far plane.
+// Places the layers of a light's shadow map in the world, and converts their depths. A layer stores 0 at its near plane
+// and 1 at its far plane: of a sun a linear function of the depth along its rays, of a lamp one of −1 / depth.
 class LightProjection {
  public:
   LightProjection() = default;
   // For a sun: one layer for each cascade.
-  LightProjection(Cascades cascades) : cascades_(std::move(cascades)) {}  // NOLINT(google-explicit-constructor)
+  LightProjection(Cascades cascades) : maps_(std::move(cascades)) {}  // NOLINT(google-explicit-constructor)
+  // For a lamp: one layer, or one for each face of a cube.
+  LightProjection(const LampMaps& lamp) : maps_(lamp) {}  // NOLINT(google-explicit-constructor)
 
-  int layers() const { return static_cast<int>(cascades_.items.size()); }
-  int size() const { return cascades_.size; }  // side of each layer, texels
-  // Width and height of a layer's texel, metres.
-  glm::vec2 texel(int layer) const { return cascades_.texel(layer); }
-  // Distance from a layer's near plane to its far plane along the light, metres.
+  int layers() const;
+  int size() const;  // side of each layer, texels
+  // Width and height of a layer's texel, metres; of a lamp: at the far plane, where texels are largest.
+  glm::vec2 texel(int layer) const;
+  // Metres along the light for the whole range of stored depths; of a lamp: as they are spaced at the far plane.
   float depth_range(int layer) const;
   // From world space to clip space of a layer: x and y in -1..1 within the map, z in 0..1, which is the stored depth.
   glm::mat4 world_to_clip(int layer) const;
   // World space. Casters outside of it can't shadow any receiver that reads the layer.
   CullVolume cull_volume(int layer) const;
   // Casters outside of it can't shadow any receiver of the view.
-  CullVolume cull_volume_of_all() const { return cull_volume(layers() - 1); }
+  CullVolume cull_volume_of_all() const;
   // The texels of a layer that a box in the world may cover, widened by one texel to each side for rounding; none if
   // the box lies outside of the layer.
   std::optional<TexelRange> texels_of(int layer, const Box& world_box) const;
   // The texels that casters are drawn to; the others are empty: no receiver of the view reads them.
-  TexelRange drawn_texels(int layer) const { return cascades_.drawn_texels(layer); }
+  TexelRange drawn_texels(int layer) const;
   void set_drawn_texels(int layer, const TexelRange& texels);
-  // Only for a sun.
-  const Cascades& cascades() const { return cascades_; }
+  // Only for a sun; throws std::bad_variant_access for a lamp.
+  const Cascades& cascades() const { return std::get<Cascades>(maps_); }
 
   // Fills those members of the uniform block that describe the projection, for a camera. `moved`: see Inputs::moved.
   void write(glsl::ShadowBlock& block, const glm::dmat4& view_to_world, const std::optional<Box>& moved) const;
@@ -83,7 +99,7 @@ class LightProjection {
   std::string fault() const;
 
  private:
-  Cascades cascades_;
+  std::variant<Cascades, LampMaps> maps_;
 };
 
 // What fit_projection() fits the layers to.
@@ -110,11 +126,15 @@ glm::dmat3 light_axes(const LightSource& source);
 // The layers that the parameters ask for, fitted to the view, the receivers and their casters. The inputs must have
 // passed check().
 LightProjection fit_projection(const LightSource& source, const FitInputs& inputs);
-// The same projection, of which only what receivers of the view can read is drawn: see narrow_to_receivers().
+// The same projection, of which only what receivers of the view can read is drawn: see narrow_to_receivers(). Those of a
+// lamp are drawn whole: they then stay valid when the camera moves.
 LightProjection narrowed(const LightProjection& projection, const LightSource& source, const FitInputs& inputs,
                          const ReadBounds& read);
 
-// The size that the parameters give the light.
+// Whether the projection can be fitted to what the view's depth texture shows (cascades.fit).
+bool fits_to_view(const LightSource& source);
+
+// The size of the light; that of a sun is in the parameters.
 LightShape shape_of(const LightSource& source, const ParamSet& params);
 
 // Why the light can't be used, for an error message ("has no direction"); empty if it can.

@@ -34,7 +34,7 @@ void bind_images(const gl::Program& program, const MaskOutput& output) {
 }
 
 Programs::MaskForm form_of(const LightWork& work, const MaskOutput& output) {
-  return {.scramble = scramble_of(work.technique, work.params(), work.frame.shape),
+  return {.compiled = Programs::compiled_for(work.technique, work.params(), work.frame.shape),
           .compute = work.params().get_word("driver") == "compute",
           .packed = output.packed != nullptr,
           .history = output.last_surfaces != nullptr};

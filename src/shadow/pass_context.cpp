@@ -104,9 +104,10 @@ const gl::ProgramDesc& PassContext::own_program(std::string_view program) const 
   const std::string key = fmt::format("{} {}", name_of(owner_.kind), owner_.name);
   auto own = state.programs.find(key);
   if (own == state.programs.end()) {
-    const Scramble scramble =
-        owner_.technique != nullptr ? scramble_of(*owner_.technique, params(), work_.frame.shape) : Scramble::shift;
-    own = state.programs.emplace(key, work_.programs.own(owner_, params(), scramble)).first;
+    const Programs::Compiled compiled = owner_.technique != nullptr
+                                            ? Programs::compiled_for(*owner_.technique, params(), work_.frame.shape)
+                                            : Programs::Compiled{};
+    own = state.programs.emplace(key, work_.programs.own(owner_, params(), compiled)).first;
   }
   const std::string name = Programs::own_name(owner_, program);
   const auto found = std::ranges::find(own->second, name, &gl::ProgramDesc::name);

@@ -32,13 +32,13 @@ std::vector<ParamSet> compiled_variants(const std::vector<Param>& own, const Par
   return variants;
 }
 
-std::vector<Programs::MaskForm> mask_forms(Scramble scramble) {
+std::vector<Programs::MaskForm> mask_forms(const Programs::Compiled& compiled) {
   std::vector<Programs::MaskForm> forms;
   for (const bool compute : {false, true}) {
     for (const bool tiles : {false, true}) {
-      forms.push_back({.scramble = scramble, .compute = compute, .tiles = tiles});
-      forms.push_back({.scramble = scramble, .compute = compute, .packed = true, .tiles = tiles});
-      forms.push_back({.scramble = scramble, .compute = compute, .packed = true, .history = true, .tiles = tiles});
+      forms.push_back({.compiled = compiled, .compute = compute, .tiles = tiles});
+      forms.push_back({.compiled = compiled, .compute = compute, .packed = true, .tiles = tiles});
+      forms.push_back({.compiled = compiled, .compute = compute, .packed = true, .history = true, .tiles = tiles});
     }
   }
   return forms;
@@ -166,14 +166,29 @@ std::string Programs::including(const std::string& folder, const std::vector<std
   return name;
 }
 
-std::vector<gl::Define> Programs::defines(const Technique& technique, const ParamSet& params, Scramble scramble) const {
+Programs::Compiled Programs::compiled_for(const Technique& technique, const ParamSet& params, const LightShape& shape) {
+  return {.scramble = scramble_of(technique, params, shape), .lamp = shape.lamp};
+}
+
+std::vector<Programs::Compiled> Programs::all_compiled(const Technique& technique) {
+  std::vector<Compiled> all;
+  for (const Scramble scramble : scrambles_of(technique)) {
+    all.push_back({.scramble = scramble});
+    if (!technique.suns_only) all.push_back({.scramble = scramble, .lamp = true});
+  }
+  return all;
+}
+
+std::vector<gl::Define> Programs::defines(const Technique& technique, const ParamSet& params,
+                                          const Compiled& compiled) const {
   std::vector<gl::Define> defines = compiled_defines(params_of(technique.params, technique.needs, registry_), params);
-  defines.insert(defines.begin(), {"SAMPLE_SCRAMBLE", fmt::format("{}", static_cast<int>(scramble))});
+  defines.insert(defines.begin(), {{"SAMPLE_SCRAMBLE", fmt::format("{}", static_cast<int>(compiled.scramble))},
+                                   {"LAMP", compiled.lamp ? "1" : "0"}});
   return defines;
 }
 
 gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& params, const MaskForm& form) const {
-  gl::ProgramDesc program{.name = technique.name, .defines = defines(technique, params, form.scramble)};
+  gl::ProgramDesc program{.name = technique.name, .defines = defines(technique, params, form.compiled)};
   program.defines.push_back({"PACKED", form.packed ? "1" : "0"});
   program.defines.push_back({"HISTORY", form.history ? "1" : "0"});
   program.defines.push_back({"TILES", form.tiles ? "1" : "0"});
@@ -192,7 +207,7 @@ gl::ProgramDesc Programs::decide_tiles(const Technique& technique) const {
   return {.name = "decide tiles",
           .compute = including(folder, {folder + "/preamble.glsl", "shadow/drivers/decide_tiles.comp"}),
           // It reads no sample points, but the preamble of a technique that has some asks for it.
-          .defines = {{"SAMPLE_SCRAMBLE", "0"}}};
+          .defines = {{"SAMPLE_SCRAMBLE", "0"}, {"LAMP", "0"}}};
 }
 
 gl::ProgramDesc Programs::decided(const MaskForm& form) const {
@@ -233,11 +248,12 @@ std::string Programs::own_name(const PassOwner& owner, std::string_view program)
   return fmt::format("{}: {}", owner.name, program);
 }
 
-std::vector<gl::ProgramDesc> Programs::own(const PassOwner& owner, const ParamSet& params, Scramble scramble) const {
+std::vector<gl::ProgramDesc> Programs::own(const PassOwner& owner, const ParamSet& params,
+                                           const Compiled& compiled) const {
   if (!owner.programs) return {};
   std::vector<gl::ProgramDesc> programs = owner.programs(params);
   const std::vector<gl::Define> constants =
-      owner.technique != nullptr ? defines(*owner.technique, params, scramble)
+      owner.technique != nullptr ? defines(*owner.technique, params, compiled)
                                  : compiled_defines(params_of(owner.params, owner.needs, registry_), params);
   const std::string folder = folder_of(owner);
   for (gl::ProgramDesc& program : programs) {
@@ -253,16 +269,16 @@ std::vector<gl::ProgramDesc> Programs::own(const PassOwner& owner, const ParamSe
 std::vector<std::vector<gl::Define>> Programs::all_defines(const Technique& technique, const ParamSet& defaults) const {
   std::vector<std::vector<gl::Define>> all;
   for (const ParamSet& params : compiled_variants(params_of(technique.params, technique.needs, registry_), defaults)) {
-    for (const Scramble scramble : scrambles_of(technique)) all.push_back(defines(technique, params, scramble));
+    for (const Compiled& compiled : all_compiled(technique)) all.push_back(defines(technique, params, compiled));
   }
   return all;
 }
 
 void Programs::add_own(std::vector<gl::ProgramDesc>& programs, const PassOwner& owner, const ParamSet& defaults) const {
   for (const ParamSet& params : compiled_variants(params_of(owner.params, owner.needs, registry_), defaults)) {
-    for (const Scramble scramble :
-         owner.technique != nullptr ? scrambles_of(*owner.technique) : std::vector{Scramble::shift}) {
-      for (gl::ProgramDesc& program : own(owner, params, scramble)) programs.push_back(std::move(program));
+    for (const Compiled& compiled :
+         owner.technique != nullptr ? all_compiled(*owner.technique) : std::vector{Compiled{}}) {
+      for (gl::ProgramDesc& program : own(owner, params, compiled)) programs.push_back(std::move(program));
     }
   }
 }
@@ -282,9 +298,9 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
   for (const Technique& technique : registry_.techniques()) {
     for (const ParamSet& params :
          compiled_variants(params_of(technique.params, technique.needs, registry_), defaults)) {
-      for (const Scramble scramble : scrambles_of(technique)) {
-        for (const MaskForm& form : mask_forms(scramble)) {
-          if (technique.glsl.empty() || (form.tiles && !technique.decides_tiles)) continue;
+      for (const Compiled& compiled : all_compiled(technique)) {
+        for (const MaskForm& form : mask_forms(compiled)) {
+          if (technique.glsl.empty() || (form.tiles && (!technique.decides_tiles || compiled.lamp))) continue;
           programs.push_back(mask(technique, params, form));
         }
       }

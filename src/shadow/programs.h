@@ -27,13 +27,22 @@ class Programs {
  public:
   Programs(gl::Device& device, const Registry& registry);
 
+  // What a technique's GLSL is compiled for besides parameters. Programs that read no light's receivers ask the uniform
+  // block which kind of light there is.
+  struct Compiled {
+    Scramble scramble = Scramble::rotate;
+    bool lamp = false;  // else a sun
+  };
+  static Compiled compiled_for(const Technique& technique, const ParamSet& params, const LightShape& shape);
+  // All that it can be for a technique.
+  static std::vector<Compiled> all_compiled(const Technique& technique);
   // The constants that a technique's GLSL is compiled with.
-  std::vector<gl::Define> defines(const Technique& technique, const ParamSet& params, Scramble scramble) const;
+  std::vector<gl::Define> defines(const Technique& technique, const ParamSet& params, const Compiled& compiled) const;
 
   // The variant of the program that runs a technique's visibility() for every pixel. Variants are separate programs,
   // not branches on a uniform, because a software rasteriser runs both sides of a branch.
   struct MaskForm {
-    Scramble scramble = Scramble::rotate;
+    Compiled compiled;
     bool compute = false;
     bool packed = false;   // packed texels and notes, for denoisers; else the mask itself
     bool history = false;  // packed, and the notes say whether the history is valid
@@ -55,7 +64,7 @@ class Programs {
   // The file that forward programs include for a technique's visibility().
   std::string forward_file(const Technique& technique) const;
   // The owner's `programs` with these parameters, ready to be compiled; own_name() is the name that each has then.
-  std::vector<gl::ProgramDesc> own(const PassOwner& owner, const ParamSet& params, Scramble scramble) const;
+  std::vector<gl::ProgramDesc> own(const PassOwner& owner, const ParamSet& params, const Compiled& compiled) const;
   static std::string own_name(const PassOwner& owner, std::string_view program);
 
   // The defines of every variant of a technique, and all programs of every technique, recipe, filter and denoiser.

@@ -86,8 +86,8 @@ bool SoftShadows::reads_motion(const ParamSet& params, std::span<const Light> li
 ForwardProgram SoftShadows::forward_program(const ParamSet& params, const Light& light) const {
   const ParamSet& own = state_->params_of(registry_, params, light);
   const Technique& technique = forward_technique(registry_, own);
-  const Scramble scramble = scramble_of(technique, own, shape_of(light.source, own));
-  return {state_->programs.forward_file(technique), state_->programs.defines(technique, own, scramble)};
+  const Programs::Compiled compiled = Programs::compiled_for(technique, own, shape_of(light.source, own));
+  return {state_->programs.forward_file(technique), state_->programs.defines(technique, own, compiled)};
 }
 
 std::string SoftShadows::forward_source(const ParamSet& params, const Light& light) const {

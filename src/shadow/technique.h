@@ -58,6 +58,8 @@ struct Technique {
   bool decides_tiles = false;
   // Whether the denoiser that the parameters choose is applied to its result.
   bool denoisable = true;
+  // Whether it can't compute the shadows of lamps: render() then throws Error for a lamp.
+  bool suns_only = false;
   // The name of the technique that computes shadows on blended surfaces instead. Techniques without `glsl` need one.
   std::string stand_in = {};
   // Whether it reads the light's maps only near receivers of the view. Texels: at most read_margin (light_projection.h)

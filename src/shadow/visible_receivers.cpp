@@ -73,7 +73,7 @@ VisibleReceivers visible_of(const Found& found) {
 
 std::optional<VisibleReceivers> find_visible_receivers(gl::Device& device, const Inputs& inputs, const Light& light,
                                                        const ParamSet& params, const std::string& prefix) {
-  if (light.maps || params.get_word("cascades.fit") != "visible") return {};
+  if (light.maps || !fits_to_view(light.source) || params.get_word("cascades.fit") != "visible") return {};
   const Rect viewport = viewport_of(inputs);
   const glm::dmat3 world_to_view(glm::dmat4(inputs.view.view));
   const gl::Buffer& buffer = device.scratch(prefix + "visible receivers", sizeof(Found));
