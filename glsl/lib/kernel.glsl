@@ -21,6 +21,16 @@ GLSL_FUNCTION vec2 plane_gradient(vec3 normal, float max_slope) {
   return slope > max_slope ? gradient * (max_slope / slope) : gradient;
 }
 
+// The same for a lamp at the origin and a receiver at that position, in the projective space in which its rays are
+// parallel to z and the receiver keeps its place (light_projection.glsl): x and y are scaled by the receiver's depth
+// over their own.
+GLSL_FUNCTION vec2 lamp_plane_gradient(vec3 normal, vec3 position, float max_slope) {
+  float facing = max(-dot(normal, position), 1e-6f * position.z);
+  vec2 gradient = vec2(normal.x, normal.y) * (position.z / facing);
+  float slope = length(gradient);
+  return slope > max_slope ? gradient * (max_slope / slope) : gradient;
+}
+
 // The surroundings of a receiver as the shadow map shows them. Heights are above the receiver's plane, metres along the
 // light.
 struct Surroundings {

@@ -16,7 +16,8 @@ float footprint_margin(Receiver receiver, Light light) { return 1.5 * texel_size
 // wide the search disc is.
 vec4 in_light_cone(Receiver receiver, Offsets at, vec4 blocker_distances, Light light) {
   vec4 radii = penumbra_radii(receiver, blocker_distances, light) + footprint_margin(receiver, light);
-  return within_cone(radii, is_square(light), at.x, at.y);
+  Outline place = from_outline(at.x, at.y, light);
+  return within_cone(radii, is_square(light), place.x, place.y);
 }
 
 // Adds the four texels around a point. A texel is a blocker if it is nearer to the light than the receiver and its

@@ -40,8 +40,14 @@ Box box_of(Pixels pixels, vec2 range) {
 
 // A receiver at the box's centre, at this depth.
 Receiver receiver_in_box(Box box, float depth) {
-  return Receiver(vec3(0.5 * (box.low.xy + box.high.xy), depth), vec3(0.0, 0.0, -1.0), vec2(0.0),
-                  Surroundings(vec4(0.0), 0.0, 0.0, 0.0), vec2(0.0), false);
+  Receiver receiver;
+  receiver.position = vec3(0.5 * (box.low.xy + box.high.xy), depth);
+  receiver.normal = vec3(0.0, 0.0, -1.0);
+  receiver.gradient = vec2(0.0);
+  receiver.surroundings = Surroundings(vec4(0.0), 0.0, 0.0, 0.0);
+  receiver.pixel = vec2(0.0);
+  receiver.history_refused = false;
+  return receiver;
 }
 
 // Bounds of what search_radius() gives the receivers of a box, metres. It reads the texels of the pyramid that a disc
@@ -79,7 +85,7 @@ Layers layers_of(Receiver shallowest, Receiver deepest, SearchRadii radii, float
   Layers layers;
   layers.first = finest_layer(shallowest, radii.least - box_radius, light);
   layers.last = finest_layer(deepest, radii.most + box_radius, light);
-  float edge = layer_edge(layers.last, deepest.position, radii.most + box_radius);
+  float edge = layer_edge(layers.last, deepest.position, radii.most + box_radius, light);
   if (layers.last == light.layers - 1) {
     layers.outside = edge > 1.0;
   } else if (cascades_seam != cascades_seam_none && edge > 1.0 - cascades_blend) {

@@ -1,10 +1,18 @@
 // The only GLSL file that depends on the kind of light and the projection of its shadow map. It converts positions to
-// map coordinates and stored depths to metres, and gives the sizes of texels and penumbrae. There is one kind of light:
-// a sun, with parallel rays and orthographic cascades as layers. All other files work in light space:
+// map coordinates and stored depths to metres, and gives the sizes of texels and penumbrae. All other files work in
+// light space:
 //   - z is the depth along the light's rays, metres, growing away from the light; the map stores it. x and y are
 //     perpendicular to z.
 //   - Offsets and radii are metres in x and y at the receiver's depth, for every kind of projection.
 //   - A light's shadow map has layers; a receiver reads one of them, or two where it blends between layers.
+// A sun has parallel rays, and orthographic cascades as layers. A lamp has perspective maps, one or a cube's faces. For
+// each receiver it is a sun: the projective map
+//   (x, y, z) -> (x, y, 2 z - Z) · Z / z,   Z the receiver's depth,
+// makes the rays through the lamp's centre parallel, keeps planes plane, leaves the receiver and, to first order, its
+// surroundings where they are, and turns a disc of radius R at the lamp into a sun of tangent R / Z. The depth that a
+// perspective map stores is a linear function of the result. So the functions below differ in how they place a
+// receiver and its map, and in little else. See ADR 24.
+#include "shared/cube_faces.h"
 #include "shared/shadow_block.h"
 #include "lib/kernel.glsl"
 #include "lib/projection.glsl"
@@ -13,37 +21,107 @@ layout(std140, binding = 1) uniform ShadowData { ShadowBlock shadow; };
 
 layout(binding = 0) uniform sampler2DArray shadow_depth;  // stored depths; one array layer for each layer of the light
 
+// Whether the light is a lamp: a constant in programs that are compiled for one kind of light.
+#ifdef LAMP
+const bool is_lamp = LAMP != 0;
+#else
+#define is_lamp (shadow.light_is_lamp != 0)
+#endif
+
 // A point to be shaded, in light space.
 struct Receiver {
-  vec3 position;
+  vec3 position;  // of a lamp: from its centre, in the space of the face that the receiver is seen through
   vec3 normal;    // geometric
   vec2 gradient;  // of its plane: change of depth per metre in x and y
   Surroundings surroundings;
   vec2 pixel;     // seeds the noise
   bool history_refused;  // there is a history, but it is invalid here: techniques take more taps
+  int layer;             // of a lamp: the face that sees it so
+  vec3 from_lamp;        // position and normal in the lamp's own space
+  vec3 lamp_normal;
 };
 
 struct Light {
-  float extent;  // of a sun: the tangent of half its angular diameter
+  float extent;  // the tangent of half the angle that it spans, from the receiver
   bool square;   // else a disc
   int layers;
   int layer;          // the one to read; see with_layer()
   LayerBlock map;     // its placement
   float read_radius;  // metres: the technique's read_radius()
+  vec3 outline;       // of a lamp, a symmetric matrix, xx yy xy: makes an ellipse on the map of the unit disc
+  float depth;        // of a lamp: the receiver's
 };
 
 const float max_plane_slope = 1000.0;
 
+// The light as its maps have it, for what no receiver reads.
 Light frame_light() {
-  return Light(shadow.light_extent, shadow.light_is_square != 0, shadow.layer_count, 0, shadow.layers[0], 0.0);
+  return Light(shadow.light_extent, shadow.light_is_square != 0, shadow.layer_count, 0, shadow.layers[0], 0.0,
+               vec3(1.0, 1.0, 0.0), 1.0);
+}
+
+// A lamp's map as that of a sun, for receivers at this depth.
+LayerBlock map_at_depth(LayerBlock map, float depth) {
+  map.widths_per_metre /= depth;
+  map.texel *= depth;
+  map.near_depth = depth * (2.0 + depth * map.near_depth);
+  map.depth_range *= depth * depth;
+  map.rounding *= depth * depth;
+  return map;
+}
+
+LayerBlock layer_map(int layer, Light light) {
+  LayerBlock map = shadow.layers[layer];
+  return is_lamp ? map_at_depth(map, light.depth) : map;
 }
 
 // The light with another layer to read. The layer's placement is loaded once here rather than for each texel that is
 // read, because the index differs from pixel to pixel, so that each load is slow.
 Light with_layer(Light light, int layer) {
   light.layer = layer;
-  light.map = shadow.layers[layer];
+  light.map = layer_map(layer, light);
   return light;
+}
+
+// The light as a receiver sees it.
+Light light_at(Receiver receiver) {
+  Light light = frame_light();
+  if (is_lamp) {
+    // The nearest depth that is not at the lamp's centre, where there is no light space.
+    light.depth = max(receiver.position.z, -1.0 / shadow.layers[0].near_depth);
+    light.extent = shadow.light_extent / light.depth;
+    light.map = map_at_depth(light.map, light.depth);
+    // A disc that faces the receiver, seen along the map's axis: longer by 1 / cosine along the direction in which the
+    // receiver lies, as it is shown on the lamp's plane by rays from the receiver.
+    vec2 across = receiver.position.xy;
+    float away = length(vec3(across, light.depth));
+    float longer = 1.0 / (light.depth * (away + light.depth));
+    light.outline = vec3(1.0 + longer * across * across, longer * across.x * across.y);
+  }
+  return light;
+}
+
+// A point of the light's shape on the map, -1..1 for a disc of radius 1; and back.
+vec2 on_outline(vec2 point, Light light) {
+  if (!is_lamp) return point;
+  return light.outline.xy * point + light.outline.z * point.yx;
+}
+
+struct Outline {
+  vec4 x, y;
+};
+
+Outline from_outline(vec4 x, vec4 y, Light light) {
+  if (!is_lamp) return Outline(x, y);
+  vec3 m = light.outline;
+  float scale = 1.0 / (m.x * m.y - m.z * m.z);
+  return Outline(scale * (m.y * x - m.z * y), scale * (m.x * y - m.z * x));
+}
+
+// Bounds of the outline of a disc of radius 1, along x and y.
+vec2 outline_reach(Light light) {
+  if (!is_lamp) return vec2(1.0);
+  return sqrt(light.outline.xy * light.outline.xy + light.outline.z * light.outline.z);
 }
 
 // Light space and back. Directions of light space are unit where those of the world are.
@@ -51,8 +129,26 @@ Light with_layer(Light light, int layer) {
 vec3 light_direction(vec3 world_direction) { return mat3(shadow.world_to_light) * world_direction; }
 vec3 view_direction(vec3 light_space_direction) { return light_space_direction * mat3(shadow.view_to_light); }
 
-vec3 light_position(vec3 view_position) { return mat3(shadow.view_to_light) * view_position; }
-vec3 view_position_of(Receiver receiver) { return receiver.position * mat3(shadow.view_to_light); }
+// Relative to the camera, of a lamp to its centre.
+vec3 light_position(vec3 view_position) {
+  if (is_lamp) view_position -= shadow.lamp.xyz;
+  return mat3(shadow.view_to_light) * view_position;
+}
+
+vec3 view_position_of(Receiver receiver) {
+  if (is_lamp) return receiver.from_lamp * mat3(shadow.view_to_light) + shadow.lamp.xyz;
+  return receiver.position * mat3(shadow.view_to_light);
+}
+
+// How far a receiver moves across the light if it moves by a little vector in view space, metres.
+vec2 across_light(Receiver receiver, vec3 view_vector) {
+  vec3 moves = light_direction(view_vector);
+  if (is_lamp) {
+    moves = seen_by_face(moves, receiver.layer);
+    moves.xy -= receiver.position.xy * (moves.z / receiver.position.z);
+  }
+  return moves.xy;
+}
 
 // Width of a pixel at a position in view space, metres.
 float pixel_width(vec3 position) {
@@ -72,18 +168,35 @@ vec2 pixels_on_plane(vec3 position, vec3 normal) {
 vec3 view_ray(vec3 position) { return normalize(shadow.pixel_size.z * position + vec3(0.0, 0.0, shadow.pixel_size.w)); }
 
 // A receiver's normal in view space, and in axes that are the same for all layers and constant while the light is.
-vec3 view_normal_of(Receiver receiver) { return view_direction(receiver.normal); }
+vec3 view_normal_of(Receiver receiver) { return view_direction(is_lamp ? receiver.lamp_normal : receiver.normal); }
 vec3 shared_normal_of(Receiver receiver) {
+  if (is_lamp) return receiver.lamp_normal;
   vec2 turn = shadow.axes_turn, across = receiver.normal.xy;
   return vec3(turn.x * across.x - turn.y * across.y, turn.y * across.x + turn.x * across.y, receiver.normal.z);
+}
+
+// A lamp's receiver as one of its faces sees it.
+Receiver seen_by_layer(Receiver receiver, int layer) {
+  if (is_lamp) {
+    receiver.layer = layer;
+    receiver.position = seen_by_face(receiver.from_lamp, layer);
+    receiver.normal = seen_by_face(receiver.lamp_normal, layer);
+    receiver.gradient = lamp_plane_gradient(receiver.normal, receiver.position, max_plane_slope);
+  }
+  return receiver;
 }
 
 // A receiver from its position in view space and its normal in light space.
 Receiver make_receiver(vec3 view_position, vec3 light_normal, vec2 pixel) {
   Receiver receiver;
-  receiver.position = light_position(view_position);
-  receiver.normal = light_normal;
-  receiver.gradient = plane_gradient(light_normal, max_plane_slope);
+  receiver.position = receiver.from_lamp = light_position(view_position);
+  receiver.normal = receiver.lamp_normal = light_normal;
+  receiver.layer = 0;
+  if (is_lamp) {
+    receiver = seen_by_layer(receiver, shadow.layer_count > 1 ? faces_of(receiver.from_lamp).x : 0);
+  } else {
+    receiver.gradient = plane_gradient(light_normal, max_plane_slope);
+  }
   receiver.surroundings = Surroundings(vec4(0.0), 0.0, 0.0, 0.0);
   receiver.pixel = pixel;
   receiver.history_refused = false;
@@ -91,7 +204,16 @@ Receiver make_receiver(vec3 view_position, vec3 light_normal, vec2 pixel) {
 }
 
 // Cosine of the angle between the receiver's normal and the direction to the light.
-float light_cosine(Receiver receiver) { return -receiver.normal.z; }
+float light_cosine(Receiver receiver) {
+  if (is_lamp) return -dot(receiver.lamp_normal, receiver.from_lamp) * inversesqrt(max(dot(receiver.from_lamp, receiver.from_lamp), 1e-30));
+  return -receiver.normal.z;
+}
+
+// Whether the light shines in the receiver's direction: a spot does only within its cone.
+bool shines_at(Receiver receiver) {
+  if (!is_lamp) return true;
+  return receiver.from_lamp.z >= shadow.lamp.w * length(receiver.from_lamp);
+}
 
 // Penumbrae.
 
@@ -107,14 +229,19 @@ vec4 penumbra_radii(Receiver receiver, vec4 blocker_distances, Light light) {
 
 // Slope (depth per metre) above which a surface that rises beside the receiver enters the cone from the receiver to the
 // light.
-float cone_slope(Receiver receiver, Light light) { return 1.0 / max(light.extent, 1.0 / max_plane_slope); }
+float cone_slope(Receiver receiver, Light light) {
+  float widest = is_lamp ? light.extent * (light.outline.x + light.outline.y - 1.0) : light.extent;
+  return 1.0 / max(widest, 1.0 / max_plane_slope);
+}
 
 // Least difference between the stored depths of neighbouring texels of the light's layer, in a row and in a column,
 // that makes an edge. Along a surface with smaller ones no texel can be in such a cone from a point of the surface,
-// unless it borders the point.
+// unless it borders the point. For frame_light(), of any kind.
 vec2 stored_edge_heights(Light light) {
   const float diagonal = 0.5;  // texels along a diagonal lie further apart than their rows and columns
-  float slope = 1.0 / max(light.extent, 1.0 / max_plane_slope);
+  // A slope of a lamp's space is that in metres divided by the depth.
+  float deepest = is_lamp ? -1.0 / (shadow.widest.near_depth + shadow.widest.depth_range) : 1.0;
+  float slope = 1.0 / max(light.extent * shadow.light_stretch, deepest / max_plane_slope);
   vec2 along = diagonal * (light.map.texel * light.map.texel_shares) * slope;
   return (along + 2.0 * light.map.rounding) / light.map.depth_range;
 }
@@ -125,10 +252,22 @@ vec2 stored_edge_heights(Light light) {
 const float least_packed_slope = 1e-4;
 
 float packed_radius(vec3 position, float blocker_distance) {
-  return max(shadow.light_extent, least_packed_slope) * blocker_distance;
+  float radius = max(shadow.light_extent, least_packed_slope) * blocker_distance;
+  // A lamp's blockers are nearer than the lamp.
+  return is_lamp ? radius / max(length(position) - blocker_distance, 1e-3) : radius;
 }
 
-float packed_distance(vec3 position, float radius) { return radius / max(shadow.light_extent, least_packed_slope); }
+float packed_distance(vec3 position, float radius) {
+  float extent = max(shadow.light_extent, least_packed_slope);
+  return is_lamp ? length(position) * (radius / (radius + extent)) : radius / extent;
+}
+
+// The distance from a receiver to a blocker, metres, for a difference of their light-space depths.
+float metres_to_blocker(Receiver receiver, float depth_difference) {
+  if (!is_lamp) return depth_difference;
+  float height = max(depth_difference, 0.0);
+  return height / max(receiver.position.z + height, 1e-6) * length(receiver.from_lamp);
+}
 
 // The map.
 
@@ -165,7 +304,10 @@ vec2 texel_extent(Receiver receiver, Light light) { return texel_extent_at(recei
 float texel_slope(Receiver receiver, Light light) { return length(receiver.gradient * light.map.texel_shares); }
 
 // Upper bound of the error along the light that rounding in the map and in light space causes, metres.
-float depth_rounding(Receiver receiver, Light light) { return light.map.rounding; }
+float depth_rounding(Receiver receiver, Light light) {
+  if (is_lamp) return light.map.rounding + 1e-6 * (length(shadow.lamp.xyz) + length(receiver.from_lamp));
+  return light.map.rounding;
+}
 
 // Map coordinates of a position in the light's layer, in texels; texel centres are at half-integers.
 vec2 map_place(vec3 position, Light light) {
@@ -252,40 +394,59 @@ float compared_share(sampler2DArrayShadow map, Receiver receiver, vec2 offset, f
 
 // Largest distance of a disc's rim from the centre of a layer along either axis, in units of half the layer's width
 // along it; above 1 the disc is not completely within the layer.
-float layer_edge(int layer, vec3 position, float radius) {
-  LayerBlock map = shadow.layers[layer];
-  vec2 rim = abs(position.xy - map.center) + radius + 1.5 * map.texel;
+float layer_edge(int layer, vec3 position, float radius, Light light) {
+  LayerBlock map = layer_map(layer, light);
+  vec2 rim = abs(position.xy - map.center) + radius * outline_reach(light) + 1.5 * map.texel;
   vec2 inside = 2.0 * map.widths_per_metre * rim;
   return position.z - map.near_depth > map.depth_range * 1.0001 ? 2.0 : max(inside.x, inside.y);
 }
 
 // The finest layer that contains the whole disc, or the last layer if none does.
 int finest_layer(Receiver receiver, float radius, Light light) {
+  if (is_lamp) return receiver.layer;
   int layer = 0;
-  while (layer < light.layers - 1 && layer_edge(layer, receiver.position, radius) > 1.0) ++layer;
+  while (layer < light.layers - 1 && layer_edge(layer, receiver.position, radius, light) > 1.0) ++layer;
   return layer;
 }
 
 struct LayerChoice {
   int layer;
   bool outside;  // no layer contains the position: it counts as lit
-  float fade;    // 0 to 1: weight of the next layer beside this one
+  int second;    // the layer to blend with
+  float fade;    // 0 to 1: its weight
 };
+
+// A lamp's receiver reads the face that contains it. Beside an edge of the cube it also reads the face beyond, with a
+// weight that grows to a half at the edge, and goes to 0 where a third face is as near.
+LayerChoice choose_face(Receiver receiver, Light light) {
+  vec3 away = abs(receiver.from_lamp);
+  float most = max(away.x, max(away.y, away.z)), least = min(away.x, min(away.y, away.z));
+  float middle = away.x + away.y + away.z - most - least;
+  bool outside = receiver.position.z <= 0.0 || layer_edge(receiver.layer, receiver.position, 0.0, light) > 1.0;
+  float fade = 0.0;
+  if (cascades_seam != cascades_seam_none && light.layers > 1) {
+    float width = cascades_blend * most;
+    fade = 0.5 * clamp((middle - most + width) / width, 0.0, 1.0) * clamp((middle - least) / width, 0.0, 1.0);
+  }
+  return LayerChoice(receiver.layer, outside, light.layers > 1 ? faces_of(receiver.from_lamp).y : 0, fade);
+}
 
 // Chooses the layer from which a receiver reads a disc.
 LayerChoice choose_layer(Receiver receiver, float radius, Light light) {
+  if (is_lamp) return choose_face(receiver, light);
   int layer = finest_layer(receiver, radius, light);
   bool last = layer == light.layers - 1;
   float fade = 0.0;
   if (cascades_seam != cascades_seam_none && !last) {
-    fade = clamp((layer_edge(layer, receiver.position, radius) - 1.0) / cascades_blend + 1.0, 0.0, 1.0);
+    fade = clamp((layer_edge(layer, receiver.position, radius, light) - 1.0) / cascades_blend + 1.0, 0.0, 1.0);
   }
-  return LayerChoice(layer, last && layer_edge(layer, receiver.position, 0.0) > 1.0, fade);
+  return LayerChoice(layer, last && layer_edge(layer, receiver.position, 0.0, light) > 1.0, layer + 1, fade);
 }
 
 // The light with the layer that contains every caster which can block light from a receiver, and the least depth that
 // the light's layer can store.
 Light with_widest_layer(Receiver receiver, Light light) {
+  if (is_lamp) return with_layer(light, receiver.layer);
   light.layer = light.layers - 1;
   light.map = shadow.widest;
   return light;
@@ -294,13 +455,16 @@ Light with_widest_layer(Receiver receiver, Light light) {
 float least_depth(Light light) { return light.map.near_depth; }
 
 // Upper bound, metres, of the distance from a receiver to what moved since the last frame, along the light.
-float most_moved_distance(Receiver receiver) { return receiver.position.z - shadow.moved_depth; }
+float most_moved_distance(Receiver receiver) {
+  if (is_lamp) return receiver.position.z * (receiver.position.z / shadow.moved_depth - 1.0);
+  return receiver.position.z - shadow.moved_depth;
+}
 
 // Pyramids over the light's layer of the map, whose level 0 has one texel for `base` texels of the map along each axis.
 
 // The finest level of so many at which a rectangle of these half widths touches at most 2 × 2 texels.
 int pyramid_level(vec3 position, vec2 radius, Light light, float base, int levels) {
-  vec2 square = radius / light.map.texel_shares;
+  vec2 square = radius * outline_reach(light) / light.map.texel_shares;
   return covering_level(max(square.x, square.y), base * texel_size_at(position, light), levels);
 }
 
@@ -315,6 +479,7 @@ struct TexelRange {
 
 TexelRange pyramid_range(vec3 position, vec2 radius, Light light, float base, int level, ivec2 last) {
   vec2 texel = base * texel_extent_at(position, light) * exp2(float(level));
+  radius *= outline_reach(light);
   vec2 origin = position.xy - light.map.center + 0.5 / light.map.widths_per_metre;
   return TexelRange(clamp(ivec2(floor((origin - radius) / texel)), ivec2(0), last),
                     clamp(ivec2(floor((origin + radius) / texel)), ivec2(0), last));

@@ -19,7 +19,7 @@ PixelSteps pixel_steps(Receiver receiver) {
   float width = pixel_width(position);
   vec3 right = vec3(width, 0.0, 0.0) - ray * (width * normal.x / cosine);
   vec3 up = vec3(0.0, width, 0.0) - ray * (width * normal.y / cosine);
-  return PixelSteps(light_position(right).xy, light_position(up).xy);
+  return PixelSteps(across_light(receiver, right), across_light(receiver, up));
 }
 
 // Radius around a receiver, metres, of what a kernel and the pixel's own width read.

@@ -6,9 +6,19 @@
 
 // The frame's light, with the read radius of the technique for a receiver.
 Light light_for(Receiver receiver) {
-  Light light = frame_light();
+  Light light = light_at(receiver);
   if (faces_light(receiver)) light.read_radius = read_radius(receiver, light);
   return light;
+}
+
+// The same for one of its layers; a lamp's faces see a receiver differently.
+Light light_for_layer(Receiver seen, Light light, int layer) {
+  if (is_lamp && layer != light.layer) {
+    light = light_at(seen);
+    light.layer = layer;
+    light.read_radius = read_radius(seen, light);
+  }
+  return with_layer(light, layer);
 }
 
 Shadowed shadow_of(Receiver receiver, Light light) {
@@ -19,18 +29,20 @@ Shadowed shadow_of(Receiver receiver, Light light) {
   int first = choice.layer;
   float fade = choice.fade;
   if (cascades_seam == cascades_seam_dither) {
-    first += white_noise(uvec2(receiver.pixel), 977u).x < fade ? 1 : 0;
+    if (white_noise(uvec2(receiver.pixel), 977u).x < fade) first = choice.second;
     fade = 0.0;
   }
   Visibility mixed = Visibility(0.0, 0.0, 0.0, false);
-  int last = fade > 0.0 ? first + 1 : first;
-  for (int layer = first; layer <= last; ++layer) {
-    light = with_layer(light, layer);
-    float weight = layer == first ? 1.0 - fade : fade;
-    Visibility one = visibility(offset_receiver(receiver, light), light);
+  int readings = fade > 0.0 ? 2 : 1;
+  for (int i = 0; i < readings; ++i) {
+    int layer = i == 0 ? first : choice.second;
+    Receiver seen = seen_by_layer(receiver, layer);
+    light = light_for_layer(seen, light, layer);
+    float weight = i == 0 ? 1.0 - fade : fade;
+    Visibility one = visibility(offset_receiver(seen, light), light);
     mixed.visibility += weight * one.visibility;
     mixed.penumbra_radius += weight * one.penumbra_radius;
-    mixed.blocker_distance += weight * one.blocker_distance;
+    mixed.blocker_distance += weight * metres_to_blocker(seen, one.blocker_distance);
     mixed.under_texel = mixed.under_texel || one.under_texel;
   }
   return Shadowed(mixed, first);

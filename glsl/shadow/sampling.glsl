@@ -41,15 +41,16 @@ bool is_square(Light light) {
 
 vec2 shape_point(vec2 point, Scramble scramble, Light light) {
 #if SAMPLE_SCRAMBLE == SCRAMBLE_ROTATE
-  return vec2(point.x * scramble.value.x - point.y * scramble.value.y,
-              point.x * scramble.value.y + point.y * scramble.value.x);
+  vec2 turned = vec2(point.x * scramble.value.x - point.y * scramble.value.y,
+                     point.x * scramble.value.y + point.y * scramble.value.x);
+  return on_outline(turned, light);
 #else
 #if SAMPLE_SCRAMBLE == SCRAMBLE_KEYS
   vec2 in_square = (vec2(uvec2(point) ^ scramble.digits) + 0.5) / 256.0;
 #else
   vec2 in_square = toroidal_shift(point, scramble.value);
 #endif
-  return is_square(light) ? 2.0 * in_square - 1.0 : concentric_disc(in_square);
+  return on_outline(is_square(light) ? 2.0 * in_square - 1.0 : concentric_disc(in_square), light);
 #endif
 }
 

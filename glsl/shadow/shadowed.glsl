@@ -6,7 +6,8 @@ struct Shadowed {
   int layer;
 };
 
-bool faces_light(Receiver receiver) { return light_cosine(receiver) > 0.0; }
+// Whether the light shines on the receiver unless something blocks it.
+bool faces_light(Receiver receiver) { return light_cosine(receiver) > 0.0 && shines_at(receiver); }
 
 // See Mask in the library's headers.
 vec4 mask_texel(Shadowed shadowed) {

@@ -21,6 +21,7 @@ shadow::LightSource source_of(const SunLight& sun) { return shadow::Sun{.to_ligh
 
 // Homogeneous coordinates: a direction, or a position.
 glm::vec4 towards(const shadow::Sun& sun) { return {sun.to_light, 0}; }
+glm::vec4 towards(const shadow::Lamp& lamp) { return {lamp.position, 1}; }
 
 scene::Overlap overlap_of(const shadow::CullVolume& volume, const shadow::Box& box) {
   if (!volume.holds(box)) return scene::Overlap::none;

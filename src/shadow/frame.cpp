@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "../core/error.h"
 #include "denoise_context.h"
 #include "light_block.h"
 #include "light_fit.h"
@@ -203,6 +204,9 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, const ViewS
   }
   frame.projection = projection_of(from.inputs, light, state.params, visible);
   frame.shape = shape_of(light.source, state.params);
+  if (frame.shape.lamp && technique.suns_only) {
+    fail("soft shadows: light {} is a lamp, and technique '{}' is for suns alone", light.id, technique.name);
+  }
   take_shape(state, frame.shape);
   begin_frame(state, light, frame.projection.layers(), same_params);
   if (visible) state.drawn_texels.reset();

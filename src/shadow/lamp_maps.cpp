@@ -29,6 +29,10 @@ glm::dmat3 turn_of(int face) {
 // A plane through a point of the world, with the side that the normal points to in front.
 glm::dvec4 plane(const glm::dvec3& normal, const glm::dvec3& through) { return {normal, -glm::dot(normal, through)}; }
 
+// To a power of 2^(1/4), so that the planes seldom move while casters do.
+double step_up(double value) { return std::exp2(std::ceil(4 * std::log2(value)) / 4); }
+double step_down(double value) { return std::exp2(std::floor(4 * std::log2(value)) / 4); }
+
 double distance_to(const Box& box, const glm::dvec3& point) {
   return glm::length(glm::max(glm::max(glm::dvec3(box.min) - point, point - glm::dvec3(box.max)), glm::dvec3(0)));
 }
@@ -94,8 +98,8 @@ LampMaps fit_lamp(const LampInputs& in) {
   const double disc = (1 + rim * rim) * in.radius / std::max(clear_radii * in.radius, clear_distance);
   maps.tangent = (rim + disc) / (1 - std::min(2 * texels_beyond / in.size, 0.5));
   const double reach = farthest_of(in.receivers, in.position) * 1.001;
-  maps.near = std::max(in.nearest, 0.5 * distance_to(in.casters, in.position));
-  maps.far = std::max(in.range > 0 ? std::min(in.range, reach) : reach, 2 * maps.near);
+  maps.near = std::max(in.nearest, step_down(0.5 * distance_to(in.casters, in.position)));
+  maps.far = std::max(step_up(in.range > 0 ? std::min(in.range, reach) : reach), 2 * maps.near);
   return maps;
 }
 

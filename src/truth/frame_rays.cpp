@@ -18,6 +18,10 @@ TracedLight light_of(const shadow::Sun& sun, const ParamSet& params) {
                    .square = params.get_word("sun.shape") == "square"};
 }
 
+TracedLight light_of(const shadow::Lamp& lamp, const ParamSet& /*params*/) {
+  return LocalLight{.position = glm::dvec3(lamp.position), .radius = lamp.radius};
+}
+
 }  // namespace
 
 const render::FrameScene& frame_scene(const shadow::PassContext& frame, const char* technique) {

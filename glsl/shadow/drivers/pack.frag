@@ -16,7 +16,7 @@ PackedPixel pack_pixel(ivec2 pixel) {
   uint refusal = HISTORY_NONE;
 #if HISTORY
   // How far such a technique reads is not known; its penumbrae are no wider than what casts them.
-  Light light = frame_light();
+  Light light = light_at(receiver);
   light.read_radius = seen.penumbra_radius;
   refusal = refusal_of(receiver, light, pixel);
 #endif

@@ -12,12 +12,14 @@ struct Region {
 
 Region texels_within(Receiver receiver, float radius, Light light) {
   vec2 center = map_place(receiver.position, light);
-  vec2 texels = radius / texel_extent(receiver, light);
+  vec2 texels = radius * outline_reach(light) / texel_extent(receiver, light);
   return Region(clamp(ivec2(floor(center - texels)), ivec2(0), last_texel()),
                 clamp(ivec2(floor(center + texels)), ivec2(0), last_texel()));
 }
 
 bool in_shape(vec2 offset, float radius, Light light) {
+  Outline place = from_outline(vec4(offset.x), vec4(offset.y), light);
+  offset = vec2(place.x.x, place.y.x);
   return light.square ? max(abs(offset.x), abs(offset.y)) <= radius : length(offset) <= radius;
 }
 

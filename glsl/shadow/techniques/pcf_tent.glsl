@@ -10,7 +10,7 @@ float read_radius(Receiver receiver, Light light) {
   float radius = 0.0;
   for (int layer = 0; layer < light.layers; ++layer) {
     radius = tent_radius * texel_size(receiver, with_layer(light, layer));
-    if (layer_edge(layer, receiver.position, radius) <= 1.0) break;
+    if (layer_edge(layer, receiver.position, radius, light) <= 1.0) break;
   }
   return radius;
 }

@@ -114,7 +114,7 @@ Slice walk(Receiver receiver, float share, int index, float radius, PixelNoise n
   float rim_texel = texel_size(receiver, light);
   vec2 texel = texel_extent(receiver, light);
   vec2 place = map_place(receiver.position, light);
-  vec2 rim = rim_point(fract(share), light);
+  vec2 rim = on_outline(rim_point(fract(share), light), light);
   float jitter = fract(noise.distance_to + golden * float(index));
   float dither = fract(noise.ring + plastic.x * float(index));
   float begin = 0.0;

@@ -25,6 +25,7 @@ Technique backprojection() {
                compiled},
           },
       .decides_tiles = true,
+      .suns_only = true,
       .reads_light_discs = true};
 }
 

@@ -10,7 +10,8 @@ Technique cssm() {
       .glsl = "shadow/techniques/cssm.glsl",
       .needs = {"shadow_map", "least_depth_pyramid", "cssm_terms"},
       .params = {{"cssm.attenuation", 1.0f, 0, 20, "",
-                  "How much the series' high terms are lowered: they ring less, and light leaks further."}}};
+                  "How much the series' high terms are lowered: they ring less, and light leaks further."}},
+      .suns_only = true};
 }
 
 }  // namespace penumbra::shadow

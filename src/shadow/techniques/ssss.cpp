@@ -65,6 +65,7 @@ Technique ssss() {
                 {.name = "soften in compute", .compute = "shadow/techniques/ssss.comp"}};
           },
       .decides_tiles = true,
+      .suns_only = true,
       .stand_in = "pcss",
       .reads_light_discs = true};
 }

@@ -24,7 +24,8 @@ Technique vssm() {
               {"vssm.small", 2.0f, 1, 4, "texels", "Half the width of kernels of which every texel is compared.",
                compiled},
           },
-      .decides_tiles = true};
+      .decides_tiles = true,
+      .suns_only = true};
 }
 
 }  // namespace penumbra::shadow
