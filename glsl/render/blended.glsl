@@ -13,6 +13,7 @@ void main() {
   vec3 geometric = normalize(geometric_normal());
   vec3 properties = surface_properties(surface_uv());
   Shading s;
+  s.position = surface.world;
   s.albedo = clamp(color.rgb, 0.0, 1.0);
   s.normal = shading_normal(geometric);
   s.to_eye = -normalize(view_ray());

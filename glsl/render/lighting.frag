@@ -1,4 +1,5 @@
-// Computes the lighting of the G-buffer, and the sky where no surface is. LIGHTS: how many lights there are.
+// Computes the lighting of the G-buffer, and the sky where no surface is. LIGHTS: how many lights there are; SHADOWED:
+// how many of them have a layer of the mask.
 #include "shared/view_block.h"
 #include "lib/octahedral.glsl"
 #include "render/shade.glsl"
@@ -13,6 +14,18 @@ layout(binding = 11) uniform sampler2DArray shadow_mask;  // one layer for each 
 layout(binding = 12) uniform sampler2D gbuffer_emission;
 #endif
 
+#if LAMPS
+layout(binding = 13) uniform sampler2D gbuffer_depth;
+
+uniform mat4 clip_to_world;
+
+vec3 position_at(ivec2 pixel, vec2 ndc) {
+  float depth = texelFetch(gbuffer_depth, pixel, 0).x;
+  vec4 world = clip_to_world * vec4(ndc, depth, 1.0);
+  return world.xyz / world.w;
+}
+#endif
+
 layout(location = 0) out vec4 lit;
 
 void main() {
@@ -22,6 +35,9 @@ void main() {
   vec4 albedo = texelFetch(gbuffer_albedo, pixel, 0);
   vec4 material = texelFetch(gbuffer_material, pixel, 0);
   Shading s;
+#if LAMPS
+  s.position = position_at(pixel, ndc);
+#endif
   s.albedo = albedo.rgb * albedo.rgb;
   s.normal = octahedral_decode(texelFetch(gbuffer_normal, pixel, 0).xy * 2.0 - 1.0);
   s.to_eye = -ray;
@@ -41,7 +57,7 @@ void main() {
     Reflection r = reflection_of(s);
     vec3 radiance = unshadowed_light(s, r, beyond);
     for (int i = 0; i < LIGHTS; ++i) {
-      add_light(radiance, s, r, i, texelFetch(shadow_mask, ivec3(pixel, i), 0).r);
+      add_light(radiance, s, r, i, i < SHADOWED ? texelFetch(shadow_mask, ivec3(pixel, i), 0).r : 1.0);
     }
     color = storable(radiance);
   }

@@ -1,8 +1,10 @@
 // Metallic-roughness shading as in glTF 2.0, appendix B: direct light, and ambient light.
+// LAMPS: 1 where there are lamps besides suns.
 #include "lib/brdf.glsl"
 #include "render/sky.glsl"
 
 struct Shading {
+  vec3 position;  // world, metres; read only where there are lamps
   vec3 albedo;
   vec3 normal;  // unit, world
   vec3 to_eye;  // unit, world
@@ -22,9 +24,32 @@ Reflection reflection_of(Shading s) {
   return Reflection(s.albedo * (1.0 - s.metallic), mix(vec3(0.04), s.albedo, s.metallic));
 }
 
+// A light as it reaches a point.
+struct Incident {
+  vec3 to_light;     // unit, world
+  vec3 illuminance;  // on a plane perpendicular to that
+};
+
+#if LAMPS
+
+// KHR_lights_punctual: inverse square, a window that ends at the range, and a spot's cone.
+Incident incident_at(vec3 position, DirectLightBlock light) {
+  if (light.least_square == 0.0) return Incident(light.place, light.illuminance);
+  vec3 to_lamp = light.place - position;
+  float square = dot(to_lamp, to_lamp);
+  vec3 to_light = to_lamp * inversesqrt(max(square, 1e-12));
+  float of_range = square * light.inverse_range * light.inverse_range;
+  float window = clamp(1.0 - of_range * of_range, 0.0, 1.0);
+  float cone = clamp(-dot(light.axis, to_light) * light.cone_scale + light.cone_offset, 0.0, 1.0);
+  return Incident(to_light, light.illuminance * (window * cone * cone / max(square, light.least_square)));
+}
+#else
+Incident incident_at(vec3 position, DirectLightBlock light) { return Incident(light.place, light.illuminance); }
+#endif
+
 // Reflected radiance of an unshadowed light. Without branches, which would hardly ever skip work for a whole group of
 // pixels.
-vec3 direct_light(Shading s, Reflection r, DirectLightBlock light) {
+vec3 direct_light(Shading s, Reflection r, Incident light) {
   float n_dot_l = max(dot(s.normal, light.to_light), 0.0);
   vec3 half_vector = light.to_light + s.to_eye;
   half_vector *= inversesqrt(max(dot(half_vector, half_vector), 1e-12));  // 0 where the eye looks into the light
@@ -54,7 +79,7 @@ vec3 unshadowed_light(Shading s, Reflection r, vec3 mirrored) {
 
 // Adds a light that is visible to the given degree, 0 to 1.
 void add_light(inout vec3 radiance, Shading s, Reflection r, int index, float visibility) {
-  radiance += visibility * direct_light(s, r, lighting.lights[index]);
+  radiance += visibility * direct_light(s, r, incident_at(s.position, lighting.lights[index]));
 }
 
 // The largest half float: pictures are stored as half floats.

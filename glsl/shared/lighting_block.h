@@ -7,14 +7,18 @@
 
 GLSL_BEGIN
 
-#define LIGHTING_MAX_LIGHTS 16
+#define LIGHTING_MAX_LIGHTS 64
 
-// A light that casts shadows; it has one layer of the mask.
+// A light. The first ones cast shadows, each with its layer of the mask.
 struct DirectLightBlock {
-  vec3 to_light;  // unit, world
-  float pad_a;
-  vec3 illuminance;  // on a plane perpendicular to it
-  float pad_b;
+  vec3 place;           // of a sun: unit vector towards it, world; of a lamp: its centre, world, metres
+  float least_square;   // of a lamp: the least square of a distance, metres²; 0: a sun
+  vec3 illuminance;     // of a sun: on a plane perpendicular to it; of a lamp: at a distance of 1 m
+  float inverse_range;  // of a lamp, 1/m; 0: unlimited
+  vec3 axis;            // of a spot: unit, world
+  float cone_scale;     // a spot's light is the square of cosine · scale + offset, clamped to 0..1
+  float cone_offset;
+  float pad_a, pad_b, pad_c;
 };
 
 struct LightingBlock {

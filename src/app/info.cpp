@@ -46,10 +46,19 @@ void print_materials(const scene::SceneInfo& info) {
   }
 }
 
+void print_light(const scene::LightInfo& light) {
+  fmt::print("  {}, {}, {:g} {}", name_of(light.name), light.kind, light.intensity, light.unit);
+  if (light.cones) fmt::print(", cones {:g} and {:g}°", light.cones->x, light.cones->y);
+  if (light.range > 0) fmt::print(", range {:g} m", light.range);
+  if (light.radius) fmt::print(", radius {:g} m", *light.radius);
+  if (light.place) fmt::print(", at {:g} {:g} {:g}", light.place->x, light.place->y, light.place->z);
+  fmt::print("\n");
+}
+
 void print_parts(const scene::SceneInfo& info) {
   fmt::print("\nlights       {}\n", info.lights.size());
   for (const scene::LightInfo& light : info.lights)
-    fmt::print("  {}, {}, {:g} {}\n", name_of(light.name), light.kind, light.intensity, light.unit);
+    print_light(light);
   fmt::print("\ncameras      {}\n", info.cameras.size());
   for (const scene::CameraInfo& camera : info.cameras) fmt::print("  {}, {}\n", name_of(camera.name), camera.kind);
   fmt::print("\nanimations   {}\n", info.animations.size());

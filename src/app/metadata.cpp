@@ -28,8 +28,11 @@ image::Metadata metadata_of(const cli::SceneOptions& options, const render::Setu
                            {"penumbra:supersample", std::to_string(options.supersample)},
                            {"penumbra:camera.eye", text_of(render::position_of(camera))},
                            {"penumbra:camera.forward", text_of(forward)},
-                           {"penumbra:sun.to_light", text_of(setup.sun.to_light)},
-                           {"penumbra:sun.illuminance", text_of(setup.sun.illuminance)}};
+                           {"penumbra:lights", std::to_string(render::frame_lights(setup).size())}};
+  if (setup.sun_shines) {
+    metadata.emplace_back("penumbra:sun.to_light", text_of(setup.sun.to_light));
+    metadata.emplace_back("penumbra:sun.illuminance", text_of(setup.sun.illuminance));
+  }
   if (camera.orthographic) {
     metadata.emplace_back("penumbra:camera.half_height", fmt::format("{}", camera.half_height));
   } else {

@@ -24,6 +24,18 @@ render::GroundChoice ground_choice(const std::string& text) {
   return word == "on" ? render::GroundChoice::on : render::GroundChoice::off;
 }
 
+// "a,b" as names, none of them empty.
+std::vector<std::string> split_names(const char* option, const std::string& text) {
+  std::vector<std::string> names;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    if (end == begin) fail_usage("{} '{}' has an empty name", option, text);
+    names.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return names;
+}
+
 }  // namespace
 
 void add_value(CLI::App& app, const char* name, const char* type, const char* help,
@@ -63,6 +75,13 @@ void add_view_options(CLI::App& app, SceneOptions& o) {
   add_value(app, "--sun", "AZIMUTH,ELEVATION",
             "Direction to the sun, degrees: azimuth from +Z towards +X, elevation over the horizon",
             [&o](const auto& text) { o.sun = parse_direction("--sun", text); });
+  app.add_flag("--no-sun", o.no_sun, "Leaves out suns: spots and point lights alone light the scene")
+      ->disable_flag_override();
+  add_value(app, "--lights", "NAME,...", "Lights of the scene that shine, by name or index (all)",
+            [&o](const auto& text) { o.lights = split_names("--lights", text); });
+  add_value(app, "--lamp-radius", "METRES",
+            "Radius of spots and point lights (that of the light's extras, or 0.03)",
+            [&o](const auto& text) { o.lamp_radius = parse_number("--lamp-radius", text, 0, 1000); });
   add_value(app, "--ground", "auto|on|off",
             "A plane under the scene; auto: only where shadows would have nothing to fall on",
             [&o](const auto& text) { o.ground = ground_choice(text); });
@@ -120,6 +139,7 @@ void set_exposure(ParamSet& params, const std::string& text) {
 }  // namespace
 
 void check_together(const SceneOptions& o) {
+  if (o.sun && o.no_sun) fail_usage("--sun and --no-sun exclude each other");
   if (o.eye.has_value() != o.target.has_value()) fail_usage("--eye and --target go together");
   if (o.eye && o.camera) fail_usage("--eye and --camera exclude each other");
   if (o.eye && *o.eye == *o.target) fail_usage("--eye and --target are the same point");

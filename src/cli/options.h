@@ -29,6 +29,9 @@ struct SceneOptions {
   std::optional<glm::vec3> eye, target;
   std::optional<double> fov;  // degrees, of the height
   std::optional<Direction> sun;
+  bool no_sun = false;
+  std::optional<std::vector<std::string>> lights;  // names or indices in the file
+  std::optional<double> lamp_radius;               // metres
   render::GroundChoice ground = render::GroundChoice::automatic;
 
   double time = 0;  // seconds: of the picture, or of frame 0

@@ -63,8 +63,8 @@ render::FrameInputs CameraPath::frame(int frame, bool again) const {
   return inputs;
 }
 
-render::SunLight CameraPath::sun(int frame) const {
-  return session::setup_at(prepared_, session::time_of(options_, frame)).sun;
+render::FrameLight CameraPath::light(int frame) const {
+  return render::frame_lights(session::setup_at(prepared_, session::time_of(options_, frame))).front();
 }
 
 }  // namespace penumbra::compare

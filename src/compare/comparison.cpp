@@ -53,7 +53,7 @@ void warn_of_frames_without_receivers(const std::string& scene, const std::vecto
   const auto count = std::ranges::count_if(frames, [](const auto& frame) { return receiver_count(frame) == 0; });
   if (count == 0) return;
   const std::string which = frames.size() == 1 ? "the picture" : fmt::format("{} of {} frames", count, frames.size());
-  warn("{}: no surface faces the sun in {}, so there is nothing to measure", io::quoted(scene), which);
+  warn("{}: no surface faces the light in {}, so there is nothing to measure", io::quoted(scene), which);
 }
 
 ComparedScene compare_scene(const CompareOptions& options, const session::PreparedScene& prepared, gl::Device& device,
@@ -64,7 +64,7 @@ ComparedScene compare_scene(const CompareOptions& options, const session::Prepar
   const DrawnScene common{options, device, techniques, scene, path, drawn};
   const int first = options.frames ? options.frames->first : 0;
   ComparedScene result{
-      .path = options.scene, .camera = path.frame(first).camera, .sun = path.sun(first), .target = path.target()};
+      .path = options.scene, .camera = path.frame(first).camera, .light = path.light(first), .target = path.target()};
   const std::vector<ReferenceFrame> reference = draw_reference(common, values.reference, result.reference);
   warn_of_frames_without_receivers(options.scene, reference);
   result.pixels = reference.back().receivers.size();

@@ -51,7 +51,7 @@ struct ComparedScene {
   std::size_t receivers = 0, pixels = 0;  // of the last frame
   ComparedPictures reference;             // without an error
   render::Camera camera;                  // of the first frame
-  render::SunLight sun;
+  render::FrameLight light;               // the one that is compared
   glm::vec3 target{0};  // what that camera looks at
   std::vector<ComparedTechnique> techniques;
 };

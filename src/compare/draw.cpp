@@ -142,7 +142,7 @@ std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamS
   for (int frame = range.first; frame <= range.last; ++frame) {
     renderer.draw(scene.scene, scene.path.frame(frame), params);
     frames.push_back({renderer.read_aov("shadow"),
-                      render::receivers_of(renderer, scene.path.sun(frame).to_light, params.get_float("sun.angle"))});
+                      render::receivers_of(renderer, scene.path.light(frame), params.get_float("sun.angle"))});
     scene.drawn();
   }
   last = {.display = renderer.read_display(), .visibility = frames.back().visibility, .error = {}};

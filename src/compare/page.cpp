@@ -168,14 +168,22 @@ std::string scene_name(const std::string& path) { return std::filesystem::path(p
 
 std::string point_text(const glm::vec3& v) { return fmt::format("{:.6g},{:.6g},{:.6g}", v.x, v.y, v.z); }
 
+std::string light_text(const render::SunLight& light) {
+  const Angles sun = angles_of(light.to_light);
+  return fmt::format("--sun={:.6g},{:.6g}", sun.azimuth, sun.elevation);
+}
+
+std::string light_text(const render::LampLight& lamp) {
+  return fmt::format("lamp of radius {:.6g} m at {}", lamp.radius, point_text(lamp.position));
+}
+
 // The view as command-line options, so that it can be drawn again even if the file's camera or sun changes.
 std::string view_text(const ComparedScene& scene) {
   const render::Camera& camera = scene.camera;
-  const Angles sun = angles_of(scene.sun.to_light);
   const std::string lens = camera.orthographic ? fmt::format("orthographic, half height {:g} m", camera.half_height)
                                                : fmt::format("--fov={:.6g}", glm::degrees(camera.fov_y));
-  return fmt::format("--eye={} --target={} {} --sun={:.6g},{:.6g}", point_text(render::position_of(camera)),
-                     point_text(scene.target), lens, sun.azimuth, sun.elevation);
+  return fmt::format("--eye={} --target={} {} {}", point_text(render::position_of(camera)), point_text(scene.target),
+                     lens, std::visit([](const auto& light) { return light_text(light); }, scene.light));
 }
 
 Html command_section(const Comparison& comparison, const cli::Arguments& arguments) {

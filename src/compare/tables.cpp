@@ -126,11 +126,19 @@ Json camera_of(const ComparedScene& scene) {
   return json;
 }
 
-Json sun_of(const render::SunLight& sun) {
+// The compared light, under the name of its kind.
+void add_light(Json& json, const render::SunLight& sun) {
   const Angles angles = angles_of(sun.to_light);
-  return {{"to_light", json_of(sun.to_light)},
-          {"azimuth", rounded(angles.azimuth)},
-          {"elevation", rounded(angles.elevation)}};
+  json["sun"] = {{"to_light", json_of(sun.to_light)},
+                 {"azimuth", rounded(angles.azimuth)},
+                 {"elevation", rounded(angles.elevation)}};
+}
+
+void add_light(Json& json, const render::LampLight& lamp) {
+  json["lamp"] = {{"position", json_of(lamp.position)}, {"radius", rounded(static_cast<double>(lamp.radius))}};
+  if (lamp.axis == glm::vec3(0)) return;
+  json["lamp"]["axis"] = json_of(lamp.axis);
+  json["lamp"]["cone_half_angle"] = rounded(glm::degrees(static_cast<double>(lamp.outer_cone)));
 }
 
 }  // namespace
@@ -176,12 +184,12 @@ Json json_of(const Comparison& comparison, const CompareOptions& options, const 
   for (const ComparedScene& scene : comparison.scenes) {
     Json techniques = Json::array();
     for (const ComparedTechnique& technique : scene.techniques) techniques.push_back(json_of(technique));
-    scenes.push_back({{"scene", scene.path},
-                      {"camera", camera_of(scene)},
-                      {"sun", sun_of(scene.sun)},
-                      {"pixels", scene.pixels},
-                      {"receivers", scene.receivers},
-                      {"techniques", std::move(techniques)}});
+    Json json{{"scene", scene.path}, {"camera", camera_of(scene)}};
+    std::visit([&](const auto& light) { add_light(json, light); }, scene.light);
+    json["pixels"] = scene.pixels;
+    json["receivers"] = scene.receivers;
+    json["techniques"] = std::move(techniques);
+    scenes.push_back(std::move(json));
   }
   return {{"version", cli::version()},
           {"commit", bench::commit()},

@@ -82,6 +82,18 @@ std::vector<float> depth(const Source& from) {
   });
 }
 
+std::vector<float> position(const Source& from) {
+  const glm::dmat4 clip_to_world = glm::inverse(glm::dmat4(from.frame.view.world_to_clip));
+  const Pixels stored = from.read(*from.frame.gbuffer.depth, 1);
+  const auto width = static_cast<std::size_t>(from.frame.gbuffer.depth->width());
+  const glm::dvec2 scale = 2.0 / glm::dvec2(from.frame.gbuffer.depth->width(), from.frame.gbuffer.depth->height());
+  return each(stored, [&](std::size_t i, const float* p, std::vector<float>& out) {
+    const auto x = static_cast<double>(i % width), y = static_cast<double>(i / width);
+    const glm::dvec4 world = clip_to_world * glm::dvec4((glm::dvec2(x, y) + 0.5) * scale - 1.0, p[0], 1.0);
+    append(out, is_sky(stored, i) ? glm::vec3(0.0f) : glm::vec3(glm::dvec3(world) / world.w));
+  });
+}
+
 std::vector<float> normals(const Source& from, const gl::Texture& texture, float scale, float offset) {
   const Pixels sky = from.read(*from.frame.gbuffer.depth, 1);
   return each(from.read(texture, 2), [&](std::size_t i, const float* p, std::vector<float>& out) {
@@ -191,8 +203,9 @@ const std::vector<Row>& rows() {
   using enum Reduction;
   static const std::vector<Row> all{
       {{"color", "Linear light, exposed, before the tone map.", rgb, mean}, color},
-      {{"shadow", "Visibility of the sun: 1 lit, 0 in shadow.", v, mean}, visibility},
+      {{"shadow", "Visibility of the first light, which is the sun if there is one: 1 lit, 0 in shadow.", v, mean}, visibility},
       {{"depth", "Distance from the camera's plane, m; 0 for the sky.", {"Z"}, nearest_center}, depth},
+      {{"position", "Position of the surface, world space, m; 0 for the sky.", xyz, nearest_center}, position},
       {{"normal", "Shading normal, world space; 0 for the sky.", xyz, nearest_center}, shading_normal},
       {{"geometric_normal", "Normal of the triangle itself, world space, facing the camera; 0 for the sky.", xyz,
         nearest_center},

@@ -14,7 +14,9 @@ std::string put_fragment_shader(gl::ShaderFiles& files, const std::string& forwa
   return name;
 }
 
-gl::ProgramDesc program(std::string fragment, std::vector<gl::Define> defines, const scene::SurfaceTraits& traits) {
+gl::ProgramDesc program(std::string fragment, std::vector<gl::Define> defines, bool lamps,
+                        const scene::SurfaceTraits& traits) {
+  defines.push_back({"LAMPS", lamps ? "1" : "0"});
   for (gl::Define& define : scene::surface_defines(traits, {.normals = true, .world = true}))
     defines.push_back(std::move(define));
   return {.name = "blended surfaces",
@@ -32,7 +34,7 @@ void draw_blended(gl::Device& device, const BlendedInputs& inputs) {
                          .depth = gl::Attachment{.texture = inputs.gbuffer.depth},
                          .depth_test = gl::DepthTest::greater_equal,
                          .blend = gl::Blend::premultiplied_over});
-  const shadow::ForwardProgram forward = inputs.soft_shadows.forward_program(inputs.params);
+  const shadow::ForwardProgram forward = inputs.soft_shadows.forward_program(inputs.params, inputs.first);
   const std::string fragment = put_fragment_shader(device.shaders.files(), forward.include);
   inputs.soft_shadows.bind_forward(inputs.mask, 0);
   const Frustum frustum(inputs.view.world_to_clip);
@@ -40,7 +42,7 @@ void draw_blended(gl::Device& device, const BlendedInputs& inputs) {
   inputs.scene.draw_blended(
       device, pass,
       [&](const scene::SurfaceTraits& traits) {
-        pass.use(program(fragment, forward.defines, traits)).set("world_to_view", inputs.camera.view);
+        pass.use(program(fragment, forward.defines, inputs.lamps, traits)).set("world_to_view", inputs.camera.view);
       },
       [&](const scene::Bounds& box) { return frustum.holds(box); },
       [&](const scene::Bounds& box) { return glm::distance(box.center(), eye); });
@@ -53,7 +55,7 @@ std::vector<gl::ProgramDesc> blended_programs(gl::Device& device, const shadow::
     const std::string fragment = put_fragment_shader(device.shaders.files(), forward.include);
     const std::vector<scene::SurfaceTraits> samples = scene::sample_traits();
     for (const scene::SurfaceTraits& traits : {samples[0], samples[1]})
-      programs.push_back(program(fragment, forward.defines, traits));
+      programs.push_back(program(fragment, forward.defines, /*lamps=*/true, traits));
   }
   return programs;
 }

@@ -47,6 +47,7 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
   const gl::Texture& lit = light_surfaces(device, {.gbuffer = gbuffer,
                                                    .mask = mask,
                                                    .lights = inputs.lights,
+                                                   .view = view,
                                                    .emission_in_nits = scene.lit_by_file(),
                                                    .params = params});
 
@@ -57,7 +58,9 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                         .gbuffer = gbuffer,
                         .mask = mask,
                         .params = params,
-                        .lit = lit});
+                        .lit = lit,
+                        .first = lights.front(),
+                        .lamps = has_lamps(inputs.lights)});
 
   const gl::Buffer& exposure = measure_exposure(device, {.gbuffer = gbuffer, .lit = lit, .params = params});
 

@@ -13,7 +13,7 @@ namespace penumbra::render {
 
 namespace {
 
-static_assert(sizeof(glsl::DirectLightBlock) == 32);
+static_assert(sizeof(glsl::DirectLightBlock) == 64);
 static_assert(offsetof(glsl::LightingBlock, lights) == 48);
 static_assert(LIGHTING_MAX_LIGHTS == max_lights);
 
@@ -30,12 +30,40 @@ float exposure_factor(const LightingInputs& inputs, float white) {
 
 // The uniform block of a light, with its illuminance exposed.
 glsl::DirectLightBlock block_of(const SunLight& sun, float exposure) {
-  return {.to_light = sun.to_light, .pad_a = 0, .illuminance = sun.illuminance * exposure, .pad_b = 0};
+  glsl::DirectLightBlock block{};
+  block.place = sun.to_light;
+  block.illuminance = sun.illuminance * exposure;
+  return block;
 }
 
-// Illuminance in lux, first on a plane that faces the light, then on a horizontal one.
+// Nearer to a lamp than its radius, but at least this far, light grows no more.
+constexpr float least_distance = 1e-2f;  // metres
+
+glsl::DirectLightBlock block_of(const LampLight& lamp, float exposure) {
+  glsl::DirectLightBlock block{};
+  const float nearest = std::max(lamp.radius, least_distance);
+  block.place = lamp.position;
+  block.least_square = nearest * nearest;
+  block.illuminance = lamp.intensity * exposure;
+  block.inverse_range = lamp.range > 0 ? 1.0f / lamp.range : 0.0f;
+  block.axis = lamp.axis;
+  block.cone_offset = 1;
+  if (lamp.axis == glm::vec3(0)) return block;
+  const float inner = std::cos(lamp.inner_cone), outer = std::cos(lamp.outer_cone);
+  block.cone_scale = 1.0f / std::max(inner - outer, 1e-3f);
+  block.cone_offset = -outer * block.cone_scale;
+  return block;
+}
+
+// Illuminance in lux: on a plane that faces the light, which for a lamp is 2 m away, as in a room. Light that is
+// reflected around the scene and automatic exposure follow from it.
+constexpr float usual_distance = 2;
 glm::vec3 illuminance_of(const SunLight& sun) { return sun.illuminance; }
+glm::vec3 illuminance_of(const LampLight& lamp) { return lamp.intensity / (usual_distance * usual_distance); }
+
+// The share of that on the ground around the scene, which lamps don't reach.
 float level_share(const SunLight& sun) { return std::max(sun.to_light.y, 0.0f); }
+float level_share(const LampLight& /*lamp*/) { return 0; }
 
 glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
   glm::vec3 direct(0);
@@ -61,11 +89,20 @@ glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
   return block;
 }
 
-gl::ProgramDesc program(bool emission, std::size_t lights) {
+// What the program is compiled for.
+struct Lit {
+  std::size_t lights = 1, shadowed = 1;
+  bool lamps = false, emission = false;
+};
+
+gl::ProgramDesc program(const Lit& lit) {
   return {.name = "lighting",
           .vertex = "shared/full_screen.vert",
           .fragment = "render/lighting.frag",
-          .defines = {{"EMISSION", emission ? "1" : "0"}, {"LIGHTS", std::to_string(lights)}}};
+          .defines = {{"EMISSION", lit.emission ? "1" : "0"},
+                      {"LIGHTS", std::to_string(lit.lights)},
+                      {"SHADOWED", std::to_string(lit.shadowed)},
+                      {"LAMPS", lit.lamps ? "1" : "0"}}};
 }
 
 }  // namespace
@@ -77,21 +114,31 @@ const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inpu
   const gl::Buffer& block = device.scratch("lighting", sizeof(glsl::LightingBlock));
   gl::write_value(block, lighting_block(inputs));
   gl::Pass pass(device, {.name = "lighting", .colors = {{.texture = &lit, .dont_care = true}}});
-  pass.use(program(gbuffer.emission != nullptr, inputs.lights.size()));
+  const bool lamps = has_lamps(inputs.lights);
+  const gl::Program& used = pass.use(program({.lights = inputs.lights.size(),
+                                              .shadowed = inputs.mask.lights.size(),
+                                              .lamps = lamps,
+                                              .emission = gbuffer.emission != nullptr}));
   block.bind_uniform(lighting_binding);
   GLuint unit = first_unit;
   std::vector<const gl::Texture*> sources{gbuffer.albedo, gbuffer.normal, gbuffer.material, inputs.mask.texture};
-  if (gbuffer.emission != nullptr) sources.push_back(gbuffer.emission);
+  if (gbuffer.emission != nullptr || lamps) sources.push_back(gbuffer.emission);
+  if (lamps) {
+    sources.push_back(gbuffer.depth);
+    used.set("clip_to_world", glm::mat4(glm::inverse(glm::dmat4(inputs.view.world_to_clip))));
+  }
   for (const gl::Texture* texture : sources) {
     device.sampler({}).bind(unit);
-    texture->bind(unit++);
+    if (texture != nullptr) texture->bind(unit);
+    ++unit;
   }
   pass.draw_full_screen();
   return lit;
 }
 
 std::vector<gl::ProgramDesc> lighting_programs() {
-  return {program(/*emission=*/true, 1), program(/*emission=*/false, 1), program(/*emission=*/false, 2)};
+  return {program({.emission = true}), program({}), program({.lights = 2, .shadowed = 2}),
+          program({.lights = 10, .shadowed = 8, .lamps = true, .emission = true}), program({.lamps = true})};
 }
 
 }  // namespace penumbra::render

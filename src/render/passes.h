@@ -53,9 +53,12 @@ struct FrameScene {
   double time;               // seconds
 };
 
-// The lights as the shadow library takes them. A light's index is its id, under which the library keeps its maps and
+// The lights that cast shadows, as the shadow library takes them. A light's index is its id, under which the library keeps its maps and
 // history.
 std::vector<shadow::Light> shadow_lights(std::span<const FrameLight> lights);
+
+// Whether not all lights are suns.
+bool has_lamps(std::span<const FrameLight> lights);
 
 struct ShadowMaskInputs {
   shadow::SoftShadows& soft_shadows;
@@ -77,7 +80,8 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
 struct LightingInputs {
   const GBuffer& gbuffer;
   const shadow::Mask& mask;
-  std::span<const FrameLight> lights;  // one for each layer of the mask
+  std::span<const FrameLight> lights;  // the first ones have a layer of the mask each, the others no shadows
+  const glsl::ViewBlock& view;
   bool emission_in_nits = true;        // false: 1 is the luminance of white in the sun
   const ParamSet& params;
 };
@@ -93,6 +97,8 @@ struct BlendedInputs {
   const shadow::Mask& mask;
   const ParamSet& params;
   const gl::Texture& lit;
+  const shadow::Light& first;  // whose shadows they receive
+  bool lamps = false;  // see has_lamps()
 };
 // Draws blended surfaces over `lit`. Only the first light is shadowed on them; the others light them without shadows.
 void draw_blended(gl::Device& device, const BlendedInputs& inputs);

@@ -8,8 +8,9 @@
 
 namespace penumbra::render {
 
-// Which pixels of the last frame are receivers, rows top to bottom: 1 where no part of the sun is below the surface,
-// that is where there is geometry whose normal N_g has N_g · to_light > sin(θ / 2); else 0. `sun_angle` is θ, degrees.
-std::vector<std::uint8_t> receivers_of(const Renderer& renderer, const glm::vec3& to_light, double sun_angle);
+// Which pixels of the last frame are receivers, rows top to bottom: 1 where no part of the light is below the surface,
+// that is where there is geometry whose normal N_g has N_g · to_light > sin(θ / 2), and, of a spot, the light shines
+// there; else 0. θ is the angle that the light spans: of a sun `sun_angle`, degrees.
+std::vector<std::uint8_t> receivers_of(const Renderer& renderer, const FrameLight& light, double sun_angle);
 
 }  // namespace penumbra::render

@@ -22,7 +22,8 @@ struct FrameInputs {
   int width = 1280, height = 720;
   int view = 0;  // identifies one of several views drawn in turn; each has its own maps, mask and history
   Camera camera, last_camera;
-  std::vector<FrameLight> lights{SunLight{}};  // 1 to max_lights; light i has layer i of the mask
+  // 1 to max_lights; light i has layer i of the mask, up to max_shadowed_lights
+  std::vector<FrameLight> lights{SunLight{}};
   double time = 0, last_time = 0;              // seconds
   // The view or the time jumps, so nothing of the last frame may be reused: techniques and denoisers drop their
   // history, and the frame equals the first frame of a new run. A change of scene is always a cut, even if this is

@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "core/error.h"
+#include "core/log.h"
 #include "core/names.h"
 #include "render/framing.h"
 #include "render/ground.h"
@@ -98,26 +99,116 @@ std::optional<glm::vec3> to_light_of(const glm::mat4& world) {
   return length > 0 && std::isfinite(length) ? std::optional(back / length) : std::nullopt;
 }
 
-// The node of the first directional light whose intensity is not 0.
-std::optional<std::size_t> find_sun(const scene::Scene& scene, const scene::Pose& pose) {
+// A light of the file on a node that is drawn.
+struct FileLight {
+  std::string name;
+  const scene::PunctualLight* light;
+  std::size_t node;
+};
+
+std::vector<FileLight> file_lights(const scene::Scene& scene, const scene::Pose& pose) {
+  std::vector<FileLight> found;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-    const int light = scene.nodes[i].light;
-    if (light < 0 || !pose.drawn[i]) continue;
-    const bool directional = scene.lights[static_cast<std::size_t>(light)].kind == scene::LightKind::directional;
-    if (directional && to_light_of(pose.world[i])) return i;
+    const scene::Node& node = scene.nodes[i];
+    if (node.light < 0 || !pose.drawn[i]) continue;
+    const scene::PunctualLight& light = scene.lights[static_cast<std::size_t>(node.light)];
+    std::string name = !light.name.empty() ? light.name : node.name;
+    if (name.empty()) name = std::to_string(found.size());
+    found.push_back({std::move(name), &light, i});
   }
-  return std::nullopt;
+  return found;
 }
 
-// The file's sun, else one that suits the camera.
-void choose_sun(Setup& setup, const scene::Scene& scene, const scene::Pose& pose) {
-  setup.sun_node = find_sun(scene, pose);
+std::vector<std::string> names_of(const std::vector<FileLight>& lights) {
+  std::vector<std::string> names;
+  for (const FileLight& light : lights) names.push_back(light.name);
+  return names;
+}
+
+const FileLight& find_light(const std::vector<FileLight>& lights, const std::string& wanted) {
+  for (const FileLight& light : lights) {
+    if (light.name == wanted) return light;
+  }
+  std::size_t index = 0;
+  const char* end = wanted.data() + wanted.size();
+  const auto parsed = std::from_chars(wanted.data(), end, index);
+  if (parsed.ec == std::errc() && parsed.ptr == end && index < lights.size()) return lights[index];
+  if (lights.empty()) fail("no light '{}': the scene has no lights", wanted);
+  const std::vector<std::string> names = names_of(lights);
+  constexpr std::size_t most_listed = 20;
+  if (names.size() > most_listed && near_names(wanted, names).empty())
+    fail("no light '{}': the scene has {}, none of a name near it", wanted, names.size());
+  fail_unknown("light", wanted, names);
+}
+
+// Those that the user chose, else all.
+std::vector<FileLight> wanted_lights(const std::vector<FileLight>& lights, const SetupRequest& request) {
+  if (!request.lights) return lights;
+  std::vector<FileLight> chosen;
+  for (const std::string& name : *request.lights) chosen.push_back(find_light(lights, name));
+  return chosen;
+}
+
+// Whether a light is bright, and its node says where it is.
+bool shines(const FileLight& light, const scene::Pose& pose) {
+  const glm::mat4& world = pose.world[light.node];
+  const glm::vec3 place(world[3]);
+  const bool placed = std::isfinite(place.x + place.y + place.z);
+  const bool bright = light.light->intensity > 0 && light.light->color != glm::vec3(0);
+  return bright && placed && (light.light->kind == scene::LightKind::point || to_light_of(world));
+}
+
+FrameLight light_of(const scene::PunctualLight& file, const std::optional<float>& radius) {
+  const glm::vec3 emitted = file.color * file.intensity;
+  if (file.kind == scene::LightKind::directional) return SunLight{.illuminance = emitted};
+  LampLight lamp{.radius = radius.value_or(file.radius.value_or(LampLight().radius)),
+                 .range = file.range,
+                 .intensity = emitted};
+  if (file.kind == scene::LightKind::spot) {
+    lamp.axis = {0, 0, -1};
+    lamp.inner_cone = file.inner_cone;
+    lamp.outer_cone = std::min(file.outer_cone, glm::half_pi<float>());
+  }
+  return lamp;
+}
+
+void move(SunLight& sun, const glm::mat4& world) { sun.to_light = to_light_of(world).value_or(sun.to_light); }
+
+void move(LampLight& lamp, const glm::mat4& world) {
+  lamp.position = glm::vec3(world[3]);
+  if (lamp.axis != glm::vec3(0)) lamp.axis = -to_light_of(world).value_or(-lamp.axis);
+}
+
+void warn_of_many(std::size_t lights) {
+  if (lights > max_lights) warn("the scene has {} lights; the first {} of them light it", lights, max_lights);
+  if (lights > max_shadowed_lights) warn("only the first {} of {} lights cast shadows", max_shadowed_lights, lights);
+}
+
+// The file's lights, else a sun that suits the camera.
+void choose_lights(Setup& setup, const scene::Scene& scene, const scene::Pose& pose, const SetupRequest& request) {
+  bool lit_by_file = false;
+  for (FileLight& light : wanted_lights(file_lights(scene, pose), request)) {
+    if (!shines(light, pose)) continue;
+    lit_by_file = true;
+    const bool sun = light.light->kind == scene::LightKind::directional;
+    if (sun && request.no_sun) continue;
+    FrameLight shining = light_of(*light.light, request.lamp_radius);
+    if (sun && !setup.sun_node) {
+      setup.sun = std::get<SunLight>(shining);
+      setup.sun_node = light.node;
+    } else {
+      setup.lights.push_back({std::move(light.name), shining, light.node});
+    }
+  }
   if (!setup.sun_node) {
     setup.sun = default_sun(setup.camera);
-    return;
+    setup.sun_shines = request.own_sun || !(lit_by_file || request.no_sun || request.lights);
   }
-  const scene::PunctualLight& file = scene.lights[static_cast<std::size_t>(scene.nodes[*setup.sun_node].light)];
-  setup.sun = {.to_light = *to_light_of(pose.world[*setup.sun_node]), .illuminance = file.color * file.intensity};
+  const std::size_t shining = setup.lights.size() + (setup.sun_shines ? 1 : 0);
+  if (shining == 0) fail("nothing lights the scene: {}", request.no_sun ? "it has no other light than a sun" : "the lights that were chosen are dark");
+  warn_of_many(shining);
+  setup.lights.resize(std::min<std::size_t>(setup.lights.size(), max_lights - (setup.sun_shines ? 1 : 0)));
+  follow(setup, pose);
 }
 
 float distance_to(const scene::Bounds& box, const glm::vec3& point) {
@@ -133,6 +224,17 @@ scene::Bounds usable(scene::Bounds bounds) {
 }
 
 }  // namespace
+
+std::vector<FrameLight> frame_lights(const Setup& setup) {
+  std::vector<FrameLight> lights;
+  if (setup.sun_shines) lights.emplace_back(setup.sun);
+  for (const PlacedLight& light : setup.lights) lights.push_back(light.light);
+  return lights;
+}
+
+std::vector<std::string> light_names(const scene::Scene& scene) {
+  return names_of(file_lights(scene, scene::rest_pose(scene)));
+}
 
 std::vector<std::string> camera_names(const scene::Scene& scene) {
   std::vector<std::string> names;
@@ -154,7 +256,9 @@ float near_plane_for(const scene::Bounds& bounds, const glm::vec3& eye) {
 
 void follow(Setup& setup, const scene::Pose& pose) {
   if (setup.camera_node) setup.camera.view = view_of(pose.world[*setup.camera_node]);
-  if (setup.sun_node) setup.sun.to_light = to_light_of(pose.world[*setup.sun_node]).value_or(setup.sun.to_light);
+  if (setup.sun_node) move(setup.sun, pose.world[*setup.sun_node]);
+  for (PlacedLight& light : setup.lights)
+    std::visit([&](auto& kind) { move(kind, pose.world[light.node]); }, light.light);
 }
 
 Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const SetupRequest& request) {
@@ -168,7 +272,7 @@ Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const Set
     setup.camera = framing_camera(bounds, request.aspect);
   }
   follow(setup, pose);
-  choose_sun(setup, scene, pose);
+  choose_lights(setup, scene, pose, request);
   setup.ground = request.ground == GroundChoice::on ||
                  (request.ground == GroundChoice::automatic && !has_ground(scene, pose, bounds));
   return setup;

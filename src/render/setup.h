@@ -22,23 +22,45 @@ struct SetupRequest {
   GroundChoice ground = GroundChoice::automatic;
   float aspect = 16.0f / 9.0f;               // width / height of the picture
   std::optional<scene::Bounds> bounds = {};  // the bounds to frame; absent: those of the scene
+  // Names or indices of the file's lights that shine; absent: all that are not 0. `no_sun`: no directional light does.
+  std::optional<std::vector<std::string>> lights = {};
+  bool no_sun = false;
+  bool own_sun = false;                      // the user places a sun: it shines whatever the file has
+  std::optional<float> lamp_radius = {};     // of all spots and point lights, metres
+};
+
+// A light of the file, besides the first sun, and the node that it follows.
+struct PlacedLight {
+  std::string name;
+  FrameLight light;
+  std::size_t node = 0;
 };
 
 struct Setup {
   Camera camera;
   SunLight sun;
+  bool sun_shines = true;  // false: only `lights` light the scene
+  std::vector<PlacedLight> lights = {};
   bool ground = false;  // the scene has no floor; add_ground() adds one
   // The nodes that camera and sun are attached to, whose animation they follow. Absent: they do not move.
   std::optional<std::size_t> camera_node, sun_node;
 };
 
+// All lights that shine, the sun first. At least one.
+std::vector<FrameLight> frame_lights(const Setup& setup);
+
+// The names of the lights that the scene places, in the order of SetupRequest::lights' indices. None is empty.
+std::vector<std::string> light_names(const scene::Scene& scene);
+
 // The names of the cameras that the scene places, in the order of SetupRequest's indices. None is empty.
 std::vector<std::string> camera_names(const scene::Scene& scene);
 
-// Throws Error, which lists similar names, for a camera that the file lacks.
+// A file that has lights is lit by these; else a sun suits the camera. Throws Error, which lists similar names, for a
+// camera or a light that the file lacks, and if nothing is left to light the scene. Warns of lights that are too many
+// for a frame, or to cast shadows.
 Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const SetupRequest& request = {});
 
-// Moves camera and sun to where `pose` puts their nodes. `pose` must be of the scene that they were chosen for.
+// Moves camera and lights to where `pose` puts their nodes. `pose` must be of the scene that they were chosen for.
 void follow(Setup& setup, const scene::Pose& pose);
 
 // The distance of the near plane for an eye in a scene of those bounds, metres: small enough to clip nothing visible.

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "render/passes.h"
 
 namespace penumbra::render {
@@ -18,6 +20,14 @@ std::optional<shadow::Box> moved_box(const scene::GpuScene& scene, bool known) {
 }
 
 shadow::LightSource source_of(const SunLight& sun) { return shadow::Sun{.to_light = sun.to_light}; }
+
+shadow::LightSource source_of(const LampLight& lamp) {
+  return shadow::Lamp{.position = lamp.position,
+                      .radius = lamp.radius,
+                      .axis = lamp.axis,
+                      .cone = lamp.outer_cone,
+                      .range = lamp.range};
+}
 
 // Homogeneous coordinates: a direction, or a position.
 glm::vec4 towards(const shadow::Sun& sun) { return {sun.to_light, 0}; }
@@ -52,11 +62,15 @@ scene::FirstLayer first_layer_of(const shadow::CasterPass& casters) {
 
 std::vector<shadow::Light> shadow_lights(std::span<const FrameLight> lights) {
   std::vector<shadow::Light> all;
-  for (const FrameLight& light : lights) {
+  for (const FrameLight& light : lights.first(std::min<std::size_t>(lights.size(), max_shadowed_lights))) {
     all.push_back({.id = static_cast<int>(all.size()),
                    .source = std::visit([](const auto& kind) { return source_of(kind); }, light)});
   }
   return all;
+}
+
+bool has_lamps(std::span<const FrameLight> lights) {
+  return std::ranges::any_of(lights, [](const FrameLight& light) { return std::holds_alternative<LampLight>(light); });
 }
 
 shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs) {

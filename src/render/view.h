@@ -31,13 +31,29 @@ glm::vec3 position_of(const Camera& camera);
 struct SunLight {
   glm::vec3 to_light{0.4f, 0.8f, 0.4f};  // unit
   glm::vec3 illuminance{100000.0f};      // lux on a plane that faces it, linear RGB
+
+  bool operator==(const SunLight&) const = default;
+};
+
+// A spot or a point lamp with what it emits (KHR_lights_punctual); shadow::Lamp is its part that shadows depend on. Its
+// light falls off with the square of the distance.
+struct LampLight {
+  glm::vec3 position{0};       // world, metres
+  float radius = 0.03f;        // of the sphere that emits light, metres
+  glm::vec3 axis{0};           // in which a spot shines, unit, world; 0: in all directions
+  float inner_cone = 0;        // half angles of a spot, radians: full light within the inner one,
+  float outer_cone = 0.7854f;  // none beyond the outer one
+  float range = 0;             // metres: no light from there on; 0: unlimited
+  glm::vec3 intensity{100};    // candela, linear RGB; of a spot: within the inner cone
+
+  bool operator==(const LampLight&) const = default;
 };
 
 // What can light a frame; shadow_lights() gives the shadow library the part that it needs.
-using FrameLight = std::variant<SunLight>;
+using FrameLight = std::variant<SunLight, LampLight>;
 
-// The most lights of one frame.
-inline constexpr int max_lights = 16;
+// The most lights of one frame, and the most of them that cast shadows: the first ones.
+inline constexpr int max_lights = 64, max_shadowed_lights = 8;
 
 // The uniform block by which passes that draw geometry know the camera.
 glsl::ViewBlock view_block(const Camera& camera, const Camera& last_camera, int width, int height);

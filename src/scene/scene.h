@@ -146,6 +146,7 @@ struct PunctualLight {
   float intensity = 1;  // lux for directional, candela for point and spot
   float range = 0;      // 0: infinite
   float inner_cone = 0, outer_cone = 0.7853982f;
+  std::optional<float> radius = {};  // metres, of the sphere that emits light: "radius" of its extras
 };
 
 enum class Path : uint8_t { translation, rotation, scale, weights };

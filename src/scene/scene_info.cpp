@@ -28,11 +28,18 @@ MaterialInfo describe_material(const Scene& scene, const Material& material) {
   return info;
 }
 
-LightInfo describe_light(const PunctualLight& light) {
-  LightInfo info{.name = light.name, .kind = "directional", .intensity = light.intensity, .unit = "cd"};
-  if (light.kind == LightKind::directional) info.unit = "lx";
-  if (light.kind == LightKind::point) info.kind = "point";
-  if (light.kind == LightKind::spot) info.kind = "spot";
+LightInfo describe_light(const PunctualLight& light, const Node& node, const glm::mat4& world) {
+  LightInfo info{.name = light.name.empty() ? node.name : light.name,
+                 .kind = "directional",
+                 .intensity = light.intensity,
+                 .unit = "lx"};
+  if (light.kind == LightKind::directional) return info;
+  info.kind = light.kind == LightKind::point ? "point" : "spot";
+  info.unit = "cd";
+  info.range = light.range;
+  info.radius = light.radius;
+  info.place = glm::vec3(world[3]);
+  if (light.kind == LightKind::spot) info.cones = glm::degrees(glm::vec2(light.inner_cone, light.outer_cone));
   return info;
 }
 
@@ -77,7 +84,9 @@ SceneInfo describe(const Scene& scene) {
     ++info.drawn_nodes;
     info.instances += node.instances.size();
     if (node.mesh >= 0) count_drawn(scene, node, info);
-    if (node.light >= 0) info.lights.push_back(describe_light(scene.lights[static_cast<std::size_t>(node.light)]));
+    if (node.light >= 0)
+      info.lights.push_back(
+          describe_light(scene.lights[static_cast<std::size_t>(node.light)], node, pose.world[i]));
   }
   for (const Skin& skin : scene.skins) info.joints += skin.joints.size();
   info.textures = scene.textures.size();

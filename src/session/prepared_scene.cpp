@@ -28,7 +28,13 @@ void choose(PreparedScene& prepared, const cli::SceneOptions& options, render::G
   const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
   prepared.setup = render::choose_setup(
       prepared.scene, scene::pose_at(prepared.scene, options.time),
-      {.camera = options.camera.value_or(""), .ground = ground, .aspect = aspect, .bounds = prepared.bounds});
+      {.camera = options.camera.value_or(""), .ground = ground,
+       .aspect = aspect,
+       .bounds = prepared.bounds,
+       .lights = options.lights,
+       .no_sun = options.no_sun,
+       .own_sun = options.sun.has_value(),
+       .lamp_radius = options.lamp_radius ? std::optional(static_cast<float>(*options.lamp_radius)) : std::nullopt});
   place_camera(prepared.setup, options, prepared.bounds);
   if (options.sun) {
     prepared.setup.sun.to_light = render::direction_to(options.sun->azimuth, options.sun->elevation);
@@ -56,7 +62,7 @@ PreparedScene load_scene(const cli::SceneOptions& options, const scene::ImageDec
 
 render::Setup setup_at(const PreparedScene& prepared, double seconds) {
   render::Setup setup = prepared.setup;
-  const bool attached = setup.camera_node || setup.sun_node;
+  const bool attached = setup.camera_node || setup.sun_node || !setup.lights.empty();
   if (attached && !prepared.scene.animations.empty()) render::follow(setup, scene::pose_at(prepared.scene, seconds));
   return setup;
 }
@@ -67,7 +73,7 @@ render::FrameInputs frame_inputs(const PreparedScene& prepared, const cli::Size&
           .height = pixels.height,
           .camera = setup.camera,
           .last_camera = when.last_time == when.time ? setup.camera : setup_at(prepared, when.last_time).camera,
-          .lights = {setup.sun},
+          .lights = render::frame_lights(setup),
           .time = when.time,
           .last_time = when.last_time,
           .cut = when.cut || scene::jumps_between(prepared.scene, when.last_time, when.time)};

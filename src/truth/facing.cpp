@@ -13,7 +13,7 @@ std::vector<float> before_light(std::span<const Receiver> receivers, const Trace
     if (all) {
       const SeenLight seen = seen_from(light, receiver.position);
       const double radius = glm::length(seen.side_x), distance = glm::length(seen.center);
-      all = glm::dot(receiver.normal, seen.center) > distance * radius / std::hypot(distance, radius);
+      all = seen.shines && glm::dot(receiver.normal, seen.center) > distance * radius / std::hypot(distance, radius);
     }
     before.push_back(all ? 1.0f : 0.0f);
   }
@@ -24,7 +24,8 @@ std::vector<float> unshadowed(std::span<const Receiver> receivers, const TracedL
   std::vector<float> facing;
   facing.reserve(receivers.size());
   for (const Receiver& receiver : receivers) {
-    const bool lit = !receiver.there || glm::dot(receiver.normal, seen_from(light, receiver.position).center) > 0;
+    const SeenLight seen = seen_from(light, receiver.position);
+    const bool lit = !receiver.there || (seen.shines && glm::dot(receiver.normal, seen.center) > 0);
     facing.push_back(lit ? 1.0f : 0.0f);
   }
   return facing;

@@ -1,6 +1,7 @@
 #include "truth/frame_rays.h"
 
 #include <cassert>
+#include <cmath>
 #include <glm/trigonometric.hpp>
 #include <span>
 #include <variant>
@@ -18,8 +19,10 @@ TracedLight light_of(const shadow::Sun& sun, const ParamSet& params) {
                    .square = params.get_word("sun.shape") == "square"};
 }
 
-TracedLight light_of(const shadow::Lamp& lamp, const ParamSet& /*params*/) {
-  return LocalLight{.position = glm::dvec3(lamp.position), .radius = lamp.radius};
+TracedLight light_of(const shadow::Lamp& lamp, const ParamSet& params) {
+  LocalLight light{.position = glm::dvec3(lamp.position), .radius = lamp.radius, .clear = params.get_float("lamps.near")};
+  if (lamp.axis != glm::vec3(0)) light.cone = SpotCone{.axis = glm::dvec3(lamp.axis), .cosine = std::cos(lamp.cone)};
+  return light;
 }
 
 }  // namespace

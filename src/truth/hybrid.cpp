@@ -202,6 +202,7 @@ shadow::Technique hybrid(int threads) {
                                                     {.name = "pixels", .compute = "shadow/techniques/hybrid.comp"},
                                                     {.name = "rays", .compute = "shadow/techniques/hybrid_rays.comp"}};
               },
+          .suns_only = true,
           .stand_in = "pcss",
           .reads_light_discs = true};
 }

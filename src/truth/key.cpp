@@ -94,6 +94,12 @@ void add_light(Hash& hash, const LocalLight& light) {
   hash.add(light.radius);
   hash.add(light.axis.has_value());
   if (light.axis) hash.add(*light.axis);
+  // Defaults are not hashed, so that keys of older cache files stay valid.
+  if (light.clear > 0) hash.add(light.clear);
+  if (light.cone) {
+    hash.add(light.cone->axis);
+    hash.add(light.cone->cosine);
+  }
 }
 
 }  // namespace

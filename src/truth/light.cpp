@@ -1,5 +1,6 @@
 #include "truth/light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -37,7 +38,11 @@ SeenLight seen(const LocalLight& light, const glm::dvec3& point) {
   const glm::dvec3 axis = light.axis.value_or(center);
   const double length = glm::length(axis);
   const Sides sides = sides_about(length > 0 ? axis / length : glm::dvec3(0, 1, 0));
-  return {center, sides.x * light.radius, sides.y * light.radius, nearly_all_the_way, false};
+  const double distance = glm::length(center);
+  const auto clear = static_cast<float>(1 - light.clear / std::max(distance, light.clear + 1e-9));
+  SeenLight seen{center, sides.x * light.radius, sides.y * light.radius, std::min(nearly_all_the_way, clear), false};
+  if (light.cone) seen.shines = glm::dot(-center, light.cone->axis) >= light.cone->cosine * distance;
+  return seen;
 }
 
 }  // namespace

@@ -15,13 +15,21 @@ struct TracedSun {
   bool square = false;
 };
 
+// The directions in which a spot shines.
+struct SpotCone {
+  glm::dvec3 axis{0};  // unit, world
+  double cosine = 0;   // of the half angle
+};
+
 // A disc of `radius` metres about `position`. With an axis (spot and disc lights) the disc is perpendicular to it;
-// without one (point lights, which are spheres) the disc faces the receiver. Both sides emit in all directions: only
-// visibility is traced, not spot cones or falloff.
+// without one (point lights, which are spheres) the disc faces the receiver. Both sides emit in all directions, or
+// within `cone`: only visibility is traced, not falloff.
 struct LocalLight {
   glm::dvec3 position{0};  // world space
   double radius = 0;       // metres
-  std::optional<glm::dvec3> axis;
+  std::optional<glm::dvec3> axis = {};
+  double clear = 0;                    // metres: what is nearer to the disc's plane casts no shadow; it is the lamp itself
+  std::optional<SpotCone> cone = {};  // receivers outside of it see nothing of the light
 };
 
 using TracedLight = std::variant<TracedSun, LocalLight>;
@@ -32,6 +40,7 @@ struct SeenLight {
   glm::dvec3 center{0}, side_x{0}, side_y{0};
   float far = 0;
   bool square = false;
+  bool shines = true;  // false: the light does not shine in the point's direction
 };
 
 SeenLight seen_from(const TracedLight& light, const glm::dvec3& point);

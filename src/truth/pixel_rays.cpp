@@ -57,7 +57,7 @@ long PixelRays::aim(const PacketPoints& points) {
     rays_.dir_y[i] = center.y + x * side_x.y + y * side_y.y;
     rays_.dir_z[i] = center.z + x * side_x.z + y * side_y.z;
     rays_.tfar[i] = seen_.far;
-    valid_[i] = cosine + x * cosine_x + y * cosine_y > 0 ? -1 : 0;
+    valid_[i] = seen_.shines && cosine + x * cosine_x + y * cosine_y > 0 ? -1 : 0;
   }
   return std::ranges::count(valid_, -1);
 }
@@ -89,7 +89,7 @@ void PixelRays::trace(const PixelPoints& pixel, std::uint32_t first, std::uint32
 }
 
 bool PixelRays::center_lit() {
-  if (!(cosine_center_ > 0)) return false;
+  if (!(cosine_center_ > 0) || !seen_.shines) return false;
   RTCRay ray{.org_x = rays_.org_x[0],
              .org_y = rays_.org_y[0],
              .org_z = rays_.org_z[0],

@@ -89,8 +89,13 @@ TEST_F(LayoutTest, LightingProgram) {
     using glsl::DirectLightBlock;
     const std::string light = fmt::format("lighting.lights[{}].", i);
     const std::size_t at = offsetof(LightingBlock, lights) + i * sizeof(DirectLightBlock);
-    expect_offset(found, light + "to_light", at + offsetof(DirectLightBlock, to_light));
+    expect_offset(found, light + "place", at + offsetof(DirectLightBlock, place));
+    expect_offset(found, light + "least_square", at + offsetof(DirectLightBlock, least_square));
     expect_offset(found, light + "illuminance", at + offsetof(DirectLightBlock, illuminance));
+    expect_offset(found, light + "inverse_range", at + offsetof(DirectLightBlock, inverse_range));
+    expect_offset(found, light + "axis", at + offsetof(DirectLightBlock, axis));
+    expect_offset(found, light + "cone_scale", at + offsetof(DirectLightBlock, cone_scale));
+    expect_offset(found, light + "cone_offset", at + offsetof(DirectLightBlock, cone_offset));
   }
 }
 

@@ -92,9 +92,9 @@ TEST_F(LightsTest, BlendedSurfacesAreLitByAllAndShadowedFromTheFirst) {
 }
 
 TEST_F(LightsTest, AFrameWithoutLightsOrWithTooManyIsRefused) {
-  EXPECT_EQ(message_of([&] { draw_with({}); }), "a frame has 0 lights; 1 to 16 can be drawn");
-  EXPECT_EQ(message_of([&] { draw_with(std::vector<render::FrameLight>(17, warm_)); }),
-            "a frame has 17 lights; 1 to 16 can be drawn");
+  EXPECT_EQ(message_of([&] { draw_with({}); }), "a frame has 0 lights; 1 to 64 can be drawn");
+  EXPECT_EQ(message_of([&] { draw_with(std::vector<render::FrameLight>(65, warm_)); }),
+            "a frame has 65 lights; 1 to 64 can be drawn");
 }
 
 }  // namespace

@@ -40,6 +40,32 @@ Json ground_of(const session::PreparedScene& prepared) {
   return corners;
 }
 
+Json json_of(const render::SunLight& sun) {
+  return {{"kind", "sun"}, {"to_light", json_of(sun.to_light)}, {"illuminance", json_of(sun.illuminance)}};
+}
+
+Json json_of(const render::LampLight& lamp) {
+  const bool spot = lamp.axis != glm::vec3(0);
+  Json json{{"kind", spot ? "spot" : "point"},
+            {"position", json_of(lamp.position)},
+            {"radius", lamp.radius},
+            {"range", lamp.range},
+            {"intensity", json_of(lamp.intensity)}};
+  if (!spot) return json;
+  json["axis"] = json_of(lamp.axis);
+  json["inner_cone"] = lamp.inner_cone;
+  json["outer_cone"] = lamp.outer_cone;
+  return json;
+}
+
+// All that shine, in the order in which the mask has layers for them.
+Json lights_of(const render::Setup& setup) {
+  Json lights = Json::array();
+  for (const render::FrameLight& light : render::frame_lights(setup))
+    lights.push_back(std::visit([](const auto& kind) { return json_of(kind); }, light));
+  return lights;
+}
+
 // Kilobytes, as the system counts them for this process.
 long peak_resident() {
   rusage usage{};
@@ -71,7 +97,8 @@ Json stats_of(const RenderOptions& options, const session::PreparedScene& prepar
           {"backend", gl::to_string(session.context().backend())},
           {"device", io::to_json(session.device_info())},
           {"camera", json_of(setup.camera)},
-          {"sun_to_light", json_of(setup.sun.to_light)},
+          {"sun_to_light", setup.sun_shines ? json_of(setup.sun.to_light) : nullptr},
+          {"lights", lights_of(setup)},
           {"ground", ground_of(prepared)},
           {"params", io::to_json(params)},
           {"measured_frames", measured},

@@ -30,13 +30,26 @@ Camera read_camera(const tinygltf::Camera& in) {
   return camera;
 }
 
-PunctualLight read_light(const tinygltf::Light& in) {
+// The size of a lamp, which the extension leaves out: a number among the light's custom properties, which exporters of
+// modelling programs write to its extras.
+std::optional<float> radius_of_extras(const tinygltf::Value& extras, std::size_t number) {
+  constexpr double most = 1000;  // metres
+  if (!extras.IsObject() || !extras.Has("radius")) return {};
+  const tinygltf::Value& value = extras.Get("radius");
+  const double radius = value.IsNumber() ? value.GetNumberAsDouble() : -1;
+  if (radius >= 0 && radius <= most) return static_cast<float>(radius);
+  warn("light {}: the radius of its extras is not a number from 0 to {}; not used", number, most);
+  return {};
+}
+
+PunctualLight read_light(const tinygltf::Light& in, std::size_t number) {
   PunctualLight light{.name = in.name};
   if (in.type == "point") light.kind = LightKind::point;
   if (in.type == "spot") light.kind = LightKind::spot;
   if (in.color.size() == 3) light.color = glm::vec3(in.color[0], in.color[1], in.color[2]);
   light.intensity = static_cast<float>(in.intensity);
   light.range = static_cast<float>(in.range);
+  light.radius = radius_of_extras(in.extras, number);
   if (light.kind != LightKind::spot) return light;
   light.inner_cone = static_cast<float>(in.spot.innerConeAngle);
   light.outer_cone = static_cast<float>(in.spot.outerConeAngle);
@@ -69,7 +82,7 @@ std::vector<int> read_lights(Document& document, Scene& scene) {
       continue;
     }
     try {
-      scene.lights.push_back(read_light(light));
+      scene.lights.push_back(read_light(light, number));
     } catch (const Error& e) {
       document.left_out.add(lights_array, number, e.what());
       light_of.push_back(-1);
