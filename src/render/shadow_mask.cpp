@@ -29,10 +29,6 @@ shadow::LightSource source_of(const LampLight& lamp) {
                       .range = lamp.range};
 }
 
-// Homogeneous coordinates: a direction, or a position.
-glm::vec4 towards(const shadow::Sun& sun) { return {sun.to_light, 0}; }
-glm::vec4 towards(const shadow::Lamp& lamp) { return {lamp.position, 1}; }
-
 scene::Overlap overlap_of(const shadow::CullVolume& volume, const shadow::Box& box) {
   if (!volume.holds(box)) return scene::Overlap::none;
   return volume.contains(box) ? scene::Overlap::all : scene::Overlap::part;
@@ -82,8 +78,8 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
   const auto draw = [&](const shadow::CasterPass& casters, gl::Pass& pass) {
     if (casters.kind == shadow::CasterKind::geometry) {
       const auto reaches = [&](const scene::Bounds& box) { return casters.cull.holds(box_of(box)); };
-      const glm::vec4 light = std::visit([](const auto& kind) { return towards(kind); }, casters.source);
-      inputs.scene.draw_caster_geometry(device, pass, casters.program, casters.world_to_clip, light, reaches);
+      inputs.scene.draw_caster_geometry(device, pass, casters.program, casters.world_to_clip,
+                                        shadow::place_of(casters.source), reaches);
     } else {
       const auto reaches = [&](const scene::Bounds& box) { return overlap_of(casters.cull, box_of(box)); };
       if (casters.kind == shadow::CasterKind::second_depth) {

@@ -155,12 +155,11 @@ std::uint64_t next_id() {
   return ++last;
 }
 
-bool has_directional_light(const Scene& scene) {
+bool has_light(const Scene& scene) {
   const Pose rest = rest_pose(scene);
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const int light = scene.nodes[i].light;
-    if (!rest.drawn[i] || light < 0) continue;
-    if (scene.lights[static_cast<std::size_t>(light)].kind == LightKind::directional) return true;
+    if (rest.drawn[i] && light >= 0) return true;
   }
   return false;
 }
@@ -193,7 +192,7 @@ GpuScene::State::State(gl::Device& device, const Scene& described)
     blended = blended || blends;
     emissive = emissive || (!blends && Materials::of(scene, instance.primitive->material).emissive != glm::vec3(0));
   }
-  lit_by_file = has_directional_light(scene);
+  lit_by_file = has_light(scene);
   choose_faces();
 }
 

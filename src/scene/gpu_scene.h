@@ -98,7 +98,7 @@ class GpuScene {
   Bounds receivers() const;
   Bounds blended_receivers() const;  // of blended surfaces alone; empty if there are none
   Bounds moved_bounds() const;  // of the casters that moved between the two poses, in both poses; empty if none did
-  bool lit_by_file() const;     // the file has a directional light, so its emission is in matching units
+  bool lit_by_file() const;     // the file has a light, so its emission is in matching units
 
   // The triangles of the present pose as shaders read them. Refers to the scene; waits for the GPU.
   PosedGeometry posed_geometry() const;

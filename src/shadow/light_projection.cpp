@@ -247,6 +247,11 @@ std::string LightProjection::fault() const {
   return std::visit([](const auto& maps) { return fault_in(maps); }, maps_);
 }
 
+glm::vec4 place_of(const LightSource& source) {
+  if (const auto* lamp = std::get_if<Lamp>(&source)) return {lamp->position, 1};
+  return {std::get<Sun>(source).to_light, 0};
+}
+
 glm::dmat3 light_axes(const LightSource& source) { return light_axes(glm::dvec3(std::get<Sun>(source).to_light)); }
 
 LightProjection fit_projection(const LightSource& source, const FitInputs& inputs) {

@@ -120,7 +120,10 @@ struct ReadBounds {
   bool operator==(const ReadBounds&) const = default;
 };
 
-// From world directions to those of the light's space.
+// Homogeneous coordinates in the world: the direction to a sun (w = 0), or the centre of a lamp (w = 1).
+glm::vec4 place_of(const LightSource& source);
+
+// From world directions to those of a sun's light space; throws std::bad_variant_access for a lamp.
 glm::dmat3 light_axes(const LightSource& source);
 
 // The layers that the parameters ask for, fitted to the view, the receivers and their casters. The inputs must have

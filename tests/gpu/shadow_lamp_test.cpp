@@ -161,60 +161,254 @@ struct Screen {
   }
 };
 
+// A wall 3 m from a lamp at the origin, as seen from between it and the screen.
+TriangleScene scene_of(const Screen& screen, int side) {
+  TriangleScene scene;
+  const glm::vec3 across = screen.covered();
+  scene.add_quad(3.0f * screen.towards - 4.0f * (screen.edge + across), 8.0f * screen.edge, 8.0f * across);
+  scene.add_quad(screen.towards - 4.0f * screen.edge, 8.0f * screen.edge, 4.0f * across);
+  scene.width = scene.height = side;
+  scene.view = glm::lookAt(1.2f * screen.towards, 3.0f * screen.towards, screen.edge);
+  scene.projection = perspective(0.7f, 1, 0.01f);
+  return scene;
+}
+
+// Across edges and a corner of the cube, along them and oblique to them.
+const std::vector<Screen>& screens() {
+  static const float s = std::sqrt(0.5f), c = std::sqrt(1 / 3.0f);
+  static const std::vector<Screen> all{{{s, 0, s}, {0, 1, 0}},
+                                       {{s, 0, s}, {s, 0, -s}},
+                                       {{0, s, -s}, {1, 0, 0}},
+                                       {{c, c, c}, {s, -s, 0}},
+                                       {{-c, c, -c}, glm::normalize(glm::vec3(1, 0.2f, -0.8f))}};
+  return all;
+}
+
 int face_of(const glm::vec3& p) {
   const glm::vec3 a = glm::abs(p);
   const int axis = a.x >= a.y && a.x >= a.z ? 0 : (a.y >= a.z ? 1 : 2);
   return 2 * axis + (p[axis] < 0 ? 1 : 0);
 }
 
+// Steps of a picture's error between neighbours that the same face of the cube sees, and between those of two faces.
+struct Steps {
+  double within = 0, across = 0, worst_error = 0;
+  int pairs = 0;  // across
+};
+
+Steps steps_of(const Shadowed& shadowed, const Screen& screen, float radius) {
+  std::vector<double> error;
+  for (size_t i = 0; i < shadowed.points.size(); ++i)
+    error.push_back(shadowed.mask[4 * i] - exact_disc(screen.place(glm::dvec3(shadowed.points[i]), radius)));
+  Steps steps;
+  const auto compare = [&](size_t i, size_t k) {
+    const bool same = face_of(shadowed.points[i]) == face_of(shadowed.points[k]);
+    double& step = same ? steps.within : steps.across;
+    step = std::max(step, std::abs(error[i] - error[k]));
+    steps.pairs += same ? 0 : 1;
+    steps.worst_error = std::max(steps.worst_error, std::abs(error[i]));
+  };
+  const auto width = static_cast<size_t>(shadowed.width);
+  for (size_t i = 0; i + width < error.size(); ++i) {
+    if ((i + 1) % width != 0) compare(i, i + 1);
+    compare(i, i + width);
+  }
+  return steps;
+}
+
 TEST_F(Lamps, NoSeamShowsWhereCubeFacesMeet) {
-  const float s = std::sqrt(0.5f), c = std::sqrt(1 / 3.0f);
-  const std::vector<Screen> screens{{{0, 0, 1}, {0, 1, 0}},{{0.5f, 0, 0.8660254f}, {0, 1, 0}},{{-0.5f, 0, 0.8660254f}, {0, 1, 0}},{{0.5f, 0, 0.8660254f}, {0.8660254f, 0, -0.5f}},{{s, 0, s}, {0, 1, 0}},
-                                    {{s, 0, s}, {s, 0, -s}},
-                                    {{0, s, -s}, {1, 0, 0}},
-                                    {{c, c, c}, {s, -s, 0}},
-                                    {{-c, c, -c}, glm::normalize(glm::vec3(-1, 0.2f, 1.2f))}};
-  const float radius = 0.1f;
-  for (const Screen& screen : screens) {
-    TriangleScene scene;
-    scene.add_quad(3.0f * screen.towards - 4.0f * (screen.edge + screen.covered()), 8.0f * screen.edge, 8.0f * screen.covered());
-    scene.add_quad(screen.towards - 4.0f * screen.edge, 8.0f * screen.edge, 4.0f * screen.covered());
-    scene.width = scene.height = 96;
-    scene.view = glm::lookAt(1.2f * screen.towards, 3.0f * screen.towards, screen.edge);
-    scene.projection = perspective(0.7f, 1, 0.01f);
+  constexpr float radius = 0.1f;
+  for (const char* technique : {"slices", "brute_force"}) {
     ParamSet params = renderer_->params();
-    params.set("technique", std::string("slices"));
+    params.set("technique", std::string(technique));
+    params.set("brute_force.every_texel", true);
     params.set("slices.azimuths", 32);
     params.set("slices.samples", 32);
-    if (getenv("TECH")) params.set("technique", std::string(getenv("TECH")));
-    if (getenv("SIZE")) params.set("lamps.size", atoi(getenv("SIZE")));
-    const Shadowed shadowed = render(scene, {.radius = radius}, params);
-    std::vector<double> error;
-    for (size_t i = 0; i < shadowed.points.size(); ++i)
-      error.push_back(shadowed.visibilities()[i] - exact_disc(screen.place(glm::dvec3(shadowed.points[i]), radius)));
-    double across = 0, within = 0, worst = 0;
-    int pairs = 0;
-    for (int y = 0; y < scene.height; ++y) {
-      for (int x = 0; x + 1 < scene.width; ++x) {
-        const auto i = static_cast<size_t>(y * scene.width + x);
-        const bool same = face_of(shadowed.points[i]) == face_of(shadowed.points[i + 1]);
-        double& step = same ? within : across;
-        step = std::max(step, std::abs(error[i + 1] - error[i]));
-        pairs += same ? 0 : 1;
-        worst = std::max(worst, std::abs(error[i]));
+    params.set("lamps.size", 512);
+    Steps all;
+    for (const Screen& screen : screens()) {
+      const Steps steps = steps_of(render(scene_of(screen, 96), {.radius = radius}, params), screen, radius);
+      EXPECT_LE(steps.across, steps.within + 1.0 / 255) << technique << ", screen towards " << screen.towards.x << " "
+                                                        << screen.towards.y << " " << screen.towards.z;
+      EXPECT_LE(steps.worst_error, 0.03) << technique;
+      all.pairs += steps.pairs;
+    }
+    EXPECT_GT(all.pairs, 300);
+  }
+}
+
+TEST_F(Lamps, ShadowVolumesAreThoseOfTheCentre) {
+  ParamSet params = renderer_->params();
+  params.set("technique", std::string("shadow_volume"));
+  for (const Screen& screen : screens()) {
+    const Shadowed shadowed = render(scene_of(screen, 64), {.radius = 0.1f}, params);
+    int lit = 0;
+    for (size_t i = 0; i < shadowed.points.size(); ++i) {
+      const double place = screen.place(glm::dvec3(shadowed.points[i]), 1.0);
+      if (std::abs(place) < 1e-5) continue;
+      ASSERT_EQ(shadowed.mask[4 * i], place > 0 ? 1.0f : 0.0f) << "at " << place;
+      lit += place > 0 ? 1 : 0;
+    }
+    EXPECT_GT(lit, 1000);
+    EXPECT_LT(lit, 3000);
+  }
+}
+
+// Every technique that shadows lamps finds the same middle of the penumbra, and both drivers compute the same.
+TEST_F(Lamps, TechniquesAndDriversAgree) {
+  const Edge edge{1, 0.05f, 0.5f, 0.4f};
+  const TriangleScene scene = scene_of(edge, 64);
+  for (const shadow::Technique& technique : renderer_->shadows().registry().techniques()) {
+    if (technique.suns_only || technique.name == "none") continue;
+    for (const shadow::Lamp& lamp : {point_lamp(edge.radius), spot(edge.radius, 40)}) {
+      ParamSet params = renderer_->params();
+      params.set("technique", technique.name);
+      params.set("lamps.size", 512);
+      const Shadowed fragment = render(scene, lamp, params);
+      params.set("driver", std::string("compute"));
+      const Shadowed compute = render(scene, lamp, params);
+      for (size_t i = 0; i < fragment.points.size(); ++i) {
+        ASSERT_NEAR(fragment.mask[4 * i], compute.mask[4 * i], 2e-3) << technique.name;
+        const double place = edge.place(glm::dvec3(fragment.points[i]));
+        const float visibility = fragment.mask[4 * i];
+        const bool expected = place < -1.0 ? visibility <= 0.6f : place < 1.0 || visibility >= 0.4f;
+        ASSERT_TRUE(expected) << technique.name << ": " << visibility << " at " << place;
       }
     }
-    if (getenv("DUMP")) {
-      for (int y = 0; y < scene.height; y += 4) {
-        for (int x = 0; x < scene.width; x += 3) {
-          const auto i = static_cast<size_t>(y * scene.width + x);
-          printf("%3d/%-3d ", (int)(100*shadowed.visibilities()[i]), (int)(100*(shadowed.visibilities()[i]-error[i])));if(getenv("RAD"))printf("r%.3f d%.2f l%.1f ",shadowed.mask[4*i+1],shadowed.mask[4*i+2],shadowed.mask[4*i+3]);
-        }
-        printf("\n");
-      }
+  }
+}
+
+TEST_F(Lamps, SoftnessDependsOnNeitherMapSizeNorNearPlane) {
+  const Edge edge{1, 0.1f, 0.4f, 0.3f};
+  const TriangleScene scene = scene_of(edge, 96);
+  ParamSet params = renderer_->params();
+  params.set("technique", std::string("slices"));
+  params.set("slices.azimuths", 32);
+  params.set("slices.samples", 32);
+  const auto width = [&] {
+    const std::vector<double> mean = mean_visibility(scene, point_lamp(edge.radius), params, 4);
+    return width_10_90(std::vector<double>(mean.begin(), mean.begin() + scene.width), 1.0);
+  };
+  params.set("lamps.size", 4096);
+  const double fine = width();
+  for (const int size : {1024, 2048}) {
+    params.set("lamps.size", size);
+    EXPECT_NEAR(width(), fine, 0.03 * fine) << size << " texels";
+  }
+  for (const float near : {0.001f, 0.1f, 0.5f}) {
+    params.set("lamps.near", near);
+    EXPECT_NEAR(width(), fine, 0.03 * fine) << "near plane at " << near << " m";
+  }
+}
+
+// Nothing is between the lamp and the ground but a plate so near to the lamp that it counts as a part of it, or not.
+TEST_F(Lamps, CastersAreThoseBeyondTheNearPlane) {
+  TriangleScene scene;
+  scene.add_quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+  scene.width = scene.height = 16;
+  scene.view = glm::lookAt(glm::vec3(0, 1, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+  scene.projection = orthographic(1, 1, 0.01f, 2);
+  for (const float below : {0.01f, 0.05f}) {
+    TriangleScene plated = scene;
+    plated.add_quad({-0.2f, lamp_height - below, -0.2f}, {0, 0, 0.4f}, {0.4f, 0, 0});
+    for (const char* technique : {"hard", "pcss", "slices"}) {
+      ParamSet params = renderer_->params();
+      params.set("technique", std::string(technique));
+      const Shadowed shadowed = render(plated, point_lamp(0.01f), params);
+      for (const float visibility : shadowed.visibilities())
+        ASSERT_EQ(visibility, below < 0.02f ? 1.0f : 0.0f) << technique << ", plate " << below << " m below the lamp";
     }
-    printf("across %.4f (%d) within %.4f worst %.4f\n", across, pairs, within, worst);
-    EXPECT_GT(pairs, 40);
+  }
+}
+
+TEST_F(Lamps, ASpotShinesWithinItsConeAlone) {
+  TriangleScene scene;
+  scene.add_quad({-8, 0, -8}, {0, 0, 16}, {16, 0, 0});
+  scene.width = scene.height = 64;
+  scene.view = glm::lookAt(glm::vec3(0, 5, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+  scene.projection = orthographic(6, 6, 0.01f, 6);
+  for (const float degrees : {5.0f, 30.0f, 60.0f, 65.0f}) {
+    const Shadowed shadowed = render(scene, spot(0.05f, degrees), renderer_->params());
+    int lit = 0;
+    for (size_t i = 0; i < shadowed.points.size(); ++i) {
+      const glm::vec3& p = shadowed.points[i];
+      const float tangent = glm::length(glm::vec2(p.x, p.z)) / lamp_height / std::tan(glm::radians(degrees));
+      if (std::abs(tangent - 1) < 1e-3f) continue;
+      ASSERT_EQ(shadowed.mask[4 * i], tangent < 1 ? 1.0f : 0.0f) << degrees;
+      lit += tangent < 1 ? 1 : 0;
+    }
+    EXPECT_GT(lit, 3) << degrees;
+  }
+}
+
+TEST_F(Lamps, AMovedLampDropsItsOwnHistoryAloneAndOneAtRestIsNotDrawnAgain) {
+  const Edge edge{1, 0.1f};
+  const TriangleScene scene = scene_of(edge, 32);
+  ParamSet params = renderer_->params();
+  params.set("history.reuse", true);
+  std::vector<shadow::Light> lights{{.id = 0, .source = point_lamp(0.1f)}, {.id = 1, .source = spot(0.1f, 30)}};
+  int drawn = 0;
+  const auto frame = [&] {
+    drawn = 0;
+    renderer_->render(scene, params, [&](shadow::Inputs& inputs) {
+      inputs.lights = lights;
+      inputs.view.last_view = inputs.view.view;
+      inputs.view.last_projection = inputs.view.projection;
+      inputs.moved = shadow::Box{glm::vec3(1), glm::vec3(-1)};
+      inputs.draw = [&drawn, draw = inputs.draw](const shadow::CasterPass& casters, gl::Pass& pass) {
+        ++drawn;
+        draw(casters, pass);
+      };
+    });
+  };
+  const auto has_history = [&](size_t light) { return renderer_->mask().lights[light].history; };
+  frame();
+  EXPECT_EQ(drawn, 7);
+  frame();
+  EXPECT_EQ(drawn, 0);
+  EXPECT_TRUE(has_history(0) && has_history(1));
+  std::get<shadow::Lamp>(lights[1].source).position.x += 0.1f;
+  frame();
+  EXPECT_EQ(drawn, 1);
+  EXPECT_TRUE(has_history(0));
+  EXPECT_FALSE(has_history(1));
+  frame();
+  EXPECT_EQ(drawn, 0);
+  EXPECT_TRUE(has_history(0) && has_history(1));
+}
+
+TEST_F(Lamps, BadLampsAndTechniquesForSunsAreRefused) {
+  const TriangleScene scene = scene_of({1, 0.1f}, 16);
+  const ParamSet params = renderer_->params();
+  const auto fault = [&](const shadow::Lamp& lamp) { return message_of([&] { render(scene, lamp, params); }); };
+  const float nan = std::nanf("");
+  EXPECT_EQ(fault({.position = {nan, 0, 0}}), "soft shadows: light 0 has no position");
+  EXPECT_EQ(fault({.position = {1e7f, 0, 0}}), "soft shadows: light 0 has no position");
+  EXPECT_EQ(fault({.radius = -1}), "soft shadows: light 0 has no radius");
+  EXPECT_EQ(fault({.radius = nan}), "soft shadows: light 0 has no radius");
+  EXPECT_EQ(fault({.range = nan}), "soft shadows: light 0 has a range that is not 0 or more");
+  EXPECT_EQ(fault({.axis = {0, 2, 0}, .cone = 0.5f}), "soft shadows: light 0 has an axis that is not of length 1");
+  EXPECT_EQ(fault({.axis = {0, 1, 0}}), "soft shadows: light 0 has a cone that is not between 0 and π/2");
+  ParamSet for_suns = params;
+  for_suns.set("technique", std::string("ssss"));
+  EXPECT_EQ(message_of([&] { render(scene, point_lamp(0.1f), for_suns); }),
+            "soft shadows: light 0 is a lamp, and technique 'ssss' is for suns alone");
+}
+
+// Lamps within a caster, on a receiver, of no size or of a large one: no value but 0 to 1.
+TEST_F(Lamps, ExtremeLampsGiveFiniteMasks) {
+  const TriangleScene scene = scene_of({1, 0.1f}, 32);
+  for (const char* technique : {"pcss", "slices", "brute_force", "vsm", "msm", "hard", "pcf"}) {
+    ParamSet params = renderer_->params();
+    params.set("technique", std::string(technique));
+    params.set("lamps.size", 128);
+    for (const shadow::Lamp& lamp :
+         {shadow::Lamp{.position = {0, 1, 0}}, shadow::Lamp{.position = {0, 0, 0}}, shadow::Lamp{.position = {0, 1e-6f, 0}, .radius = 10},
+          shadow::Lamp{.position = {0, 2, 0}, .radius = 0}, shadow::Lamp{.position = {9e5f, 9e5f, 0}, .radius = 1e5f},
+          shadow::Lamp{.position = {0, 2, 0}, .range = 1e-6f}, shadow::Lamp{.position = {0, 2, 0}, .axis = {0, -1, 0}, .cone = 1e-4f}}) {
+      for (const float visibility : render(scene, lamp, params).visibilities())
+        ASSERT_TRUE(visibility >= 0 && visibility <= 1) << technique << ": " << visibility;
+    }
   }
 }
 

@@ -97,6 +97,9 @@ TEST_F(ShadowLayout, BlocksLieAsTheDriverReadsThem) {
   expect_offset(light, "shadow.casters_moved", offsetof(ShadowBlock, casters_moved));
   expect_offset(light, "shadow.moved_depth", offsetof(ShadowBlock, moved_depth));
   expect_offset(light, "shadow.axes_turn", offsetof(ShadowBlock, axes_turn));
+  expect_offset(light, "shadow.light_stretch", offsetof(ShadowBlock, light_stretch));
+  expect_offset(light, "shadow.light_is_lamp", offsetof(ShadowBlock, light_is_lamp));
+  expect_offset(light, "shadow.lamp", offsetof(ShadowBlock, lamp));
   expect_offset(light, "shadow.widest.texel", offsetof(ShadowBlock, widest) + offsetof(LayerBlock, texel));
   for (std::size_t i : {std::size_t{0}, std::size_t{SHADOW_MAX_LAYERS - 1}}) {
     const std::string layer = fmt::format("shadow.layers[{}].", i);

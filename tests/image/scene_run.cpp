@@ -70,7 +70,7 @@ Visibility SceneRun::draw_truth(int rays) {
 }
 
 std::vector<std::uint8_t> SceneRun::receivers() const {
-  return render::receivers_of(reference_, setup_.sun.to_light, params_.get_float("sun.angle"));
+  return render::receivers_of(reference_, setup_.sun, params_.get_float("sun.angle"));
 }
 
 Visibility SceneRun::picture_of(const render::Renderer& renderer) const {

@@ -1,4 +1,5 @@
 // Shadow volumes: what lies behind each of the casters' triangles is counted in a stencil, by depth-fail.
+#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <string>
@@ -14,7 +15,9 @@ namespace {
 // What shadow_volume.geom reads.
 struct Volumes {
   glm::mat4 world_to_clip;
-  glm::vec4 apex;  // clip space: the point at infinity where the light's rays meet
+  glm::vec4 apex;   // clip space: the point at infinity where a sun's rays meet; of a lamp: minus its centre
+  glm::vec4 light;  // world, homogeneous: see place_of()
+  float short_of = 0, nearest = 0, unused[2] = {};
 };
 constexpr GLuint volumes_binding = block_samples;  // the technique has no sample points
 
@@ -47,6 +50,18 @@ float spacing_of(GLenum format) {
   }
 }
 
+// Where the camera's rays are parallel, nothing at infinity is on the picture, and a rasteriser leaves out triangles
+// that are much larger than it. Volumes then end this share of the way short of infinity, beyond all receivers: the
+// corner of a caster at that distance from the lamp reaches twice as far as they do.
+float short_of_infinity(const Inputs& inputs, const glm::vec3& lamp, float nearest) {
+  const bool perspective = inputs.view.projection[2][3] != 0;
+  if (perspective) return 0;
+  constexpr float usual = 1e-3f;
+  const Box& box = inputs.receivers;
+  const float reach = glm::length(glm::max(glm::abs(box.min - lamp), glm::abs(box.max - lamp)));
+  return glm::all(glm::lessThanEqual(box.min, box.max)) ? 0.5f * nearest / std::max(reach, nearest) : usual;
+}
+
 void copy_receivers(const PassContext& context, const gl::Texture& depth_stencil) {
   const Inputs& inputs = context.inputs();
   const Rect& viewport = context.frame().viewport;
@@ -69,9 +84,14 @@ void count_volumes(const PassContext& context, const gl::Texture& depth_stencil)
   const Inputs& inputs = context.inputs();
   const Rect& viewport = context.frame().viewport;
   const glm::mat4 world_to_clip = world_to_depth(inputs);
-  const glm::dvec3 along = glm::transpose(light_axes(context.light().source))[2];
+  const glm::vec4 light = place_of(context.light().source);
   const gl::Buffer& volumes = context.scratch("volumes", sizeof(Volumes));
-  gl::write_value(volumes, Volumes{world_to_clip, world_to_clip * glm::vec4(along, 0)});
+  const float nearest = context.params().get_float("lamps.near");
+  gl::write_value(volumes, Volumes{.world_to_clip = world_to_clip,
+                                   .apex = world_to_clip * -light,
+                                   .light = light,
+                                   .short_of = short_of_infinity(inputs, glm::vec3(light), nearest),
+                                   .nearest = nearest});
   const bool reversed = inputs.conventions.reversed_z;
   gl::Pass pass(context.device(), {.name = "shadow volumes",
                                    .depth = gl::Attachment{.texture = &depth_stencil},
