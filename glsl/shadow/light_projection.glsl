@@ -142,7 +142,7 @@ vec3 view_position_of(Receiver receiver) {
 
 // How far a receiver moves across the light if it moves by a little vector in view space, metres.
 vec2 across_light(Receiver receiver, vec3 view_vector) {
-  vec3 moves = light_direction(view_vector);
+  vec3 moves = mat3(shadow.view_to_light) * view_vector;
   if (is_lamp) {
     moves = seen_by_face(moves, receiver.layer);
     moves.xy -= receiver.position.xy * (moves.z / receiver.position.z);

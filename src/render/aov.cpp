@@ -88,8 +88,9 @@ std::vector<float> position(const Source& from) {
   const auto width = static_cast<std::size_t>(from.frame.gbuffer.depth->width());
   const glm::dvec2 scale = 2.0 / glm::dvec2(from.frame.gbuffer.depth->width(), from.frame.gbuffer.depth->height());
   return each(stored, [&](std::size_t i, const float* p, std::vector<float>& out) {
-    const auto x = static_cast<double>(i % width), y = static_cast<double>(i / width);
-    const glm::dvec4 world = clip_to_world * glm::dvec4((glm::dvec2(x, y) + 0.5) * scale - 1.0, p[0], 1.0);
+    const glm::ivec2 at = from.pixel.value_or(glm::ivec2(i % width, i / width));  // counted from the upper left
+    const glm::dvec2 from_corner = (glm::dvec2(at) + 0.5) * scale;
+    const glm::dvec4 world = clip_to_world * glm::dvec4(from_corner.x - 1.0, 1.0 - from_corner.y, p[0], 1.0);
     append(out, is_sky(stored, i) ? glm::vec3(0.0f) : glm::vec3(glm::dvec3(world) / world.w));
   });
 }

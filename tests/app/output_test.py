@@ -118,7 +118,7 @@ class Output(TestCase):
                 for x, value in enumerate(row):
                     block = [large[name][2 * y + j][2 * x + i] for j in (0, 1) for i in (0, 1)]
                     mixed[name] += len(set(block)) > 1
-                    if layer in ("depth", "normal", "geometric_normal", "cascade", "under_texel", "history"):
+                    if layer in ("depth", "position", "normal", "geometric_normal", "cascade", "under_texel", "history"):
                         self.assertEqual(value, block[3], name)
                     elif layer in ("motion", "texel"):
                         self.assertEqual(value, block[3] / 2)

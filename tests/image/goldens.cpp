@@ -104,6 +104,7 @@ std::span<const Golden> goldens() {
       {"aov_depth", "courtyard", "pcss", {}, &rounding, {}, "depth", 1, 0, 40},
       {"aov_normal", "courtyard", "pcss", {}, &rounding, {}, "normal", 1, -1, 1},
       {"aov_geometric_normal", "courtyard", "pcss", {}, &rounding, {}, "geometric_normal", 1, -1, 1},
+      {"aov_position", "courtyard", "pcss", {}, &rounding, {}, "position", 10, -10, 10},
       {"aov_albedo", "courtyard", "pcss", {}, &rounding, {}, "albedo"},
       {"aov_material", "courtyard", "pcss", {}, &rounding, {}, "material"},
       {"aov_emission", "courtyard", "pcss", {}, &rounding, {}, "emission", 1, 0, 1, &lantern},

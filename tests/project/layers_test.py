@@ -106,14 +106,15 @@ def shader_faults_of(path, text):
             yield f"src/{path}: the shader \"{name}\" lies above the layer '{layer}'"
 
 
-# What a light's kind and its map's projection decide, and the files that may know it: lamps are then added there alone.
+# What a light's kind and its map's projection decide, and the files that may know it.
 PROJECTION = re.compile(r"\bshadow\.(layers|layer_count|light_extent|light_is_square|map_size|view_to_light|"
-                        r"world_to_light|moved_depth)\b|\bshadow_depth\b|\bLayerBlock\b|\blight\.(map|extent)\b")
+                        r"world_to_light|moved_depth|lamp|light_is_lamp|light_stretch)\b|\bshadow_depth\b|\bLayerBlock\b|\blight\.(map|extent)\b")
 PROJECTION_FILE = "shadow/light_projection.glsl"
-CASCADES = re.compile(r"\b(Cascades?|fit_cascades|get<Sun>)\b")
-# light_projection.cpp alone uses the other files: they are its part for suns.
+CASCADES = re.compile(r"\b(Cascades?|LampMaps|fit_cascades|fit_lamp|get(_if)?<(Sun|Lamp)>)(?!\w)")
+# light_projection.cpp alone uses the other files: they are its parts for suns and for lamps.
 CASCADES_FILES = {"shadow/cascades.h", "shadow/cascades.cpp", "shadow/receiver_region.h", "shadow/receiver_region.cpp",
-                  "shadow/light_projection.h", "shadow/light_projection.cpp"}
+                  "shadow/lamp_maps.h", "shadow/lamp_maps.cpp", "shadow/light_projection.h",
+                  "shadow/light_projection.cpp"}
 
 
 def code_of(text):
@@ -161,7 +162,9 @@ class Layers(unittest.TestCase):
     def test_knowledge_of_the_projection_is_found(self):
         for path, text in {"shadow/techniques/a.glsl": "float x = shadow.layers[0].texel;",
                            "shadow/drivers/a.frag": "texelFetch(shadow_depth, at, 0)",
-                           "shadow/a.cpp": "const Cascades& cascades = light.cascades();"}.items():
+                           "shadow/b.glsl": "float x = shadow.lamp.x;",
+                           "shadow/a.cpp": "const Cascades& cascades = light.cascades();",
+                           "shadow/b.cpp": "if (std::get_if<Lamp>(&source)) return;"}.items():
             self.assertEqual(len(list(projection_faults_of(path, text))), 1, path)
             self.assertEqual(list(projection_faults_of(path, "// " + text)), [], path)
 

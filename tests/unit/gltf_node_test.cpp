@@ -111,6 +111,19 @@ TEST(GltfNode, ReadsLightsAndLeavesUnknownOnesOut) {
   expect_fault(R"("nodes":[{"extensions":{"KHR_lights_punctual":{"light":0}}}])", "light is 0, but there are 0");
 }
 
+TEST(GltfNode, ReadsTheRadiusOfALampFromItsExtras) {
+  const auto radius_of = [](const std::string& extras) {
+    return load_text(document(R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","extras":)" + extras +
+                              R"(}]}},"nodes":[{"extensions":{"KHR_lights_punctual":{"light":0}}}])"))
+        .lights.at(0)
+        .radius;
+  };
+  EXPECT_EQ(radius_of(R"({"radius":0.25})"), 0.25f);
+  EXPECT_EQ(radius_of(R"({"radius":0})"), 0.0f);
+  for (const char* extras : {R"({})", R"({"radius":-1})", R"({"radius":1e30})", R"({"radius":"big"})", R"({"size":2})", "3"})
+    EXPECT_FALSE(radius_of(extras)) << extras;
+}
+
 std::string animated(const std::vector<float>& times, const std::vector<float>& values,
                      const std::string& interpolation) {
   GltfBuilder gltf;

@@ -220,5 +220,71 @@ TEST(Setup, DirectionsAreCompassBearings) {
   EXPECT_NEAR(render::direction_to(0, 1.5707963f).y, 1, 1e-6f);
 }
 
+// A scene with one of each kind of light, on nodes that are turned and moved.
+scene::Scene scene_with_lights() {
+  scene::Scene scene = scene_of({box({-9, -0.1f, -9}, {9, 0, 9})});
+  scene.lights = {{.name = "lamp", .kind = scene::LightKind::point, .intensity = 20, .range = 7},
+                  {.name = "spot", .kind = scene::LightKind::spot, .intensity = 30, .inner_cone = 0.2f, .radius = 0.1f},
+                  {.name = "sun", .kind = scene::LightKind::directional, .intensity = 5},
+                  {.name = "dark", .kind = scene::LightKind::point, .intensity = 0}};
+  for (int i = 0; i < 4; ++i) {
+    scene::Node node{.name = "node"};
+    // -Z of the node points down.
+    node.matrix = glm::rotate(glm::translate(glm::mat4(1), glm::vec3(i, 2, 0)), glm::radians(-90.0f), glm::vec3(1, 0, 0));
+    node.light = i;
+    scene.roots.push_back(static_cast<int>(scene.nodes.size()));
+    scene.nodes.push_back(node);
+  }
+  return scene;
+}
+
+TEST(Setup, AFileIsLitByItsOwnLights) {
+  const render::Setup setup = setup_of(scene_with_lights());
+  EXPECT_TRUE(setup.sun_shines);
+  EXPECT_NEAR(setup.sun.to_light.y, 1, 1e-6f);
+  EXPECT_EQ(setup.sun.illuminance, glm::vec3(5));
+  ASSERT_EQ(setup.lights.size(), 2u) << "the dark one is left out";
+  const auto& lamp = std::get<render::LampLight>(setup.lights[0].light);
+  EXPECT_EQ(lamp.position, glm::vec3(0, 2, 0));
+  EXPECT_EQ(lamp.axis, glm::vec3(0));
+  EXPECT_EQ(lamp.range, 7);
+  EXPECT_FLOAT_EQ(lamp.radius, 0.03f);
+  const auto& spot = std::get<render::LampLight>(setup.lights[1].light);
+  EXPECT_NEAR(spot.axis.y, -1, 1e-6f);
+  EXPECT_FLOAT_EQ(spot.radius, 0.1f);
+  EXPECT_FLOAT_EQ(spot.inner_cone, 0.2f);
+  EXPECT_EQ(render::frame_lights(setup).size(), 3u);
+}
+
+TEST(Setup, TheUserChoosesLights) {
+  const scene::Scene scene = scene_with_lights();
+  const auto lights_of = [&](const render::SetupRequest& request) {
+    std::vector<std::string> names;
+    const render::Setup setup = setup_of(scene, request);
+    if (setup.sun_shines) names.emplace_back("the sun");
+    for (const render::PlacedLight& light : setup.lights) names.push_back(light.name);
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(lights_of({.no_sun = true}), (Names{"lamp", "spot"}));
+  EXPECT_EQ(lights_of({.lights = Names{"spot"}}), (Names{"spot"}));
+  EXPECT_EQ(lights_of({.lights = Names{"1", "sun"}}), (Names{"the sun", "spot"}));
+  EXPECT_EQ(lights_of({.lights = Names{"lamp"}, .own_sun = true}), (Names{"the sun", "lamp"}));
+  const render::Setup wide = setup_of(scene, {.lamp_radius = 0.5f});
+  EXPECT_EQ(std::get<render::LampLight>(wide.lights[1].light).radius, 0.5f);
+  EXPECT_THROW(lights_of({.lights = Names{"lmap"}}), Error);
+  EXPECT_THROW(lights_of({.lights = Names{"dark"}}), Error);
+  EXPECT_THROW(setup_of(scene_of({box({-1, 0, -1}, {1, 1, 1})}), {.no_sun = true}), Error);
+}
+
+TEST(Setup, ThereAreNoMoreLightsThanAFrameHas) {
+  scene::Scene scene = scene_with_lights();
+  for (int i = 0; i < 10000; ++i) {
+    scene.roots.push_back(static_cast<int>(scene.nodes.size()));
+    scene.nodes.push_back({.name = "more", .light = 0});
+  }
+  EXPECT_EQ(render::frame_lights(setup_of(scene)).size(), static_cast<std::size_t>(render::max_lights));
+}
+
 }  // namespace
 }  // namespace penumbra::test
