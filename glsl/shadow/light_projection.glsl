@@ -205,7 +205,7 @@ Receiver make_receiver(vec3 view_position, vec3 light_normal, vec2 pixel) {
 
 // Cosine of the angle between the receiver's normal and the direction to the light.
 float light_cosine(Receiver receiver) {
-  if (is_lamp) return -dot(receiver.lamp_normal, receiver.from_lamp) * inversesqrt(max(dot(receiver.from_lamp, receiver.from_lamp), 1e-30));
+  if (is_lamp) return -dot(receiver.lamp_normal, receiver.from_lamp) / max(length(receiver.from_lamp), 1e-15);
   return -receiver.normal.z;
 }
 

@@ -57,8 +57,7 @@ void print_light(const scene::LightInfo& light) {
 
 void print_parts(const scene::SceneInfo& info) {
   fmt::print("\nlights       {}\n", info.lights.size());
-  for (const scene::LightInfo& light : info.lights)
-    print_light(light);
+  for (const scene::LightInfo& light : info.lights) print_light(light);
   fmt::print("\ncameras      {}\n", info.cameras.size());
   for (const scene::CameraInfo& camera : info.cameras) fmt::print("  {}, {}\n", name_of(camera.name), camera.kind);
   fmt::print("\nanimations   {}\n", info.animations.size());

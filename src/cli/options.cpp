@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "cli/lamp.h"
 #include "core/names.h"
 #include "io/output_file.h"
 #include "io/presets.h"
@@ -80,8 +81,16 @@ void add_view_options(CLI::App& app, SceneOptions& o) {
   add_value(app, "--lights", "NAME,...", "Lights of the scene that shine, by name or index (all)",
             [&o](const auto& text) { o.lights = split_names("--lights", text); });
   add_value(app, "--lamp-radius", "METRES",
-            "Radius of spots and point lights (that of the light's extras, or 0.03)",
+            "Radius of the scene's spots and point lights (that of the light's extras, or 0.03)",
             [&o](const auto& text) { o.lamp_radius = parse_number("--lamp-radius", text, 0, 1000); });
+  app.add_option_function<std::vector<std::string>>(
+         "--lamp",
+         [&o](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) o.lamps.push_back(parse_lamp("--lamp", text));
+         },
+         "A lamp besides the scene's: X,Y,Z, then :radius=METRES :cd=CANDELA :to=X,Y,Z :cone=DEG ...; repeatable")
+      ->type_name("X,Y,Z[:...]")
+      ->allow_extra_args(false);
   add_value(app, "--ground", "auto|on|off",
             "A plane under the scene; auto: only where shadows would have nothing to fall on",
             [&o](const auto& text) { o.ground = ground_choice(text); });

@@ -32,6 +32,7 @@ struct SceneOptions {
   bool no_sun = false;
   std::optional<std::vector<std::string>> lights;  // names or indices in the file
   std::optional<double> lamp_radius;               // metres
+  std::vector<render::LampLight> lamps;            // besides the file's
   render::GroundChoice ground = render::GroundChoice::automatic;
 
   double time = 0;  // seconds: of the picture, or of frame 0

@@ -52,7 +52,7 @@ struct ComparedScene {
   ComparedPictures reference;             // without an error
   render::Camera camera;                  // of the first frame
   render::FrameLight light;               // the one that is compared
-  glm::vec3 target{0};  // what that camera looks at
+  glm::vec3 target{0};                    // what that camera looks at
   std::vector<ComparedTechnique> techniques;
 };
 

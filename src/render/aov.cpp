@@ -204,7 +204,8 @@ const std::vector<Row>& rows() {
   using enum Reduction;
   static const std::vector<Row> all{
       {{"color", "Linear light, exposed, before the tone map.", rgb, mean}, color},
-      {{"shadow", "Visibility of the first light, which is the sun if there is one: 1 lit, 0 in shadow.", v, mean}, visibility},
+      {{"shadow", "Visibility of the first light, which is the sun if there is one: 1 lit, 0 in shadow.", v, mean},
+       visibility},
       {{"depth", "Distance from the camera's plane, m; 0 for the sky.", {"Z"}, nearest_center}, depth},
       {{"position", "Position of the surface, world space, m; 0 for the sky.", xyz, nearest_center}, position},
       {{"normal", "Shading normal, world space; 0 for the sky.", xyz, nearest_center}, shading_normal},

@@ -53,8 +53,8 @@ struct FrameScene {
   double time;               // seconds
 };
 
-// The lights that cast shadows, as the shadow library takes them. A light's index is its id, under which the library keeps its maps and
-// history.
+// The lights that cast shadows, as the shadow library takes them. A light's index is its id, under which the library
+// keeps its maps and history.
 std::vector<shadow::Light> shadow_lights(std::span<const FrameLight> lights);
 
 // Whether not all lights are suns.
@@ -82,7 +82,7 @@ struct LightingInputs {
   const shadow::Mask& mask;
   std::span<const FrameLight> lights;  // the first ones have a layer of the mask each, the others no shadows
   const glsl::ViewBlock& view;
-  bool emission_in_nits = true;        // false: 1 is the luminance of white in the sun
+  bool emission_in_nits = true;  // false: 1 is the luminance of white in the sun
   const ParamSet& params;
 };
 const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inputs);  // RGBA16F, linear, exposed
@@ -98,7 +98,7 @@ struct BlendedInputs {
   const ParamSet& params;
   const gl::Texture& lit;
   const shadow::Light& first;  // whose shadows they receive
-  bool lamps = false;  // see has_lamps()
+  bool lamps = false;          // see has_lamps()
 };
 // Draws blended surfaces over `lit`. Only the first light is shadowed on them; the others light them without shadows.
 void draw_blended(gl::Device& device, const BlendedInputs& inputs);

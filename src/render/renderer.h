@@ -24,7 +24,7 @@ struct FrameInputs {
   Camera camera, last_camera;
   // 1 to max_lights; light i has layer i of the mask, up to max_shadowed_lights
   std::vector<FrameLight> lights{SunLight{}};
-  double time = 0, last_time = 0;              // seconds
+  double time = 0, last_time = 0;  // seconds
   // The view or the time jumps, so nothing of the last frame may be reused: techniques and denoisers drop their
   // history, and the frame equals the first frame of a new run. A change of scene is always a cut, even if this is
   // false.

@@ -1,5 +1,7 @@
 #include "render/setup.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -161,9 +163,8 @@ bool shines(const FileLight& light, const scene::Pose& pose) {
 FrameLight light_of(const scene::PunctualLight& file, const std::optional<float>& radius) {
   const glm::vec3 emitted = file.color * file.intensity;
   if (file.kind == scene::LightKind::directional) return SunLight{.illuminance = emitted};
-  LampLight lamp{.radius = radius.value_or(file.radius.value_or(LampLight().radius)),
-                 .range = file.range,
-                 .intensity = emitted};
+  LampLight lamp{
+      .radius = radius.value_or(file.radius.value_or(LampLight().radius)), .range = file.range, .intensity = emitted};
   if (file.kind == scene::LightKind::spot) {
     lamp.axis = {0, 0, -1};
     lamp.inner_cone = file.inner_cone;
@@ -184,12 +185,12 @@ void warn_of_many(std::size_t lights) {
   if (lights > max_shadowed_lights) warn("only the first {} of {} lights cast shadows", max_shadowed_lights, lights);
 }
 
-// The file's lights, else a sun that suits the camera.
+// The lights of the file and of the user, else a sun that suits the camera.
 void choose_lights(Setup& setup, const scene::Scene& scene, const scene::Pose& pose, const SetupRequest& request) {
-  bool lit_by_file = false;
+  bool lit = false;
   for (FileLight& light : wanted_lights(file_lights(scene, pose), request)) {
     if (!shines(light, pose)) continue;
-    lit_by_file = true;
+    lit = true;
     const bool sun = light.light->kind == scene::LightKind::directional;
     if (sun && request.no_sun) continue;
     FrameLight shining = light_of(*light.light, request.lamp_radius);
@@ -200,12 +201,18 @@ void choose_lights(Setup& setup, const scene::Scene& scene, const scene::Pose& p
       setup.lights.push_back({std::move(light.name), shining, light.node});
     }
   }
+  for (const LampLight& lamp : request.lamps) {
+    lit = true;
+    setup.lights.push_back({fmt::format("lamp {}", setup.lights.size()), lamp, std::nullopt});
+  }
   if (!setup.sun_node) {
     setup.sun = default_sun(setup.camera);
-    setup.sun_shines = request.own_sun || !(lit_by_file || request.no_sun || request.lights);
+    setup.sun_shines = request.own_sun || !(lit || request.no_sun || request.lights);
   }
   const std::size_t shining = setup.lights.size() + (setup.sun_shines ? 1 : 0);
-  if (shining == 0) fail("nothing lights the scene: {}", request.no_sun ? "it has no other light than a sun" : "the lights that were chosen are dark");
+  if (shining == 0)
+    fail("nothing lights the scene: {}",
+         request.no_sun ? "it has no other light than a sun" : "the lights that were chosen are dark");
   warn_of_many(shining);
   setup.lights.resize(std::min<std::size_t>(setup.lights.size(), max_lights - (setup.sun_shines ? 1 : 0)));
   follow(setup, pose);
@@ -257,8 +264,9 @@ float near_plane_for(const scene::Bounds& bounds, const glm::vec3& eye) {
 void follow(Setup& setup, const scene::Pose& pose) {
   if (setup.camera_node) setup.camera.view = view_of(pose.world[*setup.camera_node]);
   if (setup.sun_node) move(setup.sun, pose.world[*setup.sun_node]);
-  for (PlacedLight& light : setup.lights)
-    std::visit([&](auto& kind) { move(kind, pose.world[light.node]); }, light.light);
+  for (PlacedLight& light : setup.lights) {
+    if (light.node) std::visit([&](auto& kind) { move(kind, pose.world[*light.node]); }, light.light);
+  }
 }
 
 Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const SetupRequest& request) {

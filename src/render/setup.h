@@ -25,15 +25,16 @@ struct SetupRequest {
   // Names or indices of the file's lights that shine; absent: all that are not 0. `no_sun`: no directional light does.
   std::optional<std::vector<std::string>> lights = {};
   bool no_sun = false;
-  bool own_sun = false;                      // the user places a sun: it shines whatever the file has
-  std::optional<float> lamp_radius = {};     // of all spots and point lights, metres
+  bool own_sun = false;                   // the user places a sun: it shines whatever the file has
+  std::optional<float> lamp_radius = {};  // of the file's spots and point lights, metres
+  std::vector<LampLight> lamps = {};         // besides those of the file
 };
 
-// A light of the file, besides the first sun, and the node that it follows.
+// A light besides the first sun. Those of the file follow a node.
 struct PlacedLight {
   std::string name;
   FrameLight light;
-  std::size_t node = 0;
+  std::optional<std::size_t> node;
 };
 
 struct Setup {
@@ -55,7 +56,7 @@ std::vector<std::string> light_names(const scene::Scene& scene);
 // The names of the cameras that the scene places, in the order of SetupRequest's indices. None is empty.
 std::vector<std::string> camera_names(const scene::Scene& scene);
 
-// A file that has lights is lit by these; else a sun suits the camera. Throws Error, which lists similar names, for a
+// A file that has lights is lit by these and the user's lamps; where there are neither, a sun suits the camera. Throws Error, which lists similar names, for a
 // camera or a light that the file lacks, and if nothing is left to light the scene. Warns of lights that are too many
 // for a frame, or to cast shadows.
 Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const SetupRequest& request = {});

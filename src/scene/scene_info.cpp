@@ -85,8 +85,7 @@ SceneInfo describe(const Scene& scene) {
     info.instances += node.instances.size();
     if (node.mesh >= 0) count_drawn(scene, node, info);
     if (node.light >= 0)
-      info.lights.push_back(
-          describe_light(scene.lights[static_cast<std::size_t>(node.light)], node, pose.world[i]));
+      info.lights.push_back(describe_light(scene.lights[static_cast<std::size_t>(node.light)], node, pose.world[i]));
   }
   for (const Skin& skin : scene.skins) info.joints += skin.joints.size();
   info.textures = scene.textures.size();

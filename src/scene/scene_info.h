@@ -24,10 +24,10 @@ struct LightInfo {
   std::string name, kind;
   float intensity = 0;  // lux or candela
   std::string unit;
-  float range = 0;                   // metres; 0: unlimited
-  std::optional<glm::vec2> cones;    // of a spot: half angles of full light and of any, degrees
-  std::optional<float> radius;       // metres, of its extras
-  std::optional<glm::vec3> place;    // of a spot or a point light, at rest, metres
+  float range = 0;                 // metres; 0: unlimited
+  std::optional<glm::vec2> cones;  // of a spot: half angles of full light and of any, degrees
+  std::optional<float> radius;     // metres, of its extras
+  std::optional<glm::vec3> place;  // of a spot or a point light, at rest, metres
 };
 
 struct CameraInfo {

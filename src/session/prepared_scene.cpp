@@ -28,13 +28,15 @@ void choose(PreparedScene& prepared, const cli::SceneOptions& options, render::G
   const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
   prepared.setup = render::choose_setup(
       prepared.scene, scene::pose_at(prepared.scene, options.time),
-      {.camera = options.camera.value_or(""), .ground = ground,
+      {.camera = options.camera.value_or(""),
+       .ground = ground,
        .aspect = aspect,
        .bounds = prepared.bounds,
        .lights = options.lights,
        .no_sun = options.no_sun,
        .own_sun = options.sun.has_value(),
-       .lamp_radius = options.lamp_radius ? std::optional(static_cast<float>(*options.lamp_radius)) : std::nullopt});
+       .lamp_radius = options.lamp_radius ? std::optional(static_cast<float>(*options.lamp_radius)) : std::nullopt,
+       .lamps = options.lamps});
   place_camera(prepared.setup, options, prepared.bounds);
   if (options.sun) {
     prepared.setup.sun.to_light = render::direction_to(options.sun->azimuth, options.sun->elevation);

@@ -11,8 +11,8 @@ namespace penumbra::shadow {
 namespace {
 
 // Receivers at the edge of a face see blockers through the next one, as far as these are from the lamp.
-constexpr double clear_radii = 8, clear_distance = 0.25;
-constexpr double texels_beyond = 8;  // that receivers at the edge read besides
+constexpr double clear_radii = 2, clear_distance = 0.2;      // metres
+constexpr double texels_beyond = 8;                          // that receivers at the edge read besides
 constexpr double widest_single_map = glm::pi<double>() / 3;  // half angle
 
 // The rotation from the lamp's space to a face's.

@@ -19,13 +19,13 @@ constexpr int cube_faces = 6;
 struct LampMaps {
   glm::dmat3 world_to_lamp{1};
   glm::dvec3 position{0};
-  int size = 0;         // texels along a side
-  int count = 1;        // 1, or cube_faces
-  double tangent = 1;   // of half the angle that a map spans
-  double near = 1e-2;   // z of the near plane: nearer casters cast no shadow
-  double far = 1;       // z of the far plane
-  double radius = 0;    // of the lamp, metres
-  double cone = -2;     // cosine of the half angle of a spot's cone; below -1: it shines in all directions
+  int size = 0;        // texels along a side
+  int count = 1;       // 1, or cube_faces
+  double tangent = 1;  // of half the angle that a map spans
+  double near = 1e-2;  // z of the near plane: nearer casters cast no shadow
+  double far = 1;      // z of the far plane
+  double radius = 0;   // of the lamp, metres
+  double cone = -2;    // cosine of the half angle of a spot's cone; below -1: it shines in all directions
 
   glm::dmat4 world_to_clip(int face) const;
   // The part of the face's frustum between its near and its far plane.
@@ -50,8 +50,8 @@ struct LampInputs {
   Box casters, receivers;  // world bounds
 };
 
-// Maps as wide as receivers need whose blockers are at least 8 radii and 25 cm from the lamp, from the nearest caster to
-// the farthest receiver. Spots of up to 60 degrees from axis to rim get one map.
+// Maps as wide as receivers need whose blockers are at least 2 radii and 20 cm from the lamp, from the nearest caster
+// to the farthest receiver. Spots of up to 60 degrees from axis to rim get one map.
 LampMaps fit_lamp(const LampInputs& inputs);
 
 // Least distance of a box from a point along the axis of the face that sees it, metres.

@@ -52,7 +52,8 @@ std::vector<Param> map_rows() {
        "Keeps shadow maps, and what is made from them, where nothing has moved since the last frame; off: draws all "
        "anew.",
        host},
-      {"lamps.size", 1024, 16, 8192, "texels", "Side of each map of a lamp: a spot has one, other lamps have six.", host},
+      {"lamps.size", 1024, 16, 8192, "texels", "Side of each map of a lamp: a spot has one, other lamps have six.",
+       host},
       {"lamps.near", 0.02f, 1e-4, 100, "m",
        "Casters that are nearer to a lamp's centre cast no shadow of it: they are the lamp itself.", host},
       {"cascades.blend", 0.1f, 0.001, 0.5, "", "Width of the transition, as a fraction of the cascade's half width."},

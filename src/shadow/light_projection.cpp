@@ -41,8 +41,8 @@ float least_depth(const glm::dmat3& world_to_light, const Box& box, const glm::d
   return static_cast<float>(glm::dot(glm::min(along * low, along * high), glm::dvec3(1)));
 }
 
-// The face of a lamp, in units in which the lamp is a sun: tangents across, and −1 / depth along its axis. Shaders scale
-// them to metres at the depth of a receiver.
+// The face of a lamp, in units in which the lamp is a sun: tangents across, and −1 / depth along its axis. Shaders
+// scale them to metres at the depth of a receiver.
 glsl::LayerBlock layer_block(const LampMaps& lamp) {
   const auto range = static_cast<float>(1 / lamp.near - 1 / lamp.far);
   return {.center = glm::vec2(0),
@@ -80,8 +80,8 @@ void write_to(glsl::ShadowBlock& block, const LampMaps& lamp, const glm::dmat4& 
   block.axes_turn = {1, 0};
   block.light_is_lamp = 1;
   block.light_stretch = static_cast<float>(lamp.greatest_stretch());
-  block.lamp = glm::vec4(glm::vec3(glm::inverse(view_to_world) * glm::dvec4(lamp.position, 1)),
-                         static_cast<float>(lamp.cone));
+  block.lamp =
+      glm::vec4(glm::vec3(glm::inverse(view_to_world) * glm::dvec4(lamp.position, 1)), static_cast<float>(lamp.cone));
   block.moved_depth = static_cast<float>(moved ? least_depth(lamp, *moved) : lamp.near);
   for (int i = 0; i < lamp.count; ++i) block.widest = block.layers[i] = layer_block(lamp);
 }
@@ -161,12 +161,14 @@ std::string fault_in(const Sun& sun) {
 
 std::string fault_in(const Lamp& lamp) {
   constexpr float most = 1e6f;  // metres: floats hold no shorter lengths than 6 cm beyond
-  if (!all_finite(glm::value_ptr(lamp.position), 3) || glm::any(glm::greaterThan(glm::abs(lamp.position), glm::vec3(most))))
+  if (!all_finite(glm::value_ptr(lamp.position), 3) ||
+      glm::any(glm::greaterThan(glm::abs(lamp.position), glm::vec3(most))))
     return "has no position";
   if (!(lamp.radius >= 0 && lamp.radius <= most)) return "has no radius";
   if (!(lamp.range >= 0)) return "has a range that is not 0 or more";
   const float length = glm::length(lamp.axis);
-  if (!std::isfinite(length) || (length > 0 && std::abs(length - 1) > 1e-2f)) return "has an axis that is not of length 1";
+  if (!std::isfinite(length) || (length > 0 && std::abs(length - 1) > 1e-2f))
+    return "has an axis that is not of length 1";
   constexpr float widest = 1.5708f;
   if (length > 0 && !(lamp.cone > 0 && lamp.cone <= widest)) return "has a cone that is not between 0 and π/2";
   return {};

@@ -129,8 +129,8 @@ glm::dmat3 light_axes(const LightSource& source);
 // The layers that the parameters ask for, fitted to the view, the receivers and their casters. The inputs must have
 // passed check().
 LightProjection fit_projection(const LightSource& source, const FitInputs& inputs);
-// The same projection, of which only what receivers of the view can read is drawn: see narrow_to_receivers(). Those of a
-// lamp are drawn whole: they then stay valid when the camera moves.
+// The same projection, of which only what receivers of the view can read is drawn: see narrow_to_receivers(). Those of
+// a lamp are drawn whole: they then stay valid when the camera moves.
 LightProjection narrowed(const LightProjection& projection, const LightSource& source, const FitInputs& inputs,
                          const ReadBounds& read);
 

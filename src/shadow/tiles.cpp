@@ -33,7 +33,8 @@ bool decides_tiles(const LightWork& work) {
   const Rect& viewport = work.frame.viewport;
   const bool fits = viewport.width >= Tiles::size && viewport.height >= Tiles::size;
   // A lamp's light space differs from receiver to receiver, so that a tile's receivers have none in common.
-  return work.technique.decides_tiles && !work.frame.shape.lamp && fits && work.programs.draws_tiles() && work.params().get_bool("mask.tiles");
+  return work.technique.decides_tiles && !work.frame.shape.lamp && fits && work.programs.draws_tiles() &&
+         work.params().get_bool("mask.tiles");
 }
 
 Tiles decide_tiles(const LightWork& work) {

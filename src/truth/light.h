@@ -28,7 +28,7 @@ struct LocalLight {
   glm::dvec3 position{0};  // world space
   double radius = 0;       // metres
   std::optional<glm::dvec3> axis = {};
-  double clear = 0;                    // metres: what is nearer to the disc's plane casts no shadow; it is the lamp itself
+  double clear = 0;  // metres: what is nearer to the disc's plane casts no shadow; it is the lamp itself
   std::optional<SpotCone> cone = {};  // receivers outside of it see nothing of the light
 };
 

@@ -1,11 +1,13 @@
 #include "viewer/document.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
+#include "cli/lamp.h"
 #include "session/techniques.h"
 
 namespace penumbra::viewer {
@@ -78,6 +80,10 @@ std::vector<std::string> scene_arguments(const cli::SceneOptions& options) {
     add(arguments, "--sun",
         fmt::format("{},{}", degrees_text(options.sun->azimuth), degrees_text(options.sun->elevation)));
   }
+  if (options.no_sun) arguments.emplace_back("--no-sun");
+  if (options.lights) add(arguments, "--lights", fmt::format("{}", fmt::join(*options.lights, ",")));
+  if (options.lamp_radius) add(arguments, "--lamp-radius", fmt::format("{}", *options.lamp_radius));
+  for (const render::LampLight& lamp : options.lamps) add(arguments, "--lamp", cli::lamp_text(lamp));
   if (options.ground == render::GroundChoice::on) add(arguments, "--ground", "on");
   if (options.ground == render::GroundChoice::off) add(arguments, "--ground", "off");
   if (options.time != 0) add(arguments, "--time", fmt::format("{}", options.time));

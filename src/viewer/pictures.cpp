@@ -143,9 +143,9 @@ void Viewer::measure_difference() {
   const glm::ivec2 size = status_.drawn_size;
   const metrics::ImageView a{size.x, size.y, a_.visibility}, b{size.x, size.y, b_.visibility};
   if (a.pixels.size() != a.pixel_count() || b.pixels.size() != b.pixel_count()) return;
-  const std::vector<std::uint8_t> receivers =
-      render::receivers_of(renderer_, frame_lights(session::setup_at(scene_->prepared, state_.document.seconds())).front(),
-                           state_.document.params.get_float("sun.angle"));
+  const std::vector<std::uint8_t> receivers = render::receivers_of(
+      renderer_, frame_lights(session::setup_at(scene_->prepared, state_.document.seconds())).front(),
+      state_.document.params.get_float("sun.angle"));
   status_.difference = PictureDifference{.figures = metrics::error_figures(a, b, receivers),
                                          .flip = metrics::flip(a, b, receivers).mean};
 }

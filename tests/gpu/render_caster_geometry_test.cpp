@@ -188,7 +188,8 @@ TEST_F(RenderCasterGeometry, ItsProgramsAreListedWholeForTheChecks) {
     EXPECT_NO_THROW(gl::Program(program, device.shaders.files()));
     ++own;
   }
-  EXPECT_EQ(own, 4) << "points rotated and shifted, surfaces of which both faces cast and one face does";
+  EXPECT_EQ(own, 8)
+      << "points rotated and shifted, suns and lamps, surfaces of which both faces cast and one face does";
 }
 
 }  // namespace

@@ -57,7 +57,8 @@ TEST_F(LampLightTest, FallsOffWithTheSquareOfTheDistanceWithinItsRange) {
       const float illuminance = candela * share / (distance * distance);
       const std::vector<float> sun =
           color_with({render::SunLight{.to_light = to_lamp / distance, .illuminance = glm::vec3(1)}});
-      EXPECT_NEAR(red(lamp, x, 20), illuminance * red(sun, x, 20), 2e-3f * illuminance) << "range " << range << ", x " << x;
+      EXPECT_NEAR(red(lamp, x, 20), illuminance * red(sun, x, 20), 2e-3f * illuminance)
+          << "range " << range << ", x " << x;
     }
   }
 }
@@ -84,8 +85,8 @@ TEST_F(LampLightTest, ASpotFadesFromItsInnerToItsOuterCone) {
 
 TEST_F(LampLightTest, ALampOnASurfaceGivesFiniteLight) {
   for (const float radius : {0.0f, 0.5f}) {
-    for (const float value : color_with({render::LampLight{
-             .position = {0, 0, 1e-7f}, .radius = radius, .intensity = glm::vec3(1e12f)}}))
+    for (const float value :
+         color_with({render::LampLight{.position = {0, 0, 1e-7f}, .radius = radius, .intensity = glm::vec3(1e12f)}}))
       ASSERT_TRUE(std::isfinite(value)) << radius;
   }
 }
@@ -106,8 +107,8 @@ TEST_F(LampLightTest, CrossingPenumbraeAddUp) {
   quad.material = 0;
   add_node(scene_, quad, glm::translate(glm::scale(glm::mat4(1), glm::vec3(0.4f)), glm::vec3(0, 0, 2)));
   const render::FrameLight left = render::LampLight{.position = {-1, 0.3f, 2.5f}, .radius = 0.2f};
-  const render::FrameLight right =
-      render::LampLight{.position = {1, 0, 2.5f}, .radius = 0.3f, .axis = glm::normalize(glm::vec3(-0.3f, 0, -1)), .outer_cone = 1};
+  const render::FrameLight right = render::LampLight{
+      .position = {1, 0, 2.5f}, .radius = 0.3f, .axis = glm::normalize(glm::vec3(-0.3f, 0, -1)), .outer_cone = 1};
   const render::FrameLight sun = render::SunLight{.to_light = {0, 0, 1}, .illuminance = glm::vec3(20)};
   for (const char* technique : {"pcss", "slices_denoised"}) {
     const bool preset = std::string_view(technique) == "slices_denoised";

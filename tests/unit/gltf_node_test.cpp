@@ -120,7 +120,8 @@ TEST(GltfNode, ReadsTheRadiusOfALampFromItsExtras) {
   };
   EXPECT_EQ(radius_of(R"({"radius":0.25})"), 0.25f);
   EXPECT_EQ(radius_of(R"({"radius":0})"), 0.0f);
-  for (const char* extras : {R"({})", R"({"radius":-1})", R"({"radius":1e30})", R"({"radius":"big"})", R"({"size":2})", "3"})
+  for (const char* extras :
+       {R"({})", R"({"radius":-1})", R"({"radius":1e30})", R"({"radius":"big"})", R"({"size":2})", "3"})
     EXPECT_FALSE(radius_of(extras)) << extras;
 }
 

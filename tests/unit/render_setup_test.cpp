@@ -230,7 +230,8 @@ scene::Scene scene_with_lights() {
   for (int i = 0; i < 4; ++i) {
     scene::Node node{.name = "node"};
     // -Z of the node points down.
-    node.matrix = glm::rotate(glm::translate(glm::mat4(1), glm::vec3(i, 2, 0)), glm::radians(-90.0f), glm::vec3(1, 0, 0));
+    node.matrix =
+        glm::rotate(glm::translate(glm::mat4(1), glm::vec3(i, 2, 0)), glm::radians(-90.0f), glm::vec3(1, 0, 0));
     node.light = i;
     scene.roots.push_back(static_cast<int>(scene.nodes.size()));
     scene.nodes.push_back(node);

@@ -1,0 +1,85 @@
+#include "cli/lamp.h"
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <optional>
+
+#include "cli/usage.h"
+
+namespace penumbra::cli {
+
+namespace {
+
+constexpr double usual_cone = 40;  // degrees
+constexpr float inner_share = 0.8f;
+
+std::string text_of(const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
+
+// What a spot's attributes say before all are known.
+struct Spot {
+  std::optional<glm::vec3> to;
+  double cone = usual_cone;
+};
+
+void set(render::LampLight& lamp, Spot& spot, const std::string& option, std::string_view name,
+         std::string_view value) {
+  const std::string full = fmt::format("{} {}", option, name);
+  if (name == "radius") {
+    lamp.radius = static_cast<float>(parse_number(full, value, 0, 1000));
+  } else if (name == "cd") {
+    lamp.intensity *= static_cast<float>(parse_number(full, value, 0, 1e12) / 100);
+  } else if (name == "range") {
+    lamp.range = static_cast<float>(parse_number(full, value, 0, 1e9));
+  } else if (name == "rgb") {
+    const glm::vec3 color = parse_point(full, value);
+    if (glm::any(glm::lessThan(color, glm::vec3(0)))) fail_usage("{} '{}' has a negative part", full, value);
+    lamp.intensity *= color;
+  } else if (name == "to") {
+    spot.to = parse_point(full, value);
+  } else if (name == "cone") {
+    spot.cone = parse_number(full, value, 0.1, 90);
+  } else {
+    fail_usage("{}: no attribute '{}'; there are radius, cd, range, rgb, to and cone", option, name);
+  }
+}
+
+void make_spot(render::LampLight& lamp, const Spot& spot, std::string_view option) {
+  if (!spot.to) return;
+  const glm::vec3 axis = *spot.to - lamp.position;
+  if (!(glm::length(axis) > 0)) fail_usage("{}: the lamp stands where it shines to", option);
+  lamp.axis = glm::normalize(axis);
+  lamp.outer_cone = glm::radians(static_cast<float>(spot.cone));
+  lamp.inner_cone = inner_share * lamp.outer_cone;
+}
+
+}  // namespace
+
+render::LampLight parse_lamp(std::string_view option, std::string_view text) {
+  render::LampLight lamp;
+  lamp.position = parse_point(option, text.substr(0, text.find(':')));
+  Spot spot;
+  for (std::size_t colon = text.find(':'); colon != std::string_view::npos;) {
+    const std::size_t end = text.find(':', colon + 1);
+    const std::string_view attribute = text.substr(colon + 1, end == std::string_view::npos ? end : end - colon - 1);
+    const std::size_t equals = attribute.find('=');
+    if (equals == std::string_view::npos) fail_usage("{}: '{}' is not NAME=VALUE", option, attribute);
+    set(lamp, spot, std::string(option), attribute.substr(0, equals), attribute.substr(equals + 1));
+    colon = end;
+  }
+  make_spot(lamp, spot, option);
+  return lamp;
+}
+
+std::string lamp_text(const render::LampLight& lamp) {
+  std::string text = text_of(lamp.position) + fmt::format(":radius={}", lamp.radius);
+  text += fmt::format(":rgb={}", text_of(lamp.intensity / 100.0f));
+  if (lamp.range > 0) text += fmt::format(":range={}", lamp.range);
+  if (lamp.axis != glm::vec3(0)) {
+    text += fmt::format(":to={}:cone={}", text_of(lamp.position + lamp.axis), glm::degrees(lamp.outer_cone));
+  }
+  return text;
+}
+
+}  // namespace penumbra::cli

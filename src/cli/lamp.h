@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "render/view.h"
+
+namespace penumbra::cli {
+
+// A lamp of the user: "x,y,z", its place in metres, and then, each after a colon and in any order,
+//   radius=METRES (0.03)   cd=CANDELA (100)   range=METRES (0: unlimited)   rgb=R,G,B (1,1,1)
+//   to=X,Y,Z: a spot that shines there   cone=DEGREES (40): from a spot's axis to its rim, full light within 0.8 of it
+// Throws UsageError, which names the option, the text and the fault.
+render::LampLight parse_lamp(std::string_view option, std::string_view text);
+// A text that parse_lamp() reads as the same lamp.
+std::string lamp_text(const render::LampLight& lamp);
+
+}  // namespace penumbra::cli
