@@ -32,7 +32,9 @@ session::PreparedScene load_scene(const CompareOptions& options, const scene::Im
   scene::Scene scene = cli::read_scene(options.scene, options.reading, decode);
   check_inputs(options, scene.files);
   try {
-    return session::prepare_scene(std::move(scene), options);
+    session::PreparedScene prepared = session::prepare_scene(std::move(scene), options);
+    render::keep_first_light(prepared.setup);
+    return prepared;
   } catch (const Error& error) {
     fail("{}: {}", io::quoted(options.scene), error.what());
   }

@@ -239,6 +239,8 @@ std::vector<FrameLight> frame_lights(const Setup& setup) {
   return lights;
 }
 
+void keep_first_light(Setup& setup) { setup.lights.resize(setup.sun_shines ? 0 : 1); }
+
 std::vector<std::string> light_names(const scene::Scene& scene) {
   return names_of(file_lights(scene, scene::rest_pose(scene)));
 }

@@ -50,6 +50,9 @@ struct Setup {
 // All lights that shine, the sun first. At least one.
 std::vector<FrameLight> frame_lights(const Setup& setup);
 
+// Leaves the first light alone: where the shadows of one light are measured.
+void keep_first_light(Setup& setup);
+
 // The names of the lights that the scene places, in the order of SetupRequest::lights' indices. None is empty.
 std::vector<std::string> light_names(const scene::Scene& scene);
 
