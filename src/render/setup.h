@@ -27,7 +27,7 @@ struct SetupRequest {
   bool no_sun = false;
   bool own_sun = false;                   // the user places a sun: it shines whatever the file has
   std::optional<float> lamp_radius = {};  // of the file's spots and point lights, metres
-  std::vector<LampLight> lamps = {};         // besides those of the file
+  std::vector<LampLight> lamps = {};      // besides those of the file
 };
 
 // A light besides the first sun. Those of the file follow a node.
@@ -59,9 +59,9 @@ std::vector<std::string> light_names(const scene::Scene& scene);
 // The names of the cameras that the scene places, in the order of SetupRequest's indices. None is empty.
 std::vector<std::string> camera_names(const scene::Scene& scene);
 
-// A file that has lights is lit by these and the user's lamps; where there are neither, a sun suits the camera. Throws Error, which lists similar names, for a
-// camera or a light that the file lacks, and if nothing is left to light the scene. Warns of lights that are too many
-// for a frame, or to cast shadows.
+// A file that has lights is lit by these and the user's lamps; where there are neither, a sun suits the camera. Throws
+// Error, which lists similar names, for a camera or a light that the file lacks, and if nothing is left to light the
+// scene. Warns of lights that are too many for a frame, or to cast shadows.
 Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const SetupRequest& request = {});
 
 // Moves camera and lights to where `pose` puts their nodes. `pose` must be of the scene that they were chosen for.

@@ -125,7 +125,8 @@ cli::Direction present_sun(const Document& document, const session::PreparedScen
 void place(Document& document, const session::PreparedScene& prepared, const CameraRig& rig) {
   cli::SceneOptions& options = document.options;
   // Where neither the file nor the options have a sun, its direction was chosen by the camera: keep it.
-  if (options.camera && !options.sun && !prepared.setup.sun_node) place_sun(document, prepared.setup.sun.to_light);
+  if (options.camera && !options.sun && !prepared.setup.sun_node && prepared.setup.sun_shines)
+    place_sun(document, prepared.setup.sun.to_light);
   options.camera.reset();
   options.eye = rig.eye;
   options.target = rig.target;
@@ -135,6 +136,7 @@ void place(Document& document, const session::PreparedScene& prepared, const Cam
 void place_sun(Document& document, const glm::vec3& to_light) {
   // Rounded in degrees, so that the printed --sun is exactly what is drawn.
   const auto rounded = [](double radians) { return glm::radians(std::round(glm::degrees(radians) * 1e3) / 1e3); };
+  document.options.no_sun = false;
   document.options.sun =
       cli::Direction{.azimuth = static_cast<float>(rounded(std::atan2(to_light.x, to_light.z))),
                      .elevation = static_cast<float>(rounded(std::asin(std::clamp(to_light.y, -1.0f, 1.0f))))};

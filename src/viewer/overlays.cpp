@@ -45,7 +45,7 @@ struct Key {
   const char* what;
 };
 constexpr std::array keys{
-    Key{"left drag", "orbit (in fly mode: look around)"},
+    Key{"left drag", "orbit (in fly mode: look around); a lamp by its ring"},
     Key{"middle drag, Shift + left", "pan"},
     Key{"wheel", "move nearer or farther"},
     Key{"Ctrl + wheel", "magnify pixels"},

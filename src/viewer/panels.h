@@ -17,11 +17,14 @@ struct Panel {
 
 // The tabs of the side panel, each a file of its name.
 void shadow_panel(const Panel& panel);   // technique, parameters, presets
-void scene_panel(const Panel& panel);    // file, camera, sun, time
+void scene_panel(const Panel& panel);    // file, camera, sun, lights, time
 void inspect_panel(const Panel& panel);  // what is shown, its legend, the values under the cursor
 void compare_panel(const Panel& panel);  // picture B
 void cost_panel(const Panel& panel);     // passes, memory, the machine
 void files_panel(const Panel& panel);    // pictures, sequences, the command line
+
+// The section of the scene panel for the file's lights and the user's lamps.
+void lights_panel(const Panel& panel);
 
 // A popup of the scene panel that lists a folder, to open a file. It opens when UiState::files.wanted is set.
 void file_browser(const Panel& panel);

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/lamp_rings.h"
+
 namespace penumbra::viewer {
 
 namespace {
@@ -147,7 +149,7 @@ PictureArea picture_area(const Panel& panel, const gl::Texture* shown) {
   area.dragging = active;
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsItemHovered()) area.cursor = glm::vec2(io.MousePos.x - corner.x, io.MousePos.y - corner.y);
-  const bool line = drag_line(panel, area, active);
+  const bool line = drag_line(panel, area, active) || drag_lamp(panel, area, active);
   const glm::vec2 by(io.MouseDelta.x, io.MouseDelta.y);
   // In the frame of the press, the pointer has come to where it was pressed.
   const bool dragged = active && !ImGui::IsItemActivated() && by != glm::vec2(0);
@@ -166,6 +168,7 @@ PictureArea picture_area(const Panel& panel, const gl::Texture* shown) {
     const ImVec2 end(corner.x + area.size.x, corner.y + area.size.y);
     ImGui::GetWindowDrawList()->AddImage(texture, corner, end, {0, 1}, {1, 0});
     draw_line(panel, area);
+    draw_lamp_rings(panel, area);
   }
   return area;
 }

@@ -16,7 +16,7 @@ struct PictureArea {
 };
 
 // Draws the texture `shown` into the rest of the current ImGui window, and handles the mouse over it: it moves the
-// camera, the sun and the line between A and B, and magnifies.
+// camera, the sun, the user's lamps and the line between A and B, and magnifies.
 PictureArea picture_area(const Panel& panel, const gl::Texture* shown);
 
 // Handles the keys that act on the picture and the viewer as a whole, unless the user types into a field.

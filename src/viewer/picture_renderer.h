@@ -20,6 +20,7 @@ struct LoadedScene {
   session::PreparedScene prepared;
   scene::GpuScene gpu;
   std::vector<std::string> cameras = render::camera_names(prepared.scene);
+  std::vector<std::string> lights = render::light_names(prepared.scene);
 };
 
 // Draws one of the two pictures, A or B, and keeps what it drew last.

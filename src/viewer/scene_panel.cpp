@@ -109,7 +109,10 @@ void sun(const Panel& panel) {
   std::string fault;
   param_row(state.document.params, state.document.params.row("sun.angle"), panel.widgets, fault);
   end_rows();
-  if (moved) state.document.options.sun = cli::Direction{glm::radians(azimuth), glm::radians(elevation)};
+  if (moved) {
+    state.document.options.sun = cli::Direction{glm::radians(azimuth), glm::radians(elevation)};
+    state.document.options.no_sun = false;
+  }
 }
 
 double longest_animation(const scene::Scene& scene) {
@@ -159,6 +162,7 @@ void scene_panel(const Panel& panel) {
   ImGui::BeginChild("scene");
   if (section("Camera")) camera(panel);
   if (section("Sun")) sun(panel);
+  if (section("Lights")) lights_panel(panel);
   if (section("Time")) time(panel);
   ImGui::EndChild();
 }

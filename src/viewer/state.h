@@ -45,7 +45,9 @@ struct UiState {
   Playback playback;
   bool fly = false;            // the left button looks around from the eye, instead of orbiting the target
   bool dragging_line = false;  // the user drags the line between A and B
-  bool popup_open = false;     // a list was open in the last frame: Escape closes it
+  int lamp = -1;               // of the user's lamps, the one whose properties are shown; -1: none
+  std::optional<std::size_t> dragged_lamp;
+  bool popup_open = false;  // a list was open in the last frame: Escape closes it
   bool panel = true, help = false, probe = true, vsync = true;
   std::string search;         // filters the parameters
   std::string tab, open_tab;  // the one to open in the next frame; the one that is open

@@ -309,8 +309,8 @@ void Viewer::update_view() {
   options.size = {window_size_.x, window_size_.y};
   std::string wanted = cli::command_text("", scene_arguments(options));
   if (wanted == view_options_) return;
+  view_options_ = std::move(wanted);  // first: what can't be chosen is told once
   session::update_view(scene_->prepared, options);
-  view_options_ = std::move(wanted);
 }
 
 }  // namespace penumbra::viewer

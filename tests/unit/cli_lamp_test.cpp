@@ -52,8 +52,7 @@ TEST(CliLamp, FaultsAreNamed) {
                            "1,2,3:radius=nan", "1,2,3:cd=1e30", "1,2,3:cone=0", "1,2,3:cone=91", "1,2,3:to=1,2,3",
                            "1,2,3:rgb=-1,0,0", "1,2,3::cd=1", "1,2,inf"})
     EXPECT_NE(fault_of(text), "") << text;
-  EXPECT_EQ(fault_of("1,2,3:size=1"),
-            "--lamp: no attribute 'size'; there are radius, cd, range, rgb, to and cone");
+  EXPECT_EQ(fault_of("1,2,3:size=1"), "--lamp: no attribute 'size'; there are radius, cd, range, rgb, to and cone");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // The shadow volume of one triangle: a tetrahedron of which one corner is the point at infinity where a sun's rays
-// meet, or a frustum that ends at infinity, where a lamp's rays do. It is closed by itself, so no triangle needs to know its
-// neighbours. LAMP: 1 for a lamp.
+// meet, or a frustum that ends at infinity, where a lamp's rays do. It is closed by itself, so no triangle needs to
+// know its neighbours. LAMP: 1 for a lamp.
 #include "shadow/light_projection.glsl"
 
 layout(triangles) in;

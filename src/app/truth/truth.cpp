@@ -146,8 +146,7 @@ void trace_files(TruthOptions options) {
   check_inputs({options.scene}, options, names, range);
   io::check_writable(names.picture(range.first));
   options.reading.skies_chosen = cli::is_chosen(options, params, "casters.skies");
-  session::PreparedScene prepared =
-      session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)));
+  session::PreparedScene prepared = session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)));
   render::keep_first_light(prepared.setup);
   check_inputs(prepared.scene.files, options, names, range);
 

@@ -1,0 +1,82 @@
+#include "viewer/lamp_rings.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <optional>
+
+namespace penumbra::viewer {
+
+namespace {
+
+constexpr float ring = 9;  // radius, pixels
+
+// A lamp as the picture shows it.
+struct Shown {
+  glm::vec2 at{0};  // pixels from the window's upper left
+  float metre = 1;  // pixels, at the lamp's distance
+};
+
+render::Camera camera_of(const Panel& panel) {
+  return session::setup_at(panel.status.scene->prepared, panel.state.document.seconds()).camera;
+}
+
+bool shows_rings(const Panel& panel) {
+  const Comparison& comparison = panel.state.comparison;
+  const bool halves = comparison.on && comparison.how == CompareMode::side_by_side;
+  return panel.status.scene != nullptr && panel.state.zoom.factor == 1 && !halves;
+}
+
+std::optional<Shown> shown(const render::Camera& camera, const glm::vec3& place, const PictureArea& area) {
+  const glm::mat4 projection = render::projection_of(camera, area.size.x / area.size.y);
+  const glm::vec4 clip = projection * camera.view * glm::vec4(place, 1);
+  if (!(clip.w > 0)) return {};
+  const glm::vec2 ndc = glm::vec2(clip) / clip.w;
+  return Shown{.at = area.corner + glm::vec2(0.5f + 0.5f * ndc.x, 0.5f - 0.5f * ndc.y) * area.size,
+               .metre = 0.5f * area.size.y * projection[1][1] / clip.w};
+}
+
+}  // namespace
+
+bool drag_lamp(const Panel& panel, const PictureArea& area, bool active) {
+  UiState& state = panel.state;
+  std::vector<render::LampLight>& lamps = state.document.options.lamps;
+  if (!active || !ImGui::IsMouseDown(ImGuiMouseButton_Left)) state.dragged_lamp.reset();
+  if (!shows_rings(panel) || lamps.empty()) return false;
+  const render::Camera camera = camera_of(panel);
+  const ImGuiIO& io = ImGui::GetIO();
+  for (std::size_t i = 0; i < lamps.size() && ImGui::IsItemClicked(); ++i) {
+    const std::optional<Shown> lamp = shown(camera, lamps[i].position, area);
+    if (!lamp || glm::distance(lamp->at, glm::vec2(io.MousePos.x, io.MousePos.y)) > ring) continue;
+    state.dragged_lamp = i;
+    state.lamp = static_cast<int>(i);
+  }
+  if (!state.dragged_lamp || *state.dragged_lamp >= lamps.size()) return false;
+  glm::vec3& place = lamps[*state.dragged_lamp].position;
+  const std::optional<Shown> lamp = shown(camera, place, area);
+  if (lamp && !ImGui::IsItemActivated()) {
+    const glm::vec3 by = glm::vec3(io.MouseDelta.x, -io.MouseDelta.y, 0) / lamp->metre;
+    place += glm::transpose(glm::mat3(camera.view)) * by;
+  }
+  return true;
+}
+
+void draw_lamp_rings(const Panel& panel, const PictureArea& area) {
+  if (!shows_rings(panel)) return;
+  const UiState& state = panel.state;
+  const std::vector<render::LampLight>& lamps = state.document.options.lamps;
+  const render::Camera camera = camera_of(panel);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    const std::optional<Shown> lamp = shown(camera, lamps[i].position, area);
+    if (!lamp) continue;
+    const bool chosen = state.lamp == static_cast<int>(i);
+    list.AddCircle({lamp->at.x, lamp->at.y}, ring + 1, IM_COL32(20, 20, 20, 200), 0, 4);
+    list.AddCircle({lamp->at.x, lamp->at.y}, ring, chosen ? IM_COL32(255, 200, 80, 255) : IM_COL32(255, 255, 255, 255),
+                   0, 2);
+    panel.widgets.mark(fmt::format("ring={}", i), {lamp->at.x - ring, lamp->at.y - ring},
+                       {lamp->at.x + ring, lamp->at.y + ring});
+  }
+}
+
+}  // namespace penumbra::viewer
