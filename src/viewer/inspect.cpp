@@ -83,6 +83,7 @@ ColorMapping mapping_of(std::string_view aov) {
   if (aov == "normal" || aov == "geometric_normal") return {.scale = vectors, .fixed = true};
   if (aov == "texel") return {.scale = heat, .unit = "px"};
   if (aov == "motion") return {.scale = vectors, .unit = "px"};
+  if (aov == "position") return {.scale = vectors, .unit = "m"};
   if (aov == "depth" || aov == "blocker" || aov == "penumbra") return {.scale = heat, .unit = "m"};
   return {.scale = heat};
 }

@@ -138,7 +138,7 @@ TEST_F(Lamps, PenumbraeAwayFromTheAxisMatchTheExactFunction) {
   for (const Edge& edge :
        {Edge{1, 0.2f, 0.9f, 0}, Edge{1, 0.2f, 0, 1.8f}, Edge{1, 0.2f, 0.7f, 1.2f}, Edge{1, 0.2f, 1.4f, 0.8f}}) {
     ParamSet params = renderer_->params();
-    params.set("lamps.size", 1280);
+    params.set("lamps.size", 1600);
     params.set("technique", std::string("brute_force"));
     params.set("brute_force.every_texel", true);
     EXPECT_LE(deviation(edge, point_lamp(edge.radius), params, 1), 0.02) << "edge at " << edge.x << ", z " << edge.z;
