@@ -22,7 +22,7 @@ uvec4 sums_less(uvec4 a, uvec4 b) { return uvec4(wide_subtract(a.xy, b.xy), wide
 // part. All sums are exact up to the conversion to floats, which takes place after the position's own depth is
 // subtracted: so variance keeps its precision wherever in the map's range the depths are.
 Moments depth_moments(vec3 position, vec2 half_width, Light light) {
-  const float side = float(1 << depth_sums_halvings);
+  const float side = float(depth_sums_shrink);
   ivec2 blocks = textureSize(depth_sums, 0).xy;
   vec2 low = clamp(map_place(vec3(position.xy - half_width, position.z), light) / side, vec2(0.0), vec2(blocks));
   vec2 high = clamp(map_place(vec3(position.xy + half_width, position.z), light) / side, vec2(0.0), vec2(blocks));
@@ -45,7 +45,8 @@ Moments depth_moments(vec3 position, vec2 half_width, Light light) {
       below[x] = corner;
       if (x > 0) {
         uvec4 inside = sums_less(column, left);
-        uint texels = uint((lines[x].x - lines[x - 1].x) * (lines[y + 1].y - lines[y].y)) << (2 * depth_sums_halvings);
+        ivec2 size = ivec2(lines[x].x - lines[x - 1].x, lines[y + 1].y - lines[y].y) * depth_sums_shrink;
+        uint texels = uint(size.x * size.y);
         float share = shares[x - 1].x * shares[y].y;
         count += share * float(texels);
         sum += share * wide_signed(wide_subtract(inside.xy, wide_product(own, texels)));

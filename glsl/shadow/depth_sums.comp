@@ -27,17 +27,18 @@ void add_texel(inout uvec4 sum, float stored) {
 uvec4 element(ivec3 at) {
   Light light = with_layer(frame_light(), at.z);
   uvec4 sum = uvec4(0u);
-#if depth_sums_halvings == 0
-  add_texel(sum, gather_stored(vec2(at.xy + 1), light).w);
-#else
-  const int side = 1 << depth_sums_halvings;
-  for (int y = 1; y < side; y += 2) {
-    for (int x = 1; x < side; x += 2) {
-      vec4 four = gather_stored(vec2(at.xy * side + ivec2(x, y)), light);
-      for (int i = 0; i < 4; ++i) add_texel(sum, four[i]);
+  const int side = depth_sums_shrink;
+  for (int y = 0; y < side; y += 2) {
+    for (int x = 0; x < side; x += 2) {
+      vec4 four = gather_stored(vec2(at.xy * side + ivec2(x, y) + 1), light);
+      // Of the four, those in the next block are not added.
+      bool right = x + 1 < side, up = y + 1 < side;
+      add_texel(sum, four.w);
+      if (right) add_texel(sum, four.z);
+      if (up) add_texel(sum, four.x);
+      if (right && up) add_texel(sum, four.y);
     }
   }
-#endif
   return sum;
 }
 ivec3 place(int along) { return ivec3(along, gl_WorkGroupID.yz); }

@@ -62,7 +62,7 @@ std::vector<float> random_depths(int size, unsigned seed) {
 
 class DepthSums : public GpuTest {
  protected:
-  void make(const std::vector<std::vector<float>>& layers, int size, int halvings) {
+  void make(const std::vector<std::vector<float>>& layers, int size, int shrink) {
     renderer.device().shaders.files().put("test/reading.glsl", technique_text);
     const gl::Texture maps("maps", {.target = GL_TEXTURE_2D_ARRAY,
                                     .format = GL_R32F,
@@ -77,7 +77,7 @@ class DepthSums : public GpuTest {
                               .maps = shadow::FinishedMaps{.depth = {maps.id(), size, size}, .projection = cascades}};
     ParamSet params = renderer.params();
     params.set("technique", std::string("reading"));
-    params.set("depth_sums.halvings", halvings);
+    params.set("depth_sums.shrink", shrink);
     renderer.render(scene, params, [&light](shadow::Inputs& inputs) { inputs.lights = std::span(&light, 1); });
   }
 
@@ -105,7 +105,7 @@ class DepthSums : public GpuTest {
 TEST_F(DepthSums, EachTexelComesBackFromTheTableOfAnySize) {
   for (const int size : {2, 3, 64, 255, 257, 700}) {
     const std::vector<std::vector<float>> layers{random_depths(size, 1), random_depths(size, 2)};
-    make(layers, size, 0);
+    make(layers, size, 1);
     for (int layer = 0; layer < 2; ++layer) {
       for (int i = 0; i < size * size; ++i) {
         const int x = i % size, y = i / size;
@@ -119,23 +119,29 @@ TEST_F(DepthSums, EachTexelComesBackFromTheTableOfAnySize) {
   }
 }
 
-// Of a map of empty texels the sum of squares is as large as it can be.
+// Of a map of empty texels the sum of squares is as large as it can be. Blocks of three texels reach beyond these maps.
 TEST_F(DepthSums, EmptyMapsDoNotOverflow) {
-  for (const int size : {2, 16, 128, 256, 512}) {
-    make({std::vector<float>(static_cast<size_t>(size) * static_cast<size_t>(size), 1.0f)}, size, 0);
-    const auto [depth, square] = inside(0, size, 0, 0, size, size);
-    const double texels = static_cast<double>(size) * size;
-    EXPECT_EQ(static_cast<double>(depth), texels * most(size)) << size;
-    EXPECT_NEAR(static_cast<double>(square) / (texels * most(size) * most(size)), 1, 1e-9) << size;
+  for (const int shrink : {1, 2, 3}) {
+    for (const int size : {2, 16, 128, 256, 512}) {
+      make({std::vector<float>(static_cast<size_t>(size) * static_cast<size_t>(size), 1.0f)}, size, shrink);
+      const int side = (size - 1) / shrink + 1, covered = side * shrink;
+      const auto [depth, square] = inside(0, side, 0, 0, side, side);
+      const double texels = static_cast<double>(covered) * covered, greatest_depth = most(covered);
+      EXPECT_EQ(static_cast<double>(depth), texels * greatest_depth) << size << ", " << shrink;
+      EXPECT_NEAR(static_cast<double>(square) / (texels * greatest_depth * greatest_depth), 1, 1e-9)
+          << size << ", " << shrink;
+    }
   }
 }
 
 TEST_F(DepthSums, RectanglesOfALargeMapAreThoseOfDoubles) {
   constexpr int size = 4096;
   const std::vector<float> depths = random_depths(size, 3);
-  for (const int halvings : {1, 3}) {
-    make({depths}, size, halvings);
-    const int side = size >> halvings;
+  for (const int shrink : {2, 3, 8}) {
+    make({depths}, size, shrink);
+    const int side = size / shrink;  // whole blocks; of the table there can be one more
+    const int table_side = (size - 1) / shrink + 1;
+    const double greatest_depth = most(table_side * shrink);
     std::mt19937 random(4);
     std::uniform_int_distribution<int> corner(0, side - 1), small(1, 6);
     for (int i = 0; i < 300; ++i) {
@@ -144,18 +150,18 @@ TEST_F(DepthSums, RectanglesOfALargeMapAreThoseOfDoubles) {
       if (i == 0) x0 = y0 = 0, x1 = y1 = side;
       x1 = std::min(x1, side), y1 = std::min(y1, side);
       double depth = 0, square = 0;
-      for (int y = y0 << halvings; y < y1 << halvings; ++y) {
-        for (int x = x0 << halvings; x < x1 << halvings; ++x) {
-          const double one = static_cast<double>(depths[static_cast<size_t>(y * size + x)]) * most(size);
+      for (int y = y0 * shrink; y < y1 * shrink; ++y) {
+        for (int x = x0 * shrink; x < x1 * shrink; ++x) {
+          const double one = static_cast<double>(depths[static_cast<size_t>(y * size + x)]) * greatest_depth;
           depth += one;
           square += one * one;
         }
       }
-      const auto [found, found_square] = inside(0, side, x0, y0, x1, y1);
+      const auto [found, found_square] = inside(0, table_side, x0, y0, x1, y1);
       // The roundings of single texels, at most half a step each, add up as those of a random walk.
-      const double texels = static_cast<double>(x1 - x0) * (y1 - y0) * (1 << (2 * halvings));
+      const double texels = static_cast<double>(x1 - x0) * (y1 - y0) * shrink * shrink;
       ASSERT_NEAR(static_cast<double>(found), depth, 2 * std::sqrt(texels));
-      ASSERT_NEAR(static_cast<double>(found_square), square, 4 * most(size) * std::sqrt(texels));
+      ASSERT_NEAR(static_cast<double>(found_square), square, 4 * greatest_depth * std::sqrt(texels));
     }
   }
 }

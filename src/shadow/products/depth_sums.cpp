@@ -11,8 +11,7 @@ constexpr int invocations = 64;  // of a work group, which sums a row or a colum
 // higher word, and of its square.
 const gl::Texture& build(const PassContext& context) {
   const LightProjection& projection = context.frame().projection;
-  const int halvings = context.params().get_int("depth_sums.halvings");
-  const int side = ((projection.size() - 1) >> halvings) + 1;
+  const int side = (projection.size() - 1) / context.params().get_int("depth_sums.shrink") + 1;
   const gl::Texture& sums = context.target("sums", {.target = GL_TEXTURE_2D_ARRAY,
                                                     .format = GL_RGBA32UI,
                                                     .width = side,
@@ -41,9 +40,8 @@ Recipe depth_sums() {
       .source =
           "Hensley et al. 2005, Fast summed-area table generation; Lauritzen 2007, Summed-area variance shadow "
           "maps",
-      .params = {{"depth_sums.halvings", 1, 0, 3, "",
-                  "How often the table's sides are half as long as the map's: with 1, a texel of the table, 16 bytes, "
-                  "sums 2 × 2 texels of the map.",
+      .params = {{"depth_sums.shrink", 2, 1, 8, "texels",
+                  "Texels of the shadow map along each side of the block that a texel of the table, 16 bytes, adds.",
                   compiled}},
       .depends_only_on_needs = true,
       .build = build,
