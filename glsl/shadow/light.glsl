@@ -12,6 +12,10 @@ struct Visibility {
 
 Visibility fully_lit() { return Visibility(1.0, 0.0, 0.0, false); }
 
+// The half width, metres, of the square that stands for the light's shape of that radius: that of a disc has the same
+// variance.
+float square_half(float radius, Light light) { return light.square ? radius : 0.8660254 * radius; }
+
 // Applies the normal offset bias: moves a receiver along its normal by a fraction of a texel's footprint on it.
 Receiver offset_receiver(Receiver receiver, Light light) {
   float cosine = light_cosine(receiver);

@@ -73,6 +73,7 @@ Visibility visibility(Receiver receiver, Light light) {
   float blocker = clamp(2.0 * mean_step(around, true, depth, light) / blocked, 0.0, depth);
   float mean = receiver.position.z - max(stored_depth(blocker, light), search.nearest);
   float radius = penumbra_radius(receiver, mean, light);
-  float lit = 1.0 - blocked_share(square_around(receiver, radius, light), depth, light);
+  Square kernel = square_around(receiver, square_half(radius, light), light);
+  float lit = 1.0 - blocked_share(kernel, depth, light);
   return Visibility(lit, radius, mean, radius < texel_size(receiver, light));
 }

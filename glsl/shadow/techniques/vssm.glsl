@@ -13,9 +13,6 @@ struct Share {
   float height_sum;  // metres along the light: mean height of the blockers over the receiver, times `hidden`
 };
 
-// The half width of the square that stands for a disc: it has the same variance.
-float square_half(float radius, Light light) { return is_square(light) ? radius : 0.8660254 * radius; }
-
 // Every texel of a small rectangle around the receiver, weighted by the area in common.
 Share compared_texels(Receiver receiver, vec2 half_width, float bias, Light light) {
   vec2 texel = texel_extent(receiver, light);
