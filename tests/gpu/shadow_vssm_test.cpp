@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
+#include <vector>
 
 #include "gpu/triangle_scene.h"
 
@@ -80,6 +81,25 @@ TEST_F(Vssm, UnderRoofsAtTwoHeightsItIsDark) {
       for (const float visibility : draw(scene, angle).visibilities())
         ASSERT_EQ(visibility, 0) << "elevation " << elevation << ", sun of " << angle << " degrees";
     }
+  }
+}
+
+// Where all points of a kernel are hidden, rounding of their mean must not make visibility negative.
+TEST_F(Vssm, VisibilityIsFromZeroToOne) {
+  for (const float elevation : {30.0f, 50.0f, 70.0f}) {
+    TriangleScene scene = ground(elevation);
+    for (int i = 0; i < 5; ++i) {
+      const float x = -6 + 2.5f * static_cast<float>(i), height = 3.2f + 0.3f * static_cast<float>(i);
+      scene.add_box({x, height, -4}, {x + 2, height + 0.1f, 4});
+    }
+    scene.view = glm::lookAt(glm::vec3(0, 3, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+    scene.projection = orthographic(10, 10, 0.1f, 10);
+    scene.width = scene.height = 128;
+    const std::vector<float> visibilities = draw(scene, 3).visibilities();
+    const auto [least, greatest] = std::ranges::minmax(visibilities);
+    EXPECT_GE(least, 0) << "elevation " << elevation;
+    EXPECT_LE(greatest, 1) << "elevation " << elevation;
+    EXPECT_LT(least, 0.001f) << "no umbra in the picture";
   }
 }
 
