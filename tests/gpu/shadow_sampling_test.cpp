@@ -216,6 +216,22 @@ TEST_F(ShadowSampling, FramesOfKeysAndOfSpatiotemporalNoiseComplementEachOther) 
   }
 }
 
+// Four frames of four taps are at the points of one frame of sixteen.
+TEST_F(ShadowSampling, EachFrameTakesTheSamplesOfItsKeyThatFollow) {
+  constexpr int frames = 4;
+  params_->set("sampling.noise", std::string("heitz_belcour"));
+  params_->set("sampling.filter_sequence", std::string("shift"));
+  params_->set("pcss.filter_taps", 16);
+  const std::vector<float> together = draw().visibilities();
+  params_->set("pcss.filter_taps", 16 / frames);
+  std::vector<float> mean(together.size());
+  for (int frame = 0; frame < frames; ++frame) {
+    const std::vector<float> drawn = (frame == 0 ? draw() : draw_next()).visibilities();
+    for (size_t i = 0; i < mean.size(); ++i) mean[i] += drawn[i] / frames;
+  }
+  for (size_t i = 0; i < mean.size(); ++i) ASSERT_NEAR(mean[i], together[i], 1e-3) << i;  // the mask holds half floats
+}
+
 // Rotated by gradient noise, few slices leave less than if rotated by blue noise, since nine pixels of it are nearly
 // the rotations of nine times as many slices.
 TEST_F(ShadowSampling, FilteredSlicesHaveLeastNoiseFromInterleavedGradients) {
