@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "render/frame.h"
+#include "render/passes.h"
 
 namespace penumbra::render {
 
@@ -48,9 +49,25 @@ std::vector<Param> Renderer::params(const shadow::Registry& registry) {
   return rows;
 }
 
+namespace {
+
+// Lamps' maps within what the maps of a sun may take at most. Throws Error before anything is allocated.
+void check_maps(std::span<const shadow::Light> lights, const ParamSet& params) {
+  constexpr long long most_texels = 4LL * 8192 * 8192;
+  const long long size = params.get_int("lamps.size");
+  long long maps = 0;
+  for (const shadow::Light& light : lights) maps += shadow::lamp_map_count(light.source);
+  if (maps * size * size <= most_texels) return;
+  fail("{} maps of lamps with lamps.size={} are {} texels: the limit is {} (1.1 GiB)", maps, size, maps * size * size,
+       most_texels);
+}
+
+}  // namespace
+
 const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, const ParamSet& params) {
   if (inputs.lights.empty() || inputs.lights.size() > max_lights)
     fail("a frame has {} lights; 1 to {} can be drawn", inputs.lights.size(), max_lights);
+  check_maps(shadow_lights(inputs.lights), params);
   gl::Device& device = state_->device;
   const State::Drawn now{.scene = scene.id(), .casters = caster_choice(params), .time = inputs.time};
   // Removed until this frame is complete: if it throws, the view's next frame must not reuse its history.

@@ -87,12 +87,14 @@ std::string LampMaps::fault() const {
   return {};
 }
 
+bool has_one_map(const glm::dvec3& axis, double cone) { return glm::length(axis) > 0 && cone <= widest_single_map; }
+
 LampMaps fit_lamp(const LampInputs& in) {
   LampMaps maps{.position = in.position, .size = in.size, .radius = in.radius};
   const bool spot = glm::length(in.axis) > 0;
   maps.world_to_lamp = spot ? light_axes(-in.axis) : light_axes(glm::dvec3(0, 1, 0));
   if (spot) maps.cone = std::cos(in.cone);
-  maps.count = spot && in.cone <= widest_single_map ? 1 : cube_faces;
+  maps.count = has_one_map(in.axis, in.cone) ? 1 : cube_faces;
   // A blocker at distance b moves a disc's rim by up to (1 + t²) · radius / b of the tangent t.
   const double rim = maps.count == 1 ? std::tan(in.cone) : 1.0;
   const double disc = (1 + rim * rim) * in.radius / std::max(clear_radii * in.radius, clear_distance);

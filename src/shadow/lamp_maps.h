@@ -39,6 +39,9 @@ struct LampMaps {
   std::string fault() const;
 };
 
+// Whether a spot with that axis (0: a lamp that shines in all directions) and that half angle of its cone has one map.
+bool has_one_map(const glm::dvec3& axis, double cone);
+
 struct LampInputs {
   glm::dvec3 position{0};
   glm::dvec3 axis{0};  // unit, world; 0: a lamp that shines in all directions

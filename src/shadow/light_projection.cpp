@@ -249,6 +249,12 @@ std::string LightProjection::fault() const {
   return std::visit([](const auto& maps) { return fault_in(maps); }, maps_);
 }
 
+int lamp_map_count(const LightSource& source) {
+  const auto* lamp = std::get_if<Lamp>(&source);
+  if (lamp == nullptr) return 0;
+  return has_one_map(lamp->axis, lamp->cone) ? 1 : cube_faces;
+}
+
 glm::vec4 place_of(const LightSource& source) {
   if (const auto* lamp = std::get_if<Lamp>(&source)) return {lamp->position, 1};
   return {std::get<Sun>(source).to_light, 0};

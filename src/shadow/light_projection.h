@@ -120,6 +120,9 @@ struct ReadBounds {
   bool operator==(const ReadBounds&) const = default;
 };
 
+// How many maps of lamps.size the light has; 0 for a sun.
+int lamp_map_count(const LightSource& source);
+
 // Homogeneous coordinates in the world: the direction to a sun (w = 0), or the centre of a lamp (w = 1).
 glm::vec4 place_of(const LightSource& source);
 

@@ -53,6 +53,10 @@ class Lamps(TestCase):
                 message = self.refuse("render", GALLERY, "-o", self.folder / "y.png", *SIZE, *arguments,
                                       code=1 if "technique" in line or "pendant" in line else 2)
                 self.assertIn(line, message)
+        many = [word for x in range(8) for word in ("--lamp", f"{x},3,0")]
+        self.assertIn("48 maps of lamps with lamps.size=4096 are 805306368 texels: the limit is 268435456 (1.1 GiB)",
+                      self.refuse("render", POSTS, "-o", self.folder / "y.png", *SIZE, "--no-sun", "--set",
+                                  "lamps.size=4096", *many))
         self.assertIn("nothing lights the scene",
                       self.refuse("render", POSTS, "-o", self.folder / "y.png", *SIZE, "--no-sun"))
         self.assertFalse((self.folder / "y.png").exists())
