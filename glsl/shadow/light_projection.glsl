@@ -35,6 +35,7 @@ struct Receiver {
   vec2 gradient;  // of its plane: change of depth per metre in x and y
   Surroundings surroundings;
   vec2 pixel;     // seeds the noise
+  float depth_error;  // the most by which its plane may be off along the light because depths were rounded, metres
   bool history_refused;  // there is a history, but it is invalid here: techniques take more taps
   int layer;             // of a lamp: the face that sees it so
   vec3 from_lamp;        // position and normal in the lamp's own space
@@ -140,14 +141,20 @@ vec3 view_position_of(Receiver receiver) {
   return receiver.position * mat3(shadow.view_to_light);
 }
 
-// How far a receiver moves across the light if it moves by a little vector in view space, metres.
-vec2 across_light(Receiver receiver, vec3 view_vector) {
+// How a receiver moves in light space if it moves by a little vector in view space, metres.
+vec3 move_in_light(Receiver receiver, vec3 view_vector) {
   vec3 moves = mat3(shadow.view_to_light) * view_vector;
   if (is_lamp) {
     moves = seen_by_face(moves, receiver.layer);
     moves.xy -= receiver.position.xy * (moves.z / receiver.position.z);
   }
-  return moves.xy;
+  return moves;
+}
+
+// By how much its plane then moves along the light, metres.
+float plane_moves(Receiver receiver, vec3 view_vector) {
+  vec3 moves = move_in_light(receiver, view_vector);
+  return abs(moves.z - dot(receiver.gradient, moves.xy));
 }
 
 // Width of a pixel at a position in view space, metres.
@@ -199,6 +206,7 @@ Receiver make_receiver(vec3 view_position, vec3 light_normal, vec2 pixel) {
   }
   receiver.surroundings = Surroundings(vec4(0.0), 0.0, 0.0, 0.0);
   receiver.pixel = pixel;
+  receiver.depth_error = 0.0;
   receiver.history_refused = false;
   return receiver;
 }
@@ -303,10 +311,11 @@ vec2 texel_extent(Receiver receiver, Light light) { return texel_extent_at(recei
 // Slope of the receiver's plane in depth per width of a texel, over texel_size().
 float texel_slope(Receiver receiver, Light light) { return length(receiver.gradient * light.map.texel_shares); }
 
-// Upper bound of the error along the light that rounding in the map and in light space causes, metres.
+// Upper bound of the error along the light that rounding in the map, in light space and in the receiver's depth causes,
+// metres.
 float depth_rounding(Receiver receiver, Light light) {
-  if (is_lamp) return light.map.rounding + 1e-6 * (length(shadow.lamp.xyz) + length(receiver.from_lamp));
-  return light.map.rounding;
+  float rounding = light.map.rounding + receiver.depth_error;
+  return is_lamp ? rounding + 1e-6 * (length(shadow.lamp.xyz) + length(receiver.from_lamp)) : rounding;
 }
 
 // Map coordinates of a position in the light's layer, in texels; texel centres are at half-integers.

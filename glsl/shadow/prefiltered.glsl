@@ -19,7 +19,7 @@ PixelSteps pixel_steps(Receiver receiver) {
   float width = pixel_width(position);
   vec3 right = vec3(width, 0.0, 0.0) - ray * (width * normal.x / cosine);
   vec3 up = vec3(0.0, width, 0.0) - ray * (width * normal.y / cosine);
-  return PixelSteps(across_light(receiver, right), across_light(receiver, up));
+  return PixelSteps(move_in_light(receiver, right).xy, move_in_light(receiver, up).xy);
 }
 
 // Radius around a receiver, metres, of what a kernel and the pixel's own width read.

@@ -34,6 +34,7 @@ struct ShadowBlock {
   vec4 noise_shift;        // toroidal shift of the noise's values; xy: blocker step; zw: filter step
   ivec4 noise_place[2];    // of both steps; xy: pixels added to the pixel's; z: frame of the noise texture; w: of keys
   vec2 depth_to_ndc;       // x: scale; y: offset
+  vec2 depth_error;        // most error of a receiver's NDC depth: x: absolute; y: times its absolute value
   float sky_depth;         // stored depth of pixels that show nothing
   int octahedral_normals;  // 1: normals are octahedral; 0: xyz
   float light_extent;      // see Light::extent in light_projection.glsl
@@ -47,6 +48,7 @@ struct ShadowBlock {
   vec2 axes_turn;          // cosine and sine of the angle by which the light's x and y axes are turned in this frame
   float light_stretch;     // most times that a disc which faces a receiver is longer along the map than across
   int light_is_lamp;       // 1: a lamp; 0: a sun
+  vec2 unused;
   vec4 lamp;               // xyz: its centre, view space, metres; w: the cosine of its cone's half angle
   // The layer that contains every caster; apart from `layers`, because a load at an index costs more.
   LayerBlock widest;

@@ -84,6 +84,7 @@ void check_depth(const TextureView& view, TextureChecks& checks) {
   if (!checks.knows(key)) {
     check_texture("depth", view, GL_TEXTURE_2D);
     if (!holds_depth(view.id)) fail("soft shadows: depth: texture {} holds no depth", view.id);
+    checks.depth = depth_rounding_of(view.id);
   }
   checks.add(key);
 }

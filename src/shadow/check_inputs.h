@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "depth_precision.h"
 #include "inputs.h"
 
 namespace penumbra::shadow {
@@ -23,6 +24,8 @@ class TextureChecks {
   void begin() { last_.swap(now_), now_.clear(); }
   bool knows(const Key& key) const { return std::ranges::find(last_, key) != last_.end(); }
   void add(const Key& key) { now_.push_back(key); }
+
+  DepthRounding depth;  // of the depth texture
 
  private:
   std::vector<Key> last_, now_;

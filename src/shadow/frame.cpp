@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../core/error.h"
+#include "../core/log.h"
 #include "denoise_context.h"
 #include "light_block.h"
 #include "light_fit.h"
@@ -122,7 +123,9 @@ void upload_blocks(const LightWork& work) {
   upload_samples(work, work.technique, "samples");
   if (&work.forward != &work.technique) upload_samples(work, work.forward, "samples of the stand-in");
   state.uploaded = true;
-  const LightTraits traits{.noise = noise_read(state.params, age), .last_jitter = work.view.last_jitter};
+  const LightTraits traits{.noise = noise_read(state.params, age),
+                           .last_jitter = work.view.last_jitter,
+                           .depth_error = work.view.depth_error};
   state.shadow_block = &work.device.scratch(work.prefix() + "light", sizeof(glsl::ShadowBlock));
   gl::write_value(*state.shadow_block, shadow_block(work.inputs, work.frame, traits));
 }
@@ -245,6 +248,16 @@ void forget_lights_left_out(gl::Device& device, ViewState& view) {
   });
 }
 
+// How imprecise the receivers' depths are; said once for a view if it costs shadows.
+void find_depth_error(ViewState& view, const Inputs& inputs) {
+  view.depth_error = ndc_error(view.checked.depth, inputs.conventions, inputs.view.projection);
+  if (view.warned_of_depth) return;
+  if (const std::string warning = depth_warning(inputs, view.depth_error); !warning.empty()) {
+    log(LogLevel::warning, warning);
+    view.warned_of_depth = true;
+  }
+}
+
 }  // namespace
 
 Mask draw_mask(const MaskInputs& from, ViewState& view) {
@@ -252,6 +265,7 @@ Mask draw_mask(const MaskInputs& from, ViewState& view) {
   const bool last_completed = std::exchange(view.drawn, false);
   check(from.inputs, view.checked);
   begin_frame(view, from.inputs, last_completed);
+  find_depth_error(view, from.inputs);
   std::vector<ReadLight> lights;
   for (const Light& light : from.inputs.lights) lights.push_back(read_light(from, light, view));
   Mask mask;

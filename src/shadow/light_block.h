@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 
+#include "depth_precision.h"
 #include "light_frame.h"
 #include "samples.h"
 #include "shared/shadow_block.h"
@@ -12,6 +13,7 @@ namespace penumbra::shadow {
 struct LightTraits {
   NoiseRead noise;
   glm::vec2 last_jitter{0};
+  NdcError depth_error;
 };
 
 // The contents of the uniform block that the shadow passes read for one view and one light.

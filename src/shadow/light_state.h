@@ -97,6 +97,8 @@ struct ViewState {
   Rect viewport;
   bool drawn = false;  // the last frame completed without an Error
   TextureChecks checked;
+  NdcError depth_error;
+  bool warned_of_depth = false;
   std::map<int, LightState> lights;
 };
 

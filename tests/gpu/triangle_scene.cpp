@@ -81,6 +81,19 @@ shadow::Box bounds_of(const TriangleScene& scene) {
   return box;
 }
 
+// For passes, whose clip-space z is in 0..1.
+glm::mat4 drawn_projection(const TriangleScene& scene) {
+  if (scene.conventions.depth_zero_to_one) return scene.projection;
+  glm::mat4 halved(1);
+  halved[2][2] = halved[3][2] = 0.5f;
+  return halved * scene.projection;
+}
+
+// Of clip space.
+double clip_depth(const TriangleScene& scene, double stored) {
+  return scene.conventions.depth_zero_to_one ? stored : 2 * stored - 1;
+}
+
 }  // namespace
 
 void TriangleScene::add_quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
@@ -207,6 +220,10 @@ glm::mat4 perspective(float fov_y, float aspect, float near) {
   return m;
 }
 
+glm::mat4 standard_perspective(float fov_y, float aspect, float near, float far) {
+  return glm::perspectiveRH_NO(fov_y, aspect, near, far);
+}
+
 glm::vec3 sun_direction(float azimuth_degrees, float elevation_degrees) {
   const float azimuth = glm::radians(azimuth_degrees);
   const float elevation = glm::radians(elevation_degrees);
@@ -222,20 +239,23 @@ Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& pa
                                   const std::function<void()>& after) {
   const Geometry geometry(scene);
   const gl::Texture& depth =
-      device_.target("test depth", {.format = GL_DEPTH_COMPONENT32F, .width = scene.width, .height = scene.height});
+      device_.target("test depth", {.format = scene.depth_format, .width = scene.width, .height = scene.height});
   const gl::Texture& normals =
       device_.target("test normals", {.format = GL_RG32F, .width = scene.width, .height = scene.height});
+  const bool reversed = scene.conventions.reversed_z;
+  const float sky_depth = reversed ? 0.0f : 1.0f;
   {
     gl::Pass pass(device_, {.name = "receivers",
                             .colors = {{.texture = &normals, .clear = glm::vec4(0)}},
-                            .depth = gl::Attachment{.texture = &depth, .clear = glm::vec4(0)},
-                            .depth_test = gl::DepthTest::greater_equal,
+                            .depth = gl::Attachment{.texture = &depth, .clear = glm::vec4(sky_depth)},
+                            .depth_test = reversed ? gl::DepthTest::greater_equal : gl::DepthTest::less_equal,
                             .depth_write = true});
-    pass.use(receiver_program).set("world_to_clip", scene.projection * scene.view);
+    pass.use(receiver_program).set("world_to_clip", drawn_projection(scene) * scene.view);
     geometry.draw();
   }
   const shadow::Light light{.source = shadow::Sun{scene.to_light}};
   shadow::Inputs inputs{.view = {.view = scene.view, .projection = scene.projection},
+                        .conventions = scene.conventions,
                         .depth = {depth.id(), scene.width, scene.height},
                         .normals = {normals.id(), scene.width, scene.height},
                         .lights = {&light, 1},
@@ -251,13 +271,14 @@ Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& pa
                   .height = scene.height,
                   .mask = gl::read_floats(*mask_.texture, 4),
                   .depth = gl::read_floats(depth, 1),
-                  .points = {}};
+                  .points = {},
+                  .sky_depth = sky_depth};
   const glm::dmat4 clip_to_world = glm::inverse(glm::dmat4(scene.projection) * glm::dmat4(scene.view));
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {
       const double stored = result.depth[static_cast<size_t>(y * scene.width + x)];
-      const glm::dvec4 p =
-          clip_to_world * glm::dvec4((x + 0.5) / scene.width * 2 - 1, (y + 0.5) / scene.height * 2 - 1, stored, 1);
+      const glm::dvec4 p = clip_to_world * glm::dvec4((x + 0.5) / scene.width * 2 - 1, (y + 0.5) / scene.height * 2 - 1,
+                                                      clip_depth(scene, stored), 1);
       result.points.emplace_back(glm::dvec3(p) / p.w);
     }
   }

@@ -25,6 +25,9 @@ struct TriangleScene {
   int width = 64, height = 64;
   glm::vec3 to_light{0, 1, 0};
   std::optional<shadow::Box> casters, receivers;  // bounds; else those of all triangles
+  // Of the depth buffer. Depths are those of reversed Z unless the projection and the conventions say otherwise.
+  GLenum depth_format = GL_DEPTH_COMPONENT32F;
+  shadow::Conventions conventions;
 
   void add_quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v);
   void add_box(const glm::vec3& min, const glm::vec3& max);
@@ -62,6 +65,8 @@ TriangleScene half_plane_over_ground(int side);
 // Reversed-Z, z in 0..1.
 glm::mat4 orthographic(float half_width, float half_height, float near, float far);
 glm::mat4 perspective(float fov_y, float aspect, float near);
+// OpenGL's own: depth grows with the distance, z in -1..1.
+glm::mat4 standard_perspective(float fov_y, float aspect, float near, float far);
 glm::vec3 sun_direction(float azimuth_degrees, float elevation_degrees);
 
 // The library's result for a scene, in rows from bottom to top.
@@ -79,7 +84,8 @@ struct Shadowed {
   }
   float penumbra_radius(int x, int y) const { return mask[4 * static_cast<size_t>(y * width + x) + 1]; }
   const glm::vec3& point(int x, int y) const { return points[static_cast<size_t>(y * width + x)]; }
-  bool sky(int x, int y) const { return depth[static_cast<size_t>(y * width + x)] == 0; }
+  float sky_depth = 0;
+  bool sky(int x, int y) const { return depth[static_cast<size_t>(y * width + x)] == sky_depth; }
 };
 
 // Draws scenes on one device with one facade.

@@ -8,11 +8,20 @@ layout(binding = 3) uniform sampler2D receiver_normal;
 // Whether the pixel shows only sky.
 bool is_sky(ivec2 pixel) { return texelFetch(receiver_depth, pixel, 0).x == shadow.sky_depth; }
 
+float ndc_depth(float depth) { return depth * shadow.depth_to_ndc.x + shadow.depth_to_ndc.y; }
+
 // View-space position (metres) of a point of the picture, pixels, with that stored depth.
 vec3 unproject(vec2 at, float depth) {
   vec2 ndc = (at - shadow.viewport.xy) / shadow.viewport.zw * 2.0 - 1.0 - shadow.jitter.xy;
-  vec4 view = shadow.clip_to_view * vec4(ndc, depth * shadow.depth_to_ndc.x + shadow.depth_to_ndc.y, 1.0);
+  vec4 view = shadow.clip_to_view * vec4(ndc, ndc_depth(depth), 1.0);
   return view.xyz / view.w;
+}
+
+// The most by which a view-space position, made from that stored depth, may be off along its view ray, metres.
+vec3 position_error(vec3 position, float depth) {
+  float error = shadow.depth_error.x + shadow.depth_error.y * abs(ndc_depth(depth));
+  float clip_w = shadow.pixel_size.z * position.z + shadow.pixel_size.w;
+  return error * clip_w * (shadow.clip_to_view[2].xyz - position * shadow.clip_to_view[2].w);
 }
 
 // View-space position (metres) of a pixel that is not sky.
@@ -26,5 +35,9 @@ vec3 light_normal_at(ivec2 pixel) {
 }
 
 Receiver receiver_at(ivec2 pixel) {
-  return make_receiver(view_position_at(pixel), light_normal_at(pixel), vec2(pixel));
+  float depth = texelFetch(receiver_depth, pixel, 0).x;
+  vec3 position = unproject(vec2(pixel) + 0.5, depth);
+  Receiver receiver = make_receiver(position, light_normal_at(pixel), vec2(pixel));
+  receiver.depth_error = plane_moves(receiver, position_error(position, depth));
+  return receiver;
 }

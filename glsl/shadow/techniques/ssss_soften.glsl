@@ -23,8 +23,8 @@ vec2 shown_at(vec3 position) { return position.xy / (shadow.pixel_size.xy * clip
 
 Surface surface_at(ivec2 pixel) {
   Surface surface;
-  surface.position = view_position_at(pixel);
-  surface.receiver = make_receiver(surface.position, light_normal_at(pixel), vec2(pixel));
+  surface.receiver = receiver_at(pixel);
+  surface.position = view_position_of(surface.receiver);
   surface.normal = view_normal_of(surface.receiver);
   surface.along_x = view_direction(vec3(1.0, 0.0, surface.receiver.gradient.x));
   surface.along_y = view_direction(vec3(0.0, 1.0, surface.receiver.gradient.y));
