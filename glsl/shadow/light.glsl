@@ -20,7 +20,8 @@ float square_half(float radius, Light light) { return light.square ? radius : 0.
 Receiver offset_receiver(Receiver receiver, Light light) {
   float cosine = light_cosine(receiver);
   float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-  receiver.position += receiver.normal * (bias_normal_offset * texel_size(receiver, light) * sine);
+  float offset = bias_normal_offset * texel_size(receiver, light) * sine;
+  receiver.position += along_rays(receiver, receiver.normal * offset);
   return receiver;
 }
 

@@ -8,10 +8,10 @@
 // A sun has parallel rays, and orthographic cascades as layers. A lamp has perspective maps, one or a cube's faces. For
 // each receiver it is a sun: the projective map
 //   (x, y, z) -> (x, y, 2 z - Z) · Z / z,   Z the receiver's depth,
-// makes the rays through the lamp's centre parallel, keeps planes plane, leaves the receiver and, to first order, its
-// surroundings where they are, and turns a disc of radius R at the lamp into a sun of tangent R / Z. The depth that a
-// perspective map stores is a linear function of the result. So the functions below differ in how they place a
-// receiver and its map, and in little else. See ADR 24.
+// makes the rays through the lamp's centre parallel, keeps planes plane, leaves all points at the receiver's depth
+// where they are, and turns a disc of radius R at the lamp into a sun of tangent R / Z. The depth that a perspective
+// map stores is a linear function of the result. So the functions below differ in how they place a receiver and its
+// map, and in little else. See ADR 24.
 #include "shared/cube_faces.h"
 #include "shared/shadow_block.h"
 #include "lib/kernel.glsl"
@@ -90,6 +90,7 @@ Light light_at(Receiver receiver) {
   if (is_lamp) {
     // The nearest depth that is not at the lamp's centre, where there is no light space.
     light.depth = max(receiver.position.z, -1.0 / shadow.layers[0].near_depth);
+    light.layer = receiver.layer;
     light.extent = shadow.light_extent / light.depth;
     light.map = map_at_depth(light.map, light.depth);
     // A disc that faces the receiver, seen along the map's axis: longer by 1 / cosine along the direction in which the
@@ -141,14 +142,16 @@ vec3 view_position_of(Receiver receiver) {
   return receiver.position * mat3(shadow.view_to_light);
 }
 
-// How a receiver moves in light space if it moves by a little vector in view space, metres.
+// How a receiver moves in light space if it moves by a little vector, which a lamp's face has in its own axes; metres.
+vec3 along_rays(Receiver receiver, vec3 moves) {
+  if (is_lamp) moves.xy -= receiver.position.xy * (moves.z / receiver.position.z);
+  return moves;
+}
+
+// The same for a vector in view space.
 vec3 move_in_light(Receiver receiver, vec3 view_vector) {
   vec3 moves = mat3(shadow.view_to_light) * view_vector;
-  if (is_lamp) {
-    moves = seen_by_face(moves, receiver.layer);
-    moves.xy -= receiver.position.xy * (moves.z / receiver.position.z);
-  }
-  return moves;
+  return along_rays(receiver, is_lamp ? seen_by_face(moves, receiver.layer) : moves);
 }
 
 // By how much its plane then moves along the light, metres.
@@ -217,10 +220,12 @@ float light_cosine(Receiver receiver) {
   return -receiver.normal.z;
 }
 
-// Whether the light shines in the receiver's direction: a spot does only within its cone.
+// Whether the light reaches the receiver if nothing blocks it: a spot shines only within its cone, a lamp within its
+// range.
 bool shines_at(Receiver receiver) {
   if (!is_lamp) return true;
-  return receiver.from_lamp.z >= shadow.lamp.w * length(receiver.from_lamp);
+  float away = length(receiver.from_lamp);
+  return away <= shadow.lamp_range && receiver.from_lamp.z >= shadow.lamp.w * away;
 }
 
 // Penumbrae.
@@ -425,6 +430,14 @@ struct LayerChoice {
   float fade;    // 0 to 1: its weight
 };
 
+// How far beside an edge of a lamp's cube two faces are blended, as a share of a receiver's depth: no further than the
+// map of the face beyond shows the receiver and the texels next to it.
+float face_blend() {
+  const float texels_beside = 3.0;
+  LayerBlock map = shadow.layers[0];
+  return min(cascades_blend, 1.0 - 1.0 / (0.5 / map.widths_per_metre.x - texels_beside * map.texel));
+}
+
 // A lamp's receiver reads the face that contains it. Beside an edge of the cube it also reads the face beyond, with a
 // weight that grows to a half at the edge, and goes to 0 where a third face is as near.
 LayerChoice choose_face(Receiver receiver, Light light) {
@@ -434,7 +447,7 @@ LayerChoice choose_face(Receiver receiver, Light light) {
   bool outside = receiver.position.z <= 0.0 || layer_edge(receiver.layer, receiver.position, 0.0, light) > 1.0;
   float fade = 0.0;
   if (cascades_seam != cascades_seam_none && light.layers > 1) {
-    float width = cascades_blend * most;
+    float width = face_blend() * most;
     fade = 0.5 * clamp((middle - most + width) / width, 0.0, 1.0) * clamp((middle - least) / width, 0.0, 1.0);
   }
   return LayerChoice(receiver.layer, outside, light.layers > 1 ? faces_of(receiver.from_lamp).y : 0, fade);

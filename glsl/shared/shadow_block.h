@@ -48,7 +48,8 @@ struct ShadowBlock {
   vec2 axes_turn;          // cosine and sine of the angle by which the light's x and y axes are turned in this frame
   float light_stretch;     // most times that a disc which faces a receiver is longer along the map than across
   int light_is_lamp;       // 1: a lamp; 0: a sun
-  vec2 unused;
+  float lamp_range;        // of a lamp: distance to which it shines, metres
+  float unused;
   vec4 lamp;               // xyz: its centre, view space, metres; w: the cosine of its cone's half angle
   // The layer that contains every caster; apart from `layers`, because a load at an index costs more.
   LayerBlock widest;

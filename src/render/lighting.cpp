@@ -36,6 +36,9 @@ glsl::DirectLightBlock block_of(const SunLight& sun, float exposure) {
   return block;
 }
 
+// Least difference of the cosines of a spot's cones: between equal ones light would end without a width to fade over.
+constexpr float narrowest_fade = 1e-6f;
+
 // Nearer to a lamp than its radius, but at least this far, light grows no more.
 constexpr float least_distance = 1e-2f;  // metres
 
@@ -50,7 +53,7 @@ glsl::DirectLightBlock block_of(const LampLight& lamp, float exposure) {
   block.cone_offset = 1;
   if (lamp.axis == glm::vec3(0)) return block;
   const float inner = std::cos(lamp.inner_cone), outer = std::cos(lamp.outer_cone);
-  block.cone_scale = 1.0f / std::max(inner - outer, 1e-3f);
+  block.cone_scale = 1.0f / std::max(inner - outer, narrowest_fade);
   block.cone_offset = -outer * block.cone_scale;
   return block;
 }

@@ -30,7 +30,8 @@ std::vector<std::uint8_t> facing(const Renderer& renderer, const LampLight& lamp
     const glm::vec3 to_lamp = lamp.position - vector_at(positions, i);
     const float distance = glm::length(to_lamp);
     const float least = distance * lamp.radius / std::hypot(distance, lamp.radius);
-    const bool shines = -glm::dot(to_lamp, lamp.axis) >= outer * distance;
+    const bool within = lamp.range <= 0 || distance <= lamp.range;
+    const bool shines = within && -glm::dot(to_lamp, lamp.axis) >= outer * distance;
     receivers[i] = shines && glm::dot(vector_at(normals, i), to_lamp) > least ? 1 : 0;
   }
   return receivers;

@@ -12,6 +12,7 @@
 #include "core/names.h"
 #include "render/framing.h"
 #include "render/ground.h"
+#include "shadow/light_projection.h"
 
 namespace penumbra::render {
 
@@ -143,21 +144,30 @@ const FileLight& find_light(const std::vector<FileLight>& lights, const std::str
   fail_unknown("light", wanted, names);
 }
 
-// Those that the user chose, else all.
+// Those that the user chose, each once, else all.
 std::vector<FileLight> wanted_lights(const std::vector<FileLight>& lights, const SetupRequest& request) {
   if (!request.lights) return lights;
   std::vector<FileLight> chosen;
-  for (const std::string& name : *request.lights) chosen.push_back(find_light(lights, name));
+  for (const std::string& name : *request.lights) {
+    const FileLight& light = find_light(lights, name);
+    if (std::ranges::find(chosen, light.node, &FileLight::node) == chosen.end()) chosen.push_back(light);
+  }
   return chosen;
 }
 
-// Whether a light is bright, and its node says where it is.
+// Whether a light is bright, and its node says where it is. Warns of a lamp that is too far away to cast shadows.
 bool shines(const FileLight& light, const scene::Pose& pose) {
   const glm::mat4& world = pose.world[light.node];
   const glm::vec3 place(world[3]);
   const bool placed = std::isfinite(place.x + place.y + place.z);
   const bool bright = light.light->intensity > 0 && light.light->color != glm::vec3(0);
-  return bright && placed && (light.light->kind == scene::LightKind::point || to_light_of(world));
+  if (!bright || !placed) return false;
+  const bool sun = light.light->kind == scene::LightKind::directional;
+  if (!sun && glm::any(glm::greaterThan(glm::abs(place), glm::vec3(shadow::farthest_lamp)))) {
+    warn("light '{}' is left out: it is more than {} km from the origin", light.name, shadow::farthest_lamp / 1000);
+    return false;
+  }
+  return light.light->kind == scene::LightKind::point || to_light_of(world);
 }
 
 FrameLight light_of(const scene::PunctualLight& file, const std::optional<float>& radius) {
@@ -212,7 +222,8 @@ void choose_lights(Setup& setup, const scene::Scene& scene, const scene::Pose& p
   const std::size_t shining = setup.lights.size() + (setup.sun_shines ? 1 : 0);
   if (shining == 0)
     fail("nothing lights the scene: {}",
-         request.no_sun ? "it has no other light than a sun" : "the lights that were chosen are dark");
+         request.no_sun ? "it has no other light than a sun"
+                        : "its lights, or those of them that were chosen, are dark or too far away");
   warn_of_many(shining);
   setup.lights.resize(std::min<std::size_t>(setup.lights.size(), max_lights - (setup.sun_shines ? 1 : 0)));
   follow(setup, pose);

@@ -14,6 +14,7 @@ namespace {
 constexpr double clear_radii = 2, clear_distance = 0.2;      // metres
 constexpr double texels_beyond = 8;                          // that receivers at the edge read besides
 constexpr double widest_single_map = glm::pi<double>() / 3;  // half angle
+constexpr double most_far_over_near = 2000;  // else 32-bit depths are off by more than 1e-4 of a distance
 
 // The rotation from the lamp's space to a face's.
 glm::dmat3 turn_of(int face) {
@@ -90,7 +91,7 @@ std::string LampMaps::fault() const {
 bool has_one_map(const glm::dvec3& axis, double cone) { return glm::length(axis) > 0 && cone <= widest_single_map; }
 
 LampMaps fit_lamp(const LampInputs& in) {
-  LampMaps maps{.position = in.position, .size = in.size, .radius = in.radius};
+  LampMaps maps{.position = in.position, .size = in.size, .radius = in.radius, .range = in.range};
   const bool spot = glm::length(in.axis) > 0;
   maps.world_to_lamp = spot ? light_axes(-in.axis) : light_axes(glm::dvec3(0, 1, 0));
   if (spot) maps.cone = std::cos(in.cone);
@@ -100,8 +101,9 @@ LampMaps fit_lamp(const LampInputs& in) {
   const double disc = (1 + rim * rim) * in.radius / std::max(clear_radii * in.radius, clear_distance);
   maps.tangent = (rim + disc) / (1 - std::min(2 * texels_beyond / in.size, 0.5));
   const double reach = farthest_of(in.receivers, in.position) * 1.001;
-  maps.near = std::max(in.nearest, step_down(0.5 * distance_to(in.casters, in.position)));
-  maps.far = std::max(step_up(in.range > 0 ? std::min(in.range, reach) : reach), 2 * maps.near);
+  const double far = step_up(in.range > 0 ? std::min(in.range, reach) : reach);
+  maps.near = std::max({in.nearest, step_down(0.5 * distance_to(in.casters, in.position)), far / most_far_over_near});
+  maps.far = std::max(far, 2 * maps.near);
   return maps;
 }
 

@@ -22,10 +22,11 @@ struct LampMaps {
   int size = 0;        // texels along a side
   int count = 1;       // 1, or cube_faces
   double tangent = 1;  // of half the angle that a map spans
-  double near = 1e-2;  // z of the near plane: nearer casters cast no shadow
+  double near = 1e-2;  // z of the near plane: nearer casters cast no shadow; at least 1/2000 of `far`
   double far = 1;      // z of the far plane
   double radius = 0;   // of the lamp, metres
   double cone = -2;    // cosine of the half angle of a spot's cone; below -1: it shines in all directions
+  double range = 0;    // metres; 0: unlimited
 
   glm::dmat4 world_to_clip(int face) const;
   // The part of the face's frustum between its near and its far plane.

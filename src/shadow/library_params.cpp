@@ -55,7 +55,9 @@ std::vector<Param> map_rows() {
       {"lamps.size", 1024, 16, 8192, "texels", "Side of each map of a lamp: a spot has one, other lamps have six.",
        host},
       {"lamps.near", 0.02f, 1e-4, 100, "m",
-       "Casters that are nearer to a lamp's centre cast no shadow of it: they are the lamp itself.", host},
+       "Casters that are nearer to a lamp's centre cast no shadow of it: they are the lamp itself. A lamp that lights "
+       "receivers farther away than 2000 times this takes 1/2000 of their distance.",
+       host},
       {"cascades.blend", 0.1f, 0.001, 0.5, "", "Width of the transition, as a fraction of the cascade's half width."},
       {"bias.constant", 0.02f, 0, 10, "texels",
        "Distance along the light that a texel may lie before a receiver without blocking it."},

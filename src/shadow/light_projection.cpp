@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
+#include <limits>
 
 #include "receiver_region.h"
 #include "shared/shadow_block.h"
@@ -82,6 +83,7 @@ void write_to(glsl::ShadowBlock& block, const LampMaps& lamp, const glm::dmat4& 
   block.light_stretch = static_cast<float>(lamp.greatest_stretch());
   block.lamp =
       glm::vec4(glm::vec3(glm::inverse(view_to_world) * glm::dvec4(lamp.position, 1)), static_cast<float>(lamp.cone));
+  block.lamp_range = lamp.range > 0 ? static_cast<float>(lamp.range) : std::numeric_limits<float>::max();
   block.moved_depth = static_cast<float>(moved ? least_depth(lamp, *moved) : lamp.near);
   for (int i = 0; i < lamp.count; ++i) block.widest = block.layers[i] = layer_block(lamp);
 }
@@ -160,11 +162,10 @@ std::string fault_in(const Sun& sun) {
 }
 
 std::string fault_in(const Lamp& lamp) {
-  constexpr float most = 1e6f;  // metres: floats hold no shorter lengths than 6 cm beyond
-  if (!all_finite(glm::value_ptr(lamp.position), 3) ||
-      glm::any(glm::greaterThan(glm::abs(lamp.position), glm::vec3(most))))
-    return "has no position";
-  if (!(lamp.radius >= 0 && lamp.radius <= most)) return "has no radius";
+  if (!all_finite(glm::value_ptr(lamp.position), 3)) return "has no position";
+  if (glm::any(glm::greaterThan(glm::abs(lamp.position), glm::vec3(farthest_lamp))))
+    return "is too far from the origin";
+  if (!(lamp.radius >= 0 && lamp.radius <= farthest_lamp)) return "has no radius";
   if (!(lamp.range >= 0)) return "has a range that is not 0 or more";
   const float length = glm::length(lamp.axis);
   if (!std::isfinite(length) || (length > 0 && std::abs(length - 1) > 1e-2f))

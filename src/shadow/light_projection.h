@@ -29,6 +29,10 @@ struct Sun {
   bool operator==(const Sun&) const = default;
 };
 
+// Lamps are at most this far from the world's origin along each axis, metres: beyond, 32-bit floats hold no lengths
+// below 6 cm.
+inline constexpr float farthest_lamp = 1e6f;
+
 // A light at a place: a sphere that shines in all directions, or within a spot's cone. How bright it is, and how that
 // falls off, is left to the caller.
 struct Lamp {
@@ -36,7 +40,7 @@ struct Lamp {
   float radius = 0.03f;   // of the sphere, metres; 0: hard shadows
   glm::vec3 axis{0};      // in which a spot shines, unit, world; 0: in all directions
   float cone = 0;         // half angle of a spot's cone, radians, above 0 and at most π/2; beyond it the mask is 0
-  float range = 0;        // metres: casters and receivers further away are left out; 0: none are
+  float range = 0;        // metres: beyond it the mask is 0; 0: unlimited
 
   bool operator==(const Lamp&) const = default;
 };

@@ -20,8 +20,10 @@ TracedLight light_of(const shadow::Sun& sun, const ParamSet& params) {
 }
 
 TracedLight light_of(const shadow::Lamp& lamp, const ParamSet& params) {
-  LocalLight light{
-      .position = glm::dvec3(lamp.position), .radius = lamp.radius, .clear = params.get_float("lamps.near")};
+  LocalLight light{.position = glm::dvec3(lamp.position),
+                   .radius = lamp.radius,
+                   .clear = params.get_float("lamps.near"),
+                   .range = lamp.range};
   if (lamp.axis != glm::vec3(0)) light.cone = SpotCone{.axis = glm::dvec3(lamp.axis), .cosine = std::cos(lamp.cone)};
   return light;
 }

@@ -100,6 +100,7 @@ void add_light(Hash& hash, const LocalLight& light) {
     hash.add(light.cone->axis);
     hash.add(light.cone->cosine);
   }
+  if (light.range > 0) hash.add(light.range);
 }
 
 }  // namespace

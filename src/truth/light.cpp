@@ -41,7 +41,8 @@ SeenLight seen(const LocalLight& light, const glm::dvec3& point) {
   const double distance = glm::length(center);
   const auto clear = static_cast<float>(1 - light.clear / std::max(distance, light.clear + 1e-9));
   SeenLight seen{center, sides.x * light.radius, sides.y * light.radius, std::min(nearly_all_the_way, clear), false};
-  if (light.cone) seen.shines = glm::dot(-center, light.cone->axis) >= light.cone->cosine * distance;
+  seen.shines = (light.range <= 0 || distance <= light.range) &&
+                (!light.cone || glm::dot(-center, light.cone->axis) >= light.cone->cosine * distance);
   return seen;
 }
 

@@ -35,13 +35,47 @@ class Lamps(TestCase):
 
     def test_a_lamp_shadows_as_rays_do(self):
         lamp = ("--no-sun", "--lamp", "2,6,3:radius=0.15:cd=500")
-        for name, technique in (("a", "slices"), ("b", "truth")):
-            self.succeed("render", POSTS, "-o", self.folder / f"{name}.exr", "--size", "160x90", "--technique", technique,
-                         "--aov", "shadow", "--quiet", "--set", "truth.samples=64", "--set", "slices.azimuths=16", *lamp)
-        drawn, truth = (read_exr(self.folder / f"{name}.exr")["shadow.V"] for name in "ab")
-        errors = [abs(x - y) for rows in zip(drawn, truth) for x, y in zip(*rows)]
-        self.assertGreater(sum(0.1 < value < 0.9 for row in truth for value in row), 50)
-        self.assertLess(sum(errors) / len(errors), 0.01)
+        masks = {}
+        for technique in ("hard", "slices", "truth"):
+            path = self.folder / f"{technique}.exr"
+            self.succeed("render", POSTS, "-o", path, "--size", "160x90", "--technique", technique, "--aov", "shadow",
+                         "--quiet", "--set", "truth.samples=64", "--set", "slices.azimuths=16", "--set", "lamps.size=4096", *lamp)
+            masks[technique] = [value for row in read_exr(path)["shadow.V"] for value in row]
+        penumbra = [i for i, value in enumerate(masks["truth"]) if 0.1 < value < 0.9]
+        self.assertGreater(len(penumbra), 50)
+
+        def error(technique):
+            return sum(abs(masks[technique][i] - masks["truth"][i]) for i in penumbra) / len(penumbra)
+
+        self.assertLess(error("slices"), 0.2 * error("hard"))
+
+    def test_a_lamp_shines_within_its_range_alone(self):
+        lamp = ("--no-sun", "--lamp", "2,6,3:radius=0.15:cd=500:range=7")
+        masks = []
+        for technique in ("slices", "truth"):
+            path = self.folder / f"{technique}.exr"
+            self.succeed("render", POSTS, "-o", path, "--size", "160x90", "--technique", technique, "--aov", "shadow",
+                         "--quiet", "--set", "truth.samples=16", *lamp)
+            masks.append([value for row in read_exr(path)["shadow.V"] for value in row])
+        beyond = sum(value == 0 for value in masks[1])
+        self.assertGreater(beyond, 500)
+        self.assertLess(sum((x == 0) != (y == 0) for x, y in zip(*masks)), 0.02 * len(masks[0]))
+
+    def test_a_light_that_is_named_twice_shines_once(self):
+        self.assertEqual(self.kinds(GALLERY, "--lights", "pendant,pendant,sun"), ["sun", "point"])
+
+    def test_a_lamp_beyond_the_limit_is_left_out(self):
+        gltf = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+                "extensionsUsed": ["KHR_lights_punctual"],
+                "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "name": "far"}, {"type": "point"}]}},
+                "nodes": [{"translation": [1e7, 0, 0], "extensions": {"KHR_lights_punctual": {"light": 0}}},
+                          {"translation": [0, 2, 0], "extensions": {"KHR_lights_punctual": {"light": 1}}}]}
+        path = self.folder / "far.gltf"
+        path.write_text(json.dumps(gltf))
+        result = self.succeed("render", path, "-o", self.folder / "far.png", *SIZE, "--technique", "hard")
+        self.assertIn("light 'far' is left out: it is more than 1000 km from the origin", result.stderr)
+        self.assertIn("nothing lights the scene", self.refuse("render", path, "-o", self.folder / "far.png", *SIZE,
+                                                              "--lights", "far"))
 
     def test_faults_are_one_line(self):
         for arguments, line in ((("--lights", "pendent"), "unknown light 'pendent'; did you mean 'pendant'?"),

@@ -83,6 +83,21 @@ TEST_F(LampLightTest, ASpotFadesFromItsInnerToItsOuterCone) {
   EXPECT_GT(faded, 8);
 }
 
+TEST_F(LampLightTest, ANarrowSpotIsAsBrightAsOthersOnItsAxis) {
+  const render::LampLight point{.position = {0, 0, 2}};
+  const std::vector<float> all = color_with({point});
+  for (const float degrees : {2.0f, 0.5f}) {
+    render::LampLight spot = point;
+    spot.position += wall_at(width / 2, height / 2);
+    spot.axis = {0, 0, -1};
+    spot.outer_cone = glm::radians(degrees);
+    spot.inner_cone = 0.8f * spot.outer_cone;
+    EXPECT_NEAR(red(color_with({spot}), width / 2, height / 2), red(all, width / 2, height / 2),
+                0.01f * red(all, width / 2, height / 2))
+        << degrees;
+  }
+}
+
 TEST_F(LampLightTest, ALampOnASurfaceGivesFiniteLight) {
   for (const float radius : {0.0f, 0.5f}) {
     for (const float value :
@@ -124,11 +139,20 @@ TEST_F(LampLightTest, CrossingPenumbraeAddUp) {
 
 TEST_F(LampLightTest, TheFirstEightLightsCastShadows) {
   params.set_text("technique", "hard");
+  // A screen over the left half of what the lamps light.
+  scene::Primitive quad = square();
+  quad.material = 0;
+  add_node(scene_, quad, glm::scale(glm::translate(glm::mat4(1), glm::vec3(-2, 0, 1)), glm::vec3(2)));
   std::vector<render::FrameLight> lights(12, render::LampLight{.position = {0, 0, 3}});
   inputs.lights = lights;
+  inputs.camera = inputs.last_camera = render::look_at({0, 0, 0.5f}, {0, 0, 0}, 1.0f, 0.01f);
   EXPECT_EQ(draw(scene_).mask.lights.size(), 8u);
-  const std::vector<float> twelve = renderer.read_aov("color"), one = color_with({lights[0]});
-  EXPECT_NEAR(red(twelve, 40, 20), 12 * red(one, 40, 20), 0.02f * red(twelve, 40, 20));
+  const std::vector<float> twelve = renderer.read_aov("color");
+  params.set_text("technique", "none");
+  const std::vector<float> one = color_with({lights[0]});
+  const int left = 10, right = 54, y = 20;
+  EXPECT_NEAR(red(twelve, right, y), 12 * red(one, right, y), 0.02f * red(twelve, right, y));
+  EXPECT_NEAR(red(twelve, left, y), 4 * red(one, left, y), 0.02f * red(twelve, left, y));
 }
 
 }  // namespace

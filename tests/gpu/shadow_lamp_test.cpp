@@ -228,16 +228,83 @@ TEST_F(Lamps, NoSeamShowsWhereCubeFacesMeet) {
     params.set("slices.azimuths", 32);
     params.set("slices.samples", 32);
     params.set("lamps.size", 512);
-    Steps all;
-    for (const Screen& screen : screens()) {
-      const Steps steps = steps_of(render(scene_of(screen, 96), {.radius = radius}, params), screen, radius);
-      EXPECT_LE(steps.across, steps.within + 1.0 / 255)
-          << technique << ", screen towards " << screen.towards.x << " " << screen.towards.y << " " << screen.towards.z;
-      EXPECT_LE(steps.worst_error, 0.03) << technique;
-      all.pairs += steps.pairs;
+    for (const char* seam : {"fade", "dither"}) {
+      params.set("cascades.seam", std::string(seam));
+      int pairs = 0;
+      for (const Screen& screen : screens()) {
+        const Steps steps = steps_of(render(scene_of(screen, 96), {.radius = radius}, params), screen, radius);
+        EXPECT_LE(steps.across, steps.within + 1.0 / 255)
+            << technique << ", " << seam << ", screen towards " << screen.towards.x << " " << screen.towards.y << " "
+            << screen.towards.z;
+        EXPECT_LE(steps.worst_error, 0.03) << technique << ", " << seam;
+        pairs += steps.pairs;
+      }
+      EXPECT_GT(pairs, 300);
     }
-    EXPECT_GT(all.pairs, 300);
   }
+}
+
+// A lamp in a closed box lights nothing outside of it, however little its maps reach beyond the cube's edges.
+TEST_F(Lamps, NoLightLeaksWhereCubeFacesMeet) {
+  for (const float radius : {0.0f, 0.002f, 0.1f}) {
+    for (const Screen& screen : screens()) {
+      TriangleScene scene = scene_of(screen, 64);
+      scene.triangles.resize(2);  // the wall alone
+      scene.add_box(glm::vec3(-0.5f), glm::vec3(0.5f));
+      for (const char* technique : {"hard", "pcss", "slices"}) {
+        ParamSet params = renderer_->params();
+        params.set("technique", std::string(technique));
+        for (const char* seam : {"fade", "dither"}) {
+          params.set("cascades.seam", std::string(seam));
+          for (const float visibility : render(scene, {.radius = radius}, params).visibilities())
+            ASSERT_LT(visibility, 1e-3f) << technique << ", " << seam << ", lamp of " << radius << " m";
+        }
+      }
+    }
+  }
+}
+
+// A lamp among casters that lights a wide ground, too: a box that is far from the lamp casts its shadow.
+TEST_F(Lamps, CastersFarFromALampCastShadows) {
+  TriangleScene scene;
+  scene.add_quad({-700, 0, -700}, {0, 0, 1400}, {1400, 0, 0});
+  scene.add_quad({-10, 3, -10}, {0, 0, 20}, {20, 0, 0});
+  scene.add_quad({10, 610, 10}, {0, 0, 20}, {20, 0, 0});
+  scene.width = scene.height = 16;
+  scene.view = glm::lookAt(glm::vec3(0, 2, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+  scene.projection = orthographic(8, 8, 0.01f, 4);
+  const shadow::Lamp lamp{.position = {0, 600, 0}, .radius = 0.1f};
+  for (const char* technique : {"hard", "pcss", "slices"}) {
+    ParamSet params = renderer_->params();
+    params.set("technique", std::string(technique));
+    for (const float visibility : render(scene, lamp, params).visibilities()) ASSERT_EQ(visibility, 0) << technique;
+  }
+}
+
+// bias.normal_offset moves a receiver along its normal, wherever a face sees it: on the ground, the point that is
+// looked up lies higher, so that its ray from the lamp ends further out.
+TEST_F(Lamps, TheNormalOffsetIsThatOfTheWorldAwayFromTheAxis) {
+  constexpr float offset = 8;
+  const Edge edge{1, 0, 1.4f, 0.8f};
+  const TriangleScene scene = scene_of(Edge{1, 0.4f, 1.4f, 0.8f}, 64);
+  ParamSet params = renderer_->params();
+  params.set("technique", std::string("hard"));
+  params.set("lamps.size", 256);
+  params.set("bias.normal_offset", offset);
+  const float texel = 2 * lamp_height / 256 / (1 - 16.0f / 256);
+  const Shadowed shadowed = render(scene, point_lamp(0), params);
+  int lit = 0, dark = 0;
+  for (size_t i = 0; i < shadowed.points.size(); ++i) {
+    const glm::vec3& point = shadowed.points[i];
+    const float across = glm::length(glm::vec2(point.x, point.z));
+    const float raised = offset * texel * across / std::hypot(across, lamp_height);
+    const float from_edge = point.x * lamp_height / (lamp_height - raised) - edge.shadow_x();
+    if (std::abs(from_edge) < 1.5f * texel) continue;
+    ASSERT_EQ(shadowed.mask[4 * i], from_edge > 0 ? 1.0f : 0.0f) << from_edge << " m from the edge";
+    ++(from_edge > 0 ? lit : dark);
+  }
+  EXPECT_GT(lit, 20);
+  EXPECT_GT(dark, 20);
 }
 
 TEST_F(Lamps, ShadowVolumesAreThoseOfTheCentre) {
@@ -283,7 +350,9 @@ TEST_F(Lamps, TechniquesAndDriversAgree) {
 
 TEST_F(Lamps, SoftnessDependsOnNeitherMapSizeNorNearPlane) {
   const Edge edge{1, 0.1f, 0.4f, 0.3f};
-  const TriangleScene scene = scene_of(edge, 96);
+  TriangleScene scene = scene_of(edge, 96);
+  // A caster at the lamp's height, so that only lamps.near says where the near plane is.
+  scene.add_quad({3, lamp_height - 0.5f, -4}, {0, 1, 0}, {1, 0, 0});
   ParamSet params = renderer_->params();
   params.set("technique", std::string("slices"));
   params.set("slices.azimuths", 32);
@@ -344,6 +413,29 @@ TEST_F(Lamps, ASpotShinesWithinItsConeAlone) {
   }
 }
 
+TEST_F(Lamps, ALampShinesWithinItsRangeAlone) {
+  TriangleScene scene;
+  scene.add_quad({-8, 0, -8}, {0, 0, 16}, {16, 0, 0});
+  scene.width = scene.height = 64;
+  scene.view = glm::lookAt(glm::vec3(0, 5, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+  scene.projection = orthographic(6, 6, 0.01f, 6);
+  for (const float cone : {0.0f, 60.0f}) {
+    shadow::Lamp lamp = cone > 0 ? spot(0.05f, cone) : point_lamp(0.05f);
+    lamp.range = 4;
+    const Shadowed shadowed = render(scene, lamp, renderer_->params());
+    int lit = 0, dark = 0;
+    for (size_t i = 0; i < shadowed.points.size(); ++i) {
+      const float away = glm::distance(shadowed.points[i], lamp.position);
+      if (std::abs(away - lamp.range) < 1e-3f) continue;
+      ASSERT_EQ(shadowed.mask[4 * i], away < lamp.range ? 1.0f : 0.0f) << away << " m";
+      lit += away < lamp.range ? 1 : 0;
+      dark += away > lamp.range ? 1 : 0;
+    }
+    EXPECT_GT(lit, 100);
+    EXPECT_GT(dark, 100);
+  }
+}
+
 TEST_F(Lamps, AMovedLampDropsItsOwnHistoryAloneAndOneAtRestIsNotDrawnAgain) {
   const Edge edge{1, 0.1f};
   const TriangleScene scene = scene_of(edge, 32);
@@ -386,7 +478,7 @@ TEST_F(Lamps, BadLampsAndTechniquesForSunsAreRefused) {
   const auto fault = [&](const shadow::Lamp& lamp) { return message_of([&] { render(scene, lamp, params); }); };
   const float nan = std::nanf("");
   EXPECT_EQ(fault({.position = {nan, 0, 0}}), "soft shadows: light 0 has no position");
-  EXPECT_EQ(fault({.position = {1e7f, 0, 0}}), "soft shadows: light 0 has no position");
+  EXPECT_EQ(fault({.position = {1e7f, 0, 0}}), "soft shadows: light 0 is too far from the origin");
   EXPECT_EQ(fault({.radius = -1}), "soft shadows: light 0 has no radius");
   EXPECT_EQ(fault({.radius = nan}), "soft shadows: light 0 has no radius");
   EXPECT_EQ(fault({.range = nan}), "soft shadows: light 0 has a range that is not 0 or more");
