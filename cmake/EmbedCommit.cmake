@@ -3,10 +3,10 @@
 find_package(Git QUIET)
 
 function(penumbra_embed_commit target)
-  set(output "${CMAKE_BINARY_DIR}/generated/commit.cpp")
-  set(script "${CMAKE_SOURCE_DIR}/cmake/write_commit.cmake")
+  set(output "${PROJECT_BINARY_DIR}/generated/commit.cpp")
+  set(script "${PROJECT_SOURCE_DIR}/cmake/write_commit.cmake")
   add_custom_target(penumbra_commit
-    COMMAND "${CMAKE_COMMAND}" "-DGIT=${GIT_EXECUTABLE}" "-DROOT=${CMAKE_SOURCE_DIR}" "-DOUTPUT=${output}"
+    COMMAND "${CMAKE_COMMAND}" "-DGIT=${GIT_EXECUTABLE}" "-DROOT=${PROJECT_SOURCE_DIR}" "-DOUTPUT=${output}"
             -P "${script}"
     BYPRODUCTS "${output}"
     VERBATIM)

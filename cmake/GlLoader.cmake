@@ -7,17 +7,17 @@ if(NOT PENUMBRA_GLCOREARB_INCLUDE)
   message(FATAL_ERROR "GL/glcorearb.h not found; install it (Debian: libgl-dev)")
 endif()
 
-set(PENUMBRA_GL_API_DIR "${CMAKE_BINARY_DIR}/generated/gl")
+set(PENUMBRA_GL_API_DIR "${PROJECT_BINARY_DIR}/generated/gl")
 set(PENUMBRA_GL_API_HEADER "${PENUMBRA_GL_API_DIR}/api.h")
 
 function(penumbra_gl_loader target)
-  set(generator "${CMAKE_SOURCE_DIR}/cmake/generate_gl_api.py")
+  set(generator "${PROJECT_SOURCE_DIR}/cmake/generate_gl_api.py")
   set(header "${PENUMBRA_GLCOREARB_INCLUDE}/GL/glcorearb.h")
-  set_property(DIRECTORY "${CMAKE_SOURCE_DIR}" APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${generator}" "${header}")
+  set_property(DIRECTORY "${PROJECT_SOURCE_DIR}" APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${generator}" "${header}")
   execute_process(COMMAND "${Python3_EXECUTABLE}" "${generator}" "${header}" "${PENUMBRA_GL_API_DIR}"
     COMMAND_ERROR_IS_FATAL ANY)
   target_sources(${target} PRIVATE "${PENUMBRA_GL_API_DIR}/api.cpp")
   # As "gl/api.h" from the include root, and as "api.h" beside it from the headers of src/gl.
   target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${CMAKE_BINARY_DIR}/generated> $<BUILD_INTERFACE:${PENUMBRA_GL_API_DIR}>)
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated> $<BUILD_INTERFACE:${PENUMBRA_GL_API_DIR}>)
 endfunction()

@@ -47,6 +47,14 @@ class Installed(support.TestCase):
         command("cmake", "--build", build)
         command(build / "consumer", cwd=self.folder)
 
+    def test_pkg_config_gives_what_a_compiler_needs(self):
+        flags = command("pkg-config", "--cflags", "--libs", "penumbra", env={
+            **os.environ, "PKG_CONFIG_PATH": str(next(self.prefix.rglob("pkgconfig")))}).split()
+        consumer = support.ROOT / "tests" / "consumer"
+        command("c++", "-std=c++20", "-O1", consumer / "main.cpp", consumer / "engine.cpp", "-o", self.folder / "consumer",
+                *flags, "-lEGL")
+        command(self.folder / "consumer", cwd=self.folder)
+
     def test_each_header_stands_alone(self):
         include = self.prefix / "include"
         headers = sorted(path.relative_to(include).as_posix() for path in include.rglob("*.h"))
@@ -106,7 +114,19 @@ class Installed(support.TestCase):
                 self.assertFalse((self.folder / name).exists())
 
 
-class LibraryAlone(unittest.TestCase):
+class LibraryAlone(support.TestCase):
+    def test_is_a_folder_of_another_project(self):
+        """By FetchContent: the library alone is built, and nothing of it is installed with the project."""
+        build = self.folder / "consumer"
+        command("cmake", "-S", support.ROOT / "tests" / "consumer", "-B", build, "-G", "Ninja",
+                f"-DPENUMBRA_SOURCE={support.ROOT}", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
+        command("cmake", "--build", build, "--parallel", "2")
+        command(build / "consumer", cwd=self.folder)
+        command("cmake", "--install", build, "--prefix", self.folder / "prefix")
+        self.assertFalse((self.folder / "prefix").exists())
+        cache = (build / "CMakeCache.txt").read_text()
+        self.assertNotIn("PENUMBRA_tinygltf", cache)
+
     def test_builds_without_the_program_and_its_libraries(self):
         """The layers core, gl and shadow need fmt and GLM, and nothing of scenes or images."""
         build = support.BUILD.parent / "library"
