@@ -13,8 +13,8 @@ namespace penumbra::gl {
 using GetProcAddress = void* (*)(const char* name);
 
 // Loads Penumbra's OpenGL entry points from the driver of the current context. The contexts below do this themselves;
-// an engine with its own context calls it once before anything else here. Throws Error that names what OpenGL 4.5 core
-// lacks here: a function, the version, the core profile, or a current context.
+// an engine with its own context, of the core or the compatibility profile, calls it once before anything else here.
+// Throws Error that names what OpenGL 4.5 lacks here: a function, the version, or a current context.
 void load_api(GetProcAddress get_proc_address);
 
 enum class Backend { egl, osmesa, window };
@@ -25,14 +25,15 @@ bool debug_by_default();
 struct ContextOptions {
   bool debug = debug_by_default();  // KHR_debug on, synchronous: an error throws from the call that made it
   std::optional<int>
-      egl_device;  // EGL device platform, by index; without it the surfaceless Mesa platform, then devices
+      egl_device;              // EGL device platform, by index; without it the surfaceless Mesa platform, then devices
+  bool compatibility = false;  // the compatibility profile, as engines may have it, instead of the core profile
   int width = 1280, height = 720;  // window only, in pixels
   std::string title = "Penumbra";
   bool visible = true;  // window only
   bool vsync = true;    // window only
 };
 
-// An OpenGL 4.5 core context. Making it current also loads Penumbra's entry points from its driver. GL objects must be
+// An OpenGL 4.5 context. Making it current also loads Penumbra's entry points from its driver. GL objects must be
 // destroyed before their context, while it is current. The entry points are global to the process, so several contexts
 // can only be used alternately, on one thread.
 class Context {

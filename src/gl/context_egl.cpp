@@ -142,22 +142,23 @@ Display open_display(const std::string& subject, EGLenum platform, void* native)
 
 class EglContext final : public ContextBase {
  public:
-  EglContext(const std::string& subject, EGLenum platform, void* native, bool debug)
-      : ContextBase(debug), subject_(subject) {
+  EglContext(const std::string& subject, EGLenum platform, void* native, const ContextOptions& options)
+      : ContextBase(options.debug), subject_(subject) {
     const Display opened = open_display(subject, platform, native);
     display_ = opened.display;
-    const std::array attributes{EGL_CONTEXT_MAJOR_VERSION,
-                                4,
-                                EGL_CONTEXT_MINOR_VERSION,
-                                5,
-                                EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                EGL_CONTEXT_OPENGL_DEBUG,
-                                debug ? EGL_TRUE : EGL_FALSE,
-                                EGL_NONE};
+    const std::array attributes{
+        EGL_CONTEXT_MAJOR_VERSION,
+        4,
+        EGL_CONTEXT_MINOR_VERSION,
+        5,
+        EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        options.compatibility ? EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT : EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+        EGL_CONTEXT_OPENGL_DEBUG,
+        options.debug ? EGL_TRUE : EGL_FALSE,
+        EGL_NONE};
     if (egl().bind_api(EGL_OPENGL_API) == EGL_FALSE) fail("{}: no desktop OpenGL ({})", subject, error_name());
     context_ = egl().create_context(display_, opened.config, EGL_NO_CONTEXT, attributes.data());
-    if (context_ == EGL_NO_CONTEXT) fail("{}: no OpenGL 4.5 core context ({})", subject, error_name());
+    if (context_ == EGL_NO_CONTEXT) fail("{}: no OpenGL 4.5 context ({})", subject, error_name());
   }
   ~EglContext() override {
     release();
@@ -182,43 +183,44 @@ class EglContext final : public ContextBase {
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 
-std::unique_ptr<Context> make_current_context(const std::string& subject, EGLenum platform, void* native, bool debug) {
-  auto context = std::make_unique<EglContext>(subject, platform, native, debug);
+std::unique_ptr<Context> make_current_context(const std::string& subject, EGLenum platform, void* native,
+                                              const ContextOptions& options) {
+  auto context = std::make_unique<EglContext>(subject, platform, native, options);
   context->make_current();
   return context;
 }
 
-std::unique_ptr<Context> make_surfaceless_context(bool debug) {
+std::unique_ptr<Context> make_surfaceless_context(const ContextOptions& options) {
   if (!has_word(egl().client_extensions, "EGL_MESA_platform_surfaceless")) {
     fail("EGL: no surfaceless platform (EGL_MESA_platform_surfaceless)");
   }
-  return make_current_context("EGL surfaceless", EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, debug);
+  return make_current_context("EGL surfaceless", EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, options);
 }
 
-std::unique_ptr<Context> make_device_context(int index, bool debug) {
+std::unique_ptr<Context> make_device_context(int index, const ContextOptions& options) {
   const std::vector<EGLDeviceEXT> devices = query_devices();
   if (devices.empty()) fail("EGL: no devices (EGL_EXT_device_enumeration)");
   if (index < 0 || index >= static_cast<int>(devices.size())) {
     fail("EGL: there is no device {}; {} are listed, from 0", index, devices.size());
   }
   return make_current_context(fmt::format("EGL device {}", index), EGL_PLATFORM_DEVICE_EXT,
-                              devices[static_cast<std::size_t>(index)], debug);
+                              devices[static_cast<std::size_t>(index)], options);
 }
 
 }  // namespace
 
 std::unique_ptr<Context> make_egl_context(const ContextOptions& options) {
-  if (options.egl_device) return make_device_context(*options.egl_device, options.debug);
+  if (options.egl_device) return make_device_context(*options.egl_device, options);
   std::string causes;
   try {
-    return make_surfaceless_context(options.debug);
+    return make_surfaceless_context(options);
   } catch (const Error& error) {
     causes = error.what();
   }
   const int devices = static_cast<int>(query_devices().size());
   for (int index = 0; index < devices; ++index) {
     try {
-      return make_device_context(index, options.debug);
+      return make_device_context(index, options);
     } catch (const Error& error) {
       causes += fmt::format("; {}", error.what());
     }

@@ -51,7 +51,8 @@ class WindowContext final : public ContextBase {
     if (glfw().init() == GLFW_FALSE) glfw().fail_with_cause();
     glfw().window_hint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfw().window_hint(GLFW_CONTEXT_VERSION_MINOR, 5);
-    glfw().window_hint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfw().window_hint(GLFW_OPENGL_PROFILE,
+                       options.compatibility ? GLFW_OPENGL_COMPAT_PROFILE : GLFW_OPENGL_CORE_PROFILE);
     glfw().window_hint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
     glfw().window_hint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
     glfw().window_hint(GLFW_DEPTH_BITS, 0);

@@ -35,17 +35,17 @@ void* osmesa_proc_address(const char* name) { return reinterpret_cast<void*>(osm
 class OsMesaContext final : public ContextBase {
  public:
   explicit OsMesaContext(const ContextOptions& options) : ContextBase(options.debug) {
-    constexpr std::array attributes{OSMESA_FORMAT,
-                                    static_cast<int>(OSMESA_RGBA),
-                                    OSMESA_PROFILE,
-                                    OSMESA_CORE_PROFILE,
-                                    OSMESA_CONTEXT_MAJOR_VERSION,
-                                    4,
-                                    OSMESA_CONTEXT_MINOR_VERSION,
-                                    5,
-                                    0};
+    const std::array attributes{OSMESA_FORMAT,
+                                static_cast<int>(OSMESA_RGBA),
+                                OSMESA_PROFILE,
+                                options.compatibility ? OSMESA_COMPAT_PROFILE : OSMESA_CORE_PROFILE,
+                                OSMESA_CONTEXT_MAJOR_VERSION,
+                                4,
+                                OSMESA_CONTEXT_MINOR_VERSION,
+                                5,
+                                0};
     context_ = osmesa().create_context_attribs(attributes.data(), nullptr);
-    if (context_ == nullptr) fail("OSMesa: no OpenGL 4.5 core context");
+    if (context_ == nullptr) fail("OSMesa: no OpenGL 4.5 context");
   }
   ~OsMesaContext() override {
     release();

@@ -115,7 +115,9 @@ struct Device::Impl {
 };
 
 Device::Device(ShaderFiles files, Timers::Mode timing)
-    : shaders(std::move(files)), timers(timing), impl_(std::make_unique<Impl>()) {}
+    : shaders(std::move(files)), timers(timing), impl_(std::make_unique<Impl>()) {
+  if (glGetIntegerv == nullptr) fail("OpenGL: load_api() must be called before a Device is made");
+}
 
 Device::~Device() = default;
 

@@ -7,6 +7,7 @@
 #include "../core/error.h"
 #include "api.h"
 #include "api_table.h"
+#include "compatibility.h"
 #include "context.h"
 
 namespace penumbra::gl {
@@ -34,24 +35,28 @@ void load_functions(GetProcAddress get_proc_address) {
   fail("OpenGL 4.5: the driver lacks {}{}", fmt::join(missing, ", "), rest);
 }
 
-// Dispatch libraries such as GLVND return an address for every name, so the context's own version and profile decide.
+// Dispatch libraries such as GLVND return an address for every name, so the context's own version decides.
 void check_context() {
-  GLint major = 0, minor = 0, profile = 0;
+  GLint major = 0, minor = 0;
   glGetIntegerv(GL_MAJOR_VERSION, &major);
   glGetIntegerv(GL_MINOR_VERSION, &minor);
   if (major == 0) fail("OpenGL 4.5: no context is current");
   if (major < 4 || (major == 4 && minor < 5)) fail("OpenGL 4.5: the context is OpenGL {}.{}", major, minor);
+}
+
+bool is_of_core_profile() {
+  GLint profile = 0;
   glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
-  if ((static_cast<GLenum>(profile) & GL_CONTEXT_CORE_PROFILE_BIT) == 0) {
-    fail("OpenGL 4.5: the context has the compatibility profile, the core profile is needed");
-  }
+  return (static_cast<GLenum>(profile) & GL_CONTEXT_CORE_PROFILE_BIT) != 0;
 }
 
 }  // namespace
 
 void load_api(GetProcAddress get_proc_address) {
+  if (get_proc_address == nullptr) fail("OpenGL 4.5: load_api() got no function that finds entry points");
   load_functions(get_proc_address);
   check_context();
+  find_legacy_state(get_proc_address, !is_of_core_profile());
 }
 
 }  // namespace penumbra::gl

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "../core/error.h"
+#include "compatibility.h"
 #include "debug.h"
 #include "texture_format.h"
 
@@ -215,10 +216,28 @@ Sampler::Sampler(std::string_view label, const SamplerDesc& desc) {
 
 void Sampler::bind(GLuint unit) const { glBindSampler(unit, id()); }
 
+GLenum target_of(GLuint id) {
+  if (!has_legacy_state()) {
+    GLint target = 0;
+    glGetTextureParameteriv(id, GL_TEXTURE_TARGET, &target);
+    return static_cast<GLenum>(target);
+  }
+  // Mesa (22.3) refuses that query in contexts of the compatibility profile. A texture that is bound to a unit is bound
+  // to its target there.
+  const auto active = static_cast<GLenum>(integer(GL_ACTIVE_TEXTURE));
+  glActiveTexture(GL_TEXTURE0);
+  glBindTextureUnit(0, id);
+  GLenum target = GL_NONE;
+  if (static_cast<GLuint>(integer(GL_TEXTURE_BINDING_2D)) == id) target = GL_TEXTURE_2D;
+  if (static_cast<GLuint>(integer(GL_TEXTURE_BINDING_2D_ARRAY)) == id) target = GL_TEXTURE_2D_ARRAY;
+  glBindTextureUnit(0, 0);
+  glActiveTexture(active);
+  return target;
+}
+
 TextureDesc describe(std::string_view name, GLuint id) {
   if (id == 0 || glIsTexture(id) == GL_FALSE) fail("texture '{}': {} is not the name of a texture", name, id);
-  GLint target = 0;
-  glGetTextureParameteriv(id, GL_TEXTURE_TARGET, &target);
+  const GLenum target = target_of(id);
   if (target != GL_TEXTURE_2D && target != GL_TEXTURE_2D_ARRAY) {
     fail("texture '{}': {} is not a GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY", name, id);
   }
@@ -227,7 +246,7 @@ TextureDesc describe(std::string_view name, GLuint id) {
     glGetTextureLevelParameteriv(id, 0, parameter, &value);
     return value;
   };
-  TextureDesc desc{.target = static_cast<GLenum>(target),
+  TextureDesc desc{.target = target,
                    .format = static_cast<GLenum>(level_parameter(GL_TEXTURE_INTERNAL_FORMAT)),
                    .width = level_parameter(GL_TEXTURE_WIDTH),
                    .height = level_parameter(GL_TEXTURE_HEIGHT),

@@ -65,9 +65,7 @@ void check_given(std::string_view name, const TextureView& view) {
 
 void check_texture(std::string_view name, const TextureView& view, GLenum target) {
   if (gl::glIsTexture(view.id) == GL_FALSE) fail("soft shadows: {}: {} is not the name of a texture", name, view.id);
-  GLint is = 0;
-  gl::glGetTextureParameteriv(view.id, GL_TEXTURE_TARGET, &is);
-  if (static_cast<GLenum>(is) != target) {
+  if (gl::target_of(view.id) != target) {
     fail("soft shadows: {}: texture {} is not a {}", name, view.id,
          target == GL_TEXTURE_2D ? "GL_TEXTURE_2D" : "GL_TEXTURE_2D_ARRAY");
   }

@@ -6,6 +6,8 @@
 #include <atomic>
 #include <map>
 
+#include "../core/error.h"
+#include "../gl/compatibility.h"
 #include "forward_source.h"
 #include "frame.h"
 
@@ -17,6 +19,21 @@ int next_number() {
   static std::atomic<int> last{0};
   return ++last;
 }
+
+// The scope of a call of render(), which would spoil its own frame if the caller's callback called it again.
+class Rendering {
+ public:
+  explicit Rendering(bool& rendering) : rendering_(rendering) {
+    if (rendering) fail("soft shadows: render() was called from within render()");
+    rendering = true;
+  }
+  ~Rendering() { rendering_ = false; }
+  Rendering(const Rendering&) = delete;
+  Rendering& operator=(const Rendering&) = delete;
+
+ private:
+  bool& rendering_;
+};
 
 }  // namespace
 
@@ -37,6 +54,7 @@ struct SoftShadows::State {
   const ParamSet defaults;
   Programs programs;
   Samples samples;
+  bool rendering = false;
   std::map<int, ViewState> views;
   std::map<int, LightState> forward;  // the parameters of the last forward programs, by the light's id
 };
@@ -49,6 +67,9 @@ SoftShadows::~SoftShadows() { device_.drop(fmt::format("shadow {}/", state_->num
 std::string SoftShadows::view_prefix(int id) const { return fmt::format("shadow {}/view {}/", state_->number, id); }
 
 Mask SoftShadows::render(const Inputs& inputs, const ParamSet& params) {
+  const Rendering rendering(state_->rendering);
+  gl::check_context_is_ready("soft shadows");
+  const gl::InitialLegacyState legacy;
   ViewState& view = state_->views[inputs.view.id];
   if (view.prefix.empty()) view.prefix = view_prefix(inputs.view.id);
   return draw_mask({.device = device_,

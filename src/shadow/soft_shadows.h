@@ -37,6 +37,9 @@ struct ForwardProgram {
 // transfers, except for what the caster callback and the caller's own techniques change. After an Error any of the
 // state named here may have changed.
 //
+// In a context of the compatibility profile, legacy state that would change what shaders write (alpha test, stipple,
+// clamped fragment colours, pixel transfer) has its initial values during render() and is as before afterwards.
+//
 // OpenGL errors. A frame that creates no texture or buffer reads no error flag, so errors of the caller's own calls
 // stay for the caller to read. When render() allocates a texture or buffer, it has to read the flags before and after
 // the call to find out whether memory ran out. It logs flags raised earlier as warnings, by name (core/log.h), since
@@ -55,7 +58,8 @@ struct ForwardProgram {
 // Waiting. With the parameter cascades.fit=visible, render() waits once a light until the GPU has finished all earlier
 // work and has found what the depth texture shows. No other step of the library's own reads back what the GPU computes.
 //
-// Throws Error for bad input (see check()) and for shaders that do not compile. A caller's texture is checked again
+// Throws Error for bad input (see check()), when no context is current or a display list is recorded, when it is called
+// from a callback of its own, and for shaders that do not compile. A caller's texture is checked again
 // only when its name, size or use differs from the last frame of the view.
 class SoftShadows {
  public:

@@ -1,0 +1,90 @@
+#include "compatibility.h"
+
+#include "../core/error.h"
+#include "api.h"
+
+namespace penumbra::gl {
+namespace {
+
+// Names that GL/glcorearb.h lacks, as of OpenGL 1.0 and 3.0.
+constexpr GLenum list_index = 0x0B33;  // GL_LIST_INDEX
+constexpr std::array<GLenum, InitialLegacyState::tests> tests{
+    0x0BC0,  // GL_ALPHA_TEST
+    0x0B42,  // GL_POLYGON_STIPPLE
+    0x0B24,  // GL_LINE_STIPPLE
+    0x0B10,  // GL_POINT_SMOOTH
+};
+constexpr GLenum clamp_fragment_color = 0x891B;  // GL_CLAMP_FRAGMENT_COLOR: if true, to 0..1 in float textures too
+constexpr std::array<GLenum, InitialLegacyState::switches> switches{
+    0x0D10,  // GL_MAP_COLOR
+    0x0D11,  // GL_MAP_STENCIL
+};
+constexpr std::array<GLenum, InitialLegacyState::scales> scales{
+    0x0D14, 0x0D15,  // GL_RED_SCALE, GL_RED_BIAS
+    0x0D18, 0x0D19,  // GREEN
+    0x0D1A, 0x0D1B,  // BLUE
+    0x0D1C, 0x0D1D,  // ALPHA
+    0x0D1E, 0x0D1F,  // DEPTH
+};
+
+constexpr float initial_scale(std::size_t i) { return i % 2 == 0 ? 1.0f : 0.0f; }
+
+// Those of the last context for which entry points were loaded; null in the core profile.
+using PixelTransferf = void(APIENTRYP)(GLenum name, GLfloat value);
+using PixelTransferi = void(APIENTRYP)(GLenum name, GLint value);
+PixelTransferf pixel_transfer_float = nullptr;
+PixelTransferi pixel_transfer_int = nullptr;
+
+void set_enabled(GLenum capability, bool enabled) { enabled ? glEnable(capability) : glDisable(capability); }
+
+}  // namespace
+
+void find_legacy_state(GetProcAddress get_proc_address, bool compatibility) {
+  pixel_transfer_float = nullptr;
+  pixel_transfer_int = nullptr;
+  if (!compatibility) return;
+  pixel_transfer_float = reinterpret_cast<PixelTransferf>(get_proc_address("glPixelTransferf"));
+  pixel_transfer_int = reinterpret_cast<PixelTransferi>(get_proc_address("glPixelTransferi"));
+  if (pixel_transfer_float == nullptr || pixel_transfer_int == nullptr)
+    fail("OpenGL 4.5: the driver lacks glPixelTransfer in a context of the compatibility profile");
+}
+
+bool has_legacy_state() { return pixel_transfer_float != nullptr; }
+
+InitialLegacyState::InitialLegacyState() {
+  if (!has_legacy_state()) return;
+  for (std::size_t i = 0; i < tests_.size(); ++i) {
+    tests_[i] = glIsEnabled(gl::tests[i]) == GL_TRUE;
+    glDisable(gl::tests[i]);
+  }
+  glGetIntegerv(clamp_fragment_color, &fragment_clamp_);
+  glClampColor(clamp_fragment_color, GL_FIXED_ONLY);
+  for (std::size_t i = 0; i < switches_.size(); ++i) {
+    glGetIntegerv(gl::switches[i], &switches_[i]);
+    pixel_transfer_int(gl::switches[i], 0);
+  }
+  for (std::size_t i = 0; i < scales_.size(); ++i) {
+    glGetFloatv(gl::scales[i], &scales_[i]);
+    pixel_transfer_float(gl::scales[i], initial_scale(i));
+  }
+}
+
+InitialLegacyState::~InitialLegacyState() {
+  if (!has_legacy_state()) return;
+  for (std::size_t i = 0; i < tests_.size(); ++i) set_enabled(gl::tests[i], tests_[i]);
+  glClampColor(clamp_fragment_color, static_cast<GLenum>(fragment_clamp_));
+  for (std::size_t i = 0; i < switches_.size(); ++i) pixel_transfer_int(gl::switches[i], switches_[i]);
+  for (std::size_t i = 0; i < scales_.size(); ++i) pixel_transfer_float(gl::scales[i], scales_[i]);
+}
+
+void check_context_is_ready(const char* subject) {
+  GLint major = 0;
+  glGetIntegerv(GL_MAJOR_VERSION, &major);
+  if (major == 0) fail("{}: no OpenGL context is current", subject);
+  if (!has_legacy_state()) return;
+  GLint list = 0;
+  glGetIntegerv(list_index, &list);
+  if (list != 0) fail("{}: OpenGL records calls for the display list {}; end it before", subject, list);
+}
+
+}  // namespace penumbra::gl

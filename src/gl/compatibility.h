@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+
+#include "context.h"
+
+namespace penumbra::gl {
+
+// Legacy state: what the compatibility profile keeps of older versions of OpenGL beside the core profile. Most of it
+// has no effect on programs of shaders. The rest is here, by the specification of the profile (Segal and Akeley,
+// OpenGL 4.5, 2017).
+
+// For load_api(): whether the current context has legacy state.
+void find_legacy_state(GetProcAddress get_proc_address, bool compatibility);
+
+// Whether the context had legacy state for which entry points were last loaded.
+bool has_legacy_state();
+
+// In this scope legacy state that could change what is drawn or how texels are transferred has its initial values;
+// afterwards it is as before. Does nothing in contexts of the core profile.
+class InitialLegacyState {
+ public:
+  InitialLegacyState();
+  ~InitialLegacyState();
+  InitialLegacyState(const InitialLegacyState&) = delete;
+  InitialLegacyState& operator=(const InitialLegacyState&) = delete;
+
+  static constexpr std::size_t tests = 4, switches = 2, scales = 10;
+
+ private:
+  std::array<bool, tests> tests_{};       // capabilities
+  int fragment_clamp_ = 0;                // of what fragment shaders write
+  std::array<int, switches> switches_{};  // of pixel transfer: maps of colours and stencil
+  std::array<float, scales> scales_{};    // and the factors and offsets of its channels
+};
+
+// Throws Error, beginning with `subject`, where no OpenGL call could have an effect: no context is current, or its
+// compatibility profile records calls for a display list.
+void check_context_is_ready(const char* subject);
+
+}  // namespace penumbra::gl
