@@ -56,6 +56,51 @@ TEST_F(ShadowInputs, MatricesAndBoxesAreChecked) {
   })) << "none moved";
 }
 
+// Whatever the planes are, only a projection that contradicts the conventions is refused.
+TEST_F(ShadowInputs, ProjectionsThatContradictTheConventionsAreRefused) {
+  const auto finite = [](bool reversed, bool zero_to_one, float near, float far) {
+    const float first = reversed ? far : near, last = reversed ? near : far;
+    return zero_to_one ? glm::perspectiveRH_ZO(0.8f, 1.0f, first, last)
+                       : glm::perspectiveRH_NO(0.8f, 1.0f, first, last);
+  };
+  const auto refused = [&](const glm::mat4& projection, bool reversed, bool zero_to_one) -> std::string {
+    try {
+      renderer.render(box_on_ground(48), params, [&](shadow::Inputs& in) {
+        in.view.projection = in.view.last_projection = projection;
+        in.conventions.reversed_z = reversed;
+        in.conventions.depth_zero_to_one = zero_to_one;
+      });
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const bool reversed : {false, true}) {
+    for (const bool zero_to_one : {false, true}) {
+      for (const glm::vec2 planes :
+           {glm::vec2(0.1f, 100), glm::vec2(5, 10), glm::vec2(8, 10), glm::vec2(1e-3f, 1e5f)}) {
+        const glm::mat4 projection = finite(reversed, zero_to_one, planes.x, planes.y);
+        EXPECT_EQ(refused(projection, reversed, zero_to_one), "") << planes.x << " to " << planes.y;
+        EXPECT_EQ(
+            refused(projection, !reversed, zero_to_one),
+            reversed
+                ? "soft shadows: the projection's depth falls with the distance, but Conventions::reversed_z is false"
+                : "soft shadows: the projection's depth grows with the distance, but Conventions::reversed_z is true");
+      }
+    }
+  }
+  const glm::mat4 infinite_far = perspective(0.8f, 1, 0.1f);
+  EXPECT_EQ(refused(infinite_far, true, true), "");
+  EXPECT_EQ(refused(infinite_far, true, false),
+            "soft shadows: the projection's depth is above 0 everywhere, but Conventions::depth_zero_to_one is false");
+  EXPECT_NE(refused(finite(true, true, 0.1f, 100), true, false).find("above -0.001 everywhere"), std::string::npos);
+  EXPECT_EQ(refused(orthographic(2, 2, 0.1f, 10), false, false), "") << "orthographic: not examined";
+  glm::mat4 oblique = finite(true, true, 0.1f, 100);
+  oblique[0][2] = 0.3f;
+  oblique[3][2] = -1;
+  EXPECT_EQ(refused(oblique, true, true), "") << "an oblique near plane: not examined";
+}
+
 TEST_F(ShadowInputs, TexturesAreChecked) {
   using shadow::Inputs;
   const int size = 48;
