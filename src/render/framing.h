@@ -9,8 +9,8 @@ namespace penumbra::render {
 // picture's edge. `aspect` is the picture's width / height.
 Camera framing_camera(const scene::Bounds& bounds, float aspect);
 
-// Whether a camera shows the scene: it is inside the box, or the box covers at least a tenth of the picture's width or
-// height.
+// Whether a camera shows the scene: it stands inside the box, or the box is at least a tenth as wide or as high as the
+// picture.
 bool sees(const Camera& camera, float aspect, const scene::Bounds& bounds);
 
 }  // namespace penumbra::render

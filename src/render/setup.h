@@ -15,9 +15,9 @@ enum class GroundChoice { automatic, on, off };
 
 // What the user asked for; the rest is chosen from the scene.
 struct SetupRequest {
-  // Name or index of one of the file's cameras. Empty: the first of them that sees the scene (it is inside the bounds,
-  // or the bounds cover at least a tenth of the picture's width or height); without one, a camera that frames the
-  // scene.
+  // Name or index of one of the file's cameras. Empty: the first camera that stands inside the scene's bounds, or in
+  // whose picture the bounds are at least a tenth as wide or as high as the picture. If there is no such camera, one is
+  // placed that shows the whole scene.
   std::string camera;
   GroundChoice ground = GroundChoice::automatic;
   float aspect = 16.0f / 9.0f;               // width / height of the picture

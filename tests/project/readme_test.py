@@ -1,7 +1,8 @@
-"""Every command that the README shows works as it stands there.
+"""Every command that the README and the users' pages in docs show works as it stands there, and every link leads
+somewhere.
 
-The blocks marked `sh` run in a copy of the tree, in order, one shell each. ./run.sh is the real script, except that it
-finds the program built already.
+The blocks of a page that are marked `sh` run in a copy of the tree, in order, one shell each. ./run.sh is the real
+script, except that it finds the program built already.
 """
 
 import os
@@ -10,6 +11,7 @@ import re
 import shlex
 import shutil
 import subprocess
+import unittest
 
 import desktop
 import support
@@ -74,25 +76,71 @@ def commands(block):
     return INTERRUPTED + "".join(f"{line}\n" for line in lines if not left_out(line))
 
 
-class Readme(support.TestCase):
-    def test_commands(self):
-        blocks = BLOCK.findall((support.ROOT / "README.md").read_text())
-        self.assertGreater(len(blocks), 0, "README.md shows no command")
+class Commands(support.TestCase):
+    def run_page(self, page):
+        blocks = BLOCK.findall((support.ROOT / page).read_text())
+        self.assertGreater(len(blocks), 0, f"{page} shows no command")
         tree = self.folder / "penumbra"
         shutil.copytree(support.ROOT, tree, ignore=NOT_COPIED)
         (tree / "scripts" / "setup.sh").write_text(SETUP)
-        (tree / "build" / "release").mkdir(parents=True)
-        program = pathlib.Path(support.PROGRAM)
-        (tree / "build" / "release" / "penumbra").symlink_to(program)
+        (tree / "build").mkdir()
+        (tree / "build" / "release").symlink_to(support.BUILD)
         (tree / "build" / "peers").symlink_to(PEERS)
+        program = pathlib.Path(support.PROGRAM)
         with desktop.Desktop() as screen:
             environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}", "DISPLAY": screen.name,
                            "XDG_CONFIG_HOME": str(self.folder / "config")}
             for block in blocks:
-                with self.subTest(block=block):
+                with self.subTest(page=page, block=block):
                     result = subprocess.run(["bash", "-euo", "pipefail", "-c", commands(block)], cwd=tree,
                                             env=environment, capture_output=True, text=True, timeout=600)
                     self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+    def test_readme(self):
+        self.run_page("README.md")
+
+    def test_viewer(self):
+        self.run_page("docs/viewer.md")
+
+    def test_command_line(self):
+        self.run_page("docs/command-line.md")
+
+    def test_build_servers(self):
+        self.run_page("docs/build-servers.md")
+
+    def test_formats(self):
+        self.run_page("docs/formats.md")
+
+    def test_library(self):
+        self.run_page("docs/library.md")
+
+
+CODE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+
+
+def anchors(page):
+    """What the headings of a page are called in links, as GitHub makes it."""
+    headings = re.findall(r"^#+ (.*)", CODE.sub("", page.read_text()), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+class Links(unittest.TestCase):
+    def test_every_link_leads_somewhere(self):
+        folders = [support.ROOT, support.ROOT / "docs", support.ROOT / "docs" / "adr", support.ROOT / "scenes"]
+        for page in [page for folder in folders for page in folder.glob("*.md")]:
+            for link in LINK.findall(CODE.sub("", page.read_text())):
+                if "://" in link:
+                    continue
+                with self.subTest(page=page.name, link=link):
+                    path, _, anchor = link.partition("#")
+                    target = (page.parent / path).resolve() if path else page
+                    self.assertTrue(target.exists(), "there is no such file")
+                    if anchor:
+                        self.assertIn(anchor, anchors(target))
+
+    def test_the_readme_stays_short(self):
+        self.assertLess(len((support.ROOT / "README.md").read_text().splitlines()), 150, "docs/ has pages for more")
 
 
 if __name__ == "__main__":
