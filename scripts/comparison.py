@@ -62,12 +62,12 @@ LOOKS = {"grid": "fill='none' stroke='#e3e3e0'", "axis": "fill='none' stroke='#7
          "tick": "fill='#555'", "axis-title": "fill='#555'", "label": "fill='#222'"}
 
 
-HEAD = ("| technique | {}cost, ms | memory, MiB | PSNR penumbra, dB | PSNR all, dB | bias | FLIP |",
+HEAD = ("| technique | {}cost, ms | memory, MiB | PSNR penumbra, dB | PSNR, dB | bias | FLIP |",
         "| --- | {}--- | --- | --- | --- | --- | --- |")
 
 
 def figures(row):
-    penumbra, whole = (f"{float(row[name]):.1f}" if row[name] else "-" for name in ("psnr_penumbra_db", "psnr_db"))
+    penumbra, whole = (f"{float(row[name]):.1f}" if row[name] else "-" for name in ("psnr_penumbra", "psnr"))
     return (f"{float(row['cost_median_ms']):.0f} | {int(row['shadow_bytes']) / 2**20:.1f} | {penumbra} | {whole} | "
             f"{float(row['bias']):+.4f} | {float(row['flip']):.4f} |")
 

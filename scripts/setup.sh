@@ -16,6 +16,10 @@ found() {
       command -v "$2" >/dev/null
       return
       ;;
+    python)
+      python3 -c "import importlib.util, sys; sys.exit(importlib.util.find_spec('$2') is None)" 2>/dev/null
+      return
+      ;;
     header) set -- "$2" /usr/include /usr/local/include "${triplet_include[@]}" "${extra_include[@]}" ;;
     library) set -- "$2" /usr/lib /usr/lib64 /usr/local/lib "${triplet_library[@]}" "${extra_library[@]}" ;;
     *) die "scripts/packages.txt: unknown kind '$1'" ;;

@@ -14,7 +14,7 @@ DOCUMENT = pathlib.Path(__file__).resolve().parents[1] / "docs" / "techniques.md
 
 
 def listed(program, what):
-    return json.loads(subprocess.run([program, "list", what, "--json"], check=True, capture_output=True, text=True).stdout)
+    return json.loads(subprocess.run([program, "list", what, "--json"], check=True, capture_output=True, text=True).stdout)["rows"]
 
 
 def table(head, rows):

@@ -36,7 +36,7 @@ async function run(args) {
   const context = { options, penumbra, settings: await mapSettings(penumbra, options), folder: temporaryFolder(),
     packages, pages: path.join(here, 'page') };
   const { scenes: _scenes, json, markdown: markdownFile, pictures, program: _program, ...settings } = options;
-  const report = { machine: machine(), settings, scenes: [] };
+  const report = { format: 'penumbra.peers/1', machine: machine(), settings, scenes: [] };
   for (const scene of options.scenes) {
     const tell = (text) => process.stderr.write(`${nameOf(scene)}: ${text}\n`);
     const result = await measureScene(context, scene, tell);

@@ -42,7 +42,7 @@ export class Penumbra {
   }
 
   async paramNames() {
-    return JSON.parse(await this.run('list', 'params', '--json')).map((row) => row.name);
+    return JSON.parse(await this.run('list', 'params', '--json')).rows.map((row) => row.name);
   }
 
   // What --stats writes of a picture without shadows: camera, sun, scene and device.

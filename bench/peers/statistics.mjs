@@ -5,7 +5,7 @@ export function median(values) {
 
 // Of the medians of rounds: their median, and how far they are apart.
 export const summary = (rounds) =>
-  (rounds.length === 0 ? null : { median: median(rounds), least: Math.min(...rounds), most: Math.max(...rounds) });
+  (rounds.length === 0 ? null : { median: median(rounds), min: Math.min(...rounds), max: Math.max(...rounds) });
 
 // The cost of one renderer relative to another's, round by round, so that a machine that slows down slows both.
 export const ratio = (rounds, otherRounds) => summary(rounds.map((value, i) => value / otherRounds[i]));

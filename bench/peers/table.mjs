@@ -3,23 +3,23 @@
 const milliseconds = (value) => (value >= 100 ? value.toFixed(0) : value.toFixed(value >= 10 ? 1 : 2));
 
 const times = (summary) => (summary === null ? '-'
-  : `${milliseconds(summary.median)} (${milliseconds(summary.least)} to ${milliseconds(summary.most)})`);
+  : `${milliseconds(summary.median)} (${milliseconds(summary.min)} to ${milliseconds(summary.max)})`);
 
 // Penumbra's JSON writes infinity as a word.
 const decibels = (value) => (typeof value === 'number' ? value.toFixed(1) : value ?? '-');
 
-const HEAD = ['renderer', 'shadows', 'maps', 'with shadows, ms', 'without, ms', 'PSNR, dB', 'in the penumbra, dB'];
+const HEAD = ['renderer', 'shadows', 'maps', 'with shadows, ms', 'without, ms', 'PSNR penumbra, dB', 'PSNR, dB'];
 
 function cellsOf(row, mapSize) {
   const first = [`${row.renderer} ${row.version ?? ''}`.trim(), row.technique, `${row.maps} x ${mapSize}²`];
   if (row.failed) return [...first, 'failed', '-', '-', '-'];
-  return [...first, times(row.shadowed_ms), times(row.unshadowed_ms), decibels(row.figures?.psnr),
-    decibels(row.figures?.psnr_penumbra)];
+  return [...first, times(row.shadowed_ms), times(row.unshadowed_ms), decibels(row.figures?.psnr_penumbra),
+    decibels(row.figures?.psnr)];
 }
 
-function ratioLine({ technique, peer, maps, median, least, most }) {
+function ratioLine({ technique, peer, maps, median, min, max }) {
   return `${technique} over ${peer}, ${maps === 1 ? 'one map' : `${maps} maps`}: ${median.toFixed(2)} ` +
-    `(${least.toFixed(2)} to ${most.toFixed(2)})`;
+    `(${min.toFixed(2)} to ${max.toFixed(2)})`;
 }
 
 function pixelsLine({ receivers, compared }) {

@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "app/commands.h"
@@ -8,6 +7,7 @@
 #include "cli/usage.h"
 #include "image/write.h"
 #include "io/output_file.h"
+#include "io/report.h"
 #include "shadow/noise.h"
 #include "shadow/sample_keys.h"
 #include "shadow/sampling.h"
@@ -154,12 +154,15 @@ int bake_keys(const Arguments& arguments) {
   return 0;
 }
 
-std::string points_text(const std::vector<glm::vec2>& points, const std::string& format) {
-  if (format == ".json") {
-    nlohmann::json list = nlohmann::json::array();
-    for (const glm::vec2& p : points) list.push_back({p.x, p.y});
-    return list.dump(1) + "\n";
-  }
+std::string points_json(const std::vector<glm::vec2>& points, const std::string& pattern, std::uint64_t seed,
+                        bool disc) {
+  io::Json list = io::Json::array();
+  for (const glm::vec2& p : points) list.push_back({p.x, p.y});
+  return io::text_of(io::document(
+      "points", 1, {{"pattern", pattern}, {"seed", seed}, {"shape", disc ? "disc" : "square"}, {"points", list}}));
+}
+
+std::string points_csv(const std::vector<glm::vec2>& points) {
   std::string text = "x,y\n";
   for (const glm::vec2& p : points) text += fmt::format("{},{}\n", p.x, p.y);
   return text;
@@ -183,7 +186,8 @@ int bake_points(const Arguments& arguments) {
   const int wanted = cli::parse_count("--count", count, 1, 1024);
   const std::uint64_t seed = parse_seed(common.seed);
   const std::vector<glm::vec2> square = shadow::square_points(pattern, wanted, seed);
-  io::write_text(common.output, points_text(disc ? shadow::disc_points(pattern, wanted, seed) : square, format));
+  const std::vector<glm::vec2> points = disc ? shadow::disc_points(pattern, wanted, seed) : square;
+  io::write_text(common.output, format == ".json" ? points_json(points, pattern, seed, disc) : points_csv(points));
   if (common.quiet) return 0;
   fmt::print("wrote {} ({} points, {}; in the square: star discrepancy {:.4f}, least distance on the torus {:.4f})\n",
              common.output, wanted, pattern, shadow::star_discrepancy(square), shadow::least_toroidal_distance(square));

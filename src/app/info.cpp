@@ -82,7 +82,7 @@ int run_info(const Arguments& arguments) {
   const scene::SceneInfo info =
       scene::describe(cli::read_scene(path, reading, image::image_decoder(cli::limits_of(reading))));
   if (json) {
-    fmt::print("{}", io::text_of(io::to_json(info)));
+    fmt::print("{}", io::text_of(io::document("info", 1, io::to_json(info))));
     return 0;
   }
   print_counts(info);

@@ -155,9 +155,10 @@ int run_list(const Arguments& arguments) {
       ->type_name("");
   app.add_flag("--json", json, "Print JSON")->disable_flag_override();
   if (!cli::parse(app, arguments)) return 0;
-  const Json rows = app.count("WHAT") == 0 ? listing_rows() : find_listing(what).rows();
+  const bool all = app.count("WHAT") == 0;
+  const Json rows = all ? listing_rows() : find_listing(what).rows();
   if (json) {
-    fmt::print("{}", io::text_of(rows));
+    fmt::print("{}", io::text_of(io::document("list", 1, {{"list", all ? "lists" : what}, {"rows", rows}})));
   } else {
     print_rows(rows);
   }

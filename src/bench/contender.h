@@ -40,7 +40,7 @@ class Contender {
   // The cost of the floor, and its ratio to the technique's.
   std::optional<FloorCost> floor_cost(const PassTimes& own, const PassTimes& floor) const;
 
-  std::size_t target_bytes() const { return device_.device.target_bytes("shadow "); }
+  std::size_t shadow_bytes() const { return device_.device.target_bytes("shadow "); }
 
  private:
   session::RenderDevice device_;

@@ -54,7 +54,7 @@ report::Table overview(const Measured& point) {
                           milliseconds(cost.of_first),
                           milliseconds(cost.frame.median),
                           milliseconds(cost.cpu.median),
-                          {megabytes(cost.target_bytes), static_cast<double>(cost.target_bytes)}};
+                          {megabytes(cost.shadow_bytes), static_cast<double>(cost.shadow_bytes)}};
     if (floor) {
       const auto fetch = cost.floor->fetch ? std::optional(cost.floor->fetch->median) : std::nullopt;
       row.push_back(cell_of(fetch, decimals));

@@ -35,7 +35,7 @@ Json json_of(const Cost& cost) {
   Json json = {{"label", cost.label},
                {"frame", json_of(cost.frame)},
                {"cpu", json_of(cost.cpu)},
-               {"target_bytes", cost.target_bytes}};
+               {"shadow_bytes", cost.shadow_bytes}};
   if (!cost.has_passes()) {
     json["frame_over_first"] = rounded(cost.of_first);
     return json;
@@ -85,22 +85,24 @@ std::string json_of(const Results& results) {
   }
   for (const Measured& measured : results.points) points.push_back(json_of(measured, results.sweep));
   for (const Model& model : results.models) models.push_back(json_of(model, results.sweep));
-  return io::text_of({{"version", results.version},
-                      {"commit", results.commit},
-                      {"command", results.command},
-                      {"machine", {{"cpu", results.machine.cpu}, {"cores", results.machine.cores}}},
-                      {"backend", results.backend},
-                      {"device", io::to_json(results.device)},
-                      {"timing", results.timing},
-                      {"maps", maps_of(results)},
-                      {"scene", results.scene},
-                      {"measured_frames", results.frames.measured},
-                      {"warmup_frames", results.frames.warmup},
-                      {"techniques", techniques},
-                      {"sweep", results.sweep.name.empty() ? Json() : Json(results.sweep.name)},
-                      {"sweep_measures", results.sweep.name.empty() ? Json() : Json(subject_of(results.sweep))},
-                      {"points", points},
-                      {"models", models}});
+  return io::text_of(
+      io::document("bench", 1,
+                   {{"version", results.version},
+                    {"commit", results.commit},
+                    {"command", results.command},
+                    {"machine", {{"cpu", results.machine.cpu}, {"cores", results.machine.cores}}},
+                    {"backend", results.backend},
+                    {"device", io::to_json(results.device)},
+                    {"timing", results.timing},
+                    {"maps", maps_of(results)},
+                    {"scene", results.scene},
+                    {"measured_frames", results.frames.measured},
+                    {"warmup_frames", results.frames.warmup},
+                    {"techniques", techniques},
+                    {"sweep", results.sweep.name.empty() ? Json() : Json(results.sweep.name)},
+                    {"sweep_measures", results.sweep.name.empty() ? Json() : Json(subject_of(results.sweep))},
+                    {"points", points},
+                    {"models", models}}));
 }
 
 }  // namespace penumbra::bench

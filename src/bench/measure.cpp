@@ -162,7 +162,7 @@ class Bench {
       cost.label = results_.entries[c].label;
       const std::string& pass = results_.sweep.pass;
       cost.swept = pass.empty() ? cost.shadow : summary_of(kept.own.of(pass));
-      cost.target_bytes = contenders_[c]->target_bytes();
+      cost.shadow_bytes = contenders_[c]->shadow_bytes();
       cost.floor = contenders_[c]->floor_cost(kept.own, kept.floor);
       point.costs.push_back(std::move(cost));
     }

@@ -45,7 +45,7 @@ std::string summary_lines(const Measured& point) {
   for (const Cost& cost : point.costs) {
     text += fmt::format("{:<24}{:>16.3f}{:>12.3f}{:>12.3f}{:>12}", cli::printable(cost.label),
                         (passes ? cost.shadow : cost.frame).median, cost.of_first, cost.cpu.median,
-                        cli::bytes_text(static_cast<double>(cost.target_bytes)));
+                        cli::bytes_text(static_cast<double>(cost.shadow_bytes)));
     if (cost.floor) text += floor_cells(*cost.floor);
     text += "\n";
   }

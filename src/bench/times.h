@@ -55,7 +55,7 @@ struct Cost {
   Summary shadow;        // sum of the shadow passes in each frame
   Summary swept;         // what a sweep plots and fits: all shadow passes, or one pass
   double of_first = 1;   // paired ratio of its shadow passes, or of its frames if no pass was timed, to the first's
-  std::size_t target_bytes = 0;
+  std::size_t shadow_bytes = 0;
   std::optional<FloorCost> floor;
 
   // Else only its frames are known: the members about passes are empty.

@@ -41,7 +41,7 @@ struct ComparedTechnique {
   std::string label;
   ParamSet params;
   ShadowCost cost;
-  std::size_t target_bytes = 0;  // of maps, masks and history
+  std::size_t shadow_bytes = 0;  // of maps, masks and history
   ComparedFigures figures;
   ComparedPictures pictures;
 };

@@ -67,7 +67,7 @@ struct ContenderRun {
   FigureSums sums;
   ComparedPictures pictures;
   std::vector<std::size_t> timed;  // the device's frames that its cost is taken from
-  std::size_t target_bytes = 0;
+  std::size_t shadow_bytes = 0;
 };
 
 class InterleavedRuns {
@@ -95,7 +95,7 @@ class InterleavedRuns {
       results.push_back({.label = scene_.options.contenders[i].label,
                          .params = run.params,
                          .cost = shadow_cost(scene_.device.timers, run.timed),
-                         .target_bytes = run.target_bytes,
+                         .shadow_bytes = run.shadow_bytes,
                          .figures = run.sums.figures(),
                          .pictures = std::move(run.pictures)});
     }
@@ -106,7 +106,7 @@ class InterleavedRuns {
   void draw(ContenderRun& run, const render::FrameInputs& inputs, bool timed) {
     const std::size_t before = scene_.device.target_bytes("shadow ");
     run.renderer.draw(scene_.scene, inputs, run.drawn);
-    run.target_bytes += scene_.device.target_bytes("shadow ") - before;
+    run.shadow_bytes += scene_.device.target_bytes("shadow ") - before;
     if (timed) run.timed.push_back(frames_drawn_);
     ++frames_drawn_;
   }

@@ -39,7 +39,7 @@ std::vector<report::Column> columns_of(bool sequence) {
        Best::lowest},
       {"Memory", "MiB", "Shadow maps, masks, history and all other textures of the technique.", Best::lowest},
       {"PSNR penumbra", "dB", "Over receivers whose reference is between 0.02 and 0.98.", Best::highest},
-      {"PSNR all", "dB", "Over all receivers.", Best::highest},
+      {"PSNR", "dB", "Over all receivers.", Best::highest},
       {"Bias", "visibility", "Mean signed error: above 0 where the shadow is too bright.", Best::nearest_zero},
       {"99th percentile", "visibility", "99 of 100 receivers are off by no more.", Best::lowest},
       {"SSIM", "", "Structural similarity, 1 where nothing differs.", Best::highest},
@@ -64,7 +64,7 @@ std::vector<Cell> row_of(const ComparedTechnique& technique, bool sequence) {
   const ComparedFigures& f = technique.figures;
   std::vector<Cell> row{{technique.label},
                         cell(technique.cost.median, 1),
-                        cell(static_cast<double>(technique.target_bytes) / mebibyte, 1),
+                        cell(static_cast<double>(technique.shadow_bytes) / mebibyte, 1),
                         cell(f.psnr_penumbra, 2),
                         cell(f.psnr, 2),
                         cell(f.bias, 5),
@@ -96,15 +96,16 @@ Html plot_of(const ComparedScene& scene) {
                            .y = {"RMSE in the penumbra", "visibility", /* log= */ true},
                            .dots = {}};
   for (const ComparedTechnique& technique : scene.techniques) {
-    plot.dots.push_back({.label = technique.label,
-                         .tooltip = fmt::format("PSNR {} dB", report::fixed(technique.figures.psnr_penumbra, 2)),
-                         .at = {technique.cost.median, technique.figures.rmse_penumbra}});
+    plot.dots.push_back(
+        {.label = technique.label,
+         .tooltip = fmt::format("PSNR penumbra {} dB", report::fixed(technique.figures.psnr_penumbra, 2)),
+         .at = {technique.cost.median, technique.figures.rmse_penumbra}});
   }
   return report::to_html(plot);
 }
 
 std::string figures_text(const ComparedTechnique& technique) {
-  return fmt::format("{} ms · PSNR in the penumbra {} dB · bias {}", report::fixed(technique.cost.median, 1),
+  return fmt::format("{} ms · PSNR penumbra {} dB · bias {}", report::fixed(technique.cost.median, 1),
                      report::fixed(technique.figures.psnr_penumbra, 2), report::fixed(technique.figures.bias, 5));
 }
 

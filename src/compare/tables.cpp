@@ -31,8 +31,8 @@ double sequence_value(const ComparedFigures& figures, double metrics::SequenceFi
 }
 
 std::vector<NamedFigure> figures_of(const ComparedFigures& f) {
-  return {{"psnr_penumbra_db", f.psnr_penumbra},
-          {"psnr_db", f.psnr},
+  return {{"psnr_penumbra", f.psnr_penumbra},
+          {"psnr", f.psnr},
           {"rmse_penumbra", f.rmse_penumbra},
           {"rmse", f.rmse},
           {"bias", f.bias},
@@ -47,7 +47,7 @@ std::vector<NamedFigure> figures_of(const ComparedFigures& f) {
 }
 
 std::vector<NamedFigure> costs_of(const ShadowCost& cost) {
-  return {{"cost_median_ms", cost.median}, {"cost_min_ms", cost.min}, {"cost_max_ms", cost.max}};
+  return {{"median_ms", cost.median}, {"min_ms", cost.min}, {"max_ms", cost.max}};
 }
 
 std::string csv_number(double value) {
@@ -68,8 +68,9 @@ std::vector<std::string> terminal_row(const ComparedTechnique& technique) {
   const ComparedFigures& figures = technique.figures;
   return {cli::printable(technique.label),
           fixed(technique.cost.median, 1),
-          cli::bytes_text(static_cast<double>(technique.target_bytes)),
+          cli::bytes_text(static_cast<double>(technique.shadow_bytes)),
           fixed(figures.psnr_penumbra, 2),
+          fixed(figures.psnr, 2),
           std::isnan(figures.bias) ? "-" : fmt::format("{:+.4f}", figures.bias),
           fixed(figures.flip, 4),
           fixed(100 * figures.width_error, 1),
@@ -101,11 +102,11 @@ Json json_of(const ComparedTechnique& technique) {
   for (const NamedFigure& figure : figures_of(technique.figures)) figures[figure.name] = rounded(figure.value);
   figures["recoveries"] = recoveries(technique.figures);
   for (const NamedFigure& figure : costs_of(technique.cost)) cost[figure.name] = rounded(figure.value);
-  cost["cost_frames"] = technique.cost.frames;
+  cost["frames"] = technique.cost.frames;
   return {{"label", technique.label},
           {"technique", technique.params.get_word("technique")},
           {"changed_params", changed_params(technique.params)},
-          {"shadow_bytes", technique.target_bytes},
+          {"shadow_bytes", technique.shadow_bytes},
           {"figures", figures},
           {"cost", cost}};
 }
@@ -122,7 +123,7 @@ Json camera_of(const ComparedScene& scene) {
   if (camera.orthographic)
     json["half_height"] = io::to_json(ParamValue(camera.half_height));
   else
-    json["fov"] = rounded(glm::degrees(static_cast<double>(camera.fov_y)));
+    json["fov_y_degrees"] = rounded(glm::degrees(static_cast<double>(camera.fov_y)));
   return json;
 }
 
@@ -130,22 +131,22 @@ Json camera_of(const ComparedScene& scene) {
 void add_light(Json& json, const render::SunLight& sun) {
   const Angles angles = angles_of(sun.to_light);
   json["sun"] = {{"to_light", json_of(sun.to_light)},
-                 {"azimuth", rounded(angles.azimuth)},
-                 {"elevation", rounded(angles.elevation)}};
+                 {"azimuth_degrees", rounded(angles.azimuth)},
+                 {"elevation_degrees", rounded(angles.elevation)}};
 }
 
 void add_light(Json& json, const render::LampLight& lamp) {
   json["lamp"] = {{"position", json_of(lamp.position)}, {"radius", rounded(static_cast<double>(lamp.radius))}};
   if (lamp.axis == glm::vec3(0)) return;
   json["lamp"]["axis"] = json_of(lamp.axis);
-  json["lamp"]["cone_half_angle"] = rounded(glm::degrees(static_cast<double>(lamp.outer_cone)));
+  json["lamp"]["cone_half_angle_degrees"] = rounded(glm::degrees(static_cast<double>(lamp.outer_cone)));
 }
 
 }  // namespace
 
 std::string terminal_table(const ComparedScene& scene) {
-  std::vector<std::vector<std::string>> rows{
-      {"technique", "cost ms", "memory", "PSNR dB", "bias", "FLIP", "width %", "lost %", "flicker"}};
+  std::vector<std::vector<std::string>> rows{{"technique", "cost ms", "memory", "PSNR penumbra dB", "PSNR dB", "bias",
+                                              "FLIP", "width %", "lost %", "flicker"}};
   for (const ComparedTechnique& technique : scene.techniques) rows.push_back(terminal_row(technique));
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const auto& row : rows) {
@@ -164,12 +165,12 @@ std::string csv_table(const Comparison& comparison) {
   std::string text = "scene,technique,reference,shadow_bytes";
   const ComparedTechnique empty;
   for (const NamedFigure& figure : figures_of(empty.figures)) text += fmt::format(",{}", figure.name);
-  for (const NamedFigure& figure : costs_of(empty.cost)) text += fmt::format(",{}", figure.name);
+  for (const NamedFigure& figure : costs_of(empty.cost)) text += fmt::format(",cost_{}", figure.name);
   text += "\n";
   for (const ComparedScene& scene : comparison.scenes) {
     for (const ComparedTechnique& technique : scene.techniques) {
       text += fmt::format("{},{},{},{}", io::csv_field(scene.path), io::csv_field(technique.label),
-                          comparison.reference_params.get_word("technique"), technique.target_bytes);
+                          comparison.reference_params.get_word("technique"), technique.shadow_bytes);
       for (const NamedFigure& figure : figures_of(technique.figures))
         text += fmt::format(",{}", csv_number(figure.value));
       for (const NamedFigure& figure : costs_of(technique.cost)) text += fmt::format(",{}", csv_number(figure.value));
@@ -191,19 +192,20 @@ Json json_of(const Comparison& comparison, const CompareOptions& options, const 
     json["techniques"] = std::move(techniques);
     scenes.push_back(std::move(json));
   }
-  return {{"version", cli::version()},
-          {"commit", bench::commit()},
-          {"command", cli::command_text("penumbra compare", arguments)},
-          {"reference",
-           {{"technique", comparison.reference_params.get_word("technique")},
-            {"changed_params", changed_params(comparison.reference_params)}}},
-          {"width", options.size.width},
-          {"height", options.size.height},
-          {"frames", options.frames ? options.frames->count() : 1},
-          {"maps", "drawn anew in every frame"},
-          {"backend", comparison.backend},
-          {"device", io::to_json(comparison.device)},
-          {"scenes", std::move(scenes)}};
+  return io::document("compare", 1,
+                      {{"version", cli::version()},
+                       {"commit", bench::commit()},
+                       {"command", cli::command_text("penumbra compare", arguments)},
+                       {"reference",
+                        {{"technique", comparison.reference_params.get_word("technique")},
+                         {"changed_params", changed_params(comparison.reference_params)}}},
+                       {"width", options.size.width},
+                       {"height", options.size.height},
+                       {"frames", options.frames ? options.frames->count() : 1},
+                       {"maps", "drawn anew in every frame"},
+                       {"backend", comparison.backend},
+                       {"device", io::to_json(comparison.device)},
+                       {"scenes", std::move(scenes)}});
 }
 
 }  // namespace penumbra::compare

@@ -1,9 +1,17 @@
 #include "io/report.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace penumbra::io {
+
+Json document(std::string_view kind, int version, const Json& body) {
+  Json json{{"format", fmt::format("penumbra.{}/{}", kind, version)}};
+  json.update(body);
+  return json;
+}
 
 Json json_number(double value) {
   if (std::isnan(value)) return nullptr;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/params.h"
@@ -14,6 +15,10 @@ namespace penumbra::io {
 
 // JSON that keeps its keys in the order of insertion, so that reports can be compared line by line.
 using Json = nlohmann::ordered_json;
+
+// A document that other programs read: {"format": "penumbra.KIND/VERSION", …}. docs/schemas/KIND.json describes it. The
+// version changes whenever a reader of the last one could misread the new one.
+Json document(std::string_view kind, int version, const Json& body);
 
 // JSON has no infinity or NaN: infinities become the strings "inf" and "-inf", NaN becomes null.
 Json json_number(double value);

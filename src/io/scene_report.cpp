@@ -31,7 +31,7 @@ Json to_json(const scene::MaterialInfo& material) {
 Json to_json(const scene::LightInfo& light) {
   Json json{{"name", light.name}, {"kind", light.kind}, {"intensity", light.intensity}, {"unit", light.unit}};
   if (light.range > 0) json["range_m"] = light.range;
-  if (light.cones) json["cone_half_angles_deg"] = {light.cones->x, light.cones->y};
+  if (light.cones) json["cone_half_angles_degrees"] = {light.cones->x, light.cones->y};
   if (light.radius) json["radius_m"] = *light.radius;
   if (light.place) json["place_m"] = {light.place->x, light.place->y, light.place->z};
   return json;

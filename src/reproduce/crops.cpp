@@ -95,15 +95,15 @@ report::Tile tile(const std::string& title, const std::string& note, const repor
 }
 
 Quantity psnr_of(const NamedConfig& named, const MeasuredPicture& drawing) {
-  return {"the PSNR of " + named.name, drawing.psnr_pcss, "dB"};
+  return {"the PSNR in the penumbra of " + named.name, drawing.psnr_pcss, "dB"};
 }
 
 Quantity psnr_truth_of(const NamedConfig& named, const MeasuredPicture& drawing) {
-  return {"the PSNR against truth of " + named.name, drawing.psnr_truth, "dB"};
+  return {"the PSNR in the penumbra against truth of " + named.name, drawing.psnr_truth, "dB"};
 }
 
 Quantity psnr_blurred_of(const NamedConfig& named, const MeasuredPicture& drawing) {
-  return {"the PSNR after a blur of " + named.name, drawing.psnr_blurred, "dB"};
+  return {"the PSNR in the penumbra after a blur of " + named.name, drawing.psnr_blurred, "dB"};
 }
 
 Quantity flip_of(const NamedConfig& named, const MeasuredPicture& drawing) {
@@ -114,7 +114,7 @@ report::Html crop_tiles(Workbench& bench, const std::vector<NamedConfig>& config
   std::vector<report::Tile> tiles;
   for (const NamedConfig& named : configs) {
     const MeasuredPicture& drawing = bench.draw(named.config);
-    const std::string note = "PSNR " + report::fixed(drawing.psnr_pcss, 2) + " dB, after a blur " +
+    const std::string note = "PSNR penumbra " + report::fixed(drawing.psnr_pcss, 2) + " dB, after a blur " +
                              report::fixed(drawing.psnr_blurred, 2) + " dB";
     tiles.push_back(tile(named.name, note, enlarged(drawing.visibility, bench.width(), crop)));
   }
@@ -126,10 +126,11 @@ report::Html quality_table(Finding& finding, Workbench& bench, const std::vector
   report::Table table{
       .caption = "In the penumbra, against converged PCSS unless it says otherwise.",
       .columns = {{"Picture"},
-                  {"PSNR", "dB", "Over receivers whose reference is between 0.02 and 0.98.", Best::highest},
-                  {"PSNR after a blur", "dB", "Errors first go through a Gaussian of 1.5 pixels.", Best::highest},
+                  {"PSNR penumbra", "dB", "Over receivers whose reference is between 0.02 and 0.98.", Best::highest},
+                  {"PSNR penumbra after a blur", "dB", "Errors first go through a Gaussian of 1.5 pixels.",
+                   Best::highest},
                   {"FLIP", "", "How different the two look to a viewer who flips between them, 0 to 1.", Best::lowest},
-                  {"PSNR against truth", "dB", "The same against the ray-traced picture.", Best::highest}},
+                  {"PSNR penumbra against truth", "dB", "The same against the ray-traced picture.", Best::highest}},
       .rows = {}};
   for (const NamedConfig& named : configs) {
     const MeasuredPicture& drawing = bench.draw(named.config);

@@ -128,20 +128,21 @@ io::Json json_of(std::span<const Finding> findings, const Workbench& bench) {
                        {"test", finding.test},
                        {"verdict", finding.verdict()},
                        {"sentence", finding.sentence()},
-                       {"figures", quantities}});
+                       {"quantities", quantities}});
   }
   const bench::Machine machine = bench::machine();
-  return {{"version", cli::version()},
-          {"commit", bench::commit()},
-          {"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}}},
-          {"device", io::to_json(bench.device())},
-          {"scene", scene_name(bench)},
-          {"width", bench.width()},
-          {"height", bench.height()},
-          {"quick", bench.options().quick},
-          {"sun_angle", bench.sun_angle()},
-          {"truth_samples", bench.options().truth_samples()},
-          {"figures", figures}};
+  return io::document("reproduce", 1,
+                      {{"version", cli::version()},
+                       {"commit", bench::commit()},
+                       {"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}}},
+                       {"device", io::to_json(bench.device())},
+                       {"scene", scene_name(bench)},
+                       {"width", bench.width()},
+                       {"height", bench.height()},
+                       {"quick", bench.options().quick},
+                       {"sun_angle", bench.sun_angle()},
+                       {"truth_samples", bench.options().truth_samples()},
+                       {"figures", figures}});
 }
 
 std::string csv_of(std::span<const Finding> findings) {

@@ -76,10 +76,10 @@ Finding figure_4_12(Workbench& bench) {
   };
   finding.body = report::tiles(
       {{.title = "8×8 taps and a filter against 256×256 taps",
-        .note = "PSNR " + report::fixed(drawing.psnr_pcss, 2) + " dB",
+        .note = "PSNR penumbra " + report::fixed(drawing.psnr_pcss, 2) + " dB",
         .body = report::picture_slider(figure("8×8", drawing.visibility), figure("256×256", bench.pcss()))},
        {.title = "8×8 taps and a filter against the truth",
-        .note = "PSNR " + report::fixed(drawing.psnr_truth, 2) + " dB",
+        .note = "PSNR penumbra " + report::fixed(drawing.psnr_truth, 2) + " dB",
         .body = report::picture_slider(figure("8×8", drawing.visibility), figure("truth", bench.truth()))}});
   finding.body.add(
       crop_tiles(bench, {{"256×256 taps", many.config}, {"8×8 taps and a filter", few.config}}, noisiest_crop(bench)));

@@ -132,9 +132,9 @@ Finding figure_4_1(Workbench& bench) {
         .note = "converged PCSS against the ray-traced truth",
         .body = report::picture_slider(visibility("PCSS", bench.pcss()), visibility("truth", bench.truth()))}});
   const metrics::ErrorFigures off = bench.draw(pcss.config).to_truth;
-  finding.record({"the PSNR against truth of converged PCSS", off.psnr_penumbra, "dB"});
+  finding.record({"the PSNR in the penumbra against truth of converged PCSS", off.psnr_penumbra, "dB"});
   finding.record({"the bias against truth of converged PCSS", off.bias, "", 5});
-  finding.record({"the PSNR against truth of hard shadows", bench.draw(hard.config).psnr_truth, "dB"});
+  finding.record({"the PSNR in the penumbra against truth of hard shadows", bench.draw(hard.config).psnr_truth, "dB"});
   finding.body.add(report::Html("<p>Against the truth, in the penumbra, converged PCSS has a PSNR of ")
                        .text(report::fixed(off.psnr_penumbra, 2))
                        .add(" dB and hard shadows one of ")

@@ -89,7 +89,7 @@ class Points(TestCase):
         self.assertEqual(rows[0], "x,y")
         listed = [tuple(map(float, row.split(","))) for row in rows[1:]]
         self.assertEqual(listed, [(0.125, 0.125), (0.375, 0.625), (0.625, 0.375), (0.875, 0.875)])
-        self.assertEqual(listed, [tuple(point) for point in json.loads(js.read_text())])
+        self.assertEqual(listed, [tuple(point) for point in json.loads(js.read_text())["points"]])
 
     def test_refuses_what_it_cannot_make(self):
         path = self.folder / "points.csv"

@@ -158,7 +158,7 @@ class Bench(TestCase):
             values = [point[field] for point in data["points"]]
             self.assertEqual(values, sorted(set(values)), name)
             self.assertEqual(data["sweep"], name)
-        memory = [point["costs"][0]["target_bytes"] for point in self.bench(SCENE, "--sweep", "cascades")["points"]]
+        memory = [point["costs"][0]["shadow_bytes"] for point in self.bench(SCENE, "--sweep", "cascades")["points"]]
         self.assertEqual(memory, sorted(set(memory)))
 
     def test_casters_are_instanced(self):

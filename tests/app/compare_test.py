@@ -47,10 +47,11 @@ class Compare(TestCase):
         self.assertEqual([technique["label"] for technique in techniques], NAMES)
         for line, row, technique in zip(lines[1:-1], rows, techniques):
             cells = re.split(r"\s{2,}", line)
-            for cell, name, decimals in ((cells[1], "cost_median_ms", 1), (cells[3], "psnr_penumbra_db", 2),
-                                         (cells[4], "bias", 4), (cells[5], "flip", 4)):
+            for cell, name, decimals in ((cells[1], "cost_median_ms", 1), (cells[3], "psnr_penumbra", 2),
+                                         (cells[4], "psnr", 2), (cells[5], "bias", 4), (cells[6], "flip", 4)):
                 self.assertAlmostEqual(float(cell), float(row[name]), delta=0.51 * 10**-decimals, msg=name)
-            for name, value in {**technique["figures"], **technique["cost"]}.items():
+            costs = {f"cost_{name}": value for name, value in technique["cost"].items()}
+            for name, value in {**technique["figures"], **costs}.items():
                 if name in row:
                     self.assertEqual(row[name], "" if value is None else f"{value:.6g}", name)
             self.assertEqual(int(row["shadow_bytes"]), technique["shadow_bytes"])
@@ -93,17 +94,17 @@ class Compare(TestCase):
         seed = self.compare(*BRUTE, into="seed")[2]["reference"]["changed_params"]["sampling.seed"]
         same = f"brute_force:sampling.seed={seed}"
         table, rows, data = self.compare("--reference", "brute_force", "--technique", f"{same},hard")
-        self.assertEqual((rows[0]["psnr_penumbra_db"], float(rows[0]["bias"])), ("inf", 0))
-        self.assertEqual(data["scenes"][0]["techniques"][0]["figures"]["psnr_penumbra_db"], "inf")
+        self.assertEqual((rows[0]["psnr_penumbra"], float(rows[0]["bias"])), ("inf", 0))
+        self.assertEqual(data["scenes"][0]["techniques"][0]["figures"]["psnr_penumbra"], "inf")
         self.assertRegex(table, same + r" .* inf ")
-        self.assertLess(float(rows[1]["psnr_penumbra_db"]), 40)
+        self.assertLess(float(rows[1]["psnr_penumbra"]), 40)
 
     def test_a_sampled_reference_has_other_points_than_what_is_measured(self):
         for seed in ("0", "40000"):
             _, rows, _ = self.compare("--reference", "brute_force", "--technique", "brute_force", "--set",
                                       f"sampling.seed={seed}")
-            self.assertNotEqual(rows[0]["psnr_penumbra_db"], "inf")
-            self.assertGreater(float(rows[0]["psnr_penumbra_db"]), 40)
+            self.assertNotEqual(rows[0]["psnr_penumbra"], "inf")
+            self.assertGreater(float(rows[0]["psnr_penumbra"]), 40)
 
     def test_penumbrae_without_a_width_are_told(self):
         table, rows, data = self.compare("--reference", "brute_force", "--technique", "none,brute_force", "--set",
@@ -125,14 +126,14 @@ class Compare(TestCase):
         camera, sun = (data["scenes"][0][name] for name in ("camera", "sun"))
         page = (self.folder / "report" / "index.html").read_text()
         self.assertIn(data["commit"], page)
-        self.assertIn("--sun=" + f"{sun['azimuth']:g}", page)
+        self.assertIn("--sun=" + f"{sun['azimuth_degrees']:g}", page)
         view = []
         for name in ("eye", "target"):
             view += [f"--{name}={','.join(map(str, camera[name]))}"]
-        again = self.compare(*BRUTE, *view, "--fov", camera["fov"], f"--sun={sun['azimuth']},{sun['elevation']}",
+        again = self.compare(*BRUTE, *view, "--fov", camera["fov_y_degrees"], f"--sun={sun['azimuth_degrees']},{sun['elevation_degrees']}",
                              into="again")
         for row, other in zip(rows, again[1]):
-            self.assertAlmostEqual(float(row["psnr_db"]), float(other["psnr_db"]), delta=0.1)
+            self.assertAlmostEqual(float(row["psnr"]), float(other["psnr"]), delta=0.1)
         length = sum(value * value for value in sun["to_light"])
         self.assertAlmostEqual(length, 1, places=4)
 
@@ -146,7 +147,7 @@ class Compare(TestCase):
     def test_better_techniques_have_better_figures_against_the_truth(self):
         _, rows, data = self.compare("--technique", "none,hard,pcss,brute_force", "--spp", "64", "--set", "sun.angle=4")
         self.assertEqual(data["reference"]["changed_params"]["truth.samples"], 64)
-        psnr = [float(row["psnr_penumbra_db"]) for row in rows]
+        psnr = [float(row["psnr_penumbra"]) for row in rows]
         self.assertEqual(psnr, sorted(psnr))
         self.assertGreater(float(rows[0]["bias"]), 0.05)  # all lit
         self.assertEqual(int(data["scenes"][0]["pixels"]), 96 * 54)
@@ -179,7 +180,7 @@ class Compare(TestCase):
         arguments = ("--reference", "brute_force", "--technique", "thesis", "--frames", "0:5", *SMALL_MAPS)
         _, still, at_rest = self.compare(*arguments)
         _, moving, data = self.compare(*arguments, "--orbit", "2", "--cut-at", "4")
-        self.assertNotEqual(still[0]["psnr_db"], moving[0]["psnr_db"])
+        self.assertNotEqual(still[0]["psnr"], moving[0]["psnr"])
         self.assertEqual(data["scenes"][0]["receivers"], at_rest["scenes"][0]["receivers"])  # back where it began
         recoveries = data["scenes"][0]["techniques"][0]["figures"]["recoveries"]
         self.assertEqual([recovery["frame"] for recovery in recoveries], [4])

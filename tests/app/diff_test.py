@@ -95,7 +95,7 @@ class Figures(Diff):
         ramp = [[(min(255, max(0, 17 * (x - 12))),) for x in range(40)] for _ in range(30)]
         steep = [[(min(255, max(0, 34 * (x - 16))),) for x in range(40)] for _ in range(30)]
         told = self.figures(png(self.folder / "steep.png", steep), png(self.folder / "ramp.png", ramp))
-        self.assertAlmostEqual(told["figures"]["penumbra_width"], 0.5, places=2)
+        self.assertAlmostEqual(told["figures"]["penumbra_width_error"], 0.5, places=2)
         self.assertEqual(told["penumbra_samples"], 14 * 30)
         self.assertLess(told["figures"]["psnr_penumbra"], told["figures"]["psnr"])
 
@@ -103,11 +103,11 @@ class Figures(Diff):
         ramp = png(self.folder / "ramp.png", [[(min(255, max(0, 17 * (x - 12))),) for x in range(40)] for _ in range(30)])
         lit = png(self.folder / "lit.png", flat(255, channels=1))
         figures = self.figures(lit, ramp)["figures"]
-        self.assertEqual((figures["penumbra_width"], figures["penumbra_width_lost"]), (None, 1))
+        self.assertEqual((figures["penumbra_width_error"], figures["penumbra_width_lost"]), (None, 1))
         self.assertIn("penumbra widths lost 100 %", self.succeed("diff", lit, ramp).stdout)
         self.assertEqual(self.figures(ramp, ramp)["figures"]["penumbra_width_lost"], 0)
         self.assertNotIn("lost", self.succeed("diff", ramp, ramp).stdout)
-        self.assertIn("no penumbra of the first", self.refuse("diff", lit, ramp, "--metric", "penumbra_width", "--max=1"))
+        self.assertIn("no penumbra of the first", self.refuse("diff", lit, ramp, "--metric", "penumbra_width_error", "--max=1"))
         self.assertNotIn("penumbra_width_lost", self.figures(self.grey, self.grey)["figures"], "of three channels")
 
     def test_black_is_no_less_than_0_dB_from_white(self):

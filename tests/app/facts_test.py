@@ -81,14 +81,14 @@ class Lists(TestCase):
         for what, name in (("techniques", "pcss"), ("params", "sun.angle"), ("aovs", "shadow"),
                            ("denoisers", "history_and_filters"), ("products", "least_depth_pyramid"), ("backends", "osmesa")):
             with self.subTest(what):
-                rows = json.loads(self.succeed("list", what, "--json").stdout)
+                rows = self.listed(what)
                 self.assertIn(name, [row["name"] for row in rows])
                 self.assertTrue(all(row["help"] for row in rows))
                 lines = self.succeed("list", what).stdout.splitlines()
                 self.assertEqual([line.split()[0] for line in lines], [row["name"] for row in rows])
 
     def test_without_a_name_the_choices_are_listed(self):
-        rows = json.loads(self.succeed("list", "--json").stdout)
+        rows = self.listed()
         lines = self.succeed("list").stdout.splitlines()
         self.assertEqual([line.split()[0] for line in lines], [row["name"] for row in rows])
         for row in rows:
@@ -96,7 +96,7 @@ class Lists(TestCase):
         self.assertIn("penumbra list", self.succeed("help").stdout)
 
     def test_a_techniques_parameters_and_source(self):
-        rows = {row["name"]: row for row in json.loads(self.succeed("list", "techniques", "--json").stdout)}
+        rows = {row["name"]: row for row in self.listed("techniques")}
         self.assertIn("pcss.filter_taps", rows["pcss"]["params"])
         self.assertIn("Fernando", rows["pcss"]["source"])
         self.assertEqual(rows["pcss_compute"]["technique"], "pcss")

@@ -64,13 +64,13 @@ class Output(TestCase):
     def test_layers_of_an_exr(self):
         self.draw("x.exr", "--aov", ",".join(AOVS))
         self.assertEqual(self.files(), ["x.exr"])
-        rows = json.loads(self.succeed("list", "aovs", "--json").stdout)
+        rows = self.listed("aovs")
         channels = {row["name"]: row["channels"] for row in rows}
         wanted = [f"{name}.{channel}" for name in AOVS for channel in channels[name]] + ["R", "G", "B"]
         self.assertEqual(sorted(read_exr_header(self.folder / "x.exr")["channels"]), sorted(wanted))
 
     def test_every_aov_can_be_written(self):
-        names = [row["name"] for row in json.loads(self.succeed("list", "aovs", "--json").stdout)]
+        names = [row["name"] for row in self.listed("aovs")]
         self.assertLessEqual(set(AOVS) | {"color"}, set(names))
         self.draw("x.exr", "--aov", ",".join(names))
         self.draw("x.png", "--aov", ",".join(names))
@@ -86,7 +86,7 @@ class Output(TestCase):
         direction = [float(part) for part in header["penumbra:sun.to_light"].split()]
         for value, wanted in zip(direction, (0.70710678, 0.70710678, 0)):
             self.assertAlmostEqual(value, wanted, places=6)
-        for row in json.loads(self.succeed("list", "params", "--json").stdout):
+        for row in self.listed("params"):
             self.assertIn(f"penumbra:param.{row['name']}", header)
         self.assertEqual(header.get("capDate", ""), "")
 
@@ -103,7 +103,7 @@ class Output(TestCase):
                 self.assertAlmostEqual(byte, encode(sum(map(decode, block)) / 4), delta=0.51)
 
     def test_supersampled_aovs_hold_no_value_that_means_nothing(self):
-        names = [row["name"] for row in json.loads(self.succeed("list", "aovs", "--json").stdout)]
+        names = [row["name"] for row in self.listed("aovs")]
         aovs = ("--aov", ",".join(names), "--exposure", "15")
         # Sky, edges and shadows from above the posts' side.
         view = ("--eye", "0,4,14", "--target", "0,2,0", "--fov", "50")

@@ -37,7 +37,7 @@ def refused_texts(row):
 class Params(TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.rows = json.loads(run("list", "params", "--json").stdout)
+        cls.rows = json.loads(run("list", "params", "--json").stdout)["rows"]
 
     def stats_after(self, *arguments):
         stats = self.folder / "stats.json"

@@ -1,6 +1,5 @@
 """Every preset of the program is also a file of presets/, and means the same."""
 
-import json
 
 from pictures import SMALL, scene
 from support import ROOT, TestCase, main
@@ -25,7 +24,7 @@ class PresetFiles(TestCase):
                 self.assertEqual(self.settings("--preset", path), self.settings("--technique", path.stem))
 
     def test_every_preset_but_single_parameters_has_a_file(self):
-        rows = json.loads(self.succeed("list", "techniques", "--json").stdout)
+        rows = self.listed("techniques")
         presets = {row["name"] for row in rows if "sets" in row and row["name"] != "pcss_compute"} | {"brute_force"}
         self.assertEqual({path.stem for path in FILES}, presets)
 

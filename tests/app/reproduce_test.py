@@ -36,11 +36,11 @@ class Reproduce(TestCase):
         self.assertEqual([figure["id"] for figure in self.data["figures"]], IDS)
         for figure in self.data["figures"]:
             self.assertIn(f"{heading(figure['id'])}: {figure['title']}", self.page)
-            self.assertGreaterEqual(len(figure["figures"]), 1, figure["id"])
+            self.assertGreaterEqual(len(figure["quantities"]), 1, figure["id"])
 
     def test_sentences_rest_on_the_figures(self):
         for figure in self.data["figures"]:
-            known = {measured["text"] for measured in figure["figures"]}
+            known = {measured["text"] for measured in figure["quantities"]}
             shown = BRACKETED.findall(figure["sentence"])
             self.assertTrue(shown, figure["sentence"])
             self.assertLessEqual(set(shown), known, figure["sentence"])
@@ -74,7 +74,7 @@ class Reproduce(TestCase):
         with open(f"{self.report}/figures.csv", newline="", encoding="utf-8") as file:
             rows = [(row["figure"], row["name"], row["unit"], row["value"]) for row in csv.DictReader(file)]
         expected = [(figure["id"], measured["name"], measured["unit"], measured["value"])
-                    for figure in self.data["figures"] for measured in figure["figures"]]
+                    for figure in self.data["figures"] for measured in figure["quantities"]]
         self.assertEqual([row[:3] for row in rows], [row[:3] for row in expected])
         for row, wanted in zip(rows, expected):
             self.assertEqual(float(row[3] or "nan"), float(wanted[3] if wanted[3] is not None else "nan"), row)

@@ -21,7 +21,7 @@ class Stats(TestCase):
         self.assertEqual((stats["technique"], stats["backend"]), ("pcf", "osmesa"))
         for field in ("vendor", "renderer", "version", "glsl_version", "software", "limits"):
             self.assertIn(field, stats["device"])
-        names = [row["name"] for row in json.loads(self.succeed("list", "params", "--json").stdout)]
+        names = [row["name"] for row in self.listed("params")]
         self.assertEqual(list(stats["params"]), names)
         self.assertGreater(stats["target_bytes"], 96 * 54 * 4)
         self.assertGreater(stats["peak_resident_kilobytes"], 0)

@@ -224,13 +224,13 @@ class Usage(TestCase):
 
     def test_help_explains_every_name(self):
         for what in ("techniques", "params", "aovs"):
-            for row in json.loads(self.succeed("list", what, "--json").stdout):
+            for row in self.listed(what):
                 with self.subTest(row["name"]):
                     self.assertIn(row["help"], self.succeed("help", row["name"]).stdout)
 
     def test_every_choice_of_a_denoiser_is_listed(self):
-        listed = {row["name"] for row in json.loads(self.succeed("list", "denoisers", "--json").stdout)}
-        params = json.loads(self.succeed("list", "params", "--json").stdout)
+        listed = {row["name"] for row in self.listed("denoisers")}
+        params = self.listed("params")
         self.assertEqual(listed, set(next(row["choices"] for row in params if row["name"] == "denoiser")))
 
     def test_what_cannot_be_reached_is_told_as_what_it_is(self):

@@ -9,6 +9,7 @@ import subprocess
 import time
 import unittest
 
+import jsonschema
 import support
 
 PEERS = support.ROOT / "bench" / "peers"
@@ -71,6 +72,7 @@ class Peers(support.TestCase):
                                        "--pictures", pictures)
         self.assertEqual(code, 0, out + errors)
         report = json.loads(results.read_text())
+        jsonschema.validate(report, json.loads((support.ROOT / "docs" / "schemas" / "peers.json").read_text()))
         scene = report["scenes"][0]
         rows = {(row["renderer"], row["maps"]): row for row in scene["rows"]}
         self.assertEqual(set(rows), {("Penumbra", 4), ("Penumbra", 1), ("three.js", 1), ("Babylon.js", 4),

@@ -1,5 +1,6 @@
 """What the tests of the command line and of the project share."""
 
+import json
 import os
 import pathlib
 import struct
@@ -101,6 +102,10 @@ class TestCase(unittest.TestCase):
         result = run(*arguments, **options)
         self.assertEqual(result.returncode, 0, f"penumbra {' '.join(map(str, arguments))}\n{result.stderr}")
         return result
+
+    def listed(self, *what):
+        """The rows that `penumbra list` has for a list's name, or for all lists."""
+        return json.loads(self.succeed("list", *what, "--json").stdout)["rows"]
 
     def refuse(self, *arguments, code=1, **options):
         """The command must end with `code`, one line of error and no stack trace; returns that line."""

@@ -37,10 +37,10 @@ std::string description() {
       "Measure how far picture A is from picture B, the reference. PNGs are compared by display values from 0 to 1, "
       "EXRs by their values as they are. A value of A that is not finite counts as an error of 1. If --max or --min is "
       "given, the exit code is 1 where the limit is exceeded or A has a value that is not finite.\n\nMetrics:\n";
-  for (const Metric& metric : diff_metrics()) text += fmt::format("  {:<15} {}\n", metric.name, metric.help);
+  for (const Metric& metric : diff_metrics()) text += fmt::format("  {:<21} {}\n", metric.name, metric.help);
   return text +
          "psnr needs references from 0 to 1; ssim and flip need PNGs or single channels from 0 to 1; "
-         "psnr_penumbra and penumbra_width need single channels from 0 to 1.";
+         "psnr_penumbra and penumbra_width_error need single channels from 0 to 1.";
 }
 
 void add_options(CLI::App& app, DiffOptions& options) {
@@ -163,7 +163,7 @@ void write_json(const DiffOptions& options, const Figure& figure, const Differen
     limit[options.max ? "max" : "min"] = options.max ? *options.max : *options.min;
     limit["kept"] = verdict(options, figure, difference).empty();
   }
-  io::write_text(options.json, io::text_of(json));
+  io::write_text(options.json, io::text_of(io::document("diff", 1, json)));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ constexpr std::array<Metric, 9> all_metrics{{
     {"p99", "Error that 99 of 100 values don't exceed", "", false},
     {"ssim", "Mean structural similarity, 1 at best", "", true},
     {"flip", "Mean FLIP: how different the two look to a viewer who flips between them", "", false},
-    {"penumbra_width", "Mean relative error of the penumbrae's widths", "", false},
+    {"penumbra_width_error", "Mean relative error of the penumbrae's widths", "", false},
 }};
 
 metrics::ImageView view(const image::Picture& picture) {
@@ -169,7 +169,7 @@ io::Json to_json(const Difference& difference) {
   io::Json figures = io::Json::object();
   for (const Figure& figure : difference.figures)
     if (figure.unfit.empty()) figures[figure.metric->name] = io::json_number(figure.value);
-  if (figures.contains("penumbra_width")) figures["penumbra_width_lost"] = io::json_number(difference.width_lost);
+  if (figures.contains("penumbra_width_error")) figures["penumbra_width_lost"] = io::json_number(difference.width_lost);
   return figures;
 }
 

@@ -22,7 +22,7 @@ Json examine() {
   for (const char* name : {"egl", "osmesa", "window"}) backends.push_back(probe_backend(name));
   Json devices = Json::array();
   for (const std::string& device : probe_egl_devices()) devices.push_back(device);
-  return {{"version", cli::version()}, {"backends", backends}, {"egl_devices", devices}};
+  return io::document("doctor", 1, {{"version", cli::version()}, {"backends", backends}, {"egl_devices", devices}});
 }
 
 bool works(const Json& backend) { return backend["works"].get<bool>(); }

@@ -53,8 +53,7 @@ Json json_of(const render::LampLight& lamp) {
             {"intensity", json_of(lamp.intensity)}};
   if (!spot) return json;
   json["axis"] = json_of(lamp.axis);
-  json["inner_cone"] = lamp.inner_cone;
-  json["outer_cone"] = lamp.outer_cone;
+  json["cone_half_angles_degrees"] = {glm::degrees(lamp.inner_cone), glm::degrees(lamp.outer_cone)};
   return json;
 }
 
@@ -87,29 +86,31 @@ Json stats_of(const RenderOptions& options, const session::PreparedScene& prepar
       passes.push_back(io::to_json(cost));
     }
   }
-  return {{"version", cli::version()},
-          {"scene", options.scene},
-          {"scene_facts", io::to_json(scene::describe(prepared.scene))},
-          {"width", options.size.width},
-          {"height", options.size.height},
-          {"supersample", options.supersample},
-          {"technique", params.get_word("technique")},
-          {"backend", gl::to_string(session.context().backend())},
-          {"device", io::to_json(session.device_info())},
-          {"camera", json_of(setup.camera)},
-          {"sun_to_light", setup.sun_shines ? json_of(setup.sun.to_light) : nullptr},
-          {"lights", lights_of(setup)},
-          {"ground", ground_of(prepared)},
-          {"params", io::to_json(params)},
-          {"measured_frames", measured},
-          {"maps", options.frames && options.frames->count() > 1 && params.get_bool("maps.keep")
-                       ? "kept where nothing moved"
-                       : "drawn anew in every frame"},
-          {"timing", session.device().timers.mode() == gl::Timers::Mode::query ? "gpu timestamps" : "finish"},
-          {"frame", frame},
-          {"passes", passes},
-          {"target_bytes", session.device().target_bytes()},
-          {"peak_resident_kilobytes", peak_resident()}};
+  return io::document(
+      "render", 1,
+      {{"version", cli::version()},
+       {"scene", options.scene},
+       {"scene_facts", io::to_json(scene::describe(prepared.scene))},
+       {"width", options.size.width},
+       {"height", options.size.height},
+       {"supersample", options.supersample},
+       {"technique", params.get_word("technique")},
+       {"backend", gl::to_string(session.context().backend())},
+       {"device", io::to_json(session.device_info())},
+       {"camera", json_of(setup.camera)},
+       {"sun_to_light", setup.sun_shines ? json_of(setup.sun.to_light) : nullptr},
+       {"lights", lights_of(setup)},
+       {"ground", ground_of(prepared)},
+       {"params", io::to_json(params)},
+       {"measured_frames", measured},
+       {"maps", options.frames && options.frames->count() > 1 && params.get_bool("maps.keep")
+                    ? "kept where nothing moved"
+                    : "drawn anew in every frame"},
+       {"timing", session.device().timers.mode() == gl::Timers::Mode::query ? "gpu timestamps" : "finish"},
+       {"frame", frame},
+       {"passes", passes},
+       {"target_bytes", session.device().target_bytes()},
+       {"peak_resident_kilobytes", peak_resident()}});
 }
 
 }  // namespace penumbra::app

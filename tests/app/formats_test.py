@@ -1,0 +1,94 @@
+"""Every JSON document that a command writes is as its schema in docs/schemas says, and docs/formats.md lists them all."""
+
+import json
+
+import jsonschema
+from pictures import scene
+from support import ROOT, TestCase, main
+
+SCHEMAS = ROOT / "docs" / "schemas"
+TINY = ("--size", "64x36")
+
+
+def validator(kind):
+    return jsonschema.Draft202012Validator(json.loads((SCHEMAS / f"{kind}.json").read_text()))
+
+
+class Formats(TestCase):
+    def check(self, kind, document):
+        errors = [f"{error.json_path}: {error.message}" for error in validator(kind).iter_errors(document)]
+        self.assertEqual(errors, [], kind)
+        self.assertEqual(next(iter(document)), "format")
+        # A reader that knows another version must be able to tell.
+        self.assertFalse(validator(kind).is_valid({**document, "format": f"penumbra.{kind}/999"}))
+
+    def written(self, name):
+        return json.loads((self.folder / name).read_text())
+
+    def test_schemas_are_schemas_and_are_listed(self):
+        page = (ROOT / "docs" / "formats.md").read_text()
+        for path in SCHEMAS.iterdir():
+            jsonschema.Draft202012Validator.check_schema(json.loads(path.read_text()))
+            self.assertIn(f"(schemas/{path.name})", page)
+
+    def test_render(self):
+        for arguments in ([scene("gallery")], [scene("knife_edge"), "--camera", "top", "--no-sun", "--lamp", "1,2,3"],
+                          [scene("posts"), "--frames", "0:2", "--ground", "on", "--technique", "thesis"]):
+            self.succeed("render", *arguments, "-o", self.folder / "x.png", *TINY, "--stats", self.folder / "x.json")
+            self.check("render", self.written("x.json"))
+
+    def test_diff(self):
+        a, b = self.folder / "a.exr", self.folder / "b.exr"
+        self.succeed("render", scene("posts"), "-o", a, *TINY, "--aov", "shadow", "--technique", "hard")
+        self.succeed("render", scene("posts"), "-o", b, *TINY, "--aov", "shadow", "--technique", "pcss")
+        for arguments in ([a, b], [a, a, "--layer", "shadow", "--metric", "psnr_penumbra", "--min", "1"],
+                          [a, b, "--layer", "shadow", "--mask", "shadow", "--max", "1"]):
+            self.check("diff", json.loads(self.succeed("diff", *arguments, "--json", "-").stdout))
+
+    def test_compare(self):
+        folder = self.folder / "report"
+        for arguments in ([scene("steps"), scene("gallery"), "--technique", "hard,pcss:pcss.filter_taps=4"],
+                          [scene("moving"), "--technique", "thesis", "--frames", "0:17", "--orbit", "1"],
+                          [scene("gallery"), "--lights", "sculpture spot", "--technique", "hard"],
+                          [scene("knife_edge"), "--camera", "top", "--technique", "hard"]):
+            self.succeed("compare", *arguments, "--spp", "8", *TINY, "-o", folder)
+            self.check("compare", self.written("report/results.json"))
+
+    def test_bench(self):
+        for arguments in (["--technique", "none,pcss", "--floor"], ["--whole-frames"], ["--sweep", "taps"],
+                          ["--sweep", "resolution"]):
+            self.succeed("bench", scene("steps"), *arguments, *TINY, "--frames", "1", "-o", self.folder / "x.json")
+            self.check("bench", self.written("x.json"))
+
+    def test_reproduce(self):
+        self.succeed("reproduce", "--quick", *TINY, "-o", self.folder / "report")
+        self.check("reproduce", self.written("report/figures.json"))
+
+    def test_info(self):
+        for name in ("gallery", "moving", "foliage", "knife_edge"):
+            self.check("info", json.loads(self.succeed("info", scene(name), "--json").stdout))
+
+    def test_an_empty_scene(self):
+        path = self.folder / "empty.gltf"
+        path.write_text(json.dumps({"asset": {"version": "2.0"}}))
+        self.check("info", json.loads(self.succeed("info", path, "--json").stdout))
+
+    def test_list(self):
+        lists = json.loads(self.succeed("list", "--json").stdout)
+        self.check("list", lists)
+        for row in lists["rows"]:
+            document = json.loads(self.succeed("list", row["name"], "--json").stdout)
+            self.check("list", document)
+            self.assertEqual(document["list"], row["name"])
+
+    def test_doctor(self):
+        self.check("doctor", json.loads(self.succeed("doctor", "--json").stdout))
+
+    def test_points(self):
+        for disc in ([], ["--disc"]):
+            self.succeed("bake", "points", "--count", "4", *disc, "-o", self.folder / "x.json")
+            self.check("points", self.written("x.json"))
+
+
+if __name__ == "__main__":
+    main()
