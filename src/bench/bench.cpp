@@ -7,6 +7,7 @@
 #include "bench/measure.h"
 #include "bench/options.h"
 #include "bench/results.h"
+#include "cli/no_effect.h"
 #include "cli/signals.h"
 #include "cli/text.h"
 #include "core/log.h"
@@ -16,22 +17,6 @@
 namespace penumbra::bench {
 
 namespace {
-
-// The command as a user would type it, with file names instead of paths: folders do not matter for the measurement.
-std::string command_of(const std::string& name, const cli::Arguments& arguments) {
-  std::vector<std::string> shown_arguments;
-  for (const std::string& argument : arguments) {
-    std::string shown;
-    for (std::size_t begin = 0; begin < argument.size();) {
-      const std::size_t end = std::min(argument.find_first_of(",=", begin), argument.size());
-      const std::string part = argument.substr(begin, end - begin);
-      shown += part.substr(part.rfind('/') + 1) + argument.substr(end, 1);
-      begin = end + 1;
-    }
-    shown_arguments.push_back(shown);
-  }
-  return cli::command_text(name, shown_arguments);
-}
 
 // The first device that is no software rasteriser; none where the user chose, or there is none.
 std::unique_ptr<gl::Context> open_hardware(const Options& options) {
@@ -66,7 +51,7 @@ int run(const std::string& name, const cli::Arguments& arguments, const scene::I
       "given",
       name);
   Options options;
-  options.command = command_of(name, arguments);
+  options.command = cli::command_text(name, arguments);
   add_options(app, options);
   if (!cli::parse(app, arguments)) return 0;
   check_together(options);
@@ -74,6 +59,9 @@ int run(const std::string& name, const cli::Arguments& arguments, const scene::I
   const std::vector<Entry> entries = entries_of(options, registry);  // wrong names end it here
   options.reading.skies_chosen = std::ranges::all_of(
       entries, [&](const Entry& entry) { return cli::is_chosen(options, entry.params, "casters.skies"); });
+  std::vector<ParamSet> drawn;
+  for (const Entry& entry : entries) drawn.push_back(entry.params);
+  cli::warn_without_effect(options, drawn, registry);
   const std::filesystem::path scene = options.scene;
   const cli::InputFiles inputs = inputs_of(options, {&scene, 1});
   for (const std::string& output : options.outputs) {

@@ -2,10 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <set>
 
 #include "cli/lamp.h"
+#include "core/log.h"
 #include "core/names.h"
 #include "io/output_file.h"
 #include "io/presets.h"
@@ -108,9 +111,15 @@ void add_time_options(CLI::App& app, SceneOptions& o) {
 }
 
 void add_technique_option(CLI::App& app, ShadowOptions& o) {
-  add_value(app, "--technique", "NAME",
-            "Shadow technique or preset, in place of a preset file's; see penumbra list techniques (slices_denoised)",
+  add_value(app, "--technique", "NAME", "Shadow technique or preset; see penumbra list techniques (slices_denoised)",
             [&o](const auto& text) { o.technique = text; });
+  app.parse_complete_callback([&app, &o] {
+    std::size_t presets = 0;
+    for (const CLI::Option* option : app.parse_order()) {
+      if (option->check_name("--preset")) ++presets;
+      if (option->check_name("--technique")) o.presets_before_technique = presets;
+    }
+  });
 }
 
 void add_shadow_options(CLI::App& app, ShadowOptions& o) {
@@ -120,8 +129,10 @@ void add_shadow_options(CLI::App& app, ShadowOptions& o) {
             "Exposure value at ISO 100; short for --set exposure.auto=off --set exposure.ev=EV",
             [&o](const auto& text) { o.exposure = text; });
   words(app, "--set", "NAME=VALUE", "A parameter's value; repeatable; see penumbra list params", o.assignments);
-  words(app, "--preset", "FILE", "Values from a preset file (TOML), before those of other options; repeatable",
-        o.presets);
+  words(
+      app, "--preset", "FILE|NAME",
+      "Values from a preset file (TOML) or of a preset in penumbra list techniques, before those of --set; repeatable",
+      o.presets);
 }
 
 void add_device_options(CLI::App& app, DeviceOptions& o) {
@@ -217,16 +228,79 @@ bool is_chosen(const ShadowOptions& options, const ParamSet& params, std::string
   return !params.is_default(name) || is_assigned(options, name);
 }
 
-ParamSet resolve_params(const ShadowOptions& options, const shadow::Registry& registry) {
-  ParamSet params(render::Renderer::params(registry));
-  const auto select = [&registry](ParamSet& set, std::string_view name) { registry.select(set, name); };
-  for (const std::string& preset : options.presets) {
-    io::read_preset(preset, params, select);
-    check_map_memory(params);
+namespace {
+
+bool is_file(const std::string& preset) {
+  std::error_code unread;
+  return std::filesystem::exists(preset, unread);
+}
+
+// Values are resolved again when the file of a preset changes.
+void warn_once(const std::string& message) {
+  static std::set<std::string> told;
+  if (told.insert(message).second) warn("{}", message);
+}
+
+// Sets the values of a preset, and returns the technique or preset that it names; empty: none.
+std::string apply_preset(const std::string& preset, ParamSet& params, const shadow::Registry& registry) {
+  const std::vector<std::string> known = registry.names();
+  if (!is_file(preset)) {
+    if (std::ranges::find(known, preset) != known.end()) {
+      registry.select(params, preset);
+      return preset;
+    }
+    const std::vector<std::string> near = near_names(preset, known);
+    if (!near.empty())
+      fail("there is neither a preset nor a file '{}'; did you mean '{}'?", preset, fmt::join(near, "' or '"));
   }
+  std::string named;
+  io::read_preset(preset, params, [&](ParamSet& set, std::string_view name) {
+    registry.select(set, name);
+    named = name;
+  });
+  check_map_memory(params);
+  return named;
+}
+
+void select_technique(const std::string& technique, ParamSet& params, const shadow::Registry& registry) {
   try {
-    const std::string& technique = names_technique(options) ? options.technique : options.otherwise;
-    if (!technique.empty()) registry.select(params, technique);
+    registry.select(params, technique);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
+// The presets and --technique in the order in which they are given.
+ParamSet in_order(const ShadowOptions& options, const shadow::Registry& registry) {
+  ParamSet params(render::Renderer::params(registry));
+  const std::size_t before = std::min(options.presets_before_technique.value_or(SIZE_MAX), options.presets.size());
+  std::string named;  // by the presets before --technique
+  for (std::size_t i = 0; i < before; ++i) {
+    const std::string name = apply_preset(options.presets[i], params, registry);
+    if (!name.empty()) named = name;
+  }
+  const std::string& technique = names_technique(options) ? options.technique : options.otherwise;
+  if (!technique.empty()) select_technique(technique, params, registry);
+  if (options.presets_before_technique && !named.empty() && named != technique)
+    warn_once(fmt::format("--technique {0} comes after a preset that chooses {1}: {0} is drawn", technique, named));
+  for (std::size_t i = before; i < options.presets.size(); ++i) {
+    const std::string name = apply_preset(options.presets[i], params, registry);
+    if (name.empty() || name == technique) continue;
+    warn_once(fmt::format("--preset {} comes after --technique {}: {} is drawn", options.presets[i], technique, name));
+    // As if --technique were not there, so that nothing of its values stays.
+    ShadowOptions others = options;
+    others.technique.clear();
+    others.presets_before_technique.reset();
+    return in_order(others, registry);
+  }
+  return params;
+}
+
+}  // namespace
+
+ParamSet resolve_params(const ShadowOptions& options, const shadow::Registry& registry) {
+  ParamSet params = in_order(options, registry);
+  try {
     if (!options.sun_angle.empty()) params.set_text("sun.angle", options.sun_angle);
     if (!options.exposure.empty()) set_exposure(params, options.exposure);
   } catch (const Error& error) {

@@ -41,8 +41,11 @@ struct SceneOptions {
 };
 
 struct ShadowOptions {
-  std::vector<std::string> presets, assignments;
+  std::vector<std::string> presets;  // files or names
+  std::vector<std::string> assignments;
   std::string technique, sun_angle, exposure;
+  // How many of the presets come before --technique on the command line; absent: all.
+  std::optional<std::size_t> presets_before_technique;
   // The technique or preset where the user names none; empty: the library's default.
   std::string otherwise;
 };
@@ -67,10 +70,11 @@ void add_device_options(CLI::App& app, DeviceOptions& options);
 void check_together(const SceneOptions& options);
 void check_together(const DeviceOptions& options);
 
-// The values to render with: defaults, then the preset files, then --technique, --sun-angle and --exposure, then every
-// --set in the order given. Without a preset file, --technique and --set technique=NAME, `otherwise` takes the place of
-// --technique. The order of different options on the command line does not matter. Throws UsageError if
-// the command line is wrong, and Error if a preset is.
+// The values to render with: defaults, then the presets and --technique in the order given, then --sun-angle and
+// --exposure, then every --set in the order given. Where a preset and --technique name different techniques, the later
+// one counts, and a warning says so. Without a preset, --technique and --set technique=NAME, `otherwise` takes the
+// place of --technique. A preset is a file, or what shadow::Registry::select() takes. Throws UsageError if the command
+// line is wrong, and Error if a preset is.
 ParamSet resolve_params(const ShadowOptions& options, const shadow::Registry& registry);
 
 // Whether the user names a technique: by --technique, a preset file or --set technique=NAME.

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "cli/no_effect.h"
 #include "cli/signals.h"
 #include "compare/command.h"
 #include "compare/comparison.h"
@@ -26,6 +27,14 @@ void check_files(const CompareOptions& options) {
   for (const std::filesystem::path& path : {options.page(), options.csv(), options.json()}) io::check_writable(path);
 }
 
+void warn_of_settings(const CompareOptions& options, const ComparedValues& values) {
+  std::vector<ParamSet> drawn = values.contenders;
+  drawn.push_back(values.reference);
+  cli::warn_without_effect(options, drawn, session::all_techniques());
+  for (std::size_t i = 0; i < options.contenders.size(); ++i)
+    cli::warn_without_effect(options.contenders[i].assignments, {&values.contenders[i], 1}, session::all_techniques());
+}
+
 void print(const Comparison& comparison, const CompareOptions& options) {
   for (const ComparedScene& scene : comparison.scenes) {
     if (comparison.scenes.size() > 1) fmt::print("{}\n", scene.path);
@@ -43,6 +52,7 @@ int run(const cli::Arguments& arguments) {
   session::limit_threads(options);
   const ComparedValues values = values_of(options, session::all_techniques());  // presets before scenes
   check_files(options);
+  warn_of_settings(options, values);
   options.reading.skies_chosen = cli::is_chosen(options, values.reference, "casters.skies");
 
   const Comparison comparison = compare(options, values);

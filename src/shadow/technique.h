@@ -58,6 +58,8 @@ struct Technique {
   bool decides_tiles = false;
   // Whether the denoiser that the parameters choose is applied to its result.
   bool denoisable = true;
+  // Whether its penumbrae get wider with the light's size.
+  bool soft = true;
   // Whether it can't compute the shadows of lamps: render() then throws Error for a lamp.
   bool suns_only = false;
   // The name of the technique that computes shadows on blended surfaces instead. Techniques without `glsl` need one.

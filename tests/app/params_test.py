@@ -116,6 +116,57 @@ class Params(TestCase):
         values = self.stats_after("--preset", path)
         self.assertEqual((values["technique"], values["sun.angle"], values["pcss.filter_taps"]), ("hard", 1, 9))
 
+    def warnings(self, *arguments):
+        result = self.succeed("render", POSTS, "-o", self.folder / "x.png", *SMALL, "--quiet", *arguments)
+        return [line for line in result.stderr.splitlines() if line.startswith("warning: ")]
+
+    def test_what_has_no_effect_is_told_once(self):
+        for arguments, told in (
+            (["--technique", "slices", "--set", "pcss.filter_taps=9", "--set", "pcss.filter_taps=8"],
+             "pcss.filter_taps has no effect here: the technique slices does not read it"),
+            (["--set", "history.alpha=0.2"], "history.alpha has no effect here: history.reuse is false"),
+            (["--technique", "hard", "--sun-angle", "3"], "sun.angle has no effect here: the shadows of the technique hard"),
+            (["--set", "exposure.ev=9"], "exposure.ev has no effect here: exposure.auto is true"),
+        ):
+            with self.subTest(arguments):
+                warned = self.warnings(*arguments)
+                self.assertEqual(len(warned), 1, warned)
+                self.assertIn(told, warned[0])
+        for arguments in (["--technique", "pcss", "--sun-angle", "3", "--set", "pcss.filter_taps=9"],
+                          ["--technique", "thesis", "--set", "history.alpha=0.2"],
+                          ["--exposure", "9", "--set", "exposure.ev=10"], ["--set", "slices.samples=4"]):
+            with self.subTest(arguments):
+                self.assertEqual(self.warnings(*arguments), [])
+
+    def test_the_later_of_a_preset_and_a_technique_counts(self):
+        path = self.preset('technique = "thesis_8x8"\nsun.angle = 1.5\n')
+        for arguments, technique, taps, visibility in (
+            (["--preset", path, "--technique", "hard"], "hard", 8, "bilateral_separable"),
+            (["--technique", "hard", "--preset", path], "pcss", 8, "bilateral_separable"),
+            (["--technique", "slices_denoised", "--preset", path], "pcss", 8, "bilateral_separable"),
+        ):
+            with self.subTest(arguments):
+                values = self.stats_after(*arguments)
+                self.assertEqual((values["technique"], values["pcss.filter_taps"], values["filter.visibility"],
+                                  values["sun.angle"]), (technique, taps, visibility, 1.5))
+                self.assertEqual(values["slices.narrow"], 0, "nothing of the technique that does not count")
+                told = [line for line in self.warnings(*arguments) if "is drawn" in line]
+                self.assertEqual(len(told), 1, told)
+        plain = self.preset("sun.angle = 1.5\n")
+        for arguments in (["--preset", plain, "--technique", "pcf"], ["--technique", "pcf", "--preset", plain],
+                          ["--preset", path, "--technique", "thesis_8x8"]):
+            self.assertEqual(self.warnings(*arguments), [])
+
+    def test_presets_have_names(self):
+        by_name = self.stats_after("--preset", "thesis_8x8", "--set", "filter.taps=4")
+        self.assertEqual(by_name, self.stats_after("--technique", "thesis_8x8", "--set", "filter.taps=4"))
+        error = self.refuse("render", POSTS, "-o", self.folder / "x.png", "--preset", "thesi")
+        self.assertIn("did you mean 'thesis'", error)
+        # A file of that name comes first.
+        (self.folder / "thesis").write_text("sun.angle = 7\n")
+        self.succeed("render", POSTS, "-o", "y.png", *SMALL, "--preset", "thesis", "--stats", "y.json", cwd=self.folder)
+        self.assertEqual(json.loads((self.folder / "y.json").read_text())["params"]["sun.angle"], 7)
+
     def test_exposure_takes_a_value_or_auto(self):
         values = self.stats_after("--exposure", "12.5")
         self.assertEqual((values["exposure.auto"], values["exposure.ev"]), (False, 12.5))

@@ -9,6 +9,7 @@
 #include "app/metadata.h"
 #include "app/truth/local_light.h"
 #include "cli/input_files.h"
+#include "cli/no_effect.h"
 #include "cli/output_names.h"
 #include "cli/progress.h"
 #include "cli/signals.h"
@@ -140,6 +141,7 @@ void check_inputs(const std::vector<std::filesystem::path>& scene_files, const T
 void trace_files(TruthOptions options) {
   const cli::OutputNames names(options.output, options.frames.has_value());
   const ParamSet params = params_of(options, session::all_techniques());
+  cli::warn_without_effect(options, {&params, 1}, session::all_techniques());
   const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});
   cli::clean_up_on_signals();
   session::limit_threads(options);

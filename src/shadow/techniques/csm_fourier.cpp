@@ -9,7 +9,8 @@ Technique csm_fourier() {
           .glsl = "shadow/techniques/csm_fourier.glsl",
           .needs = {"shadow_map", "fourier_terms"},
           .params = {{"csm_fourier.attenuation", 1.0f, 0, 20, "",
-                      "How much the series' high terms are lowered: they ring less, and light leaks further."}}};
+                      "How much the series' high terms are lowered: they ring less, and light leaks further."}},
+          .soft = false};
 }
 
 }  // namespace penumbra::shadow

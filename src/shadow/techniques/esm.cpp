@@ -24,7 +24,8 @@ Technique esm() {
                   uniform},
                  {"esm.fallback_taps", 16, 1, 256, "taps", "Points that are compared for receivers that fail.",
                   compiled}},
-      .samples = {{.name = "filter", .count_parameter = "esm.fallback_taps"}}};
+      .samples = {{.name = "filter", .count_parameter = "esm.fallback_taps"}},
+      .soft = false};
 }
 
 }  // namespace penumbra::shadow

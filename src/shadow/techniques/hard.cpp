@@ -9,6 +9,7 @@ Technique hard() {
           .glsl = "shadow/techniques/hard.glsl",
           .needs = {"shadow_map"},
           .params = {},
+          .soft = false,
           .reads_light_discs = true};
 }
 

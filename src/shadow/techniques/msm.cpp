@@ -16,7 +16,8 @@ Technique msm() {
                   "Share of evenly spread depths that is mixed into the moments, against their rounding; at least "
                   "0.00006 in unorm16."},
                  {"msm.bleeding", 0.0f, 0, 0.99, "",
-                  "What is darker than this becomes black: less light bleeds through, and penumbrae narrow."}}};
+                  "What is darker than this becomes black: less light bleeds through, and penumbrae narrow."}},
+      .soft = false};
 }
 
 }  // namespace penumbra::shadow

@@ -9,6 +9,7 @@ Technique none() {
           .glsl = "shadow/techniques/none.glsl",
           .needs = {},
           .params = {},
+          .soft = false,
           .reads_light_discs = true};
 }
 

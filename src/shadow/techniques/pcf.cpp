@@ -15,7 +15,8 @@ Technique pcf() {
                ParamBinding::uniform},
               {"pcf.filter_taps", 16, 1, 256, "taps", "Points of the disc that are compared.", ParamBinding::compiled},
           },
-      .samples = {{.name = "filter", .count_parameter = "pcf.filter_taps"}}};
+      .samples = {{.name = "filter", .count_parameter = "pcf.filter_taps"}},
+      .soft = false};
 }
 
 }  // namespace penumbra::shadow

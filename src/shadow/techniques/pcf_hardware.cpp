@@ -11,6 +11,7 @@ Technique pcf_hardware() {
           .glsl = "shadow/techniques/pcf_hardware.glsl",
           .needs = {"shadow_map", "compared_depth"},
           .params = {},
+          .soft = false,
           .reads_light_discs = true};
 }
 

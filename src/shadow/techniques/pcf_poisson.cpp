@@ -21,7 +21,8 @@ Technique pcf_poisson() {
               },
           .samples = {{.name = "filter", .count_parameter = "pcf_poisson.taps"}},
           .pattern = "poisson",
-          .scramble = "rotate"};
+          .scramble = "rotate",
+          .soft = false};
 }
 
 }  // namespace penumbra::shadow

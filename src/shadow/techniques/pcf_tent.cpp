@@ -12,7 +12,8 @@ Technique pcf_tent() {
       .params = {{"pcf_tent.width", 5, 1, 31, "texels",
                   "Width of the tent. Its gathers are (width + 2) / 2, rounded down, squared, so odd widths use them "
                   "best: 4 for 3, 9 for 5, 16 for 7.",
-                  ParamBinding::compiled}}};
+                  ParamBinding::compiled}},
+      .soft = false};
 }
 
 }  // namespace penumbra::shadow

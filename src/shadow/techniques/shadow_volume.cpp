@@ -151,6 +151,7 @@ Technique shadow_volume() {
                 {.name = "shadowed", .vertex = "shared/full_screen.vert", .fragment = folder + "_shadowed.frag"}};
           },
       .denoisable = false,
+      .soft = false,
       .stand_in = "hard"};
 }
 

@@ -13,7 +13,8 @@ Technique vsm() {
       .params = {{"vsm.least_deviation", 0.01f, 0, 10, "m",
                   "Least standard deviation of the depth within a kernel: hides what the moments' rounding leaves."},
                  {"vsm.bleeding", 0.1f, 0, 0.99, "",
-                  "What is darker than this becomes black: less light bleeds through, and penumbrae narrow."}}};
+                  "What is darker than this becomes black: less light bleeds through, and penumbrae narrow."}},
+      .soft = false};
 }
 
 }  // namespace penumbra::shadow

@@ -1,0 +1,137 @@
+#include "cli/no_effect.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "core/log.h"
+
+namespace penumbra::cli {
+
+namespace {
+
+using shadow::Registry;
+using shadow::SampleSet;
+using shadow::Technique;
+
+// While `other` has this value, nothing reads the parameter.
+struct Rule {
+  const char* param;
+  const char* other;
+  const char* value;
+};
+
+constexpr std::array rules{
+    Rule{"history.alpha", "history.reuse", "false"},
+    Rule{"history.mean", "history.reuse", "false"},
+    Rule{"history.distance", "history.reuse", "false"},
+    Rule{"history.turn", "history.reuse", "false"},
+    Rule{"movement.map", "history.reuse", "false"},
+    Rule{"movement.present", "history.reuse", "false"},
+    Rule{"pcss.disocclusion_taps", "history.reuse", "false"},
+    Rule{"filter.width", "filter.visibility", "none"},
+    Rule{"filter.max_sigma", "filter.visibility", "none"},
+    Rule{"filter.taps", "filter.visibility", "none"},
+    Rule{"filter.edge", "filter.visibility", "none"},
+    Rule{"filter.edge", "filter.visibility", "box"},
+    Rule{"filter.edge", "filter.visibility", "gaussian"},
+    Rule{"maps.gap", "maps.layers", "1"},
+    Rule{"cascades.blend", "cascades.seam", "none"},
+    Rule{"brute_force.blocker_taps", "brute_force.every_texel", "true"},
+    Rule{"brute_force.filter_taps", "brute_force.every_texel", "true"},
+    Rule{"esm.threshold", "esm.classification", "none"},
+    Rule{"esm.fallback_taps", "esm.classification", "none"},
+    Rule{"exposure.ev", "exposure.auto", "true"},
+    Rule{"exposure.compensation", "exposure.auto", "false"},
+};
+
+std::string why_by_rule(const std::string& name, const ParamSet& params) {
+  for (const Rule& rule : rules) {
+    if (name == rule.param && params.contains(rule.other) && to_text(params.value(rule.other)) == rule.value)
+      return fmt::format("{} is {}", rule.other, rule.value);
+  }
+  return {};
+}
+
+bool lists(const std::vector<Param>& params, const std::string& name) {
+  return std::ranges::find(params, name, &Param::name) != params.end();
+}
+
+bool counts_samples(const Technique& technique, const std::string& name) {
+  return std::ranges::find(technique.samples, name, &SampleSet::count_parameter) != technique.samples.end();
+}
+
+// Whether one of these products, or one that they are made from, has the parameter.
+bool products_list(const Registry& registry, const std::vector<std::string>& needs, const std::string& name) {
+  return std::ranges::any_of(needs, [&](const std::string& need) {
+    if (shadow::is_base_map(need)) return false;
+    const shadow::Recipe& recipe = registry.find_recipe(need);
+    return lists(recipe.params, name) || products_list(registry, recipe.needs, name);
+  });
+}
+
+bool takes_pattern(const Technique& technique, SampleSet::Step step) {
+  return technique.pattern.empty() &&
+         std::ranges::find(technique.samples, step, &SampleSet::step) != technique.samples.end();
+}
+
+// Whether the shadows of a technique may depend on a parameter of the library, of a product or of a technique.
+bool reads(const Technique& technique, const std::string& name, const Registry& registry) {
+  if (name == "sun.angle" || name == "sun.shape") return technique.soft;
+  if (name == "mask.tiles") return technique.decides_tiles;
+  if (name == "sampling.blocker_pattern") return takes_pattern(technique, SampleSet::Step::blocker);
+  if (name == "sampling.filter_pattern") return takes_pattern(technique, SampleSet::Step::filter);
+  if (name == "sampling.scramble") return !technique.samples.empty() && technique.scramble.empty();
+  if (name.starts_with("sampling.")) return technique.soft || !technique.samples.empty();
+  if (lists(technique.params, name) || counts_samples(technique, name)) return true;
+  const auto of_technique = [&](const Technique& other) { return lists(other.params, name); };
+  if (std::ranges::any_of(registry.techniques(), of_technique)) return false;
+  const auto of_recipe = [&](const shadow::Recipe& recipe) { return lists(recipe.params, name); };
+  if (std::ranges::any_of(registry.recipes(), of_recipe)) return products_list(registry, technique.needs, name);
+  return true;
+}
+
+bool is_of_denoisers(const std::string& name, const Registry& registry) {
+  return name.starts_with("filter.") || name.starts_with("movement.") ||
+         std::ranges::any_of(registry.denoisers(), [&](const auto& denoiser) { return lists(denoiser.params, name); });
+}
+
+}  // namespace
+
+std::string why_without_effect(const std::string& name, const ParamSet& params, const Registry& registry) {
+  const Technique& technique = registry.find(params.get_word("technique"));
+  if (is_of_denoisers(name, registry)) {
+    if (!technique.denoisable) return fmt::format("what the technique {} draws is not denoised", technique.name);
+    if (registry.find_denoiser(params.get_word("denoiser")) == nullptr) return "denoiser is none";
+  }
+  // A stand-in shadows blended surfaces.
+  const bool read = reads(technique, name, registry) ||
+                    (!technique.stand_in.empty() && reads(registry.find(technique.stand_in), name, registry));
+  if (!read && name.starts_with("sun."))
+    return fmt::format("the shadows of the technique {} do not soften with the sun's size", technique.name);
+  if (!read) return fmt::format("the technique {} does not read it", technique.name);
+  return why_by_rule(name, params);
+}
+
+void warn_without_effect(std::span<const std::string> assignments, std::span<const ParamSet> drawn,
+                         const Registry& registry) {
+  std::vector<std::string> warned;
+  for (const std::string& assignment : assignments) {
+    const std::string name = assignment.substr(0, assignment.find('='));
+    if (drawn.empty() || std::ranges::find(warned, name) != warned.end()) continue;
+    const std::string why = why_without_effect(name, drawn.front(), registry);
+    const auto has_none = [&](const ParamSet& params) { return !why_without_effect(name, params, registry).empty(); };
+    if (why.empty() || !std::ranges::all_of(drawn, has_none)) continue;
+    warn("{} has no effect here: {}", name, why);
+    warned.push_back(name);
+  }
+}
+
+void warn_without_effect(const ShadowOptions& options, std::span<const ParamSet> drawn, const Registry& registry) {
+  std::vector<std::string> assignments = options.assignments;
+  if (!options.sun_angle.empty()) assignments.insert(assignments.begin(), "sun.angle=" + options.sun_angle);
+  warn_without_effect(assignments, drawn, registry);
+}
+
+}  // namespace penumbra::cli
