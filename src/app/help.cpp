@@ -1,8 +1,11 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/commands.h"
+#include "cli/text.h"
 #include "cli/usage.h"
 #include "core/names.h"
 #include "render/renderer.h"
@@ -12,27 +15,44 @@ namespace penumbra::app {
 
 namespace {
 
+template <class... Args>
+void say(fmt::format_string<Args...> format, Args&&... args) {
+  fmt::print("{}", cli::wrapped(fmt::format(format, std::forward<Args>(args)...)));
+}
+
 std::string range_of(const Param& param) {
-  if (!param.choices.empty() || std::holds_alternative<bool>(param.default_value)) return type_name(param);
+  if (!param.choices.empty()) return fmt::format("{}", fmt::join(param.choices, ", "));
+  if (std::holds_alternative<bool>(param.default_value)) return type_name(param);
   return fmt::format("{}, {:g} to {:g}", type_name(param), param.min, param.max);
 }
 
 void print_param(const Param& param) {
-  fmt::print("{}: {}\n\n", param.name, param.help);
-  fmt::print("  type     {}\n", range_of(param));
-  fmt::print("  default  {}\n", to_text(param.default_value));
-  if (!param.unit.empty()) fmt::print("  unit     {}\n", param.unit);
-  fmt::print("\n  penumbra render SCENE -o FILE --set {}={}\n", param.name, to_text(param.default_value));
+  say("{}: {}\n\n", param.name, param.help);
+  say("  type     {}\n", range_of(param));
+  say("  default  {}\n", to_text(param.default_value));
+  if (!param.unit.empty()) say("  unit     {}\n", param.unit);
+  say("\n  penumbra render SCENE -o FILE --set {}={}\n", param.name, to_text(param.default_value));
+}
+
+// A table of the parameters whose names begin with the group's name and a dot; returns whether there are any.
+bool print_group(const std::string& group, const char* title) {
+  std::vector<Param> params = render::Renderer::params(session::all_techniques());
+  std::erase_if(params, [&](const Param& param) { return !param.name.starts_with(group + "."); });
+  if (params.empty()) return false;
+  say("{}\n", title);
+  for (const Param& param : params) {
+    const std::string unit = param.unit.empty() ? "" : " " + param.unit;
+    say("\n  {} = {}{} ({})\n", param.name, to_text(param.default_value), unit, range_of(param));
+    say("    {}\n", param.help);
+  }
+  return true;
 }
 
 void print_technique(const shadow::Technique& technique) {
-  fmt::print("{}: {}\n", technique.name, technique.summary);
-  if (!technique.source.empty()) fmt::print("\n  source  {}\n", technique.source);
-  fmt::print("\n  penumbra render SCENE -o FILE --technique {}\n", technique.name);
-  if (technique.params.empty()) return;
-  fmt::print("\nIts parameters:\n");
-  for (const Param& param : technique.params)
-    fmt::print("  {} = {}  {}\n", param.name, to_text(param.default_value), param.help);
+  say("{}: {}\n", technique.name, technique.summary);
+  if (!technique.source.empty()) say("\n  source  {}\n", technique.source);
+  say("\n  penumbra render SCENE -o FILE --technique {}\n", technique.name);
+  print_group(technique.name, "\nIts parameters, with their defaults:");
 }
 
 bool explain_command(const std::string& name) {
@@ -48,8 +68,7 @@ bool explain_technique(const std::string& name) {
   const shadow::Registry& registry = session::all_techniques();
   for (const shadow::Preset& preset : registry.presets()) {
     if (preset.name != name) continue;
-    fmt::print("{}: {}\n\n  {} with {}\n", preset.name, preset.summary, preset.technique,
-               fmt::join(preset.assignments, ", "));
+    say("{}: {}\n\n  {} with {}\n", preset.name, preset.summary, preset.technique, fmt::join(preset.assignments, ", "));
     return true;
   }
   for (const shadow::Technique& technique : registry.techniques()) {
@@ -58,6 +77,13 @@ bool explain_technique(const std::string& name) {
     return true;
   }
   return false;
+}
+
+bool explain_group(const std::string& name) {
+  for (const shadow::Technique& technique : session::all_techniques().techniques()) {
+    if (technique.name == name) return false;  // listed with the technique
+  }
+  return print_group(name, fmt::format("The parameters {}.*, with their defaults:", name).c_str());
 }
 
 bool explain_param(const std::string& name) {
@@ -73,9 +99,8 @@ bool explain_filter(const std::string& name) {
   for (const shadow::Filter& filter : session::all_techniques().filters()) {
     if (filter.name != name) continue;
     const bool of_penumbra = filter.of == shadow::Filter::Of::penumbra;
-    fmt::print("{}: {}\n\n  source  {}\n", filter.name, filter.summary, filter.source);
-    fmt::print("\n  penumbra render SCENE -o FILE --set filter.{}={}\n", of_penumbra ? "penumbra" : "visibility",
-               filter.name);
+    say("{}: {}\n\n  source  {}\n", filter.name, filter.summary, filter.source);
+    say("\n  penumbra render SCENE -o FILE --set filter.{}={}\n", of_penumbra ? "penumbra" : "visibility", filter.name);
     return true;
   }
   return false;
@@ -84,8 +109,8 @@ bool explain_filter(const std::string& name) {
 bool explain_denoiser(const std::string& name) {
   for (const shadow::Denoiser& denoiser : session::all_techniques().denoisers()) {
     if (denoiser.name != name) continue;
-    fmt::print("{}: {}\n\n  source  {}\n", denoiser.name, denoiser.summary, denoiser.source);
-    fmt::print("\n  penumbra render SCENE -o FILE --set denoiser={}\n", denoiser.name);
+    say("{}: {}\n\n  source  {}\n", denoiser.name, denoiser.summary, denoiser.source);
+    say("\n  penumbra render SCENE -o FILE --set denoiser={}\n", denoiser.name);
     return true;
   }
   return false;
@@ -94,8 +119,8 @@ bool explain_denoiser(const std::string& name) {
 bool explain_product(const std::string& name) {
   for (const shadow::Recipe& recipe : session::all_techniques().recipes()) {
     if (recipe.name != name) continue;
-    fmt::print("{}: {}\n\n  source  {}\n  made of {}\n", recipe.name, recipe.summary, recipe.source,
-               fmt::join(recipe.needs, ", "));
+    say("{}: {}\n\n  source  {}\n  made of {}\n", recipe.name, recipe.summary, recipe.source,
+        fmt::join(recipe.needs, ", "));
     return true;
   }
   return false;
@@ -106,9 +131,9 @@ const char* to_text(render::Reduction reduction) {
     case render::Reduction::mean:
       return "the mean of the pixels that are drawn for each pixel of the picture";
     case render::Reduction::mean_of_valid:
-      return "the mean of those that are not 0, of the pixels that are drawn for each pixel of the picture";
+      return "the mean of the pixels that are drawn for each pixel of the picture, without those that are 0";
     case render::Reduction::nearest_center:
-      return "the middle one of the pixels that are drawn for each pixel of the picture";
+      return "the pixel in the middle of those that are drawn for each pixel of the picture";
   }
   return "";
 }
@@ -116,9 +141,9 @@ const char* to_text(render::Reduction reduction) {
 bool explain_aov(const std::string& name) {
   for (const render::Aov& aov : render::aovs()) {
     if (aov.name != name) continue;
-    fmt::print("{}: {}\n\n  channels       {}\n  --supersample  {}\n", aov.name, aov.help,
-               fmt::join(aov.channels, ", "), to_text(aov.reduction));
-    fmt::print("\n  penumbra render SCENE -o FILE --aov {}\n", aov.name);
+    say("{}: {}\n\n  channels       {}\n  --supersample  {}\n", aov.name, aov.help, fmt::join(aov.channels, ", "),
+        to_text(aov.reduction));
+    say("\n  penumbra render SCENE -o FILE --aov {}\n", aov.name);
     return true;
   }
   return false;
@@ -132,21 +157,26 @@ std::vector<std::string> explained_names() {
   for (const shadow::Denoiser& denoiser : registry.denoisers()) names.push_back(denoiser.name);
   for (const shadow::Recipe& recipe : registry.recipes()) names.push_back(recipe.name);
   for (const render::Aov& aov : render::aovs()) names.push_back(aov.name);
-  for (const Param& param : render::Renderer::params(session::all_techniques())) names.push_back(param.name);
+  for (const Param& param : render::Renderer::params(session::all_techniques())) {
+    const std::string group = param.name.substr(0, param.name.find('.'));
+    if (group != param.name && std::ranges::find(names, group) == names.end()) names.push_back(group);
+    names.push_back(param.name);
+  }
   return names;
 }
 
 }  // namespace
 
 int run_help(const Arguments& arguments) {
-  CLI::App app("Explain a parameter, technique, filter, denoiser, product, AOV or sub-command", "penumbra help");
+  CLI::App app("Explain a parameter or a group of them, a technique, filter, denoiser, product, AOV or command",
+               "penumbra help");
   std::string name;
   app.add_option("NAME", name, "What to explain")->required()->type_name("");
   if (!cli::parse(app, arguments)) return 0;
   // Several things may have one name: truth is a technique and a command.
   bool found = false;
   for (const auto explain : {explain_technique, explain_filter, explain_denoiser, explain_product, explain_param,
-                             explain_aov, explain_command})
+                             explain_group, explain_aov, explain_command})
     found = explain(name) || found;
   if (found) return 0;
   const ParamSet params(render::Renderer::params(session::all_techniques()));

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 #include "app/commands.h"
+#include "cli/text.h"
 #include "cli/usage.h"
 #include "core/names.h"
 #include "io/report.h"
@@ -116,31 +118,29 @@ const Listing& find_listing(const std::string& name) {
   cli::fail_unknown_usage("list", name, names);
 }
 
-// "0.53 deg, 0 to 20", what a parameter's row shows between its name and its sentence.
+// "0.53 deg (0 to 20)", what a parameter's row shows between its name and its sentence.
 std::string values_of(const Json& row) {
   if (!row.contains("default")) return "";
   const Json& value = row["default"];
   std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  if (const std::string unit = row["unit"].get<std::string>(); !unit.empty()) text += " " + unit;
   if (row.contains("choices")) {
-    text += " of";
-    for (const Json& choice : row["choices"]) text += " " + choice.get<std::string>();
+    text += fmt::format(" ({})", fmt::join(row["choices"].get<std::vector<std::string>>(), ", "));
   } else if (row.contains("min")) {
     text += fmt::format(" ({:g} to {:g})", row["min"].get<double>(), row["max"].get<double>());
   }
-  const std::string unit = row["unit"].get<std::string>();
-  return unit.empty() ? text : text + " " + unit;
+  return text;
 }
 
+// A parameter's sentence is below its values.
 void print_rows(const Json& rows) {
-  std::size_t name_width = 0, value_width = 0;
+  std::size_t width = 0;
+  for (const Json& row : rows) width = std::max(width, row["name"].get<std::string>().size());
   for (const Json& row : rows) {
-    name_width = std::max(name_width, row["name"].get<std::string>().size());
-    value_width = std::max(value_width, values_of(row).size());
-  }
-  for (const Json& row : rows) {
-    fmt::print("{:<{}}  ", row["name"].get<std::string>(), name_width);
-    if (value_width > 0) fmt::print("{:<{}}  ", values_of(row), value_width);
-    fmt::print("{}\n", row["help"].get<std::string>());
+    const std::string name = row["name"], help = row["help"], values = values_of(row);
+    std::string text = fmt::format("{:<{}}  {}\n", name, width, values.empty() ? help : values);
+    if (!values.empty()) text += fmt::format("{:<{}}  {}\n", "", width, help);
+    fmt::print("{}", cli::wrapped(text));
   }
 }
 

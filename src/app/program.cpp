@@ -10,6 +10,7 @@
 #ifdef PENUMBRA_VIEWER
 #include "viewer/command.h"
 #endif
+#include "cli/text.h"
 #include "cli/usage.h"
 
 namespace penumbra::app {
@@ -23,7 +24,7 @@ int run_bench(const Arguments& arguments) {
 
 constexpr std::array table{
     Command{"render", "Draw a glTF scene into a PNG or EXR file", run_render},
-    Command{"watch", "Draw it again whenever the scene, a preset file or a shader is saved", run_watch},
+    Command{"watch", "Draw a picture again whenever its scene, a preset file or a shader is saved", run_watch},
     Command{"glsl", "Write the built-in shaders to a folder, for editing", run_glsl},
 #ifdef PENUMBRA_VIEWER
     Command{"view", "Show a scene in a window and tune its shadows", viewer::run},
@@ -36,20 +37,21 @@ constexpr std::array table{
     Command{"bench", "Measure what shadows cost, pass by pass", run_bench},
     Command{"reproduce", "Draw and measure the figures of the thesis again: an HTML page", reproduce::run},
     Command{"bake", "Make noise tiles, keys and sets of sample points", run_bake},
-    Command{"help", "Explain a parameter, technique, filter, denoiser, product, AOV or sub-command", run_help},
+    Command{"help", "Explain a parameter, technique, filter, denoiser, product, AOV or command", run_help},
     Command{"doctor", "Print which OpenGL backends work here", run_doctor},
 };
 
 std::string overview() {
   std::string text = "Penumbra renders soft shadows.\n\nusage: penumbra COMMAND [OPTIONS]\n\n";
   for (const Command& command : table) text += fmt::format("  {:<9} {}\n", command.name, command.summary);
-  return text +
-         "\npenumbra COMMAND --help lists a command's options. penumbra list lists techniques, parameters and the "
-         "like,\n"
-         "and penumbra help NAME explains one.\n"
-         "penumbra --version prints the version.\n\n"
-         "Exit codes: 0 done; 2 the command line is wrong, whatever the files hold; 1 any other failure: a file that\n"
-         "can't be read, a camera that the scene lacks, a machine without OpenGL.\n";
+  text +=
+      "\npenumbra COMMAND --help lists a command's options. penumbra list lists techniques, parameters and other "
+      "names, "
+      "and penumbra help NAME explains one, or a group of parameters such as filter.\n"
+      "penumbra --version prints the version.\n\n"
+      "Exit codes: 0: done. 2: usage error. 1: any other failure, such as a file that can't be read, a camera that the "
+      "scene lacks, a machine without OpenGL, or a limit of diff that is exceeded.\n";
+  return cli::wrapped(text);
 }
 
 const Command& find_command(const std::string& name) {

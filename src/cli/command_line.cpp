@@ -162,7 +162,7 @@ bool parse(CLI::App& options, const Arguments& arguments) {
   try {
     options.parse(Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
   } catch (const CLI::CallForHelp&) {
-    fmt::print("{}", options.help());
+    fmt::print("{}", wrapped(options.help()));
     return false;
   } catch (const CLI::RequiredError& error) {
     hint_at_file(arguments);

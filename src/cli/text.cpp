@@ -26,6 +26,54 @@ std::string bytes_text(double bytes) {
 
 namespace {
 
+// Of UTF-8.
+std::size_t width_of(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+// Where the last column of a line begins: behind the last two spaces in succession, or else behind its indentation.
+std::size_t indent_of(std::string_view line) {
+  const std::size_t first = std::min(line.find_first_not_of(' '), line.size());
+  const std::size_t gap = line.rfind("  ");
+  return gap == std::string_view::npos || gap < first ? first : width_of(line.substr(0, gap + 2));
+}
+
+void add_wrapped(std::string& text, std::string_view line, std::size_t columns) {
+  const std::string indent(std::min(indent_of(line), columns / 2), ' ');
+  bool broken = false;
+  while (width_of(line) > columns - (broken ? indent.size() : 0)) {
+    const std::size_t room = columns - (broken ? indent.size() : 0);
+    std::size_t space = std::string_view::npos;
+    // The last space within the room, or else the first one after it; not among the line's own indentation.
+    for (std::size_t at = line.find(' ', broken ? 0 : indent.size() + 1); at != std::string_view::npos;
+         at = line.find(' ', at + 1)) {
+      if (space != std::string_view::npos && width_of(line.substr(0, at)) > room) break;
+      space = at;
+    }
+    if (space == std::string_view::npos) break;
+    text.append(broken ? indent : "").append(line.substr(0, space)).append("\n");
+    line.remove_prefix(std::min(line.find_first_not_of(' ', space), line.size()));
+    broken = true;
+  }
+  text.append(broken ? indent : "").append(line);
+}
+
+}  // namespace
+
+std::string wrapped(std::string_view text, std::size_t columns) {
+  std::string result;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    add_wrapped(result, text.substr(begin, end - begin), columns);
+    if (end < text.size()) result += '\n';
+    begin = end + 1;
+  }
+  return result;
+}
+
+namespace {
+
 std::string shell_quoted(const std::string& text) {
   const bool plain = !text.empty() && std::ranges::all_of(text, [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 ||

@@ -10,7 +10,7 @@
 
 namespace penumbra::cli {
 
-// The command line is wrong, whatever the contents of the files. Ends the program with exit code 2.
+// A usage error: the command line is wrong. Ends the program with exit code 2.
 struct UsageError : Error {
   using Error::Error;
 };

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstdlib>
 #include <numeric>
 #include <utility>
 
@@ -35,6 +37,15 @@ std::size_t distance(std::string_view name, std::string_view candidate) {
   return is_part ? std::min<std::size_t>(edits, 1) : edits;
 }
 
+// How many letters of both names together have no partner in the other.
+std::size_t unlike_letters(std::string_view a, std::string_view b) {
+  std::array<int, 256> counts{};
+  for (const char c : a) ++counts[static_cast<unsigned char>(c)];
+  for (const char c : b) --counts[static_cast<unsigned char>(c)];
+  return std::accumulate(counts.begin(), counts.end(), std::size_t{0},
+                         [](std::size_t sum, int count) { return sum + static_cast<std::size_t>(std::abs(count)); });
+}
+
 std::string quoted_list(std::span<const std::string> names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -57,12 +68,15 @@ std::vector<std::string> near_names(std::string_view name, std::span<const std::
   const std::size_t limit = std::max<std::size_t>(1, wanted.size() / 3);
   std::vector<std::pair<std::size_t, std::string>> near;
   for (const std::string& candidate : candidates) {
-    const std::size_t d = distance(wanted, lower_case(candidate));
-    if (d <= limit) near.emplace_back(d, candidate);
+    const std::string other = lower_case(candidate);
+    // A short name in which two letters are wrong may still consist of nearly the same letters.
+    const std::size_t edits = distance(wanted, other);
+    const bool alike = wanted.size() == other.size() && wanted.size() >= 4 && unlike_letters(wanted, other) <= 2;
+    if (edits <= limit || (edits == 2 && alike)) near.emplace_back(edits, candidate);
   }
   std::ranges::stable_sort(near, {}, &std::pair<std::size_t, std::string>::first);
   std::vector<std::string> names;
-  for (auto& [d, candidate] : near) {
+  for (auto& [edits, candidate] : near) {
     if (names.size() < 3) names.push_back(std::move(candidate));
   }
   return names;

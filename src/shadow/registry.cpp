@@ -107,26 +107,29 @@ std::vector<Preset> presets() {
                                             "filter.penumbra=median",
                                             "filter.visibility=bilateral_separable"};
   std::vector<Preset> all{
-      {"thesis", "pcss", "The method of Deligiannis 2019: few taps, a history with a movement map, filters.", thesis},
-      {"thesis_8x8", "pcss", "The fast form of the thesis's method, figure 4.12: 8/8 taps and filters, no history.",
+      {"thesis", "pcss",
+       "The method of Deligiannis 2019: pcss with few taps, a history with a movement map, and filters.", thesis},
+      {"thesis_8x8", "pcss",
+       "The fast method of Deligiannis 2019 (figure 4.12): pcss with 8/8 taps and filters, without a history.",
        thesis_8x8}};
   for (Preset& preset : all) preset.assignments.emplace_back("driver=fragment");
   const Preset denoised{
       "slices_denoised",
       "slices",
-      "Slices with few samples, and a filter that removes their noise.",
+      "The technique slices with few samples a pixel, and a filter that removes their noise.",
       {"slices.azimuths=6", "slices.samples=8", "slices.narrow=8", "sampling.noise=interleaved_gradient",
        "denoiser=history_and_filters", "filter.penumbra=none", "filter.visibility=bilateral_separable"}};
   Preset history = denoised;
   history.name = "slices_history";
-  history.summary = "The same for sequences: other samples in each frame, which add up, and a filter that narrows.";
+  history.summary =
+      "slices_denoised for sequences: other samples in each frame, which add up, and a filter that narrows.";
   history.assignments.insert(history.assignments.end(),
                              {"sampling.blocker_sequence=shift", "sampling.filter_sequence=shift", "history.reuse=true",
                               "history.mean=true", "history.alpha=0.03"});
   for (const Preset& preset :
        std::vector{Preset{"pcss", "pcss", "", {}}, Preset{"brute_force", "brute_force", "", {}}, all[0], all[1]}) {
-    all.push_back(
-        {preset.name + "_compute", preset.technique, preset.name + " in compute shaders.", preset.assignments});
+    all.push_back({preset.name + "_compute", preset.technique,
+                   preset.name + " in compute shaders instead of fragment shaders.", preset.assignments});
     all.back().assignments.emplace_back("driver=compute");
   }
   all.insert(all.begin(), {denoised, history});

@@ -43,6 +43,8 @@ class Usage(TestCase):
         for arguments, near in (
             (["--siez", "1x1"], "'--size'"),
             (["--technique", "pccs"], "'pcss'"),
+            (["--technique", "pscc"], "did you mean 'pcss'?"),
+            (["--technique", "thesi"], "'thesis'"),
             (["--set", "sun.angel=1"], "'sun.angle'"),
             (["--aov", "shadow,dept"], "'depth'"),
             (["--backend", "elg"], "'egl'"),
@@ -226,7 +228,25 @@ class Usage(TestCase):
         for what in ("techniques", "params", "aovs"):
             for row in self.listed(what):
                 with self.subTest(row["name"]):
-                    self.assertIn(row["help"], self.succeed("help", row["name"]).stdout)
+                    text = self.succeed("help", row["name"]).stdout
+                    self.assertIn(row["help"], " ".join(text.split()))
+                    self.assertLessEqual(max(map(len, text.splitlines())), 100)
+
+    def test_help_explains_groups_of_parameters(self):
+        names = [row["name"] for row in self.listed("params")]
+        for group in ("filter", "cascades", "sun", "vsm"):
+            text = self.succeed("help", group).stdout
+            told = [line.split()[0] for line in text.splitlines() if line.startswith(f"  {group}.")]
+            self.assertEqual(told, [name for name in names if name.startswith(f"{group}.")])
+            self.assertLessEqual(max(map(len, text.splitlines())), 100)
+        self.assertIn("'filter'", self.wrong("help", "filtr"))
+
+    def test_help_of_every_command_fits_a_terminal(self):
+        commands = [line.split()[0] for line in self.succeed("--help").stdout.splitlines() if line.startswith("  ")]
+        self.assertIn("compare", commands)
+        for command in ("", *(name for name in commands if name not in ("help", "bake")), "bake noise"):
+            for line in self.succeed(*command.split(), "--help").stdout.splitlines():
+                self.assertLessEqual(len(line), 100, f"{command}: {line}")
 
     def test_every_choice_of_a_denoiser_is_listed(self):
         listed = {row["name"] for row in self.listed("denoisers")}

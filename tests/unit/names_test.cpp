@@ -29,6 +29,11 @@ TEST(Names, SwappedNeighboursAreOneEdit) {
   EXPECT_EQ(near_names("hrad", techniques).front(), "hard");
 }
 
+TEST(Names, TheSameLettersInAnotherOrderAreNear) {
+  EXPECT_EQ(near_names("pscc", techniques), std::vector<std::string>{"pcss"});
+  EXPECT_TRUE(near_names("abcd", techniques).empty());
+}
+
 TEST(Names, CaseDoesNotCount) { EXPECT_EQ(near_names("PCSS", techniques).front(), "pcss"); }
 
 TEST(Names, APartOfANameFindsTheWhole) {
