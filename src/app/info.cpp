@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <string>
 
 #include "app/commands.h"
@@ -27,13 +28,20 @@ void print_counts(const scene::SceneInfo& info) {
   row("skins", fmt::format("{} of {} joints", info.skins, info.joints));
   row("textures", fmt::format("{} of {} images, {} decoded", info.textures, info.images,
                               cli::bytes_text(static_cast<double>(info.image_bytes))));
+  row("on the GPU",
+      fmt::format("{} of vertices, {} of textures", cli::bytes_text(static_cast<double>(info.gpu_vertex_bytes)),
+                  cli::bytes_text(static_cast<double>(info.gpu_texture_bytes))));
   if (info.bounds.empty) {
     row("bounds", "nothing drawn");
     return;
   }
-  const glm::vec3 &low = info.bounds.min, &high = info.bounds.max, size = high - low;
-  row("bounds", fmt::format("{:g} {:g} {:g} to {:g} {:g} {:g} m ({:g} x {:g} x {:g} m)", low.x, low.y, low.z, high.x,
-                            high.y, high.z, size.x, size.y, size.z));
+  const auto box = [](const scene::Bounds& bounds) {
+    const glm::vec3 &low = bounds.min, &high = bounds.max, size = bounds.extent();
+    return fmt::format("{:g} {:g} {:g} to {:g} {:g} {:g} m ({:g} x {:g} x {:g} m)", low.x, low.y, low.z, high.x, high.y,
+                       high.z, size.x, size.y, size.z);
+  };
+  row("bounds", box(info.bounds));
+  if (info.animated_bounds) row("animated", box(*info.animated_bounds) + ", while its animations run");
 }
 
 void print_materials(const scene::SceneInfo& info) {
@@ -65,7 +73,11 @@ void print_parts(const scene::SceneInfo& info) {
     fmt::print("  {}, {:g} s, {} channels{}\n", name_of(animation.name), animation.duration, animation.channels,
                animation.played ? "" : ", not played: an earlier one moves the same nodes");
   fmt::print("\nextensions   {}\n", info.extensions.size());
-  for (const std::string& extension : info.extensions) fmt::print("  {}\n", cli::printable(extension));
+  for (const std::string& extension : info.extensions) {
+    const bool supported =
+        std::ranges::find(info.unsupported_extensions, extension) == info.unsupported_extensions.end();
+    fmt::print("  {}{}\n", cli::printable(extension), supported ? "" : ", not supported: drawn without it");
+  }
 }
 
 }  // namespace
@@ -79,8 +91,9 @@ int run_info(const Arguments& arguments) {
   app.add_flag("--json", json, "Print JSON")->disable_flag_override();
   cli::add_reading_options(app, reading);
   if (!cli::parse(app, arguments)) return 0;
-  const scene::SceneInfo info =
-      scene::describe(cli::read_scene(path, reading, image::image_decoder(cli::limits_of(reading))));
+  const scene::Scene scene = cli::read_scene(path, reading, image::image_decoder(cli::limits_of(reading)));
+  scene::SceneInfo info = scene::describe(scene);
+  info.animated_bounds = scene::animated_bounds(scene);
   if (json) {
     fmt::print("{}", io::text_of(io::document("info", 1, io::to_json(info))));
     return 0;

@@ -74,11 +74,17 @@ Json to_json(const scene::SceneInfo& scene) {
                {"image_bytes", scene.image_bytes}};
   json["bounds"] =
       scene.bounds.empty ? Json(nullptr) : Json{{"min", to_json(scene.bounds.min)}, {"max", to_json(scene.bounds.max)}};
+  if (scene.animated_bounds)
+    json["animated_bounds"] = {{"min", to_json(scene.animated_bounds->min)},
+                               {"max", to_json(scene.animated_bounds->max)}};
+  json["gpu_vertex_bytes"] = scene.gpu_vertex_bytes;
+  json["gpu_texture_bytes"] = scene.gpu_texture_bytes;
   json["materials"] = list_of(scene.materials);
   json["lights"] = list_of(scene.lights);
   json["cameras"] = list_of(scene.cameras);
   json["animations"] = list_of(scene.animations);
   json["extensions"] = scene.extensions;
+  json["unsupported_extensions"] = scene.unsupported_extensions;
   return json;
 }
 

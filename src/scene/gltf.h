@@ -7,6 +7,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "scene/image_header.h"
@@ -36,6 +37,9 @@ class ImageDecoder {
   Decode decode_;
   ImageProbe probe_;
 };
+
+// Whether the reader uses a glTF extension, if only a part of it.
+bool reads_extension(std::string_view name);
 
 // Limits which ensure that no file can exhaust memory or time. If a file exceeds one, reading throws Error that names
 // the limit. limits.h has the names by which `--limit` changes them.

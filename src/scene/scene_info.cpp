@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "scene/animation.h"
+#include "scene/gltf.h"
+#include "scene/gpu_size.h"
 
 namespace penumbra::scene {
 namespace {
@@ -101,7 +104,31 @@ SceneInfo describe(const Scene& scene) {
                                std::find(played.begin(), played.end(), i) != played.end()});
   }
   info.extensions = scene.extensions_used;
+  std::ranges::copy_if(info.extensions, std::back_inserter(info.unsupported_extensions),
+                       [](const std::string& name) { return !reads_extension(name); });
+  info.gpu_vertex_bytes = gpu_vertex_bytes(scene);
+  info.gpu_texture_bytes = gpu_texture_bytes(scene);
   return info;
+}
+
+std::optional<Bounds> animated_bounds(const Scene& scene) {
+  double duration = 0;
+  for (const std::size_t i : played_animations(scene))
+    duration = std::max(duration, static_cast<double>(scene.animations[i].duration));
+  if (duration <= 0) return std::nullopt;
+  // Fewer moments of a scene with many vertices.
+  constexpr std::size_t most = 120, fewest = 8, most_vertices = 50'000'000;
+  std::size_t vertices = 1;
+  for (const Mesh& mesh : scene.meshes) {
+    for (const Primitive& primitive : mesh.primitives) vertices += primitive.positions.size();
+  }
+  const std::size_t steps = std::clamp(most_vertices / vertices, fewest, most);
+  Bounds bounds;
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double time = duration * static_cast<double>(i) / static_cast<double>(steps);
+    bounds.add(bounds_of(scene, pose_at(scene, time)));
+  }
+  return bounds;
 }
 
 }  // namespace penumbra::scene

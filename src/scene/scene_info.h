@@ -55,8 +55,15 @@ struct SceneInfo {
   std::vector<CameraInfo> cameras;
   std::vector<AnimationInfo> animations;
   std::vector<std::string> extensions;
+  std::vector<std::string> unsupported_extensions;  // of those, which are optional: the file is drawn without them
+  std::size_t gpu_vertex_bytes = 0, gpu_texture_bytes = 0;  // that GpuScene uploads
+  std::optional<Bounds> animated_bounds;  // see there; only where the caller has set it, since it takes long
 };
 
 SceneInfo describe(const Scene& scene);
+
+// Bounds of all that is drawn while the longest of the played animations runs once, metres: those of up to 121 moments
+// at equal distances. Absent: nothing is animated.
+std::optional<Bounds> animated_bounds(const Scene& scene);
 
 }  // namespace penumbra::scene

@@ -1,6 +1,5 @@
 """Every preset of the program is also a file of presets/, and means the same."""
 
-
 from pictures import SMALL, scene
 from support import ROOT, TestCase, main
 

@@ -45,12 +45,15 @@ void check_asset(const Json& json) {
   if (least > std::pair(2, 0)) fail("needs glTF {}, this program reads 2.0", asset["minVersion"].get<std::string>());
 }
 
+bool is_supported(std::string_view name) {
+  return std::ranges::find(supported_extensions, name) != supported_extensions.end();
+}
+
 void check_extensions(const Json& json) {
   if (!json.contains("extensionsRequired")) return;
   for (const Json& element : json["extensionsRequired"]) {
     const auto& name = element.get_ref<const std::string&>();
-    if (std::find(supported_extensions.begin(), supported_extensions.end(), name) == supported_extensions.end())
-      fail("requires the extension {}, which is not supported", name);
+    if (!is_supported(name)) fail("requires the extension {}, which is not supported", name);
   }
 }
 
@@ -270,3 +273,11 @@ std::vector<double> numbers_or(const tinygltf::Value& object, const char* key, s
 }
 
 }  // namespace penumbra::scene::gltf
+
+namespace penumbra::scene {
+
+bool reads_extension(std::string_view name) {
+  return gltf::is_supported(name) || name == "KHR_materials_pbrSpecularGlossiness";  // the diffuse part of that
+}
+
+}  // namespace penumbra::scene
