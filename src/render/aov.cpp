@@ -238,7 +238,7 @@ const std::vector<Row>& rows() {
         .mask_details = true},
        texel},
       {{"history",
-        "Why the shadow of the last frames is refused: 0 it is used, 1 there is none, 2 the surface was off screen, 3 "
+        "Why the shadow of the last frames is not used: 0 it is used, 1 there is none, 2 the surface was off screen, 3 "
         "another surface was there, 4 a caster moved; -1 for the sky.",
         v, nearest_center},
        history},

@@ -40,10 +40,9 @@ std::vector<Param> map_rows() {
   return {
       {"cascades.count", 4, 1, max_cascades, "", "Cascades of the sun's shadow map.", host},
       {"cascades.size", 2048, 16, 8192, "texels", "Side of each cascade's map.", host},
-      word(
-          "cascades.fit", {"stable", "visible"},
-          "What cascades are fitted to: what the camera could see, so that shadows stay still while it moves (stable), "
-          "or the depth buffer of each frame, so that texels lie where pixels do (visible)."),
+      word("cascades.fit", {"stable", "visible"},
+           "What the shadow maps cover: all that the camera could see, so that shadows stay still while it moves "
+           "(stable), or only what each frame shows, in more detail (visible)."),
       {"cascades.split", 0.75f, 0, 1, "", "Spacing of the cascades: 0 uniform, 1 logarithmic.", host},
       {"cascades.distance", 0.0f, 0, 1e7, "m", "Range of the last cascade; 0: as far as the view sees the scene.",
        host},
@@ -60,7 +59,7 @@ std::vector<Param> map_rows() {
        host},
       {"cascades.blend", 0.1f, 0.001, 0.5, "", "Width of the transition, as a fraction of the cascade's half width."},
       {"bias.constant", 0.02f, 0, 10, "texels",
-       "Distance along the light that a texel may lie before a receiver without blocking it."},
+       "How much nearer to the light than a receiver a texel has to be to block it."},
       {"bias.slope", 0.02f, 0, 10, "texels",
        "Added to bias.constant for each unit of the receiver's slope against the light."},
       {"bias.normal_offset", 0.0f, 0, 10, "texels", "Shift of receivers along their normal."},

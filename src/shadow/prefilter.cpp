@@ -138,7 +138,7 @@ std::vector<Param> params_of(const FilteredMap& map) {
     rows.insert(
         rows.begin(),
         {radius_of(map), map.radius, 0, 1000, "m",
-         "Radius of the filter, which is perpendicular to the light: a Gaussian of half that standard deviation.",
+         "Radius of the filter, perpendicular to the light: a Gaussian with half of it as its standard deviation.",
          uniform});
   }
   rows.insert(rows.end(), map.params.begin(), map.params.end());

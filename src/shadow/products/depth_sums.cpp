@@ -40,9 +40,10 @@ Recipe depth_sums() {
       .source =
           "Hensley et al. 2005, Fast summed-area table generation; Lauritzen 2007, Summed-area variance shadow "
           "maps",
-      .params = {{"depth_sums.shrink", 2, 1, 8, "texels",
-                  "Texels of the shadow map along each side of the block that a texel of the table, 16 bytes, adds.",
-                  compiled}},
+      .params =
+          {{"depth_sums.shrink", 2, 1, 8, "texels",
+            "Texels of the shadow map along each side of the block that one entry of the table, 16 bytes, sums up.",
+            compiled}},
       .depends_only_on_needs = true,
       .build = build,
       .programs = [](const ParamSet&) {

@@ -10,13 +10,15 @@ Technique evsm() {
       .source = "Lauritzen and McCool 2008, Layered variance shadow maps",
       .glsl = "shadow/techniques/evsm.glsl",
       .needs = {"shadow_map", "evsm_moments"},
-      .params = {{"evsm.plane_bias", 0.9f, 0, 10, "",
-                  "Bias in standard deviations of a plane's depth under the kernel: at 1.8 slopes hardly shadow "
-                  "themselves, less keeps contacts darker."},
-                 {"evsm.least_deviation", 0.01f, 0, 10, "m",
-                  "Least standard deviation of the depth within a kernel: hides what the moments' rounding leaves."},
-                 {"evsm.bleeding", 0.0f, 0, 0.99, "",
-                  "What is darker than this becomes black: less light bleeds through, and penumbrae narrow."}},
+      .params =
+          {{"evsm.plane_bias", 0.9f, 0, 10, "",
+            "Bias in standard deviations of a plane's depth under the kernel: at 1.8 slopes hardly shadow "
+            "themselves, less keeps contacts darker."},
+           {"evsm.least_deviation", 0.01f, 0, 10, "m",
+            "The depths within a kernel are taken to have at least this standard deviation, which hides rounding "
+            "errors."},
+           {"evsm.bleeding", 0.0f, 0, 0.99, "",
+            "Visibility up to this value becomes 0: less light bleeds through shadows, but penumbrae get narrower."}},
       .soft = false};
 }
 
