@@ -85,7 +85,7 @@ Html to_html(const HeatMap& map) {
   }
   const std::string unit = map.unit.empty() ? "" : fmt::format(" <span class='unit'>({})</span>", escape(map.unit));
   return Html(
-      fmt::format("<div class='table' tabindex='0'><table class='heat'><caption>{}{}</caption>\n"
+      fmt::format("<div class='table' tabindex='0'><table class='heat'><caption><span>{}{}</span></caption>\n"
                   "<thead>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
                   escape(map.caption), unit, head, body));
 }

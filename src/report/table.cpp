@@ -84,7 +84,7 @@ Html to_html(const Table& table) {
     body += "</tr>\n";
   }
   return Html(
-      fmt::format("<div class='table' tabindex='0'><table class='sortable'><caption>{}</caption>\n"
+      fmt::format("<div class='table' tabindex='0'><table class='sortable'><caption><span>{}</span></caption>\n"
                   "<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
                   escape(table.caption), head, body));
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <string_view>
 
 #include "bench/machine.h"
 #include "cli/text.h"
@@ -64,6 +65,31 @@ penumbra::report::Section section_of(const Finding& finding) {
   return {.title = heading(finding), .body = std::move(body)};
 }
 
+// From the first `open` to the next `close`, both included; empty if there is none.
+std::string_view piece(std::string_view markup, std::string_view open, std::string_view close) {
+  const std::size_t begin = markup.find(open);
+  if (begin == std::string_view::npos) return {};
+  const std::size_t end = markup.find(close, begin);
+  return end == std::string_view::npos ? std::string_view() : markup.substr(begin, end + close.size() - begin);
+}
+
+// The first picture, drawing or table of a finding, small. Its section describes it, so readers who can't see it are
+// told nothing here.
+Html thumbnail(const Finding& finding) {
+  std::string markup;
+  for (const Html::Part& part : finding.body.parts()) {
+    if (part.picture.png != nullptr) {
+      Html html(fmt::format("<div class='thumbnail' aria-hidden='true'><img alt='' width='{}' height='{}'",
+                            part.picture.width, part.picture.height));
+      return html.source(part.picture).add("></div>");
+    }
+    markup += part.markup;
+  }
+  std::string_view shown = piece(markup, "<svg", "</svg>");
+  if (shown.empty()) shown = piece(markup, "<table", "</table>");
+  return Html(fmt::format("<div class='plot thumbnail' aria-hidden='true'>{}</div>", shown));
+}
+
 penumbra::report::Section overview(std::span<const Finding> findings) {
   std::size_t confirmed = 0, in_part = 0;
   for (const Finding& finding : findings) {
@@ -73,11 +99,11 @@ penumbra::report::Section overview(std::span<const Finding> findings) {
   Html html =
       penumbra::report::paragraph(fmt::format("Of {} figures {} are confirmed, {} in part and {} not.", findings.size(),
                                               confirmed, in_part, findings.size() - confirmed - in_part));
-  html.add("<ul style='list-style:none;padding:0;margin:0;max-width:100ch'>\n");
+  html.add("<ul class='overview'>\n");
   for (std::size_t i = 0; i < findings.size(); ++i) {
-    html.add("<li style='padding:8px 0;border-top:1px solid var(--grid)'>");
-    html.add(fmt::format("<a href='#section-{}'>", i + 1 + findings_before)).text(heading(findings[i])).add("</a> ");
-    html.add(badge(findings[i])).add("<br>").text(findings[i].sentence()).add("</li>\n");
+    html.add("<li>").add(thumbnail(findings[i]));
+    html.add(fmt::format("<a href='#section-{}'>", i + 1 + findings_before)).text(heading(findings[i])).add("</a>");
+    html.add(badge(findings[i])).add("<p>").text(findings[i].sentence()).add("</p></li>\n");
   }
   return {.title = "What was found", .body = std::move(html.add("</ul>\n"))};
 }

@@ -144,6 +144,30 @@ class Page(TestCase):
         self.assertIn(f"{EQUAL} 3", best)
         self.assertIn("none 1", best)
 
+    def test_tables_and_plots_can_be_used_on_a_narrow_screen(self):
+        self.browser.resize(400, 800)
+        self.assertEqual(self.script("return document.documentElement.scrollWidth"), 400)
+        # The name of a technique takes a third of the width, however long or short it is.
+        widths = self.script("return Array.from(document.querySelectorAll('.sortable tbody th'),"
+                             "cell => cell.getBoundingClientRect().width)")
+        self.assertLess(max(widths), 180)
+        self.assertGreater(min(widths), 120)
+        caption = self.script("return document.querySelector('.sortable caption span').getBoundingClientRect().right")
+        self.assertLess(caption, 400)
+        # Text of a plot is as large as it can be read, and the plot scrolls.
+        tick = self.script("return document.querySelector('.plot .tick').getBoundingClientRect().height")
+        self.assertGreater(tick, 11)
+        self.assertTrue(self.script("const plot = document.querySelector('.plot'); plot.scrollLeft = 9999;"
+                                    "return plot.scrollLeft > 100"))
+
+    def test_an_option_is_never_split(self):
+        for width in range(330, 480, 10):
+            self.browser.resize(width, 800)
+            heights = self.script("return Array.from(document.querySelectorAll('code .option'),"
+                                  "option => option.getClientRects().length)")
+            self.assertGreater(len(heights), 5)
+            self.assertEqual(set(heights), {1}, width)
+
     def test_the_command_can_be_copied(self):
         button = self.browser.one("button.copy")
         self.browser.click(button)

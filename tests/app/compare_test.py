@@ -126,7 +126,7 @@ class Compare(TestCase):
         camera, sun = (data["scenes"][0][name] for name in ("camera", "sun"))
         page = (self.folder / "report" / "index.html").read_text()
         self.assertIn(data["commit"], page)
-        self.assertIn("--sun=" + f"{sun['azimuth_degrees']:g}", page)
+        self.assertIn("--sun</span>=" + f"{sun['azimuth_degrees']:g}", page)
         view = []
         for name in ("eye", "target"):
             view += [f"--{name}={','.join(map(str, camera[name]))}"]

@@ -101,6 +101,16 @@ class Reproduce(TestCase):
             self.assertEqual(broken, 0)
             wide = window.script("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
             self.assertLessEqual(wide, 0)
+            cards = window.script(
+                "return [...document.querySelectorAll('.overview li')].map(card => ["
+                "card.querySelector('a').textContent.split(':')[0], card.querySelector(':scope > span').textContent,"
+                "card.querySelector('.thumbnail img, .thumbnail svg, .thumbnail table') !== null])")
+            expected = [[heading(figure["id"]), figure["verdict"], True] for figure in self.data["figures"]]
+            self.assertEqual(cards, expected)
+            window.resize(400, 800)
+            self.assertEqual(window.script("return document.documentElement.scrollWidth"), 400)
+            window.screenshot(browser.results_folder() / "reproduce_narrow.png")
+            window.resize(1280, 800)
             titles = window.script("return [...document.querySelectorAll('h2')].map(e => e.textContent)")
             self.assertEqual([title.split(":")[0] for title in titles if title.startswith(("Figure", "Section"))],
                              [heading(name) for name in IDS])
