@@ -191,8 +191,8 @@ shadow::Technique hybrid(int threads) {
           .params = {{"hybrid.rays", 16, 8, 4096, "rays",
                       "Rays of each pixel in penumbra, rounded up to a multiple of eight.", host},
                      {"hybrid.masked_casters", true, 0, 1, "",
-                      "Leaves to rays whatever casters with an alpha mask may shadow, because the map can miss what is "
-                      "left of them by the mask.",
+                      "Leaves all pixels that casters with an alpha mask may shadow to rays, because the map can miss "
+                      "small parts of such casters.",
                       host}},
           .resolve = [=](const shadow::PassContext& context) { HybridFrame(context, *casters, threads).resolve(); },
           .resolve_reads_motion = false,
