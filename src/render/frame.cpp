@@ -15,7 +15,7 @@ void bind_view(gl::Device& device, const glsl::ViewBlock& view) {
 }  // namespace
 
 FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, scene::GpuScene& scene,
-                      const FrameInputs& inputs, bool knows_moved, const ParamSet& params) {
+                      const FrameInputs& inputs, bool knows_moved, const ParamSet& params, const gl::Texture& noise) {
   const Camera& camera = inputs.camera;
   const Camera& last_camera = inputs.last_camera;
   const glsl::ViewBlock view = view_block(camera, last_camera, inputs.width, inputs.height);
@@ -64,7 +64,7 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
 
   const gl::Buffer& exposure = measure_exposure(device, {.gbuffer = gbuffer, .lit = lit, .params = params});
 
-  const gl::Texture& display = tone_map(device, {.lit = lit, .exposure = exposure});
+  const gl::Texture& display = tone_map(device, {.lit = lit, .exposure = exposure, .noise = noise, .params = params});
 
   return {.scene = &scene,
           .last_time = inputs.last_time,

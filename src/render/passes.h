@@ -117,7 +117,11 @@ std::vector<gl::ProgramDesc> exposure_programs();
 struct ToneMapInputs {
   const gl::Texture& lit;
   const gl::Buffer& exposure;
+  const gl::Texture& noise;  // dither_noise()
+  const ParamSet& params;
 };
+// Blue noise, red channel, 0 to 1.
+gl::Texture dither_noise();
 const gl::Texture& tone_map(gl::Device& device, const ToneMapInputs& inputs);  // RGBA8, sRGB-encoded
 std::vector<gl::ProgramDesc> tone_map_programs();
 

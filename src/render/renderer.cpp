@@ -14,6 +14,7 @@ namespace penumbra::render {
 struct Renderer::State {
   gl::Device& device;
   shadow::SoftShadows soft_shadows;
+  gl::Texture noise;
   FrameParts parts;
   Frame frame;
   // What a view's last frame drew; the next one that draws something else is a cut.
@@ -39,7 +40,7 @@ struct Renderer::State {
 };
 
 Renderer::Renderer(gl::Device& device, shadow::Registry registry)
-    : state_(new State{device, shadow::SoftShadows(device, std::move(registry)), {}, {}, {}}) {}
+    : state_(new State{device, shadow::SoftShadows(device, std::move(registry)), dither_noise(), {}, {}, {}}) {}
 
 Renderer::~Renderer() = default;
 
@@ -81,7 +82,7 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   state_->parts = {};
   device.shaders.next_frame();
   device.timers.begin_frame();
-  state_->parts = draw_frame(device, state_->soft_shadows, scene, placed, knows_moved, params);
+  state_->parts = draw_frame(device, state_->soft_shadows, scene, placed, knows_moved, params, state_->noise);
   device.timers.end_frame();
   state_->last[inputs.view] = now;
   const FrameParts& parts = state_->parts;
