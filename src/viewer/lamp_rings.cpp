@@ -44,18 +44,18 @@ bool drag_lamp(const Panel& panel, const PictureArea& area, bool active) {
   if (!active || !ImGui::IsMouseDown(ImGuiMouseButton_Left)) state.dragged_lamp.reset();
   if (!shows_rings(panel) || lamps.empty()) return false;
   const render::Camera camera = camera_of(panel);
-  const ImGuiIO& io = ImGui::GetIO();
+  const ImVec2 pointer = ImGui::GetIO().MousePos;
   for (std::size_t i = 0; i < lamps.size() && ImGui::IsItemClicked(); ++i) {
     const std::optional<Shown> lamp = shown(camera, lamps[i].position, area);
-    if (!lamp || glm::distance(lamp->at, glm::vec2(io.MousePos.x, io.MousePos.y)) > ring) continue;
+    if (!lamp || glm::distance(lamp->at, glm::vec2(pointer.x, pointer.y)) > ring) continue;
     state.dragged_lamp = i;
     state.lamp = static_cast<int>(i);
   }
   if (!state.dragged_lamp || *state.dragged_lamp >= lamps.size()) return false;
   glm::vec3& place = lamps[*state.dragged_lamp].position;
   const std::optional<Shown> lamp = shown(camera, place, area);
-  if (lamp && !ImGui::IsItemActivated()) {
-    const glm::vec3 by = glm::vec3(io.MouseDelta.x, -io.MouseDelta.y, 0) / lamp->metre;
+  if (lamp && area.dragged != glm::vec2(0)) {
+    const glm::vec3 by = glm::vec3(area.dragged.x, -area.dragged.y, 0) / lamp->metre;
     place += glm::transpose(glm::mat3(camera.view)) * by;
   }
   return true;

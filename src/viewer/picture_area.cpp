@@ -21,7 +21,8 @@ constexpr float grip = 6;  // pixels on each side of the line between A and B th
 
 void move(const Panel& panel, const CameraRig& rig) { place(panel.state.document, panel.status.scene->prepared, rig); }
 
-void drag_camera(const Panel& panel, const glm::vec2& by, const PictureArea& area) {
+void drag_camera(const Panel& panel, const PictureArea& area) {
+  const glm::vec2& by = area.dragged;
   CameraRig rig = present_rig(panel.state.document, panel.status.scene->prepared);
   const bool pan = ImGui::IsMouseDown(ImGuiMouseButton_Middle) || ImGui::GetIO().KeyShift;
   if (pan) {
@@ -77,7 +78,7 @@ bool drag_line(const Panel& panel, const PictureArea& area, bool active) {
   if (near_line || dragging) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   if (ImGui::IsItemClicked() && near_line) dragging = true;
   if (!active || !ImGui::IsMouseDown(ImGuiMouseButton_Left)) dragging = false;
-  if (dragging) comparison.wipe = std::clamp((cursor - area.corner.x) / area.size.x, 0.0f, 1.0f);
+  if (dragging) comparison.wipe = std::clamp(comparison.wipe + area.dragged.x / area.size.x, 0.0f, 1.0f);
   return dragging;
 }
 
@@ -149,15 +150,16 @@ PictureArea picture_area(const Panel& panel, const gl::Texture* shown) {
   area.dragging = active;
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsItemHovered()) area.cursor = glm::vec2(io.MousePos.x - corner.x, io.MousePos.y - corner.y);
-  const bool line = drag_line(panel, area, active) || drag_lamp(panel, area, active);
-  const glm::vec2 by(io.MouseDelta.x, io.MouseDelta.y);
-  // In the frame of the press, the pointer has come to where it was pressed.
-  const bool dragged = active && !ImGui::IsItemActivated() && by != glm::vec2(0);
-  if (dragged && !line && panel.status.scene != nullptr) {
+  const glm::vec2 pointer(io.MousePos.x, io.MousePos.y);
+  if (!active) panel.state.drag.release();
+  if (ImGui::IsItemActivated()) panel.state.drag.press(pointer);
+  if (ImGui::IsMousePosValid()) area.dragged = panel.state.drag.move(pointer);
+  const bool taken = drag_line(panel, area, active) || drag_lamp(panel, area, active);
+  if (area.dragged != glm::vec2(0) && !taken && panel.status.scene != nullptr) {
     if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
-      drag_sun(panel, by);
+      drag_sun(panel, area.dragged);
     } else {
-      drag_camera(panel, by, area);
+      drag_camera(panel, area);
     }
   }
   take_wheel(panel, area);

@@ -13,6 +13,7 @@ struct PictureArea {
   glm::vec2 corner{0}, size{1};     // of the window, from its upper left
   std::optional<glm::vec2> cursor;  // over the picture, from its upper left
   bool dragging = false;            // a mouse button that was pressed over the picture is down
+  glm::vec2 dragged{0};             // what it drags in this frame, pixels
 };
 
 // Draws the texture `shown` into the rest of the current ImGui window, and handles the mouse over it: it moves the

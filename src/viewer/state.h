@@ -8,6 +8,7 @@
 
 #include "viewer/comparison.h"
 #include "viewer/document.h"
+#include "viewer/drag.h"
 #include "viewer/file_list.h"
 #include "viewer/inspect.h"
 
@@ -44,6 +45,7 @@ struct UiState {
   Zoom zoom;
   Playback playback;
   bool fly = false;            // the left button looks around from the eye, instead of orbiting the target
+  Drag drag;                   // of the pointer over the picture
   bool dragging_line = false;  // the user drags the line between A and B
   int lamp = -1;               // of the user's lamps, the one whose properties are shown; -1: none
   std::optional<std::size_t> dragged_lamp;

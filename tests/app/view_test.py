@@ -93,6 +93,33 @@ class Hand(WindowTest):
         self.assertGreater(sun[0], self.SUN[0])
         self.assertLess(sun[1], self.SUN[1])
 
+    def held(self, *places):
+        """Presses the left button in the picture, moves to each place from there with a frame at each, and releases."""
+        x, y = self.viewer.middle("picture")
+        self.desktop.xdotool("mousemove", "--window", self.viewer.window, x, y, "mousedown", LEFT)
+        for dx, dy in places:
+            self.viewer.follow()
+            self.viewer.move(x + dx, y + dy)
+        self.viewer.follow()
+        self.desktop.xdotool("mouseup", LEFT)
+        self.viewer.follow()
+
+    def test_a_click_moves_nothing(self):
+        before = self.viewer.rest()
+        self.held((2, 1), (-1, 3), (3, 0))
+        self.assertEqual(self.place(), [self.EYE, self.TARGET, self.SUN])
+        self.viewer.click("tab Files", lambda: self.viewer.has("write picture"), "the tab Files")
+        self.held((-2, -2))
+        self.assertEqual(self.place(), [self.EYE, self.TARGET, self.SUN])
+        self.viewer.wait_for(lambda: self.viewer.rest() == before, "the picture as it was")
+
+    def test_a_drag_begins_without_a_jump(self):
+        self.held((60, 0), (100, 0))
+        eye, target, sun = self.place()
+        self.assertEqual((target, sun), (self.TARGET, self.SUN))
+        turned = math.atan2(eye[0] - target[0], eye[2] - target[2])
+        self.assertAlmostEqual(turned, -40 * 0.006, places=4)
+
     def test_the_wheel_goes_nearer_and_back(self):
         start, eye = self.viewer.rest(), self.viewer.seen("eye")
         self.viewer.wheel(WHEEL_UP, lambda: self.viewer.seen("eye") != eye, "a nearer eye")
