@@ -31,9 +31,16 @@ void add(std::vector<std::string>& arguments, const std::string& option, const s
   arguments.push_back(option + "=" + value);
 }
 
-void add_frames(std::vector<std::string>& arguments, const cli::FrameRange& range, double fps) {
-  if (range.last == 0) return;
-  add(arguments, "--frames", fmt::format("{}:{}", range.first, range.last));
+// The present frame as a picture without a number, or a sequence.
+void add_frames(std::vector<std::string>& arguments, const Document& document,
+                const std::optional<cli::FrameRange>& range) {
+  if (!range && document.frame == 0) return;
+  if (range) {
+    add(arguments, "--frames", fmt::format("{}:{}", range->first, range->last));
+  } else {
+    add(arguments, "--frame", std::to_string(document.frame));
+  }
+  const double fps = document.options.fps;
   if (fps != cli::SceneOptions{}.fps) add(arguments, "--fps", fmt::format("{}", fps));
 }
 
@@ -96,7 +103,7 @@ std::vector<std::string> render_arguments(const Document& document, const std::s
   std::vector<std::string> arguments{"render"};
   for (std::string& argument : scene_arguments(document.options)) arguments.push_back(std::move(argument));
   arguments.insert(arguments.end(), {"-o", output});
-  add_frames(arguments, range.value_or(cli::FrameRange{document.frame, document.frame}), document.options.fps);
+  add_frames(arguments, document, range);
   add_params(arguments, document.params);
   if (warmup > 0) add(arguments, "--warmup", std::to_string(warmup));
   // The viewer's picture shows one moment, and so do its warm-up frames. Those of a sequence play up to its first

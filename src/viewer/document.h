@@ -11,7 +11,7 @@
 
 namespace penumbra::viewer {
 
-// The highest frame number that --frames takes.
+// The highest frame number that --frame and --frames take.
 constexpr int last_frame = 999'999;
 
 // What the viewer shows, in the terms of `penumbra render`: its options and the values of the parameters. The time is

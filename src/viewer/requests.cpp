@@ -102,7 +102,7 @@ void Viewer::write_picture(bool sequence) {
   if (state_.with_aovs) {
     for (const render::Aov& aov : render::aovs()) arguments.push_back("--aov=" + aov.name);
   }
-  const cli::OutputNames names(state_.picture_file, range.last != 0);
+  const cli::OutputNames names(state_.picture_file, sequence);
   std::vector<std::filesystem::path> files;
   for (int frame = range.first; frame <= range.last; ++frame) files.push_back(names.picture(frame));
   writer_.start(arguments, std::move(files));

@@ -41,6 +41,18 @@ class Sequence(TestCase):
         self.draw("100%.png")
         self.assertEqual(self.files(), ["100%.png"])
 
+    def test_one_frame_has_the_name_that_was_asked_for(self):
+        fit = ("--set", "cascades.fit=stable", "--fps", "4", "--time", "0.25")
+        self.draw("x.png", "--frames", "3:3", *fit)
+        self.draw("y.png", "--frame", "3", "--aov", "shadow", *fit)
+        self.assertEqual(self.files(), ["x_0003.png", "y.png", "y.shadow.png"])
+        self.assertEqual((self.folder / "y.png").read_bytes(), (self.folder / "x_0003.png").read_bytes())
+        self.draw("z.png", "--frame", "2", *fit)
+        self.assertNotEqual((self.folder / "z.png").read_bytes(), (self.folder / "y.png").read_bytes())
+        for output, more in (("w.png", ["--frames", "0:1"]), ("w_##.png", [])):
+            self.assertIn("--frames", self.refuse("render", MOVING, "-o", self.folder / output, "--frame", "3", *more,
+                                                  code=2))
+
     def test_a_frame_is_the_picture_of_its_time(self):
         fit = ("--set", "cascades.fit=stable")
         self.draw("x.png", "--frames", "2:4", "--fps", "4", "--time", "0.25", *fit)

@@ -72,6 +72,7 @@ class Usage(TestCase):
             "--exposure": ["nan", "Auto"],
             "--time": ["inf"],
             "--frames": ["2:1"],
+            "--frame": ["-1", "0:1"],
             "--fps": ["0"],
             "--warmup": ["1.5"],
             "--supersample": ["17"],

@@ -200,6 +200,8 @@ class Animation(WindowTest):
             shown = viewer.changed(start)
             command = viewer.copied()
             self.assertIn("--warmup-still", command)
+            viewer.press("F12", lambda: viewer.has("messages") and (self.folder / "penumbra.png").exists(), "the picture")
+            self.assertEqual([path.name for path in self.folder.glob("*.png")], ["penumbra.png"])
             subprocess.run([PROGRAM, *command[1:]], cwd=self.folder, check=True, capture_output=True)
         written = read(next(self.folder.glob("*.png")))
         part = written.crop(0, written.height // 3, written.width, written.height * 3 // 4)

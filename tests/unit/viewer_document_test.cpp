@@ -173,6 +173,15 @@ TEST_F(ViewerDocument, APictureAtRestIsOfOneMomentAndASequenceComesToItsFirst) {
   EXPECT_FALSE(rendered(render_arguments(document, "out.png", 31, "", cli::FrameRange{7, 9})).options.warmup_still);
 }
 
+TEST_F(ViewerDocument, OnlyTheFilesOfASequenceAreNumbered) {
+  Document document = plain();
+  for (const int now : {0, 7}) {
+    document.frame = now;
+    EXPECT_FALSE(rendered(render_arguments(document, "out.png", 0, "")).options.is_sequence());
+    EXPECT_TRUE(rendered(render_arguments(document, "out.png", 0, "", cli::FrameRange{0, 0})).options.is_sequence());
+  }
+}
+
 TEST_F(ViewerDocument, OutputWarmUpAndShadersAreSaid) {
   Document document = plain();
   document.options.scene = "-a.glb";

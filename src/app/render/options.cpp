@@ -28,6 +28,16 @@ void add_aovs(std::vector<std::string>& list, const std::string& text) {
   }
 }
 
+void add_frame_option(CLI::App& app, RenderOptions& o) {
+  add_value(app, "--frame", "N", "One frame of a sequence, whose file has the name of -o without a number",
+            [&o](const auto& text) {
+              const int frame = cli::parse_count("--frame", text, 0, 999'999);
+              o.frame = frame;
+              o.frames = cli::FrameRange{frame, frame};
+            });
+  app.get_option("--frame")->excludes(app.get_option("--frames"));
+}
+
 void add_output_options(CLI::App& app, RenderOptions& o) {
   app.add_option("-o,--output", o.output,
                  "Picture to write: .png (8-bit sRGB) or .exr (linear float); missing folders are made")
@@ -60,6 +70,7 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
   cli::add_supersample_option(app, options);
   cli::add_view_options(app, options);
   cli::add_time_options(app, options);
+  add_frame_option(app, options);
   cli::add_technique_option(app, options);
   cli::add_shadow_options(app, options);
   session::add_cache_options(app, options);
@@ -69,7 +80,7 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
 ParamSet params_of(const RenderOptions& options) {
   auto shadows = static_cast<const cli::ShadowOptions&>(options);
   shadows.otherwise = session::usual_technique;
-  if (!options.frames && !cli::names_technique(options)) {
+  if (!options.is_sequence() && !cli::names_technique(options)) {
     // In the first place, so that the user's own value counts.
     shadows.assignments.insert(shadows.assignments.begin(), "cascades.fit=visible");
   }
@@ -81,7 +92,7 @@ void check_together(const RenderOptions& o) {
   cli::check_together(static_cast<const cli::DeviceOptions&>(o));
   check_together(static_cast<const session::CacheOptions&>(o));
   if (o.warmup_still && o.warmup == 0) cli::fail_usage("--warmup-still needs --warmup");
-  if (o.stats_frames > 1 && o.frames)
+  if (o.stats_frames > 1 && o.is_sequence())
     cli::fail_usage("--stats measures each frame of a sequence: leave out --stats-frames");
   if (o.stats_frames > 1 && o.stats.empty()) cli::fail_usage("--stats-frames needs --stats");
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace penumbra::app {
 // What `penumbra render` was asked for; every value is parsed and in range.
 struct RenderOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions, session::CacheOptions {
   std::string output;
+  std::optional<int> frame;  // one frame of a sequence, whose picture has no number; `frames` is then that frame
   int warmup = 0;
   bool warmup_still = false;  // all warm-up frames are drawn at the time of the first frame
   std::string save_preset;
@@ -18,6 +20,8 @@ struct RenderOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions
   std::string stats;
   int stats_frames = 1;
   bool quiet = false;
+
+  bool is_sequence() const { return frames && !frame; }
 };
 
 // The values to render with. Where the user names no technique they are those of session::usual_technique, and maps of

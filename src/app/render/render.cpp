@@ -44,7 +44,7 @@ std::FILE* summary_stream(const RenderOptions& options) {
 
 void render_files(RenderOptions options) {
   const Clock::time_point start = Clock::now();
-  const cli::OutputNames names(options.output, options.frames.has_value());
+  const cli::OutputNames names(options.output, options.is_sequence());
   const ParamSet params = params_of(options);
   cli::warn_without_effect(options, {&params, 1}, session::all_techniques());
   const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});

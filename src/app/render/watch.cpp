@@ -247,6 +247,7 @@ std::string Watch::report(const Change& change) {
 }
 
 void check_watchable(const RenderOptions& options) {
+  if (options.frame) cli::fail_usage("--frame is not for watch, which draws one picture: see --time");
   if (options.frames) cli::fail_usage("--frames is not for watch, which draws one picture: see --time");
   for (const std::string& preset : options.presets) {
     if (!options.save_preset.empty() && io::would_replace(options.save_preset, preset))
@@ -261,7 +262,7 @@ int run_watch(const Arguments& arguments) {
                "penumbra watch");
   RenderOptions options;
   add_render_options(app, options);
-  for (const char* name : {"--frames", "--fps"}) app.get_option(name)->group("");  // not in --help
+  for (const char* name : {"--frames", "--frame", "--fps"}) app.get_option(name)->group("");  // not in --help
   if (!cli::parse(app, arguments)) return 0;
   check_together(options);
   check_watchable(options);
