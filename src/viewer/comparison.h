@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include "core/params.h"
 
 namespace penumbra::viewer {

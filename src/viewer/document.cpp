@@ -113,6 +113,14 @@ std::vector<std::string> render_arguments(const Document& document, const std::s
   return arguments;
 }
 
+void use_light_indices(cli::SceneOptions& options, const std::vector<std::string>& names) {
+  if (!options.lights) return;
+  for (std::string& light : *options.lights) {
+    const auto named = std::ranges::find(names, light);
+    if (named != names.end()) light = std::to_string(named - names.begin());
+  }
+}
+
 CameraRig present_rig(const Document& document, const session::PreparedScene& prepared) {
   CameraRig rig = rig_of(session::setup_at(prepared, document.seconds()).camera, prepared.bounds);
   if (document.options.eye) {

@@ -38,6 +38,10 @@ std::vector<std::string> scene_arguments(const cli::SceneOptions& options);
 std::vector<std::string> render_arguments(const Document& document, const std::string& output, int warmup,
                                           const std::string& glsl, std::optional<cli::FrameRange> range = {});
 
+// Lights that the options choose by name are chosen by index from then on, so that they can be compared. `names` are
+// those of render::light_names().
+void use_light_indices(cli::SceneOptions& options, const std::vector<std::string>& names);
+
 // Camera and sun in the present frame, for the user to move.
 CameraRig present_rig(const Document& document, const session::PreparedScene& prepared);
 cli::Direction present_sun(const Document& document, const session::PreparedScene& prepared);

@@ -26,19 +26,9 @@ void choose(cli::SceneOptions& options, std::size_t index, bool on, std::size_t 
   if (options.lights->size() == count) options.lights.reset();
 }
 
-// Names from the command line become indices, so that they can be compared.
-void use_indices(cli::SceneOptions& options, const std::vector<std::string>& names) {
-  if (!options.lights) return;
-  for (std::string& light : *options.lights) {
-    const auto named = std::ranges::find(names, light);
-    if (named != names.end()) light = std::to_string(named - names.begin());
-  }
-}
-
 void lights_of_the_file(const Panel& panel) {
   cli::SceneOptions& options = panel.state.document.options;
   const std::vector<std::string>& names = panel.status.scene->lights;
-  use_indices(options, names);
   for (std::size_t i = 0; i < names.size(); ++i) {
     bool on = is_chosen(options, i);
     if (ImGui::Checkbox(fmt::format("{}##light{}", names[i], i).c_str(), &on)) choose(options, i, on, names.size());

@@ -15,6 +15,9 @@ struct Panel {
   WidgetMap& widgets;
 };
 
+// The window's menus. Returns their height.
+float menu_bar(const Panel& panel);
+
 // The tabs of the side panel, each a file of its name.
 void shadow_panel(const Panel& panel);   // technique, parameters, presets
 void scene_panel(const Panel& panel);    // file, camera, sun, lights, time

@@ -64,6 +64,7 @@ void take_wheel(const Panel& panel, const PictureArea& area) {
     CameraRig rig = present_rig(panel.state.document, panel.status.scene->prepared);
     rig.dolly(std::pow(dolly_per_notch, notches));
     move(panel, rig);
+    panel.state.last_travel = ImGui::GetTime();
   }
 }
 
@@ -125,6 +126,25 @@ void fly(const Panel& panel, float seconds) {
       0.25f * std::max(panel.status.scene->prepared.bounds.radius(), 0.1f) * (io.KeyShift ? 4.0f : 1.0f);
   rig.fly(glm::normalize(way) * speed * std::min(seconds, 0.1f));
   move(panel, rig);
+  panel.state.last_travel = ImGui::GetTime();
+}
+
+// Whether the key of a letter goes down, wherever the keyboard's layout has it: Y and Z change places in some.
+bool letter_pressed(char letter) {
+  for (int key = GLFW_KEY_A; key <= GLFW_KEY_Z; ++key) {
+    if (!ImGui::IsKeyPressed(key, /* repeat= */ false)) continue;
+    const char* name = glfwGetKeyName(key, 0);
+    if ((name != nullptr ? name[0] : 'a' + key - GLFW_KEY_A) == letter) return true;
+  }
+  return false;
+}
+
+void take_undo_keys(UiState& state) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!io.KeyCtrl) return;
+  const bool z = letter_pressed('z');
+  if (z && !io.KeyShift) state.requests.undo = true;
+  if ((z && io.KeyShift) || letter_pressed('y')) state.requests.redo = true;
 }
 
 void take_time_keys(const Panel& panel) {
@@ -202,10 +222,8 @@ void take_keys(const Panel& panel, float seconds) {
   }
   if (pressed(GLFW_KEY_X) && state.comparison.on)
     state.comparison.how = state.comparison.how == CompareMode::a ? CompareMode::b : CompareMode::a;
-  if (pressed(GLFW_KEY_O) && ImGui::GetIO().KeyCtrl) {
-    state.panel = state.files.wanted = true;
-    state.tab = "Scene";
-  }
+  if (pressed(GLFW_KEY_O) && ImGui::GetIO().KeyCtrl) state.open_files();
+  take_undo_keys(state);
   take_time_keys(panel);
   fly(panel, seconds);
 }

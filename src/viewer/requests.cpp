@@ -41,6 +41,7 @@ void Viewer::do_requests() {
     if (wanted.save_preset) save_preset(*wanted.save_preset);
     if ((wanted.write_picture || wanted.write_sequence) && scene_ != nullptr) write_picture(wanted.write_sequence);
     if (wanted.frame_all && scene_ != nullptr) frame_all();
+    if (wanted.undo || wanted.redo) go_back(wanted.redo);
     if (wanted.copy_command && scene_ != nullptr) copy_command();
     if (wanted.copy_camera && scene_ != nullptr) copy_camera();
   });
@@ -119,6 +120,23 @@ void Viewer::take_written() {
   } else {
     tell_error(state_, result->text, ImGui::GetTime());
   }
+}
+
+// Lets the history see what the user has changed. Notches of the wheel, and keys that move the camera, belong together
+// if they follow each other closely.
+void Viewer::note_edit() {
+  constexpr double pause = 0.5;
+  const bool held = ImGui::IsAnyItemActive() || ImGui::GetTime() - state_.last_travel < pause;
+  history_.note(edit_of(state_.document, state_.comparison), held);
+  status_.can_undo = history_.can_undo();
+  status_.can_redo = history_.can_redo();
+}
+
+void Viewer::go_back(bool redo) {
+  if (ImGui::IsAnyItemActive()) return;  // the user holds what would change
+  const Edit now = edit_of(state_.document, state_.comparison);
+  if (const std::optional<Edit> edit = redo ? history_.redo(now) : history_.undo(now))
+    restore(*edit, state_.document, state_.comparison);
 }
 
 void Viewer::copy_camera() {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <glm/trigonometric.hpp>
 
+#include "viewer/edit.h"
 #include "viewer/panels.h"
 
 namespace penumbra::viewer {
@@ -45,10 +46,8 @@ void choose_camera(const Panel& panel) {
   panel.widgets.mark("camera");
   if (!open) return;
   const auto look_through = [&](std::optional<std::string> camera) {
+    use_scene_camera(options);
     options.camera = std::move(camera);
-    options.eye.reset();
-    options.target.reset();
-    options.fov.reset();
   };
   if (ImGui::Selectable("automatic", !options.eye && !options.camera)) look_through({});
   panel.widgets.mark("camera=automatic");

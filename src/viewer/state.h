@@ -34,6 +34,7 @@ struct Requests {
   bool write_picture = false, write_sequence = false;  // to the state's file
   bool frame_all = false;
   bool copy_command = false, copy_camera = false;
+  bool undo = false, redo = false;
   bool quit = false;
 };
 
@@ -45,6 +46,7 @@ struct UiState {
   Zoom zoom;
   Playback playback;
   bool fly = false;            // the left button looks around from the eye, instead of orbiting the target
+  double last_travel = -1e9;   // when the wheel or a key moved the camera last, seconds of the viewer's clock
   Drag drag;                   // of the pointer over the picture
   bool dragging_line = false;  // the user drags the line between A and B
   int lamp = -1;               // of the user's lamps, the one whose properties are shown; -1: none
@@ -62,6 +64,11 @@ struct UiState {
   std::deque<Message> messages;
   Requests requests;
 
+  // Opens the list of files.
+  void open_files() {
+    panel = files.wanted = true;
+    tab = "Scene";
+  }
   // Compares A with B or not. The first time, B gets A's values.
   void compare(bool on) {
     comparison.on = on;

@@ -36,6 +36,7 @@ struct ViewerStatus {
   glm::ivec2 drawn_size{0};  // of the last picture, pixels
   int frames = 0;            // drawn since something changed
   bool idle = false;         // all pictures are finished: nothing will be drawn until something changes
+  bool can_undo = false, can_redo = false;
   std::vector<std::string> shader_errors;
   std::optional<double> writing;                // share of the files that are written
   std::string command;                          // the command line that draws this picture

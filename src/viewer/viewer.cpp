@@ -19,6 +19,8 @@ namespace penumbra::viewer {
 namespace {
 
 constexpr float panel_width = 390, least_picture = 240;
+constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
 volatile std::sig_atomic_t caught_signal = 0;
 
@@ -138,6 +140,7 @@ void Viewer::frame(float seconds) {
   widgets_.begin();
   play(seconds);
   const PictureArea area = build_interface(seconds);
+  note_edit();
   guarded([&] { update_view(); });
   guarded([&] { draw_pictures(area, ImGui::GetTime()); });
   guarded([&] { probe(area); });
@@ -169,16 +172,20 @@ void Viewer::take_loaded() {
     status_.loading = loader_.file().empty() ? "" : std::filesystem::path(loader_.file()).filename().string();
     if (!loaded) return;
     truth_.stop();
+    cli::SceneOptions& options = state_.document.options;
+    const bool is_first = scene_ == nullptr, is_other = options.scene != loaded->options.scene;
     auto scene = std::make_unique<LoadedScene>(device_.device, std::move(loaded->prepared));
     scene_ = std::move(scene);
     status_.scene = scene_.get();
-    const cli::Size size = state_.document.options.size;
+    const cli::Size size = options.size;
     // A scene that was saved again keeps the camera, sun and time that the user has chosen.
-    if (state_.document.options.scene != loaded->options.scene) {
-      state_.document.options = loaded->options;
-      state_.document.options.size = size;
+    if (is_other) {
+      options = loaded->options;
+      options.size = size;
       state_.document.frame = 0;
     }
+    use_light_indices(options, scene_->lights);
+    if (is_first || is_other) history_.start(edit_of(state_.document, state_.comparison));
     state_.scene_file = loaded->options.scene;
     add_recent(state_.recent, loaded->options.scene);
     for (Side* side : {&a_, &b_}) {
@@ -239,35 +246,16 @@ PictureArea Viewer::build_interface(float seconds) {
   const Panel panel{state_, status_, widgets_};
   take_keys(panel, seconds);
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
-  constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
   const float width = std::min(panel_width * window_.scale(), std::max(whole.x - least_picture, 0.0f));
-  const float left = state_.panel ? width : 0.0f;
+  const bool beside = state_.panel;
+  const float top = beside ? menu_bar(panel) : 0.0f, left = beside ? width : 0.0f;
   const float bar = ImGui::GetFrameHeight() + 4 * window_.scale();
-  if (state_.panel) {
-    ImGui::SetNextWindowPos({0, 0});
-    ImGui::SetNextWindowSize({width, whole.y});
-    if (ImGui::Begin("panel", nullptr, fixed)) side_panel(panel);
-    ImGui::End();
-  }
-  ImGui::SetNextWindowPos({left, 0});
-  ImGui::SetNextWindowSize({whole.x - left, whole.y - bar});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-  ImGui::Begin("picture", nullptr, fixed | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
-  ImGui::PopStyleVar();
-  const ImVec2 dots = ImGui::GetIO().DisplayFramebufferScale;
-  const ImVec2 room = ImGui::GetContentRegionAvail();
-  window_size_ = glm::max(glm::ivec2(room.x * dots.x, room.y * dots.y), 1);
-  const gl::Texture* shown =
-      a_.shown == nullptr
-          ? nullptr
-          : &device_.device.target("viewer/window", {.width = window_size_.x, .height = window_size_.y});
-  const PictureArea area = picture_area(panel, shown);
-  ImGui::End();
+  if (beside) side_panel(panel, top, width);
+  const PictureArea area = picture_window(panel, {left, top}, {whole.x - left, std::max(whole.y - top - bar, 1.0f)});
   ImGui::SetNextWindowPos({left, whole.y - bar});
   ImGui::SetNextWindowSize({whole.x - left, bar});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10 * window_.scale(), 2 * window_.scale()});
-  ImGui::Begin("status", nullptr, fixed | ImGuiWindowFlags_NoNav);
+  ImGui::Begin("status", nullptr, fixed_window | ImGuiWindowFlags_NoNav);
   ImGui::PopStyleVar();
   status_bar(panel);
   ImGui::End();
@@ -280,7 +268,25 @@ PictureArea Viewer::build_interface(float seconds) {
   return area;
 }
 
-void Viewer::side_panel(const Panel& panel) {
+PictureArea Viewer::picture_window(const Panel& panel, const ImVec2& corner, const ImVec2& size) {
+  ImGui::SetNextWindowPos(corner);
+  ImGui::SetNextWindowSize(size);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::Begin("picture", nullptr, fixed_window | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
+  ImGui::PopStyleVar();
+  const ImVec2 dots = ImGui::GetIO().DisplayFramebufferScale;
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  window_size_ = glm::max(glm::ivec2(room.x * dots.x, room.y * dots.y), 1);
+  const gl::Texture* shown =
+      a_.shown == nullptr
+          ? nullptr
+          : &device_.device.target("viewer/window", {.width = window_size_.x, .height = window_size_.y});
+  const PictureArea area = picture_area(panel, shown);
+  ImGui::End();
+  return area;
+}
+
+void Viewer::side_panel(const Panel& panel, float top, float width) {
   struct Tab {
     const char* name;
     void (*draw)(const Panel&);
@@ -288,18 +294,22 @@ void Viewer::side_panel(const Panel& panel) {
   static constexpr std::array tabs{Tab{"Shadow", shadow_panel},   Tab{"Scene", scene_panel},
                                    Tab{"Inspect", inspect_panel}, Tab{"Compare", compare_panel},
                                    Tab{"Cost", cost_panel},       Tab{"Files", files_panel}};
-  if (!ImGui::BeginTabBar("tabs")) return;
-  for (const Tab& tab : tabs) {
-    const bool wanted = state_.focus_search ? tab.draw == shadow_panel : state_.tab == tab.name;
-    const bool open = ImGui::BeginTabItem(tab.name, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0);
-    panel.widgets.mark(std::string("tab ") + tab.name);
-    if (!open) continue;
-    state_.open_tab = tab.name;
-    tab.draw(panel);
-    ImGui::EndTabItem();
+  ImGui::SetNextWindowPos({0, top});
+  ImGui::SetNextWindowSize({width, std::max(ImGui::GetIO().DisplaySize.y - top, 1.0f)});
+  if (ImGui::Begin("panel", nullptr, fixed_window) && ImGui::BeginTabBar("tabs")) {
+    for (const Tab& tab : tabs) {
+      const bool wanted = state_.focus_search ? tab.draw == shadow_panel : state_.tab == tab.name;
+      const bool open = ImGui::BeginTabItem(tab.name, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0);
+      panel.widgets.mark(std::string("tab ") + tab.name);
+      if (!open) continue;
+      state_.open_tab = tab.name;
+      tab.draw(panel);
+      ImGui::EndTabItem();
+    }
+    ImGui::EndTabBar();
+    state_.tab.clear();
   }
-  ImGui::EndTabBar();
-  state_.tab.clear();
+  ImGui::End();
 }
 
 // Chooses camera and sun as `render` would for the present options.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <imgui.h>
+
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,8 +14,10 @@
 #include "session/render_device.h"
 #include "truth/technique.h"
 #include "viewer/costs.h"
+#include "viewer/edit.h"
 #include "viewer/frame_pacing.h"
 #include "viewer/frame_plan.h"
+#include "viewer/history.h"
 #include "viewer/options.h"
 #include "viewer/picture_area.h"
 #include "viewer/picture_renderer.h"
@@ -66,7 +70,8 @@ class Viewer {
   void take_shaders(std::span<const std::filesystem::path> changed);
   void play(float seconds);
   PictureArea build_interface(float seconds);
-  void side_panel(const Panel& panel);
+  void side_panel(const Panel& panel, float top, float width);
+  PictureArea picture_window(const Panel& panel, const ImVec2& corner, const ImVec2& size);
   void draw_pictures(const PictureArea& area, double now);
   FrameState frame_state(const Document& b, const PictureArea& area, double now);
   void take_traced(const Document& b);
@@ -91,6 +96,8 @@ class Viewer {
   void copy_command();
   void write_picture(bool sequence);
   void take_written();
+  void note_edit();
+  void go_back(bool redo);
   void copy_camera();
   void frame_all();
   void take_settings();
@@ -111,6 +118,7 @@ class Viewer {
   std::optional<session::FileWatch> watch_;  // absent if the system's limit of watches is reached
   RenderProcess writer_;
   UiState state_;
+  History<Edit> history_;
   Side a_, b_;
   FramePacing pacing_;
   CostReader cost_reader_;

@@ -1,0 +1,46 @@
+#include "viewer/edit.h"
+
+#include <tuple>
+
+namespace penumbra::viewer {
+
+namespace {
+
+// References to all that an edit is made of; const or not as `options` is.
+template <class Options>
+auto view_of(Options& options) {
+  return std::tie(options.camera, options.eye, options.target, options.fov, options.no_sun, options.lights,
+                  options.lamp_radius, options.lamps);
+}
+
+bool same_sun(const std::optional<cli::Direction>& a, const std::optional<cli::Direction>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->azimuth == b->azimuth && a->elevation == b->elevation;
+}
+
+}  // namespace
+
+bool Edit::operator==(const Edit& other) const {
+  const bool same_b = b.rows().empty() || other.b.rows().empty() || b == other.b;
+  return same_b && a == other.a && view_of(view) == view_of(other.view) && same_sun(view.sun, other.view.sun);
+}
+
+Edit edit_of(const Document& document, const Comparison& comparison) {
+  return {.view = document.options, .a = document.params, .b = comparison.params};
+}
+
+void restore(const Edit& edit, Document& document, Comparison& comparison) {
+  view_of(document.options) = view_of(edit.view);
+  document.options.sun = edit.view.sun;
+  document.params = edit.a;
+  if (!edit.b.rows().empty()) comparison.params = edit.b;
+}
+
+void use_scene_camera(cli::SceneOptions& options) {
+  options.camera.reset();
+  options.eye.reset();
+  options.target.reset();
+  options.fov.reset();
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "viewer/comparison.h"
+#include "viewer/document.h"
+
+namespace penumbra::viewer {
+
+// What Undo takes back: camera, sun, lights, and the parameters of A and B. Not the scene, the time, the window's size.
+struct Edit {
+  cli::SceneOptions view;  // of which only camera, sun and lights count
+  ParamSet a, b;           // b has no rows until B is first shown, and is then equal to any other
+
+  bool operator==(const Edit& other) const;
+};
+
+Edit edit_of(const Document& document, const Comparison& comparison);
+// Makes the document and B what they were. A B that the edit does not know stays.
+void restore(const Edit& edit, Document& document, Comparison& comparison);
+
+// The scene's own camera, which `render` chooses by default.
+void use_scene_camera(cli::SceneOptions& options);
+
+}  // namespace penumbra::viewer

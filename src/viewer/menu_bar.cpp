@@ -1,0 +1,69 @@
+#include <imgui.h>
+
+#include "viewer/edit.h"
+#include "viewer/panels.h"
+
+namespace penumbra::viewer {
+
+namespace {
+
+bool item(const Panel& panel, const char* name, const char* keys, bool possible = true) {
+  const bool taken = ImGui::MenuItem(name, keys, /* selected= */ false, possible);
+  panel.widgets.mark(std::string("menu=") + name);
+  return taken;
+}
+
+bool begin(const Panel& panel, const char* name) {
+  const bool open = ImGui::BeginMenu(name);
+  panel.widgets.mark(std::string("menu ") + name);
+  return open;
+}
+
+void file_menu(const Panel& panel) {
+  UiState& state = panel.state;
+  const bool shown = panel.status.scene != nullptr;
+  if (item(panel, "Open...", "Ctrl+O")) state.open_files();
+  ImGui::Separator();
+  if (item(panel, "Write picture", "F12", shown)) state.requests.write_picture = true;
+  if (item(panel, "Copy command line", "Ctrl+C", shown)) state.requests.copy_command = true;
+  ImGui::Separator();
+  if (item(panel, "Quit", "Esc")) state.requests.quit = true;
+}
+
+void edit_menu(const Panel& panel) {
+  UiState& state = panel.state;
+  const bool shown = panel.status.scene != nullptr;
+  if (item(panel, "Undo", "Ctrl+Z", panel.status.can_undo)) state.requests.undo = true;
+  if (item(panel, "Redo", "Ctrl+Shift+Z", panel.status.can_redo)) state.requests.redo = true;
+  ImGui::Separator();
+  if (item(panel, "Back to the scene's camera", "", shown)) use_scene_camera(state.document.options);
+  if (item(panel, "Frame all", "Home", shown)) state.requests.frame_all = true;
+}
+
+void view_menu(const Panel& panel) {
+  UiState& state = panel.state;
+  if (item(panel, "Hide panel and menus", "Tab")) state.panel = false;
+  if (item(panel, state.comparison.on ? "Stop comparing" : "Compare A with B", "C"))
+    state.compare(!state.comparison.on);
+  if (item(panel, "Mouse and keys", "F1")) state.help = !state.help;
+}
+
+}  // namespace
+
+float menu_bar(const Panel& panel) {
+  if (!ImGui::BeginMainMenuBar()) return 0;
+  struct Menu {
+    const char* name;
+    void (*draw)(const Panel&);
+  };
+  for (const Menu& menu : {Menu{"File", file_menu}, Menu{"Edit", edit_menu}, Menu{"View", view_menu}}) {
+    if (!begin(panel, menu.name)) continue;
+    menu.draw(panel);
+    ImGui::EndMenu();
+  }
+  const float height = ImGui::GetWindowHeight();
+  ImGui::EndMainMenuBar();
+  return height;
+}
+
+}  // namespace penumbra::viewer
