@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <optional>
+#include <utility>
 
+#include "core/error.h"
+#include "scene/pose.h"
 #include "viewer/panels.h"
 
 namespace penumbra::viewer {
@@ -26,12 +30,48 @@ void choose(cli::SceneOptions& options, std::size_t index, bool on, std::size_t 
   if (options.lights->size() == count) options.lights.reset();
 }
 
-void lights_of_the_file(const Panel& panel) {
+// The lights that the options choose; nothing where none would shine.
+std::optional<render::Setup> lit_by(const Panel& panel, const cli::SceneOptions& options) {
+  const scene::Scene& scene = panel.status.scene->prepared.scene;
+  try {
+    return render::choose_setup(scene, scene::pose_at(scene, options.time),
+                                {.lights = options.lights,
+                                 .no_sun = options.no_sun,
+                                 .own_sun = options.sun.has_value(),
+                                 .lamps = options.lamps});
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+bool has_sun_of_file(const Panel& panel, cli::SceneOptions options) {
+  options.sun.reset();
+  const std::optional<render::Setup> setup = lit_by(panel, options);
+  return setup && setup->sun_node.has_value();
+}
+
+// Takes other lights, unless nothing would light the scene. A direction that the user gave to the file's sun goes with
+// it: alone it would call for a sun that the file does not have.
+void take_lights(const Panel& panel, cli::SceneOptions wanted) {
   cli::SceneOptions& options = panel.state.document.options;
+  if (has_sun_of_file(panel, options) && !has_sun_of_file(panel, wanted)) wanted.sun.reset();
+  if (lit_by(panel, wanted)) {
+    options = std::move(wanted);
+  } else {
+    tell(panel.state, "the last light stays on: without it nothing would light the scene", ImGui::GetTime());
+  }
+}
+
+void lights_of_the_file(const Panel& panel) {
+  const cli::SceneOptions& options = panel.state.document.options;
   const std::vector<std::string>& names = panel.status.scene->lights;
   for (std::size_t i = 0; i < names.size(); ++i) {
     bool on = is_chosen(options, i);
-    if (ImGui::Checkbox(fmt::format("{}##light{}", names[i], i).c_str(), &on)) choose(options, i, on, names.size());
+    if (ImGui::Checkbox(fmt::format("{}##light{}", names[i], i).c_str(), &on)) {
+      cli::SceneOptions wanted = options;
+      choose(wanted, i, on, names.size());
+      take_lights(panel, std::move(wanted));
+    }
     panel.widgets.mark(fmt::format("light={}", i));
   }
 }
@@ -104,8 +144,10 @@ void own_lamps(const Panel& panel) {
   if (state.lamp < 0 || state.lamp >= static_cast<int>(lamps.size())) return;
   const auto chosen = lamps.begin() + state.lamp;
   if (ImGui::Button("Remove lamp")) {
-    lamps.erase(chosen);
+    cli::SceneOptions wanted = state.document.options;
+    wanted.lamps.erase(wanted.lamps.begin() + state.lamp);
     state.lamp = -1;
+    take_lights(panel, std::move(wanted));
     return;
   }
   panel.widgets.mark("remove lamp");
@@ -119,8 +161,10 @@ void lights_panel(const Panel& panel) {
   cli::SceneOptions& options = state.document.options;
   bool no_sun = options.no_sun;
   if (ImGui::Checkbox("No sun", &no_sun)) {
-    options.no_sun = no_sun;
-    if (no_sun) options.sun.reset();
+    cli::SceneOptions wanted = options;
+    wanted.no_sun = no_sun;
+    if (no_sun) wanted.sun.reset();
+    take_lights(panel, std::move(wanted));
   }
   panel.widgets.mark("no sun");
   tooltip("Spots and point lamps alone light the scene (--no-sun)");
@@ -133,6 +177,8 @@ void lights_panel(const Panel& panel) {
     // As bright there as the sun, if it shines, so that it can be seen; else as in a room.
     const render::Setup& setup = panel.status.scene->prepared.setup;
     const glm::vec3 lux = setup.sun_shines ? setup.sun.illuminance : glm::vec3(100);
+    // A sun that only stands in for missing lights would go out.
+    if (setup.sun_shines && !setup.sun_node && !options.sun) place_sun(state.document, setup.sun.to_light);
     options.lamps.push_back({.position = place, .radius = 0.02f * away, .intensity = lux * (away * away)});
     state.lamp = static_cast<int>(options.lamps.size()) - 1;
   }

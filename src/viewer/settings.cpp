@@ -134,6 +134,7 @@ void take_params(const Json& file, Settings& settings) {
 Settings defaults() {
   Settings settings;
   settings.params = ParamSet(render::Renderer::params(session::all_techniques()));
+  session::all_techniques().select(settings.params, session::usual_technique);
   return settings;
 }
 
@@ -165,11 +166,12 @@ Json recent_of(const Settings& settings) {
 
 Json params_of(const Settings& settings) {
   Json params = Json::object();
+  Settings again = defaults();
   for (const Param& row : settings.params.rows()) {
-    if (!settings.params.is_default(row.name)) params[row.name] = io::to_json(settings.params.value(row.name));
+    const ParamValue& value = settings.params.value(row.name);
+    if (value != again.params.value(row.name)) params[row.name] = io::to_json(value);
   }
   try {
-    Settings again = defaults();
     take_params({{"params", params}}, again);
   } catch (const Error&) {
     return Json::object();  // values of a preset file that the next start would refuse

@@ -16,7 +16,7 @@ struct Settings {
   std::optional<cli::Size> window;  // its last size; absent if it was never saved
   bool panel = true, vsync = true;
   std::string tab;  // the open one of the side panel; empty: the first
-  ParamSet params;  // all parameters; read_settings() sets those that the file lacks to their defaults
+  ParamSet params;  // all parameters; those that the file lacks are as session::usual_technique has them
 };
 
 constexpr std::size_t most_recent = 10;

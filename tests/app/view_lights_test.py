@@ -1,9 +1,26 @@
 """The viewer's lights: those of the file, and lamps that the user adds and drags."""
 
+import json
+import struct
+
 from desktop import LEFT
 from pictures import scene
 from support import main
 from window import STEPS, WindowTest
+
+
+def without_lights(glb):
+    """The scene of a .glb file without its lights."""
+    size = struct.unpack_from("<I", glb, 12)[0]
+    document = json.loads(glb[20:20 + size])
+    document["extensions"].pop("KHR_lights_punctual")
+    for node in document["nodes"]:
+        node.get("extensions", {}).pop("KHR_lights_punctual", None)
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    rest = glb[20 + size:]
+    head = struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text) + len(rest), len(text), b"JSON")
+    return head + text + rest
 
 
 class Lights(WindowTest):
@@ -49,6 +66,28 @@ class Lights(WindowTest):
             viewer.click("no sun", lambda: True, "no sun")
             self.assertGreater(viewer.changed(all_on).differing(all_on, by=16), 0.001)
             self.assertIn("--no-sun", viewer.copied())
+
+    def test_a_lamp_does_not_put_out_the_sun_of_a_scene_without_lights(self):
+        unlit = self.folder / "unlit.glb"
+        unlit.write_bytes(without_lights(STEPS.read_bytes()))
+        with self.view(unlit, "--technique", "hard") as viewer:
+            viewer.open_tab("Scene", "eye")
+            viewer.click("add lamp", lambda: viewer.has("ring=0"), "its ring")
+            viewer.rest()
+            self.assertTrue(any(word.startswith("--sun=") for word in viewer.copied()))
+
+    def test_the_last_light_stays_on(self):
+        with self.view(scene("gallery"), "--technique", "hard") as viewer:
+            viewer.open_tab("Scene", "eye")
+            count = sum(name.startswith("light=") for name in viewer.layout())
+            for light in range(count - 1):
+                viewer.click(f"light={light}", lambda: True, "a light turned off")
+                viewer.follow()
+            alone = [word for word in viewer.copied() if word.startswith("--")]
+            self.assertIn(f"--lights={count - 1}", alone)
+            viewer.click(f"light={count - 1}", lambda: True, "the last light")
+            viewer.follow()
+            self.assertEqual([word for word in viewer.copied() if word.startswith("--")], alone)
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "io/output_file.h"
+#include "session/techniques.h"
 #include "support/temp_folder.h"
 #include "viewer/settings.h"
 
@@ -54,7 +55,7 @@ class ViewerSettings : public testing::Test {
     EXPECT_TRUE(settings.panel);
     EXPECT_TRUE(settings.recent.empty());
     EXPECT_FALSE(settings.window);
-    for (const Param& row : settings.params.rows()) EXPECT_TRUE(settings.params.is_default(row.name)) << row.name;
+    EXPECT_EQ(session::technique_label(settings.params), session::usual_technique);
   }
 
   test::TempFolder folder_;
@@ -67,7 +68,7 @@ TEST_F(ViewerSettings, AFirstRunHasTheDefaultsAndNoFault) {
   EXPECT_TRUE(settings.panel);
   EXPECT_TRUE(settings.vsync);
   EXPECT_FALSE(settings.window);
-  EXPECT_FALSE(settings.params.rows().empty());
+  EXPECT_EQ(session::technique_label(settings.params), session::usual_technique);
   EXPECT_FALSE(fs::exists(file()));
 }
 
