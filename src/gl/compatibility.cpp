@@ -78,6 +78,7 @@ InitialLegacyState::~InitialLegacyState() {
 }
 
 void check_context_is_ready(const char* subject) {
+  if (glGetIntegerv == nullptr) fail("{}: OpenGL's entry points are not loaded; call load_api()", subject);
   GLint major = 0;
   glGetIntegerv(GL_MAJOR_VERSION, &major);
   if (major == 0) fail("{}: no OpenGL context is current", subject);

@@ -34,8 +34,8 @@ class InitialLegacyState {
   std::array<float, scales> scales_{};    // and the factors and offsets of its channels
 };
 
-// Throws Error, beginning with `subject`, where no OpenGL call could have an effect: no context is current, or its
-// compatibility profile records calls for a display list.
+// Throws Error, beginning with `subject`, where no OpenGL call could have an effect: entry points are not loaded, no
+// context is current, or its compatibility profile records calls for a display list.
 void check_context_is_ready(const char* subject);
 
 }  // namespace penumbra::gl

@@ -58,9 +58,9 @@ struct ForwardProgram {
 // Waiting. With the parameter cascades.fit=visible, render() waits once a light until the GPU has finished all earlier
 // work and has found what the depth texture shows. No other step of the library's own reads back what the GPU computes.
 //
-// Throws Error for bad input (see check()), when no context is current or a display list is recorded, when it is called
-// from a callback of its own, and for shaders that do not compile. A caller's texture is checked again
-// only when its name, size or use differs from the last frame of the view.
+// Throws Error for bad input (see check()), for shaders that do not compile, when it is called from a callback of its
+// own, when a display list is recorded, and in a view's first frame when no context is current or load_api() was not
+// called. A caller's texture is checked again only when its name, size or use differs from the last frame of the view.
 class SoftShadows {
  public:
   explicit SoftShadows(gl::Device& device, Registry registry = built_in_registry());

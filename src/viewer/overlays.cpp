@@ -182,6 +182,16 @@ void legend_overlay(const Panel& panel, const ImVec2& corner) {
   end_overlay(panel, "legend");
 }
 
+namespace {
+
+// What a picture that is not finished waits for.
+std::string progress(const ViewerStatus& status) {
+  if (status.wanted <= 1) return "drawing";
+  return fmt::format("accumulating {}/{}", std::min(status.frames, status.wanted), status.wanted);
+}
+
+}  // namespace
+
 void status_bar(const Panel& panel) {
   const ViewerStatus& status = panel.status;
   std::string text;
@@ -193,7 +203,7 @@ void status_bar(const Panel& panel) {
     if (status.drawn_size != full) text += fmt::format(" of {} × {}", full.x, full.y);
     text +=
         fmt::format("   {:.1f} ms   {}", status.costs_a.frame(), session::technique_label(panel.state.document.params));
-    text += status.idle ? "   idle" : fmt::format("   {} drawn", status.frames);
+    text += status.idle ? "   idle" : "   " + progress(status);
   }
   if (status.device.software) text += "   software rasteriser";
   ImGui::AlignTextToFramePadding();

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "session/techniques.h"
 #include "viewer/lamp_rings.h"
 
 namespace penumbra::viewer {
@@ -97,20 +98,21 @@ void draw_line(const Panel& panel, const PictureArea& area) {
   const Comparison& comparison = panel.state.comparison;
   if (!comparison.on) return;
   const float top = area.corner.y, bottom = area.corner.y + area.size.y, gap = ImGui::GetFontSize();
+  const std::string a = "A: " + session::technique_label(panel.state.document.params);
+  const std::string b =
+      "B: " + session::technique_label(comparison.params) + (panel.status.b_is_old ? " (not drawn again yet)" : "");
   float line = -1;
   if (comparison.how == CompareMode::wipe) line = area.corner.x + comparison.wipe * area.size.x;
   if (comparison.how == CompareMode::side_by_side) line = area.corner.x + 0.5f * area.size.x;
   if (line >= 0) {
     ImGui::GetWindowDrawList()->AddLine({line, top}, {line, bottom}, IM_COL32(255, 255, 255, 200), 1.0f);
     panel.widgets.mark("line", {line - grip, top}, {line + grip, bottom});
-    label({line - 1.6f * gap, bottom - 2 * gap}, "A");
-    label({line + 1.0f * gap, bottom - 2 * gap}, panel.status.b_is_old ? "B (not drawn again yet)" : "B");
+    label({line - gap - ImGui::CalcTextSize(a.c_str()).x, bottom - 2 * gap}, a.c_str());
+    label({line + gap, bottom - 2 * gap}, b.c_str());
   } else {
     const std::string difference = fmt::format("|A - B| × {:.0f}", comparison.gain);
-    const char* name = comparison.how == CompareMode::a   ? "A"
-                       : comparison.how == CompareMode::b ? "B"
-                                                          : difference.c_str();
-    label({area.corner.x + gap, bottom - 2 * gap}, name);
+    const std::string& name = comparison.how == CompareMode::a ? a : comparison.how == CompareMode::b ? b : difference;
+    label({area.corner.x + gap, bottom - 2 * gap}, name.c_str());
   }
 }
 

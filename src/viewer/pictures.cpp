@@ -104,6 +104,7 @@ void Viewer::draw_sides(std::span<const SideWork> work, int divisor, double now)
   pacing_.drew(divisor, milliseconds);
   status_.drawn_size = {a_.renderer.picture().width(), a_.renderer.picture().height()};
   status_.frames = a_.renderer.frames();
+  status_.wanted = warmup_of(state_.document) + 1;
 }
 
 bool Viewer::draw_side(const SideWork& work, int divisor) {

@@ -41,7 +41,9 @@ void choose_technique(const Panel& panel, ParamSet& params) {
     panel.widgets.mark("technique=" + name);
     tooltip(summary);
   };
-  row("technique", "How shadows are computed.");
+  row(panel.state.comparison.on ? "technique of A" : "technique",
+      panel.state.comparison.on ? "How the shadows of picture A are computed. This tab edits A."
+                                : "How shadows are computed.");
   const bool open = ImGui::BeginCombo("##technique", current.c_str(), ImGuiComboFlags_HeightLargest);
   panel.widgets.mark("technique");
   if (!open) return;
@@ -57,27 +59,30 @@ void reset_all(ParamSet& params) {
   params.set("technique", technique);
 }
 
-void group(const Panel& panel, ParamSet& params, const std::string& name, std::string& fault) {
+// Returns whether there is a row to show.
+bool group(const Panel& panel, ParamSet& params, const std::string& name, std::string& fault) {
   const auto shown = [&](const Param& param) {
     return group_of(param.name) == name && param.name != "technique" && found(param, panel.state.search);
   };
   const auto rows = params.rows();
-  if (std::none_of(rows.begin(), rows.end(), shown)) return;
+  if (std::none_of(rows.begin(), rows.end(), shown)) return false;
   const bool own = is_technique(panel.status.techniques, name);
-  if (own && name != params.get_word("technique") && panel.state.search.empty()) return;
+  const bool searched = !panel.state.search.empty();
+  if (own && name != params.get_word("technique") && !searched) return false;
   const std::string title = name.empty() ? "general" : name;
   const bool first = own || name.empty() || name == "sun";
-  ImGui::SetNextItemOpen(true, panel.state.search.empty() ? ImGuiCond_Once : ImGuiCond_Always);
-  if (!first && panel.state.search.empty()) ImGui::SetNextItemOpen(false, ImGuiCond_FirstUseEver);
-  const bool open = ImGui::CollapsingHeader(title.c_str());
+  // Open while it is searched. It has another id then, so that it is as it was once the search is cleared.
+  ImGui::SetNextItemOpen(searched || first, searched ? ImGuiCond_Always : ImGuiCond_Once);
+  const bool open = ImGui::CollapsingHeader((title + (searched ? "##searched" : "")).c_str());
   panel.widgets.mark("group " + title);
-  if (!open) return;
+  if (!open) return true;
   begin_rows(title.c_str());
   // A widget may change values, but not the list of declarations.
   for (const Param& param : rows) {
     if (shown(param)) param_row(params, param, panel.widgets, fault);
   }
   end_rows();
+  return true;
 }
 
 std::vector<std::string> groups_of(const ParamSet& params) {
@@ -123,7 +128,12 @@ void shadow_panel(const Panel& panel) {
   const float footer = 2 * ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().ItemSpacing.y;
   ImGui::BeginChild("parameters", {0, -footer});
   std::string fault;
-  for (const std::string& name : groups_of(params)) group(panel, params, name, fault);
+  bool any = false;
+  for (const std::string& name : groups_of(params)) any = group(panel, params, name, fault) || any;
+  if (!any) {
+    ImGui::TextWrapped("No parameter has these words in its name or help.");
+    panel.widgets.mark("nothing found");
+  }
   ImGui::EndChild();
   if (!fault.empty()) tell_error(state, fault, ImGui::GetTime());
   ImGui::Separator();

@@ -69,11 +69,8 @@ struct UiState {
     panel = files.wanted = true;
     tab = "Scene";
   }
-  // Compares A with B or not. The first time, B gets A's values.
-  void compare(bool on) {
-    comparison.on = on;
-    if (on && comparison.params.rows().empty()) comparison.params = document.params;
-  }
+  // Compares A with B or not. The first time, B gets A's values, and is the truth if A is another picture at rest.
+  void compare(bool on);
 };
 
 }  // namespace penumbra::viewer

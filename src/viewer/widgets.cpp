@@ -33,8 +33,15 @@ std::string tooltip_of(const Param& param) {
   return text;
 }
 
-// A range over several powers of ten gets a logarithmic slider, which has the same room for each power.
-bool is_wide(const Param& param) { return param.min >= 0 && param.max >= 100 * std::max(param.min, 1.0); }
+// A range over several powers of ten gets a logarithmic slider, which has the same room for each power. So does one
+// whose default would lie at its very beginning.
+bool is_wide(const Param& param) {
+  constexpr double beginning = 0.05;
+  if (param.min < 0) return false;
+  if (param.max >= 100 * std::max(param.min, 1.0)) return true;
+  const auto* usual = std::get_if<float>(&param.default_value);
+  return usual != nullptr && *usual > param.min && *usual - param.min < beginning * (param.max - param.min);
+}
 
 std::string unit_after(const Param& param) {
   if (param.unit.empty()) return "";
@@ -134,6 +141,7 @@ bool param_row(ParamSet& params, const Param& param, WidgetMap& widgets, std::st
   if (differs) ImGui::SetNextItemWidth(-reset_width - ImGui::GetStyle().ItemInnerSpacing.x);
   ParamValue value = params.value(param.name);
   bool changed = edit(param, value, widgets);
+  if (!ImGui::IsItemActive()) tooltip(tooltip_of(param));
   if (differs) {
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     if (ImGui::Button("×", {reset_width, 0})) {

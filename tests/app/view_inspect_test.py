@@ -79,11 +79,10 @@ class Compare(WindowTest):
             self.assertGreater(viewer.changed(both).differing(both, by=16), 0.001)
 
 
-    def test_the_truth_is_traced_at_rest_and_measured(self):
+    def test_b_begins_as_the_truth_that_is_traced_at_rest_and_measured(self):
         with self.view(STEPS, *THESIS, "--set", "truth.samples=8", **NARROW) as viewer:
             viewer.open_tab("Compare", "compare")
             viewer.click("compare", lambda: viewer.has("b"), "the choice of B")
-            viewer.choose("b", "truth")
             viewer.wait_for(lambda: viewer.has("distance"), "the figures")
             wiped = viewer.rest()
             viewer.click("compare=B", lambda: not viewer.has("line"), "B alone")
@@ -95,6 +94,34 @@ class Compare(WindowTest):
             viewer.wait_for(lambda: viewer.has("distance"), "new figures")
             viewer.rest()
             self.assertGreater(viewer.seen("distance").differing(figures), 0)
+
+
+class Search(WindowTest):
+    def test_it_opens_the_groups_that_it_finds_and_leaves_them_as_they_were(self):
+        with self.view(STEPS) as viewer:
+            closed = "cascades.count"
+            viewer.wait_for(lambda: viewer.has("group cascades"), "the groups")
+            self.assertFalse(viewer.has(closed))
+            viewer.find(closed)
+            self.desktop.xdotool("key", "ctrl+a")
+            viewer.type("no such thing")
+            viewer.wait_for(lambda: viewer.has("nothing found"), "the word that nothing was found")
+            self.desktop.xdotool("key", "ctrl+a", "BackSpace")
+            viewer.wait_for(lambda: viewer.has("group cascades") and not viewer.has("nothing found"), "the groups again")
+            self.assertFalse(viewer.has(closed))
+
+    def test_small_values_of_a_wide_range_have_room_on_their_slider(self):
+        with self.view(STEPS, "--sun-angle", "5", size=(900, 500)) as viewer:
+            viewer.find("sun.angle")
+            resting = viewer.rest()
+            left, top, right, bottom = viewer.box("sun.angle")
+            viewer.move(left + (right - left) * 3 // 4, (top + bottom) // 2)
+            self.desktop.xdotool("click", LEFT)
+            viewer.changed(resting)
+            command = viewer.copied()
+            angle = next(float(word.split("=")[2]) for word in command if word.startswith("--set=sun.angle="))
+        self.assertLess(angle, 5)
+        self.assertGreater(angle, 0.1)
 
 
 class Preset(WindowTest):
@@ -191,7 +218,7 @@ class Open(WindowTest):
 
 class Animation(WindowTest):
     def test_a_moment_that_was_stepped_to_is_the_copied_commands(self):
-        with self.view(MOVING, *THESIS, **NARROW) as viewer:
+        with self.view(MOVING, *THESIS, size=(640, 680)) as viewer:
             start = viewer.rest()
             viewer.open_tab("Scene", "step")
             for _ in range(3):

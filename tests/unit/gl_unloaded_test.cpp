@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "gl/context.h"
 #include "gl/device.h"
+#include "shadow/soft_shadows.h"
 
 namespace penumbra {
 namespace {
@@ -17,18 +18,22 @@ std::string message_of(void (*call)()) {
   return "no error";
 }
 
-TEST(GlUnloaded, ADeviceIsRefused) {
-  EXPECT_EQ(message_of([] { const gl::Device device({}, gl::Timers::Mode::off); }),
-            "OpenGL: load_api() must be called before a Device is made");
+void render() {
+  gl::Device device({}, gl::Timers::Mode::off);
+  shadow::SoftShadows shadows(device);
+  shadows.render({}, ParamSet(shadows.registry().params()));
 }
+
+constexpr const char* refusal = "soft shadows: OpenGL's entry points are not loaded; call load_api()";
+
+TEST(GlUnloaded, ARenderIsRefused) { EXPECT_EQ(message_of(render), refusal); }
 
 TEST(GlUnloaded, ALoaderThatFindsNothingIsRefused) {
   EXPECT_EQ(message_of([] { gl::load_api(nullptr); }),
             "OpenGL 4.5: load_api() got no function that finds entry points");
   const std::string message = message_of([] { gl::load_api([](const char*) -> void* { return nullptr; }); });
   EXPECT_TRUE(message.starts_with("OpenGL 4.5: the driver lacks gl")) << message;
-  EXPECT_EQ(message_of([] { const gl::Device device({}, gl::Timers::Mode::off); }),
-            "OpenGL: load_api() must be called before a Device is made");
+  EXPECT_EQ(message_of(render), refusal);
 }
 
 }  // namespace
