@@ -160,13 +160,16 @@ class Keys(WindowTest):
             line = viewer.changed(a)
             left, _, right, _ = viewer.box("line")
             at = (left + right) // 2 - viewer.box("picture")[0]
-            self.assertLess(line.differing(a), 4 / line.width)  # B begins as A
+            half = line.width // 2 - 4
+            self.assertEqual(line.crop(0, 0, half, line.height), a.crop(0, 0, half, a.height))
+            # B begins as the truth.
+            self.assertGreater(line.crop(half + 8, 0, line.width, line.height).differing(
+                a.crop(half + 8, 0, a.width, a.height), by=8), 0.001)
             self.assertGreater(line.crop(at - 2, 0, at + 3, line.height).differing(
                 a.crop(at - 2, 0, at + 3, a.height)), 0.1)
             viewer.open_tab("Compare", "b")
             viewer.choose("b", "none")
             both = viewer.changed(line)
-            half = both.width // 2 - 4
             self.assertEqual(both.crop(0, 0, half, both.height), a.crop(0, 0, half, a.height))
             viewer.press("x", lambda: not viewer.has("line"), "A alone")
             self.assertEqual(viewer.changed(both), a)
