@@ -14,7 +14,7 @@ namespace penumbra::render {
 struct Renderer::State {
   gl::Device& device;
   shadow::SoftShadows soft_shadows;
-  gl::Texture noise;
+  gl::Texture noise;  // dither_noise(), from the first frame on: programs can be listed without a context
   FrameParts parts;
   Frame frame;
   // What a view's last frame drew; the next one that draws something else is a cut.
@@ -40,7 +40,7 @@ struct Renderer::State {
 };
 
 Renderer::Renderer(gl::Device& device, shadow::Registry registry)
-    : state_(new State{device, shadow::SoftShadows(device, std::move(registry)), dither_noise(), {}, {}, {}}) {}
+    : state_(new State{device, shadow::SoftShadows(device, std::move(registry)), {}, {}, {}, {}}) {}
 
 Renderer::~Renderer() = default;
 
@@ -80,6 +80,7 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   const bool knows_moved = placed.cut || std::abs(last.mapped().time - inputs.last_time) <= rounding;
   // If this frame throws, the textures of the last one are no longer valid and must not be read.
   state_->parts = {};
+  if (!state_->noise) state_->noise = dither_noise();
   device.shaders.next_frame();
   device.timers.begin_frame();
   state_->parts = draw_frame(device, state_->soft_shadows, scene, placed, knows_moved, params, state_->noise);
