@@ -1,6 +1,7 @@
 // Inputs: bad input is refused with one line that names it, and a view may cover a part of its textures.
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
 #include "gpu/gpu_test.h"
