@@ -244,6 +244,27 @@ TEST_F(Lamps, NoSeamShowsWhereCubeFacesMeet) {
   }
 }
 
+// In a wide transition two faces see a receiver at depths that differ by up to a fifth: each is read by its own. Below
+// the lamp is the first face.
+TEST_F(Lamps, EachFaceOfATransitionIsReadAtItsOwnDepth) {
+  constexpr float radius = 0.1f;
+  ParamSet params = renderer_->params();
+  params.set("technique", std::string("brute_force"));
+  params.set("brute_force.every_texel", true);
+  params.set("lamps.size", 512);
+  params.set("cascades.blend", 0.2f);
+  const float s = std::sqrt(0.5f);
+  const std::vector<Screen> below{{{0, -s, s}, {1, 0, 0}}, {{0, -s, s}, {0, s, s}}, {{s, -s, 0}, {0, 0, 1}}};
+  for (const char* seam : {"fade", "dither"}) {
+    params.set("cascades.seam", std::string(seam));
+    for (const Screen& screen : below) {
+      const Steps steps = steps_of(render(scene_of(screen, 96), {.radius = radius}, params), screen, radius);
+      EXPECT_LE(steps.worst_error, 0.03) << seam << ", screen towards " << screen.towards.x << " " << screen.towards.y
+                                         << " " << screen.towards.z;
+    }
+  }
+}
+
 // A lamp in a closed box lights nothing outside of it, however little its maps reach beyond the cube's edges.
 TEST_F(Lamps, NoLightLeaksWhereCubeFacesMeet) {
   for (const float radius : {0.0f, 0.002f, 0.1f}) {
@@ -393,12 +414,18 @@ TEST_F(Lamps, CastersAreThoseBeyondTheNearPlane) {
   }
 }
 
-TEST_F(Lamps, ASpotShinesWithinItsConeAlone) {
+// 12 m of ground around the lamp, from above.
+TriangleScene wide_ground() {
   TriangleScene scene;
   scene.add_quad({-8, 0, -8}, {0, 0, 16}, {16, 0, 0});
   scene.width = scene.height = 64;
   scene.view = glm::lookAt(glm::vec3(0, 5, 0), glm::vec3(0), glm::vec3(0, 0, -1));
   scene.projection = orthographic(6, 6, 0.01f, 6);
+  return scene;
+}
+
+TEST_F(Lamps, ASpotShinesWithinItsConeAlone) {
+  const TriangleScene scene = wide_ground();
   for (const float degrees : {5.0f, 30.0f, 60.0f, 65.0f}) {
     const Shadowed shadowed = render(scene, spot(0.05f, degrees), renderer_->params());
     int lit = 0;
@@ -414,11 +441,7 @@ TEST_F(Lamps, ASpotShinesWithinItsConeAlone) {
 }
 
 TEST_F(Lamps, ALampShinesWithinItsRangeAlone) {
-  TriangleScene scene;
-  scene.add_quad({-8, 0, -8}, {0, 0, 16}, {16, 0, 0});
-  scene.width = scene.height = 64;
-  scene.view = glm::lookAt(glm::vec3(0, 5, 0), glm::vec3(0), glm::vec3(0, 0, -1));
-  scene.projection = orthographic(6, 6, 0.01f, 6);
+  const TriangleScene scene = wide_ground();
   for (const float cone : {0.0f, 60.0f}) {
     shadow::Lamp lamp = cone > 0 ? spot(0.05f, cone) : point_lamp(0.05f);
     lamp.range = 4;
