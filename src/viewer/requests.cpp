@@ -38,7 +38,8 @@ void Viewer::do_requests() {
   guarded([&] {
     if (wanted.open) open(*wanted.open);
     if (wanted.open_preset) open_preset(*wanted.open_preset);
-    if (wanted.save_preset) save_preset(*wanted.save_preset);
+    if (wanted.save_preset) save_preset(*wanted.save_preset, /* overwrite= */ false);
+    if (wanted.overwrite_preset) save_preset(*wanted.overwrite_preset, /* overwrite= */ true);
     if ((wanted.write_picture || wanted.write_sequence) && scene_ != nullptr) write_picture(wanted.write_sequence);
     if (wanted.frame_all && scene_ != nullptr) frame_all();
     if (wanted.undo || wanted.redo) go_back(wanted.redo);
@@ -73,12 +74,17 @@ void Viewer::open_preset(const std::string& file) {
   tell(state_, "loaded " + file, ImGui::GetTime());
 }
 
-void Viewer::save_preset(const std::string& file) {
+void Viewer::save_preset(const std::string& file, bool overwrite) {
   check_overwrites_preset(file);
   if (scene_ != nullptr) {
     for (const std::filesystem::path& read : scene_->prepared.scene.files) {
       if (io::would_replace(file, read)) fail("cannot write {}: it is a file of the scene", io::quoted(file));
     }
+  }
+  std::error_code unread;
+  if (!overwrite && std::filesystem::exists(file, unread)) {
+    state_.overwrite = {true, file};
+    return;
   }
   io::write_preset(file, state_.document.params);
   tell(state_, "wrote " + file, ImGui::GetTime());

@@ -97,6 +97,23 @@ std::vector<std::string> groups_of(const ParamSet& params) {
   return names;
 }
 
+void ask_to_overwrite(const Panel& panel) {
+  constexpr const char* title = "overwrite a preset";
+  UiState& state = panel.state;
+  if (std::exchange(state.overwrite.wanted, false)) ImGui::OpenPopup(title);
+  if (!ImGui::BeginPopup(title)) return;
+  ImGui::Text("%s is there already.", state.overwrite.file.c_str());
+  if (ImGui::Button("Overwrite")) {
+    state.requests.overwrite_preset = state.overwrite.file;
+    ImGui::CloseCurrentPopup();
+  }
+  panel.widgets.mark("overwrite preset");
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel")) ImGui::CloseCurrentPopup();
+  panel.widgets.mark("keep preset");
+  ImGui::EndPopup();
+}
+
 void presets(const Panel& panel) {
   UiState& state = panel.state;
   ImGui::SetNextItemWidth(-1);
@@ -107,6 +124,7 @@ void presets(const Panel& panel) {
   ImGui::SameLine();
   if (ImGui::Button("Save preset")) state.requests.save_preset = state.preset_file;
   panel.widgets.mark("save preset");
+  ask_to_overwrite(panel);
 }
 
 }  // namespace

@@ -31,11 +31,18 @@ struct Message {
 struct Requests {
   std::optional<std::string> open;  // a scene
   std::optional<std::string> open_preset, save_preset;
+  std::optional<std::string> overwrite_preset;         // as save_preset, and the user agrees to lose what is there
   bool write_picture = false, write_sequence = false;  // to the state's file
   bool frame_all = false;
   bool copy_command = false, copy_camera = false;
   bool undo = false, redo = false;
   bool quit = false;
+};
+
+// "Save preset" asks before it overwrites this file.
+struct OverwriteQuestion {
+  bool wanted = false;  // ask in the next frame
+  std::string file;
 };
 
 // Everything that the user can change.
@@ -57,6 +64,7 @@ struct UiState {
   std::string tab, open_tab;  // the one to open in the next frame; the one that is open
   bool focus_search = false;  // put the keyboard focus into the search field in the next frame
   FileList files;             // of the file browser
+  OverwriteQuestion overwrite;
   std::string preset_file = "preset.toml", picture_file = "penumbra.png", scene_file;
   cli::FrameRange sequence{0, 47};
   bool with_aovs = false;           // write every AOV beside the picture

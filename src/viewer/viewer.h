@@ -91,7 +91,8 @@ class Viewer {
   void do_requests();
   void open(const std::string& scene);
   void open_preset(const std::string& file);
-  void save_preset(const std::string& file);
+  // Asks first where it would overwrite a preset, unless the user has agreed.
+  void save_preset(const std::string& file, bool overwrite);
   std::vector<std::string> command() const;
   void copy_command();
   void write_picture(bool sequence);

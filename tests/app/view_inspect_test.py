@@ -140,6 +140,21 @@ class Preset(WindowTest):
         part = written.crop(0, written.height // 3, written.width, written.height * 3 // 4)
         self.assertEqual(part.differing(shown, by=1), 0)
 
+    def test_one_that_is_there_is_overwritten_only_after_a_question(self):
+        preset = self.folder / "preset.toml"
+        first = 'technique = "pcf"\n'
+        preset.write_text(first)
+        with self.view(STEPS, "--technique", "pcss", size=(640, 400)) as viewer:
+            for answer in (lambda gone: viewer.click("keep preset", gone, "no question"),
+                           lambda gone: viewer.press("Escape", gone, "no question")):
+                viewer.click("save preset", lambda: viewer.has("overwrite preset"), "the question")
+                answer(lambda: not viewer.has("overwrite preset"))
+                viewer.follow()
+                self.assertEqual(preset.read_text(), first)
+            viewer.click("save preset", lambda: viewer.has("overwrite preset"), "the question")
+            viewer.click("overwrite preset", lambda: preset.read_text() != first, "another preset")
+        self.assertIn("pcss", preset.read_text())
+
     def test_it_takes_the_place_of_no_other_file(self):
         settings = b'[package]\nname = "another program\'s"\n'
         for name, content in (("mine.glb", STEPS.read_bytes()), ("package.toml", settings)):
