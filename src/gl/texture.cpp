@@ -136,6 +136,14 @@ std::vector<unsigned> read_uints(const Texture& texture, int channels, const Blo
                                block);
 }
 
+void set_sampling(GLuint id, int levels) {
+  const GLenum min_filter = levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST;
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(min_filter));
+  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
 }  // namespace
 
 Texture::Texture(std::string_view label, const TextureDesc& desc) : desc_(desc), serial_(next_serial()) {
@@ -156,11 +164,22 @@ Texture::Texture(std::string_view label, const TextureDesc& desc) : desc_(desc),
     fail("{}: out of memory for {} x {} x {}, {} bytes a texel", what, desc.width, desc.height, desc.layers,
          format.bytes);
   }
-  const GLenum min_filter = desc.levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST;
-  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(min_filter));
-  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  set_sampling(id, desc.levels);
+}
+
+Texture Texture::view(std::string_view label, const Texture& of, GLenum format) {
+  Texture texture;
+  texture.desc_ = of.desc();
+  texture.desc_.format = format;
+  texture.serial_ = next_serial();
+  GLuint id = 0;
+  glGenTextures(1, &id);
+  texture.handle_ = Handle<delete_texture>(id);
+  glTextureView(id, of.desc().target, of.id(), format, 0, static_cast<GLuint>(of.desc().levels), 0,
+                static_cast<GLuint>(of.desc().layers));
+  gl::label(GL_TEXTURE, id, label);
+  set_sampling(id, of.desc().levels);
+  return texture;
 }
 
 Texture Texture::wrap(GLuint id, const TextureDesc& desc) {
@@ -211,6 +230,7 @@ Sampler::Sampler(std::string_view label, const SamplerDesc& desc) {
   }
   // Anisotropic filtering is core in 4.6 only; its name is that of the extension, which nearly every driver has.
   constexpr GLenum texture_max_anisotropy = 0x84FE;
+  glSamplerParameterf(id, GL_TEXTURE_LOD_BIAS, desc.lod_bias);
   if (desc.max_anisotropy > 1.0f) glSamplerParameterf(id, texture_max_anisotropy, desc.max_anisotropy);
 }
 

@@ -35,6 +35,10 @@ class Texture {
   // attached, bound and read like Penumbra's own; its sampling parameters stay as they are.
   static Texture wrap(GLuint id, const TextureDesc& desc);
 
+  // Another texture on the same storage, read in another format of the same size (glTextureView). The storage lives as
+  // long as one of both.
+  static Texture view(std::string_view label, const Texture& of, GLenum format);
+
   // Tightly packed pixels of one level and layer, given in `format`/`type` (GL_RGBA, GL_UNSIGNED_BYTE…).
   // `pixels` must be exactly the level's size, else it is a bug. Throws Error for a pair that Penumbra does not use.
   void upload(GLenum format, GLenum type, std::span<const std::byte> pixels, int level = 0, int layer = 0) const;
@@ -66,6 +70,7 @@ struct SamplerDesc {
   GLenum wrap_t = GL_CLAMP_TO_EDGE;
   bool compare = false;  // GL_COMPARE_REF_TO_TEXTURE with GL_LEQUAL
   float max_anisotropy = 1.0f;
+  float lod_bias = 0.0f;  // added to the mip level that is read
 
   bool operator==(const SamplerDesc&) const = default;
 };

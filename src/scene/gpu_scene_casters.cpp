@@ -25,7 +25,10 @@ CasterFaces faces_of(const Instance& instance, bool behind) {
 // All casters of both faces without a material share one draw. Where only one face casts, the other face is culled like
 // back faces.
 Batch caster_batch(const Instance& instance, CasterFaces faces, bool masked, bool flips) {
-  Batch batch{.deformed = instance.job >= 0, .double_sided = true, .material = masked ? instance.material : -1};
+  Batch batch{.deformed = instance.job >= 0,
+              .double_sided = true,
+              .material = masked ? instance.material : -1,
+              .alpha_only = masked};
   if (faces == CasterFaces::both) return batch;
   batch.double_sided = false;
   batch.mirrored = (instance.mirrored != flips) != (faces == CasterFaces::back);

@@ -125,7 +125,9 @@ void GpuScene::State::draw(gl::Device& device, gl::Pass& pass, const DrawList& l
     (batch.deformed ? now->triangle_normals : triangle_normals).bind_storage(triangle_normals_binding);
     pass.set_cull_back(!batch.double_sided);
     pass.set_front_clockwise(batch.mirrored);
-    if (batch.material >= 0) materials.bind(batch.material);
+    if (batch.material >= 0) {
+      batch.alpha_only ? materials.bind_alpha(batch.material) : materials.bind(batch.material);
+    }
     const std::size_t offset = batch.first * sizeof(gl::DrawElementsCommand);
     pass.draw_elements_indirect(mode_of(batch.topology), GL_UNSIGNED_INT, {commands, offset, batch.count});
     pass.count_draws(0, batch.topology == Topology::triangles ? triangles_of(list, batch) : 0);

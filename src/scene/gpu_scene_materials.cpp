@@ -87,6 +87,18 @@ gl::SamplerDesc sampler_of(const Texture& texture) {
   return {.min_filter = min, .mag_filter = mag, .wrap_s = wrap_of(texture.wrap_s), .wrap_t = wrap_of(texture.wrap_t)};
 }
 
+// Casters read their alpha from finer mip levels than pictures: in coarse ones leaves shrink, because what is mixed
+// from their texels passes the alpha test less often. See ADR 25.
+constexpr float caster_lod_bias = -1.5f;
+
+// One mip level instead of two.
+gl::SamplerDesc caster_sampler(gl::SamplerDesc sampler) {
+  if (sampler.min_filter == GL_LINEAR_MIPMAP_LINEAR) sampler.min_filter = GL_LINEAR_MIPMAP_NEAREST;
+  if (sampler.min_filter == GL_NEAREST_MIPMAP_LINEAR) sampler.min_filter = GL_NEAREST_MIPMAP_NEAREST;
+  sampler.lod_bias = caster_lod_bias;
+  return sampler;
+}
+
 }  // namespace
 
 Materials::Materials(gl::Device& device, const Scene& scene) {
@@ -104,6 +116,7 @@ Materials::Materials(gl::Device& device, const Scene& scene) {
   textures_.emplace_back();
   present_.push_back(0);
   fill_empty_slots();
+  make_alpha_slots();
   blocks_ = gl::Buffer::of("materials", std::span<const glsl::MaterialBlock>(blocks));
 }
 
@@ -127,7 +140,7 @@ Materials::Slot Materials::slot(gl::Device& device, const Scene& scene, const Te
   if (texture.image < 0) return {};
   auto [entry, added] = images_.try_emplace({texture.image, srgb});
   if (added) entry->second = upload(scene.images[static_cast<std::size_t>(texture.image)], srgb);
-  return {&entry->second, &device.sampler(sampler_of(texture))};
+  return {&entry->second, &device.sampler(sampler_of(texture)), &device.sampler(caster_sampler(sampler_of(texture)))};
 }
 
 // Flags keep shaders from using textures that a material lacks, but they may sample them: another material's texture
@@ -144,10 +157,32 @@ void Materials::fill_empty_slots() {
   }
 }
 
-void Materials::bind(int material) const {
+void Materials::make_alpha_slots() {
+  for (const Slots& slots : textures_) {
+    Slot& slot = alpha_.emplace_back(slots[TEXTURE_BASE_COLOR]);
+    if (slot.texture == nullptr) continue;
+    const auto [view, added] = alpha_views_.try_emplace(slot.texture);
+    if (added) view->second = gl::Texture::view("alpha", *slot.texture, GL_RGBA8);
+    slot.texture = &view->second;
+  }
+}
+
+void Materials::bind_block(int material) const {
   constexpr std::size_t size = sizeof(glsl::MaterialBlock);
   gl::glBindBufferRange(GL_UNIFORM_BUFFER, material_binding, blocks_.id(),
                         static_cast<GLintptr>(size * static_cast<std::size_t>(material)), size);
+}
+
+void Materials::bind_alpha(int material) const {
+  bind_block(material);
+  const Slot& slot = alpha_[static_cast<std::size_t>(material)];
+  if (slot.texture == nullptr) return;
+  slot.texture->bind(first_unit + TEXTURE_BASE_COLOR);
+  slot.caster_sampler->bind(first_unit + TEXTURE_BASE_COLOR);
+}
+
+void Materials::bind(int material) const {
+  bind_block(material);
   const Slots& slots = textures_[static_cast<std::size_t>(material)];
   for (GLuint i = 0; i < slots.size(); ++i) {
     if (slots[i].texture == nullptr) continue;

@@ -45,7 +45,8 @@ struct Instance {
 struct Batch {
   bool deformed = false, mirrored = false, double_sided = false;
   Topology topology = Topology::triangles;
-  int material = -1;  // -1: the draw reads no material
+  int material = -1;        // -1: the draw reads no material
+  bool alpha_only = false;  // of the material, only the alpha that cuts a caster out
   SurfaceTraits traits;
   std::size_t first = 0, count = 0;
 
