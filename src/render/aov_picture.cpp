@@ -145,14 +145,15 @@ ByteImage display_bytes(std::vector<std::uint8_t> rgb, int width, int height, in
 }
 
 std::array<std::uint8_t, 3> label_color(float label) {
-  static constexpr std::array<std::array<std::uint8_t, 3>, 8> colors{{{{214, 69, 65}},
-                                                                      {{84, 160, 72}},
-                                                                      {{66, 110, 196}},
-                                                                      {{222, 180, 60}},
-                                                                      {{150, 84, 170}},
-                                                                      {{60, 176, 180}},
-                                                                      {{226, 128, 52}},
-                                                                      {{150, 150, 150}}}};
+  // After Okabe and Ito 2008, "Color universal design", further apart in brightness.
+  static constexpr std::array<std::array<std::uint8_t, 3>, label_color_count> colors{{{{0, 90, 160}},
+                                                                                      {{230, 159, 0}},
+                                                                                      {{0, 158, 115}},
+                                                                                      {{204, 121, 167}},
+                                                                                      {{120, 200, 245}},
+                                                                                      {{245, 235, 80}},
+                                                                                      {{170, 60, 0}},
+                                                                                      {{90, 90, 90}}}};
   constexpr float most = 65536;
   if (!(label >= 0 && label < most)) return {};
   return colors[static_cast<std::size_t>(label) % colors.size()];

@@ -25,8 +25,9 @@ std::vector<float> reduced(const std::vector<float>& pixels, int width, int heig
 // values also limits what one firefly adds to a block.
 ByteImage display_bytes(std::vector<std::uint8_t> rgb, int width, int height, int factor);
 
-// The colour of a label 0, 1, … in pictures of AOVs: 8-bit sRGB, eight colours that repeat. Negative values, as the -1
-// of the sky, are black.
+// The colour of a label 0, 1, … in pictures of AOVs: 8-bit sRGB, colours that repeat and that can be told apart without
+// seeing red, green or blue as others do. Negative values, as the -1 of the sky, are black.
+constexpr int label_color_count = 8;
 std::array<std::uint8_t, 3> label_color(float label);
 
 // An AOV as a picture for people: visibility and material unchanged; albedo sRGB-encoded; normals and motion centred at
