@@ -15,43 +15,88 @@ const shadow::Registry& all_techniques() {
 
 namespace {
 
-// A preset with the values that it sets.
 struct PresetValues {
   std::string name;
-  std::vector<std::pair<std::string, ParamValue>> values;
+  ParamSet params;                   // with the preset chosen
+  std::vector<std::string> changed;  // the parameters that it sets to other values than their defaults
+  std::vector<std::string> groups;   // of all that it sets, and of its technique
 };
 
 std::vector<PresetValues> presets_with_values() {
   const shadow::Registry& registry = all_techniques();
+  const ParamSet defaults(render::Renderer::params(registry));
   std::vector<PresetValues> presets;
   for (const shadow::Preset& preset : registry.presets()) {
-    ParamSet params(render::Renderer::params(registry));
-    registry.select(params, preset.name);
-    PresetValues& added = presets.emplace_back(PresetValues{.name = preset.name, .values = {}});
-    added.values.emplace_back("technique", params.value("technique"));
+    PresetValues& added = presets.emplace_back(PresetValues{preset.name, defaults, {}, {}});
+    registry.select(added.params, preset.name);
+    added.groups.push_back(added.params.get_word("technique"));
     for (const std::string& assignment : preset.assignments) {
       const std::string name = assignment.substr(0, assignment.find('='));
-      added.values.emplace_back(name, params.value(name));
+      if (!group_of(name).empty()) added.groups.push_back(group_of(name));
+      if (added.params.value(name) != defaults.value(name)) added.changed.push_back(name);
     }
   }
   return presets;
 }
 
+struct Match {
+  std::ptrdiff_t same = 0, other = 0;  // how many of the values that the preset changes
+
+  bool is_better_than(const Match& match) const { return same != match.same ? same > match.same : other < match.other; }
+};
+
+Match match_of(const PresetValues& preset, const ParamSet& params) {
+  if (preset.params.value("technique") != params.value("technique")) return {};
+  const std::ptrdiff_t same = std::ranges::count_if(
+      preset.changed, [&](const std::string& name) { return params.value(name) == preset.params.value(name); });
+  return {same, std::ssize(preset.changed) - same};
+}
+
+const PresetValues* nearest_preset(const ParamSet& params) {
+  static const std::vector<PresetValues> presets = presets_with_values();
+  const PresetValues* nearest = nullptr;
+  Match best;
+  for (const PresetValues& preset : presets) {
+    const Match match = match_of(preset, params);
+    if (match.same <= match.other || !match.is_better_than(best)) continue;
+    best = match;
+    nearest = &preset;
+  }
+  return nearest;
+}
+
 }  // namespace
 
+std::string group_of(const std::string& param) {
+  const std::size_t dot = param.find('.');
+  return dot == std::string::npos ? "" : param.substr(0, dot);
+}
+
+Selection selection_of(const ParamSet& params) {
+  const PresetValues* preset = nearest_preset(params);
+  if (preset == nullptr) return {.name = params.get_word("technique")};
+  const bool modified = std::ranges::any_of(preset->params.rows(), [&](const Param& row) {
+    const bool sets_group = std::ranges::find(preset->groups, group_of(row.name)) != preset->groups.end();
+    const bool is_set = sets_group || std::ranges::find(preset->changed, row.name) != preset->changed.end();
+    return is_set && params.value(row.name) != preset->params.value(row.name);
+  });
+  return {.name = preset->name, .modified = modified};
+}
+
 std::string technique_label(const ParamSet& params) {
-  static const std::vector<PresetValues> presets = presets_with_values();
-  const PresetValues* best = nullptr;
-  for (const PresetValues& preset : presets) {
-    const bool fits = std::ranges::all_of(preset.values,
-                                          [&](const auto& value) { return params.value(value.first) == value.second; });
-    if (fits && (best == nullptr || preset.values.size() > best->values.size())) best = &preset;
-  }
-  return best != nullptr ? best->name : params.get_word("technique");
+  const Selection selection = selection_of(params);
+  return selection.modified ? selection.name + " (modified)" : selection.name;
+}
+
+ParamSet unmodified(const ParamSet& params) {
+  ParamSet base = params;
+  for (const Param& row : params.rows()) base.reset(row.name);
+  all_techniques().select(base, selection_of(params).name);
+  return base;
 }
 
 void choose_technique(ParamSet& params, const shadow::Registry& registry, const std::string& name) {
-  const std::string last = technique_label(params);
+  const std::string last = selection_of(params).name;
   const auto preset = std::ranges::find(registry.presets(), last, &shadow::Preset::name);
   if (preset != registry.presets().end()) {
     for (const std::string& assignment : preset->assignments) params.reset(assignment.substr(0, assignment.find('=')));

@@ -12,14 +12,29 @@ namespace penumbra::session {
 // All techniques of the program, for look-ups and lists: the library's and `truth`.
 const shadow::Registry& all_techniques();
 
-// The name for what the parameters select: the preset whose values they all match ("thesis"; the most specific one if
-// several match), else the technique.
+// What the parameters select.
+struct Selection {
+  // The preset that they are nearest to, if more than half of the values that it changes are theirs; else the
+  // technique.
+  std::string name;
+  // Of a preset: other parameters of its groups, such as all that begin with "filter.", differ from it.
+  bool modified = false;
+};
+Selection selection_of(const ParamSet& params);
+
+// Its name, such as "thesis" or "thesis (modified)".
 std::string technique_label(const ParamSet& params);
+
+// These parameters as they were right after choosing the selection, every other one with its default.
+ParamSet unmodified(const ParamSet& params);
+
+// The part of a parameter's name before the dot, or "".
+std::string group_of(const std::string& param);
 
 // What commands draw with where the user names no technique.
 constexpr const char* usual_technique = "slices_denoised";
 
-// Chooses a technique or preset. What technique_label() named before goes back to its defaults, so that the filters of
+// Chooses a technique or preset. What selection_of() named before goes back to its defaults, so that the filters of
 // one preset do not stay with the next.
 void choose_technique(ParamSet& params, const shadow::Registry& registry, const std::string& name);
 

@@ -28,12 +28,13 @@ constexpr std::array ways{
 void choose_b(const Panel& panel) {
   Comparison& comparison = panel.state.comparison;
   const shadow::Registry& registry = panel.status.techniques;
-  const std::string current = session::technique_label(comparison.params);
+  const std::string current = session::selection_of(comparison.params).name;
   row("B is",
       "The technique of picture B. Choosing one copies A's values; after that only sun, exposure and render options "
       "follow "
       "A. Truth and brute force are drawn without history and filters.");
-  const bool open = ImGui::BeginCombo("##b", current.c_str(), ImGuiComboFlags_HeightLargest);
+  const bool open =
+      ImGui::BeginCombo("##b", session::technique_label(comparison.params).c_str(), ImGuiComboFlags_HeightLargest);
   panel.widgets.mark("b");
   if (!open) return;
   for (const std::string& name : registry.names()) {

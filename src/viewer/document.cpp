@@ -46,11 +46,8 @@ void add_frames(std::vector<std::string>& arguments, const Document& document,
 
 // The technique or preset that the parameters are nearest to, and what differs from it.
 void add_params(std::vector<std::string>& arguments, const ParamSet& params) {
-  const std::string technique = session::technique_label(params);
-  add(arguments, "--technique", technique);
-  ParamSet base = params;
-  for (const Param& row : params.rows()) base.reset(row.name);
-  session::all_techniques().select(base, technique);
+  add(arguments, "--technique", session::selection_of(params).name);
+  const ParamSet base = session::unmodified(params);
   for (const Param& row : params.rows()) {
     if (params.value(row.name) == base.value(row.name)) continue;
     add(arguments, "--set", row.name + "=" + to_text(params.value(row.name)));

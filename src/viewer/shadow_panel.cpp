@@ -12,11 +12,6 @@ namespace penumbra::viewer {
 
 namespace {
 
-std::string group_of(const std::string& name) {
-  const std::size_t dot = name.find('.');
-  return dot == std::string::npos ? "" : name.substr(0, dot);
-}
-
 bool is_technique(const shadow::Registry& registry, const std::string& group) {
   const auto techniques = registry.techniques();
   return std::any_of(techniques.begin(), techniques.end(), [&](const auto& each) { return each.name == group; });
@@ -35,7 +30,7 @@ bool found(const Param& param, const std::string& search) {
 
 void choose_technique(const Panel& panel, ParamSet& params) {
   const shadow::Registry& registry = panel.status.techniques;
-  const std::string current = session::technique_label(params);
+  const std::string current = session::selection_of(params).name;
   const auto item = [&](const std::string& name, const std::string& summary) {
     if (ImGui::Selectable(name.c_str(), name == current)) session::choose_technique(params, registry, name);
     panel.widgets.mark("technique=" + name);
@@ -44,7 +39,8 @@ void choose_technique(const Panel& panel, ParamSet& params) {
   row(panel.state.comparison.on ? "technique of A" : "technique",
       panel.state.comparison.on ? "How the shadows of picture A are computed. This tab edits A."
                                 : "How shadows are computed.");
-  const bool open = ImGui::BeginCombo("##technique", current.c_str(), ImGuiComboFlags_HeightLargest);
+  const bool open =
+      ImGui::BeginCombo("##technique", session::technique_label(params).c_str(), ImGuiComboFlags_HeightLargest);
   panel.widgets.mark("technique");
   if (!open) return;
   for (const shadow::Technique& technique : registry.techniques()) item(technique.name, technique.summary);
@@ -59,10 +55,17 @@ void reset_all(ParamSet& params) {
   params.set("technique", technique);
 }
 
-// Returns whether there is a row to show.
-bool group(const Panel& panel, ParamSet& params, const std::string& name, std::string& fault) {
+// Whether a value of the group differs from what the technique or preset sets, or else from its default.
+bool is_changed(const ParamSet& params, const ParamSet& base, const std::string& group) {
+  return std::ranges::any_of(params.rows(), [&](const Param& param) {
+    return session::group_of(param.name) == group && params.value(param.name) != base.value(param.name);
+  });
+}
+
+// Returns whether there is a row to show. `base`: session::unmodified().
+bool group(const Panel& panel, ParamSet& params, const ParamSet& base, const std::string& name, std::string& fault) {
   const auto shown = [&](const Param& param) {
-    return group_of(param.name) == name && param.name != "technique" && found(param, panel.state.search);
+    return session::group_of(param.name) == name && param.name != "technique" && found(param, panel.state.search);
   };
   const auto rows = params.rows();
   if (std::none_of(rows.begin(), rows.end(), shown)) return false;
@@ -71,10 +74,13 @@ bool group(const Panel& panel, ParamSet& params, const std::string& name, std::s
   if (own && name != params.get_word("technique") && !searched) return false;
   const std::string title = name.empty() ? "general" : name;
   const bool first = own || name.empty() || name == "sun";
+  const bool changed = is_changed(params, base, name);
   // Open while it is searched. It has another id then, so that it is as it was once the search is cleared.
   ImGui::SetNextItemOpen(searched || first, searched ? ImGuiCond_Always : ImGuiCond_Once);
-  const bool open = ImGui::CollapsingHeader((title + (searched ? "##searched" : "")).c_str());
+  const bool open =
+      ImGui::CollapsingHeader((title + (changed ? " *" : "") + "###" + title + (searched ? " searched" : "")).c_str());
   panel.widgets.mark("group " + title);
+  if (changed) tooltip("Has values that differ from those of \"" + session::selection_of(params).name + "\".");
   if (!open) return true;
   begin_rows(title.c_str());
   // A widget may change values, but not the list of declarations.
@@ -88,7 +94,7 @@ bool group(const Panel& panel, ParamSet& params, const std::string& name, std::s
 std::vector<std::string> groups_of(const ParamSet& params) {
   std::vector<std::string> names;
   for (const Param& param : params.rows()) {
-    const std::string name = group_of(param.name);
+    const std::string name = session::group_of(param.name);
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   // The technique's own group comes first.
@@ -147,7 +153,8 @@ void shadow_panel(const Panel& panel) {
   ImGui::BeginChild("parameters", {0, -footer});
   std::string fault;
   bool any = false;
-  for (const std::string& name : groups_of(params)) any = group(panel, params, name, fault) || any;
+  const ParamSet base = session::unmodified(params);
+  for (const std::string& name : groups_of(params)) any = group(panel, params, base, name, fault) || any;
   if (!any) {
     ImGui::TextWrapped("No parameter has these words in its name or help.");
     panel.widgets.mark("nothing found");

@@ -29,5 +29,30 @@ TEST(TechniqueLabel, IsThePresetsNameUntilOneOfItsValuesChanges) {
   }
 }
 
+TEST(TechniqueLabel, SaysWhichPresetWasModified) {
+  ParamSet params = selected("thesis");
+  params.set("history.alpha", 0.2f);  // of a group that it sets, though not one of its values
+  EXPECT_EQ(session::technique_label(params), "thesis (modified)");
+  params = selected("thesis_8x8");
+  params.set("pcss.filter_taps", 12);
+  EXPECT_EQ(session::technique_label(params), "thesis_8x8 (modified)");
+  EXPECT_EQ(session::selection_of(params).name, "thesis_8x8");
+  EXPECT_EQ(session::unmodified(params).get_int("pcss.filter_taps"), 8);
+}
+
+TEST(TechniqueLabel, IsTheTechniqueWhereMostOfAPresetIsMissing) {
+  ParamSet params = selected("pcss");
+  params.set_text("filter.visibility", "bilateral_separable");
+  EXPECT_EQ(session::technique_label(params), "pcss");
+}
+
+TEST(TechniqueLabel, ChoosingAnotherTechniqueTakesBackAModifiedPreset) {
+  ParamSet params = selected("thesis_8x8");
+  params.set("pcss.filter_taps", 12);
+  session::choose_technique(params, session::all_techniques(), "hard");
+  EXPECT_EQ(params.get_word("filter.visibility"), "none");
+  EXPECT_EQ(session::technique_label(params), "hard");
+}
+
 }  // namespace
 }  // namespace penumbra

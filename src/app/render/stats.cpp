@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "session/techniques.h"
 
 namespace penumbra::app {
 
@@ -95,6 +96,7 @@ Json stats_of(const RenderOptions& options, const session::PreparedScene& prepar
        {"height", options.size.height},
        {"supersample", options.supersample},
        {"technique", params.get_word("technique")},
+       {"label", session::technique_label(params)},
        {"backend", gl::to_string(session.context().backend())},
        {"device", io::to_json(session.device_info())},
        {"camera", json_of(setup.camera)},
