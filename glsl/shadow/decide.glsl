@@ -5,6 +5,8 @@
 #define LEAVES_TO_RAYS 0  // 1: what the map may show wrongly is left undecided
 #endif
 #include "shadow/search.glsl"
+#include "shadow/projection/tiles.glsl"
+#include "shadow/shadowed.glsl"
 #include "shadow/drivers/gbuffer.glsl"
 #if LEAVES_TO_RAYS
 #include "shadow/techniques/hybrid_masked.glsl"
@@ -31,7 +33,7 @@ bool edges_are_clear(Receiver deepest, float radius, vec2 half_widths, Light lig
 }
 
 // What is known of a pixel.
-const int in_shadow = 0, lit = 1, faces_away = 2, undecided = 3;
+const int in_shadow = 0, lit = 1, faces_away = 2, undecided = 3, unseen = 4;
 
 struct PixelState {
   int kind;
@@ -52,10 +54,10 @@ PixelState decide_receiver(Receiver receiver, Light light) {
   if (least <= bias && most <= bias + bend) return PixelState(lit, 0.0);
   bool covered = least > bias + bend + 2.0 * texel;
   return PixelState(covered ? in_shadow : undecided,
-                    receiver.position.z - bilinear(footprint.depths, footprint.weight));
+                    metres_to_blocker(receiver, receiver.position.z - bilinear(footprint.depths, footprint.weight)));
 }
 
-// Whether the pixel faces away from the light or towards it; for rays, undecided where one part of the light may be
+// Whether the pixel faces away from the light, or lies where it does not shine, or faces it; for rays, undecided where one part of the light may be
 // above the horizon of its surface and another part below it.
 int facing_of(Receiver receiver, Light light) {
   float cosine = light_cosine(receiver);
@@ -63,12 +65,17 @@ int facing_of(Receiver receiver, Light light) {
   float horizon = 1.5 / cone_slope(receiver, light);
   if (abs(cosine) < horizon) return undecided;
 #endif
-  return cosine <= 0.0 ? faces_away : lit;
+  return faces_light(receiver) ? lit : faces_away;
 }
 
+// As the light's layer shows it; `unseen` where other layers alone are read.
 PixelState decide_pixel(ivec2 pixel, Light light) {
   if (is_sky(pixel)) return PixelState(lit, 0.0);
   Receiver receiver = receiver_at(pixel);
   int facing = facing_of(receiver, light);
-  return facing == lit ? decide_receiver(receiver, light) : PixelState(facing, 0.0);
+  if (facing != lit) return PixelState(facing, 0.0);
+  if (is_outside(receiver)) return PixelState(undecided, 0.0);
+  if (!reads_layer(receiver, light)) return PixelState(unseen, 0.0);
+  receiver = seen_by_layer(receiver, light.layer);
+  return decide_receiver(receiver, own_light(receiver, light));
 }

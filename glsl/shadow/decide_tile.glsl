@@ -5,11 +5,6 @@
 #include "shadow/drivers/tiles.glsl"
 #include "shadow/drivers/tile_lists.glsl"
 
-// A box in light space.
-struct Box {
-  vec3 low, high;
-};
-
 // The pixels of a tile, low to high exclusive.
 struct Pixels {
   ivec2 low, high;
@@ -26,28 +21,14 @@ vec2 depth_range(Pixels pixels) {
   return range;
 }
 
-Box box_of(Pixels pixels, vec2 range) {
-  Box box = Box(vec3(1e30), vec3(-1e30));
+Hull hull_of(Pixels pixels, vec2 range) {
+  Hull hull;
   for (int corner = 0; corner < 8; ++corner) {
     bvec3 high = notEqual(ivec3(corner) & ivec3(1, 2, 4), ivec3(0));
     vec2 pixel = mix(vec2(pixels.low), vec2(pixels.high), high.xy);
-    vec3 position = light_position(unproject(pixel, high.z ? range.y : range.x));
-    box.low = min(box.low, position);
-    box.high = max(box.high, position);
+    hull.corners[corner] = light_position(unproject(pixel, high.z ? range.y : range.x));
   }
-  return box;
-}
-
-// A receiver at the box's centre, at this depth.
-Receiver receiver_in_box(Box box, float depth) {
-  Receiver receiver;
-  receiver.position = vec3(0.5 * (box.low.xy + box.high.xy), depth);
-  receiver.normal = vec3(0.0, 0.0, -1.0);
-  receiver.gradient = vec2(0.0);
-  receiver.surroundings = Surroundings(vec4(0.0), 0.0, 0.0, 0.0);
-  receiver.pixel = vec2(0.0);
-  receiver.history_refused = false;
-  return receiver;
+  return hull;
 }
 
 // Bounds of what search_radius() gives the receivers of a box, metres. It reads the texels of the pyramid that a disc
@@ -82,7 +63,8 @@ struct Layers {
 };
 
 Layers layers_of(Receiver shallowest, Receiver deepest, SearchRadii radii, float box_radius, Light light) {
-  Layers layers;
+  Layers layers = Layers(light.layer, light.layer, false);
+  if (is_lamp) return layers;
   layers.first = finest_layer(shallowest, radii.least - box_radius, light);
   layers.last = finest_layer(deepest, radii.most + box_radius, light);
   float edge = layer_edge(layers.last, deepest.position, radii.most + box_radius, light);
@@ -94,24 +76,75 @@ Layers layers_of(Receiver shallowest, Receiver deepest, SearchRadii radii, float
   return layers;
 }
 
-// Whether all pixels are decided.
-bool decide(Pixels pixels, Light light, out Decision decision) {
-  decision = Decision(uvec2(0u), 0.0, light.read_radius, light.layer);
-  int covered = 0, away = 0;
-  float sum = 0.0;
+// What is known of a tile so far.
+struct TileState {
+  uvec2 decided;  // bits as in Decision::lit: pixels that one layer has decided
+  int covered, away;
+  float distance_sum;
+  Decision decision;
+};
+
+// Adds a pixel. False if it was decided in another way before.
+bool add(inout TileState tile, int bit, PixelState state) {
+  uint mask = 1u << (bit & 31), is_lit = uint(state.kind == lit) << (bit & 31);
+  if ((tile.decided[bit >> 5] & mask) != 0u) return (tile.decision.lit[bit >> 5] & mask) == is_lit;
+  tile.decided[bit >> 5] |= mask;
+  tile.decision.lit[bit >> 5] |= is_lit;
+  tile.covered += int(state.kind == in_shadow);
+  tile.away += int(state.kind == faces_away);
+  if (state.kind == in_shadow) tile.distance_sum += state.blocker_distance;
+  return true;
+}
+
+int bit_of(Pixels pixels, int x, int y) { return tile_size * (y - pixels.low.y) + x - pixels.low.x; }
+
+// Adds what the light's layer shows. False if it leaves a pixel undecided, or differs from another layer.
+bool decide(Pixels pixels, Light light, inout TileState tile) {
   for (int y = pixels.low.y; y < pixels.high.y; ++y) {
     for (int x = pixels.low.x; x < pixels.high.x; ++x) {
       PixelState state = decide_pixel(ivec2(x, y), light);
       if (state.kind == undecided) return false;
-      int bit = tile_size * (y - pixels.low.y) + x - pixels.low.x;
-      decision.lit[bit >> 5] |= uint(state.kind == lit) << (bit & 31);
-      covered += int(state.kind == in_shadow);
-      away += int(state.kind == faces_away);
-      if (state.kind == in_shadow) sum += state.blocker_distance;
+      if (state.kind != unseen && !add(tile, bit_of(pixels, x, y), state)) return false;
     }
   }
-  if (covered > 0) decision.blocker_distance = sum / float(covered);
-  return covered == 0 || away == 0;
+  return tile.covered == 0 || tile.away == 0;
+}
+
+// The same if the light shines on none of the pixels.
+bool decide_out_of_reach(Pixels pixels, inout TileState tile) {
+  for (int y = pixels.low.y; y < pixels.high.y; ++y) {
+    for (int x = pixels.low.x; x < pixels.high.x; ++x) {
+      bool sky = is_sky(ivec2(x, y));
+      if (!sky && faces_light(receiver_at(ivec2(x, y)))) return false;
+      add(tile, bit_of(pixels, x, y), PixelState(sky ? lit : faces_away, 0.0));
+    }
+  }
+  return true;
+}
+
+// The same for all layers in which receivers of a box are read.
+bool decide_box(Pixels pixels, Box box, Light light, inout TileState tile) {
+  vec2 half_widths = 0.5 * (box.high.xy - box.low.xy);
+  float box_radius = max(half_widths.x, half_widths.y);
+  Receiver deepest = receiver_in_box(box, box.high.z, light);
+  Light widest = with_widest_layer(deepest, light);
+  float widest_radius = penumbra_radius(deepest, deepest.position.z - least_depth(widest), light);
+  vec2 margins = half_widths + (2.0 + bias_normal_offset) * texel_size(deepest, widest);
+  float nearest = depth_bounds(deepest.position, margins + widest_radius, widest).least;
+  float radius = min(widest_radius, penumbra_radius(deepest, deepest.position.z - nearest, light));
+  Receiver shallowest = receiver_in_box(box, box.low.z, light);
+  SearchRadii radii = search_radii(shallowest, deepest, box_radius, widest);
+  Layers layers = layers_of(shallowest, deepest, radii, box_radius, light);
+  if (layers.outside) return false;
+  tile.decision.radius = max(tile.decision.radius, radius);
+  light.read_radius = radius;
+  for (int layer = layers.first; layer <= layers.last; ++layer) {
+    light = with_layer(light, layer);
+    if (!edges_are_clear(deepest, radius, half_widths, light) || !decide(pixels, light, tile)) return false;
+    // The decision names the finest layer.
+    if (layer == layers.first) tile.decision.layer = layer;
+  }
+  return true;
 }
 
 // Decides all pixels of a tile, if that is possible.
@@ -119,31 +152,19 @@ bool decide_tile(Pixels pixels, out Decision decision) {
   decision = Decision(uvec2(~0u), 0.0, 0.0, 0);
   vec2 range = depth_range(pixels);
   if (range.x > range.y) return true;
-  Box box = box_of(pixels, range);
-  vec2 half_widths = 0.5 * (box.high.xy - box.low.xy);
-  float box_radius = max(half_widths.x, half_widths.y);
-  Light light = frame_light();
-  Receiver deepest = receiver_in_box(box, box.high.z);
-  Light widest = with_widest_layer(deepest, light);
-  float widest_radius = penumbra_radius(deepest, deepest.position.z - least_depth(widest), light);
-  vec2 margins = half_widths + (2.0 + bias_normal_offset) * texel_size(deepest, widest);
-  float nearest = depth_bounds(deepest.position, margins + widest_radius, widest).least;
-  float radius = min(widest_radius, penumbra_radius(deepest, deepest.position.z - nearest, light));
-  Receiver shallowest = receiver_in_box(box, box.low.z);
-  SearchRadii radii = search_radii(shallowest, deepest, box_radius, widest);
-  Layers layers = layers_of(shallowest, deepest, radii, box_radius, light);
-  if (layers.outside) return false;
-  light.read_radius = radius;
-  // The coarser layer of a seam comes first, so that the decision names the finer one.
-  for (int layer = layers.last; layer >= layers.first; --layer) {
-    light = with_layer(light, layer);
-    if (!edges_are_clear(deepest, radius, half_widths, light)) return false;
-    Decision in_layer;
-    if (!decide(pixels, light, in_layer)) return false;
-    if (layer < layers.last && in_layer.lit != decision.lit) return false;
-    decision = in_layer;
+  TileState tile = TileState(uvec2(0u), 0, 0, 0.0, Decision(uvec2(0u), 0.0, 0.0, 0));
+  Hull hull = hull_of(pixels, range);
+  bool done = may_be_out_of_reach() && decide_out_of_reach(pixels, tile);
+  for (int sight = 0; !done && sight < sight_count(frame_light()); ++sight) {
+    if (!may_see(hull, sight)) continue;
+    Box box;
+    Light light = frame_light();
+    if (!box_of(hull, sight, box, light) || !decide_box(pixels, box, light, tile)) return false;
   }
-  return true;
+  decision = tile.decision;
+  if (tile.covered > 0) decision.blocker_distance = tile.distance_sum / float(tile.covered);
+  ivec2 size = pixels.high - pixels.low;
+  return bitCount(tile.decided.x) + bitCount(tile.decided.y) == size.x * size.y;
 }
 
 // The pixels of a tile of the viewport.

@@ -9,7 +9,7 @@ GLSL_BEGIN
 #define SHADOW_MAX_LAYERS 8
 
 // The placement of one layer of a light's shadow map, and the range of its depths. Only
-// glsl/shadow/light_projection.glsl reads it. A lamp's are tangents instead of metres across, and −1 / depth along.
+// glsl/shadow/projection reads it. A lamp's are tangents instead of metres across, and −1 / depth along.
 struct LayerBlock {
   vec2 center;            // of the map, light space, metres
   vec2 widths_per_metre;  // map widths and heights
@@ -37,7 +37,7 @@ struct ShadowBlock {
   vec2 depth_error;        // most error of a receiver's NDC depth: x: absolute; y: times its absolute value
   float sky_depth;         // stored depth of pixels that show nothing
   int octahedral_normals;  // 1: normals are octahedral; 0: xyz
-  float light_extent;      // see Light::extent in light_projection.glsl
+  float light_extent;      // see Light::extent in shadow/projection
   int light_is_square;     // 1: square; 0: disc
   int layer_count;         // of the shadow map
   float map_size;          // side of each layer, texels

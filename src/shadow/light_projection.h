@@ -18,7 +18,7 @@ struct ShadowBlock;
 
 namespace penumbra::shadow {
 
-// All that depends on the kind of light is declared here and in glsl/shadow/light_projection.glsl, and nowhere else:
+// All that depends on the kind of light is declared here and in glsl/shadow/projection, and nowhere else:
 // the data that describes a light, the projection of its shadow map, and the uniforms for both.
 
 // A directional light at infinite distance, with parallel rays. Its angular size and shape are the parameters sun.angle

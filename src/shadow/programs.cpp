@@ -202,12 +202,12 @@ gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& param
   return program;
 }
 
-gl::ProgramDesc Programs::decide_tiles(const Technique& technique) const {
+gl::ProgramDesc Programs::decide_tiles(const Technique& technique, bool lamp) const {
   const std::string folder = folder_of(owner_of(technique));
   return {.name = "decide tiles",
           .compute = including(folder, {folder + "/preamble.glsl", "shadow/drivers/decide_tiles.comp"}),
           // It reads no sample points, but the preamble of a technique that has some asks for it.
-          .defines = {{"SAMPLE_SCRAMBLE", "0"}, {"LAMP", "0"}}};
+          .defines = {{"SAMPLE_SCRAMBLE", "0"}, {"LAMP", lamp ? "1" : "0"}}};
 }
 
 gl::ProgramDesc Programs::decided(const MaskForm& form) const {
@@ -300,13 +300,15 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
          compiled_variants(params_of(technique.params, technique.needs, registry_), defaults)) {
       for (const Compiled& compiled : all_compiled(technique)) {
         for (const MaskForm& form : mask_forms(compiled)) {
-          if (technique.glsl.empty() || (form.tiles && (!technique.decides_tiles || compiled.lamp))) continue;
+          if (technique.glsl.empty() || (form.tiles && !technique.decides_tiles)) continue;
           programs.push_back(mask(technique, params, form));
         }
       }
     }
     add_own(programs, owner_of(technique), defaults);
-    if (technique.decides_tiles) programs.push_back(decide_tiles(technique));
+    if (!technique.decides_tiles) continue;
+    programs.push_back(decide_tiles(technique, /*lamp=*/false));
+    if (!technique.suns_only) programs.push_back(decide_tiles(technique, /*lamp=*/true));
   }
   return programs;
 }

@@ -50,7 +50,7 @@ class Programs {
   };
   gl::ProgramDesc mask(const Technique& technique, const ParamSet& params, const MaskForm& form) const;
   // The programs that decide tiles and that fill the mask with them.
-  gl::ProgramDesc decide_tiles(const Technique& technique) const;
+  gl::ProgramDesc decide_tiles(const Technique& technique, bool lamp) const;
   gl::ProgramDesc decided(const MaskForm& form) const;
   // The program that lists the tiles that filters can change.
   gl::ProgramDesc filter_tiles() const;

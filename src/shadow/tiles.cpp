@@ -32,9 +32,7 @@ std::array<std::uint32_t, 12> empty_tile_list(std::size_t capacity) {
 bool decides_tiles(const LightWork& work) {
   const Rect& viewport = work.frame.viewport;
   const bool fits = viewport.width >= Tiles::size && viewport.height >= Tiles::size;
-  // A lamp's light space differs from receiver to receiver, so that a tile's receivers have none in common.
-  return work.technique.decides_tiles && !work.frame.shape.lamp && fits && work.programs.draws_tiles() &&
-         work.params().get_bool("mask.tiles");
+  return work.technique.decides_tiles && fits && work.programs.draws_tiles() && work.params().get_bool("mask.tiles");
 }
 
 Tiles decide_tiles(const LightWork& work) {
@@ -46,7 +44,7 @@ Tiles decide_tiles(const LightWork& work) {
       .format = GL_RGBA32UI, .width = tiles_across(work.mask.width()), .height = tiles_across(work.mask.height())};
   const Tiles tiles{context.target("tile decisions", of_mask), begin_list(context, "tile list", size)};
   gl::Pass pass(work.device, {.name = "tile decisions"});
-  pass.use(work.programs.decide_tiles(work.technique));
+  pass.use(work.programs.decide_tiles(work.technique, work.frame.shape.lamp));
   bind_inputs(work, owner);
   tiles.decisions.bind_image(0, GL_WRITE_ONLY);
   tiles.list.bind_storage(tile_list_binding);

@@ -109,7 +109,7 @@ def shader_faults_of(path, text):
 # What a light's kind and its map's projection decide, and the files that may know it.
 PROJECTION = re.compile(r"\bshadow\.(layers|layer_count|light_extent|light_is_square|map_size|view_to_light|"
                         r"world_to_light|moved_depth|lamp|light_is_lamp|light_stretch)\b|\bshadow_depth\b|\bLayerBlock\b|\blight\.(map|extent)\b")
-PROJECTION_FILE = "shadow/light_projection.glsl"
+PROJECTION_FOLDER = "shadow/projection/"
 CASCADES = re.compile(r"\b(Cascades?|LampMaps|fit_cascades|fit_lamp|get(_if)?<(Sun|Lamp)>)(?!\w)")
 # light_projection.cpp alone uses the other files: they are its parts for suns and for lamps.
 CASCADES_FILES = {"shadow/cascades.h", "shadow/cascades.cpp", "shadow/receiver_region.h", "shadow/receiver_region.cpp",
@@ -127,9 +127,9 @@ def projection_faults_of(path, text):
     if path.endswith((".h", ".cpp")):
         pattern = CASCADES if path.startswith("shadow/") and path not in CASCADES_FILES else None
     else:
-        pattern = PROJECTION if path != PROJECTION_FILE else None
+        pattern = PROJECTION if not path.startswith(PROJECTION_FOLDER) else None
     for match in pattern.finditer(code_of(text)) if pattern else []:
-        yield f"{path}: '{match.group()}' is for {PROJECTION_FILE} and src/shadow/light_projection.cpp alone"
+        yield f"{path}: '{match.group()}' is for glsl/{PROJECTION_FOLDER} and src/shadow/light_projection.cpp alone"
 
 
 def glsl_faults_of(path, text):

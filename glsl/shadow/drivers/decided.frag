@@ -15,13 +15,14 @@ layout(location = 0) flat in ivec2 tile;
 
 layout(binding = 14) uniform usampler2D decisions;
 
-Visibility decided_visibility(Decision decision, ivec2 pixel, vec3 position) {
+Shadowed decided_shadow(Decision decision, ivec2 pixel, Receiver receiver) {
   int bit = tile_size * (pixel.y % tile_size) + pixel.x % tile_size;
-  if (((decision.lit[bit >> 5] >> (bit & 31)) & 1u) != 0u) return fully_lit();
-  float radius = packed_radius(position, decision.blocker_distance);
-  Light light = with_layer(frame_light(), decision.layer);
-  bool under_texel = decision.blocker_distance > 0.0 && radius < texel_size_at(position, light);
-  return Visibility(0.0, radius, decision.blocker_distance, under_texel);
+  int layer = layer_seen_through(receiver, decision.layer);
+  if (((decision.lit[bit >> 5] >> (bit & 31)) & 1u) != 0u) return Shadowed(fully_lit(), layer);
+  float radius = packed_radius(receiver.position, decision.blocker_distance);
+  Light light = with_layer(light_at(receiver), layer);
+  bool under_texel = decision.blocker_distance > 0.0 && radius < texel_size(receiver, light);
+  return Shadowed(Visibility(0.0, radius, decision.blocker_distance, under_texel), layer);
 }
 
 void main() {
@@ -38,16 +39,16 @@ void main() {
   Receiver receiver = receiver_at(pixel);
   uint refusal = HISTORY_NONE;
 #if HISTORY
-  Light light = frame_light();
+  Light light = light_at(receiver);
   light.read_radius = decision.radius;
   refusal = refusal_of(receiver, light, pixel);
 #endif
-  Visibility seen = decided_visibility(decision, in_viewport, receiver.position);
-  PackedPixel packed_values = packed_pixel(Shadowed(seen, decision.layer), receiver, refusal);
+  PackedPixel packed_values = packed_pixel(decided_shadow(decision, in_viewport, receiver), receiver, refusal);
   texel = packed_values.texel;
   notes = packed_values.notes;
 #else
-  Visibility seen = decided_visibility(decision, in_viewport, light_position(view_position_at(pixel)));
-  mask = mask_texel(Shadowed(seen, decision.layer));
+  // Neither its normal nor its error matters here.
+  Receiver receiver = make_receiver(view_position_at(pixel), vec3(0.0, 0.0, -1.0), vec2(pixel));
+  mask = mask_texel(decided_shadow(decision, in_viewport, receiver));
 #endif
 }

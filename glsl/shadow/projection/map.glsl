@@ -1,0 +1,122 @@
+// The texels of a layer of the map: where they lie, and what their depths are.
+#include "shadow/projection/light_space.glsl"
+
+// Light-space depth, metres, for a depth as stored in the map.
+float stored_depth(float stored, LayerBlock map) { return map.near_depth + map.depth_range * stored; }
+vec4 stored_depths(vec4 stored, LayerBlock map) { return map.near_depth + map.depth_range * stored; }
+float stored_depth(float stored, Light light) { return stored_depth(stored, light.map); }
+
+ivec2 last_texel() { return ivec2(shadow.map_size) - 1; }
+
+// Depth as the light's layer stores it, for a depth in light space, metres; and the same for differences of depths.
+float stored_of(float depth, Light light) { return (depth - light.map.near_depth) / light.map.depth_range; }
+float stored_difference(float difference, Light light) { return difference / light.map.depth_range; }
+float stored_metres(Light light) { return light.map.depth_range; }  // from 0 to 1
+
+// Stored depth in a texel of the light's layer of a map; 1 outside of the map, where there are no casters.
+float stored_in(sampler2DArray map, ivec2 texel, Light light) {
+  ivec2 within = clamp(texel, ivec2(0), last_texel());
+  float stored = texelFetch(map, ivec3(within, light.layer), 0).x;
+  return within == texel ? stored : 1.0;
+}
+
+float stored_at(ivec2 texel, Light light) { return stored_in(shadow_depth, texel, light); }
+
+// Width of a texel of the light's layer at a position's depth, metres, or its height where that is larger.
+float texel_size_at(vec3 position, Light light) { return light.map.texel; }
+float texel_size(Receiver receiver, Light light) { return texel_size_at(receiver.position, light); }
+
+// Width and height of a texel, metres.
+vec2 texel_extent_at(vec3 position, Light light) { return light.map.texel * light.map.texel_shares; }
+vec2 texel_extent(Receiver receiver, Light light) { return texel_extent_at(receiver.position, light); }
+
+// Slope of the receiver's plane in depth per width of a texel, over texel_size().
+float texel_slope(Receiver receiver, Light light) { return length(receiver.gradient * light.map.texel_shares); }
+
+// Upper bound of the error along the light that rounding in the map, in light space and in the receiver's depth causes,
+// metres.
+float depth_rounding(Receiver receiver, Light light) {
+  float rounding = light.map.rounding + receiver.depth_error;
+  return is_lamp ? rounding + 1e-6 * (length(shadow.lamp.xyz) + length(receiver.from_lamp)) : rounding;
+}
+
+// Map coordinates of a position in the light's layer, in texels; texel centres are at half-integers.
+vec2 map_place(vec3 position, Light light) {
+  return ((position.xy - light.map.center) * light.map.widths_per_metre + 0.5) * shadow.map_size;
+}
+
+// An offset in texels of the light's layer.
+vec2 map_offset(vec2 offset, Light light) { return offset * (light.map.widths_per_metre * shadow.map_size); }
+
+// Depth in a texel of the light's layer of a map, metres. Outside of the map there are no casters: it is the far
+// plane's there, as where the sampler's border is read.
+float depth_in(sampler2DArray map, ivec2 texel, Light light) {
+  return stored_depth(stored_in(map, texel, light), light);
+}
+
+float depth_at(ivec2 texel, Light light) { return depth_in(shadow_depth, texel, light); }
+
+// Offset of a texel's centre from the receiver.
+vec2 texel_offset(Receiver receiver, ivec2 texel, Light light) {
+  vec2 extent = texel_extent(receiver, light);
+  vec2 center = (vec2(texel) + 0.5) * extent - 0.5 / light.map.widths_per_metre + light.map.center;
+  return center - receiver.position.xy;
+}
+
+// Offsets of four texels' centres from the receiver.
+struct Offsets {
+  vec4 x, y;
+};
+
+// Four texels around a point of the map, in the order of textureGather: (0,1) (1,1) (1,0) (0,0).
+struct Footprint {
+  vec4 depths;  // metres
+  Offsets offsets;
+  vec2 weight;  // bilinear, of the texels with the higher coordinate
+};
+
+// Stored depths of the four texels around map coordinates.
+vec4 gather_stored(vec2 place, Light light) {
+  return textureGather(shadow_depth, vec3(place * light.map.texel_uv, float(light.layer)));
+}
+
+// Depths, metres, of the texels `first` to first + (1, 1), in the order of a Footprint; outside of the map, its far
+// plane's.
+vec4 depths_from(ivec2 first, Light light) {
+  return stored_depths(gather_stored(vec2(first + 1), light), light.map);
+}
+
+// A point at an offset from the receiver, in texels from the centre of the map's first texel.
+vec2 texel_place(Receiver receiver, vec2 offset, Light light) {
+  return map_place(receiver.position, light) - 0.5 + map_offset(offset, light);
+}
+
+// Offsets of the four texels around a point at that offset, of which the last lies at a bilinear weight's distance.
+Offsets footprint_offsets(Receiver receiver, vec2 offset, vec2 weight, Light light) {
+  vec2 texel = texel_extent(receiver, light);
+  vec2 low = offset - weight * texel;
+  vec2 high = low + texel;
+  return Offsets(vec4(low.x, high.x, high.x, low.x), vec4(high.y, high.y, low.y, low.y));
+}
+
+Footprint fetch_footprint(Receiver receiver, vec2 offset, Light light) {
+  vec2 at = texel_place(receiver, offset, light);
+  vec2 first = floor(at);
+  vec2 weight = at - first;
+  return Footprint(stored_depths(gather_stored(first + 1.0, light), light.map),
+                   footprint_offsets(receiver, offset, weight, light), weight);
+}
+
+// How much deeper than the receiver its plane lies at offsets, metres.
+vec4 plane_depths(Receiver receiver, Offsets at) { return receiver.gradient.x * at.x + receiver.gradient.y * at.y; }
+
+// The share of the four texels around a point that lie at or behind the receiver's plane less the bias, weighted
+// bilinearly: one fetch of a sampler that compares and filters. It compares all four with one depth, the least of the
+// plane at their centres: with a greater one, a lit plane would shadow itself.
+float compared_share(sampler2DArrayShadow map, Receiver receiver, vec2 offset, float bias, Light light) {
+  vec2 at = texel_place(receiver, offset, light);
+  vec4 plane = plane_depths(receiver, footprint_offsets(receiver, offset, fract(at), light));
+  float depth = receiver.position.z + min(min(plane.x, plane.y), min(plane.z, plane.w)) - bias;
+  vec4 place = vec4((at + 0.5) * light.map.texel_uv, float(light.layer), min(stored_of(depth, light), 1.0));
+  return textureGrad(map, place, vec2(0.0), vec2(0.0));  // there are no derivatives in compute shaders
+}
