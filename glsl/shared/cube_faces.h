@@ -16,6 +16,16 @@ GLSL_FUNCTION vec3 seen_by_face(vec3 p, int face) {
   return vec3(p.x, p.z, -p.y);
 }
 
+// And back.
+GLSL_FUNCTION vec3 from_face(vec3 p, int face) {
+  if (face == 0) return p;
+  if (face == 1) return vec3(-p.x, p.y, -p.z);
+  if (face == 2) return vec3(p.z, p.y, -p.x);
+  if (face == 3) return vec3(-p.z, p.y, p.x);
+  if (face == 4) return vec3(p.x, p.z, -p.y);
+  return vec3(p.x, -p.z, p.y);
+}
+
 // The faces in order of how straight they look at a vector: x the one that contains it, y the next one.
 GLSL_FUNCTION ivec2 faces_of(vec3 p) {
   vec3 far = vec3(abs(p.x), abs(p.y), abs(p.z));

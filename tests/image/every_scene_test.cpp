@@ -137,6 +137,44 @@ class EveryScene : public testing::Test {
     if (one_rasteriser) expect_same(on_egl[0], on_osmesa[0], name, "EGL and OSMesa");
   }
 
+  // The masks of a scene under all of its lights, by one technique, one driver after the other.
+  static std::vector<Layers> masks(Machine& machine, const scene::Scene& scene, const render::Setup& setup,
+                                   const std::string& technique) {
+    machine.context->make_current();
+    scene::GpuScene gpu_scene(*machine.device, scene);
+    ParamSet params(render::Renderer::params(machine.renderer->registry()));
+    machine.renderer->registry().select(params, technique);
+    std::vector<Layers> all;
+    for (const char* driver : {"fragment", "compute"}) {
+      params.set("driver", std::string(driver));
+      machine.renderer->draw(gpu_scene,
+                             {.width = 160,
+                              .height = 90,
+                              .camera = setup.camera,
+                              .last_camera = setup.camera,
+                              .lights = render::frame_lights(setup)},
+                             params);
+      all.push_back({machine.renderer->read_visibilities(), machine.renderer->read_aov("color")});
+    }
+    return all;
+  }
+
+  // Under the scene's sun, spots and point lamps together.
+  static void check_lights(const fs::path& path) {
+    const scene::Scene scene = scene::read_gltf(path, image::image_decoder());
+    const render::Setup setup = render::choose_setup(scene, scene::pose_at(scene, 0));
+    const std::size_t pixels = render::frame_lights(setup).size() * 160 * 90;
+    for (const char* technique : {"pcss", "slices_denoised"}) {
+      SCOPED_TRACE(technique);
+      const std::vector<Layers> on_egl = masks(*egl_, scene, setup, technique);
+      const std::vector<Layers> on_osmesa = masks(*osmesa_, scene, setup, technique);
+      ASSERT_EQ(on_egl[0][0].size(), pixels);
+      expect_same_visibility(on_egl[0][0], on_egl[1][0], 16);
+      const bool one_rasteriser = egl_->in_software();
+      EXPECT_TRUE(!one_rasteriser || on_egl == on_osmesa) << "EGL and OSMesa";
+    }
+  }
+
   static void check_below(const fs::path& folder) {
     std::vector<fs::path> paths;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
@@ -169,6 +207,8 @@ TEST_F(EveryScene, OfOurOwnRendersAlikeOnEveryDriverAndBackend) {
   check_below(PENUMBRA_ROOT "/scenes");
   EXPECT_EQ(shadowed_, all_) << "a scene shows no shadow";
 }
+
+TEST_F(EveryScene, LitByLampsIsLitAlikeOnEveryDriverAndBackend) { check_lights(PENUMBRA_ROOT "/scenes/gallery.glb"); }
 
 TEST_F(EveryScene, OfThirdPartiesRendersAlikeOnEveryDriverAndBackend) {
   const char* assets = std::getenv("PENUMBRA_ASSETS");

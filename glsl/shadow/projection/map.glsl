@@ -13,9 +13,48 @@ float stored_of(float depth, Light light) { return (depth - light.map.near_depth
 float stored_difference(float difference, Light light) { return difference / light.map.depth_range; }
 float stored_metres(Light light) { return light.map.depth_range; }  // from 0 to 1
 
-// Stored depth in a texel of the light's layer of a map; 1 outside of the map, where there are no casters.
+// Beyond the rim of a cube's face the map goes on in the faces there. Their texels lie elsewhere, so that what is read of
+// one is a depth and its own place.
+
+bool has_faces(Light light) { return is_lamp && light.layers > 1; }
+
+bool leaves_map(ivec2 low, ivec2 high) {
+  return any(lessThan(low, ivec2(0))) || any(greaterThan(high, last_texel()));
+}
+
+// A texel of the face that sees a place beyond the rim of the light's layer.
+struct FaceTexel {
+  ivec3 at;   // and its layer
+  vec3 seen;  // the direction of its centre as the light's layer sees it: 1 along the axis of its own face
+};
+
+FaceTexel face_texel_at(ivec2 texel, Light light) {
+  LayerBlock map = shadow.layers[0];  // of all faces
+  vec2 tangents = ((vec2(texel) + 0.5) / shadow.map_size - 0.5) / map.widths_per_metre;
+  vec3 direction = from_face(vec3(tangents, 1.0), light.layer);
+  int face = faces_of(direction).x;
+  vec3 there = seen_by_face(direction, face);
+  vec2 place = (there.xy / there.z * map.widths_per_metre + 0.5) * shadow.map_size;
+  ivec2 at = clamp(ivec2(floor(place)), ivec2(0), last_texel());
+  tangents = ((vec2(at) + 0.5) / shadow.map_size - 0.5) / map.widths_per_metre;
+  vec3 seen = seen_by_face(from_face(vec3(tangents, 1.0), face), light.layer);
+  const float least = 1e-3;  // towards places that lie beside the lamp, not before it
+  return FaceTexel(ivec3(at, face), vec3(seen.xy, max(seen.z, least)));
+}
+
+// Its stored depth as the light's layer would store it. Faces store −1 over depths along their own axes.
+float stored_beyond(sampler2DArray map, FaceTexel texel) {
+  float stored = texelFetch(map, texel.at, 0).x;
+  LayerBlock block = shadow.layers[0];
+  float along = (block.near_depth + block.depth_range * stored) / texel.seen.z;
+  return stored < 1.0 ? (along - block.near_depth) / block.depth_range : 1.0;
+}
+
+// Stored depth in a texel of the light's layer of a map; outside of the map that of the cube's face there, or 1, where
+// there are no casters.
 float stored_in(sampler2DArray map, ivec2 texel, Light light) {
   ivec2 within = clamp(texel, ivec2(0), last_texel());
+  if (within != texel && has_faces(light)) return stored_beyond(map, face_texel_at(texel, light));
   float stored = texelFetch(map, ivec3(within, light.layer), 0).x;
   return within == texel ? stored : 1.0;
 }
@@ -99,12 +138,35 @@ Offsets footprint_offsets(Receiver receiver, vec2 offset, vec2 weight, Light lig
   return Offsets(vec4(low.x, high.x, high.x, low.x), vec4(high.y, high.y, low.y, low.y));
 }
 
+// Four texels of which some lie beyond the rim of a cube's face.
+Footprint footprint_beyond(Receiver receiver, ivec2 first, vec2 weight, Light light) {
+  Footprint found;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 texel = first + ivec2(i == 1 || i == 2, i < 2);
+    found.depths[i] = depth_at(texel, light);
+    vec2 offset = texel_offset(receiver, texel, light);
+    if (leaves_map(texel, texel)) {
+      vec3 seen = face_texel_at(texel, light).seen;
+      offset = seen.xy * (light.depth / seen.z) - receiver.position.xy;
+    }
+    found.offsets.x[i] = offset.x;
+    found.offsets.y[i] = offset.y;
+  }
+  found.weight = weight;
+  return found;
+}
+
+// The texels `first` to first + (1, 1), of which the last lies at a distance of `weight` texels from a point at that
+// offset.
+Footprint footprint_from(Receiver receiver, ivec2 first, vec2 offset, vec2 weight, Light light) {
+  if (has_faces(light) && leaves_map(first, first + 1)) return footprint_beyond(receiver, first, weight, light);
+  return Footprint(depths_from(first, light), footprint_offsets(receiver, offset, weight, light), weight);
+}
+
 Footprint fetch_footprint(Receiver receiver, vec2 offset, Light light) {
   vec2 at = texel_place(receiver, offset, light);
   vec2 first = floor(at);
-  vec2 weight = at - first;
-  return Footprint(stored_depths(gather_stored(first + 1.0, light), light.map),
-                   footprint_offsets(receiver, offset, weight, light), weight);
+  return footprint_from(receiver, ivec2(first), offset, at - first, light);
 }
 
 // How much deeper than the receiver its plane lies at offsets, metres.
@@ -115,8 +177,17 @@ vec4 plane_depths(Receiver receiver, Offsets at) { return receiver.gradient.x * 
 // plane at their centres: with a greater one, a lit plane would shadow itself.
 float compared_share(sampler2DArrayShadow map, Receiver receiver, vec2 offset, float bias, Light light) {
   vec2 at = texel_place(receiver, offset, light);
-  vec4 plane = plane_depths(receiver, footprint_offsets(receiver, offset, fract(at), light));
+  ivec2 first = ivec2(floor(at));
+  bool beyond = has_faces(light) && leaves_map(first, first + 1);
+  Footprint found = Footprint(vec4(0.0), footprint_offsets(receiver, offset, fract(at), light), fract(at));
+  if (beyond) found = footprint_beyond(receiver, first, fract(at), light);
+  vec4 plane = plane_depths(receiver, found.offsets);
   float depth = receiver.position.z + min(min(plane.x, plane.y), min(plane.z, plane.w)) - bias;
+  if (beyond) {
+    vec4 lit = step(vec4(depth), found.depths);
+    vec2 rows = mix(lit.wx, lit.zy, found.weight.x);
+    return mix(rows.x, rows.y, found.weight.y);
+  }
   vec4 place = vec4((at + 0.5) * light.map.texel_uv, float(light.layer), min(stored_of(depth, light), 1.0));
   return textureGrad(map, place, vec2(0.0), vec2(0.0));  // there are no derivatives in compute shaders
 }

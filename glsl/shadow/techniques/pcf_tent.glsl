@@ -32,9 +32,8 @@ float blocked_share(Receiver receiver, float bias, Light light) {
     for (int x = 0; x < gathers_across; ++x) {
       ivec2 texel = first + 2 * ivec2(x, y);
       vec2 begin = vec2(texel) - middle;
-      vec2 from_center = -(begin + 0.5);
-      Offsets offsets = footprint_offsets(receiver, vec2(0.0), from_center, light);
-      vec4 blocks = blocking_texels(receiver, Footprint(depths_from(texel, light), offsets, vec2(0.0)), bias);
+      Footprint texels = footprint_from(receiver, texel, vec2(0.0), -(begin + 0.5), light);
+      vec4 blocks = blocking_texels(receiver, texels, bias);
       blocked += dot(blocks, parts(begin.x).xyyx * parts(begin.y).yyxx);
     }
   }
