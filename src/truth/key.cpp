@@ -92,9 +92,8 @@ void add_light(Hash& hash, const TracedSun& sun) {
 void add_light(Hash& hash, const LocalLight& light) {
   hash.add(light.position);
   hash.add(light.radius);
-  hash.add(light.axis.has_value());
-  if (light.axis) hash.add(*light.axis);
-  // Defaults are not hashed, so that keys of older cache files stay valid.
+  hash.add(false);  // so that keys of older cache files stay valid: lamps could be discs with an axis
+  // Nor are defaults hashed, for the same reason.
   if (light.clear > 0) hash.add(light.clear);
   if (light.cone) {
     hash.add(light.cone->axis);

@@ -35,10 +35,8 @@ SeenLight seen(const TracedSun& sun, const glm::dvec3& /*point*/) {
 
 SeenLight seen(const LocalLight& light, const glm::dvec3& point) {
   const glm::dvec3 center = light.position - point;
-  const glm::dvec3 axis = light.axis.value_or(center);
-  const double length = glm::length(axis);
-  const Sides sides = sides_about(length > 0 ? axis / length : glm::dvec3(0, 1, 0));
   const double distance = glm::length(center);
+  const Sides sides = sides_about(distance > 0 ? center / distance : glm::dvec3(0, 1, 0));
   const auto clear = static_cast<float>(1 - light.clear / std::max(distance, light.clear + 1e-9));
   SeenLight seen{center, sides.x * light.radius, sides.y * light.radius, std::min(nearly_all_the_way, clear), false};
   seen.shines = (light.range <= 0 || distance <= light.range) &&

@@ -21,14 +21,12 @@ struct SpotCone {
   double cosine = 0;   // of the half angle
 };
 
-// A disc of `radius` metres about `position`. With an axis (spot and disc lights) the disc is perpendicular to it;
-// without one (point lights, which are spheres) the disc faces the receiver. Both sides emit in all directions, or
+// A sphere of `radius` metres about `position`: to a receiver, a disc that faces it. It emits in all directions, or
 // within `cone` and `range`: only visibility is traced, not falloff.
 struct LocalLight {
   glm::dvec3 position{0};  // world space
   double radius = 0;       // metres
-  std::optional<glm::dvec3> axis = {};
-  double clear = 0;  // metres: what is nearer to the disc's plane casts no shadow; it is the lamp itself
+  double clear = 0;        // metres: what is nearer to the disc's plane casts no shadow; it is the lamp itself
   std::optional<SpotCone> cone = {};  // receivers outside of it see nothing of the light
   double range = 0;                   // nor do those farther away, metres; 0: unlimited
 };

@@ -30,10 +30,6 @@ TraceOptions trace_options(const ParamSet& params, const TechniqueOptions& optio
           .progress = options.progress};
 }
 
-TracedLight light_of(const shadow::PassContext& frame, const TechniqueOptions& options, double seconds) {
-  return options.local_light ? options.local_light(seconds) : traced_light(frame);
-}
-
 }  // namespace
 
 struct TruthTechnique::State {
@@ -74,7 +70,7 @@ PictureRequest TruthTechnique::State::request(const shadow::PassContext& frame, 
   PictureRequest request{.scene = &user.scene.scene(),
                          .geometry = user.scene.posed_geometry(),
                          .width = frame.mask().width(),
-                         .light = light_of(frame, options, user.time),
+                         .light = traced_light(frame),
                          .options = trace_options(frame.params(), options)};
   request.receivers = receivers_of(request.geometry, eye_rays(user), drawn_surfaces(frame.device(), user));
   request.casters = key_of(*request.scene, request.geometry);

@@ -17,8 +17,6 @@ struct TechniqueOptions {
   // Same as TraceOptions::progress. With background tracing it is called on the background thread. If it interrupts a
   // picture, the frame throws Interrupted.
   std::function<bool(double share_done)> progress;
-  // If set, traces this light instead of the sun, at the time of the frame.
-  std::function<LocalLight(double seconds)> local_light;
   // Frames don't wait for their picture. Until it is traced, the mask is 0 where the surface faces away from the
   // light's centre, else 1. A light that needs another picture than in the view's last frame cancels the one that is
   // being traced for it. The lights of a frame, and views of different ids, are traced one after the other. The next

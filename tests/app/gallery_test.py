@@ -87,7 +87,7 @@ class Gallery(TestCase):
                 # What the lamp's centre sees: all of it is lit, apart from penumbrae and what faces away at an edge.
                 layers = self.trace("--eye=" + ",".join(map(str, eye)), "--target=" + ",".join(map(str, target)),
                                     "--fov", str(2 * math.degrees(cone)), "--size", "64x64", "--spp", "32",
-                                    "--light", name, "--light-radius", str(light["extras"]["radius"]))
+                                    "--lights", name, "--lamp-radius", str(light["extras"]["radius"]))
                 inside = [value for y, row in enumerate(layers["shadow.V"]) for x, value in enumerate(row)
                           if math.hypot(x - 31.5, y - 31.5) < 31]
                 self.assertGreater(sum(value > FULL for value in inside) / len(inside), 0.85)

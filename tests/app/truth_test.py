@@ -153,7 +153,7 @@ class Truth(TestCase):
         view = ("--eye", "0.0001,1.9,0", "--target", "0,0,0", "--fov", "90", "--size", "64x64", "--spp", "512")
         for kind in ("point", "spot"):
             with self.subTest(kind):
-                self.trace("x.exr", *view, "--light", "lamp", "--light-radius", "0.25", of=self.local_scene(kind), size=())
+                self.trace("x.exr", *view, "--lights", "lamp", "--lamp-radius", "0.25", of=self.local_scene(kind), size=())
                 row = read_exr(self.folder / "x.exr")["shadow.V"][32]
                 meters = [abs((2 * (x + 0.5) / 64 - 1) * 1.9) for x in range(64)]
                 for value, at in zip(row, meters):
@@ -169,10 +169,9 @@ class Truth(TestCase):
     def test_wrong_lights(self):
         lamp = self.local_scene("point")
         output = ("-o", self.folder / "x.exr", *SMALL)
-        self.assertIn("lamp", self.refuse("truth", lamp, *output, "--light", "lump"))
-        self.assertIn("directional", self.refuse("truth", FENCE, *output, "--light", "0"))
-        self.assertIn("no lights", self.refuse("truth", self.without_lights(), *output, "--light", "0"))
-        self.refuse("truth", lamp, *output, "--light", "lamp", "--light-radius", "-1", code=2)
+        self.assertIn("lamp", self.refuse("truth", lamp, *output, "--lights", "lump"))
+        self.assertIn("no lights", self.refuse("truth", self.without_lights(), *output, "--lights", "0"))
+        self.refuse("truth", lamp, *output, "--lights", "lamp", "--lamp-radius", "-1", code=2)
         self.assertFalse((self.folder / "x.exr").exists())
 
     def without_lights(self):
@@ -204,7 +203,6 @@ class Truth(TestCase):
             ("--set", "truth.sample=9"): "did you mean 'truth.samples'",
             ("--set", "sun.angle=wide"): "sun.angle",
             ("--set", "technique=truht"): "technique",
-            ("--light-radius", "0.2"): "--light-radius requires --light",
             ("--cache", "here", "--no-cache"): "--cache and --no-cache exclude each other",
         }.items():
             with self.subTest(more):

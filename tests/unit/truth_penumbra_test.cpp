@@ -155,24 +155,18 @@ TEST(TruthPenumbra, OfLocalLightsIsExact) {
   const truth::Tracer tracer = scene.tracer();
   const glm::dvec3 place(0.4, 8, 0);
   const double radius = 0.5;
-  Row disc{ground_row(-2, 2, 400), {}};
-  Row sphere = disc;
-  for (const Receiver& receiver : disc.receivers) {
+  Row sphere{ground_row(-2, 2, 400), {}};
+  for (const Receiver& receiver : sphere.receivers) {
     const double x = receiver.position.x;
     const glm::dvec3 d = place - receiver.position;
     // Rays d + radius · u · side pass the edge where (x · y + height · x) of their direction is positive.
     const auto miss = [&](const glm::dvec3& v) { return x * v.y + edge_height * v.x; };
-    disc.exact.push_back(disc_share(miss(d) / (radius * std::abs(miss({1, 0, 0})))));
     const glm::dvec3 facing = glm::normalize(glm::dvec3(d.y, -d.x, 0));
     sphere.exact.push_back(disc_share(miss(d) / (radius * std::abs(miss(facing)))));
   }
-  const Traced of_disc =
-      trace_row(tracer, disc.receivers, LocalLight{place, radius, glm::dvec3(0, -1, 0)}, {.samples = 4096});
-  EXPECT_LT(rmse(of_disc.visibility, disc.exact), 0.001);
-  EXPECT_LT(largest_error(of_disc.visibility, disc.exact), 0.005);
-  const Traced of_sphere = trace_row(tracer, sphere.receivers, LocalLight{place, radius, {}}, {.samples = 4096});
-  EXPECT_LT(rmse(of_sphere.visibility, sphere.exact), 0.001);
-  EXPECT_LT(largest_error(of_sphere.visibility, sphere.exact), 0.005);
+  const Traced traced = trace_row(tracer, sphere.receivers, LocalLight{place, radius}, {.samples = 4096});
+  EXPECT_LT(rmse(traced.visibility, sphere.exact), 0.001);
+  EXPECT_LT(largest_error(traced.visibility, sphere.exact), 0.005);
 }
 
 TEST(TruthPenumbra, WhatIsBehindALocalLightDoesNotBlockIt) {
@@ -180,10 +174,10 @@ TEST(TruthPenumbra, WhatIsBehindALocalLightDoesNotBlockIt) {
   scene.add_quad({-9, 6, -9}, {18, 0, 0}, {0, 0, 18});
   const truth::Tracer tracer = scene.tracer();
   const auto row = ground_row(-3, 3, 64);
-  for (const float visibility : trace_row(tracer, row, LocalLight{{0, 5, 0}, 0.5, {}}).visibility) {
+  for (const float visibility : trace_row(tracer, row, LocalLight{{0, 5, 0}, 0.5}).visibility) {
     EXPECT_EQ(visibility, 1);
   }
-  for (const float visibility : trace_row(tracer, row, LocalLight{{0, 7, 0}, 0.5, {}}).visibility) {
+  for (const float visibility : trace_row(tracer, row, LocalLight{{0, 7, 0}, 0.5}).visibility) {
     EXPECT_EQ(visibility, 0);
   }
 }

@@ -7,7 +7,6 @@
 
 #include "app/commands.h"
 #include "app/metadata.h"
-#include "app/truth/local_light.h"
 #include "cli/input_files.h"
 #include "cli/no_effect.h"
 #include "cli/output_names.h"
@@ -31,8 +30,6 @@ using cli::add_value;
 struct TruthOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions, session::CacheOptions {
   std::string output;
   std::optional<std::string> samples, error, seed;
-  std::optional<std::string> light;
-  double light_radius = 0.1;
   bool quiet = false;
 };
 
@@ -50,11 +47,6 @@ void add_truth_options(CLI::App& app, TruthOptions& o) {
             [&o](const auto& text) { o.seed = text; });
   cli::add_size_option(app, o);
   cli::add_view_options(app, o);
-  add_value(app, "--light", "NAME|INDEX", "Trace the shadows of this point or spot light of the scene, not of the sun",
-            [&o](const auto& text) { o.light = text; });
-  add_value(app, "--light-radius", "M", "Radius of that light, metres (0.1): a sphere's, or of a spot light's disc",
-            [&o](const auto& text) { o.light_radius = cli::parse_number("--light-radius", text, 0, 1e6); });
-  app.get_option("--light-radius")->needs(app.get_option("--light"));
   cli::add_time_options(app, o);
   cli::add_shadow_options(app, o);
   session::add_cache_options(app, o);
@@ -162,7 +154,6 @@ void trace_files(TruthOptions options) {
       return true;
     };
   }
-  if (options.light) how.local_light = local_light(prepared.scene, *options.light, options.light_radius);
   const truth::TruthTechnique truth(std::move(how));
   session::RenderSession session(options, options, session::open_context(options, options), prepared, truth.registry(),
                                  /* timed= */ false);
