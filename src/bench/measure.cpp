@@ -88,6 +88,8 @@ class Bench {
     for (const Entry& entry : results_.entries)
       limits.cascades = std::max(limits.cascades, entry.params.get_int("cascades.count"));
     if (model_) limits.own_triangles = drawn_triangles(*model_);
+    if (options_.sweep == "lights")
+      limits.lights = static_cast<int>(render::shadowed_lights(session::load_scene(options_, decode_).setup).size());
     return limits;
   }
 
@@ -142,7 +144,11 @@ class Bench {
     for (const Entry& entry : results_.entries) params.push_back(params_at(point, entry.params));
     FrameClock clock(options_, *prepared_, size);
     for (int i = 0; i < results_.frames.warmup + measured; ++i) {
-      const render::FrameInputs inputs = clock.next();
+      render::FrameInputs inputs = clock.next();
+      if (point.lights) {
+        inputs.lights.resize(static_cast<std::size_t>(*point.lights));
+        inputs.light_ids.resize(inputs.lights.size());
+      }
       for (std::size_t c = 0; c < contenders_.size(); ++c) contenders_[c]->draw(inputs, params[c]);
       progress.step();
     }

@@ -98,10 +98,24 @@ Sweep sun_angle() {
   return sweep;
 }
 
+// Powers of two, and all.
+Sweep lights(const SweepLimits& limits) {
+  if (limits.lights < 2) fail("one light casts shadows: a sweep of lights needs two or more, which --lamp can add");
+  Sweep sweep{.axes = {{"lights", ""}}};
+  for (int count = 1; count < 2 * limits.lights; count *= 2) {
+    const int drawn = std::min(count, limits.lights);
+    Point point = point_of(drawn, std::to_string(drawn));
+    point.lights = drawn;
+    sweep.points.push_back(std::move(point));
+  }
+  return sweep;
+}
+
 }  // namespace
 
 const std::vector<std::string>& sweep_names() {
-  static const std::vector<std::string> names{"taps", "resolution", "map_size", "cascades", "casters", "sun_angle"};
+  static const std::vector<std::string> names{"taps",    "resolution", "map_size", "cascades",
+                                              "casters", "sun_angle",  "lights"};
   return names;
 }
 
@@ -113,6 +127,7 @@ Sweep make_sweep(const std::string& name, const SweepLimits& limits) {
   if (name == "cascades") sweep = cascades();
   if (name == "casters") sweep = casters(limits);
   if (name == "sun_angle") sweep = sun_angle();
+  if (name == "lights") sweep = lights(limits);
   sweep.name = name;
   return sweep;
 }

@@ -18,6 +18,7 @@ struct Point {
   std::vector<std::pair<std::string, ParamValue>> values;
   std::optional<cli::Size> size;
   std::optional<long long> triangles;  // of the casters
+  std::optional<int> lights;           // of the scene's, the first ones
 };
 
 // A quantity that a sweep varies. Cost is expected to grow about linearly with it.
@@ -42,6 +43,7 @@ struct SweepLimits {
   cli::Size size;         // that the command line asks for
   int max_texture = 16384;
   int cascades = 4;             // the largest count of any entry
+  int lights = 8;               // of the scene that cast shadows
   long long own_triangles = 0;  // triangles of the scene that casters are copies of; 0: no such scene
 };
 

@@ -160,6 +160,11 @@ class Bench(TestCase):
             values = [point[field] for point in data["points"]]
             self.assertEqual(values, sorted(set(values)), name)
             self.assertEqual(data["sweep"], name)
+        lamps = ("--lamp", "1,3,0", "--lamp", "0,3,1", "--lights", "none")
+        data = self.bench(SCENE, "--sweep", "lights", "--sun", "20,50", "--set", "lamps.size=64", *lamps)
+        self.assertEqual([point["lights"] for point in data["points"]], [1, 2, 3])
+        memory = [point["costs"][0]["shadow_bytes"] for point in data["points"]]
+        self.assertEqual(memory, sorted(set(memory)))
         memory = [point["costs"][0]["shadow_bytes"] for point in self.bench(SCENE, "--sweep", "cascades")["points"]]
         self.assertEqual(memory, sorted(set(memory)))
 
