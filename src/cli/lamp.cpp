@@ -21,6 +21,7 @@ std::string text_of(const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.
 struct Spot {
   std::optional<glm::vec3> to;
   double cone = usual_cone;
+  std::optional<double> inner;
 };
 
 void set(render::LampLight& lamp, Spot& spot, const std::string& option, std::string_view name,
@@ -40,8 +41,10 @@ void set(render::LampLight& lamp, Spot& spot, const std::string& option, std::st
     spot.to = parse_point(full, value);
   } else if (name == "cone") {
     spot.cone = parse_number(full, value, 0.1, 90);
+  } else if (name == "inner") {
+    spot.inner = parse_number(full, value, 0, 90);
   } else {
-    fail_usage("{}: no attribute '{}'; there are radius, cd, range, rgb, to and cone", option, name);
+    fail_usage("{}: no attribute '{}'; there are radius, cd, range, rgb, to, cone and inner", option, name);
   }
 }
 
@@ -52,6 +55,10 @@ void make_spot(render::LampLight& lamp, const Spot& spot, std::string_view optio
   lamp.axis = glm::normalize(axis);
   lamp.outer_cone = glm::radians(static_cast<float>(spot.cone));
   lamp.inner_cone = inner_share * lamp.outer_cone;
+  if (!spot.inner) return;
+  if (*spot.inner > spot.cone)
+    fail_usage("{}: inner={} is wider than the cone of {} degrees", option, *spot.inner, spot.cone);
+  lamp.inner_cone = glm::radians(static_cast<float>(*spot.inner));
 }
 
 }  // namespace
@@ -78,6 +85,8 @@ std::string lamp_text(const render::LampLight& lamp) {
   if (lamp.range > 0) text += fmt::format(":range={}", lamp.range);
   if (lamp.axis != glm::vec3(0)) {
     text += fmt::format(":to={}:cone={}", text_of(lamp.position + lamp.axis), glm::degrees(lamp.outer_cone));
+    if (lamp.inner_cone != inner_share * lamp.outer_cone)
+      text += fmt::format(":inner={}", glm::degrees(lamp.inner_cone));
   }
   return text;
 }

@@ -81,15 +81,20 @@ void add_view_options(CLI::App& app, SceneOptions& o) {
             [&o](const auto& text) { o.sun = parse_direction("--sun", text); });
   app.add_flag("--no-sun", o.no_sun, "Leaves out suns: spots and point lights alone light the scene")
       ->disable_flag_override();
-  add_value(app, "--lights", "NAME,...", "Lights of the scene that shine, by name or index (all)",
-            [&o](const auto& text) { o.lights = split_names("--lights", text); });
+  add_value(app, "--lights", "NAME,...", "Lights of the scene that shine, by name or index; none: none of them (all)",
+            [&o](const auto& text) {
+              o.lights = text == "none" ? std::vector<std::string>() : split_names("--lights", text);
+            });
   add_value(app, "--lamp-radius", "METRES",
             "Radius of the scene's spots and point lights (that of the light's extras, or 0.03)",
             [&o](const auto& text) { o.lamp_radius = parse_number("--lamp-radius", text, 0, 1000); });
   app.add_option_function<std::vector<std::string>>(
          "--lamp",
          [&o](const std::vector<std::string>& texts) {
-           for (const std::string& text : texts) o.lamps.push_back(parse_lamp("--lamp", text));
+           for (const std::string& text : texts) {
+             o.lamps.push_back(parse_lamp("--lamp", text));
+             o.lamps.back().number = static_cast<int>(o.lamps.size()) - 1;
+           }
          },
          "A lamp besides the scene's: X,Y,Z, then :radius=METRES :cd=CANDELA :to=X,Y,Z :cone=DEG ...; repeatable")
       ->type_name("X,Y,Z[:...]")

@@ -63,8 +63,8 @@ render::FrameInputs CameraPath::frame(int frame, bool again) const {
   return inputs;
 }
 
-render::FrameLight CameraPath::light(int frame) const {
-  return render::frame_lights(session::setup_at(prepared_, session::time_of(options_, frame))).front();
+std::vector<render::FrameLight> CameraPath::lights(int frame) const {
+  return render::shadowed_lights(session::setup_at(prepared_, session::time_of(options_, frame)));
 }
 
 }  // namespace penumbra::compare

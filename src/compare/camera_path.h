@@ -16,8 +16,8 @@ class CameraPath {
 
   // The renderer's inputs for a frame of the range; the first one is a cut. `again`: the same frame is drawn once more.
   render::FrameInputs frame(int frame, bool again = false) const;
-  // The light of a frame that is compared: the first one.
-  render::FrameLight light(int frame) const;
+  // The lights of a frame that cast shadows.
+  std::vector<render::FrameLight> lights(int frame) const;
   // The point that the first camera looks at, and the centre of the orbit.
   const glm::vec3& target() const { return target_; }
   // Whether view or time jump before this frame. Not for the first one.

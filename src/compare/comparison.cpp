@@ -32,9 +32,7 @@ session::PreparedScene load_scene(const CompareOptions& options, const scene::Im
   scene::Scene scene = cli::read_scene(options.scene, options.reading, decode);
   check_inputs(options, scene.files);
   try {
-    session::PreparedScene prepared = session::prepare_scene(std::move(scene), options);
-    render::keep_first_light(prepared.setup);
-    return prepared;
+    return session::prepare_scene(std::move(scene), options);
   } catch (const Error& error) {
     fail("{}: {}", io::quoted(options.scene), error.what());
   }
@@ -55,7 +53,7 @@ void warn_of_frames_without_receivers(const std::string& scene, const std::vecto
   const auto count = std::ranges::count_if(frames, [](const auto& frame) { return receiver_count(frame) == 0; });
   if (count == 0) return;
   const std::string which = frames.size() == 1 ? "the picture" : fmt::format("{} of {} frames", count, frames.size());
-  warn("{}: no surface faces the light in {}, so there is nothing to measure", io::quoted(scene), which);
+  warn("{}: no surface faces a light in {}, so there is nothing to measure", io::quoted(scene), which);
 }
 
 ComparedScene compare_scene(const CompareOptions& options, const session::PreparedScene& prepared, gl::Device& device,
@@ -63,10 +61,11 @@ ComparedScene compare_scene(const CompareOptions& options, const session::Prepar
                             const std::function<void()>& drawn) {
   scene::GpuScene scene(device, prepared.scene);
   const CameraPath path(options, prepared);
-  const DrawnScene common{options, device, techniques, scene, path, drawn};
   const int first = options.frames ? options.frames->first : 0;
+  const auto lights = static_cast<int>(path.lights(first).size());
+  const DrawnScene common{options, device, techniques, scene, path, lights, drawn};
   ComparedScene result{
-      .path = options.scene, .camera = path.frame(first).camera, .light = path.light(first), .target = path.target()};
+      .path = options.scene, .camera = path.frame(first).camera, .lights = path.lights(first), .target = path.target()};
   const std::vector<ReferenceFrame> reference = draw_reference(common, values.reference, result.reference);
   warn_of_frames_without_receivers(options.scene, reference);
   result.pixels = reference.back().receivers.size();

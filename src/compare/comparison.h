@@ -30,7 +30,7 @@ struct ShadowCost {
   std::size_t frames = 0;
 };
 
-// The last frame's pictures.
+// The last frame's pictures. Those of the shadows show each light that casts some, one below the other.
 struct ComparedPictures {
   std::vector<std::uint8_t> display;  // RGB, sRGB
   std::vector<float> visibility;
@@ -48,11 +48,11 @@ struct ComparedTechnique {
 
 struct ComparedScene {
   std::string path;
-  std::size_t receivers = 0, pixels = 0;  // of the last frame
-  ComparedPictures reference;             // without an error
-  render::Camera camera;                  // of the first frame
-  render::FrameLight light;               // the one that is compared
-  glm::vec3 target{0};                    // what that camera looks at
+  std::size_t receivers = 0, pixels = 0;   // of the last frame: of the masks of all lights
+  ComparedPictures reference;              // without an error
+  render::Camera camera;                   // of the first frame
+  std::vector<render::FrameLight> lights;  // those that cast shadows: all are compared
+  glm::vec3 target{0};                     // what that camera looks at
   std::vector<ComparedTechnique> techniques;
 };
 

@@ -56,10 +56,7 @@ std::size_t frames_drawn(gl::Timers& timers) {
 // The state of one contender. Each has its own renderer, so that no history is shared.
 struct ContenderRun {
   ContenderRun(const DrawnScene& scene, const ParamSet& own)
-      : params(own),
-        drawn(own),
-        renderer(scene.device, scene.techniques),
-        sums(scene.options.size.width, scene.options.size.height) {}
+      : params(own), drawn(own), renderer(scene.device, scene.techniques), sums(scene.options.size, scene.lights) {}
 
   const ParamSet& params;
   ParamSet drawn;  // the same; maps are drawn anew in every frame, so that costs don't depend on how still the view is
@@ -115,7 +112,7 @@ class InterleavedRuns {
     draw(run, scene_.path.frame(frame), /* timed= */ frame > range_.first);
     for (int i = warmup_of(scene_.options, run.params); i > 0; --i)
       draw(run, scene_.path.frame(frame, /* again= */ true), /* timed= */ false);
-    std::vector<float> visibility = run.renderer.read_aov("shadow");
+    std::vector<float> visibility = run.renderer.read_visibilities();
     const ReferenceFrame& reference = reference_[static_cast<std::size_t>(frame - range_.first)];
     run.sums.add(visibility, reference, scene_.path.cuts(frame));
     if (frame == range_.last) {
@@ -141,8 +138,8 @@ std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamS
   std::vector<ReferenceFrame> frames;
   for (int frame = range.first; frame <= range.last; ++frame) {
     renderer.draw(scene.scene, scene.path.frame(frame), params);
-    frames.push_back({renderer.read_aov("shadow"),
-                      render::receivers_of(renderer, scene.path.light(frame), params.get_float("sun.angle"))});
+    frames.push_back({renderer.read_visibilities(),
+                      render::receivers_of(renderer, scene.path.lights(frame), params.get_float("sun.angle"))});
     scene.drawn();
   }
   last = {.display = renderer.read_display(), .visibility = frames.back().visibility, .error = {}};

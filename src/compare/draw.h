@@ -19,10 +19,11 @@ struct DrawnScene {
   const shadow::Registry& techniques;
   scene::GpuScene& scene;
   const CameraPath& path;
+  int lights;                          // that cast shadows
   const std::function<void()>& drawn;  // called after each frame of the range
 };
 
-// A frame of the reference.
+// A frame of the reference: of the lights that cast shadows, one below the other.
 struct ReferenceFrame {
   std::vector<float> visibility;
   std::vector<std::uint8_t> receivers;  // 1: geometric normal · to light > sin(θ / 2)

@@ -23,10 +23,9 @@ void FigureSums::Mean::add(double value, std::size_t weight) {
 
 double FigureSums::Mean::mean() const { return count == 0 ? none : sum / static_cast<double>(count); }
 
-void FigureSums::add(const std::vector<float>& visibility, const ReferenceFrame& reference, bool cut) {
-  const metrics::ImageView test{.width = width_, .height = height_, .pixels = visibility};
-  const metrics::ImageView truth{.width = width_, .height = height_, .pixels = reference.visibility};
-  const metrics::Quality quality = metrics::quality_of(test, truth, reference.receivers);
+void FigureSums::add_light(const metrics::ImageView& test, const metrics::ImageView& truth,
+                           std::span<const std::uint8_t> receivers) {
+  const metrics::Quality quality = metrics::quality_of(test, truth, receivers);
   const metrics::ErrorFigures& errors = quality.errors;
   squared_.add(errors.rmse * errors.rmse, errors.samples);
   squared_penumbra_.add(mean_squared(errors.psnr_penumbra), errors.penumbra_samples);
@@ -38,7 +37,19 @@ void FigureSums::add(const std::vector<float>& visibility, const ReferenceFrame&
   width_error_.add(quality.width.relative);
   widths_.measured += quality.width.measured;
   widths_.lost += quality.width.lost;
-  sequence_.add(test, truth, reference.receivers, cut ? metrics::Event::cut : metrics::Event::none);
+}
+
+void FigureSums::add(const std::vector<float>& visibility, const ReferenceFrame& reference, bool cut) {
+  const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  for (std::size_t light = 0; light < static_cast<std::size_t>(lights_); ++light) {
+    const auto mask = [&](const auto& all) { return std::span(all).subspan(light * pixels, pixels); };
+    add_light({.width = width_, .height = height_, .pixels = mask(visibility)},
+              {.width = width_, .height = height_, .pixels = mask(reference.visibility)}, mask(reference.receivers));
+  }
+  const int rows = height_ * lights_;
+  sequence_.add({.width = width_, .height = rows, .pixels = visibility},
+                {.width = width_, .height = rows, .pixels = reference.visibility}, reference.receivers,
+                cut ? metrics::Event::cut : metrics::Event::none);
   ++frames_;
 }
 

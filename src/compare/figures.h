@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "compare/comparison.h"
@@ -11,10 +13,11 @@
 namespace penumbra::compare {
 
 // Accumulates the figures of a technique frame by frame. RMSE and PSNR are taken over the receivers of all frames
-// together; SSIM, FLIP and penumbra widths, which are not means over pixels, are averaged over the frames.
+// and lights together; SSIM, FLIP and penumbra widths, which are not means over pixels, are averaged over them.
 class FigureSums {
  public:
-  FigureSums(int width, int height) : width_(width), height_(height) {}
+  // `lights`: how many masks a frame has, one below the other, each of that size.
+  FigureSums(const cli::Size& size, int lights) : width_(size.width), height_(size.height), lights_(lights) {}
 
   // `cut`: view or time jumped before this frame.
   void add(const std::vector<float>& visibility, const ReferenceFrame& reference, bool cut);
@@ -30,7 +33,10 @@ class FigureSums {
     double mean() const;
   };
 
-  int width_, height_;
+  void add_light(const metrics::ImageView& test, const metrics::ImageView& truth,
+                 std::span<const std::uint8_t> receivers);
+
+  int width_, height_, lights_;
   std::size_t frames_ = 0;
   Mean squared_, squared_penumbra_, bias_, ssim_, flip_, width_error_, p99_;
   double max_ = 0;

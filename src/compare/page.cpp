@@ -114,6 +114,7 @@ Html pictures_of(const ComparedScene& scene, const Comparison& comparison, const
   const report::EncodedPicture display = display_picture(scene.reference, size);
   const report::EncodedPicture visibility = visibility_picture(scene.reference, size);
   const float scale = error_scale(scene);
+  const std::size_t lights = scene.lights.size();
   Html html;
   for (const ComparedTechnique& technique : scene.techniques) {
     const std::string& label = technique.label;
@@ -127,11 +128,14 @@ Html pictures_of(const ComparedScene& scene, const Comparison& comparison, const
           .note = "The last frame, tone mapped.",
           .body = report::picture_slider(figure(label, "The scene", display_picture(technique.pictures, size)),
                                          figure(reference, "The scene", display))},
-         {.title = "Visibility of the sun",
-          .note = "White: the whole sun is visible. The figures are of these pictures.",
+         {.title = lights > 1 ? "Visibility of the lights" : "Visibility of the light",
+          .note =
+              lights > 1
+                  ? "White: all of a light is visible; one light below the other. The figures are of these pictures."
+                  : "White: all of it is visible. The figures are of these pictures.",
           .body = report::picture_slider(
-              figure(label, "The visible share of the sun", visibility_picture(technique.pictures, size)),
-              figure(reference, "The visible share of the sun", visibility))},
+              figure(label, "The visible share of the light", visibility_picture(technique.pictures, size)),
+              figure(reference, "The visible share of the light", visibility))},
          {.title = "Error",
           .note = {},
           .body = report::error_map({.label = {},
@@ -183,8 +187,11 @@ std::string view_text(const ComparedScene& scene) {
   const render::Camera& camera = scene.camera;
   const std::string lens = camera.orthographic ? fmt::format("orthographic, half height {:g} m", camera.half_height)
                                                : fmt::format("--fov={:.6g}", glm::degrees(camera.fov_y));
-  return fmt::format("--eye={} --target={} {} {}", point_text(render::position_of(camera)), point_text(scene.target),
-                     lens, std::visit([](const auto& light) { return light_text(light); }, scene.light));
+  std::string text =
+      fmt::format("--eye={} --target={} {}", point_text(render::position_of(camera)), point_text(scene.target), lens);
+  for (const render::FrameLight& light : scene.lights)
+    text += " " + std::visit([](const auto& kind) { return light_text(kind); }, light);
+  return text;
 }
 
 Html command_section(const Comparison& comparison, const cli::Arguments& arguments) {
@@ -192,7 +199,7 @@ Html command_section(const Comparison& comparison, const cli::Arguments& argumen
   Html html = report::code_block(cli::command_text("penumbra compare", arguments));
   std::vector<std::pair<std::string, std::string>> views;
   for (const ComparedScene& scene : comparison.scenes)
-    views.emplace_back("View and sun of " + scene_name(scene.path), view_text(scene));
+    views.emplace_back("View and lights of " + scene_name(scene.path), view_text(scene));
   return html.add(report::definition_list(views));
 }
 

@@ -44,6 +44,11 @@ report::EncodedPicture encoded(const std::vector<std::uint8_t>& pixels, int chan
   return report::make_picture(image::encode_png(size.width, size.height, channels, pixels), size.width, size.height);
 }
 
+// Of the masks of all lights, one below the other, with so many pixels.
+cli::Size size_of_masks(std::size_t pixels, const cli::Size& size) {
+  return {.width = size.width, .height = static_cast<int>(pixels / static_cast<std::size_t>(size.width))};
+}
+
 }  // namespace
 
 report::EncodedPicture display_picture(const ComparedPictures& pictures, const cli::Size& size) {
@@ -52,7 +57,7 @@ report::EncodedPicture display_picture(const ComparedPictures& pictures, const c
 
 report::EncodedPicture visibility_picture(const ComparedPictures& pictures, const cli::Size& size) {
   const render::ByteImage bytes = render::aov_bytes("shadow", 1, pictures.visibility);
-  return encoded(bytes.pixels, bytes.channels, size);
+  return encoded(bytes.pixels, bytes.channels, size_of_masks(pictures.visibility.size(), size));
 }
 
 float error_scale(const ComparedScene& scene) {
@@ -74,7 +79,7 @@ report::EncodedPicture error_picture(const ComparedPictures& pictures, const cli
     const Rgb colour = colour_of(error / scale);
     pixels.insert(pixels.end(), colour.begin(), colour.end());
   }
-  return encoded(pixels, 3, size);
+  return encoded(pixels, 3, size_of_masks(pictures.error.size(), size));
 }
 
 report::Legend error_legend(float scale) {

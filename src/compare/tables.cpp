@@ -127,19 +127,31 @@ Json camera_of(const ComparedScene& scene) {
   return json;
 }
 
-// The compared light, under the name of its kind.
-void add_light(Json& json, const render::SunLight& sun) {
+// A compared light.
+Json json_of(const render::SunLight& sun) {
   const Angles angles = angles_of(sun.to_light);
-  json["sun"] = {{"to_light", json_of(sun.to_light)},
-                 {"azimuth_degrees", rounded(angles.azimuth)},
-                 {"elevation_degrees", rounded(angles.elevation)}};
+  return {{"kind", "sun"},
+          {"to_light", json_of(sun.to_light)},
+          {"azimuth_degrees", rounded(angles.azimuth)},
+          {"elevation_degrees", rounded(angles.elevation)}};
 }
 
-void add_light(Json& json, const render::LampLight& lamp) {
-  json["lamp"] = {{"position", json_of(lamp.position)}, {"radius", rounded(static_cast<double>(lamp.radius))}};
-  if (lamp.axis == glm::vec3(0)) return;
-  json["lamp"]["axis"] = json_of(lamp.axis);
-  json["lamp"]["cone_half_angle_degrees"] = rounded(glm::degrees(static_cast<double>(lamp.outer_cone)));
+Json json_of(const render::LampLight& lamp) {
+  const bool spot = lamp.axis != glm::vec3(0);
+  Json json{{"kind", spot ? "spot" : "point"},
+            {"position", json_of(lamp.position)},
+            {"radius", rounded(static_cast<double>(lamp.radius))}};
+  if (!spot) return json;
+  json["axis"] = json_of(lamp.axis);
+  json["cone_half_angle_degrees"] = rounded(glm::degrees(static_cast<double>(lamp.outer_cone)));
+  return json;
+}
+
+Json lights_of(const ComparedScene& scene) {
+  Json lights = Json::array();
+  for (const render::FrameLight& light : scene.lights)
+    lights.push_back(std::visit([](const auto& kind) { return json_of(kind); }, light));
+  return lights;
 }
 
 }  // namespace
@@ -185,14 +197,13 @@ Json json_of(const Comparison& comparison, const CompareOptions& options, const 
   for (const ComparedScene& scene : comparison.scenes) {
     Json techniques = Json::array();
     for (const ComparedTechnique& technique : scene.techniques) techniques.push_back(json_of(technique));
-    Json json{{"scene", scene.path}, {"camera", camera_of(scene)}};
-    std::visit([&](const auto& light) { add_light(json, light); }, scene.light);
+    Json json{{"scene", scene.path}, {"camera", camera_of(scene)}, {"lights", lights_of(scene)}};
     json["pixels"] = scene.pixels;
     json["receivers"] = scene.receivers;
     json["techniques"] = std::move(techniques);
     scenes.push_back(std::move(json));
   }
-  return io::document("compare", 1,
+  return io::document("compare", 2,
                       {{"version", cli::version()},
                        {"commit", bench::commit()},
                        {"command", cli::command_text("penumbra compare", arguments)},

@@ -257,6 +257,11 @@ const std::vector<Aov>& aovs() {
   return all;
 }
 
+std::vector<float> read_visibility(const FrameParts& frame, int light) {
+  const gl::Texture& masks = *frame.mask.texture;
+  return rows_top_down(gl::read_floats(masks, 1, 0, light), static_cast<std::size_t>(masks.width()));
+}
+
 std::vector<float> read_aov(const FrameParts& frame, std::string_view name, std::optional<glm::ivec2> pixel) {
   std::vector<std::string> names;
   for (const Row& row : rows()) {

@@ -24,7 +24,7 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
   scene.choose_casters(caster_choice(params));
   scene.pose(device, inputs.last_time, inputs.time);
 
-  const std::vector<shadow::Light> lights = shadow_lights(inputs.lights);
+  const std::vector<shadow::Light> lights = shadow_lights(inputs.lights, inputs.light_ids);
 
   const GBuffer gbuffer =
       draw_gbuffer(device, {.scene = scene, .view = view, .motion = soft_shadows.reads_motion(params, lights)});

@@ -53,9 +53,8 @@ struct FrameScene {
   double time;               // seconds
 };
 
-// The lights that cast shadows, as the shadow library takes them. A light's index is its id, under which the library
-// keeps its maps and history.
-std::vector<shadow::Light> shadow_lights(std::span<const FrameLight> lights);
+// The lights that cast shadows, as the shadow library takes them. `ids`: FrameInputs::light_ids.
+std::vector<shadow::Light> shadow_lights(std::span<const FrameLight> lights, std::span<const int> ids);
 
 // Whether not all lights are suns.
 bool has_lamps(std::span<const FrameLight> lights);

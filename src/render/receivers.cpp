@@ -11,8 +11,13 @@ glm::vec3 vector_at(const std::vector<float>& values, std::size_t i) {
   return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
 }
 
-std::vector<std::uint8_t> facing(const Renderer& renderer, const SunLight& sun, double sun_angle) {
-  const std::vector<float> normals = renderer.read_aov("geometric_normal");
+// What surfaces the frame shows.
+struct Surfaces {
+  std::vector<float> normals, positions;
+};
+
+std::vector<std::uint8_t> facing(const Surfaces& surfaces, const SunLight& sun, double sun_angle) {
+  const std::vector<float>& normals = surfaces.normals;
   const auto least = static_cast<float>(std::sin(glm::radians(sun_angle) * 0.5));
   std::vector<std::uint8_t> receivers(normals.size() / 3);
   for (std::size_t i = 0; i < receivers.size(); ++i)
@@ -21,9 +26,8 @@ std::vector<std::uint8_t> facing(const Renderer& renderer, const SunLight& sun, 
 }
 
 // The lamp is a disc that faces the receiver.
-std::vector<std::uint8_t> facing(const Renderer& renderer, const LampLight& lamp, double /*sun_angle*/) {
-  const std::vector<float> normals = renderer.read_aov("geometric_normal");
-  const std::vector<float> positions = renderer.read_aov("position");
+std::vector<std::uint8_t> facing(const Surfaces& surfaces, const LampLight& lamp, double /*sun_angle*/) {
+  const auto& [normals, positions] = surfaces;
   const float outer = lamp.axis == glm::vec3(0) ? -2.0f : std::cos(lamp.outer_cone);
   std::vector<std::uint8_t> receivers(normals.size() / 3);
   for (std::size_t i = 0; i < receivers.size(); ++i) {
@@ -39,8 +43,19 @@ std::vector<std::uint8_t> facing(const Renderer& renderer, const LampLight& lamp
 
 }  // namespace
 
+std::vector<std::uint8_t> receivers_of(const Renderer& renderer, std::span<const FrameLight> lights, double sun_angle) {
+  const Surfaces surfaces{renderer.read_aov("geometric_normal"), renderer.read_aov("position")};
+  std::vector<std::uint8_t> receivers;
+  for (const FrameLight& light : lights) {
+    const std::vector<std::uint8_t> of_light =
+        std::visit([&](const auto& kind) { return facing(surfaces, kind, sun_angle); }, light);
+    receivers.insert(receivers.end(), of_light.begin(), of_light.end());
+  }
+  return receivers;
+}
+
 std::vector<std::uint8_t> receivers_of(const Renderer& renderer, const FrameLight& light, double sun_angle) {
-  return std::visit([&](const auto& kind) { return facing(renderer, kind, sun_angle); }, light);
+  return receivers_of(renderer, std::span(&light, 1), sun_angle);
 }
 
 }  // namespace penumbra::render

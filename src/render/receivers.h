@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "render/renderer.h"
@@ -10,7 +11,9 @@ namespace penumbra::render {
 
 // Which pixels of the last frame are receivers, rows top to bottom: 1 where no part of the light is below the surface,
 // that is where there is geometry whose normal N_g has N_g · to_light > sin(θ / 2), and, of a spot, the light shines
-// there; else 0. θ is the angle that the light spans: of a sun `sun_angle`, degrees.
+// there; else 0. θ is the angle that the light spans: of a sun `sun_angle`, degrees. Of several lights, one picture
+// below the other, as Renderer::read_visibilities() has their masks.
+std::vector<std::uint8_t> receivers_of(const Renderer& renderer, std::span<const FrameLight> lights, double sun_angle);
 std::vector<std::uint8_t> receivers_of(const Renderer& renderer, const FrameLight& light, double sun_angle);
 
 }  // namespace penumbra::render

@@ -52,8 +52,14 @@ std::vector<Param> Renderer::params(const shadow::Registry& registry) {
 
 namespace {
 
-// Lamps' maps within what the maps of a sun may take at most. Throws Error before anything is allocated.
-void check_maps(std::span<const shadow::Light> lights, const ParamSet& params) {
+// Lamps whose shadows the technique can compute, with maps within what those of a sun may take at most. Throws Error
+// before anything is allocated. `lights`: their ids are their places in the frame.
+void check_lights(std::span<const shadow::Light> lights, const shadow::Registry& registry, const ParamSet& params) {
+  const shadow::Technique& technique = registry.find(params.get_word("technique"));
+  for (const shadow::Light& light : lights) {
+    if (technique.suns_only && shadow::lamp_map_count(light.source) > 0)
+      fail("light {} of the frame is a lamp, and technique '{}' is for suns alone", light.id, technique.name);
+  }
   constexpr long long most_texels = 4LL * 8192 * 8192;
   const long long size = params.get_int("lamps.size");
   long long maps = 0;
@@ -68,7 +74,9 @@ void check_maps(std::span<const shadow::Light> lights, const ParamSet& params) {
 const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, const ParamSet& params) {
   if (inputs.lights.empty() || inputs.lights.size() > max_lights)
     fail("a frame has {} lights; 1 to {} can be drawn", inputs.lights.size(), max_lights);
-  check_maps(shadow_lights(inputs.lights), params);
+  if (!inputs.light_ids.empty() && inputs.light_ids.size() != inputs.lights.size())
+    fail("a frame has {} lights, and {} ids of lights", inputs.lights.size(), inputs.light_ids.size());
+  check_lights(shadow_lights(inputs.lights, {}), registry(), params);
   gl::Device& device = state_->device;
   const State::Drawn now{.scene = scene.id(), .casters = caster_choice(params), .time = inputs.time};
   // Removed until this frame is complete: if it throws, the view's next frame must not reuse its history.
@@ -93,6 +101,16 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
 
 std::vector<float> Renderer::read_aov(std::string_view name) const {
   return render::read_aov(state_->drawn_for(name), name);
+}
+
+std::vector<float> Renderer::read_visibilities() const {
+  std::vector<float> all;
+  const std::size_t lights = state_->drawn().mask.lights.size();
+  for (std::size_t light = 0; light < lights; ++light) {
+    const std::vector<float> one = render::read_visibility(state_->drawn(), static_cast<int>(light));
+    all.insert(all.end(), one.begin(), one.end());
+  }
+  return all;
 }
 
 std::vector<float> Renderer::read_aov(std::string_view name, const glm::ivec2& pixel) const {

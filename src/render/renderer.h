@@ -24,6 +24,9 @@ struct FrameInputs {
   Camera camera, last_camera;
   // 1 to max_lights; light i has layer i of the mask, up to max_shadowed_lights
   std::vector<FrameLight> lights{SunLight{}};
+  // One for each light: under which its maps and history are kept from frame to frame, whatever other lights there are.
+  // Empty: their places in the list.
+  std::vector<int> light_ids;
   double time = 0, last_time = 0;  // seconds
   // The view or the time jumps, so nothing of the last frame may be reused: techniques and denoisers drop their
   // history, and the frame equals the first frame of a new run. A change of scene is always a cut, even if this is
@@ -74,6 +77,8 @@ class Renderer {
   // unknown names, and for an AOV that this frame did not keep (Aov::mask_details). The frame's scene must still exist:
   // motion vectors that the frame did not need are drawn here.
   std::vector<float> read_aov(std::string_view name) const;
+  // The AOV `shadow` of every light that casts shadows, one picture below the other.
+  std::vector<float> read_visibilities() const;
   // The same for one pixel, counted from the upper left.
   std::vector<float> read_aov(std::string_view name, const glm::ivec2& pixel) const;
   // The last frame as it is displayed: RGB, 8 bits, sRGB-encoded, rows top to bottom.

@@ -213,7 +213,7 @@ void choose_lights(Setup& setup, const scene::Scene& scene, const scene::Pose& p
   }
   for (const LampLight& lamp : request.lamps) {
     lit = true;
-    setup.lights.push_back({fmt::format("lamp {}", setup.lights.size()), lamp, std::nullopt});
+    setup.lights.push_back({fmt::format("lamp {}", lamp.number), lamp, std::nullopt});
   }
   if (!setup.sun_node) {
     setup.sun = default_sun(setup.camera);
@@ -250,10 +250,31 @@ std::vector<FrameLight> frame_lights(const Setup& setup) {
   return lights;
 }
 
+std::vector<FrameLight> shadowed_lights(const Setup& setup) {
+  std::vector<FrameLight> lights = frame_lights(setup);
+  lights.resize(std::min<std::size_t>(lights.size(), max_shadowed_lights));
+  return lights;
+}
+
+std::vector<int> light_ids(const Setup& setup) {
+  const auto of_node = [](std::size_t node) { return 1 + 2 * static_cast<int>(node); };
+  std::vector<int> ids;
+  if (setup.sun_shines) ids.push_back(setup.sun_node ? of_node(*setup.sun_node) : 0);
+  for (const PlacedLight& light : setup.lights)
+    ids.push_back(light.node ? of_node(*light.node) : 2 + 2 * std::get<LampLight>(light.light).number);
+  return ids;
+}
+
 void keep_first_light(Setup& setup) { setup.lights.resize(setup.sun_shines ? 0 : 1); }
 
 std::vector<std::string> light_names(const scene::Scene& scene) {
   return names_of(file_lights(scene, scene::rest_pose(scene)));
+}
+
+std::vector<std::size_t> light_nodes(const scene::Scene& scene) {
+  std::vector<std::size_t> nodes;
+  for (const FileLight& light : file_lights(scene, scene::rest_pose(scene))) nodes.push_back(light.node);
+  return nodes;
 }
 
 std::vector<std::string> camera_names(const scene::Scene& scene) {

@@ -50,11 +50,20 @@ struct Setup {
 // All lights that shine, the sun first. At least one.
 std::vector<FrameLight> frame_lights(const Setup& setup);
 
+// Those of them that cast shadows: the first ones.
+std::vector<FrameLight> shadowed_lights(const Setup& setup);
+
+// Of each light that shines, for FrameInputs::light_ids: the same whichever other lights shine.
+std::vector<int> light_ids(const Setup& setup);
+
 // Leaves the first light alone: where the shadows of one light are measured.
 void keep_first_light(Setup& setup);
 
 // The names of the lights that the scene places, in the order of SetupRequest::lights' indices. None is empty.
 std::vector<std::string> light_names(const scene::Scene& scene);
+
+// Their nodes, in the same order.
+std::vector<std::size_t> light_nodes(const scene::Scene& scene);
 
 // The names of the cameras that the scene places, in the order of SetupRequest's indices. None is empty.
 std::vector<std::string> camera_names(const scene::Scene& scene);

@@ -56,10 +56,10 @@ scene::FirstLayer first_layer_of(const shadow::CasterPass& casters) {
 
 }  // namespace
 
-std::vector<shadow::Light> shadow_lights(std::span<const FrameLight> lights) {
+std::vector<shadow::Light> shadow_lights(std::span<const FrameLight> lights, std::span<const int> ids) {
   std::vector<shadow::Light> all;
   for (const FrameLight& light : lights.first(std::min<std::size_t>(lights.size(), max_shadowed_lights))) {
-    all.push_back({.id = static_cast<int>(all.size()),
+    all.push_back({.id = ids.empty() ? static_cast<int>(all.size()) : ids[all.size()],
                    .source = std::visit([](const auto& kind) { return source_of(kind); }, light)});
   }
   return all;

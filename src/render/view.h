@@ -45,6 +45,7 @@ struct LampLight {
   float outer_cone = 0.7854f;  // none beyond the outer one
   float range = 0;             // metres: no light from there on; 0: unlimited
   glm::vec3 intensity{100};    // candela, linear RGB; of a spot: within the inner cone
+  int number = 0;              // of one that the user placed: names it, also when others are taken away
 
   bool operator==(const LampLight&) const = default;
 };

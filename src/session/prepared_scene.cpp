@@ -76,6 +76,7 @@ render::FrameInputs frame_inputs(const PreparedScene& prepared, const cli::Size&
           .camera = setup.camera,
           .last_camera = when.last_time == when.time ? setup.camera : setup_at(prepared, when.last_time).camera,
           .lights = render::frame_lights(setup),
+          .light_ids = render::light_ids(setup),
           .time = when.time,
           .last_time = when.last_time,
           .cut = when.cut || scene::jumps_between(prepared.scene, when.last_time, when.time)};

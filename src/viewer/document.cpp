@@ -85,7 +85,9 @@ std::vector<std::string> scene_arguments(const cli::SceneOptions& options) {
         fmt::format("{},{}", degrees_text(options.sun->azimuth), degrees_text(options.sun->elevation)));
   }
   if (options.no_sun) arguments.emplace_back("--no-sun");
-  if (options.lights) add(arguments, "--lights", fmt::format("{}", fmt::join(*options.lights, ",")));
+  if (options.lights) {
+    add(arguments, "--lights", options.lights->empty() ? "none" : fmt::format("{}", fmt::join(*options.lights, ",")));
+  }
   if (options.lamp_radius) add(arguments, "--lamp-radius", fmt::format("{}", *options.lamp_radius));
   for (const render::LampLight& lamp : options.lamps) add(arguments, "--lamp", cli::lamp_text(lamp));
   if (options.ground == render::GroundChoice::on) add(arguments, "--ground", "on");

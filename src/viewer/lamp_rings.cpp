@@ -1,9 +1,11 @@
 #include "viewer/lamp_rings.h"
 
-#include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <optional>
+
+#include "viewer/lamps.h"
 
 namespace penumbra::viewer {
 
@@ -40,23 +42,25 @@ std::optional<Shown> shown(const render::Camera& camera, const glm::vec3& place,
 
 bool drag_lamp(const Panel& panel, const PictureArea& area, bool active) {
   UiState& state = panel.state;
-  std::vector<render::LampLight>& lamps = state.document.options.lamps;
   if (!active || !ImGui::IsMouseDown(ImGuiMouseButton_Left)) state.dragged_lamp.reset();
-  if (!shows_rings(panel) || lamps.empty()) return false;
+  if (!shows_rings(panel)) return false;
   const render::Camera camera = camera_of(panel);
   const ImVec2 pointer = ImGui::GetIO().MousePos;
-  for (std::size_t i = 0; i < lamps.size() && ImGui::IsItemClicked(); ++i) {
-    const std::optional<Shown> lamp = shown(camera, lamps[i].position, area);
-    if (!lamp || glm::distance(lamp->at, glm::vec2(pointer.x, pointer.y)) > ring) continue;
-    state.dragged_lamp = i;
-    state.lamp = static_cast<int>(i);
+  const std::vector<ShownLamp> lamps = shown_lamps(panel);
+  for (const ShownLamp& lamp : lamps) {
+    const std::optional<Shown> at = shown(camera, lamp.light.position, area);
+    if (!ImGui::IsItemClicked() || !at || glm::distance(at->at, glm::vec2(pointer.x, pointer.y)) > ring) continue;
+    state.dragged_lamp = state.lamp = lamp.name;
   }
-  if (!state.dragged_lamp || *state.dragged_lamp >= lamps.size()) return false;
-  glm::vec3& place = lamps[*state.dragged_lamp].position;
-  const std::optional<Shown> lamp = shown(camera, place, area);
+  const auto dragged = std::ranges::find_if(
+      lamps, [&](const ShownLamp& lamp) { return state.dragged_lamp && lamp.name == *state.dragged_lamp; });
+  if (dragged == lamps.end()) return false;
+  render::LampLight moved = dragged->light;
+  const std::optional<Shown> lamp = shown(camera, moved.position, area);
   if (lamp && area.dragged != glm::vec2(0)) {
     const glm::vec3 by = glm::vec3(area.dragged.x, -area.dragged.y, 0) / lamp->metre;
-    place += glm::transpose(glm::mat3(camera.view)) * by;
+    moved.position += glm::transpose(glm::mat3(camera.view)) * by;
+    state.dragged_lamp = state.lamp = change_lamp(panel, dragged->name, moved);
   }
   return true;
 }
@@ -64,17 +68,16 @@ bool drag_lamp(const Panel& panel, const PictureArea& area, bool active) {
 void draw_lamp_rings(const Panel& panel, const PictureArea& area) {
   if (!shows_rings(panel)) return;
   const UiState& state = panel.state;
-  const std::vector<render::LampLight>& lamps = state.document.options.lamps;
   const render::Camera camera = camera_of(panel);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  for (std::size_t i = 0; i < lamps.size(); ++i) {
-    const std::optional<Shown> lamp = shown(camera, lamps[i].position, area);
+  for (const ShownLamp& shining : shown_lamps(panel)) {
+    const std::optional<Shown> lamp = shown(camera, shining.light.position, area);
     if (!lamp) continue;
-    const bool chosen = state.lamp == static_cast<int>(i);
+    const bool chosen = state.lamp && *state.lamp == shining.name;
     list.AddCircle({lamp->at.x, lamp->at.y}, ring + 1, IM_COL32(20, 20, 20, 200), 0, 4);
     list.AddCircle({lamp->at.x, lamp->at.y}, ring, chosen ? IM_COL32(255, 200, 80, 255) : IM_COL32(255, 255, 255, 255),
                    0, 2);
-    panel.widgets.mark(fmt::format("ring={}", i), {lamp->at.x - ring, lamp->at.y - ring},
+    panel.widgets.mark("ring of " + text_of(shining.name), {lamp->at.x - ring, lamp->at.y - ring},
                        {lamp->at.x + ring, lamp->at.y + ring});
   }
 }

@@ -9,26 +9,11 @@
 
 #include "core/error.h"
 #include "scene/pose.h"
-#include "viewer/panels.h"
+#include "viewer/lamps.h"
 
 namespace penumbra::viewer {
 
 namespace {
-
-// Whether the light of that index shines by the options; without a choice all of them do.
-bool is_chosen(const cli::SceneOptions& options, std::size_t index) {
-  return !options.lights || std::ranges::find(*options.lights, std::to_string(index)) != options.lights->end();
-}
-
-// Chooses by index, since names may be equal or contain a comma. All of them are the same as no choice.
-void choose(cli::SceneOptions& options, std::size_t index, bool on, std::size_t count) {
-  std::vector<std::string> chosen;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i == index ? on : is_chosen(options, i)) chosen.push_back(std::to_string(i));
-  }
-  options.lights = std::move(chosen);
-  if (options.lights->size() == count) options.lights.reset();
-}
 
 // The lights that the options choose; nothing where none would shine.
 std::optional<render::Setup> lit_by(const Panel& panel, const cli::SceneOptions& options) {
@@ -59,20 +44,6 @@ void take_lights(const Panel& panel, cli::SceneOptions wanted) {
     options = std::move(wanted);
   } else {
     tell(panel.state, "the last light stays on: without it nothing would light the scene", ImGui::GetTime());
-  }
-}
-
-void lights_of_the_file(const Panel& panel) {
-  const cli::SceneOptions& options = panel.state.document.options;
-  const std::vector<std::string>& names = panel.status.scene->lights;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    bool on = is_chosen(options, i);
-    if (ImGui::Checkbox(fmt::format("{}##light{}", names[i], i).c_str(), &on)) {
-      cli::SceneOptions wanted = options;
-      choose(wanted, i, on, names.size());
-      take_lights(panel, std::move(wanted));
-    }
-    panel.widgets.mark(fmt::format("light={}", i));
   }
 }
 
@@ -112,8 +83,9 @@ void spot(const Panel& panel, render::LampLight& lamp) {
   row("cone", "From its axis to its rim.");
   float degrees = glm::degrees(lamp.outer_cone);
   if (ImGui::SliderFloat("##cone", &degrees, 1, 90, "%.1f°", ImGuiSliderFlags_AlwaysClamp)) {
+    const float inner = lamp.inner_cone / lamp.outer_cone;
     lamp.outer_cone = std::min(glm::radians(degrees), 1.5707f);
-    lamp.inner_cone = 0.8f * lamp.outer_cone;
+    lamp.inner_cone = inner * lamp.outer_cone;
   }
   panel.widgets.mark("lamp cone");
 }
@@ -131,27 +103,62 @@ void lamp_rows(const Panel& panel, render::LampLight& lamp) {
   end_rows();
 }
 
-// The user's lamps, of which one is open for changes.
-void own_lamps(const Panel& panel) {
-  UiState& state = panel.state;
-  std::vector<render::LampLight>& lamps = state.document.options.lamps;
-  for (std::size_t i = 0; i < lamps.size(); ++i) {
-    const bool open = state.lamp == static_cast<int>(i);
-    if (ImGui::Selectable(fmt::format("lamp {}##lamp{}", i, i).c_str(), open))
-      state.lamp = open ? -1 : static_cast<int>(i);
-    panel.widgets.mark(fmt::format("lamp={}", i));
+// A lamp's entry in the list, which shows or hides its properties.
+void entry(const Panel& panel, const LampName& name, const std::string& label) {
+  std::optional<LampName>& open = panel.state.lamp;
+  const bool is_open = open && *open == name;
+  if (ImGui::Selectable(fmt::format("{}##{}", label, text_of(name)).c_str(), is_open))
+    open = is_open ? std::nullopt : std::optional(name);
+  panel.widgets.mark("entry of " + text_of(name));
+}
+
+void lights_of_the_file(const Panel& panel, const std::vector<ShownLamp>& lamps) {
+  const cli::SceneOptions& options = panel.state.document.options;
+  const std::vector<std::string>& names = panel.status.scene->lights;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const LampName name{.of_file = true, .index = i};
+    const bool is_lamp = std::ranges::find(lamps, name, &ShownLamp::name) != lamps.end();
+    bool on = is_chosen(options, i);
+    // A lamp's name opens its properties, beside the box that turns it off.
+    const std::string label = is_lamp ? std::string() : names[i];
+    if (ImGui::Checkbox(fmt::format("{}##light{}", label, i).c_str(), &on)) {
+      cli::SceneOptions wanted = options;
+      choose_light(wanted, i, on, names.size());
+      take_lights(panel, std::move(wanted));
+    }
+    panel.widgets.mark(fmt::format("light={}", i));
+    if (!is_lamp) continue;
+    ImGui::SameLine();
+    entry(panel, name, names[i]);
   }
-  if (state.lamp < 0 || state.lamp >= static_cast<int>(lamps.size())) return;
-  const auto chosen = lamps.begin() + state.lamp;
+}
+
+void remove_button(const Panel& panel, std::size_t index) {
   if (ImGui::Button("Remove lamp")) {
-    cli::SceneOptions wanted = state.document.options;
-    wanted.lamps.erase(wanted.lamps.begin() + state.lamp);
-    state.lamp = -1;
+    cli::SceneOptions wanted = panel.state.document.options;
+    wanted.lamps.erase(wanted.lamps.begin() + static_cast<std::ptrdiff_t>(index));
+    panel.state.lamp.reset();
     take_lights(panel, std::move(wanted));
-    return;
   }
   panel.widgets.mark("remove lamp");
-  lamp_rows(panel, *chosen);
+}
+
+// All lamps, of which one is open for changes.
+void lamp_list(const Panel& panel) {
+  UiState& state = panel.state;
+  const std::vector<ShownLamp> lamps = shown_lamps(panel);
+  lights_of_the_file(panel, lamps);
+  for (const ShownLamp& lamp : lamps) {
+    if (!lamp.name.of_file) entry(panel, lamp.name, fmt::format("lamp {}", lamp.light.number));
+  }
+  const auto open =
+      std::ranges::find_if(lamps, [&](const ShownLamp& lamp) { return state.lamp && lamp.name == *state.lamp; });
+  if (open == lamps.end()) return;
+  if (!open->name.of_file) remove_button(panel, open->name.index);
+  if (!state.lamp) return;
+  render::LampLight changed = open->light;
+  lamp_rows(panel, changed);
+  if (changed != open->light) state.lamp = change_lamp(panel, open->name, changed);
 }
 
 }  // namespace
@@ -168,7 +175,6 @@ void lights_panel(const Panel& panel) {
   }
   panel.widgets.mark("no sun");
   tooltip("Spots and point lamps alone light the scene (--no-sun)");
-  lights_of_the_file(panel);
   if (ImGui::Button("Add lamp")) {
     // Between the eye and what it looks at, a little higher.
     const CameraRig rig = present_rig(state.document, panel.status.scene->prepared);
@@ -179,12 +185,15 @@ void lights_panel(const Panel& panel) {
     const glm::vec3 lux = setup.sun_shines ? setup.sun.illuminance : glm::vec3(100);
     // A sun that only stands in for missing lights would go out.
     if (setup.sun_shines && !setup.sun_node && !options.sun) place_sun(state.document, setup.sun.to_light);
-    options.lamps.push_back({.position = place, .radius = 0.02f * away, .intensity = lux * (away * away)});
-    state.lamp = static_cast<int>(options.lamps.size()) - 1;
+    options.lamps.push_back({.position = place,
+                             .radius = 0.02f * away,
+                             .intensity = lux * (away * away),
+                             .number = free_number(options.lamps)});
+    state.lamp = LampName{.of_file = false, .index = options.lamps.size() - 1};
   }
   panel.widgets.mark("add lamp");
   tooltip("A point lamp before what the camera looks at; drag its ring in the picture");
-  own_lamps(panel);
+  lamp_list(panel);
 }
 
 }  // namespace penumbra::viewer

@@ -21,6 +21,7 @@ struct LoadedScene {
   scene::GpuScene gpu;
   std::vector<std::string> cameras = render::camera_names(prepared.scene);
   std::vector<std::string> lights = render::light_names(prepared.scene);
+  std::vector<std::size_t> light_nodes = render::light_nodes(prepared.scene);
 };
 
 // Draws one of the two pictures, A or B, and keeps what it drew last.

@@ -127,7 +127,7 @@ bool Viewer::draw_side(const SideWork& work, int divisor) {
 // Reads the visibility of the renderer's last frame, which is this picture's.
 void Viewer::measure(Side& side) {
   side.measured = true;  // also if reading fails: it would fail again in every frame
-  side.visibility = renderer_.read_aov("shadow");
+  side.visibility = renderer_.read_visibilities();
 }
 
 // Frees the maps, masks and histories of B.
@@ -139,14 +139,16 @@ void Viewer::forget_b() {
   renderer_.forget_view(1);
 }
 
-// The figures of A against B, over the surfaces that face the first light.
+// The figures of A against B, over the surfaces that face a light, of all lights that cast shadows.
 void Viewer::measure_difference() {
   const glm::ivec2 size = status_.drawn_size;
-  const metrics::ImageView a{size.x, size.y, a_.visibility}, b{size.x, size.y, b_.visibility};
+  const std::vector<render::FrameLight> lights =
+      shadowed_lights(session::setup_at(scene_->prepared, state_.document.seconds()));
+  const int rows = size.y * static_cast<int>(lights.size());
+  const metrics::ImageView a{size.x, rows, a_.visibility}, b{size.x, rows, b_.visibility};
   if (a.pixels.size() != a.pixel_count() || b.pixels.size() != b.pixel_count()) return;
-  const std::vector<std::uint8_t> receivers = render::receivers_of(
-      renderer_, frame_lights(session::setup_at(scene_->prepared, state_.document.seconds())).front(),
-      state_.document.params.get_float("sun.angle"));
+  const std::vector<std::uint8_t> receivers =
+      render::receivers_of(renderer_, lights, state_.document.params.get_float("sun.angle"));
   status_.difference = PictureDifference{.figures = metrics::error_figures(a, b, receivers),
                                          .flip = metrics::flip(a, b, receivers).mean};
 }

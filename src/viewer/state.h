@@ -45,6 +45,14 @@ struct OverwriteQuestion {
   std::string file;
 };
 
+// A lamp of the scene panel's list.
+struct LampName {
+  bool of_file = false;   // else of the user
+  std::size_t index = 0;  // among the file's lights, or among SceneOptions::lamps
+
+  bool operator==(const LampName&) const = default;
+};
+
 // Everything that the user can change.
 struct UiState {
   Document document;  // picture A
@@ -56,8 +64,8 @@ struct UiState {
   double last_travel = -1e9;   // when the wheel or a key moved the camera last, seconds of the viewer's clock
   Drag drag;                   // of the pointer over the picture
   bool dragging_line = false;  // the user drags the line between A and B
-  int lamp = -1;               // of the user's lamps, the one whose properties are shown; -1: none
-  std::optional<std::size_t> dragged_lamp;
+  // The lamp whose properties are shown, and the one that the mouse drags.
+  std::optional<LampName> lamp, dragged_lamp;
   bool popup_open = false;  // a list was open in the last frame: Escape closes it
   bool panel = true, help = false, probe = true, vsync = true;
   std::string search;         // filters the parameters

@@ -123,7 +123,7 @@ class Compare(TestCase):
         self.assertTrue(data["commit"])
         self.assertTrue(data["command"].startswith("penumbra compare "))
         self.assertIn("--reference brute_force", data["command"])
-        camera, sun = (data["scenes"][0][name] for name in ("camera", "sun"))
+        camera, (sun,) = (data["scenes"][0][name] for name in ("camera", "lights"))
         page = (self.folder / "report" / "index.html").read_text()
         self.assertIn(data["commit"], page)
         self.assertIn("--sun</span>=" + f"{sun['azimuth_degrees']:g}", page)

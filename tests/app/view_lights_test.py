@@ -33,25 +33,44 @@ class Lights(WindowTest):
         with self.view(STEPS, "--sun", "20,50") as viewer:
             viewer.open_tab("Scene", "eye")
             dark = viewer.rest()
-            viewer.click("add lamp", lambda: viewer.has("ring=0"), "its ring")
+            viewer.click("add lamp", lambda: viewer.has("ring of lamp 0"), "its ring")
             lit = viewer.changed(dark)
             self.assertGreater(lit.differing(dark, by=16), 0.005)
             (before,) = self.lamps(viewer)
-            box = viewer.box("ring=0")
-            viewer.drag(*viewer.middle("ring=0"), LEFT, lambda: viewer.box("ring=0") != box, "the ring elsewhere")
+            box = viewer.box("ring of lamp 0")
+            viewer.drag(*viewer.middle("ring of lamp 0"), LEFT, lambda: viewer.box("ring of lamp 0") != box, "the ring elsewhere")
             moved = viewer.changed(lit)
             self.assertGreater(moved.differing(lit, by=4), 0.005)
             (after,) = self.lamps(viewer)
             self.assertNotEqual(before, after)
             words = viewer.copied()
             self.assertIn("--sun=20,50", words)
-            viewer.click("remove lamp", lambda: not viewer.has("ring=0"), "no ring")
+            viewer.click("remove lamp", lambda: not viewer.has("ring of lamp 0"), "no ring")
             # Above the message that says what was copied.
             again = viewer.changed(moved)
             upper = (0, 0, dark.width, dark.height // 3)
             self.assertEqual(again.crop(*upper), dark.crop(*upper))
             self.assertGreater(len(dark.crop(*upper).colors()), 30)
             self.assertEqual(self.lamps(viewer), [])
+
+    def test_a_lamp_of_the_file_is_dragged_and_changed(self):
+        with self.view(scene("gallery"), "--technique", "hard") as viewer:
+            viewer.open_tab("Scene", "eye")
+            before = viewer.rest()
+            ring = "ring of light 3"
+            self.assertTrue(viewer.has(ring))
+            self.assertFalse(viewer.has("ring of light 0"))  # the sun has none
+            # A click on a ring only opens the lamp's properties.
+            viewer.click(ring, lambda: viewer.has("lamp radius"), "the lamp's properties")
+            self.assertEqual(self.lamps(viewer), [])
+            viewer.drag(*viewer.middle(ring), LEFT, lambda: viewer.has("ring of lamp 0"), "a lamp of the user's")
+            self.assertFalse(viewer.has(ring))
+            self.assertGreater(viewer.changed(before).differing(before, by=4), 0.005)
+            words = viewer.copied()
+            self.assertIn("--lights=0,1,2", words)
+            (lamp,) = [word for word in words if word.startswith("--lamp=")]
+            self.assertIn("radius=0.08", lamp)
+            self.assertIn("range=50", lamp)
 
     def test_lights_of_the_file_are_turned_off_and_on(self):
         with self.view(scene("gallery"), "--technique", "hard") as viewer:
@@ -72,7 +91,7 @@ class Lights(WindowTest):
         unlit.write_bytes(without_lights(STEPS.read_bytes()))
         with self.view(unlit, "--technique", "hard") as viewer:
             viewer.open_tab("Scene", "eye")
-            viewer.click("add lamp", lambda: viewer.has("ring=0"), "its ring")
+            viewer.click("add lamp", lambda: viewer.has("ring of lamp 0"), "its ring")
             viewer.rest()
             self.assertTrue(any(word.startswith("--sun=") for word in viewer.copied()))
 

@@ -76,6 +76,26 @@ TEST_F(LightsTest, EachLightHasItsOwnLayerOfTheMask) {
   EXPECT_GT(only_b, 20);
 }
 
+TEST_F(LightsTest, ALightKeepsItsHistoryWhenAnotherOneGoesOut) {
+  params.set("history.reuse", true);
+  for (const bool named : {true, false}) {
+    SCOPED_TRACE(named);
+    inputs.light_ids.clear();
+    draw_with({warm_, cold_});
+    const auto has_history = [&](std::vector<render::FrameLight> lights, const std::vector<int>& ids) {
+      inputs.lights = std::move(lights);
+      inputs.light_ids = named ? ids : std::vector<int>();
+      return renderer.draw(*gpu_scene, inputs, params).mask.lights.back().history;
+    };
+    has_history({warm_, cold_}, {7, 3});
+    EXPECT_TRUE(has_history({warm_, cold_}, {7, 3}));
+    // Without a name the light has that of the first, which had another history.
+    EXPECT_EQ(has_history({cold_}, {3}), named);
+  }
+  inputs.light_ids = {1, 2};
+  EXPECT_EQ(message_of([&] { draw(scene_); }), "a frame has 1 lights, and 2 ids of lights");
+}
+
 TEST_F(LightsTest, BlendedSurfacesAreLitByAllAndShadowedFromTheFirst) {
   scene_.materials[0].alpha_mode = scene::AlphaMode::blend;
   params.set_text("technique", "none");

@@ -36,11 +36,13 @@ TEST(CliLamp, ReadsAPlaceAndAttributesInAnyOrder) {
 }
 
 TEST(CliLamp, ItsTextReadsBackAsTheSame) {
-  for (const char* text : {"1,2,3", "0.1,-2,3.3:radius=0:cd=0.5:rgb=0.2,1,0.3", "0,3,0:to=1,0,2:cone=55:range=4"}) {
+  for (const char* text : {"1,2,3", "0.1,-2,3.3:radius=0:cd=0.5:rgb=0.2,1,0.3", "0,3,0:to=1,0,2:cone=55:range=4",
+                           "0,3,0:to=0,0,0:cone=55:inner=0", "0,3,0:to=0,0,0:cone=30:inner=29"}) {
     const render::LampLight lamp = parse(text), again = parse(cli::lamp_text(lamp));
     EXPECT_EQ(again.position, lamp.position);
     EXPECT_NEAR(glm::length(again.axis - lamp.axis), 0, 1e-6f);
     EXPECT_NEAR(again.outer_cone, lamp.outer_cone, 1e-6f);
+    EXPECT_NEAR(again.inner_cone, lamp.inner_cone, 1e-6f);
     EXPECT_NEAR(glm::length(again.intensity - lamp.intensity), 0, 1e-4f);
     EXPECT_EQ(again.radius, lamp.radius);
     EXPECT_EQ(again.range, lamp.range);
@@ -50,9 +52,10 @@ TEST(CliLamp, ItsTextReadsBackAsTheSame) {
 TEST(CliLamp, FaultsAreNamed) {
   for (const char* text : {"", "1,2", "1,2,x", "1,2,3:", "1,2,3:radius", "1,2,3:size=1", "1,2,3:radius=-1",
                            "1,2,3:radius=nan", "1,2,3:cd=1e30", "1,2,3:cone=0", "1,2,3:cone=91", "1,2,3:to=1,2,3",
-                           "1,2,3:rgb=-1,0,0", "1,2,3::cd=1", "1,2,inf"})
+                           "1,2,3:rgb=-1,0,0", "1,2,3::cd=1", "1,2,inf", "1,2,3:to=0,0,0:cone=20:inner=30"})
     EXPECT_NE(fault_of(text), "") << text;
-  EXPECT_EQ(fault_of("1,2,3:size=1"), "--lamp: no attribute 'size'; there are radius, cd, range, rgb, to and cone");
+  EXPECT_EQ(fault_of("1,2,3:size=1"),
+            "--lamp: no attribute 'size'; there are radius, cd, range, rgb, to, cone and inner");
 }
 
 }  // namespace

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "core/error.h"
 
@@ -276,6 +279,18 @@ TEST(Setup, TheUserChoosesLights) {
   EXPECT_THROW(lights_of({.lights = Names{"lmap"}}), Error);
   EXPECT_THROW(lights_of({.lights = Names{"dark"}}), Error);
   EXPECT_THROW(setup_of(scene_of({box({-1, 0, -1}, {1, 1, 1})}), {.no_sun = true}), Error);
+}
+
+TEST(Setup, ALightKeepsItsIdWhateverOtherLightsShine) {
+  const scene::Scene scene = scene_with_lights();
+  const auto ids = [&](const render::SetupRequest& request) { return render::light_ids(setup_of(scene, request)); };
+  using Names = std::vector<std::string>;
+  const std::vector<int> all = ids({.lamps = {{.number = 0}, {.number = 1}}});
+  ASSERT_EQ(all.size(), 5u);
+  EXPECT_EQ(std::set<int>(all.begin(), all.end()).size(), 5u);
+  EXPECT_EQ(ids({.lights = Names{"spot", "sun"}}), (std::vector{all[0], all[2]}));
+  EXPECT_EQ(ids({.no_sun = true, .lamps = {{.number = 1}}}), (std::vector{all[1], all[2], all[4]}));
+  EXPECT_EQ(ids({.lights = Names{"lamp"}, .own_sun = true}).size(), 2u);
 }
 
 TEST(Setup, ThereAreNoMoreLightsThanAFrameHas) {
