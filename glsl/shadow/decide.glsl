@@ -57,8 +57,8 @@ PixelState decide_receiver(Receiver receiver, Light light) {
                     metres_to_blocker(receiver, receiver.position.z - bilinear(footprint.depths, footprint.weight)));
 }
 
-// Whether the pixel faces away from the light, or lies where it does not shine, or faces it; for rays, undecided where one part of the light may be
-// above the horizon of its surface and another part below it.
+// Whether the pixel faces the light, or faces away or lies where it does not shine; for rays, undecided where one part
+// of the light may be above the horizon of its surface and another part below it.
 int facing_of(Receiver receiver, Light light) {
   float cosine = light_cosine(receiver);
 #if LEAVES_TO_RAYS

@@ -1,6 +1,6 @@
-// What depends on the kind of light and the projection of its shadow map: the files of the folder shadow/projection, and no
-// other GLSL. They convert positions to map coordinates and stored depths to metres, and give the sizes of texels and
-// penumbrae. All other files work in light space:
+// What depends on the kind of light and the projection of its shadow map: the files of the folder shadow/projection,
+// and no other GLSL. They convert positions to map coordinates and stored depths to metres, and give the sizes of
+// texels and penumbrae. All other files work in light space:
 //   - z is the depth along the light's rays, metres, growing away from the light; the map stores it. x and y are
 //     perpendicular to z.
 //   - Offsets and radii are metres in x and y at the receiver's depth, for every kind of projection.

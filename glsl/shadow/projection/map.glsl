@@ -13,8 +13,8 @@ float stored_of(float depth, Light light) { return (depth - light.map.near_depth
 float stored_difference(float difference, Light light) { return difference / light.map.depth_range; }
 float stored_metres(Light light) { return light.map.depth_range; }  // from 0 to 1
 
-// Beyond the rim of a cube's face the map goes on in the faces there. Their texels lie elsewhere, so that what is read of
-// one is a depth and its own place.
+// Beyond the rim of a cube's face the map goes on in the faces there. Their texels lie elsewhere, so that what is read
+// of one is a depth and its own place.
 
 bool has_faces(Light light) { return is_lamp && light.layers > 1; }
 

@@ -1,5 +1,5 @@
-// Receivers of a tile of pixels, as a light sees all of them at once. Between (x, y) / z and −1 / z, a lamp is a sun for
-// every receiver that a face sees; scaled to metres at the depth of one of them, it is the one that this receiver sees.
+// Receivers of a tile of pixels, as a light sees all of them at once. In (x, y) / z and −1 / z, a lamp is a sun for
+// every receiver that a face sees; scaled to metres at the depth of one of them, it is the sun that this one sees.
 #include "shadow/projection/layers.glsl"
 
 // A box in light space; and what bounds the receivers of a tile, as light_position() has its corners.
