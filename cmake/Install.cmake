@@ -1,15 +1,22 @@
-# cmake --install: the program with its data, and the library (core, gl, shadow) as the package "penumbra" of CMake, whose
-# target penumbra::shadow brings the rest, and of pkg-config. Nothing that is installed names a path of the building
-# machine.
+# cmake --install: the program with its data, and libpenumbra as the packages "penumbra" of CMake and of pkg-config.
+# CMake's has the targets penumbra::penumbra, the shared library with the C interface, penumbra::static, the same as a
+# static library, and penumbra::shadow, which adds the C++ of the layers, GLM and fmt; pkg-config's has the first two, and
+# the package "penumbra-shadow" the third. Nothing that is installed names a path of the building machine.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/penumbra")
 set(header_dir "${CMAKE_INSTALL_INCLUDEDIR}/penumbra")
 
-install(TARGETS penumbra_core penumbra_gl penumbra_shadow EXPORT penumbra
+install(TARGETS penumbra_shared EXPORT penumbra
+  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+  INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+install(TARGETS penumbra_static penumbra_extending EXPORT penumbra_static
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+foreach(header IN LISTS penumbra_interface_headers)
+  install(FILES "${PROJECT_SOURCE_DIR}/src/capi/${header}" DESTINATION "${header_dir}")
+endforeach()
 foreach(header IN LISTS penumbra_public_headers)
   get_filename_component(layer "${header}" DIRECTORY)
   install(FILES "${PROJECT_SOURCE_DIR}/src/${header}" DESTINATION "${header_dir}/${layer}")
@@ -17,6 +24,7 @@ endforeach()
 install(FILES "${PENUMBRA_GL_API_HEADER}" DESTINATION "${header_dir}/gl")
 
 install(EXPORT penumbra NAMESPACE penumbra:: FILE penumbraTargets.cmake DESTINATION "${package_dir}")
+install(EXPORT penumbra_static NAMESPACE penumbra:: FILE penumbraStaticTargets.cmake DESTINATION "${package_dir}")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/penumbraConfig.cmake.in"
   "${PROJECT_BINARY_DIR}/penumbraConfig.cmake" INSTALL_DESTINATION "${package_dir}")
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/penumbraConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
@@ -27,10 +35,14 @@ install(FILES "${PROJECT_BINARY_DIR}/penumbraConfig.cmake" "${PROJECT_BINARY_DIR
 set(pkgconfig_dir "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
 file(RELATIVE_PATH pc_prefix "/${pkgconfig_dir}" "/")
 string(REGEX REPLACE "/$" "" pc_prefix "${pc_prefix}")
-list(TRANSFORM CMAKE_DL_LIBS PREPEND "-l")
-configure_file("${PROJECT_SOURCE_DIR}/cmake/penumbra.pc.in" "${PROJECT_BINARY_DIR}/penumbra.pc" @ONLY)
-install(FILES "${PROJECT_BINARY_DIR}/penumbra.pc" DESTINATION "${pkgconfig_dir}")
+list(TRANSFORM CMAKE_DL_LIBS PREPEND "-l" OUTPUT_VARIABLE dl_libraries)
+foreach(package penumbra penumbra-shadow)
+  configure_file("${PROJECT_SOURCE_DIR}/cmake/${package}.pc.in" "${PROJECT_BINARY_DIR}/${package}.pc" @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/${package}.pc" DESTINATION "${pkgconfig_dir}")
+endforeach()
 
+# Programs that use the library, as sources.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${CMAKE_INSTALL_DATADIR}/penumbra")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/penumbra")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/glsl" DESTINATION "${CMAKE_INSTALL_DATADIR}/penumbra")
 if(PENUMBRA_APP)

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <mutex>
+#include <utility>
 
 namespace penumbra {
 namespace {
@@ -22,7 +23,12 @@ Sink& sink() {
   return instance;
 }
 
+thread_local const LogSink* thread_sink = nullptr;
+
 }  // namespace
+
+ThreadLogSink::ThreadLogSink(const LogSink& sink) : outer_(std::exchange(thread_sink, &sink)) {}
+ThreadLogSink::~ThreadLogSink() { thread_sink = outer_; }
 
 void set_log_sink(LogSink new_sink) {
   const std::lock_guard lock(sink().mutex);
@@ -30,6 +36,10 @@ void set_log_sink(LogSink new_sink) {
 }
 
 void log(LogLevel level, std::string_view message) {
+  if (thread_sink != nullptr) {
+    (*thread_sink)(level, message);
+    return;
+  }
   const std::lock_guard lock(sink().mutex);
   sink().write(level, message);
 }

@@ -18,6 +18,19 @@ void set_log_sink(LogSink sink);
 
 void log(LogLevel level, std::string_view message);
 
+// In this scope, messages that the calling thread logs go to `sink` instead. Scopes may nest; `sink` is not
+// empty and outlives its scope.
+class ThreadLogSink {
+ public:
+  explicit ThreadLogSink(const LogSink& sink);
+  ~ThreadLogSink();
+  ThreadLogSink(const ThreadLogSink&) = delete;
+  ThreadLogSink& operator=(const ThreadLogSink&) = delete;
+
+ private:
+  const LogSink* outer_;
+};
+
 template <class... Args>
 void warn(fmt::format_string<Args...> format, Args&&... args) {
   log(LogLevel::warning, fmt::format(format, std::forward<Args>(args)...));

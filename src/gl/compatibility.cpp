@@ -1,6 +1,7 @@
 #include "compatibility.h"
 
-#include "../core/error.h"
+#include <fmt/format.h>
+
 #include "api.h"
 
 namespace penumbra::gl {
@@ -39,14 +40,14 @@ void set_enabled(GLenum capability, bool enabled) { enabled ? glEnable(capabilit
 
 }  // namespace
 
-void find_legacy_state(GetProcAddress get_proc_address, bool compatibility) {
+void find_legacy_state(const std::function<void*(const char*)>& get_proc_address, bool compatibility) {
   pixel_transfer_float = nullptr;
   pixel_transfer_int = nullptr;
   if (!compatibility) return;
   pixel_transfer_float = reinterpret_cast<PixelTransferf>(get_proc_address("glPixelTransferf"));
   pixel_transfer_int = reinterpret_cast<PixelTransferi>(get_proc_address("glPixelTransferi"));
   if (pixel_transfer_float == nullptr || pixel_transfer_int == nullptr)
-    fail("OpenGL 4.5: the driver lacks glPixelTransfer in a context of the compatibility profile");
+    throw ContextError("OpenGL 4.5: the driver lacks glPixelTransfer in a context of the compatibility profile");
 }
 
 bool has_legacy_state() { return pixel_transfer_float != nullptr; }
@@ -77,15 +78,26 @@ InitialLegacyState::~InitialLegacyState() {
   for (std::size_t i = 0; i < scales_.size(); ++i) pixel_transfer_float(gl::scales[i], scales_[i]);
 }
 
-void check_context_is_ready(const char* subject) {
-  if (glGetIntegerv == nullptr) fail("{}: OpenGL's entry points are not loaded; call load_api()", subject);
+void check_context_is_current(const char* subject) {
+  if (glGetIntegerv == nullptr)
+    throw ContextError(fmt::format("{}: OpenGL's entry points are not loaded; call load_api()", subject));
   GLint major = 0;
   glGetIntegerv(GL_MAJOR_VERSION, &major);
-  if (major == 0) fail("{}: no OpenGL context is current", subject);
+  if (major == 0) throw ContextError(fmt::format("{}: no OpenGL context is current", subject));
+}
+
+void check_context_is_ready(const char* subject) {
+  check_context_is_current(subject);
+  GLboolean active = GL_FALSE, paused = GL_FALSE;
+  glGetBooleanv(GL_TRANSFORM_FEEDBACK_ACTIVE, &active);
+  glGetBooleanv(GL_TRANSFORM_FEEDBACK_PAUSED, &paused);
+  if (active == GL_TRUE && paused == GL_FALSE)
+    throw ContextError(fmt::format("{}: transform feedback is active; end or pause it before", subject));
   if (!has_legacy_state()) return;
   GLint list = 0;
   glGetIntegerv(list_index, &list);
-  if (list != 0) fail("{}: OpenGL records calls for the display list {}; end it before", subject, list);
+  if (list != 0)
+    throw ContextError(fmt::format("{}: OpenGL records calls for the display list {}; end it before", subject, list));
 }
 
 }  // namespace penumbra::gl

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 
 #include "context.h"
 
@@ -11,7 +12,7 @@ namespace penumbra::gl {
 // OpenGL 4.5, 2017).
 
 // For load_api(): whether the current context has legacy state.
-void find_legacy_state(GetProcAddress get_proc_address, bool compatibility);
+void find_legacy_state(const std::function<void*(const char*)>& get_proc_address, bool compatibility);
 
 // Whether the context had legacy state for which entry points were last loaded.
 bool has_legacy_state();
@@ -34,8 +35,11 @@ class InitialLegacyState {
   std::array<float, scales> scales_{};    // and the factors and offsets of its channels
 };
 
-// Throws Error, beginning with `subject`, where no OpenGL call could have an effect: entry points are not loaded, no
-// context is current, or its compatibility profile records calls for a display list.
+// Throws ContextError, beginning with `subject`, where no OpenGL call could have an effect: entry points are not loaded
+// or no context is current.
+void check_context_is_current(const char* subject);
+// The same where passes can't be drawn: the compatibility profile records calls for a display list, or transform
+// feedback of the caller's is active and not paused.
 void check_context_is_ready(const char* subject);
 
 }  // namespace penumbra::gl

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "../core/error.h"
 
 struct GLFWwindow;
 
@@ -12,10 +15,17 @@ namespace penumbra::gl {
 
 using GetProcAddress = void* (*)(const char* name);
 
+// There is no current context, or it can't be used as it is.
+class ContextError : public Error {
+ public:
+  using Error::Error;
+};
+
 // Loads Penumbra's OpenGL entry points from the driver of the current context. The contexts below do this themselves;
 // an engine with its own context, of the core or the compatibility profile, calls it once before anything else here.
-// Throws Error that names what OpenGL 4.5 lacks here: a function, the version, or a current context.
-void load_api(GetProcAddress get_proc_address);
+// `get_proc_address` is not kept. Throws ContextError that names what OpenGL 4.5 lacks here: a function, the version,
+// or a current context.
+void load_api(const std::function<void*(const char* name)>& get_proc_address);
 
 enum class Backend { egl, osmesa, window };
 

@@ -137,6 +137,20 @@ bool StorageCheck::ran_out() {
   return out;
 }
 
+bool conditional_rendering_is_active(std::string_view what) {
+  GLuint query = 0;
+  glCreateQueries(GL_SAMPLES_PASSED, 1, &query);
+  for (const GLenum flag : take_error_flags())
+    warn("OpenGL: an earlier call raised {}, found by {}", error_name(flag), what);
+  std::string earlier = take_message();
+  glBeginConditionalRender(query, GL_QUERY_WAIT);
+  const bool active = !take_error_flags().empty();
+  if (!active) glEndConditionalRender();
+  glDeleteQueries(1, &query);
+  put_message(std::move(earlier));
+  return active;
+}
+
 DebugGroup::DebugGroup(std::string_view name) {
   open_groups.emplace_back(name);
   glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(name.size()), name.data());

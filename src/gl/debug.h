@@ -36,6 +36,11 @@ class StorageCheck {
   std::string earlier_;  // an earlier error's message, for check_errors() to throw
 };
 
+// Whether conditional rendering of the caller's is active, by which the driver may leave out draws, clears and
+// dispatches. OpenGL can't be asked for it, but refuses to begin another one. So the error flags are read, as
+// StorageCheck does; `what` is what its warnings call the check.
+bool conditional_rendering_is_active(std::string_view what);
+
 // Opens a debug group and closes it at the end of the scope.
 class DebugGroup {
  public:

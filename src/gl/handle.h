@@ -6,6 +6,23 @@
 
 namespace penumbra::gl {
 
+// In this scope, handles that the calling thread destroys forget their objects instead of deleting them: for what was
+// made in a context that is lost or not current. Else OpenGL would delete the objects that have the same names in the
+// context that is current.
+class LostContext {
+ public:
+  LostContext() : outer_(std::exchange(active_, true)) {}
+  ~LostContext() { active_ = outer_; }
+  LostContext(const LostContext&) = delete;
+  LostContext& operator=(const LostContext&) = delete;
+
+  static bool is_active() { return active_; }
+
+ private:
+  inline static thread_local bool active_ = false;
+  bool outer_;
+};
+
 // One GL object name; move-only. If owned, the destructor calls Deleter, a function that deletes one name; if not, the
 // object belongs to other code and is not deleted.
 template <void (*Deleter)(GLuint)>
@@ -31,7 +48,7 @@ class Handle {
  private:
   void reset() {
     const GLuint id = std::exchange(id_, 0);
-    if (id != 0 && owned_) Deleter(id);
+    if (id != 0 && owned_ && !LostContext::is_active()) Deleter(id);
   }
   GLuint id_ = 0;
   bool owned_ = true;

@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "../core/error.h"
 #include "api.h"
 #include "api_table.h"
 #include "compatibility.h"
@@ -18,7 +19,12 @@ bool is_of_robustness(std::string_view name) {
   return name.starts_with("glGetn") || name == "glReadnPixels" || name == "glGetGraphicsResetStatus";
 }
 
-void load_functions(GetProcAddress get_proc_address) {
+template <class... Args>
+[[noreturn]] void fail_context(fmt::format_string<Args...> format, Args&&... args) {
+  throw ContextError(fmt::format(format, std::forward<Args>(args)...));
+}
+
+void load_functions(const std::function<void*(const char*)>& get_proc_address) {
   constexpr std::size_t named = 3;
   std::vector<std::string> missing;
   for (const ApiEntry& entry : api_table()) {
@@ -32,7 +38,7 @@ void load_functions(GetProcAddress get_proc_address) {
   if (missing.empty()) return;
   const std::string rest = missing.size() > named ? fmt::format(" and {} more", missing.size() - named) : "";
   if (missing.size() > named) missing.resize(named);
-  fail("OpenGL 4.5: the driver lacks {}{}", fmt::join(missing, ", "), rest);
+  fail_context("OpenGL 4.5: the driver lacks {}{}", fmt::join(missing, ", "), rest);
 }
 
 // Dispatch libraries such as GLVND return an address for every name, so the context's own version decides.
@@ -40,8 +46,8 @@ void check_context() {
   GLint major = 0, minor = 0;
   glGetIntegerv(GL_MAJOR_VERSION, &major);
   glGetIntegerv(GL_MINOR_VERSION, &minor);
-  if (major == 0) fail("OpenGL 4.5: no context is current");
-  if (major < 4 || (major == 4 && minor < 5)) fail("OpenGL 4.5: the context is OpenGL {}.{}", major, minor);
+  if (major == 0) fail_context("OpenGL 4.5: no context is current");
+  if (major < 4 || (major == 4 && minor < 5)) fail_context("OpenGL 4.5: the context is OpenGL {}.{}", major, minor);
 }
 
 bool is_of_core_profile() {
@@ -52,8 +58,8 @@ bool is_of_core_profile() {
 
 }  // namespace
 
-void load_api(GetProcAddress get_proc_address) {
-  if (get_proc_address == nullptr) fail("OpenGL 4.5: load_api() got no function that finds entry points");
+void load_api(const std::function<void*(const char*)>& get_proc_address) {
+  if (!get_proc_address) fail_context("OpenGL 4.5: load_api() got no function that finds entry points");
   load_functions(get_proc_address);
   check_context();
   find_legacy_state(get_proc_address, !is_of_core_profile());

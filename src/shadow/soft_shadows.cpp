@@ -8,12 +8,21 @@
 
 #include "../core/error.h"
 #include "../gl/compatibility.h"
+#include "../gl/debug.h"
 #include "forward_source.h"
 #include "frame.h"
+#include "warm_up.h"
 
 namespace penumbra::shadow {
 
 namespace {
+
+constexpr const char* subject = "soft shadows";
+
+void check_nothing_is_left_out() {
+  if (gl::conditional_rendering_is_active(subject))
+    throw gl::ContextError(fmt::format("{}: conditional rendering is active; end it before", subject));
+}
 
 int next_number() {
   static std::atomic<int> last{0};
@@ -33,6 +42,19 @@ class Rendering {
 
  private:
   bool& rendering_;
+};
+
+// Deletes the targets and buffers of that prefix at the end of the scope.
+class DroppedAtEnd {
+ public:
+  DroppedAtEnd(gl::Device& device, const std::string& prefix) : device_(device), prefix_(prefix) {}
+  ~DroppedAtEnd() { device_.drop(prefix_); }
+  DroppedAtEnd(const DroppedAtEnd&) = delete;
+  DroppedAtEnd& operator=(const DroppedAtEnd&) = delete;
+
+ private:
+  gl::Device& device_;
+  const std::string& prefix_;
 };
 
 }  // namespace
@@ -69,10 +91,16 @@ std::string SoftShadows::view_prefix(int id) const { return fmt::format("shadow 
 Mask SoftShadows::render(const Inputs& inputs, const ParamSet& params) {
   const Rendering rendering(state_->rendering);
   // A steady frame in the core profile asks OpenGL nothing: a driver that works on another thread would have to wait.
-  if (gl::has_legacy_state() || !state_->views.contains(inputs.view.id)) gl::check_context_is_ready("soft shadows");
+  const bool first = !state_->views.contains(inputs.view.id);
+  if (first || gl::has_legacy_state()) gl::check_context_is_ready(subject);
+  if (first) check_nothing_is_left_out();
   const gl::InitialLegacyState legacy;
   ViewState& view = state_->views[inputs.view.id];
   if (view.prefix.empty()) view.prefix = view_prefix(inputs.view.id);
+  return draw(inputs, params, view);
+}
+
+Mask SoftShadows::draw(const Inputs& inputs, const ParamSet& params, ViewState& view) {
   return draw_mask({.device = device_,
                     .registry = registry_,
                     .programs = state_->programs,
@@ -81,6 +109,18 @@ Mask SoftShadows::render(const Inputs& inputs, const ParamSet& params) {
                     .inputs = inputs,
                     .params = params},
                    view);
+}
+
+void SoftShadows::warm_up(const FrameKind& kind, const ParamSet& params) {
+  const Rendering rendering(state_->rendering);
+  gl::check_context_is_ready(subject);
+  check_nothing_is_left_out();
+  const gl::InitialLegacyState legacy;
+  ViewState view;
+  view.prefix = fmt::format("shadow {}/warm up/", state_->number);
+  const DroppedAtEnd targets(device_, view.prefix);
+  // The second has a history, and casters that may have moved.
+  for (int i = 0; i < 2; ++i) draw(warm_up_inputs(device_, view.prefix, kind), params, view);
 }
 
 void SoftShadows::forget_view(int id) {

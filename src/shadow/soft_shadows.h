@@ -14,10 +14,19 @@
 
 namespace penumbra::shadow {
 
+struct ViewState;
+
 // What a forward shader needs for its shadows: the GLSL file to include, and the defines to compile it with.
 struct ForwardProgram {
   std::string include;
   std::vector<gl::Define> defines;
+};
+
+// What decides, beside the parameters, which programs a frame needs.
+struct FrameKind {
+  Conventions conventions;
+  std::span<const Light> lights;
+  bool mask_details = false;
 };
 
 // Soft shadows for a deferred renderer: depth and normals in, a visibility mask out.
@@ -76,6 +85,10 @@ class SoftShadows {
   // keeps a history, and where a technique has passes of its own that read it (Technique::resolve_reads_motion). Else
   // the caller need not draw motion vectors.
   bool reads_motion(const ParamSet& params, std::span<const Light> lights) const;
+  // Compiles the programs and makes the tables that frames of that kind need with these parameters, so that none of
+  // them has to. Draws two frames of 64 × 64 pixels without casters, with maps of the parameters' size, which are
+  // released afterwards. Leaves OpenGL and throws as render() does.
+  void warm_up(const FrameKind& kind, const ParamSet& params);
   // Releases everything that is kept for a view.
   void forget_view(int id);
 
@@ -103,6 +116,7 @@ class SoftShadows {
  private:
   struct State;
   std::string view_prefix(int id) const;
+  Mask draw(const Inputs& inputs, const ParamSet& params, ViewState& view);
 
   gl::Device& device_;
   Registry registry_;

@@ -31,6 +31,7 @@ namespace {
   X(PFNGLENABLEPROC, glEnable) \
   X(PFNGLGETPROGRAMIVPROC, glGetProgramiv) \
   X(PFNGLGETSHADERIVPROC, glGetShaderiv) \
+  X(PFNGLGETTEXTURESUBIMAGEPROC, glGetTextureSubImage) \
   X(PFNGLLINKPROGRAMPROC, glLinkProgram) \
   X(PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, glNamedFramebufferTexture) \
   X(PFNGLNAMEDFRAMEBUFFERTEXTURELAYERPROC, glNamedFramebufferTextureLayer) \
@@ -157,6 +158,13 @@ Targets draw_frame(const Scene& scene, const glm::mat4& view) {
   glClearBufferfv(GL_COLOR, 0, no_normal.data());
   scene.draw(projection() * view, /*casters_only=*/false);
   return targets;
+}
+
+std::vector<float> read_red(GLuint texture) {
+  std::vector<float> values(static_cast<size_t>(width) * height);
+  glGetTextureSubImage(texture, 0, 0, 0, 0, width, height, 1, GL_RED, GL_FLOAT,
+                       static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
+  return values;
 }
 
 GLuint draw_depth_array(const Scene& scene, const glm::mat4* world_to_clip, int count, int size) {

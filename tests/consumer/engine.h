@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
+#include <vector>
 
 namespace engine {
 
@@ -41,6 +42,9 @@ glm::mat4 projection();
 
 // The depth and normals of a frame, drawn with the engine's conventions.
 Targets draw_frame(const Scene& scene, const glm::mat4& view);
+
+// Channel R of layer 0 of a texture array of the size of the targets, rows from bottom to top.
+std::vector<float> read_red(GLuint texture);
 
 // Draws the casters into a depth array with one layer per matrix: near 0, far 1, clip-space depth 0..1.
 GLuint draw_depth_array(const Scene& scene, const glm::mat4* world_to_clip, int count, int size);

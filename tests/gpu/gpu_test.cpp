@@ -12,10 +12,12 @@ std::string backend_name() {
   return name == nullptr || *name == '\0' ? "egl" : name;
 }
 
-GpuTest::GpuTest() {
+gl::Context& test_context() {
   static const std::unique_ptr<gl::Context> context = gl::make_context(backend_name(), {.debug = true});
-  context->make_current();
+  return *context;
 }
+
+GpuTest::GpuTest() { test_context().make_current(); }
 
 void GpuTest::TearDown() { EXPECT_NO_THROW(gl::check_errors("end of test")); }
 

@@ -15,6 +15,9 @@ namespace penumbra::test {
 // The backend that GPU tests run on: PENUMBRA_TEST_BACKEND, or "egl".
 std::string backend_name();
 
+// The debug context of the tests below, which is made once per process.
+gl::Context& test_context();
+
 // A test with a debug context, which is made once per process and is current before members of test classes are
 // constructed. It fails on any GL error or debug message of type error.
 class GpuTest : public testing::Test {

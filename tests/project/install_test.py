@@ -45,10 +45,31 @@ class Installed(support.TestCase):
         command("cmake", "-S", support.ROOT / "tests" / "consumer", "-B", build, "-G", "Ninja",
                 f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_BUILD_TYPE=Release")
         command("cmake", "--build", build)
-        command(build / "consumer", cwd=self.folder)
+        for program in ("consumer", "wrapper_penumbra", "wrapper_static"):
+            command(build / program, cwd=self.folder)
+
+    def test_c_example_draws_its_shadow(self):
+        """As it is installed, from C11, without fmt and GLM; and by pkg-config, with either library."""
+        sources = self.prefix / "share" / "penumbra" / "examples" / "c_minimal"
+        build = self.folder / "c_minimal"
+        command("cmake", "-S", sources, "-B", build, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={self.prefix}",
+                "-DCMAKE_DISABLE_FIND_PACKAGE_fmt=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_glm=ON")
+        command("cmake", "--build", build)
+        expected = command(build / "c_minimal", cwd=self.folder)
+        self.assertIn("1.00 0.00", expected)
+        package = {**os.environ, "PKG_CONFIG_PATH": str(next(self.prefix.rglob("pkgconfig")))}
+        library = next(self.prefix.rglob("libpenumbra.so")).parent
+        for option in ((), ("--static",)):
+            flags = command("pkg-config", "--cflags", "--libs", *option, "penumbra", env=package).split()
+            if option:
+                flags = ["-l:libpenumbra.a" if flag == "-lpenumbra" else flag for flag in flags]
+            program = self.folder / "by_pkg_config"
+            command("gcc", "-std=c11", *sources.glob("*.c"), "-o", program, *flags, "-lEGL", "-lm")
+            found = command(program, cwd=self.folder, env={**os.environ, "LD_LIBRARY_PATH": str(library)})
+            self.assertEqual(found, expected, option)
 
     def test_pkg_config_gives_what_a_compiler_needs(self):
-        flags = command("pkg-config", "--cflags", "--libs", "penumbra", env={
+        flags = command("pkg-config", "--cflags", "--libs", "penumbra-shadow", env={
             **os.environ, "PKG_CONFIG_PATH": str(next(self.prefix.rglob("pkgconfig")))}).split()
         consumer = support.ROOT / "tests" / "consumer"
         command("c++", "-std=c++20", "-O1", consumer / "main.cpp", consumer / "engine.cpp", "-o", self.folder / "consumer",
@@ -57,8 +78,9 @@ class Installed(support.TestCase):
 
     def test_each_header_stands_alone(self):
         include = self.prefix / "include"
-        headers = sorted(path.relative_to(include).as_posix() for path in include.rglob("*.h"))
+        headers = sorted(path.relative_to(include).as_posix() for path in include.rglob("*.h*"))
         self.assertIn("penumbra/shadow/soft_shadows.h", headers)
+        self.assertIn("penumbra/penumbra.hpp", headers)
         for header in headers:
             command("c++", "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", f"-I{include}",
                     "-include", header, "-x", "c++", "/dev/null")
@@ -121,20 +143,21 @@ class LibraryAlone(support.TestCase):
         command("cmake", "-S", support.ROOT / "tests" / "consumer", "-B", build, "-G", "Ninja",
                 f"-DPENUMBRA_SOURCE={support.ROOT}", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
         command("cmake", "--build", build, "--parallel", "2")
-        command(build / "consumer", cwd=self.folder)
+        for program in ("consumer", "wrapper_penumbra", "wrapper_static"):
+            command(build / program, cwd=self.folder)
         command("cmake", "--install", build, "--prefix", self.folder / "prefix")
         self.assertFalse((self.folder / "prefix").exists())
         cache = (build / "CMakeCache.txt").read_text()
         self.assertNotIn("PENUMBRA_tinygltf", cache)
 
     def test_builds_without_the_program_and_its_libraries(self):
-        """The layers core, gl and shadow need fmt and GLM, and nothing of scenes or images."""
+        """The library needs fmt, GLM and the header of toml++, and nothing of scenes or images."""
         build = support.BUILD.parent / "library"
         command("cmake", "-S", support.ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                 "-DPENUMBRA_APP=OFF", "-DPENUMBRA_TESTS=OFF")
         command("cmake", "--build", build, "--parallel", "2")
         cache = (build / "CMakeCache.txt").read_text()
-        for library in ("tinygltf", "draco", "meshoptimizer", "openimageio", "toml", "json", "cli11"):
+        for library in ("tinygltf", "draco", "meshoptimizer", "openimageio", "json", "cli11"):
             self.assertNotIn(f"PENUMBRA_{library}", cache)
 
 

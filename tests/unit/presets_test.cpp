@@ -129,13 +129,13 @@ TEST_F(Presets, ComeBackExactly) {
   ParamSet again = rows();
   penumbra::io::read_preset(path(), again, select);
   for (const Param& row : params.rows()) EXPECT_EQ(params.value(row.name), again.value(row.name)) << row.name;
-  EXPECT_EQ(penumbra::io::preset_text(again), penumbra::io::preset_text(params));
+  EXPECT_EQ(penumbra::preset_text(again), penumbra::preset_text(params));
 }
 
 TEST_F(Presets, HoldOnlyWhatChanged) {
   ParamSet params = rows();
   params.assign("sun.angle=2");
-  const std::string text = penumbra::io::preset_text(params);
+  const std::string text = penumbra::preset_text(params);
   EXPECT_NE(text.find("technique = \"hard\"\n"), std::string::npos) << text;
   EXPECT_NE(text.find("[sun]\nangle = 2.0\n"), std::string::npos) << text;
   EXPECT_EQ(text.find("pcss"), std::string::npos) << text;

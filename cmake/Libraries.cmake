@@ -1,0 +1,30 @@
+# libpenumbra: the layers core, gl, shadow and capi as one library. The shared one exports the C interface alone, by a
+# version script; the static one has all of it, for programs that extend the library too.
+set(library_objects $<TARGET_OBJECTS:penumbra_core> $<TARGET_OBJECTS:penumbra_gl> $<TARGET_OBJECTS:penumbra_shadow>
+  $<TARGET_OBJECTS:penumbra_capi>)
+set(version_script "${PROJECT_SOURCE_DIR}/cmake/penumbra.map")
+
+add_library(penumbra_shared SHARED ${library_objects})
+target_link_options(penumbra_shared PRIVATE "LINKER:--version-script=${version_script}" "LINKER:--no-undefined-version")
+target_link_libraries(penumbra_shared PRIVATE $<BUILD_INTERFACE:penumbra_options> $<BUILD_INTERFACE:fmt::fmt>
+  ${CMAKE_DL_LIBS})
+set_target_properties(penumbra_shared PROPERTIES EXPORT_NAME penumbra VERSION "${PROJECT_VERSION}"
+  SOVERSION "${PROJECT_VERSION_MAJOR}" LINK_DEPENDS "${version_script}")
+
+add_library(penumbra_static STATIC ${library_objects})
+target_link_libraries(penumbra_static PRIVATE $<BUILD_INTERFACE:penumbra_options> fmt::fmt ${CMAKE_DL_LIBS})
+set_target_properties(penumbra_static PROPERTIES EXPORT_NAME static)
+
+# What a program needs that uses the C++ of the layers, with the same #include lines as the installed package.
+add_library(penumbra_extending INTERFACE)
+target_link_libraries(penumbra_extending INTERFACE penumbra_static fmt::fmt glm::glm)
+target_compile_features(penumbra_extending INTERFACE cxx_std_20)
+set_target_properties(penumbra_extending PROPERTIES EXPORT_NAME shadow)
+
+foreach(library penumbra_shared penumbra_static)
+  set_target_properties(${library} PROPERTIES OUTPUT_NAME penumbra LINKER_LANGUAGE CXX)
+  target_include_directories(${library} INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>)
+  if(NOT PROJECT_IS_TOP_LEVEL)
+    set_target_properties(${library} PROPERTIES EXCLUDE_FROM_ALL ON) # built if the project links it
+  endif()
+endforeach()

@@ -1,0 +1,245 @@
+#include "frame.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include "structs.h"
+
+namespace penumbra::capi {
+
+namespace {
+
+constexpr std::size_t most_lights = 256;
+
+glm::vec3 vec3_of(const float (&values)[3]) { return {values[0], values[1], values[2]}; }
+
+glm::mat4 matrix_of(const float (&values)[16], const char* name) {
+  require_finite(values, name);
+  return glm::make_mat4(values);
+}
+
+// Of any length but 0: one that is not of unit length is made so.
+glm::vec3 direction_of(const float (&values)[3], const char* name) {
+  require_finite(values, name);
+  const glm::dvec3 direction(vec3_of(values));
+  const double squared = glm::dot(direction, direction);
+  constexpr double rounding = 1e-5;
+  if (squared == 0 || std::abs(squared - 1) < rounding) return direction;
+  return direction / std::sqrt(squared);
+}
+
+shadow::Box box_of(const penumbra_box& box, const char* name) {
+  require_finite(box.min, name);
+  require_finite(box.max, name);
+  return {vec3_of(box.min), vec3_of(box.max)};
+}
+
+shadow::TextureView texture_of(const penumbra_texture& texture) {
+  return {.id = texture.id, .width = texture.width, .height = texture.height};
+}
+
+shadow::LightSource source_of(const penumbra_light& light) {
+  if (light.kind == PENUMBRA_SUN) {
+    return shadow::Sun{.to_light = direction_of(light.to_light, "penumbra_light.to_light")};
+  }
+  if (light.kind != PENUMBRA_LAMP) {
+    fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_light.kind is {}; it is PENUMBRA_SUN or PENUMBRA_LAMP", light.kind);
+  }
+  require_finite(light.position, "penumbra_light.position");
+  const float numbers[] = {light.radius, light.cone, light.range};
+  require_finite(numbers, "penumbra_light.radius, cone or range");
+  return shadow::Lamp{.position = vec3_of(light.position),
+                      .radius = light.radius,
+                      .axis = direction_of(light.axis, "penumbra_light.axis"),
+                      .cone = light.cone,
+                      .range = light.range};
+}
+
+shadow::Conventions conventions_of(const penumbra_frame& frame) {
+  if (frame.normals_encoding != PENUMBRA_NORMALS_OCTAHEDRAL && frame.normals_encoding != PENUMBRA_NORMALS_XYZ) {
+    fail_with(PENUMBRA_ERROR_ARGUMENT,
+              "penumbra_frame.normals_encoding is {}; it is PENUMBRA_NORMALS_OCTAHEDRAL or "
+              "PENUMBRA_NORMALS_XYZ",
+              frame.normals_encoding);
+  }
+  return {.reversed_z = frame.reversed_z != 0,
+          .depth_zero_to_one = frame.depth_zero_to_one != 0,
+          .octahedral_normals = frame.normals_encoding == PENUMBRA_NORMALS_OCTAHEDRAL};
+}
+
+int32_t kind_of(shadow::CasterKind kind) {
+  switch (kind) {
+    case shadow::CasterKind::depth:
+      return PENUMBRA_PASS_DEPTH;
+    case shadow::CasterKind::depth_and_moved:
+      return PENUMBRA_PASS_DEPTH_AND_MOVED;
+    case shadow::CasterKind::moved_now:
+      return PENUMBRA_PASS_MOVED_NOW;
+    case shadow::CasterKind::moved_last:
+      return PENUMBRA_PASS_MOVED_LAST;
+    case shadow::CasterKind::second_depth:
+      return PENUMBRA_PASS_SECOND_DEPTH;
+    case shadow::CasterKind::geometry:
+      break;
+  }
+  return PENUMBRA_PASS_GEOMETRY;
+}
+
+const CasterProgram& texts_of(const gl::ProgramDesc& desc, penumbra_device& device) {
+  const auto found = device.caster_programs.find(desc);
+  if (found != device.caster_programs.end()) return found->second;
+  const auto text = [&](const std::string& file) {
+    if (file.empty()) return std::string();
+    return gl::load_shader_source(device.objects->device.shaders.files(), file, desc.defines).text;
+  };
+  CasterProgram program{
+      .geometry = text(desc.geometry), .fragment = text(desc.fragment), .id = device.caster_programs.size() + 1};
+  return device.caster_programs.emplace(desc, std::move(program)).first->second;
+}
+
+penumbra_caster_pass pass_of(const shadow::CasterPass& casters, penumbra_device& device) {
+  penumbra_caster_pass pass{};
+  pass.struct_size = sizeof pass;
+  pass.kind = kind_of(casters.kind);
+  pass.layer = casters.layer;
+  std::copy_n(glm::value_ptr(casters.world_to_clip), 16, pass.world_to_clip);
+  for (std::size_t i = 0; i < casters.cull.planes.size(); ++i) {
+    std::copy_n(glm::value_ptr(casters.cull.planes[i]), 4, pass.cull_planes[i]);
+  }
+  const glm::vec4 place = shadow::place_of(casters.source);
+  std::copy_n(glm::value_ptr(place), 4, pass.light_place);
+  pass.first_depth_texture = casters.first.texture;
+  pass.first_depth_gap = casters.first.gap;
+  if (casters.kind == shadow::CasterKind::geometry) {
+    const CasterProgram& program = texts_of(casters.program, device);
+    pass.program_id = program.id;
+    pass.geometry_shader = program.geometry.empty() ? nullptr : program.geometry.c_str();
+    pass.fragment_shader = program.fragment.empty() ? nullptr : program.fragment.c_str();
+  }
+  return pass;
+}
+
+}  // namespace
+
+shadow::Light light_of(const penumbra_light& light) {
+  shadow::Light made{.id = light.id, .source = source_of(light), .overrides = {}, .maps = {}};
+  if (light.override_count == 0) return made;
+  required(light.overrides, "penumbra_light.overrides");
+  for (std::size_t i = 0; i < light.override_count; ++i) {
+    made.overrides.emplace_back(&required(light.overrides[i], "penumbra_light.overrides[]"));
+  }
+  return made;
+}
+
+std::vector<shadow::Light> lights_of(const penumbra_light* lights, std::size_t count) {
+  if (count > most_lights) fail_with(PENUMBRA_ERROR_ARGUMENT, "{} lights: at most {}", count, most_lights);
+  std::vector<shadow::Light> made;
+  if (count == 0) return made;
+  required(lights, "lights");
+  const std::size_t size = lights->struct_size;
+  check_size<penumbra_light>(size);
+  const auto* bytes = reinterpret_cast<const unsigned char*>(lights);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto* light = reinterpret_cast<const penumbra_light*>(bytes + i * size);
+    if (light->struct_size != size) {
+      fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_light.struct_size is {} in lights[{}] and {} in lights[0]",
+                light->struct_size, i, size);
+    }
+    made.push_back(light_of(read_struct(light)));
+  }
+  return made;
+}
+
+shadow::Inputs inputs_of(const penumbra_frame& frame) {
+  if (frame.reserved != 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_frame.reserved is not 0");
+  require_finite(frame.jitter, "penumbra_frame.jitter");
+  shadow::Inputs inputs;
+  inputs.view = {.view = matrix_of(frame.view, "penumbra_frame.view"),
+                 .projection = matrix_of(frame.projection, "penumbra_frame.projection"),
+                 .last_view = matrix_of(frame.last_view, "penumbra_frame.last_view"),
+                 .last_projection = matrix_of(frame.last_projection, "penumbra_frame.last_projection"),
+                 .jitter = {frame.jitter[0], frame.jitter[1]},
+                 .id = frame.view_id,
+                 .cut = frame.cut != 0,
+                 .restart = frame.restart != 0};
+  inputs.conventions = conventions_of(frame);
+  inputs.depth = texture_of(frame.depth);
+  inputs.normals = texture_of(frame.normals);
+  inputs.motion = texture_of(frame.motion);
+  inputs.viewport = {frame.viewport[0], frame.viewport[1], frame.viewport[2], frame.viewport[3]};
+  inputs.casters = box_of(frame.casters, "penumbra_frame.casters");
+  inputs.receivers = box_of(frame.receivers, "penumbra_frame.receivers");
+  inputs.forward_receivers = box_of(frame.forward_receivers, "penumbra_frame.forward_receivers");
+  if (frame.moved_is_known != 0) inputs.moved = box_of(frame.moved, "penumbra_frame.moved");
+  inputs.mask_details = frame.mask_details != 0;
+  return inputs;
+}
+
+shadow::DrawCasters casters_of(const penumbra_frame& frame, penumbra_device& device) {
+  if (frame.draw == nullptr) return {};
+  return [draw = frame.draw, user = frame.draw_user, view = frame.view_id, &device](const shadow::CasterPass& casters,
+                                                                                    gl::Pass&) {
+    penumbra_caster_pass pass = pass_of(casters, device);
+    pass.view_id = view;
+    const int32_t answer = draw(user, &pass);
+    if (answer != 0) fail_with(PENUMBRA_ERROR_CALLBACK, "the caster callback returned {}", answer);
+  };
+}
+
+}  // namespace penumbra::capi
+
+using namespace penumbra::capi;
+
+penumbra_result penumbra_render(penumbra_device* device, const penumbra_settings* settings, const penumbra_frame* frame,
+                                penumbra_mask* mask) {
+  return run("penumbra_render", [&] {
+    const DeviceCall call(device);
+    const penumbra::ParamSet& params = params_of(settings);
+    const penumbra_frame given = read_struct(&required(frame, "frame"));
+    check_size<penumbra_mask>(required(mask, "mask").struct_size);
+    penumbra::shadow::Inputs inputs = inputs_of(given);
+    const std::vector<penumbra::shadow::Light> lights = lights_of(given.lights, given.light_count);
+    inputs.lights = lights;
+    inputs.draw = casters_of(given, *device);
+    device->masks.erase(given.view_id);
+    const penumbra::shadow::Mask& made = device->masks[given.view_id] = call.shadows().render(inputs, params);
+    const penumbra::gl::TextureDesc& desc = made.texture->desc();
+    penumbra_mask out{};
+    out.texture = made.texture->id();
+    out.format = desc.format;
+    out.width = desc.width;
+    out.height = desc.height;
+    out.layers = desc.layers;
+    out.view_id = given.view_id;
+    write_struct(mask, out);
+  });
+}
+
+penumbra_result penumbra_reads_motion(penumbra_device* device, const penumbra_settings* settings,
+                                      const penumbra_light* lights, size_t light_count, uint32_t* reads) {
+  return run("penumbra_reads_motion", [&] {
+    const DeviceCall call(device);
+    const penumbra::ParamSet& params = params_of(settings);
+    required(reads, "reads") = call.shadows().reads_motion(params, lights_of(lights, light_count)) ? 1 : 0;
+  });
+}
+
+penumbra_result penumbra_forget_view(penumbra_device* device, int32_t view_id) {
+  return run("penumbra_forget_view", [&] {
+    const DeviceCall call(device);
+    device->masks.erase(view_id);
+    call.shadows().forget_view(view_id);
+  });
+}
+
+penumbra_result penumbra_warm_up(penumbra_device* device, const penumbra_settings* settings,
+                                 const penumbra_frame* frame) {
+  return run("penumbra_warm_up", [&] {
+    const DeviceCall call(device);
+    const penumbra::ParamSet& params = params_of(settings);
+    const penumbra_frame given = read_struct(&required(frame, "frame"));
+    call.shadows().warm_up({.conventions = conventions_of(given),
+                            .lights = lights_of(given.lights, given.light_count),
+                            .mask_details = given.mask_details != 0},
+                           params);
+  });
+}

@@ -1,0 +1,134 @@
+#include "settings.h"
+
+#include <memory>
+
+#include "../core/error.h"
+#include "../core/preset.h"
+#include "../shadow/registry.h"
+#include "call.h"
+
+namespace penumbra::capi {
+
+namespace {
+
+// The value of a parameter's own type that a number stands for.
+ParamValue value_of(const Param& param, double number) {
+  if (!std::isfinite(number)) {
+    fail_with(PENUMBRA_ERROR_ARGUMENT, "the value for the parameter '{}' is not finite", param.name);
+  }
+  if (std::holds_alternative<float>(param.default_value)) return static_cast<float>(number);
+  const bool is_switch = std::holds_alternative<bool>(param.default_value);
+  if (!is_switch && !std::holds_alternative<int>(param.default_value)) {
+    fail("parameter '{}' takes {}, not a number", param.name, type_name(param));
+  }
+  if (is_switch && number != 0 && number != 1) fail("parameter '{}' is a switch: 0 or 1, not {}", param.name, number);
+  if (is_switch) return number != 0;
+  if (number != std::trunc(number)) fail("parameter '{}' takes a whole number, not {}", param.name, number);
+  constexpr double most = 1e9;  // no parameter's range goes beyond, and an int holds it
+  return static_cast<int>(number > most ? most : number < -most ? -most : number);
+}
+
+}  // namespace
+
+const ParamSet& default_params() {
+  static const ParamSet params(shadow::built_in_registry().params());
+  return params;
+}
+
+}  // namespace penumbra::capi
+
+using namespace penumbra::capi;
+
+penumbra_result penumbra_settings_create(penumbra_settings** settings) {
+  return run("penumbra_settings_create", [&] {
+    required(settings, "settings") = nullptr;
+    *settings = new penumbra_settings{default_params()};
+  });
+}
+
+penumbra_result penumbra_settings_clone(const penumbra_settings* settings, penumbra_settings** copy) {
+  return run("penumbra_settings_clone", [&] {
+    required(copy, "copy") = nullptr;
+    *copy = new penumbra_settings{required(settings, "settings").params};
+  });
+}
+
+void penumbra_settings_destroy(penumbra_settings* settings) { delete settings; }
+
+penumbra_result penumbra_settings_select(penumbra_settings* settings, const char* technique) {
+  return run("penumbra_settings_select", [&] {
+    penumbra::ParamSet changed = required(settings, "settings").params;
+    penumbra::shadow::built_in_registry().select(changed, &required(technique, "technique"));
+    settings->params = std::move(changed);
+  });
+}
+
+penumbra_result penumbra_settings_set(penumbra_settings* settings, const char* name, const char* value) {
+  return run("penumbra_settings_set", [&] {
+    penumbra::ParamSet& params = required(settings, "settings").params;
+    required(name, "name");
+    params.set_text(name, &required(value, "value"));
+  });
+}
+
+penumbra_result penumbra_settings_set_number(penumbra_settings* settings, const char* name, double value) {
+  return run("penumbra_settings_set_number", [&] {
+    penumbra::ParamSet& params = required(settings, "settings").params;
+    const penumbra::Param& row = params.row(&required(name, "name"));
+    params.set(name, value_of(row, value));
+  });
+}
+
+penumbra_result penumbra_settings_reset(penumbra_settings* settings, const char* name) {
+  return run("penumbra_settings_reset", [&] {
+    penumbra::ParamSet& params = required(settings, "settings").params;
+    if (name == nullptr) {
+      params = default_params();
+    } else {
+      params.reset(name);
+    }
+  });
+}
+
+penumbra_result penumbra_settings_get(const penumbra_settings* settings, const char* name, char* text, size_t capacity,
+                                      size_t* length) {
+  return run("penumbra_settings_get", [&] {
+    const penumbra::ParamSet& params = required(settings, "settings").params;
+    write_text(penumbra::to_text(params.value(&required(name, "name"))), text, capacity, length);
+  });
+}
+
+penumbra_result penumbra_settings_get_number(const penumbra_settings* settings, const char* name, double* value) {
+  return run("penumbra_settings_get_number", [&] {
+    const penumbra::ParamValue& held = required(settings, "settings").params.value(&required(name, "name"));
+    double& out = required(value, "value");
+    if (const auto* flag = std::get_if<bool>(&held)) {
+      out = *flag ? 1 : 0;
+    } else if (const auto* whole = std::get_if<int>(&held)) {
+      out = *whole;
+    } else if (const auto* real = std::get_if<float>(&held)) {
+      out = static_cast<double>(*real);
+    } else {
+      penumbra::fail("parameter '{}' is a word, not a number", name);
+    }
+  });
+}
+
+penumbra_result penumbra_settings_read_preset(penumbra_settings* settings, const char* file, const char* text,
+                                              size_t length) {
+  return run("penumbra_settings_read_preset", [&] {
+    penumbra::ParamSet& params = required(settings, "settings").params;
+    const std::string name = &required(file, "file");
+    if (text == nullptr && length > 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "'text' is null and 'length' is not 0");
+    if (length > penumbra::largest_preset) penumbra::fail("{}: a preset is at most 1 MiB", name);
+    penumbra::apply_preset({text, length}, name, params, [](penumbra::ParamSet& set, std::string_view technique) {
+      penumbra::shadow::built_in_registry().select(set, technique);
+    });
+  });
+}
+
+penumbra_result penumbra_settings_write_preset(const penumbra_settings* settings, char* text, size_t capacity,
+                                               size_t* length) {
+  return run("penumbra_settings_write_preset",
+             [&] { write_text(penumbra::preset_text(required(settings, "settings").params), text, capacity, length); });
+}

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "../gl/device.h"
+#include "soft_shadows.h"
+
+namespace penumbra::shadow {
+
+// Inputs of a small frame of that kind without casters: a plane that fills the picture. Their textures are targets of
+// the device that begin with `prefix`.
+Inputs warm_up_inputs(gl::Device& device, const std::string& prefix, const FrameKind& kind);
+
+}  // namespace penumbra::shadow

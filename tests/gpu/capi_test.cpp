@@ -1,0 +1,389 @@
+// The C interface in a context: the same masks as those of the C++ facade, byte for byte, and its own promises.
+#include "capi/penumbra.h"
+
+#include <array>
+#include <cstring>
+#include <set>
+
+#include "capi/device.h"
+#include "gl/compatibility.h"
+#include "gpu/capi_scene.h"
+#include "shadow/registry.h"
+
+namespace penumbra::test {
+namespace {
+
+class CapiTest : public TriangleTest {
+ protected:
+  void SetUp() override {
+    TriangleTest::SetUp();
+    c_ = std::make_unique<CInterface>(test_context().get_proc_address());
+  }
+  void TearDown() override {
+    c_.reset();
+    TriangleTest::TearDown();
+  }
+
+  // Draws a scene by both; `adjust` changes the inputs before.
+  void expect_same_mask(const TriangleScene& scene, const ParamSet& params,
+                        const TriangleRenderer::Adjust& adjust = {}) {
+    std::vector<float> of_c, of_facade;
+    shadow::Inputs given;
+    c_->set(params);
+    const Geometry geometry(scene);
+    renderer_->render(
+        scene, params,
+        [&](shadow::Inputs& inputs) {
+          if (adjust) adjust(inputs);
+          given = inputs;
+        },
+        [&] {
+          const gl::Texture& mask = *renderer_->mask().texture;
+          for (int layer = 0; layer < mask.desc().layers; ++layer) {
+            const std::vector<float> values = gl::read_floats(mask, 4, 0, layer);
+            of_facade.insert(of_facade.end(), values.begin(), values.end());
+          }
+          of_c = c_->render(c_->frame_of(given, geometry));
+        });
+    ASSERT_EQ(of_c.size(), of_facade.size());
+    EXPECT_EQ(std::memcmp(of_c.data(), of_facade.data(), of_c.size() * sizeof(float)), 0);
+  }
+
+  // A frame of `scene` whose textures are those of the facade's device.
+  penumbra_frame frame_of(const TriangleScene& scene, const Geometry& geometry) {
+    penumbra_frame frame{};
+    ParamSet params = renderer_->params();
+    params.set("cascades.size", 64);
+    renderer_->render(scene, params, [&](shadow::Inputs& inputs) {
+      light_ = inputs.lights[0];
+      inputs.lights = {&light_, 1};
+      inputs.view.last_view = inputs.view.view;
+      inputs.view.last_projection = inputs.view.projection;
+      frame = c_->frame_of(inputs, geometry);
+    });
+    return frame;
+  }
+
+  std::unique_ptr<CInterface> c_;
+  shadow::Light light_;
+};
+
+TEST_F(CapiTest, MasksOfEveryTechniqueAreThoseOfTheFacade) {
+  for (const shadow::Technique& technique : renderer_->shadows().registry().techniques()) {
+    SCOPED_TRACE(technique.name);
+    ParamSet params = renderer_->params();
+    params.set("technique", technique.name);
+    params.set("sun.angle", 3.0f);
+    params.set("cascades.size", 256);
+    expect_same_mask(box_on_ground(48), params);
+  }
+  EXPECT_GT(c_->passes[PENUMBRA_PASS_GEOMETRY], 0);
+}
+
+TEST_F(CapiTest, MasksOfEveryPresetAreThoseOfTheFacadeWhileCastersMove) {
+  std::set<int32_t> kinds;
+  for (const shadow::Preset& preset : renderer_->shadows().registry().presets()) {
+    SCOPED_TRACE(preset.name);
+    ParamSet params = renderer_->params();
+    renderer_->shadows().registry().select(params, preset.name);
+    params.set("cascades.size", 256);
+    TriangleScene scene = box_on_ground(48);
+    const GLuint view = 7;
+    for (int frame = 0; frame < 3; ++frame) {
+      if (frame > 0) scene.move_from(2, glm::vec3(0.1f, 0, 0));
+      expect_same_mask(scene, params, [&](shadow::Inputs& inputs) {
+        inputs.view.id = static_cast<int>(view);
+        inputs.view.last_view = inputs.view.view;
+        inputs.view.last_projection = inputs.view.projection;
+        inputs.view.cut = frame == 0;
+      });
+    }
+  }
+  EXPECT_GT(c_->passes[PENUMBRA_PASS_MOVED_LAST], 0);
+}
+
+TEST_F(CapiTest, SecondLayersAreDrawn) {
+  ParamSet params = renderer_->params();
+  params.set("technique", std::string("slices"));
+  params.set("maps.layers", 2);
+  expect_same_mask(box_on_ground(48), params);
+  EXPECT_GT(c_->passes[PENUMBRA_PASS_SECOND_DEPTH], 0);
+}
+
+TEST_F(CapiTest, SeveralLightsWithOverridesAndOtherConventions) {
+  TriangleScene scene = box_on_ground(48);
+  scene.conventions.reversed_z = false;
+  scene.conventions.depth_zero_to_one = false;
+  scene.projection = standard_perspective(0.8f, 1, 0.5f, 100);
+  const std::array lights{
+      shadow::Light{.id = 4, .source = shadow::Sun{scene.to_light}, .overrides = {"sun.angle=8"}, .maps = {}},
+      shadow::Light{.id = 2,
+                    .source = shadow::Lamp{.position = {1, 4, 2}, .radius = 0.2f, .range = 20},
+                    .overrides = {"technique=slices", "lamps.size=256"},
+                    .maps = {}},
+      shadow::Light{.id = 3,
+                    .source = shadow::Lamp{.position = {-3, 5, 0}, .axis = {0.6f, -0.8f, 0}, .cone = 0.7f},
+                    .overrides = {},
+                    .maps = {}}};
+  expect_same_mask(scene, renderer_->params(), [&](shadow::Inputs& inputs) {
+    inputs.lights = lights;
+    inputs.viewport = {.x = 3, .y = 5, .width = 40, .height = 32};
+    inputs.view.jitter = {0.01f, -0.005f};
+    inputs.mask_details = false;
+  });
+}
+
+TEST_F(CapiTest, ADirectionOfAnyLengthIsTaken) {
+  const TriangleScene scene = box_on_ground(48);
+  const Geometry geometry(scene);
+  penumbra_frame frame = frame_of(scene, geometry);
+  const std::vector<float> unit = c_->render(frame);
+  penumbra_light light = *frame.lights;
+  for (float& value : light.to_light) value *= 8;  // exact
+  frame.lights = &light;
+  frame.view_id = 1;
+  double difference = 0;
+  const std::vector<float> longer = c_->render(frame);
+  ASSERT_EQ(longer.size(), unit.size());
+  for (std::size_t i = 0; i < unit.size(); i += 4) difference += std::abs(static_cast<double>(unit[i] - longer[i]));
+  EXPECT_LT(difference / static_cast<double>(unit.size() / 4), 1e-3);
+}
+
+// The settings that the interface's users see: every technique and preset, for suns and lamps.
+TEST_F(CapiTest, AfterAWarmUpNoFrameCompilesAProgram) {
+  const gl::ShaderLibrary& programs = c_->device->objects->device.shaders;
+  for (std::size_t index = 0; index < penumbra_technique_count(); ++index) {
+    penumbra_technique technique{};
+    technique.struct_size = sizeof technique;
+    ASSERT_EQ(penumbra_technique_info(index, &technique), PENUMBRA_OK);
+    SCOPED_TRACE(technique.name);
+    ASSERT_EQ(penumbra_settings_reset(c_->settings, nullptr), PENUMBRA_OK);
+    ASSERT_EQ(penumbra_settings_select(c_->settings, technique.name), PENUMBRA_OK);
+    for (const char* size : {"cascades.size", "lamps.size"})
+      ASSERT_EQ(penumbra_settings_set_number(c_->settings, size, 128), PENUMBRA_OK);
+    TriangleScene scene = box_on_ground(48);
+    const auto draw = [&](const penumbra_light& light, bool warm) {
+      const Geometry geometry(scene);
+      penumbra_frame frame = frame_of(scene, geometry);
+      frame.lights = &light;
+      frame.view_id = light.kind;
+      if (warm) {
+        EXPECT_EQ(penumbra_warm_up(c_->device, c_->settings, &frame), PENUMBRA_OK) << penumbra_last_error();
+      } else {
+        c_->render(frame);
+      }
+    };
+    std::vector<penumbra_light> lights(technique.suns_only == 0 ? 2 : 1);
+    for (penumbra_light& light : lights) {
+      ASSERT_EQ(penumbra_light_init(&light, sizeof light), PENUMBRA_OK);
+      light.kind = static_cast<int32_t>(&light - lights.data());
+      light.position[1] = 5;
+    }
+    for (const penumbra_light& light : lights) draw(light, true);
+    const std::size_t warm = programs.size();
+    for (const penumbra_light& light : lights) {
+      for (int i = 0; i < 4; ++i) {
+        if (i == 2) scene.move_from(2, glm::vec3(0.1f, 0, 0));
+        draw(light, false);
+      }
+      EXPECT_EQ(penumbra_forget_view(c_->device, light.kind), PENUMBRA_OK);
+    }
+    EXPECT_EQ(programs.size(), warm);
+  }
+  EXPECT_GT(programs.size(), 20u);
+}
+
+TEST_F(CapiTest, AWarmUpLeavesNoTextureOfItsOwn) {
+  const TriangleScene scene = box_on_ground(48);
+  const Geometry geometry(scene);
+  const penumbra_frame frame = frame_of(scene, geometry);
+  EXPECT_EQ(penumbra_warm_up(c_->device, c_->settings, &frame), PENUMBRA_OK) << penumbra_last_error();
+  for (const gl::Device::NamedTarget& target : c_->device->objects->device.targets())
+    EXPECT_EQ(target.name.find("warm up"), std::string::npos) << target.name;
+}
+
+TEST_F(CapiTest, WhatACallbackReturnsEndsTheFrame) {
+  const TriangleScene scene = box_on_ground(48);
+  const Geometry geometry(scene);
+  penumbra_frame frame = frame_of(scene, geometry);
+  const std::vector<float> expected = c_->render(frame);
+  const auto draw = frame.draw;
+  frame.view_id = 1;
+  frame.draw = [](void*, const penumbra_caster_pass*) -> int32_t { return 42; };
+  penumbra_mask mask{};
+  mask.struct_size = sizeof mask;
+  EXPECT_EQ(penumbra_render(c_->device, c_->settings, &frame, &mask), PENUMBRA_ERROR_CALLBACK);
+  EXPECT_STREQ(penumbra_last_error(), "penumbra_render(): the caster callback returned 42");
+  EXPECT_EQ(mask.texture, 0u);
+  EXPECT_EQ(penumbra_bind_forward(c_->device, 1, 0), PENUMBRA_ERROR_ARGUMENT);
+  frame.draw = draw;
+  EXPECT_EQ(c_->render(frame), expected);
+}
+
+struct Within {
+  CInterface* c;
+  std::vector<penumbra_result> results;
+};
+
+TEST_F(CapiTest, CallsFromWithinACallbackAreRefused) {
+  const TriangleScene scene = box_on_ground(48);
+  const Geometry geometry(scene);
+  penumbra_frame frame = frame_of(scene, geometry);
+  Within within{.c = c_.get(), .results = {}};
+  frame.draw_user = &within;
+  frame.draw = [](void* user, const penumbra_caster_pass*) -> int32_t {
+    auto& self = *static_cast<Within*>(user);
+    penumbra_frame inner;
+    penumbra_frame_init(&inner, sizeof inner);
+    penumbra_mask mask{};
+    mask.struct_size = sizeof mask;
+    penumbra_device* device = self.c->device;
+    self.results = {penumbra_render(device, self.c->settings, &inner, &mask),
+                    penumbra_warm_up(device, self.c->settings, &inner),
+                    penumbra_forget_view(device, 0),
+                    penumbra_bind_forward(device, 0, 0),
+                    penumbra_unbind_forward(device),
+                    penumbra_device_abandon(device),
+                    penumbra_device_destroy(device)};
+    return 0;
+  };
+  penumbra_mask mask{};
+  mask.struct_size = sizeof mask;
+  EXPECT_EQ(penumbra_render(c_->device, c_->settings, &frame, &mask), PENUMBRA_OK) << penumbra_last_error();
+  EXPECT_EQ(within.results, std::vector<penumbra_result>(7, PENUMBRA_ERROR_ARGUMENT));
+}
+
+TEST_F(CapiTest, WarningsGoToTheDevicesLog) {
+  TriangleScene scene = box_on_ground(48);
+  scene.depth_format = GL_DEPTH_COMPONENT16;
+  scene.conventions.reversed_z = false;
+  scene.conventions.depth_zero_to_one = false;
+  scene.projection = standard_perspective(0.8f, 1, 0.001f, 100);
+  const Geometry geometry(scene);
+  c_->render(frame_of(scene, geometry));
+  ASSERT_EQ(c_->messages.size(), 1u);
+  EXPECT_TRUE(c_->messages[0].starts_with("2 soft shadows: the depth texture tells positions")) << c_->messages[0];
+}
+
+TEST_F(CapiTest, TheForwardSourceCompilesAndReadsTheLight) {
+  const TriangleScene scene = box_on_ground(48);
+  const Geometry geometry(scene);
+  c_->render(frame_of(scene, geometry));
+  std::size_t length = 0;
+  ASSERT_EQ(penumbra_forward_source(c_->device, c_->settings, nullptr, nullptr, 0, &length), PENUMBRA_OK);
+  std::string text(length, '?');
+  ASSERT_EQ(penumbra_forward_source(c_->device, c_->settings, nullptr, text.data(), length - 1, nullptr),
+            PENUMBRA_ERROR_BUFFER);
+  EXPECT_EQ(text[0], '\0');
+  ASSERT_EQ(penumbra_forward_source(c_->device, c_->settings, nullptr, text.data(), length, nullptr), PENUMBRA_OK);
+  EXPECT_EQ(std::strlen(text.c_str()), length - 1);
+  text.pop_back();
+  text = "#version 450\n" + text +
+         "layout(location = 0) out float lit; in vec3 at;\n"
+         "void main() { lit = penumbra_shadow_visibility(at, vec3(0, 1, 0), gl_FragCoord.xy); }";
+  const GLuint shader = gl::glCreateShader(GL_FRAGMENT_SHADER);
+  const char* start = text.c_str();
+  gl::glShaderSource(shader, 1, &start, nullptr);
+  gl::glCompileShader(shader);
+  GLint compiled = 0;
+  gl::glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+  EXPECT_EQ(compiled, GL_TRUE);
+  gl::glDeleteShader(shader);
+  EXPECT_EQ(penumbra_bind_forward(c_->device, 0, 0), PENUMBRA_OK);
+  GLint bound = 0;
+  gl::glGetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, 1, &bound);
+  EXPECT_NE(bound, 0);
+  EXPECT_EQ(penumbra_bind_forward(c_->device, 0, 1), PENUMBRA_ERROR_ARGUMENT);
+  EXPECT_STREQ(penumbra_last_error(), "penumbra_bind_forward(): 'light_index' is 1 and the mask has 1 lights");
+  EXPECT_EQ(penumbra_unbind_forward(c_->device), PENUMBRA_OK);
+}
+
+TEST_F(CapiTest, MotionVectorsAreReadOnlyWithAHistory) {
+  uint32_t reads = 7;
+  EXPECT_EQ(penumbra_reads_motion(c_->device, c_->settings, nullptr, 0, &reads), PENUMBRA_OK);
+  EXPECT_EQ(reads, 0u);
+  penumbra_light light;
+  ASSERT_EQ(penumbra_light_init(&light, sizeof light), PENUMBRA_OK);
+  for (const auto& [preset, expected] : {std::pair{"pcss", 0u}, {"thesis", 1u}}) {
+    ASSERT_EQ(penumbra_settings_select(c_->settings, preset), PENUMBRA_OK);
+    EXPECT_EQ(penumbra_reads_motion(c_->device, c_->settings, &light, 1, &reads), PENUMBRA_OK);
+    EXPECT_EQ(reads, expected) << preset;
+  }
+}
+
+// A context of its own, which a test can end.
+TEST(CapiContext, AnAbandonedDeviceLeavesTheObjectsOfTheNextContext) {
+  auto context = gl::make_context(backend_name(), {});
+  auto c = std::make_unique<CInterface>(context->get_proc_address());
+  penumbra_frame frame;
+  ASSERT_EQ(penumbra_frame_init(&frame, sizeof frame), PENUMBRA_OK);
+  penumbra_light light;
+  ASSERT_EQ(penumbra_light_init(&light, sizeof light), PENUMBRA_OK);
+  frame.lights = &light;
+  frame.light_count = 1;
+  ASSERT_EQ(penumbra_warm_up(c->device, c->settings, &frame), PENUMBRA_OK) << penumbra_last_error();
+  context.reset();
+  context = gl::make_context(backend_name(), {});
+  // Names begin anew in the new context: as many as the lost device had, and more.
+  std::array<GLuint, 256> textures{}, buffers{};
+  gl::glCreateTextures(GL_TEXTURE_2D, static_cast<GLsizei>(textures.size()), textures.data());
+  gl::glCreateBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
+  const GLuint program = gl::glCreateProgram();
+  EXPECT_EQ(penumbra_device_abandon(c->device), PENUMBRA_OK);
+  EXPECT_EQ(penumbra_forget_view(c->device, 0), PENUMBRA_ERROR_CONTEXT);
+  EXPECT_STREQ(penumbra_last_error(), "penumbra_forget_view(): the device was abandoned");
+  EXPECT_EQ(penumbra_device_abandon(c->device), PENUMBRA_OK);
+  EXPECT_EQ(penumbra_device_destroy(c->device), PENUMBRA_OK);
+  c->device = nullptr;
+  for (const GLuint id : textures) EXPECT_EQ(gl::glIsTexture(id), GL_TRUE) << id;
+  for (const GLuint id : buffers) EXPECT_EQ(gl::glIsBuffer(id), GL_TRUE) << id;
+  EXPECT_EQ(gl::glIsProgram(program), GL_TRUE);
+}
+
+TEST(CapiContext, ADeviceThatIsDestroyedWithoutAContextSaysSo) {
+  auto context = gl::make_context(backend_name(), {});
+  CInterface c(context->get_proc_address());
+  context.reset();
+  EXPECT_EQ(penumbra_device_destroy(c.device), PENUMBRA_ERROR_CONTEXT);
+  EXPECT_STREQ(penumbra_last_error(), "penumbra_device_destroy(): no OpenGL context is current");
+  c.device = nullptr;
+  penumbra_device_desc desc;
+  ASSERT_EQ(penumbra_device_desc_init(&desc, sizeof desc), PENUMBRA_OK);
+  desc.get_proc = [](void*, const char*) -> penumbra_proc { return nullptr; };
+  EXPECT_EQ(penumbra_device_create(&desc, &c.device), PENUMBRA_ERROR_CONTEXT);
+  EXPECT_EQ(c.device, nullptr);
+}
+
+// Devices of two contexts, used in turn, in each of which names of objects begin anew.
+TEST(CapiContext, SeveralDevicesAreUsedInTurn) {
+  std::vector<std::unique_ptr<gl::Context>> contexts;
+  std::vector<std::unique_ptr<CInterface>> devices;
+  for (const bool compatibility : {false, true}) {
+    contexts.push_back(gl::make_context(backend_name(), {.compatibility = compatibility}));
+    devices.push_back(std::make_unique<CInterface>(contexts.back()->get_proc_address()));
+  }
+  penumbra_frame frame;
+  ASSERT_EQ(penumbra_frame_init(&frame, sizeof frame), PENUMBRA_OK);
+  penumbra_light light;
+  ASSERT_EQ(penumbra_light_init(&light, sizeof light), PENUMBRA_OK);
+  frame.lights = &light;
+  frame.light_count = 1;
+  for (int i = 0; i < 4; ++i) {
+    const auto index = static_cast<std::size_t>(i % 2);
+    contexts[index]->make_current();
+    // An engine's context does not load entry points when it is made current.
+    gl::find_legacy_state(contexts[index]->get_proc_address(), index == 0);
+    EXPECT_EQ(penumbra_warm_up(devices[index]->device, devices[index]->settings, &frame), PENUMBRA_OK)
+        << penumbra_last_error();
+    EXPECT_EQ(gl::has_legacy_state(), index == 1);
+    EXPECT_EQ(gl::glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+  }
+  for (const std::size_t index : {1u, 0u}) {
+    contexts[index]->make_current();
+    devices[index].reset();
+    contexts[index].reset();
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
