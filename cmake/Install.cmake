@@ -17,6 +17,7 @@ install(TARGETS penumbra_static penumbra_extending EXPORT penumbra_static
 foreach(header IN LISTS penumbra_interface_headers)
   install(FILES "${PROJECT_SOURCE_DIR}/src/capi/${header}" DESTINATION "${header_dir}")
 endforeach()
+install(FILES "${typed_settings}" DESTINATION "${header_dir}")
 foreach(header IN LISTS penumbra_public_headers)
   get_filename_component(layer "${header}" DIRECTORY)
   install(FILES "${PROJECT_SOURCE_DIR}/src/${header}" DESTINATION "${header_dir}/${layer}")

@@ -11,6 +11,14 @@ target_link_libraries(penumbra_shared PRIVATE $<BUILD_INTERFACE:penumbra_options
 set_target_properties(penumbra_shared PROPERTIES EXPORT_NAME penumbra VERSION "${PROJECT_VERSION}"
   SOVERSION "${PROJECT_VERSION_MAJOR}" LINK_DEPENDS "${version_script}")
 
+# The parameters as fields of C++, from their rows.
+set(typed_settings "${PROJECT_BINARY_DIR}/include/penumbra/penumbra_settings.hpp")
+add_executable(penumbra_typed_settings EXCLUDE_FROM_ALL "${PROJECT_SOURCE_DIR}/src/capi/typed/main.cpp")
+target_link_libraries(penumbra_typed_settings PRIVATE penumbra_options penumbra_capi)
+add_custom_command(OUTPUT "${typed_settings}" COMMAND penumbra_typed_settings "${typed_settings}"
+  COMMENT "Generating penumbra_settings.hpp" VERBATIM)
+add_custom_target(penumbra_settings_header DEPENDS "${typed_settings}")
+
 add_library(penumbra_static STATIC ${library_objects})
 target_link_libraries(penumbra_static PRIVATE $<BUILD_INTERFACE:penumbra_options> fmt::fmt ${CMAKE_DL_LIBS})
 set_target_properties(penumbra_static PROPERTIES EXPORT_NAME static)
@@ -22,6 +30,7 @@ target_compile_features(penumbra_extending INTERFACE cxx_std_20)
 set_target_properties(penumbra_extending PROPERTIES EXPORT_NAME shadow)
 
 foreach(library penumbra_shared penumbra_static)
+  add_dependencies(${library} penumbra_settings_header)
   set_target_properties(${library} PROPERTIES OUTPUT_NAME penumbra LINKER_LANGUAGE CXX)
   target_include_directories(${library} INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>)
   if(NOT PROJECT_IS_TOP_LEVEL)

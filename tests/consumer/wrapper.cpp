@@ -3,6 +3,7 @@
 #define GLM_FORCE_DEFAULT_ALIGNED_GENTYPES
 #include <penumbra/penumbra.hpp>
 #include <penumbra/penumbra_glm.hpp>
+#include <penumbra/penumbra_settings.hpp>
 
 #include <array>
 #include <cstdio>
@@ -49,6 +50,33 @@ api::Frame frame_of(const engine::Targets& targets, const glm::mat4& view) {
   return frame;
 }
 
+// A preset, read into fields and written to other settings, is the same preset; so are the defaults.
+void check_typed_settings() {
+  using Typed = api::TypedSettings;
+  api::Settings defaults;
+  defaults.set("sun.angle", 3);
+  Typed().write(defaults);
+  expect(defaults.preset() == api::Settings().preset(), "typed settings have other defaults");
+  for (std::size_t i = 0; i < penumbra_technique_count(); ++i) {
+    penumbra_technique technique{};
+    technique.struct_size = sizeof technique;
+    api::check(penumbra_technique_info(i, &technique));
+    const api::Settings named(technique.name);
+    api::Settings again;
+    Typed::read(named).write(again);
+    expect(again.preset() == named.preset(), technique.name);
+  }
+  Typed typed;
+  typed.technique = Typed::Technique::slices;
+  typed.sun.shape = Typed::Sun::Shape::square;
+  typed.maps.keep = false;
+  typed.cascades.count = 2;
+  typed.write(defaults);
+  expect(defaults.get("technique") == "slices" && defaults.get("sun.shape") == "square" &&
+             defaults.get_number("maps.keep") == 0 && defaults.get_number("cascades.count") == 2,
+         "typed settings are not as they were set");
+}
+
 float visibility_at(const std::vector<float>& mask, const glm::mat4& view, const glm::vec3& point) {
   const glm::vec4 clip = engine::projection() * view * glm::vec4(point, 1);
   const glm::vec2 pixel = (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * glm::vec2(engine::width, engine::height);
@@ -56,6 +84,7 @@ float visibility_at(const std::vector<float>& mask, const glm::mat4& view, const
 }
 
 void run() {
+  check_typed_settings();
   engine::make_context();
   const engine::Scene scene;
   const glm::mat4 view = engine::view({0, 5, 5});

@@ -129,6 +129,16 @@ class Headers(support.TestCase):
         for compiler, standard in CXX:
             self.compile(compiler, standard, text)
 
+    def test_a_wrong_name_of_a_parameter_does_not_compile(self):
+        text = ("#include <penumbra/penumbra_settings.hpp>\nint main() {{\n  penumbra::api::TypedSettings typed;\n"
+                "  typed.sun.{} = 2;\n  return typed.{} == penumbra::api::TypedSettings::Technique::{};\n}}\n")
+        include = f"-I{support.BUILD / 'include'}"
+        for compiler, standard in CXX:
+            self.compile(compiler, standard, text.format("angle", "technique", "pcss"), include)
+            for names in (("angel", "technique", "pcss"), ("angle", "technic", "pcss"), ("angle", "technique", "pccs")):
+                with self.assertRaisesRegex(AssertionError, "angel|technic|pccs"):
+                    self.compile(compiler, standard, text.format(*names), include)
+
     def test_the_headers_for_cxx(self):
         """penumbra_glm.hpp with switches that change how GLM's types lie in memory."""
         text = '#include <penumbra.hpp>\n#include <penumbra_glm.hpp>\nint main() { return 0; }\n'
