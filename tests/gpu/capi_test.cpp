@@ -133,6 +133,33 @@ TEST_F(CapiTest, SeveralLightsWithOverridesAndOtherConventions) {
   });
 }
 
+TEST_F(CapiTest, MapsAreDrawnAgainOnlyWhereSomethingMayHaveMoved) {
+  const TriangleScene scene = box_on_ground(48);
+  const Geometry geometry(scene);
+  penumbra_frame frame = frame_of(scene, geometry);
+  ASSERT_EQ(frame.moved_is_known, 1u);
+  const auto drawn = [&] {
+    c_->passes.clear();
+    c_->render(frame);
+    return c_->passes[PENUMBRA_PASS_DEPTH];
+  };
+  const int all = drawn();
+  EXPECT_GT(all, 0);
+  EXPECT_EQ(drawn(), 0);
+  frame.moved = {{-1, 0, -1}, {1, 2, 1}};
+  EXPECT_GT(drawn(), 0);
+  frame.moved = {{1, 1, 1}, {-1, -1, -1}};
+  EXPECT_EQ(drawn(), 0);
+  frame.moved_is_known = 0;
+  EXPECT_EQ(drawn(), all);
+  frame.moved_is_known = 1;
+  frame.cut = 1;
+  EXPECT_EQ(drawn(), all);
+  frame.cut = 0;
+  frame.restart = 1;
+  EXPECT_EQ(drawn(), 0);
+}
+
 TEST_F(CapiTest, ADirectionOfAnyLengthIsTaken) {
   const TriangleScene scene = box_on_ground(48);
   const Geometry geometry(scene);
