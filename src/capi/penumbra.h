@@ -1,4 +1,5 @@
-/* Penumbra: soft shadows for an engine that draws with OpenGL 4.5 or more. The interface for C, for C++ and for other
+/** @file
+ * Penumbra: soft shadows for an engine that draws with OpenGL 4.5 or more. The interface for C, for C++ and for other
  * languages: functions, and structs of plain data.
  *
  * In short: penumbra_device_create() in the engine's context; penumbra_settings_create() and penumbra_settings_set();
@@ -32,6 +33,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/** What functions of the interface are declared with: the shared library exports them. */
 #if defined(__GNUC__)
 #define PENUMBRA_API __attribute__((visibility("default")))
 #else
@@ -42,119 +44,123 @@
 extern "C" {
 #endif
 
-/* The version of this header. Before 1.0.0 programs must be compiled again for another minor version. */
+/** The version of this header. Before 1.0.0 programs must be compiled again for another minor version. */
 #define PENUMBRA_VERSION_MAJOR 0
-#define PENUMBRA_VERSION_MINOR 1
-#define PENUMBRA_VERSION_PATCH 0
+#define PENUMBRA_VERSION_MINOR 1 /**< Grows with each version that adds functions or fields. */
+#define PENUMBRA_VERSION_PATCH 0 /**< Grows with each version that mends faults alone. */
 
-/* The version of the library that runs: 1000000 * major + 1000 * minor + patch. */
+/** The version of the library that runs: 1000000 * major + 1000 * minor + patch. */
 PENUMBRA_API uint32_t penumbra_version(void);
 
 /* ---------------------------------------------------------------------------------------------------------- Errors */
 
+/** What functions return: PENUMBRA_OK, or why they failed. penumbra_last_error() has the cause as text. */
 typedef enum penumbra_result {
-  PENUMBRA_OK = 0,
-  PENUMBRA_ERROR_ARGUMENT = 1, /* the call itself: a null pointer, a struct's size, a value that is not finite, a call
+  PENUMBRA_OK = 0,             /**< it has done what it says */
+  PENUMBRA_ERROR_ARGUMENT = 1, /**< the call itself: a null pointer, a struct's size, a value that is not finite, a call
                                   from within a callback of the same device */
-  PENUMBRA_ERROR_REFUSED = 2,  /* what it was given does not suit: textures, matrices, lights, names or values of
+  PENUMBRA_ERROR_REFUSED = 2,  /**< what it was given does not suit: textures, matrices, lights, names or values of
                                   parameters; or the driver can't: a shader does not compile, its memory is full */
-  PENUMBRA_ERROR_CONTEXT = 3,  /* no OpenGL context is current, it can't be drawn with now, it has no OpenGL 4.5, or the
-                                  device was abandoned */
-  PENUMBRA_ERROR_CALLBACK = 4, /* penumbra_frame.draw returned something else than 0 */
-  PENUMBRA_ERROR_BUFFER = 5,   /* the caller's buffer is too small for a text: see penumbra_settings_get() */
-  PENUMBRA_ERROR_MEMORY = 6,   /* no memory of the process is left */
-  PENUMBRA_ERROR_INTERNAL = 7  /* a fault of the library: please report it */
+  PENUMBRA_ERROR_CONTEXT = 3,  /**< no OpenGL context is current, it can't be drawn with now, it has no OpenGL 4.5, or
+                                  the  device was abandoned */
+  PENUMBRA_ERROR_CALLBACK = 4, /**< penumbra_frame.draw returned something else than 0 */
+  PENUMBRA_ERROR_BUFFER = 5,   /**< the caller's buffer is too small for a text: see penumbra_settings_get() */
+  PENUMBRA_ERROR_MEMORY = 6,   /**< no memory of the process is left */
+  PENUMBRA_ERROR_INTERNAL = 7  /**< a fault of the library: please report it */
 } penumbra_result;
 
-/* What went wrong in the last call of this thread that failed: a text without a newline at its end, of one line except
+/** What went wrong in the last call of this thread that failed: a text without a newline at its end, of one line except
  * for messages of the shader compiler. Never null, "" if none failed; valid until another call of this thread fails. */
 PENUMBRA_API const char* penumbra_last_error(void);
 
-/* "PENUMBRA_ERROR_ARGUMENT"; for other values "unknown". */
+/** "PENUMBRA_ERROR_ARGUMENT"; for other values "unknown". */
 PENUMBRA_API const char* penumbra_result_name(penumbra_result result);
 
 /* ---------------------------------------------------------------------------------------------------------- Devices */
 
-/* What was made in one OpenGL context: programs, shadow maps, masks and histories. */
+/** What was made in one OpenGL context: programs, shadow maps, masks and histories. */
 typedef struct penumbra_device penumbra_device;
 
+/** A function of OpenGL, to be cast to its own type. */
 typedef void (*penumbra_proc)(void);
-/* Returns the address of an OpenGL function such as "glCreateTextures", or null, as eglGetProcAddress and
+/** Returns the address of an OpenGL function such as "glCreateTextures", or null, as eglGetProcAddress and
  * glfwGetProcAddress do. `user` is penumbra_device_desc.get_proc_user. */
 typedef penumbra_proc (*penumbra_get_proc)(void* user, const char* name);
 
 enum { PENUMBRA_LOG_DEBUG = 0, PENUMBRA_LOG_INFO = 1, PENUMBRA_LOG_WARNING = 2, PENUMBRA_LOG_ERROR = 3 };
-/* Receives a message of one line without a newline, valid during the call. `level` is a PENUMBRA_LOG_... */
+/** Receives a message of one line without a newline, valid during the call. `level` is a PENUMBRA_LOG_... */
 typedef void (*penumbra_log)(void* user, int32_t level, const char* message);
 
+/** What a device is made from. */
 typedef struct penumbra_device_desc {
-  size_t struct_size;         /* sizeof(penumbra_device_desc) */
-  penumbra_get_proc get_proc; /* required; called as long as the device lives */
-  void* get_proc_user;        /* passed to get_proc */
-  penumbra_log log; /* receives messages during calls with the device; null: warnings and errors go to stderr */
-  void* log_user;   /* passed to log */
+  size_t struct_size;         /**< sizeof(penumbra_device_desc) */
+  penumbra_get_proc get_proc; /**< required; called as long as the device lives */
+  void* get_proc_user;        /**< passed to get_proc */
+  penumbra_log log; /**< receives messages during calls with the device; null: warnings and errors go to stderr */
+  void* log_user;   /**< passed to log */
 } penumbra_device_desc;
 
-/* PENUMBRA_ERROR_ARGUMENT: `desc` is null or `struct_size` is not that of a version of the struct. */
+/** PENUMBRA_ERROR_ARGUMENT: `desc` is null or `struct_size` is not that of a version of the struct. */
 PENUMBRA_API penumbra_result penumbra_device_desc_init(penumbra_device_desc* desc, size_t struct_size);
 
-/* Makes a device for the current context, which has OpenGL 4.5 or more, of the core or the compatibility profile. Makes
- * no OpenGL object yet. `device` receives it, or null after an error: PENUMBRA_ERROR_ARGUMENT; PENUMBRA_ERROR_CONTEXT.
+/** Makes a device for the current context, which has OpenGL 4.5 or more, of the core or the compatibility profile.
+ * Makes no OpenGL object yet. `device` receives it, or null after an error: PENUMBRA_ERROR_ARGUMENT;
+ * PENUMBRA_ERROR_CONTEXT.
  */
 PENUMBRA_API penumbra_result penumbra_device_create(const penumbra_device_desc* desc, penumbra_device** device);
 
-/* Deletes the device and all its OpenGL objects. Its context must be current. If no context is, the objects are left to
- * their context, and the result is PENUMBRA_ERROR_CONTEXT; the device is gone nevertheless. Null: nothing happens.
+/** Deletes the device and all its OpenGL objects. Its context must be current. If no context is, the objects are left
+ * to their context, and the result is PENUMBRA_ERROR_CONTEXT; the device is gone nevertheless. Null: nothing happens.
  * PENUMBRA_ERROR_ARGUMENT: called from within a callback of the device, which stays. */
 PENUMBRA_API penumbra_result penumbra_device_destroy(penumbra_device* device);
 
-/* For a context that is lost or destroyed: forgets all OpenGL objects without an OpenGL call, so that objects of the
+/** For a context that is lost or destroyed: forgets all OpenGL objects without an OpenGL call, so that objects of the
  * same names in a new context stay. Needs no context. Only penumbra_device_destroy() can follow: it then needs none
  * either. PENUMBRA_ERROR_ARGUMENT: null, or called from within a callback of the device. */
 PENUMBRA_API penumbra_result penumbra_device_abandon(penumbra_device* device);
 
 /* --------------------------------------------------------------------------------------------------------- Settings */
 
-/* Values for all parameters: the technique, the sun's size, sizes of maps, numbers of samples. */
+/** Values for all parameters: the technique, the sun's size, sizes of maps, numbers of samples. */
 typedef struct penumbra_settings penumbra_settings;
 
-/* Settings with the default values; they need no device. `settings` receives them, or null after an error. */
+/** Settings with the default values; they need no device. `settings` receives them, or null after an error. */
 PENUMBRA_API penumbra_result penumbra_settings_create(penumbra_settings** settings);
-/* A copy. `copy` receives it, or null after an error. */
+/** A copy. `copy` receives it, or null after an error. */
 PENUMBRA_API penumbra_result penumbra_settings_clone(const penumbra_settings* settings, penumbra_settings** copy);
-/* Null: nothing happens. */
+/** Null: nothing happens. */
 PENUMBRA_API void penumbra_settings_destroy(penumbra_settings* settings);
 
-/* Chooses a technique by its name, or a preset of penumbra_technique_info() with all values that it sets.
+/** Chooses a technique by its name, or a preset of penumbra_technique_info() with all values that it sets.
  * PENUMBRA_ERROR_REFUSED: unknown name; the message has names that are near. */
 PENUMBRA_API penumbra_result penumbra_settings_select(penumbra_settings* settings, const char* technique);
 
-/* Sets a parameter, such as "sun.angle" (degrees), to a value as text, as the option --set of the program takes it: a
+/** Sets a parameter, such as "sun.angle" (degrees), to a value as text, as the option --set of the program takes it: a
  * number, a word, or "true" or "false". PENUMBRA_ERROR_REFUSED: unknown name, or a value that it can't have; nothing is
  * changed then. */
 PENUMBRA_API penumbra_result penumbra_settings_set(penumbra_settings* settings, const char* name, const char* value);
-/* The same for a number. Integers must be whole, switches 0 or 1; words can't be set so. */
+/** The same for a number. Integers must be whole, switches 0 or 1; words can't be set so. */
 PENUMBRA_API penumbra_result penumbra_settings_set_number(penumbra_settings* settings, const char* name, double value);
-/* Sets a parameter to its default, or all of them if `name` is null. PENUMBRA_ERROR_REFUSED: unknown name. */
+/** Sets a parameter to its default, or all of them if `name` is null. PENUMBRA_ERROR_REFUSED: unknown name. */
 PENUMBRA_API penumbra_result penumbra_settings_reset(penumbra_settings* settings, const char* name);
 
-/* Writes a parameter's value as text, with a terminating 0, to `text`, which has `capacity` bytes. `length`, unless it
+/** Writes a parameter's value as text, with a terminating 0, to `text`, which has `capacity` bytes. `length`, unless it
  * is null, receives the number of bytes that the text takes, its terminating 0 among them. If `text` is null and
  * `capacity` 0, only `length` is written. PENUMBRA_ERROR_BUFFER: capacity < *length; `text` then holds "" if it has any
  * room. All functions with these three arguments work so. PENUMBRA_ERROR_REFUSED: unknown name. */
 PENUMBRA_API penumbra_result penumbra_settings_get(const penumbra_settings* settings, const char* name, char* text,
                                                    size_t capacity, size_t* length);
-/* A number or a switch (0 or 1). PENUMBRA_ERROR_REFUSED: unknown name, or the value is a word. */
+/** A number or a switch (0 or 1). PENUMBRA_ERROR_REFUSED: unknown name, or the value is a word. */
 PENUMBRA_API penumbra_result penumbra_settings_get_number(const penumbra_settings* settings, const char* name,
                                                           double* value);
 
-/* Applies the text of a preset file (TOML, as `penumbra view` and --preset write and read it; docs/techniques.md), of
+/** Applies the text of a preset file (TOML, as `penumbra view` and --preset write and read it; docs/techniques.md), of
  * `length` bytes, at most 1 MiB. Parameters that it does not mention keep their values. `file`: what messages call the
  * text, such as the file's name. PENUMBRA_ERROR_REFUSED: not TOML, unknown names, values that they can't have; the
  * message begins with "file:line:", and nothing is changed. */
 PENUMBRA_API penumbra_result penumbra_settings_read_preset(penumbra_settings* settings, const char* file,
                                                            const char* text, size_t length);
-/* Writes the text of a preset file with the technique and every value that is not the default. */
+/** Writes the text of a preset file with the technique and every value that is not the default. */
 PENUMBRA_API penumbra_result penumbra_settings_write_preset(const penumbra_settings* settings, char* text,
                                                             size_t capacity, size_t* length);
 
@@ -162,110 +168,113 @@ PENUMBRA_API penumbra_result penumbra_settings_write_preset(const penumbra_setti
 
 enum { PENUMBRA_TYPE_SWITCH = 0, PENUMBRA_TYPE_INTEGER = 1, PENUMBRA_TYPE_REAL = 2, PENUMBRA_TYPE_WORD = 3 };
 
-/* A parameter. All strings are valid until the program ends. */
+/** A parameter. All strings are valid until the program ends. */
 typedef struct penumbra_param {
-  size_t struct_size;         /* in: sizeof(penumbra_param) */
-  const char* name;           /* "pcss.filter_taps" */
-  const char* help;           /* one sentence */
-  const char* unit;           /* "m", "deg", "px", "taps"; "": none */
-  const char* default_value;  /* as text */
-  int32_t type;               /* PENUMBRA_TYPE_... */
-  uint32_t choice_count;      /* of words; else 0 */
-  const char* const* choices; /* the words that it takes; null: not a word */
-  double least, greatest;     /* range of an integer or a real number, both ends included; else 0 */
+  size_t struct_size;         /**< in: sizeof(penumbra_param) */
+  const char* name;           /**< "pcss.filter_taps" */
+  const char* help;           /**< one sentence */
+  const char* unit;           /**< "m", "deg", "px", "taps"; "": none */
+  const char* default_value;  /**< as text */
+  int32_t type;               /**< PENUMBRA_TYPE_... */
+  uint32_t choice_count;      /**< of words; else 0 */
+  const char* const* choices; /**< the words that it takes; null: not a word */
+  double least;               /**< the least value of an integer or a real number; else 0 */
+  double greatest;            /**< the greatest one; else 0 */
 } penumbra_param;
 
+/** The number of parameters. */
 PENUMBRA_API size_t penumbra_param_count(void);
-/* `index`: below penumbra_param_count(). PENUMBRA_ERROR_ARGUMENT: it is not, null, or a wrong struct_size. */
+/** `index`: below penumbra_param_count(). PENUMBRA_ERROR_ARGUMENT: it is not, null, or a wrong struct_size. */
 PENUMBRA_API penumbra_result penumbra_param_info(size_t index, penumbra_param* param);
 
-/* A technique, or a preset: a technique with some parameters set. All strings are valid until the program ends. */
+/** A technique, or a preset: a technique with some parameters set. All strings are valid until the program ends. */
 typedef struct penumbra_technique {
-  size_t struct_size;  /* in: sizeof(penumbra_technique) */
-  const char* name;    /* for penumbra_settings_select() */
-  const char* summary; /* one sentence */
-  uint32_t is_preset;  /* 1: a preset; 0: a technique */
-  uint32_t suns_only;  /* 1: lights of the kind PENUMBRA_LAMP are refused; 0: it takes both */
+  size_t struct_size;  /**< in: sizeof(penumbra_technique) */
+  const char* name;    /**< for penumbra_settings_select() */
+  const char* summary; /**< one sentence */
+  uint32_t is_preset;  /**< 1: a preset; 0: a technique */
+  uint32_t suns_only;  /**< 1: lights of the kind PENUMBRA_LAMP are refused; 0: it takes both */
 } penumbra_technique;
 
+/** The number of techniques and presets. */
 PENUMBRA_API size_t penumbra_technique_count(void);
-/* `index`: below penumbra_technique_count(); techniques come first. Errors as for penumbra_param_info(). */
+/** `index`: below penumbra_technique_count(); techniques come first. Errors as for penumbra_param_info(). */
 PENUMBRA_API penumbra_result penumbra_technique_info(size_t index, penumbra_technique* technique);
 
 /* ----------------------------------------------------------------------------------------------------------- Lights */
 
 enum {
-  PENUMBRA_SUN = 0, /* infinitely far away. How large it looks: the parameters sun.angle and sun.shape */
-  PENUMBRA_LAMP = 1 /* a sphere that shines in all directions or, with an axis, within a spot's cone */
+  PENUMBRA_SUN = 0, /**< infinitely far away. How large it looks: the parameters sun.angle and sun.shape */
+  PENUMBRA_LAMP = 1 /**< a sphere that shines in all directions or, with an axis, within a spot's cone */
 };
 
-/* A light that casts shadows. Its colour and intensity stay with the engine. */
+/** A light that casts shadows. Its colour and intensity stay with the engine. */
 typedef struct penumbra_light {
-  size_t struct_size;           /* sizeof(penumbra_light); the same for all lights of an array */
-  int32_t id;                   /* unique in the frame; the light's maps and history belong to it from frame to frame */
-  int32_t kind;                 /* PENUMBRA_SUN (default), PENUMBRA_LAMP */
-  float to_light[3];            /* of a sun: direction to it, world, not 0; default 0, 1, 0 */
-  float position[3];            /* of a lamp: its centre, world, m, each within ±1e6 */
-  float radius;                 /* of a lamp, m, at least 0 (hard shadows); default 0.03 */
-  float axis[3];                /* of a lamp: direction in which a spot shines, world; 0, 0, 0 (default): everywhere */
-  float cone;                   /* of a spot: half angle of its cone, rad, above 0 and at most pi/2; beyond it: 0 */
-  float range;                  /* of a lamp, m: the mask is 0 beyond it; 0 (default): unlimited */
-  const char* const* overrides; /* "name=value": values of parameters for this light alone; null if there are none */
-  size_t override_count;        /* of overrides; default 0 */
+  size_t struct_size; /**< sizeof(penumbra_light); the same for all lights of an array */
+  int32_t id;         /**< unique in the frame; the light's maps and history belong to it from frame to frame */
+  int32_t kind;       /**< PENUMBRA_SUN (default), PENUMBRA_LAMP */
+  float to_light[3];  /**< of a sun: direction to it, world, not 0; default 0, 1, 0 */
+  float position[3];  /**< of a lamp: its centre, world, m, each within ±1e6 */
+  float radius;       /**< of a lamp, m, at least 0 (hard shadows); default 0.03 */
+  float axis[3];      /**< of a lamp: direction in which a spot shines, world; 0, 0, 0 (default): everywhere */
+  float cone;         /**< of a spot: half angle of its cone, rad, above 0 and at most pi/2; beyond it: 0 */
+  float range;        /**< of a lamp, m: the mask is 0 beyond it; 0 (default): unlimited */
+  const char* const* overrides; /**< "name=value": values of parameters for this light alone; null if there are none */
+  size_t override_count;        /**< of overrides; default 0 */
 } penumbra_light;
 
-/* PENUMBRA_ERROR_ARGUMENT: `light` is null or `struct_size` is not that of a version of the struct. */
+/** PENUMBRA_ERROR_ARGUMENT: `light` is null or `struct_size` is not that of a version of the struct. */
 PENUMBRA_API penumbra_result penumbra_light_init(penumbra_light* light, size_t struct_size);
 
 /* ----------------------------------------------------------------------------------------------- Drawing of casters */
 
 enum {
-  /* All casters in the volume, into depth alone. */
+  /** All casters in the volume, into depth alone. */
   PENUMBRA_PASS_DEPTH = 0,
-  /* The same, and colour output 0, a float that is cleared to 0, must end as 1 where a caster that moved since the last
-   * frame is nearest to the light: draw the static casters without colour writes, then those that moved, writing 1. */
+  /** The same, and colour output 0, a float that is cleared to 0, must end as 1 where a caster that moved since the
+   * last frame is nearest to the light: draw the static casters without colour writes, then those that moved,
+   * writing 1. */
   PENUMBRA_PASS_DEPTH_AND_MOVED = 1,
-  /* Casters that moved, at their present positions; colour output 0 is 1. */
+  /** Casters that moved, at their present positions; colour output 0 is 1. */
   PENUMBRA_PASS_MOVED_NOW = 2,
-  /* Casters that moved, at their last positions, with world_to_clip of this frame; colour output 0 is 1. */
+  /** Casters that moved, at their last positions, with world_to_clip of this frame; colour output 0 is 1. */
   PENUMBRA_PASS_MOVED_LAST = 3,
-  /* All casters, behind the nearest (only with the parameter maps.layers=2). The fragment shader discards unless
+  /** All casters, behind the nearest (only with the parameter maps.layers=2). The fragment shader discards unless
    *   gl_FragCoord.z > texelFetch(first, ivec3(gl_FragCoord.xy, layer), 0).x + gap
    * where `first` (sampler2DArray) is first_depth_texture, which the callback binds, and `gap` first_depth_gap. Of
    * closed objects draw only faces that face the light, else their undersides hide what lies below them. */
   PENUMBRA_PASS_SECOND_DEPTH = 4,
-  /* Triangles for shaders of the library (only with the technique shadow_volume): see geometry_shader. */
+  /** Triangles for shaders of the library (only with the technique shadow_volume): see geometry_shader. */
   PENUMBRA_PASS_GEOMETRY = 5
 };
 
-/* One call of penumbra_frame.draw: draw these casters with this matrix. A caster has moved if its place, skin, morph
+/** One call of penumbra_frame.draw: draw these casters with this matrix. A caster has moved if its place, skin, morph
  * weights or shape differ from the view's last frame; one that appeared is drawn at its present position only, one that
  * disappeared at its last only. PENUMBRA_PASS_DEPTH_AND_MOVED, MOVED_NOW and MOVED_LAST come only with settings that
  * keep a history (penumbra_reads_motion()). */
 typedef struct penumbra_caster_pass {
-  size_t struct_size;           /* sizeof(penumbra_caster_pass) of the library */
-  int32_t kind;                 /* PENUMBRA_PASS_... */
-  int32_t layer;                /* of the light's shadow map: a cascade of a sun, a face of a lamp's cube */
-  int32_t view_id;              /* of the frame */
-  uint32_t reserved;            /* 0 */
-  float world_to_clip[16];      /* clip space has z in 0..1 (GL_ZERO_TO_ONE is set), 0 at the light */
-  double cull_planes[6][4];     /* a caster of which every point p has dot(plane.xyz, p) + plane.w < 0 for one of these
-                                   planes need not be drawn; world space, xyz of unit length; all 0: unused */
-  float light_place[4];         /* world: xyz the direction to a sun and w 0, or the centre of a lamp and w 1 */
-  uint32_t first_depth_texture; /* PENUMBRA_PASS_SECOND_DEPTH: OpenGL's name of a GL_TEXTURE_2D_ARRAY; else 0 */
-  float first_depth_gap;        /* PENUMBRA_PASS_SECOND_DEPTH: in stored depths, at least 0 */
-  /* PENUMBRA_PASS_GEOMETRY: the texts of a geometry and a fragment shader for a program of the engine's; else null. The
-   * engine compiles them with a vertex shader of its own, which writes gl_Position = world_to_clip * world position and
-   * no other output, and draws each triangle once, as GL_TRIANGLES: opaque casters, and alpha-tested ones as whole
-   * triangles. It must leave all bindings of textures, samplers, uniform buffers and storage buffers from 4 on as they
-   * are. `fragment_shader` is null if only depth and stencil are written. The texts are valid as long as the device;
-   * `program_id`, from 1, is the same for the same texts. */
+  size_t struct_size;       /**< sizeof(penumbra_caster_pass) of the library */
+  int32_t kind;             /**< PENUMBRA_PASS_... */
+  int32_t layer;            /**< of the light's shadow map: a cascade of a sun, a face of a lamp's cube */
+  int32_t view_id;          /**< of the frame */
+  uint32_t reserved;        /**< 0 */
+  float world_to_clip[16];  /**< clip space has z in 0..1 (GL_ZERO_TO_ONE is set), 0 at the light */
+  double cull_planes[6][4]; /**< a caster of which every point p has dot(plane.xyz, p) + plane.w < 0 for one of these
+                               planes need not be drawn; world space, xyz of unit length; all 0: unused */
+  float light_place[4];     /**< world: xyz the direction to a sun and w 0, or the centre of a lamp and w 1 */
+  uint32_t first_depth_texture; /**< PENUMBRA_PASS_SECOND_DEPTH: OpenGL's name of a GL_TEXTURE_2D_ARRAY; else 0 */
+  float first_depth_gap;        /**< PENUMBRA_PASS_SECOND_DEPTH: in stored depths, at least 0 */
+  /** PENUMBRA_PASS_GEOMETRY: the text of a geometry shader, and of a fragment shader, for a program of the engine's;
+   * else null. The engine compiles them with a vertex shader of its own, which writes gl_Position = world_to_clip *
+   * world position and no other output, and draws each triangle once, as GL_TRIANGLES: opaque casters, and alpha-tested
+   * ones as whole triangles. It must leave all bindings of textures, samplers, uniform buffers and storage buffers from
+   * 4 on as they are. The texts are valid as long as the device. */
   const char* geometry_shader;
-  const char* fragment_shader;
-  uint64_t program_id;
+  const char* fragment_shader; /**< see geometry_shader; null too if only depth and stencil are written */
+  uint64_t program_id;         /**< from 1: the same for the same texts; 0 for other kinds */
 } penumbra_caster_pass;
 
-/* Draws casters and returns 0; another value ends penumbra_render() with PENUMBRA_ERROR_CALLBACK. Framebuffer,
+/** Draws casters and returns 0; another value ends penumbra_render() with PENUMBRA_ERROR_CALLBACK. Framebuffer,
  * viewport, scissor, depth test, clip control and culling are set, and polygon offset is off; the callback binds its
  * own programs and vertex arrays. Both faces of every triangle cast shadows unless the engine decides otherwise. A
  * caster that is drawn in several of these passes must get the same depths, to the bit, in each: compute positions by
@@ -274,112 +283,115 @@ typedef int32_t (*penumbra_draw_casters)(void* user, const penumbra_caster_pass*
 
 /* ----------------------------------------------------------------------------------------------------------- Frames */
 
-/* A texture of the engine's: GL_TEXTURE_2D, not multisampled. Filters, wrap and compare modes do not matter; swizzle,
+/** A texture of the engine's: GL_TEXTURE_2D, not multisampled. Filters, wrap and compare modes do not matter; swizzle,
  * base and maximum level and GL_DEPTH_STENCIL_TEXTURE_MODE must have OpenGL's initial values. */
 typedef struct penumbra_texture {
-  uint32_t id;           /* OpenGL's name; 0: none */
-  int32_t width, height; /* of level 0, texels */
+  uint32_t id;    /**< OpenGL's name; 0: none */
+  int32_t width;  /**< of level 0, texels */
+  int32_t height; /**< of level 0, texels */
 } penumbra_texture;
 
-/* An axis-aligned box in world space, m. Empty if min > max in an axis, as boxes are after penumbra_frame_init(). */
+/** An axis-aligned box in world space, m. Empty if min > max in an axis, as boxes are after penumbra_frame_init(). */
 typedef struct penumbra_box {
-  float min[3], max[3];
+  float min[3]; /**< the corner with the least coordinates */
+  float max[3]; /**< the corner with the greatest coordinates */
 } penumbra_box;
 
 enum {
-  PENUMBRA_NORMALS_OCTAHEDRAL = 0, /* channels R and G: octahedral map (Cigolle et al. 2014), -1..1 */
-  PENUMBRA_NORMALS_XYZ = 1         /* channels R, G and B: x, y, z, -1..1 */
+  PENUMBRA_NORMALS_OCTAHEDRAL = 0, /**< channels R and G: octahedral map (Cigolle et al. 2014), -1..1 */
+  PENUMBRA_NORMALS_XYZ = 1         /**< channels R, G and B: x, y, z, -1..1 */
 };
 
+/** What penumbra_render() needs of one view in one frame. */
 typedef struct penumbra_frame {
-  size_t struct_size; /* sizeof(penumbra_frame) */
+  size_t struct_size; /**< sizeof(penumbra_frame) */
 
-  /* The view. Each id has its own maps, mask and history, until penumbra_forget_view(). */
+  /** The view. Each id has its own maps, mask and history, until penumbra_forget_view(). */
   int32_t view_id;
-  uint32_t cut;     /* 1: discards history and kept maps: a camera cut, another scene, a jump in time; default 0 */
-  uint32_t restart; /* 1: discards the history alone; default 0 */
+  uint32_t cut;     /**< 1: discards history and kept maps: a camera cut, another scene, a jump in time; default 0 */
+  uint32_t restart; /**< 1: discards the history alone; default 0 */
 
-  /* Conventions. A perspective that contradicts reversed_z is refused, and one of reversed depth in -1..1 too. A
+  /** Conventions. A perspective that contradicts reversed_z is refused, and one of reversed depth in -1..1 too. A
    * projection of 0..1 that is said to be of -1..1 without reversed_z can't be told from another near plane. */
-  uint32_t reversed_z;        /* 1 (default): the far plane has depth 0; 0: it has depth 1. Such pixels are sky: lit */
-  uint32_t depth_zero_to_one; /* 1 (default): clip space has z in 0..1 (glClipControl); 0: in -1..1 */
-  int32_t normals_encoding;   /* PENUMBRA_NORMALS_...; default octahedral */
+  uint32_t reversed_z; /**< 1 (default): the far plane has depth 0; 0: it has depth 1. Such pixels are sky: lit */
+  uint32_t depth_zero_to_one; /**< 1 (default): clip space has z in 0..1 (glClipControl); 0: in -1..1 */
+  int32_t normals_encoding;   /**< PENUMBRA_NORMALS_...; default octahedral */
 
-  /* Of this frame and of the view's last frame, which a history needs: they must be the matrices of that call, else the
-   * history and the kept maps are discarded. Default: identity. */
-  float view[16];       /* from world to view space: right-handed, the camera looks along -z */
-  float projection[16]; /* from view to clip space, without jitter; perspective or orthographic */
-  float last_view[16];  /* finite; where there was no last frame: those of this one */
-  float last_projection[16];
-  float jitter[2]; /* what was added to x and y of clip space after division by w, -1..1; default 0 */
+  float view[16];       /**< from world to view space: right-handed, the camera looks along -z; default: identity */
+  float projection[16]; /**< from view to clip space, without jitter; perspective or orthographic; default: identity */
+  /** `view` of the view's last frame, and of this one where there was none; default: identity. Where last_view or
+   * last_projection are others than those of that call, the history and the kept maps are discarded. */
+  float last_view[16];
+  float last_projection[16]; /**< `projection` of the view's last frame: see last_view */
+  float jitter[2];           /**< what was added to x and y of clip space after division by w, -1..1; default 0 */
 
-  /* Depth as drawn: any depth format, or R32F. */
+  /** Depth as drawn: any depth format, or R32F. */
   penumbra_texture depth;
-  /* Geometric normals (of the triangle, not of shading), world space, unit length: SNORM or float formats, as many
+  /** Geometric normals (of the triangle, not of shading), world space, unit length: SNORM or float formats, as many
    * channels as normals_encoding needs; the size of `depth`. */
   penumbra_texture normals;
-  /* Motion vectors, or none (id 0): RG, SNORM or float: place of the surface after division by w (-1..1) minus that in
+  /** Motion vectors, or none (id 0): RG, SNORM or float: place of the surface after division by w (-1..1) minus that in
    * the last frame; the size of `depth`. Read only where penumbra_reads_motion() says so. */
   penumbra_texture motion;
-  /* The part of the textures that was drawn to, in texels: x and y of the lower left corner, width, height. All of them
-   * if it is 0, 0, 0, 0 (default). */
+  /** The part of the textures that was drawn to, in texels: x and y of the lower left corner, width, height. All of
+   * them if it is 0, 0, 0, 0 (default). */
   int32_t viewport[4];
-  /* 1: the mask has a penumbra radius, a blocker distance and a layer of the shadow map beside visibility; default 0.
+  /** 1: the mask has a penumbra radius, a blocker distance and a layer of the shadow map beside visibility; default 0.
    */
   uint32_t mask_details;
 
-  /* World bounds of all that casts shadows, and of all surfaces whose shadows are computed, those drawn forward too.
-   * Not empty. A point (min = max) is valid. */
-  penumbra_box casters, receivers;
-  /* World bounds of those receivers that `depth` does not hold, such as glass; default: empty. Read only with the
+  penumbra_box casters;   /**< world bounds of all that casts shadows; not empty, a point (min = max) is valid */
+  penumbra_box receivers; /**< the same of all surfaces whose shadows are computed, those drawn forward too */
+  /** World bounds of those receivers that `depth` does not hold, such as glass; default: empty. Read only with the
    * parameter cascades.fit=visible. */
   penumbra_box forward_receivers;
-  /* World bounds of the casters that moved since the view's last frame, at their present and their last positions, of
+  uint32_t moved_is_known; /**< 1: `moved` is right; 0 (default): anything may have moved */
+  /** World bounds of the casters that moved since the view's last frame, at their present and their last positions, of
    * those that appeared or disappeared, and of those that changed what they cast in another way. Shadow maps that it
-   * does not reach are not drawn again, so bounds that are too small leave old shadows. Empty: nothing moved. Read if
-   * moved_is_known is 1; if it is 0 (default), anything may have moved. */
-  uint32_t moved_is_known;
+   * does not reach are not drawn again, so bounds that are too small leave old shadows. Empty (default): nothing moved.
+   */
   penumbra_box moved;
-  uint32_t reserved; /* 0 */
+  uint32_t reserved; /**< 0 */
 
-  const penumbra_light* lights; /* light_count of them; null if there are none */
-  size_t light_count;           /* at most 256 */
-  penumbra_draw_casters draw;   /* required if there are lights */
-  void* draw_user;              /* passed to draw */
+  const penumbra_light* lights; /**< light_count of them; null if there are none */
+  size_t light_count;           /**< at most 256 */
+  penumbra_draw_casters draw;   /**< required if there are lights */
+  void* draw_user;              /**< passed to draw */
 } penumbra_frame;
 
-/* PENUMBRA_ERROR_ARGUMENT: `frame` is null or `struct_size` is not that of a version of the struct. */
+/** PENUMBRA_ERROR_ARGUMENT: `frame` is null or `struct_size` is not that of a version of the struct. */
 PENUMBRA_API penumbra_result penumbra_frame_init(penumbra_frame* frame, size_t struct_size);
 
-/* The result: a GL_TEXTURE_2D_ARRAY of the size of penumbra_frame.depth, which stays the library's. Layer i belongs to
+/** The result: a GL_TEXTURE_2D_ARRAY of the size of penumbra_frame.depth, which stays the library's. Layer i belongs to
  * lights[i]. Channel R is visibility: 1 lit, 0 in shadow. If there are details: G the penumbra's radius at the
  * receiver, m (0: none); B the mean distance from receiver to blockers along the light, m (0: none); A the layer of the
  * shadow map that was read, plus 0.5 where the filter is smaller than a texel. Texels outside of the viewport are
  * undefined. */
 typedef struct penumbra_mask {
-  size_t struct_size; /* in: sizeof(penumbra_mask) */
-  uint32_t texture;   /* OpenGL's name; valid until the next penumbra_render() or penumbra_forget_view() of the view */
-  uint32_t format;    /* GL_R16F (0x822D), or GL_RGBA16F (0x881A) with details: where they were asked for, and with
-                         techniques that compute them in any case */
-  int32_t width, height; /* texels */
-  int32_t layers;        /* the number of lights, at least 1 */
-  int32_t view_id;       /* of the frame */
+  size_t struct_size; /**< in: sizeof(penumbra_mask) */
+  uint32_t texture; /**< OpenGL's name; valid until the next penumbra_render() or penumbra_forget_view() of the view */
+  uint32_t format;  /**< GL_R16F (0x822D), or GL_RGBA16F (0x881A) with details: where they were asked for, and with
+                       techniques that compute them in any case */
+  int32_t width;    /**< texels */
+  int32_t height;   /**< texels */
+  int32_t layers;   /**< the number of lights, at least 1 */
+  int32_t view_id;  /**< of the frame */
 } penumbra_mask;
 
-/* Computes the shadows of a frame. After an error the view has no mask until a call succeeds, and the next frame of it
+/** Computes the shadows of a frame. After an error the view has no mask until a call succeeds, and the next frame of it
  * has no history. PENUMBRA_ERROR_ARGUMENT, REFUSED, CONTEXT, CALLBACK, MEMORY. */
 PENUMBRA_API penumbra_result penumbra_render(penumbra_device* device, const penumbra_settings* settings,
                                              const penumbra_frame* frame, penumbra_mask* mask);
 
-/* Whether penumbra_render() reads penumbra_frame.motion with these settings and lights: `reads` receives 1 or 0. If
+/** Whether penumbra_render() reads penumbra_frame.motion with these settings and lights: `reads` receives 1 or 0. If
  * not, motion vectors need not be drawn. */
 PENUMBRA_API penumbra_result penumbra_reads_motion(penumbra_device* device, const penumbra_settings* settings,
                                                    const penumbra_light* lights, size_t light_count, uint32_t* reads);
 
-/* Releases the maps, the mask and the history of a view; unknown ids have none, and nothing happens. */
+/** Releases the maps, the mask and the history of a view; unknown ids have none, and nothing happens. */
 PENUMBRA_API penumbra_result penumbra_forget_view(penumbra_device* device, int32_t view_id);
 
-/* Compiles the programs and makes the tables that penumbra_render() needs with these settings and the frame's
+/** Compiles the programs and makes the tables that penumbra_render() needs with these settings and the frame's
  * conventions, lights and mask_details, so that no later frame of that kind has to. Draws two frames of 64 x 64 pixels
  * without casters, with maps of the settings' size, which are released afterwards: textures, boxes, matrices and
  * callbacks of `frame` are not used and need not be set. Programs that only an engine's own callback compiles are not
@@ -390,7 +402,7 @@ PENUMBRA_API penumbra_result penumbra_warm_up(penumbra_device* device, const pen
 /* ------------------------------------------------------------------------------------- Surfaces that are drawn forward
  */
 
-/* GLSL for the engine's own fragment shaders, such as those of glass: text to put after the line "#version 450" (or a
+/** GLSL for the engine's own fragment shaders, such as those of glass: text to put after the line "#version 450" (or a
  * later version), in which every global name begins with "penumbra_", and which defines float
  * penumbra_shadow_visibility(vec3 view_position, vec3 geometric_normal_world, vec2 pixel) view_position: in view space,
  * within the view and penumbra_frame.receivers; geometric_normal_world: unit length, to the viewer's side; pixel:
@@ -399,10 +411,10 @@ PENUMBRA_API penumbra_result penumbra_warm_up(penumbra_device* device, const pen
 PENUMBRA_API penumbra_result penumbra_forward_source(penumbra_device* device, const penumbra_settings* settings,
                                                      const penumbra_light* light, char* text, size_t capacity,
                                                      size_t* length);
-/* Binds what that function reads for lights[light_index] of the view's last penumbra_render(): textures and samplers of
- * units 0 to 7, uniform buffers 0 to 2. PENUMBRA_ERROR_ARGUMENT: the view has no mask, or fewer lights. */
+/** Binds what that function reads for lights[light_index] of the view's last penumbra_render(): textures and samplers
+ * of units 0 to 7, uniform buffers 0 to 2. PENUMBRA_ERROR_ARGUMENT: the view has no mask, or fewer lights. */
 PENUMBRA_API penumbra_result penumbra_bind_forward(penumbra_device* device, int32_t view_id, size_t light_index);
-/* Unbinds these textures and samplers. */
+/** Unbinds these textures and samplers. */
 PENUMBRA_API penumbra_result penumbra_unbind_forward(penumbra_device* device);
 
 /* ------------------------------------------------------------------------------------------------------------ State

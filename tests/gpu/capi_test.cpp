@@ -173,7 +173,7 @@ TEST_F(CapiTest, ADirectionOfAnyLengthIsTaken) {
   const std::vector<float> longer = c_->render(frame);
   ASSERT_EQ(longer.size(), unit.size());
   for (std::size_t i = 0; i < unit.size(); i += 4) difference += std::abs(static_cast<double>(unit[i] - longer[i]));
-  EXPECT_LT(difference / static_cast<double>(unit.size() / 4), 1e-3);
+  EXPECT_LT(4 * difference / static_cast<double>(unit.size()), 1e-3);
 }
 
 // The settings that the interface's users see: every technique and preset, for suns and lamps.

@@ -91,7 +91,7 @@ class Abi(support.TestCase):
                             re.MULTILINE)
         header = (HEADERS / "penumbra.h").read_text()
         for part, number in zip(("MAJOR", "MINOR", "PATCH"), project.groups()):
-            self.assertIn(f"#define PENUMBRA_VERSION_{part} {number}\n", header)
+            self.assertRegex(header, rf"#define PENUMBRA_VERSION_{part} {number}\b")
 
 
 class Headers(support.TestCase):
@@ -146,6 +146,17 @@ class Headers(support.TestCase):
             for switches in ((), ("-DGLM_FORCE_DEFAULT_ALIGNED_GENTYPES", "-DGLM_FORCE_INTRINSICS")):
                 with self.subTest(f"{compiler} {standard} {switches}"):
                     self.compile(compiler, standard, text, *switches)
+
+
+class Reference(support.TestCase):
+    def test_it_is_written_without_a_warning(self):
+        """Each function, field and constant is described. By the build's target of that name, as HTML."""
+        printed = command("doxygen", support.ROOT / "docs" / "Doxyfile",
+                          env={**os.environ, "ROOT": str(support.ROOT), "OUTPUT": str(self.folder)})
+        self.assertEqual(printed, "")
+        pages = "".join(path.read_text() for path in (self.folder / "html").glob("*.html"))
+        for name in (LISTS / "symbols.txt").read_text().split():
+            self.assertTrue(f">{name}<" in pages or not name.startswith("penumbra_"), name)
 
 
 if __name__ == "__main__":
