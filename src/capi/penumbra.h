@@ -6,8 +6,8 @@
  * then in each frame, once depth and normals are drawn, penumbra_render(), which gives back a texture with a layer for
  * each light: the share of the light that reaches each pixel. examples/c_minimal is a whole program.
  *
- * Units and spaces. Lengths are in metres, angles in radians. World space is the engine's own, with any handedness and
- * any axis up. Matrices have 16 floats, column after column as OpenGL takes them, and multiply column vectors. A
+ * Units and spaces. Lengths are in metres, angles in radians. World space is the engine's own, with any axis up.
+ * Matrices have 16 floats, column after column as OpenGL takes them, and multiply column vectors. A
  * texture's row 0 is its lowest.
  *
  * Errors. No exception leaves a function, and none fails without a reason: functions return a penumbra_result, and
@@ -44,7 +44,7 @@
 extern "C" {
 #endif
 
-/** The version of this header. Before 1.0.0 programs must be compiled again for another minor version. */
+/** The version of this header. Programs run with every later library of the same major version. */
 #define PENUMBRA_VERSION_MAJOR 0
 #define PENUMBRA_VERSION_MINOR 1 /**< Grows with each version that adds functions or fields. */
 #define PENUMBRA_VERSION_PATCH 0 /**< Grows with each version that mends faults alone. */
@@ -62,7 +62,7 @@ typedef enum penumbra_result {
   PENUMBRA_ERROR_REFUSED = 2,  /**< what it was given does not suit: textures, matrices, lights, names or values of
                                   parameters; or the driver can't: a shader does not compile, its memory is full */
   PENUMBRA_ERROR_CONTEXT = 3,  /**< no OpenGL context is current, it can't be drawn with now, it has no OpenGL 4.5, or
-                                  the  device was abandoned */
+                                  the device was abandoned */
   PENUMBRA_ERROR_CALLBACK = 4, /**< penumbra_frame.draw returned something else than 0 */
   PENUMBRA_ERROR_BUFFER = 5,   /**< the caller's buffer is too small for a text: see penumbra_settings_get() */
   PENUMBRA_ERROR_MEMORY = 6,   /**< no memory of the process is left */
@@ -399,15 +399,14 @@ PENUMBRA_API penumbra_result penumbra_forget_view(penumbra_device* device, int32
 PENUMBRA_API penumbra_result penumbra_warm_up(penumbra_device* device, const penumbra_settings* settings,
                                               const penumbra_frame* frame);
 
-/* ------------------------------------------------------------------------------------- Surfaces that are drawn forward
- */
+/* --------------------------------------------------------------------------------- Surfaces that are drawn forward */
 
 /** GLSL for the engine's own fragment shaders, such as those of glass: text to put after the line "#version 450" (or a
- * later version), in which every global name begins with "penumbra_", and which defines float
- * penumbra_shadow_visibility(vec3 view_position, vec3 geometric_normal_world, vec2 pixel) view_position: in view space,
- * within the view and penumbra_frame.receivers; geometric_normal_world: unit length, to the viewer's side; pixel:
- * gl_FragCoord.xy. `light`: for its kind and overrides; null: a sun without overrides. `text`, `capacity` and `length`
- * as in penumbra_settings_get(). */
+ * later version), in which every global name begins with "penumbra_", and which defines a function that returns a
+ * float, the light's visibility: penumbra_shadow_visibility(vec3 view_position, vec3 geometric_normal_world, vec2
+ * pixel). Its arguments are the surface's place in view space, within the view and penumbra_frame.receivers; its
+ * normal, of unit length and to the viewer's side; and gl_FragCoord.xy. `light`: for its kind and overrides; null: a
+ * sun without overrides. `text`, `capacity` and `length` as in penumbra_settings_get(). */
 PENUMBRA_API penumbra_result penumbra_forward_source(penumbra_device* device, const penumbra_settings* settings,
                                                      const penumbra_light* light, char* text, size_t capacity,
                                                      size_t* length);
@@ -431,8 +430,9 @@ PENUMBRA_API penumbra_result penumbra_unbind_forward(penumbra_device* device);
  * be as it was.
  *
  * Conditional rendering and transform feedback of the engine's must not be active (paused feedback may be), nor may a
- * display list be recorded: in the first frame of a view, and in each in a compatibility profile, this is
- * PENUMBRA_ERROR_CONTEXT. An active query counts what the library draws. */
+ * display list be recorded: in the first frame of a view this is PENUMBRA_ERROR_CONTEXT. (Later ones look only in a
+ * compatibility profile, and not for conditional rendering: drivers would have to wait.) An active query counts what
+ * the library draws. */
 
 #ifdef __cplusplus
 }
