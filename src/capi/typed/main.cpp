@@ -32,8 +32,9 @@ std::string file_head() {
 #include <string>
 #include <string_view>
 
-#include "penumbra.hpp"
-
+)"
+         "#include \"penumbra.hpp\"\n"
+         R"(
 namespace penumbra::api {
 
 namespace detail {
