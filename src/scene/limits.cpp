@@ -41,25 +41,31 @@ const LimitRow& row_named(std::string_view name) {
   fail_unknown("limit", name, names);
 }
 
-std::size_t number_of(const LimitRow& row, std::string_view text) {
-  std::string_view digits = text;
-  std::size_t unit = 1;
-  for (const Unit& candidate : units) {
-    if (!row.bytes || !digits.ends_with(candidate.text)) continue;
-    digits.remove_suffix(candidate.text.size());
-    unit = candidate.bytes;
-    break;
-  }
+// Of `unit`.
+std::optional<std::size_t> whole_number(std::string_view digits, std::size_t unit) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   const bool whole = error == std::errc() && end == digits.data() + digits.size();
-  if (!whole || number == 0 || number > std::numeric_limits<std::size_t>::max() / 64 / unit)
-    fail("limit {}: '{}' is not a number of {}", row.name, text,
-         row.bytes ? "bytes, as 1500000000, 1500MiB or 2GiB" : "one or more");
+  if (!whole || number == 0 || number > std::numeric_limits<std::size_t>::max() / 64 / unit) return std::nullopt;
   return number * unit;
 }
 
+std::size_t number_of(const LimitRow& row, std::string_view text) {
+  const std::optional<std::size_t> number = row.bytes ? bytes_from(text) : whole_number(text, 1);
+  if (!number)
+    fail("limit {}: '{}' is not a number of {}", row.name, text,
+         row.bytes ? "bytes, as 1500000000, 1500MiB or 2GiB" : "one or more");
+  return *number;
+}
+
 }  // namespace
+
+std::optional<std::size_t> bytes_from(std::string_view text) {
+  for (const Unit& unit : units) {
+    if (text.ends_with(unit.text)) return whole_number(text.substr(0, text.size() - unit.text.size()), unit.bytes);
+  }
+  return whole_number(text, 1);
+}
 
 std::span<const LimitRow> limit_rows() { return rows; }
 

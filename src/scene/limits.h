@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,6 +23,9 @@ std::span<const LimitRow> limit_rows();
 // Sets the limit that an assignment names: "images=2GiB", "vertices=100000000". The value is a whole number, for bytes
 // optionally followed by KiB, MiB or GiB. Throws Error that quotes the text and lists what is allowed.
 void set_limit(ReadLimits& limits, std::string_view assignment);
+
+// The bytes of a size as text: "1500000000", "1500MiB", "2GiB". Nothing if it is none, or none that memory could have.
+std::optional<std::size_t> bytes_from(std::string_view text);
 
 // A size as text: "1.5 GiB", "200 bytes".
 std::string bytes_text(std::size_t bytes);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,13 +13,14 @@ namespace penumbra::session {
 struct CacheOptions {
   std::optional<std::string> cache;
   bool no_cache = false;
+  std::optional<std::size_t> cache_bytes;  // the most that all of it takes
 
   std::filesystem::path folder() const;  // empty: nothing is kept
 };
 
 void add_cache_options(CLI::App& app, CacheOptions& options);
 
-// Throws cli::UsageError for --cache with --no-cache.
+// Throws cli::UsageError for --no-cache with --cache or --cache-size.
 void check_together(const CacheOptions& options);
 
 }  // namespace penumbra::session

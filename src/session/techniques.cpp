@@ -107,6 +107,7 @@ void choose_technique(ParamSet& params, const shadow::Registry& registry, const 
 truth::TechniqueOptions truth_options(const CacheOptions& cache, const cli::DeviceOptions& device,
                                       truth::TechniqueOptions more) {
   more.cache = cache.folder();
+  if (cache.cache_bytes) more.cache_bytes = *cache.cache_bytes;
   more.threads = device.threads.value_or(0);
   return more;
 }

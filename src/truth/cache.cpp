@@ -1,6 +1,8 @@
 #include "truth/cache.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
@@ -17,7 +19,7 @@ namespace fs = std::filesystem;
 
 // A file is this header, then visibility, standard error and hard shadow as floats in this machine's byte order.
 struct Header {
-  std::array<char, 16> magic{'p', 'e', 'n', 'u', 'm', 'b', 'r', 'a', ' ', 't', 'r', 'u', 't', 'h', ' ', '2'};
+  std::array<char, 16> magic{'p', 'e', 'n', 'u', 'm', 'b', 'r', 'a', ' ', 't', 'r', 'u', 't', 'h', ' ', '3'};
   Key key, contents;
   std::uint64_t pixels = 0;
   std::int64_t rays = 0, samples = 0;
@@ -49,7 +51,7 @@ std::optional<Traced> read(const fs::path& path, const Key& key, std::size_t pix
     values.resize(pixels);
     file.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(pixels * sizeof(float)));
   }
-  if (!file || key_of(traced) != header.contents) return std::nullopt;
+  if (!file || traced.samples != header.samples || key_of(traced) != header.contents) return std::nullopt;
   return traced;
 }
 
@@ -57,6 +59,12 @@ std::optional<Traced> read(const fs::path& path, const Key& key, std::size_t pix
 bool is_ours(const fs::path& path) {
   const std::string name = path.filename().string();
   return path.extension() == ".truth" || (name.starts_with('.') && name.find(".truth.") != std::string::npos);
+}
+
+// Whether another process may still be writing the file.
+bool is_being_written(const fs::path& path, fs::file_time_type changed) {
+  return path.filename().native().starts_with('.') &&
+         fs::file_time_type::clock::now() - changed < std::chrono::hours(1);
 }
 
 // Deletes files until `needed` more bytes fit within `largest`.
@@ -74,8 +82,8 @@ void shrink(const fs::path& folder, std::uintmax_t needed, std::uintmax_t larges
     std::error_code gone_time, gone_size;  // another process may delete the file meanwhile
     const Entry found{at->last_write_time(gone_time), at->file_size(gone_size), at->path()};
     if (gone_time || gone_size) continue;
-    entries.push_back(found);
     total += found.bytes;
+    if (!is_being_written(found.path, found.used)) entries.push_back(found);
   }
   std::ranges::sort(entries, {}, &Entry::used);
   std::error_code error;

@@ -1,10 +1,4 @@
-#define XXH_INLINE_ALL
-#include <fmt/format.h>
-#include <xxhash.h>
-
-#include <algorithm>
-#include <bit>
-#include <memory>
+#include <span>
 #include <type_traits>
 #include <variant>
 
@@ -17,18 +11,15 @@ namespace {
 // Increment it whenever the same input produces another picture, so that old cache files are ignored.
 constexpr int generation = 1;
 
-// XXH3 (Collet) of plain values without padding.
+// Of plain values without padding.
 class Hash {
  public:
-  Hash() {
-    XXH3_128bits_reset(state_.get());
-    add(generation);
-  }
+  Hash() { add(generation); }
 
   template <class T>
   void add(const T& value) {
     static_assert(std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>);
-    XXH3_128bits_update(state_.get(), &value, sizeof(value));
+    hasher_.add(std::as_bytes(std::span(&value, 1)));
   }
   template <int n, class T>
   void add(const glm::vec<n, T>& value) {
@@ -38,19 +29,13 @@ class Hash {
   template <class T>
   void add_all(std::span<const T> values) {
     add(values.size());
-    XXH3_128bits_update(state_.get(), values.data(), values.size_bytes());
+    hasher_.add(std::as_bytes(values));
   }
 
-  Key key() const {
-    const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
-    return {hash.high64, hash.low64};
-  }
+  Key key() const { return hasher_.key(); }
 
  private:
-  struct Free {
-    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
-  };
-  std::unique_ptr<XXH3_state_t, Free> state_{XXH3_createState()};
+  io::Hasher hasher_;
 };
 
 void add_texture(Hash& hash, const scene::Scene& scene, const scene::TextureRef& ref) {
@@ -104,8 +89,6 @@ void add_light(Hash& hash, const LocalLight& light) {
 
 }  // namespace
 
-std::string Key::text() const { return fmt::format("{:016x}{:016x}", high, low); }
-
 Key key_of(const scene::Scene& scene, const scene::PosedGeometry& geometry) {
   Hash hash;
   for (const scene::PosedSurface& surface : geometry.surfaces) {
@@ -149,6 +132,9 @@ Key key_of(const Traced& traced) {
   Hash hash;
   for (const auto layer : {&Traced::visibility, &Traced::standard_error, &Traced::hard})
     hash.add_all(std::span(traced.*layer));
+  hash.add(traced.rays);
+  hash.add(traced.seconds);
+  hash.add(traced.samples);
   return hash.key();
 }
 

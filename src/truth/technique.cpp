@@ -33,7 +33,7 @@ TraceOptions trace_options(const ParamSet& params, const TechniqueOptions& optio
 }  // namespace
 
 struct TruthTechnique::State {
-  explicit State(TechniqueOptions how) : options(std::move(how)), cache(options.cache) {}
+  explicit State(TechniqueOptions how) : options(std::move(how)), cache(options.cache, options.cache_bytes) {}
 
   TechniqueOptions options;
   Cache cache;

@@ -13,6 +13,7 @@ namespace penumbra::truth {
 
 struct TechniqueOptions {
   std::filesystem::path cache = default_cache_folder();  // empty: no cache
+  std::uintmax_t cache_bytes = Cache::usual_bytes;       // the most that it takes
   int threads = 0;                                       // 0: one for each core
   // Same as TraceOptions::progress. With background tracing it is called on the background thread. If it interrupts a
   // picture, the frame throws Interrupted.

@@ -42,7 +42,7 @@ LIBRARIES = {
     "draco/": {"scene"},
     "meshoptimizer.h": {"scene"},
     "embree3/": {"truth"},
-    "xxhash.h": {"truth"},
+    "xxhash.h": {"io"},
     "OpenImageIO/": {"image"},
     "png.h": {"image"},
     "toml++/": {"core"},

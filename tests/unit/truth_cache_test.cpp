@@ -1,6 +1,7 @@
 // The cache of traced pictures: which inputs are part of its key, which files it accepts, and how much it keeps.
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -8,6 +9,7 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "support/temp_folder.h"
 #include "truth/cache.h"
@@ -62,6 +64,41 @@ TEST_F(TruthCache, DoesNotBelieveAFileOfAnotherName) {
   EXPECT_FALSE(cache.find({3, 4}, 1000));
 }
 
+TEST_F(TruthCache, DoesNotBelieveADamagedFile) {
+  const Cache cache(folder_);
+  const Key key{1, 2};
+  cache.keep(key, traced(0.25f));
+  const fs::path file = folder_ / (key.text() + ".truth");
+  std::string good(fs::file_size(file), ' ');
+  std::ifstream(file, std::ios::binary).read(good.data(), static_cast<std::streamsize>(good.size()));
+  const auto write = [&](const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; };
+  for (std::size_t at = 0; at < good.size(); at += at < 120 ? 1 : 97) {
+    std::string bad = good;
+    bad[at] = static_cast<char>(bad[at] ^ 4);
+    write(bad);
+    EXPECT_FALSE(cache.find(key, 1000)) << "byte " << at;
+  }
+  for (const std::size_t length : {std::size_t{0}, std::size_t{50}, good.size() / 2, good.size() - 1}) {
+    write(good.substr(0, length));
+    EXPECT_FALSE(cache.find(key, 1000)) << length << " bytes";
+  }
+  write(good + "x");
+  EXPECT_FALSE(cache.find(key, 1000));
+  cache.keep(key, traced(0.25f));  // traced again
+  EXPECT_TRUE(cache.find(key, 1000));
+}
+
+TEST_F(TruthCache, LeavesAloneWhatAnotherProcessIsWriting) {
+  const Cache cache(folder_, 40'000);
+  cache.keep({0, 1}, traced(1));
+  const fs::path other = folder_ / ".00000000000000000000000000000001.truth.Ab12Cd";
+  std::ofstream(other) << std::string(30'000, 'x');
+  cache.keep({0, 2}, traced(1));
+  EXPECT_TRUE(fs::exists(other));
+  EXPECT_FALSE(cache.find({0, 1}, 1000)) << "the limit counts what is being written";
+  EXPECT_TRUE(cache.find({0, 2}, 1000));
+}
+
 TEST_F(TruthCache, LetsGoOfWhatWasNotUsedForLongest) {
   const Cache cache(folder_, 40'000);
   for (const std::uint64_t i : {1u, 2u, 3u}) {
@@ -87,6 +124,47 @@ TEST_F(TruthCache, LetsGoOfWhatAKilledProcessLeft) {
   cache.keep({0, 2}, traced(1));
   EXPECT_FALSE(fs::exists(left));
   EXPECT_TRUE(cache.find({0, 1}, 1000));
+}
+
+// As many machines do: none sees a part of a file, and together they exceed the limit by no more than one file each.
+TEST_F(TruthCache, IsSharedByManyProcesses) {
+  constexpr int processes = 8, pictures = 60;
+  constexpr std::uintmax_t largest = 60'000, file_bytes = 13'000;  // room for four
+  std::vector<pid_t> children;
+  for (int number = 0; number < processes; ++number) {
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child > 0) {
+      children.push_back(child);
+      continue;
+    }
+    const Cache cache(folder_, largest);
+    bool good = true;
+    for (int i = 0; i < pictures; ++i) {
+      // Half of the pictures are the same in all processes.
+      const Key key{i % 2 == 0 ? 0u : static_cast<std::uint64_t>(number), static_cast<std::uint64_t>(i)};
+      const auto value = static_cast<float>(key.high * 1000 + key.low);
+      cache.keep(key, traced(value));
+      const auto found = cache.find(key, 1000);
+      good = good && (!found || found->visibility == traced(value).visibility);
+    }
+    _exit(good ? 0 : 1);
+  }
+  for (const pid_t child : children) {
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+  }
+  std::uintmax_t bytes = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
+    EXPECT_EQ(entry.path().extension(), ".truth") << entry.path();
+    bytes += entry.file_size();
+  }
+  EXPECT_LE(bytes, largest + processes * file_bytes);
+  Cache(folder_, largest).keep({9, 9}, traced(1));
+  bytes = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) bytes += entry.file_size();
+  EXPECT_LE(bytes, largest);
 }
 
 TEST_F(TruthCache, KeepsNothingThatIsLargerThanAllOfIt) {
