@@ -10,6 +10,7 @@ penumbra_dependency(embree HEADER embree3/rtcore.h LIBRARIES embree3)
 penumbra_dependency(xxhash HEADER xxhash.h)
 penumbra_dependency(openimageio HEADER OpenImageIO/imageio.h LIBRARIES OpenImageIO OpenImageIO_Util)
 penumbra_dependency(png HEADER png.h LIBRARIES png)
+penumbra_dependency(zlib HEADER zlib.h LIBRARIES z)
 penumbra_dependency(json HEADER nlohmann/json.hpp)
 penumbra_dependency(cli11 HEADER CLI/CLI.hpp)
 

@@ -13,7 +13,7 @@ found() {
   local folder
   case $1 in
     command)
-      command -v "$2" >/dev/null
+      PATH=$PATH:/usr/sbin:/sbin command -v "$2" >/dev/null  # where Debian has daemons
       return
       ;;
     python)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "bench/device.h"
 #include "bench/measure.h"
 #include "bench/options.h"
 #include "bench/results.h"
@@ -35,14 +36,19 @@ std::unique_ptr<gl::Context> open_hardware(const Options& options) {
   return nullptr;
 }
 
+}  // namespace
+
+std::unique_ptr<gl::Context> open_measured(const Options& options) {
+  std::unique_ptr<gl::Context> context = open_hardware(options);
+  return context ? std::move(context) : session::open_context(options, options);
+}
+
 void write(const Results& results, const std::string& output) {
   const std::string extension = std::filesystem::path(output).extension().string();
   io::write_text(output, extension == ".json"  ? json_of(results)
                          : extension == ".csv" ? csv_of(results)
                                                : html_of(results));
 }
-
-}  // namespace
 
 int run(const std::string& name, const cli::Arguments& arguments, const scene::ImageDecoder& decode,
         const RegistryOf& techniques) {
@@ -71,8 +77,7 @@ int run(const std::string& name, const cli::Arguments& arguments, const scene::I
   cli::clean_up_on_signals();
   session::limit_threads(options);
 
-  std::unique_ptr<gl::Context> context = open_hardware(options);
-  if (!context) context = session::open_context(options, options);
+  const std::unique_ptr<gl::Context> context = open_measured(options);
   Results results = measure(options, decode, registry);
   results.backend = gl::to_string(context->backend());
   for (const std::string& output : options.outputs) write(results, output);

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "cli/command_line.h"
+#include "plan/job.h"
 #include "scene/gltf.h"
 #include "shadow/registry.h"
 
@@ -16,5 +20,18 @@ using RegistryOf = std::function<shadow::Registry(int threads)>;
 // the exit code; throws UsageError or Error.
 int run(const std::string& name, const cli::Arguments& arguments, const scene::ImageDecoder& decode,
         const RegistryOf& techniques);
+
+// What a bench needs to read images and to trace rays.
+struct Tools {
+  scene::ImageDecoder decode;
+  scene::ImageProbe probe;
+  RegistryOf techniques;
+};
+
+// The same work, divided into items: a point of the sweep is one, with all techniques, which are timed in turn.
+// `items`: how many the plan has; absent: it is being planned, on this device. `arguments` have the value of -o at
+// `output`. Null if the user asked for help.
+std::unique_ptr<plan::Job> make_job(const cli::Arguments& arguments, std::size_t output, Tools tools,
+                                    std::optional<std::size_t> items);
 
 }  // namespace penumbra::bench

@@ -63,8 +63,11 @@ class Bench {
     }
   }
 
-  Results run() {
+  const Sweep& sweep() const { return results_.sweep; }
+
+  Results run(const std::optional<OnePoint>& only) {
     describe();
+    if (only) keep(*only);
     kept_.assign(results_.sweep.points.size(), std::vector<Kept>(results_.entries.size()));
     results_.points.resize(results_.sweep.points.size());
     const int visits = visit_count();
@@ -77,7 +80,7 @@ class Bench {
         visit_point(i, measured, progress);
       }
     }
-    fit();
+    if (!only) fit_models(results_);
     return std::move(results_);
   }
 
@@ -91,6 +94,14 @@ class Bench {
     if (options_.sweep == "lights")
       limits.lights = static_cast<int>(render::shadowed_lights(session::load_scene(options_, decode_).setup).size());
     return limits;
+  }
+
+  void keep(const OnePoint& only) {
+    std::vector<Point>& points = results_.sweep.points;
+    if (points.size() != only.of)
+      fail("on this device the sweep has {} points, but {} were planned: plan on a device of the same kind",
+           points.size(), only.of);
+    points = {points[only.index]};
   }
 
   // Points are measured alternately, so that a machine that slows down during the run slows all of them alike. Where
@@ -174,19 +185,6 @@ class Bench {
     }
   }
 
-  void fit() {
-    if (results_.points.size() < results_.sweep.axes.size() + 2 || results_.sweep.axes.empty()) return;
-    for (std::size_t c = 0; c < results_.entries.size(); ++c) {
-      std::vector<std::vector<double>> xs;
-      std::vector<double> ys;
-      for (const Measured& point : results_.points) {
-        xs.push_back(point.point.at);
-        ys.push_back(point.costs[c].swept.median);
-      }
-      results_.models.push_back({results_.entries[c].label, fit_linear(xs, ys)});
-    }
-  }
-
   const Options& options_;
   const scene::ImageDecoder& decode_;
   const shadow::Registry& registry_;
@@ -200,8 +198,26 @@ class Bench {
 
 }  // namespace
 
-Results measure(const Options& options, const scene::ImageDecoder& decode, const shadow::Registry& registry) {
-  return Bench(options, decode, registry).run();
+Results measure(const Options& options, const scene::ImageDecoder& decode, const shadow::Registry& registry,
+                const std::optional<OnePoint>& only) {
+  return Bench(options, decode, registry).run(only);
+}
+
+Sweep sweep_of(const Options& options, const scene::ImageDecoder& decode, const shadow::Registry& registry) {
+  return Bench(options, decode, registry).sweep();
+}
+
+void fit_models(Results& results) {
+  if (results.points.size() < results.sweep.axes.size() + 2 || results.sweep.axes.empty()) return;
+  for (std::size_t c = 0; c < results.entries.size(); ++c) {
+    std::vector<std::vector<double>> xs;
+    std::vector<double> ys;
+    for (const Measured& point : results.points) {
+      xs.push_back(point.point.at);
+      ys.push_back(point.costs[c].swept.median);
+    }
+    results.models.push_back({results.entries[c].label, fit_linear(xs, ys)});
+  }
 }
 
 }  // namespace penumbra::bench

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/contender.h"
+#include "cli/given.h"
 #include "cli/input_files.h"
 #include "cli/options.h"
 
@@ -22,7 +23,8 @@ struct Options : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions {
   std::string sweep;                 // empty: none
   std::vector<std::string> outputs;  // .json, .csv, .html
   bool quiet = false;
-  std::string command;  // for reports: files by their names without folders
+  std::string command;  // for reports
+  std::vector<cli::GivenOption> given;
 };
 
 void add_options(CLI::App& app, Options& options);

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/no_effect.h"
@@ -9,6 +11,7 @@
 #include "compare/comparison.h"
 #include "compare/options.h"
 #include "compare/page.h"
+#include "compare/reports.h"
 #include "compare/tables.h"
 #include "io/output_file.h"
 #include "session/render_session.h"
@@ -27,14 +30,6 @@ void check_files(const CompareOptions& options) {
   for (const std::filesystem::path& path : {options.page(), options.csv(), options.json()}) io::check_writable(path);
 }
 
-void warn_of_settings(const CompareOptions& options, const ComparedValues& values) {
-  std::vector<ParamSet> drawn = values.contenders;
-  drawn.push_back(values.reference);
-  cli::warn_without_effect(options, drawn, session::all_techniques());
-  for (std::size_t i = 0; i < options.contenders.size(); ++i)
-    cli::warn_without_effect(options.contenders[i].assignments, {&values.contenders[i], 1}, session::all_techniques());
-}
-
 void print(const Comparison& comparison, const CompareOptions& options) {
   for (const ComparedScene& scene : comparison.scenes) {
     if (comparison.scenes.size() > 1) fmt::print("{}\n", scene.path);
@@ -43,7 +38,36 @@ void print(const Comparison& comparison, const CompareOptions& options) {
   fmt::print("wrote {}\n", options.page().string());
 }
 
+// In large parts, whatever those of the page are.
+void write_page(const std::filesystem::path& path, const report::Page& page) {
+  constexpr std::size_t large = std::size_t{1} << 20;
+  io::OutputFile file(path);
+  std::string part;
+  report::write_text(page, [&](std::string_view text) {
+    part += text;
+    if (part.size() < large) return;
+    file.append(part);
+    part.clear();
+  });
+  file.append(part);
+  file.commit();
+}
+
 }  // namespace
+
+void warn_of_settings(const CompareOptions& options, const ComparedValues& values) {
+  std::vector<ParamSet> drawn = values.contenders;
+  drawn.push_back(values.reference);
+  cli::warn_without_effect(options, drawn, session::all_techniques());
+  for (std::size_t i = 0; i < options.contenders.size(); ++i)
+    cli::warn_without_effect(options.contenders[i].assignments, {&values.contenders[i], 1}, session::all_techniques());
+}
+
+void write_reports(Comparison& comparison, const CompareOptions& options, const cli::Arguments& arguments) {
+  write_page(options.page(), comparison_page(comparison, options, arguments));
+  io::write_text(options.csv(), csv_table(comparison));
+  io::write_text(options.json(), io::text_of(json_of(comparison, options, arguments)));
+}
 
 int run(const cli::Arguments& arguments) {
   CompareOptions options;
@@ -55,10 +79,8 @@ int run(const cli::Arguments& arguments) {
   warn_of_settings(options, values);
   options.reading.skies_chosen = cli::is_chosen(options, values.reference, "casters.skies");
 
-  const Comparison comparison = compare(options, values);
-  io::write_text(options.page(), report::to_text(comparison_page(comparison, options, arguments)));
-  io::write_text(options.csv(), csv_table(comparison));
-  io::write_text(options.json(), io::text_of(json_of(comparison, options, arguments)));
+  Comparison comparison = compare(options, values);
+  write_reports(comparison, options, arguments);
   if (!options.quiet) print(comparison, options);
   return 0;
 }

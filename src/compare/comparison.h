@@ -1,16 +1,16 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "compare/options.h"
 #include "core/params.h"
-#include "gl/context.h"
+#include "io/report.h"
 #include "metrics/sequence.h"
 #include "render/view.h"
+#include "report/page.h"
 
 namespace penumbra::compare {
 
@@ -24,22 +24,24 @@ struct ComparedFigures {
   std::optional<metrics::SequenceFigures> sequence;  // set if there is more than one frame
 };
 
-// Milliseconds that the passes between G-buffer and lighting took in a frame.
+// Milliseconds that the passes between G-buffer and lighting took in a frame; NaN if no cost was measured.
 struct ShadowCost {
   double median = 0, min = 0, max = 0;
   std::size_t frames = 0;
 };
 
-// The last frame's pictures. Those of the shadows show each light that casts some, one below the other.
+// The last frame's pictures, as a report shows them. Those of the shadows show each light that casts some, one below
+// the other.
 struct ComparedPictures {
-  std::vector<std::uint8_t> display;  // RGB, sRGB
-  std::vector<float> visibility;
-  std::vector<float> error;  // visibility minus the reference's; NaN where there is no receiver
+  report::EncodedPicture display, visibility;
+  // Visibility minus the reference's, NaN where there is no receiver: packed floats (image/packed.h). The scale of its
+  // colours depends on all techniques of the scene. Empty for the reference.
+  std::vector<std::byte> error;
 };
 
 struct ComparedTechnique {
   std::string label;
-  ParamSet params;
+  const ParamSet* params = nullptr;  // of the comparison's ComparedValues, which outlive it
   ShadowCost cost;
   std::size_t shadow_bytes = 0;  // of maps, masks and history
   ComparedFigures figures;
@@ -49,7 +51,7 @@ struct ComparedTechnique {
 struct ComparedScene {
   std::string path;
   std::size_t receivers = 0, pixels = 0;   // of the last frame: of the masks of all lights
-  ComparedPictures reference;              // without an error
+  ComparedPictures reference;              // without an error; of a part without the first technique: none
   render::Camera camera;                   // of the first frame
   std::vector<render::FrameLight> lights;  // those that cast shadows: all are compared
   glm::vec3 target{0};                     // what that camera looks at
@@ -63,11 +65,18 @@ struct Angles {
 };
 Angles angles_of(const glm::vec3& to_light);
 
-struct Comparison {
-  gl::DeviceInfo device;
+// What drew the pictures.
+struct DrawnBy {
+  io::Json device;  // as reports describe it
   std::string backend;
+};
+
+// A whole comparison, as its reports need it: scenes are added in order by add_scene() (page.h).
+struct Comparison {
+  DrawnBy drawn_by;
   ParamSet reference_params;
-  std::vector<ComparedScene> scenes;
+  std::vector<ComparedScene> scenes;      // without pictures
+  std::vector<report::Section> sections;  // of the page, one for each scene, with the pictures
 };
 
 // Draws and measures the whole comparison. Throws Error.

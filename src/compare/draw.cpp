@@ -7,6 +7,8 @@
 
 #include "bench/times.h"
 #include "compare/figures.h"
+#include "compare/pictures.h"
+#include "image/packed.h"
 #include "render/receivers.h"
 #include "render/renderer.h"
 
@@ -14,6 +16,7 @@ namespace penumbra::compare {
 
 namespace {
 
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr int usual_warmup = 32;  // with the default history weight, e^-3 of the first frame is left after these
 
 // Leaves out nested passes: the time of the pass around them includes theirs.
@@ -34,14 +37,8 @@ ShadowCost shadow_cost(gl::Timers& timers, const std::vector<std::size_t>& frame
 
 cli::FrameRange range_of(const CompareOptions& options) { return options.frames.value_or(cli::FrameRange{}); }
 
-// A single picture of a technique with a history is drawn until the history has converged.
-int warmup_of(const CompareOptions& options, const ParamSet& params) {
-  if (options.frames || !params.get_bool("history.reuse")) return 0;
-  return options.warmup.value_or(usual_warmup);
-}
-
 std::vector<float> error_of(const std::vector<float>& visibility, const ReferenceFrame& reference) {
-  std::vector<float> error(visibility.size(), std::numeric_limits<float>::quiet_NaN());
+  std::vector<float> error(visibility.size(), static_cast<float>(none));
   for (std::size_t i = 0; i < error.size(); ++i) {
     if (reference.receivers[i] != 0) error[i] = metrics::signed_error(visibility[i], reference.visibility[i]);
   }
@@ -55,9 +52,14 @@ std::size_t frames_drawn(gl::Timers& timers) {
 
 // The state of one contender. Each has its own renderer, so that no history is shared.
 struct ContenderRun {
-  ContenderRun(const DrawnScene& scene, const ParamSet& own)
-      : params(own), drawn(own), renderer(scene.device, scene.techniques), sums(scene.options.size, scene.lights) {}
+  ContenderRun(const DrawnScene& scene, const std::string& name, const ParamSet& own)
+      : label(name),
+        params(own),
+        drawn(own),
+        renderer(scene.device, scene.techniques),
+        sums(scene.options.size, scene.lights) {}
 
+  const std::string& label;
   const ParamSet& params;
   ParamSet drawn;  // the same; maps are drawn anew in every frame, so that costs don't depend on how still the view is
   render::Renderer renderer;
@@ -69,13 +71,14 @@ struct ContenderRun {
 
 class InterleavedRuns {
  public:
-  InterleavedRuns(const DrawnScene& scene, const std::vector<ParamSet>& params,
+  InterleavedRuns(const DrawnScene& scene, const Part& part, const std::vector<ParamSet>& params,
                   const std::vector<ReferenceFrame>& reference)
       : scene_(scene),
         reference_(reference),
         range_(range_of(scene.options)),
         frames_drawn_(frames_drawn(scene.device.timers)) {
-    for (const ParamSet& own : params) runs_.push_back(std::make_unique<ContenderRun>(scene, own));
+    for (std::size_t i = part.first; i < part.first + part.count; ++i)
+      runs_.push_back(std::make_unique<ContenderRun>(scene, scene.options.contenders[i].label, params[i]));
   }
 
   // A sequence's cost is that of all its frames but the first, which compiles shaders; a single picture is drawn again.
@@ -83,18 +86,19 @@ class InterleavedRuns {
     for (int frame = range_.first; frame <= range_.last; ++frame) {
       for (const auto& run : runs_) measure(*run, frame);
     }
-    for (int i = 0; range_.count() == 1 && i < scene_.options.cost_frames; ++i) {
+    const bool measured_alone = range_.count() == 1 && !scene_.options.no_cost;
+    for (int i = 0; measured_alone && i < scene_.options.cost_frames; ++i) {
       for (const auto& run : runs_) draw(*run, scene_.path.frame(range_.first, /* again= */ true), /* timed= */ true);
     }
     std::vector<ComparedTechnique> results;
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
-      ContenderRun& run = *runs_[i];
-      results.push_back({.label = scene_.options.contenders[i].label,
-                         .params = run.params,
-                         .cost = shadow_cost(scene_.device.timers, run.timed),
-                         .shadow_bytes = run.shadow_bytes,
-                         .figures = run.sums.figures(),
-                         .pictures = std::move(run.pictures)});
+    for (const auto& run : runs_) {
+      results.push_back({.label = run->label,
+                         .params = &run->params,
+                         .cost = scene_.options.no_cost ? ShadowCost{.median = none, .min = none, .max = none}
+                                                        : shadow_cost(scene_.device.timers, run->timed),
+                         .shadow_bytes = run->shadow_bytes,
+                         .figures = run->sums.figures(),
+                         .pictures = std::move(run->pictures)});
     }
     return results;
   }
@@ -112,13 +116,12 @@ class InterleavedRuns {
     draw(run, scene_.path.frame(frame), /* timed= */ frame > range_.first);
     for (int i = warmup_of(scene_.options, run.params); i > 0; --i)
       draw(run, scene_.path.frame(frame, /* again= */ true), /* timed= */ false);
-    std::vector<float> visibility = run.renderer.read_visibilities();
+    const std::vector<float> visibility = run.renderer.read_visibilities();
     const ReferenceFrame& reference = reference_[static_cast<std::size_t>(frame - range_.first)];
     run.sums.add(visibility, reference, scene_.path.cuts(frame));
     if (frame == range_.last) {
-      run.pictures.display = run.renderer.read_display();
-      run.pictures.error = error_of(visibility, reference);
-      run.pictures.visibility = std::move(visibility);
+      run.pictures = encoded_pictures(run.renderer.read_display(), visibility, scene_.options.size);
+      run.pictures.error = image::pack_floats(error_of(visibility, reference));
     }
     scene_.drawn();
   }
@@ -132,6 +135,11 @@ class InterleavedRuns {
 
 }  // namespace
 
+int warmup_of(const CompareOptions& options, const ParamSet& params) {
+  if (options.frames || !params.get_bool("history.reuse")) return 0;
+  return options.warmup.value_or(usual_warmup);
+}
+
 std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamSet& params, ComparedPictures& last) {
   render::Renderer renderer(scene.device, scene.techniques);
   const cli::FrameRange range = range_of(scene.options);
@@ -142,13 +150,14 @@ std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamS
                       render::receivers_of(renderer, scene.path.lights(frame), params.get_float("sun.angle"))});
     scene.drawn();
   }
-  last = {.display = renderer.read_display(), .visibility = frames.back().visibility, .error = {}};
+  last = encoded_pictures(renderer.read_display(), frames.back().visibility, scene.options.size);
   return frames;
 }
 
-std::vector<ComparedTechnique> draw_techniques(const DrawnScene& scene, const std::vector<ParamSet>& params,
+std::vector<ComparedTechnique> draw_techniques(const DrawnScene& scene, const Part& part,
+                                               const std::vector<ParamSet>& params,
                                                const std::vector<ReferenceFrame>& reference) {
-  return InterleavedRuns(scene, params, reference).results();
+  return InterleavedRuns(scene, part, params, reference).results();
 }
 
 }  // namespace penumbra::compare

@@ -6,6 +6,7 @@
 
 #include "compare/camera_path.h"
 #include "compare/comparison.h"
+#include "compare/drawing.h"
 #include "gl/pass.h"
 #include "metrics/sequence.h"
 #include "scene/gpu_scene.h"
@@ -29,13 +30,18 @@ struct ReferenceFrame {
   std::vector<std::uint8_t> receivers;  // 1: geometric normal · to light > sin(θ / 2)
 };
 
+// How many frames are drawn besides the one that counts: a single picture of a technique with a history is drawn until
+// the history has converged.
+int warmup_of(const CompareOptions& options, const ParamSet& params);
+
 // Draws the reference's frames; `last` receives the pictures of the last one.
 std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamSet& params, ComparedPictures& last);
 
-// Draws the contenders over all frames and measures them against the reference; `params` has one set for each, in
-// order. They are drawn alternately, frame by frame, so that a machine that slows down during the run slows all of them
-// alike.
-std::vector<ComparedTechnique> draw_techniques(const DrawnScene& scene, const std::vector<ParamSet>& params,
+// Draws the part's contenders over all frames and measures them against the reference; `params` has one set for each
+// contender of the comparison, in order. They are drawn alternately, frame by frame, so that a machine that slows down
+// during the run slows all of them alike.
+std::vector<ComparedTechnique> draw_techniques(const DrawnScene& scene, const Part& part,
+                                               const std::vector<ParamSet>& params,
                                                const std::vector<ReferenceFrame>& reference);
 
 }  // namespace penumbra::compare

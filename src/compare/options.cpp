@@ -29,9 +29,9 @@ void add_contenders(std::vector<Contender>& list, const std::string& text) {
   }
 }
 
-void add_compare_options(CLI::App& app, CompareOptions& o) {
+void add_compare_options(CLI::App& app, CompareOptions& o, const CommandHelp& help) {
   app.add_option("SCENE", o.scenes, "glTF files, .gltf or .glb")->required()->type_name("");
-  add_value(app, "-o,--output", "FOLDER", "Folder for index.html, results.csv and results.json",
+  add_value(app, "-o,--output", "PATH", help.output,
             [&o](const auto& text) { o.output = cli::output_folder("-o", text); });
   app.get_option("--output")->required();
   add_value(app, "--technique", "NAME,...",
@@ -57,6 +57,9 @@ void add_compare_options(CLI::App& app, CompareOptions& o) {
             [&o](const auto& text) { o.warmup = cli::parse_count("--warmup", text, 0, 10000); });
   add_value(app, "--cost-frames", "N", "Frames whose median is the cost of a single picture (3)",
             [&o](const auto& text) { o.cost_frames = cli::parse_count("--cost-frames", text, 1, 10000); });
+  app.add_flag("--no-cost", o.no_cost, "Measure no costs: the same command then writes the same report, byte for byte")
+      ->disable_flag_override()
+      ->excludes(app.get_option("--cost-frames"));
   cli::add_shadow_options(app, o);
   cli::add_device_options(app, o);
   session::add_cache_options(app, o);
@@ -123,7 +126,8 @@ void check_values(const CompareOptions& options, const shadow::Registry& registr
       check(assignment);
     }
   }
-  if (options.cache && !traced) fail_usage("--cache is of no use: nothing here is ray traced");
+  if ((options.cache || options.cache_bytes) && !traced)
+    fail_usage("{} is of no use: nothing here is ray traced", options.cache ? "--cache" : "--cache-size");
 }
 
 ParamSet params_of(const CompareOptions& options, const Contender& contender, const shadow::Registry& registry) {
@@ -163,10 +167,11 @@ std::vector<Contender> parse_contenders(const std::string& text) {
   return list;
 }
 
-bool parse_compare(const cli::Arguments& arguments, CompareOptions& options) {
-  CLI::App app("Compare shadow techniques with the truth: tables and an HTML page", "penumbra compare");
-  add_compare_options(app, options);
+bool parse_compare(const cli::Arguments& arguments, CompareOptions& options, const CommandHelp& help) {
+  CLI::App app("Compare shadow techniques with the truth: tables and an HTML page", help.name);
+  add_compare_options(app, options, help);
   if (!cli::parse(app, arguments)) return false;
+  options.given = cli::given_options(app);
   check_together(options);
   check_values(options, session::all_techniques());
   cli::check_together(static_cast<const cli::DeviceOptions&>(options));  // looks for a folder

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "cli/given.h"
 #include "cli/options.h"
 #include "session/cache_options.h"
 
@@ -29,17 +30,25 @@ struct CompareOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOption
   std::optional<int> cut_at;    // frame at which the orbit jumps
   std::optional<int> warmup;    // frames of a picture before the one that counts, for techniques with a history
   int cost_frames = 3;          // of a single picture
+  bool no_cost = false;         // the report then depends on the command alone
 
   std::string output;  // a folder
+  std::vector<cli::GivenOption> given;
   std::filesystem::path page() const { return std::filesystem::path(output) / "index.html"; }
   std::filesystem::path csv() const { return std::filesystem::path(output) / "results.csv"; }
   std::filesystem::path json() const { return std::filesystem::path(output) / "results.json"; }
   bool quiet = false;
 };
 
+// What the help of the command says: its name, and what -o is.
+struct CommandHelp {
+  const char* name = "penumbra compare";
+  const char* output = "Folder for index.html, results.csv and results.json";
+};
+
 // Parses the command line; returns false if --help was asked for. Throws UsageError for every fault that does not
 // depend on the contents of preset files and scenes, before any of them is read.
-bool parse_compare(const cli::Arguments& arguments, CompareOptions& options);
+bool parse_compare(const cli::Arguments& arguments, CompareOptions& options, const CommandHelp& help = {});
 
 // Throws UsageError if an output would overwrite one of a scene's files, or another file that the command reads.
 void check_inputs(const CompareOptions& options, std::span<const std::filesystem::path> scene_files);

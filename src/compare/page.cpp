@@ -105,14 +105,14 @@ Html plot_of(const ComparedScene& scene) {
 }
 
 std::string figures_text(const ComparedTechnique& technique) {
-  return fmt::format("{} ms · PSNR penumbra {} dB · bias {}", report::fixed(technique.cost.median, 1),
+  const double cost = technique.cost.median;
+  return fmt::format("{}PSNR penumbra {} dB · bias {}",
+                     std::isnan(cost) ? "" : fmt::format("{} ms · ", report::fixed(cost, 1)),
                      report::fixed(technique.figures.psnr_penumbra, 2), report::fixed(technique.figures.bias, 5));
 }
 
-Html pictures_of(const ComparedScene& scene, const Comparison& comparison, const cli::Size& size) {
+Html pictures_of(const ComparedScene& scene, const Comparison& comparison) {
   const std::string& reference = comparison.reference_params.get_word("technique");
-  const report::EncodedPicture display = display_picture(scene.reference, size);
-  const report::EncodedPicture visibility = visibility_picture(scene.reference, size);
   const float scale = error_scale(scene);
   const std::size_t lights = scene.lights.size();
   Html html;
@@ -123,25 +123,23 @@ Html pictures_of(const ComparedScene& scene, const Comparison& comparison, const
     };
     html.add(report::heading(label));
     html.add(report::note(figures_text(technique)));
-    html.add(report::tiles(
-        {{.title = "Picture",
-          .note = "The last frame, tone mapped.",
-          .body = report::picture_slider(figure(label, "The scene", display_picture(technique.pictures, size)),
-                                         figure(reference, "The scene", display))},
-         {.title = lights > 1 ? "Visibility of the lights" : "Visibility of the light",
-          .note =
-              lights > 1
-                  ? "White: all of a light is visible; one light below the other. The figures are of these pictures."
-                  : "White: all of it is visible. The figures are of these pictures.",
-          .body = report::picture_slider(
-              figure(label, "The visible share of the light", visibility_picture(technique.pictures, size)),
-              figure(reference, "The visible share of the light", visibility))},
-         {.title = "Error",
-          .note = {},
-          .body = report::error_map({.label = {},
-                                     .alt = fmt::format("Where {} is too bright or too dark", label),
-                                     .picture = error_picture(technique.pictures, size, scale)},
-                                    error_legend(scale))}}));
+    html.add(report::tiles({{.title = "Picture",
+                             .note = "The last frame, tone mapped.",
+                             .body = report::picture_slider(figure(label, "The scene", technique.pictures.display),
+                                                            figure(reference, "The scene", scene.reference.display))},
+                            {.title = lights > 1 ? "Visibility of the lights" : "Visibility of the light",
+                             .note = lights > 1 ? "White: all of a light is visible; one light below the other. The "
+                                                  "figures are of these pictures."
+                                                : "White: all of it is visible. The figures are of these pictures.",
+                             .body = report::picture_slider(
+                                 figure(label, "The visible share of the light", technique.pictures.visibility),
+                                 figure(reference, "The visible share of the light", scene.reference.visibility))},
+                            {.title = "Error",
+                             .note = {},
+                             .body = report::error_map({.label = {},
+                                                        .alt = fmt::format("Where {} is too bright or too dark", label),
+                                                        .picture = error_picture(technique.pictures, scale)},
+                                                       error_legend(scale))}}));
   }
   return html;
 }
@@ -164,7 +162,7 @@ Html params_section(const Comparison& comparison) {
     html.add(changed.empty() ? report::note("All defaults.") : report::definition_list(changed));
   };
   for (const ComparedTechnique& technique : comparison.scenes.front().techniques)
-    add(technique.label, technique.params);
+    add(technique.label, *technique.params);
   add("Reference: " + reference_name(comparison), comparison.reference_params);
   return html;
 }
@@ -216,8 +214,23 @@ std::string count_of(std::size_t count, const char* one, const char* many) {
 
 }  // namespace
 
-report::Page comparison_page(const Comparison& comparison, const CompareOptions& options,
-                             const cli::Arguments& arguments) {
+void add_scene(Comparison& comparison, const CompareOptions& options, ComparedScene scene) {
+  Html body = table_of(scene, comparison, options.frames.has_value());
+  if (!options.no_cost) {
+    body.add(report::heading("Cost against error"));
+    body.add(plot_of(scene));
+    body.add(
+        report::note("Lower and further left is better. The steps join the techniques that no other one beats in both "
+                     "cost and error."));
+  }
+  body.add(pictures_of(scene, comparison));
+  comparison.sections.push_back({.title = scene_name(scene.path), .body = std::move(body)});
+  scene.reference = {};
+  for (ComparedTechnique& technique : scene.techniques) technique.pictures = {};
+  comparison.scenes.push_back(std::move(scene));
+}
+
+report::Page comparison_page(Comparison& comparison, const CompareOptions& options, const cli::Arguments& arguments) {
   std::string names;
   for (const ComparedScene& scene : comparison.scenes) names += (names.empty() ? "" : ", ") + scene_name(scene.path);
   report::Page page{
@@ -228,21 +241,12 @@ report::Page comparison_page(const Comparison& comparison, const CompareOptions&
                 {"Drawn", frames_text(options)},
                 {"Sun", fmt::format("{:g}° {}", comparison.reference_params.get_float("sun.angle"),
                                     comparison.reference_params.get_word("sun.shape"))},
-                {"Device", comparison.device.renderer}},
-      .sections = {},
-      .footer =
-          fmt::format("{}, commit {}. Costs are valid for this device and run only: compare them only with each other.",
-                      cli::version(), bench::commit())};
-  for (const ComparedScene& scene : comparison.scenes) {
-    Html body = table_of(scene, comparison, options.frames.has_value());
-    body.add(report::heading("Cost against error"));
-    body.add(plot_of(scene));
-    body.add(
-        report::note("Lower and further left is better. The steps join the techniques that no other one beats in both "
-                     "cost and error."));
-    body.add(pictures_of(scene, comparison, options.size));
-    page.sections.push_back({.title = scene_name(scene.path), .body = std::move(body)});
-  }
+                {"Device", comparison.drawn_by.device.at("renderer").get<std::string>()}},
+      .sections = std::move(comparison.sections),
+      .footer = fmt::format("{}, commit {}.{}", cli::version(), bench::commit(),
+                            options.no_cost ? ""
+                                            : " Costs are valid for this device and run only: compare them only "
+                                              "with each other.")};
   page.sections.push_back({.title = "Command", .body = command_section(comparison, arguments)});
   page.sections.push_back({.title = "Parameters", .body = params_section(comparison)});
   return page;

@@ -7,9 +7,11 @@
 
 namespace penumbra::compare {
 
-// The HTML page of a comparison: for each scene a table, a plot of cost against error, and pictures beside the
-// reference's. `arguments` are those of the command.
-report::Page comparison_page(const Comparison& comparison, const CompareOptions& options,
-                             const cli::Arguments& arguments);
+// Adds the next scene, and its section to the page: a table, a plot of cost against error (if costs were measured), and
+// pictures beside the reference's.
+void add_scene(Comparison& comparison, const CompareOptions& options, ComparedScene scene);
+
+// The HTML page of a comparison, into which its sections move. `arguments` are those of the command.
+report::Page comparison_page(Comparison& comparison, const CompareOptions& options, const cli::Arguments& arguments);
 
 }  // namespace penumbra::compare

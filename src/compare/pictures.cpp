@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "image/packed.h"
 #include "image/write.h"
 #include "render/aov_picture.h"
 
@@ -51,13 +52,12 @@ cli::Size size_of_masks(std::size_t pixels, const cli::Size& size) {
 
 }  // namespace
 
-report::EncodedPicture display_picture(const ComparedPictures& pictures, const cli::Size& size) {
-  return encoded(pictures.display, 3, size);
-}
-
-report::EncodedPicture visibility_picture(const ComparedPictures& pictures, const cli::Size& size) {
-  const render::ByteImage bytes = render::aov_bytes("shadow", 1, pictures.visibility);
-  return encoded(bytes.pixels, bytes.channels, size_of_masks(pictures.visibility.size(), size));
+ComparedPictures encoded_pictures(const std::vector<std::uint8_t>& display, const std::vector<float>& visibility,
+                                  const cli::Size& size) {
+  const render::ByteImage bytes = render::aov_bytes("shadow", 1, visibility);
+  return {.display = encoded(display, 3, size),
+          .visibility = encoded(bytes.pixels, bytes.channels, size_of_masks(visibility.size(), size)),
+          .error = {}};
 }
 
 float error_scale(const ComparedScene& scene) {
@@ -72,14 +72,17 @@ float error_scale(const ComparedScene& scene) {
   return 1.0f;
 }
 
-report::EncodedPicture error_picture(const ComparedPictures& pictures, const cli::Size& size, float scale) {
+report::EncodedPicture error_picture(const ComparedPictures& pictures, float scale) {
+  const cli::Size size{.width = pictures.visibility.width, .height = pictures.visibility.height};
   std::vector<std::uint8_t> pixels;
-  pixels.reserve(pictures.error.size() * 3);
-  for (const float error : pictures.error) {
+  const std::vector<float> errors = image::unpack_floats(
+      pictures.error, static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+  pixels.reserve(errors.size() * 3);
+  for (const float error : errors) {
     const Rgb colour = colour_of(error / scale);
     pixels.insert(pixels.end(), colour.begin(), colour.end());
   }
-  return encoded(pixels, 3, size_of_masks(pictures.error.size(), size));
+  return encoded(pixels, 3, size);
 }
 
 report::Legend error_legend(float scale) {

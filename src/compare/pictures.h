@@ -5,15 +5,16 @@
 
 namespace penumbra::compare {
 
-report::EncodedPicture display_picture(const ComparedPictures& pictures, const cli::Size& size);
-report::EncodedPicture visibility_picture(const ComparedPictures& pictures, const cli::Size& size);
+// `display`: RGB, sRGB. Without an error.
+ComparedPictures encoded_pictures(const std::vector<std::uint8_t>& display, const std::vector<float>& visibility,
+                                  const cli::Size& size);
 
 // The full scale of a scene's error maps, the same for all of them: the smallest of 0.05, 0.1, 0.2, 0.5 and 1 that the
 // errors of 99 % of the receivers do not exceed.
 float error_scale(const ComparedScene& scene);
 
 // Errors as colours: blue where the technique is too dark, red where it is too bright, grey where there is no receiver.
-report::EncodedPicture error_picture(const ComparedPictures& pictures, const cli::Size& size, float scale);
+report::EncodedPicture error_picture(const ComparedPictures& pictures, float scale);
 report::Legend error_legend(float scale);
 
 }  // namespace penumbra::compare

@@ -78,14 +78,6 @@ std::vector<std::string> terminal_row(const ComparedTechnique& technique) {
           fixed(sequence_value(figures, &metrics::SequenceFigures::flicker), 4)};
 }
 
-Json changed_params(const ParamSet& params) {
-  Json changed = Json::object();
-  for (const Param& param : params.rows()) {
-    if (!params.is_default(param.name)) changed[param.name] = io::to_json(params.value(param.name));
-  }
-  return changed;
-}
-
 Json recoveries(const ComparedFigures& figures) {
   Json list = Json::array();
   if (!figures.sequence) return list;
@@ -98,14 +90,16 @@ Json recoveries(const ComparedFigures& figures) {
 }
 
 Json json_of(const ComparedTechnique& technique) {
-  Json figures = Json::object(), cost = Json::object();
+  Json figures = Json::object(), cost;
   for (const NamedFigure& figure : figures_of(technique.figures)) figures[figure.name] = rounded(figure.value);
   figures["recoveries"] = recoveries(technique.figures);
-  for (const NamedFigure& figure : costs_of(technique.cost)) cost[figure.name] = rounded(figure.value);
-  cost["frames"] = technique.cost.frames;
+  if (!std::isnan(technique.cost.median)) {
+    for (const NamedFigure& figure : costs_of(technique.cost)) cost[figure.name] = rounded(figure.value);
+    cost["frames"] = technique.cost.frames;
+  }
   return {{"label", technique.label},
-          {"technique", technique.params.get_word("technique")},
-          {"changed_params", changed_params(technique.params)},
+          {"technique", technique.params->get_word("technique")},
+          {"changed_params", io::changed_params(*technique.params)},
           {"shadow_bytes", technique.shadow_bytes},
           {"figures", figures},
           {"cost", cost}};
@@ -209,13 +203,13 @@ Json json_of(const Comparison& comparison, const CompareOptions& options, const 
                        {"command", cli::command_text("penumbra compare", arguments)},
                        {"reference",
                         {{"technique", comparison.reference_params.get_word("technique")},
-                         {"changed_params", changed_params(comparison.reference_params)}}},
+                         {"changed_params", io::changed_params(comparison.reference_params)}}},
                        {"width", options.size.width},
                        {"height", options.size.height},
                        {"frames", options.frames ? options.frames->count() : 1},
                        {"maps", "drawn anew in every frame"},
-                       {"backend", comparison.backend},
-                       {"device", io::to_json(comparison.device)},
+                       {"backend", comparison.drawn_by.backend},
+                       {"device", comparison.drawn_by.device},
                        {"scenes", std::move(scenes)}});
 }
 

@@ -27,9 +27,13 @@ void write_png(const std::filesystem::path& path, int width, int height, int cha
   write(path, [&] { return encode_png(width, height, channels, pixels, metadata); });
 }
 
+std::vector<std::byte> encode_exr(int width, int height, std::span<const Layer> layers, const Metadata& metadata) {
+  return image_library().encode_exr("picture.exr", width, height, layers, metadata);
+}
+
 void write_exr(const std::filesystem::path& path, int width, int height, std::span<const Layer> layers,
                const Metadata& metadata) {
-  write(path, [&] { return image_library().encode_exr(path.string(), width, height, layers, metadata); });
+  write(path, [&] { return encode_exr(width, height, layers, metadata); });
 }
 
 }  // namespace penumbra::image

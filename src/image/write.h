@@ -29,6 +29,8 @@ void write_png(const std::filesystem::path& path, int width, int height, int cha
 // The bytes that write_png() writes.
 std::vector<std::byte> encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels,
                                   const Metadata& metadata = {});
+// The bytes that write_exr() writes.
+std::vector<std::byte> encode_exr(int width, int height, std::span<const Layer> layers, const Metadata& metadata = {});
 // Writes 32-bit floats, linear.
 void write_exr(const std::filesystem::path& path, int width, int height, std::span<const Layer> layers,
                const Metadata& metadata = {});

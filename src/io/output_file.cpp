@@ -186,6 +186,15 @@ void refuse_all_but_files(const fs::path& path, const fs::path& target) {
   if (access(target.c_str(), W_OK) != 0) fail_write(path, std::strerror(errno));
 }
 
+// Waits until a file's content, or a folder's entries, are on the disk. Some network file systems refuse it for
+// folders.
+void sync(const fs::path& name, const fs::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int fault = file < 0 || fsync(file) != 0 ? errno : 0;
+  if (file >= 0) close(file);
+  if (fault != 0 && fault != EINVAL) fail_write(name, std::strerror(fault));
+}
+
 // The missing folders above a file at `path`, outermost first.
 std::vector<fs::path> missing_folders(const fs::path& path) {
   std::vector<fs::path> missing;
@@ -229,8 +238,12 @@ void OutputFile::remove_made_folders() noexcept {
   for (; !made_.empty(); made_.pop_back()) rmdir(made_.back().c_str());
 }
 
-void OutputFile::write(std::string_view text) {
-  std::ofstream stream(temporary_, std::ios::binary);
+void OutputFile::write(std::string_view text) { write_in(std::ios::trunc, text); }
+
+void OutputFile::append(std::string_view text) { write_in(std::ios::app, text); }
+
+void OutputFile::write_in(std::ios::openmode mode, std::string_view text) {
+  std::ofstream stream(temporary_, std::ios::binary | mode);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream.close();
   if (!stream) fail_write(path_, std::strerror(errno));
@@ -241,6 +254,13 @@ void OutputFile::commit() {
   take_permissions(temporary_, target_);
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_write(path_, std::strerror(errno));
   committed_ = true;
+}
+
+void OutputFile::commit_durably() {
+  if (stream_) return commit();
+  sync(path_, temporary_);
+  commit();
+  sync(path_, folder_of(target_));
 }
 
 void check_writable(const fs::path& path) {

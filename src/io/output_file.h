@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <ios>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,13 +26,19 @@ class OutputFile {
 
   // The temporary file to write to; it exists and is empty.
   const std::filesystem::path& temporary() const { return temporary_; }
-  // Writes `text` as the content of the temporary. Throws Error if the disk is full or the file exceeds a limit.
+  // Writes `text` as the content of the temporary, or adds it to that. Throws Error if the disk is full or the file
+  // exceeds a limit.
   void write(std::string_view text);
+  void append(std::string_view text);
   // Puts the temporary in place of the file, or writes its content to a device, a pipe or an open file. Throws Error if
   // the system refuses.
   void commit();
+  // The same, and waits until content and name are on the disk: what happens to the machine afterwards, the file is
+  // whole.
+  void commit_durably();
 
  private:
+  void write_in(std::ios::openmode mode, std::string_view text);
   void remove_made_folders() noexcept;
 
   std::filesystem::path path_, target_, temporary_;

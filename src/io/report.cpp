@@ -77,6 +77,14 @@ Json to_json(const ParamSet& params) {
   return values;
 }
 
+Json changed_params(const ParamSet& params) {
+  Json changed = Json::object();
+  for (const Param& param : params.rows()) {
+    if (!params.is_default(param.name)) changed[param.name] = to_json(params.value(param.name));
+  }
+  return changed;
+}
+
 Json to_json(const Param& param) {
   Json json = {{"name", param.name}, {"type", type_name(param)}, {"default", to_json(param.default_value)}};
   if (!param.choices.empty()) {

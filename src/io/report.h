@@ -39,6 +39,8 @@ Json to_json(const scene::SceneInfo& scene);
 Json to_json(const ParamValue& value);
 // Every parameter's value by name.
 Json to_json(const ParamSet& params);
+// The same of those that differ from their defaults.
+Json changed_params(const ParamSet& params);
 // A parameter's declaration.
 Json to_json(const Param& param);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <string_view>
 
@@ -56,43 +57,66 @@ constexpr std::string_view picture_bar =
     "<span class='hint'>Zoomed in, drag a picture or use the arrow keys: all pictures show the same spot.</span>"
     "</div>\n";
 
-Html body(const Page& page) {
-  Html sections;
-  for (std::size_t i = 0; i < page.sections.size(); ++i) {
-    const Section& section = page.sections[i];
-    sections.add(fmt::format("<section aria-labelledby='{0}'>\n<h2 id='{0}'>", id_of(i)));
-    sections.text(section.title).add("</h2>\n").add(section.body).add("</section>\n");
-  }
-  bool pictures = false;
-  for (const Html::Part& part : sections.parts()) pictures = pictures || part.picture.png != nullptr;
-  Html html("<body>\n");
-  html.add(header(page)).add(contents(page));
-  if (pictures) html.add(picture_bar);
-  html.add("<main>\n").add(sections).add("</main>\n");
-  if (!page.footer.empty()) html.add("<footer>").text(page.footer).add("</footer>\n");
-  return html;
+bool has_pictures(const Page& page) {
+  return std::ranges::any_of(page.sections, [](const Section& section) {
+    return std::ranges::any_of(section.body.parts(),
+                               [](const Html::Part& part) { return part.picture.png != nullptr; });
+  });
 }
 
 // The first <img> of a picture holds its data; page.js copies it to the others.
-std::string with_pictures(const Html& html) {
-  std::map<std::string_view, std::size_t> numbers;  // by the pictures' bytes
-  std::string text;
-  for (const Html::Part& part : html.parts()) {
-    text += part.markup;
-    if (!part.picture.png) continue;
-    const std::vector<std::byte>& png = *part.picture.png;
-    const std::string_view bytes(reinterpret_cast<const char*>(png.data()), png.size());
-    const auto [entry, is_new] = numbers.try_emplace(bytes, numbers.size() + 1);
-    text += is_new ? fmt::format(" id='picture-{}' src='{}'", entry->second, data_uri(part.picture))
-                   : fmt::format(" data-same-as='picture-{}'", entry->second);
+class Writer {
+ public:
+  explicit Writer(const std::function<void(std::string_view)>& write) : write_(write) {}
+
+  void add(std::string_view markup) { write_(markup); }
+
+  void add(const Html& html) {
+    for (const Html::Part& part : html.parts()) {
+      write_(part.markup);
+      if (part.picture.png) write_(source_of(part.picture));
+    }
   }
-  return text;
-}
+
+ private:
+  std::string source_of(const EncodedPicture& picture) {
+    const std::vector<std::byte>& png = *picture.png;
+    const std::string_view bytes(reinterpret_cast<const char*>(png.data()), png.size());
+    const auto [entry, is_new] = numbers_.try_emplace(bytes, numbers_.size() + 1);
+    return is_new ? fmt::format(" id='picture-{}' src='{}'", entry->second, data_uri(picture))
+                  : fmt::format(" data-same-as='picture-{}'", entry->second);
+  }
+
+  const std::function<void(std::string_view)>& write_;
+  std::map<std::string_view, std::size_t> numbers_;  // by the pictures' bytes
+};
 
 }  // namespace
 
+void write_text(const Page& page, const std::function<void(std::string_view)>& write) {
+  Writer writer(write);
+  writer.add(head(page));
+  writer.add("<body>\n");
+  writer.add(header(page));
+  writer.add(contents(page));
+  if (has_pictures(page)) writer.add(picture_bar);
+  writer.add("<main>\n");
+  for (std::size_t i = 0; i < page.sections.size(); ++i) {
+    const Section& section = page.sections[i];
+    writer.add(
+        fmt::format("<section aria-labelledby='{0}'>\n<h2 id='{0}'>{1}</h2>\n", id_of(i), escape(section.title)));
+    writer.add(section.body);
+    writer.add("</section>\n");
+  }
+  writer.add("</main>\n");
+  if (!page.footer.empty()) writer.add(fmt::format("<footer>{}</footer>\n", escape(page.footer)));
+  writer.add(fmt::format("<script>\n{}</script>\n</body>\n</html>\n", page_js()));
+}
+
 std::string to_text(const Page& page) {
-  return head(page) + with_pictures(body(page)) + fmt::format("<script>\n{}</script>\n</body>\n</html>\n", page_js());
+  std::string text;
+  write_text(page, [&text](std::string_view part) { text += part; });
+  return text;
 }
 
 }  // namespace penumbra::report

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,7 +26,11 @@ struct Page {
   std::string footer;  // what made the page
 };
 
-// The text of the file. A picture that the page shows several times is stored once.
+// Gives the text of the file in parts, so that a large page is not in memory a second time. A picture that the page
+// shows several times is stored once.
+void write_text(const Page& page, const std::function<void(std::string_view)>& write);
+
+// The whole text.
 std::string to_text(const Page& page);
 
 }  // namespace penumbra::report

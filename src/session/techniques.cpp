@@ -104,6 +104,15 @@ void choose_technique(ParamSet& params, const shadow::Registry& registry, const 
   registry.select(params, name);
 }
 
+std::string earlier_frames_matter(const ParamSet& params) {
+  if (params.get_bool("history.reuse") && params.get_word("denoiser") != "none") return "history.reuse";
+  // Points follow the number of frames since the first one.
+  for (const char* sequence : {"sampling.blocker_sequence", "sampling.filter_sequence"}) {
+    if (params.get_word(sequence) != "still") return sequence;
+  }
+  return {};
+}
+
 truth::TechniqueOptions truth_options(const CacheOptions& cache, const cli::DeviceOptions& device,
                                       truth::TechniqueOptions more) {
   more.cache = cache.folder();

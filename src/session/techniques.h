@@ -38,6 +38,10 @@ constexpr const char* usual_technique = "slices_denoised";
 // one preset do not stay with the next.
 void choose_technique(ParamSet& params, const shadow::Registry& registry, const std::string& name);
 
+// What makes each frame depend on those before it, as the parameter that causes it ("history.reuse"); empty: nothing
+// does, so that a sequence can be drawn in parts.
+std::string earlier_frames_matter(const ParamSet& params);
+
 // The technique `truth` as the options have it: where its pictures are kept, how many threads trace. `more` has the
 // rest.
 truth::TechniqueOptions truth_options(const CacheOptions& cache, const cli::DeviceOptions& device,

@@ -220,6 +220,17 @@ class Refusals(TestCase):
         self.succeed("compare", POSTS, "-o", self.folder / "report", "--technique", "truth:truth.samples=8", *arguments)
         self.assertEqual(len([path for path in (self.folder / "kept").rglob("*") if path.is_file()]), 1)
 
+    def test_the_size_of_a_cache(self):
+        folder = self.folder / "cache"
+        truth = ("--technique", "hard", "--spp", "8", "--no-cost", "--cache", folder)
+        for size, kept in (("1KiB", 0), ("1MiB", 1)):
+            self.succeed("compare", POSTS, "-o", self.folder / "report", *SMALL, *truth, "--cache-size", size)
+            self.assertEqual(len(list(folder.glob("*.truth"))), kept)
+        for size in ("", "0", "1.5GiB", "-3", "many", "99999999999999999999"):
+            self.refuse("compare", POSTS, "-o", self.folder / "x", *truth, "--cache-size", size, code=2)
+        self.assertIn("exclude each other", self.refuse("compare", POSTS, "-o", self.folder / "x", *truth[:-2], "--no-cache",
+                                                        "--cache-size", "1GiB", code=2))
+
     def test_values_out_of_range(self):
         self.assertIn("pcss.filter_taps", self.refused("--technique", "pcss:pcss.filter_taps=-1"))
 

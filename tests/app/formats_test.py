@@ -60,6 +60,23 @@ class Formats(TestCase):
             self.succeed("bench", scene("steps"), *arguments, *TINY, "--frames", "1", "-o", self.folder / "x.json")
             self.check("bench", self.written("x.json"))
 
+    def test_plan_and_result(self):
+        frames = ("--technique", "pcss", "--frames", "0:2", "--frames-per-item", "2")
+        for command, *arguments in (["compare", scene("steps"), scene("gallery"), "--technique", "hard", "--spp", "8"],
+                                    ["compare", scene("moving"), "--technique", "hard,pcf", "--frames", "0:1", "--no-cost",
+                                     "--spp", "8"],
+                                    ["render", scene("moving"), *frames], ["truth", scene("steps"), "--spp", "8"],
+                                    ["render", scene("gallery"), "--no-sun", "--camera", "0"],
+                                    ["bench", scene("steps"), "--technique", "hard", "--floor", "--frames", "1"],
+                                    ["bench", "--sweep", "casters", "--frames", "1"]):
+            self.succeed("plan", command, *arguments, *TINY, "-o", self.folder / "x.json")
+            self.check("plan", self.written("x.json"))
+            self.succeed("work", self.folder / "x.json", "--item", "0")
+        results = list(self.folder.rglob("*.result"))
+        self.assertEqual(len(results), 7)
+        for path in results:
+            self.check("result", json.loads(path.read_bytes().split(b"\n", 1)[0]))
+
     def test_reproduce(self):
         self.succeed("reproduce", "--quick", *TINY, "-o", self.folder / "report")
         self.check("reproduce", self.written("report/figures.json"))

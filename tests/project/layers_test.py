@@ -20,7 +20,8 @@ BELOW = {
     "truth": {"render", "shadow", "io", "scene", "gl", "core"},
     "cli": {"render", "shadow", "io", "scene", "gl", "core"},
     "session": {"cli", "truth", "render", "shadow", "io", "scene", "gl", "core"},
-    "bench": {"session", "cli", "report", "render", "shadow", "io", "scene", "gl", "core"},
+    "plan": {"session", "cli", "render", "shadow", "io", "scene", "gl", "core"},
+    "bench": {"plan", "session", "cli", "report", "render", "shadow", "io", "scene", "gl", "core"},
     "viewer": {"session", "cli", "truth", "metrics", "image", "render", "shadow", "io", "scene", "gl", "core"},
 }
 BELOW["compare"] = BELOW["reproduce"] = BELOW["bench"] | {"bench", "truth", "image", "metrics"}
@@ -45,8 +46,9 @@ LIBRARIES = {
     "xxhash.h": {"io"},
     "OpenImageIO/": {"image"},
     "png.h": {"image"},
+    "zlib.h": {"image"},
     "toml++/": {"core"},
-    "nlohmann/": {"scene", "io", "report", "cli", "bench", "compare", "reproduce", "viewer", "app"},
+    "nlohmann/": {"scene", "io", "report", "cli", "plan", "bench", "compare", "reproduce", "viewer", "app"},
     "CLI/": {"cli", "session", "bench", "compare", "reproduce", "viewer", "app"},
 }
 

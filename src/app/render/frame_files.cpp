@@ -8,6 +8,7 @@
 #include "app/metadata.h"
 #include "cli/command_line.h"
 #include "image/write.h"
+#include "io/output_file.h"
 #include "render/aov_picture.h"
 
 namespace penumbra::app {
@@ -32,23 +33,25 @@ std::vector<float> read_layer(const render::Renderer& renderer, const RenderOpti
   return layer;
 }
 
-void write_pngs(const render::Renderer& renderer, const RenderOptions& options, const cli::OutputNames& names,
-                int frame) {
+std::vector<cli::EncodedFile> pngs(const render::Renderer& renderer, const RenderOptions& options,
+                                   const cli::OutputNames& names, int frame) {
   const auto [width, height] = options.size;
   const image::Metadata metadata{{"Software", cli::version()}};
   const render::ByteImage display = render::display_bytes(renderer.read_display(), width, height, options.supersample);
-  image::write_png(names.picture(frame), width, height, display.channels, display.pixels, metadata);
+  std::vector<cli::EncodedFile> files{
+      {names.picture(frame), image::encode_png(width, height, display.channels, display.pixels, metadata)}};
   for (const std::string& name : options.aovs) {
     if (name == color_name) continue;
     const render::Aov& aov = find_aov(name);
     const render::ByteImage bytes =
         render::aov_bytes(name, static_cast<int>(aov.channels.size()), read_layer(renderer, options, aov));
-    image::write_png(names.aov(frame, name), width, height, bytes.channels, bytes.pixels, metadata);
+    files.push_back({names.aov(frame, name), image::encode_png(width, height, bytes.channels, bytes.pixels, metadata)});
   }
+  return files;
 }
 
-void write_layers(const render::Renderer& renderer, const RenderOptions& options, const image::Metadata& metadata,
-                  const cli::OutputNames& names, int frame) {
+cli::EncodedFile exr(const render::Renderer& renderer, const RenderOptions& options, const image::Metadata& metadata,
+                     const cli::OutputNames& names, int frame) {
   std::vector<std::string> wanted{std::string(color_name)};
   std::remove_copy(options.aovs.begin(), options.aovs.end(), std::back_inserter(wanted), color_name);
   std::vector<image::Layer> layers;
@@ -56,19 +59,26 @@ void write_layers(const render::Renderer& renderer, const RenderOptions& options
     const render::Aov& aov = find_aov(name);
     layers.push_back({name == color_name ? "" : name, aov.channels, read_layer(renderer, options, aov)});
   }
-  image::write_exr(names.picture(frame), options.size.width, options.size.height, layers, metadata);
+  return {names.picture(frame), image::encode_exr(options.size.width, options.size.height, layers, metadata)};
 }
 
 }  // namespace
 
+std::vector<cli::EncodedFile> encoded_frame(const session::RenderSession& session, const RenderOptions& options,
+                                            const ParamSet& params, const cli::OutputNames& names, int frame) {
+  const render::Renderer& renderer = session.renderer();
+  try {
+    if (!names.is_exr()) return pngs(renderer, options, names, frame);
+    return {exr(renderer, options, metadata_of(options, session.setup(), params, frame), names, frame)};
+  } catch (const Error& error) {
+    fail("cannot write {}: {}", io::quoted(names.picture(frame)), error.what());
+  }
+}
+
 void write_frame(const session::RenderSession& session, const RenderOptions& options, const ParamSet& params,
                  const cli::OutputNames& names, int frame) {
-  const render::Renderer& renderer = session.renderer();
-  if (names.is_exr()) {
-    write_layers(renderer, options, metadata_of(options, session.setup(), params, frame), names, frame);
-  } else {
-    write_pngs(renderer, options, names, frame);
-  }
+  for (const cli::EncodedFile& file : encoded_frame(session, options, params, names, frame))
+    io::write_text(file.path, {reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()});
 }
 
 }  // namespace penumbra::app

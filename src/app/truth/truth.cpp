@@ -1,21 +1,20 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/metadata.h"
+#include "app/truth/options.h"
+#include "app/truth/picture.h"
 #include "cli/input_files.h"
 #include "cli/no_effect.h"
 #include "cli/output_names.h"
 #include "cli/progress.h"
 #include "cli/signals.h"
 #include "image/read.h"
-#include "image/write.h"
 #include "io/output_file.h"
-#include "session/cache_options.h"
 #include "session/prepared_scene.h"
 #include "session/render_session.h"
 #include "session/techniques.h"
@@ -24,61 +23,6 @@
 namespace penumbra::app {
 
 namespace {
-
-using cli::add_value;
-
-struct TruthOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions, session::CacheOptions {
-  std::string output;
-  std::optional<std::string> samples, error, seed;
-  bool quiet = false;
-};
-
-void add_truth_options(CLI::App& app, TruthOptions& o) {
-  cli::add_scene_option(app, o);
-  app.add_option("-o,--output", o.output,
-                 "File to write: .exr (layers shadow, standard_error, hard, receiver) or .png (shadow alone, 8 bits)")
-      ->required()
-      ->type_name("FILE");
-  add_value(app, "--spp", "N", "Rays of each pixel; short for --set truth.samples=N (256)",
-            [&o](const auto& text) { o.samples = text; });
-  add_value(app, "--error", "E", "Standard error to reach in 99.9 % of pixels; short for --set truth.error=E",
-            [&o](const auto& text) { o.error = text; });
-  add_value(app, "--seed", "N", "Seed of the sample points; short for --set truth.seed=N",
-            [&o](const auto& text) { o.seed = text; });
-  cli::add_size_option(app, o);
-  cli::add_view_options(app, o);
-  cli::add_time_options(app, o);
-  cli::add_shadow_options(app, o);
-  session::add_cache_options(app, o);
-  app.add_flag("--quiet,-q", o.quiet, "No progress and no summary")->disable_flag_override();
-  cli::add_device_options(app, o);
-}
-
-// The short options are applied before every --set, as --sun-angle is.
-ParamSet params_of(const TruthOptions& options, const shadow::Registry& registry) {
-  auto all = static_cast<const cli::ShadowOptions&>(options);
-  all.technique = "truth";
-  std::vector<std::string> assignments;
-  const auto add = [&](const char* name, const std::optional<std::string>& text) {
-    if (text) assignments.push_back(fmt::format("{}={}", name, *text));
-  };
-  add("truth.samples", options.samples);
-  add("truth.error", options.error);
-  add("truth.seed", options.seed);
-  all.assignments.insert(all.assignments.begin(), assignments.begin(), assignments.end());
-  return cli::resolve_params(all, registry);
-}
-
-// Reverses the order of rows that are stored from bottom to top.
-std::vector<float> from_top(const std::vector<float>& rows, int width) {
-  std::vector<float> flipped;
-  flipped.reserve(rows.size());
-  for (auto row = rows.end(); row != rows.begin();) {
-    row -= width;
-    flipped.insert(flipped.end(), row, row + width);
-  }
-  return flipped;
-}
 
 // The standard error that 99.9 % of the receivers stay below.
 float error_of_most(const truth::TruthTechnique::Last& last) {
@@ -90,24 +34,6 @@ float error_of_most(const truth::TruthTechnique::Last& last) {
   const std::size_t rank = errors.size() - 1 - errors.size() / 1000;
   std::ranges::nth_element(errors, errors.begin() + static_cast<std::ptrdiff_t>(rank));
   return errors[rank];
-}
-
-void write(const cli::OutputNames& names, int frame, const cli::Size& size, const truth::TruthTechnique::Last& last,
-           const image::Metadata& metadata) {
-  const truth::Traced& traced = last.traced;
-  const std::filesystem::path path = names.picture(frame);
-  const std::vector<float> shadow = from_top(traced.visibility, size.width);
-  if (!names.is_exr()) {
-    std::vector<std::uint8_t> bytes;
-    for (const float v : shadow) bytes.push_back(static_cast<std::uint8_t>(std::lround(v * 255.0f)));
-    image::write_png(path, size.width, size.height, 1, bytes, metadata);
-    return;
-  }
-  const std::vector<image::Layer> layers{{"shadow", {"V"}, shadow},
-                                         {"standard_error", {"V"}, from_top(traced.standard_error, size.width)},
-                                         {"hard", {"V"}, from_top(traced.hard, size.width)},
-                                         {"receiver", {"V"}, from_top(last.receiver, size.width)}};
-  image::write_exr(path, size.width, size.height, layers, metadata);
 }
 
 std::string summary(const std::filesystem::path& path, const cli::Size& size, const truth::TruthTechnique::Last& last) {
@@ -160,7 +86,9 @@ void trace_files(TruthOptions options) {
   std::string last_line;
   for (int frame = range.first; frame <= range.last; ++frame) {
     session.draw(frame, params);
-    write(names, frame, options.size, truth.last(), metadata_of(options, session.setup(), params, frame));
+    const cli::EncodedFile file =
+        encoded_picture(names, frame, options.size, truth.last(), metadata_of(options, session.setup(), params, frame));
+    io::write_text(file.path, {reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()});
     if (range.count() > 1) progress->step();
     last_line = summary(names.picture(frame), options.size, truth.last());
   }
@@ -175,9 +103,7 @@ int run_truth(const Arguments& arguments) {
   TruthOptions options;
   add_truth_options(app, options);
   if (!cli::parse(app, arguments)) return 0;
-  cli::check_together(static_cast<const cli::SceneOptions&>(options));
-  cli::check_together(static_cast<const cli::DeviceOptions&>(options));
-  check_together(static_cast<const session::CacheOptions&>(options));
+  check_together(options);
   trace_files(std::move(options));
   return 0;
 }

@@ -1,0 +1,117 @@
+#include "plan/scene_facts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <system_error>
+#include <variant>
+
+#include "scene/drawn.h"
+#include "scene/scene_info.h"
+
+namespace penumbra::plan {
+
+namespace {
+
+namespace fs = std::filesystem;
+using io::Json;
+
+constexpr double mebibyte = 1024.0 * 1024.0;
+
+Json json_of(const glm::vec3& v) {
+  Json list = Json::array();
+  for (int i = 0; i < 3; ++i) list.push_back(io::to_json(ParamValue(v[i])));
+  return list;
+}
+
+double degrees(double x, double y) { return std::round(glm::degrees(std::atan2(x, y)) * 1e4) / 1e4; }
+
+Json json_of(const render::SunLight& sun) {
+  const glm::dvec3 v(sun.to_light);
+  return {{"azimuth_degrees", degrees(v.x, v.z)}, {"elevation_degrees", degrees(v.y, std::hypot(v.x, v.z))}};
+}
+
+Json json_of(const render::LampLight& lamp) { return {{"position", json_of(lamp.position)}}; }
+
+Json view_of(const render::Setup& setup) {
+  const render::Camera& camera = setup.camera;
+  const glm::vec3 forward = -glm::vec3(camera.view[0][2], camera.view[1][2], camera.view[2][2]);
+  const std::vector<render::FrameLight> lights = render::frame_lights(setup);
+  const bool is_sun = std::holds_alternative<render::SunLight>(lights.front());
+  return {{"camera", {{"eye", json_of(render::position_of(camera))}, {"forward", json_of(forward)}}},
+          {is_sun ? "sun" : "lamp", std::visit([](const auto& light) { return json_of(light); }, lights.front())}};
+}
+
+// All files in the folder, at any depth, in the order of their names.
+void add_shaders(std::vector<fs::path>& files, const fs::path& folder) {
+  std::vector<fs::path> shaders;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) shaders.push_back(entry.path());
+  }
+  std::ranges::sort(shaders);
+  files.insert(files.end(), shaders.begin(), shaders.end());
+}
+
+// Sample points of a technique that every pixel reads, or rays.
+double points_of(const ParamSet& params, const shadow::Registry& registry) {
+  const std::string& name = params.get_word("technique");
+  if (name == "truth") return params.get_int("truth.samples");
+  double points = 0;
+  for (const shadow::SampleSet& set : registry.find(name).samples) points += params.get_int(set.count_parameter);
+  return points;
+}
+
+}  // namespace
+
+scene::ImageDecoder ImageSizes::decoder() {
+  return {[this](std::span<const std::byte> encoded, const std::string& name) {
+            bytes_ += static_cast<double>(probe_(scene::reader_of(encoded)).decoded_bytes);
+            return scene::Image{.name = name, .width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
+          },
+          probe_};
+}
+
+SceneFacts facts_of(const session::PreparedScene& prepared, const cli::DeviceOptions& device,
+                    const ImageSizes& images) {
+  const scene::Scene& scene = prepared.scene;
+  SceneFacts facts{.view = view_of(prepared.setup), .files = scene.files};
+  if (!device.glsl.empty()) add_shaders(facts.files, device.glsl);
+  facts.triangles = static_cast<double>(scene::count_drawn(scene).triangles);
+  facts.lights = static_cast<double>(render::shadowed_lights(prepared.setup).size());
+  for (const fs::path& file : facts.files) {
+    std::error_code unread;
+    const std::uintmax_t bytes = fs::file_size(file, unread);
+    if (!unread) facts.bytes += static_cast<double>(bytes);
+  }
+  facts.decoded_mib = (images.bytes() + static_cast<double>(scene::describe(scene).gpu_vertex_bytes)) / mebibyte;
+  return facts;
+}
+
+Estimate estimate_of(const SceneFacts& facts, const cli::Size& pixels, std::span<const Drawn> drawn,
+                     const shadow::Registry& registry, double kept_bytes) {
+  // Seconds: of a start; of reading a MiB; of a frame's triangle; of a pixel; of a sample point or a ray of a pixel.
+  constexpr double start = 1, per_mib = 0.02, per_triangle = 1e-6, per_pixel = 1e-6, per_tap = 2e-8, per_ray = 1e-7;
+  // MiB: of the program with its driver; copies of the scene (read, uploaded, traced); bytes of a pixel's targets.
+  constexpr double program = 250, scene_copies = 3, per_target_pixel = 110;
+  constexpr double tracer = 100, per_traced_triangle = 300;  // MiB of a ray tracer, and bytes of a triangle in it
+  constexpr double per_texel = 6;                            // bytes of a map and its pyramids
+  const double count = 1.0 * pixels.width * pixels.height;
+  Estimate estimate{.seconds = start + per_mib * facts.bytes / mebibyte};
+  double maps = 0, traced = 0;
+  for (const Drawn& one : drawn) {
+    const bool is_traced = one.params->get_word("technique") == "truth";
+    const double points = points_of(*one.params, registry);
+    estimate.seconds += one.frames * (facts.triangles * facts.lights * per_triangle +
+                                      count * (per_pixel + facts.lights * points * (is_traced ? per_ray : per_tap)));
+    if (is_traced) traced = tracer * mebibyte + facts.triangles * per_traced_triangle;
+    const double side = one.params->get_int("cascades.size");
+    maps += is_traced ? 0 : facts.lights * side * side * one.params->get_int("cascades.count") * per_texel;
+  }
+  const double targets = count * per_target_pixel * static_cast<double>(drawn.size());
+  estimate.memory_mib =
+      program + scene_copies * facts.decoded_mib + (maps + traced + targets + count * kept_bytes) / mebibyte;
+  const auto rounded = [](double value) { return std::ceil(value * 10) / 10; };
+  return {.seconds = rounded(estimate.seconds), .memory_mib = rounded(estimate.memory_mib)};
+}
+
+}  // namespace penumbra::plan

@@ -1,0 +1,319 @@
+"""penumbra plan, work and merge: the report of items that were drawn one by one is that of the whole command."""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+
+from pictures import scene
+from plans import COMPARED, TINY, Plans, validator
+from support import PROGRAM, main, run, wait_until_it_catches
+
+SEQUENCE = (scene("moving"), "--technique", "pcss", "--set", "cascades.size=256", *TINY)
+
+
+class Compared(Plans):
+    def test_the_same_report_as_one_process(self):
+        # The report names its folder, so both are written to the same one.
+        self.succeed("compare", *COMPARED, "--no-cost", "-o", self.folder / "report")
+        whole = self.contents("report")
+        self.assertEqual(sorted(whole), ["index.html", "results.csv", "results.json"])
+        counts = self.make("compare", *COMPARED, "--no-cost")
+        self.assertEqual(counts["items"], "6")
+        for item in (5, 0, 3, 1, 4, 2):
+            self.work("--item", item)
+        self.assertEqual(self.merge("report"), whole)
+
+    def test_a_sequence_with_an_orbit_and_a_history(self):
+        arguments = (scene("moving"), "--technique", "thesis,hard", "--frames", "0:17", "--orbit", "1", "--spp", "8",
+                     "--size", "48x27", "--set", "cascades.size=256", "--no-cache", "--no-cost")
+        self.succeed("compare", *arguments, "-o", self.folder / "report")
+        whole = self.contents("report")
+        self.make("compare", *arguments)
+        self.work()
+        self.assertEqual(self.merge("report"), whole)
+
+    def test_several_lights(self):
+        arguments = (scene("gallery"), "--technique", "hard,pcf", "--spp", "8", *TINY,
+                     "--no-cache", "--no-cost")
+        self.succeed("compare", *arguments, "-o", self.folder / "report")
+        whole = self.contents("report")
+        self.make("compare", *arguments)
+        self.work()
+        self.assertEqual(self.merge("report"), whole)
+
+    def test_techniques_that_are_timed_stay_together(self):
+        arguments = (*COMPARED, "--cost-frames", "1")
+        self.assertEqual(self.make("compare", *arguments)["items"], "2")
+        self.work()
+        first, again = self.merge("report"), self.merge("report")
+        self.assertEqual(first, again, "a merge of the same results")
+        merged = json.loads(first["results.json"])
+        self.succeed("compare", *arguments, "-o", self.folder / "report")
+        whole = json.loads(self.contents("report")["results.json"])
+        for document in (merged, whole):
+            for one in document["scenes"]:
+                for technique in one["techniques"]:
+                    self.assertGreater(technique.pop("cost")["median_ms"], 0)
+        self.assertEqual(merged, whole)
+
+    def test_a_report_without_costs_has_none(self):
+        self.succeed("compare", *COMPARED, "--no-cost", "-o", self.folder / "report")
+        report = self.contents("report")
+        document = json.loads(report["results.json"])
+        self.assertTrue(validator("compare").is_valid(document))
+        self.assertEqual({technique["cost"] for one in document["scenes"] for technique in one["techniques"]}, {None})
+        self.assertNotIn(b"Cost against error", report["index.html"])
+        self.assertIn("--cost-frames", self.refuse("compare", *COMPARED, "--no-cost", "--cost-frames", "2", "-o",
+                                                   self.folder / "x", code=2))
+
+
+class Drawn(Plans):
+    def test_frames_of_a_sequence(self):
+        arguments = (*SEQUENCE, "--aov", "shadow,motion", "--frames", "0:6", "--fps", "12")
+        self.succeed("render", *arguments, "-o", self.folder / "whole" / "frame.png")
+        self.assertEqual(self.make("render", *arguments, "--frames-per-item", 2)["items"], "4")
+        self.assertEqual([item["frames"] for item in self.document()["items"]], [[0, 1], [2, 3], [4, 5], [6, 6]])
+        self.work("--items", "1:9")
+        self.work("--item", "0")
+        merged = self.merge()
+        self.assertEqual(len(merged), 21)
+        self.assertEqual(merged, self.contents("whole"))
+
+    def test_layers(self):
+        arguments = (*SEQUENCE, "--aov", "shadow", "--frames", "2:3", "--supersample", "2")
+        self.succeed("render", *arguments, "-o", self.folder / "whole" / "a_##.exr")
+        self.make("render", *arguments, "--frames-per-item", 1, "--file", "a_##.exr")
+        self.work()
+        self.assertEqual(self.merge(), self.contents("whole"))
+
+    def test_a_single_picture(self):
+        arguments = (scene("steps"), *TINY, "--set", "cascades.size=256")
+        self.succeed("render", *arguments, "-o", self.folder / "whole" / "frame.png")
+        self.assertEqual(self.make("render", *arguments)["items"], "1")
+        self.work()
+        self.assertEqual(self.merge(), self.contents("whole"))
+
+    def test_where_frames_depend_on_each_other(self):
+        arguments = (scene("moving"), "--technique", "thesis", *TINY, "--set", "cascades.size=256", "--frames", "0:8")
+        result = self.succeed("plan", "render", *arguments, "-o", self.plan)
+        self.assertIn("items 1\n", result.stdout)
+        self.assertIn("warning: each frame depends on those before it (history.reuse), so", result.stderr)
+        self.succeed("render", *arguments, "-o", self.folder / "whole" / "frame.png")
+        self.work()
+        whole = self.contents("whole")
+        self.assertEqual(self.merge("one"), whole)
+        error = self.refuse("plan", "render", *arguments, "-o", self.plan, "--frames-per-item", "3", code=2)
+        self.assertIn("--lead-in", error)
+        # Divided: the first item is exact, and so is one whose lead-in begins where the sequence does.
+        result = self.succeed("plan", "render", *arguments, "-o", self.plan, "--frames-per-item", 3, "--lead-in", 3)
+        self.assertIn("from frame 3 on", result.stderr)
+        self.assertEqual(self.succeed("work", self.plan).stderr, "", "told when the plan was made")
+        divided = self.merge("divided")
+        same = sorted(name for name in whole if divided[name] == whole[name])
+        self.assertEqual(same, [f"frame_{i:04}.png" for i in range(6)])
+
+    def test_traced_frames(self):
+        arguments = (scene("moving"), "--spp", "8", *TINY, "--frames", "0:2", "--no-cache")
+        self.succeed("truth", *arguments, "-o", self.folder / "whole" / "truth.exr")
+        self.make("truth", *arguments, "--frames-per-item", 2)
+        self.work()
+        self.assertEqual(self.merge(), self.contents("whole"))
+
+    def test_options_that_a_plan_does_not_take(self):
+        for arguments, word in ((["--stats", "x.json"], "--stats"), (["--save-preset", "x.toml"], "--save-preset"),
+                                (["--file", "a/b.png"], "folder"), (["--file", "b.gif"], ".png"),
+                                (["--lead-in", "3"], "--frames"), (["-o", "b.json"], "twice")):
+            error = self.refuse("plan", "render", scene("steps"), "-o", self.plan, *arguments, code=2)
+            self.assertIn(word, error)
+        self.assertIn("--lead-in is of no use",
+                      self.refuse("plan", "render", *SEQUENCE, "--frames", "0:3", "--lead-in", 2, "-o", self.plan, code=2))
+        self.assertIn(".json", self.refuse("plan", "render", scene("steps"), "-o", self.folder / "x.png", code=2))
+        self.assertIn("--output is required", self.refuse("plan", "compare", scene("steps"), "--technique", "hard", code=2))
+        self.assertIn("'compare'", self.refuse("plan", "compar", code=2))
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+class Timed(Plans):
+    def test_a_merge_of_the_same_results_is_the_same(self):
+        arguments = (scene("steps"), "--technique", "hard,pcss", "--sweep", "sun_angle", *TINY, "--frames", "1",
+                     "--set", "cascades.size=256")
+        self.assertEqual(self.make("bench", *arguments)["items"], "7")
+        self.work("--items", "3:6")
+        self.work()
+        first = self.merge()
+        self.assertEqual(sorted(first), ["index.html", "results.csv", "results.json"])
+        self.assertEqual(first, self.merge())
+        merged = json.loads(first["results.json"])
+        self.assertTrue(validator("bench").is_valid(merged))
+        # But for times, which are of other frames, it is what one process writes.
+        self.succeed("bench", *arguments, "-o", self.folder / "whole.json")
+        whole = json.loads((self.folder / "whole.json").read_text())
+        for key in ("techniques", "sweep", "sweep_measures", "device", "backend", "timing", "maps", "scene",
+                    "measured_frames", "warmup_frames"):
+            self.assertEqual(merged[key], whole[key], key)
+        for one, other in zip(merged["points"], whole["points"], strict=True):
+            costs = [one.pop("costs"), other.pop("costs")]
+            self.assertEqual(one, other)
+            self.assertEqual(*[[[cost["label"], cost["shadow_bytes"]] for cost in list_] for list_ in costs])
+        self.assertEqual([model["label"] for model in merged["models"]], ["hard", "pcss"])
+
+    def test_floors_and_whole_frames(self):
+        for more in (["--floor", "--technique", "pcss,hard"], ["--whole-frames"]):
+            self.make("bench", scene("steps"), *more, *TINY, "--frames", "2", "--set", "cascades.size=256")
+            self.work()
+            first = self.merge()
+            self.assertTrue(validator("bench").is_valid(json.loads(first["results.json"])))
+            self.assertEqual(first, self.merge())
+
+
+class Folder(Plans):
+    """What is in the shared folder, and what is done again."""
+
+    def setUp(self):
+        super().setUp()
+        self.make("compare", *COMPARED, "--no-cost")
+        self.keys = [item["key"] for item in self.document()["items"]]
+
+    def file(self, item, ending="result"):
+        return self.folder / "sweep.results" / self.keys[item][:2] / f"{self.keys[item]}.{ending}"
+
+    def test_what_is_there_is_skipped_and_what_is_damaged_is_done_again(self):
+        self.assertEqual(self.work("--items", "0:1"), "2 done, 0 there already, 0 failed\n")
+        before = self.results()
+        self.assertEqual(len(before), 2)
+        self.assertEqual(self.work("--items", "0:1"), "0 done, 2 there already, 0 failed\n")
+        good = self.file(1).read_bytes()
+        for bad in (good[:-1], good[: len(good) // 2], b"", good.replace(b"receivers", b"receivees", 1), good + b"x"):
+            self.file(1).write_bytes(bad)
+            self.assertEqual(self.work("--items", "0:1"), "1 done, 1 there already, 0 failed\n")
+            self.assertEqual(self.results(), before, "a result depends on its item alone")
+
+    def test_missing_items_are_listed(self):
+        self.work("--items", "2:5")
+        result = run("merge", self.plan, "-o", self.folder / "report")
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(result.stdout, "item 0 (steps.glb, hard): not drawn\nitem 1 (posts.glb, hard): not drawn\n")
+        self.assertIn("2 of 6 items", result.stderr)
+        self.assertFalse((self.folder / "report").exists())
+
+    def test_a_damaged_result_stops_a_merge(self):
+        self.work()
+        data = bytearray(self.file(3).read_bytes())
+        data[len(data) // 2] ^= 1
+        self.file(3).write_bytes(data)
+        error = self.refuse("merge", self.plan, "-o", self.folder / "report")
+        self.assertIn("item 3 (posts.glb, pcss:pcss.filter_taps=4): its result", error)
+        self.assertFalse((self.folder / "report").exists())
+
+    def test_failures_leave_their_message_and_are_done_again(self):
+        # There is no device of this number, which is known only when an item opens it.
+        self.make("compare", scene("steps"), "--technique", "hard,pcf", "--spp", "8", *TINY, "--no-cache", "--no-cost",
+                  "--egl-device", "200")
+        self.keys = [item["key"] for item in self.document()["items"]]
+        error = self.refuse("work", self.plan)
+        self.assertIn("2 of 2 items failed, item 0 first: ", error)
+        message = self.file(0, "failed").read_text()
+        self.assertIn("200", message)
+        listed = run("merge", self.plan, "-o", self.folder / "report")
+        self.assertEqual(listed.stdout.splitlines()[0], f"item 0 (steps.glb, hard): failed: {message.strip()}")
+        self.make("compare", *COMPARED, "--no-cost")
+        self.keys = [item["key"] for item in self.document()["items"]]
+        self.file(4, "failed").parent.mkdir(parents=True, exist_ok=True)
+        self.file(4, "failed").write_text("the driver fell over\n")
+        listed = run("merge", self.plan, "-o", self.folder / "report")
+        self.assertIn("item 4 (steps.glb, slices_denoised): failed: the driver fell over", listed.stdout)
+        self.work("--item", "4")
+        self.assertFalse(self.file(4, "failed").exists())
+
+    def test_an_added_technique_leaves_the_other_results(self):
+        self.work()
+        longer = list(COMPARED)
+        longer[3] += ",pcf"
+        self.make("compare", *longer, "--no-cost")
+        self.assertEqual(self.work(), "2 done, 6 there already, 0 failed\n")
+        self.assertEqual(len(json.loads(self.merge()["results.json"])["scenes"][1]["techniques"]), 4)
+
+    def test_keys_depend_on_what_is_drawn(self):
+        def keys(*more, of=COMPARED):
+            self.make("compare", *of, "--no-cost", *more)
+            return {item["key"] for item in self.document()["items"]}
+
+        self.assertEqual(keys("--quiet", "--threads", "1"), set(self.keys))
+        seen = set(self.keys)
+        for more in (["--sun-angle", "2"], ["--set", "maps.layers=2"], ["--eye", "1,2,3", "--target", "0,0,0"],
+                     ["--warmup", "3"], ["--ground", "on"], ["--backend", "osmesa"],
+                     ["--set", "truth.seed=3"]):
+            new = keys(*more)
+            self.assertFalse(seen & new, more)
+            seen |= new
+        # The content of the scene, of files that it refers to, and of shaders.
+        path = self.folder / "scene.glb"
+        path.write_bytes(scene("steps").read_bytes())
+        copied = (path, *COMPARED[2:])
+        first = keys(of=copied)
+        self.assertTrue(first < set(self.keys), "the same content under another name")
+        glsl = self.folder / "glsl"
+        glsl.mkdir()
+        (glsl / "a.glsl").write_text("// one\n")
+        with_shaders = keys("--glsl", glsl, of=copied)
+        (glsl / "a.glsl").write_text("// two\n")
+        self.assertFalse(with_shaders & keys("--glsl", glsl, of=copied))
+
+    def test_a_scene_that_changed_is_refused(self):
+        path = self.folder / "scene.glb"
+        path.write_bytes(scene("steps").read_bytes())
+        self.make("compare", path, *COMPARED[2:], "--no-cost")
+        path.write_bytes(scene("posts").read_bytes())
+        self.assertIn("is not as it was when the plan was made", self.refuse("work", self.plan))
+        self.assertFalse((self.folder / "sweep.results").exists())
+
+    def test_another_folder_for_results_and_other_threads(self):
+        other = self.folder / "elsewhere" / "deep"
+        self.succeed("work", self.plan, "--results", other, "--item", "0", "--threads", "1")
+        self.work("--item", "0", "--threads", "2")
+        found = {path.name: path.read_bytes() for path in other.rglob("*.result")}
+        self.assertEqual(found, {pathlib.Path(name).name: data for name, data in self.results().items()})
+
+    def test_an_array_task_is_an_item(self):
+        environment = {**os.environ, "SLURM_ARRAY_TASK_ID": "2"}
+        self.assertEqual(self.work(env=environment), "1 done, 0 there already, 0 failed\n")
+        self.assertTrue(self.file(2).exists())
+        self.assertEqual(self.work("--item", "1", env=environment), "1 done, 0 there already, 0 failed\n")
+        self.assertTrue(self.file(1).exists())
+        bad = self.refuse("work", self.plan, code=2, env={**os.environ, "SLURM_ARRAY_TASK_ID": "two"})
+        self.assertIn("SLURM_ARRAY_TASK_ID", bad)
+
+    def test_items_that_are_not_there(self):
+        self.assertIn("its items are 0 to 5", self.refuse("work", self.plan, "--item", "6"))
+        self.assertIn("--items", self.refuse("work", self.plan, "--items", "3", code=2))
+
+    def test_the_end_by_a_signal_leaves_nothing_half_written(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            process = subprocess.Popen([PROGRAM, "work", self.plan], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            wait_until_it_catches(number, process)
+            process.send_signal(number)
+            process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 128 + number)
+            for path in self.contents("sweep.results"):
+                self.assertRegex(path, r"^[0-9a-f]{2}/[0-9a-f]{32}\.result$")
+
+    def test_progress_is_for_terminals(self):
+        result = run("work", self.plan, "--item", "0")
+        self.assertEqual(result.stderr, "")
+        self.assertEqual(run("work", self.plan, "--quiet").stdout, "")
+
+    def test_formats(self):
+        self.work("--item", "0")
+        plan = self.document()
+        self.assertEqual([error.message for error in validator("plan").iter_errors(plan)], [])
+        line = self.file(0).read_bytes().split(b"\n", 1)[0]
+        self.assertEqual([error.message for error in validator("result").iter_errors(json.loads(line))], [])
+        shown = self.succeed("plan", "show", self.plan).stdout
+        self.assertEqual(dict(line.split() for line in shown.splitlines()),
+                         {name: str(value) for name, value in plan["estimate"].items()})
+
+
+if __name__ == "__main__":
+    main()
