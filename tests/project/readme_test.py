@@ -108,6 +108,9 @@ class Commands(support.TestCase):
     def test_build_servers(self):
         self.run_page("docs/build-servers.md")
 
+    def test_clusters(self):
+        self.run_page("docs/clusters.md")
+
     def test_formats(self):
         self.run_page("docs/formats.md")
 
