@@ -59,6 +59,12 @@ uint points_of_light(vec2 shift, Light light) {
 // Reads along each side of the grid: odd, so that the receiver is in the middle of a cell.
 const int reads_across = backprojection_reads | 1;
 
+// The tip of the cone from the receiver to the light has this radius, for a square the half side. It smooths the
+// texels' edges as filtering does.
+float tip_radius(Receiver receiver, Light light) {
+  return 0.62 * texel_size(receiver, light) / square_half(1.0, light);
+}
+
 // The part of the map that can hide a part of the light, as cells. Each is read as a block of 2 x 2 texels, which stand
 // for its quarters. Where so few blocks suffice they are all read; else cells are larger, and may grow outwards.
 struct Grid {
@@ -74,7 +80,7 @@ struct Grid {
 Grid grid_of(Receiver receiver, float radius, Light light) {
   vec2 texel = texel_extent(receiver, light);
   float size = texel_size(receiver, light);
-  float reach = radius + 0.5 * size;
+  float reach = radius + tip_radius(receiver, light);
   vec2 place = map_place(receiver.position, light);
   ivec2 first = ivec2(floor(place - reach / texel));
   ivec2 cells = (ivec2(floor(place + reach / texel)) + 2 - first) / 2;
@@ -130,11 +136,11 @@ void hide(inout Cover cover, vec2 low, vec2 high, float height, vec2 noise) {
   cover.blockers += any != 0u ? 1.0 : 0.0;
 }
 
-// The factor that projects offsets at a blocker of that height onto the light's square. The tip of the cone from the
-// receiver to the light has a radius of half a texel, which smooths the texels' edges as filtering does.
+// The factor that projects offsets at a blocker of that height onto the light's square. The sum of third powers widens
+// penumbrae as narrow as texels, of which the map's steps would show, and leaves wider ones as they are.
 float projection(Receiver receiver, float height, Light light) {
-  vec2 radii = vec2(penumbra_radius(receiver, height, light), 0.5 * texel_size(receiver, light));
-  return inversesqrt(dot(radii, radii));
+  vec2 radii = vec2(penumbra_radius(receiver, height, light), tip_radius(receiver, light));
+  return pow(dot(radii * radii, radii), -1.0 / 3.0);
 }
 
 // Hides what a cell hides, if it blocks. `left` and `below`: the projection() of its neighbours that block, else 0;
@@ -237,13 +243,37 @@ void add_cells(inout Cover cover, Grid grid, Receiver receiver, float bias, vec2
   }
 }
 
+// The disc to read, of which `wide` metres can be read without gaps. A caster that is narrower than a texel of the
+// widest layer may be missing from it, and so from light.read_radius.
+float radius_to_read(Receiver receiver, float wide, Light light) {
+  if (light.read_radius < wide) {
+    light.read_radius = max(light.read_radius, min(search_radius(receiver, light), wide));
+  }
+  return fine_edge_radius(receiver, wide, light);
+}
+
+// Where penumbrae are narrower than a texel: the bilinear shadow of the light's centre, as the mean of four points
+// whose variance is that of the penumbra. Where the four texels around the receiver agree it is theirs, as in pixels of
+// decided tiles.
+Visibility narrow_shadow(Receiver receiver, float bias, Light light) {
+  Visibility centre = centre_shadow(receiver, bias, light);
+  if (centre.visibility == 0.0 || centre.visibility == 1.0) return centre;
+  float apart = square_half(centre.penumbra_radius, light) * inversesqrt(3.0);
+  float lit = 0.0;
+  for (int corner = 0; corner < 4; ++corner) {
+    vec2 side = vec2(2 * ivec2(corner & 1, corner >> 1) - 1);
+    lit += lit_share(receiver, apart * side, bias, light);
+  }
+  centre.visibility = 0.25 * lit;
+  return centre;
+}
+
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
   receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
   // Cells of a narrower disc are texels.
-  float radius = fine_edge_radius(receiver, float(reads_across) * texel_size(receiver, light), light);
-  // The map can't show a penumbra so narrow. Where none is near, pixels of decided tiles are computed in this way too.
-  if (radius < 0.5 * texel_size(receiver, light)) return centre_shadow(receiver, bias, light);
+  float radius = radius_to_read(receiver, float(reads_across) * texel_size(receiver, light), light);
+  if (radius < 0.5 * texel_size(receiver, light)) return narrow_shadow(receiver, bias, light);
   vec2 noise = pixel_noise(receiver, filter_step);
   Cover cover = uncovered(noise, light);
   Grid grid = grid_of(receiver, radius, light);
