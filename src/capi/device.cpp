@@ -19,11 +19,11 @@ void load(const penumbra_device& device) {
   loaded = &device;
 }
 
-penumbra_device& idle(penumbra_device* device) {
-  if (required(device, "device").busy) {
-    fail_with(PENUMBRA_ERROR_ARGUMENT, "called from within a callback of the same device");
-  }
-  return *device;
+bool in_call = false;
+
+// Messages of a call go to its device's callback.
+void set_sink(std::optional<penumbra::ThreadLogSink>& sink, const penumbra_device& device) {
+  if (device.log) sink.emplace(device.log);
 }
 
 int32_t level_of(LogLevel level) {
@@ -62,14 +62,18 @@ void release(penumbra_device& device, bool context_is_lost) {
 
 }  // namespace
 
-DeviceCall::DeviceCall(penumbra_device* device) : device_(idle(device)) {
-  if (device_.objects == nullptr) fail_with(PENUMBRA_ERROR_CONTEXT, "the device was abandoned");
-  if (device_.log) sink_.emplace(device_.log);
-  load(device_);
-  device_.busy = true;
+OneCall::OneCall() {
+  if (in_call) fail_with(PENUMBRA_ERROR_ARGUMENT, "called from within a callback of a device");
+  in_call = true;
 }
 
-DeviceCall::~DeviceCall() { device_.busy = false; }
+OneCall::~OneCall() { in_call = false; }
+
+DeviceCall::DeviceCall(penumbra_device* device) : device_(required(device, "device")) {
+  if (device_.objects == nullptr) fail_with(PENUMBRA_ERROR_CONTEXT, "the device was abandoned");
+  set_sink(sink_, device_);
+  load(device_);
+}
 
 const ParamSet& params_of(const penumbra_settings* settings) { return required(settings, "settings").params; }
 
@@ -81,10 +85,16 @@ penumbra_result penumbra_device_create(const penumbra_device_desc* desc, penumbr
   return run("penumbra_device_create", [&] {
     required(device, "device") = nullptr;
     std::unique_ptr<penumbra_device> made = make_device(read_struct(&required(desc, "desc")));
+    const OneCall one;
     std::optional<penumbra::ThreadLogSink> sink;
-    if (made->log) sink.emplace(made->log);
+    set_sink(sink, *made);
     load(*made);
-    made->objects = std::make_unique<DeviceObjects>();
+    try {
+      made->objects = std::make_unique<DeviceObjects>();
+    } catch (...) {
+      loaded = nullptr;
+      throw;
+    }
     *device = made.release();
   });
 }
@@ -92,8 +102,10 @@ penumbra_result penumbra_device_create(const penumbra_device_desc* desc, penumbr
 penumbra_result penumbra_device_destroy(penumbra_device* device) {
   if (device == nullptr) return PENUMBRA_OK;
   return run("penumbra_device_destroy", [&] {
-    idle(device);
+    const OneCall one;
     const std::unique_ptr<penumbra_device> owned(device);
+    std::optional<penumbra::ThreadLogSink> sink;
+    set_sink(sink, *device);
     std::exception_ptr no_context;
     if (device->objects != nullptr) {
       try {
@@ -111,7 +123,9 @@ penumbra_result penumbra_device_destroy(penumbra_device* device) {
 
 penumbra_result penumbra_device_abandon(penumbra_device* device) {
   return run("penumbra_device_abandon", [&] {
-    release(idle(device), /*context_is_lost=*/true);
+    required(device, "device");
+    const OneCall one;
+    release(*device, /*context_is_lost=*/true);
     if (loaded == device) loaded = nullptr;
   });
 }

@@ -30,8 +30,7 @@ struct CasterProgram {
 // The object behind the C interface's pointer to a device.
 struct penumbra_device {
   std::function<void*(const char*)> get_proc;
-  penumbra::LogSink log;  // empty: none of its own
-  bool busy = false;      // a call is running, of which a callback may have been called
+  penumbra::LogSink log;                                   // empty: none of its own
   std::unique_ptr<penumbra::capi::DeviceObjects> objects;  // null: abandoned
   std::map<int, penumbra::shadow::Mask> masks;             // of the last frame, by view
   std::map<penumbra::gl::ProgramDesc, penumbra::capi::CasterProgram> caster_programs;
@@ -39,20 +38,28 @@ struct penumbra_device {
 
 namespace penumbra::capi {
 
+// The scope of any call with a device: refuses to begin within another one, as from a callback. Calls with different
+// devices don't mix either, because OpenGL's entry points belong to the process.
+class OneCall {
+ public:
+  OneCall();
+  ~OneCall();
+  OneCall(const OneCall&) = delete;
+  OneCall& operator=(const OneCall&) = delete;
+};
+
 // The scope of a call with a device: refuses null, abandoned devices and calls from within a callback; OpenGL's entry
 // points are those of the device's driver, and messages go to its callback.
 class DeviceCall {
  public:
   explicit DeviceCall(penumbra_device* device);
-  ~DeviceCall();
-  DeviceCall(const DeviceCall&) = delete;
-  DeviceCall& operator=(const DeviceCall&) = delete;
 
   shadow::SoftShadows& shadows() const { return device_.objects->shadows; }
   gl::Device& gl() const { return device_.objects->device; }
 
  private:
   penumbra_device& device_;
+  OneCall one_;
   std::optional<ThreadLogSink> sink_;
 };
 

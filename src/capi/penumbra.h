@@ -58,7 +58,7 @@ PENUMBRA_API uint32_t penumbra_version(void);
 typedef enum penumbra_result {
   PENUMBRA_OK = 0,             /**< it has done what it says */
   PENUMBRA_ERROR_ARGUMENT = 1, /**< the call itself: a null pointer, a struct's size, a value that is not finite, a call
-                                  from within a callback of the same device */
+                                  from within a callback of a device */
   PENUMBRA_ERROR_REFUSED = 2,  /**< what it was given does not suit: textures, matrices, lights, names or values of
                                   parameters; or the driver can't: a shader does not compile, its memory is full */
   PENUMBRA_ERROR_CONTEXT = 3,  /**< no OpenGL context is current, it can't be drawn with now, it has no OpenGL 4.5, or
@@ -111,12 +111,12 @@ PENUMBRA_API penumbra_result penumbra_device_create(const penumbra_device_desc* 
 
 /** Deletes the device and all its OpenGL objects. Its context must be current. If no context is, the objects are left
  * to their context, and the result is PENUMBRA_ERROR_CONTEXT; the device is gone nevertheless. Null: nothing happens.
- * PENUMBRA_ERROR_ARGUMENT: called from within a callback of the device, which stays. */
+ * PENUMBRA_ERROR_ARGUMENT: called from within a callback of a device; this one stays then. */
 PENUMBRA_API penumbra_result penumbra_device_destroy(penumbra_device* device);
 
 /** For a context that is lost or destroyed: forgets all OpenGL objects without an OpenGL call, so that objects of the
  * same names in a new context stay. Needs no context. Only penumbra_device_destroy() can follow: it then needs none
- * either. PENUMBRA_ERROR_ARGUMENT: null, or called from within a callback of the device. */
+ * either. PENUMBRA_ERROR_ARGUMENT: null, or called from within a callback of a device. */
 PENUMBRA_API penumbra_result penumbra_device_abandon(penumbra_device* device);
 
 /* --------------------------------------------------------------------------------------------------------- Settings */
@@ -278,7 +278,7 @@ typedef struct penumbra_caster_pass {
  * viewport, scissor, depth test, clip control and culling are set, and polygon offset is off; the callback binds its
  * own programs and vertex arrays. Both faces of every triangle cast shadows unless the engine decides otherwise. A
  * caster that is drawn in several of these passes must get the same depths, to the bit, in each: compute positions by
- * the same expressions (`invariant gl_Position`). It must not call functions of the same device. */
+ * the same expressions (`invariant gl_Position`). It must not call functions that take a device, or that make one. */
 typedef int32_t (*penumbra_draw_casters)(void* user, const penumbra_caster_pass* pass);
 
 /* ----------------------------------------------------------------------------------------------------------- Frames */
@@ -378,8 +378,8 @@ typedef struct penumbra_mask {
   int32_t view_id;  /**< of the frame */
 } penumbra_mask;
 
-/** Computes the shadows of a frame. After an error the view has no mask until a call succeeds, and the next frame of it
- * has no history. PENUMBRA_ERROR_ARGUMENT, REFUSED, CONTEXT, CALLBACK, MEMORY. */
+/** Computes the shadows of a frame. After an error other than PENUMBRA_ERROR_ARGUMENT the view has no mask until a call
+ * succeeds, and the next frame of it has no history. PENUMBRA_ERROR_ARGUMENT, REFUSED, CONTEXT, CALLBACK, MEMORY. */
 PENUMBRA_API penumbra_result penumbra_render(penumbra_device* device, const penumbra_settings* settings,
                                              const penumbra_frame* frame, penumbra_mask* mask);
 

@@ -183,8 +183,16 @@ class Device {
     if (callbacks_->log) desc.log = write_log;
     desc.log_user = callbacks_.get();
     penumbra_device* device = nullptr;
-    finish(penumbra_device_create(&desc, &device));
+    const penumbra_result result = penumbra_device_create(&desc, &device);
     device_.reset(device);
+    finish(result);
+  }
+  Device(Device&&) noexcept = default;
+  // The old device is destroyed before its callbacks, which it may call then.
+  Device& operator=(Device&& other) noexcept {
+    device_ = std::move(other.device_);
+    callbacks_ = std::move(other.callbacks_);
+    return *this;
   }
 
   penumbra_mask render(const Settings& settings, const Frame& frame) {

@@ -37,6 +37,18 @@ void collect(const toml::table& table, const std::string& prefix, std::vector<En
   }
 }
 
+// Refuses lines that are longer than any preset needs. A key of thousands of parts would nest as many tables, and the
+// stack might not suffice for them.
+void check_lines(std::string_view text, const std::string& file) {
+  constexpr std::size_t longest = 1024;  // bytes
+  std::size_t number = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++number) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > longest) fail("{}:{}: the line is longer than {} bytes", file, number, longest);
+    begin = end + 1;
+  }
+}
+
 // The TOML library orders tables alphabetically; sorted by position, messages are about the first fault in the file.
 void sort_as_written(std::vector<Entry>& entries) {
   const auto position = [](const Entry& entry) {
@@ -103,6 +115,7 @@ void apply_preset(std::string_view text, const std::string& file, ParamSet& para
   const auto fail_at = [&file](const toml::source_region& at, std::string_view fault) {
     fail("{}:{}: {}", file, at.begin.line, fault);
   };
+  check_lines(text, file);
   ParamSet changed = params;
   try {
     const toml::table table = toml::parse(text, file);

@@ -259,7 +259,7 @@ std::vector<FrameLight> shadowed_lights(const Setup& setup) {
 std::vector<int> light_ids(const Setup& setup) {
   const auto of_node = [](std::size_t node) { return 1 + 2 * static_cast<int>(node); };
   std::vector<int> ids;
-  if (setup.sun_shines) ids.push_back(setup.sun_node ? of_node(*setup.sun_node) : 0);
+  if (setup.sun_shines) ids.push_back(0);
   for (const PlacedLight& light : setup.lights)
     ids.push_back(light.node ? of_node(*light.node) : 2 + 2 * std::get<LampLight>(light.light).number);
   return ids;

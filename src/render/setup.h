@@ -53,7 +53,7 @@ std::vector<FrameLight> frame_lights(const Setup& setup);
 // Those of them that cast shadows: the first ones.
 std::vector<FrameLight> shadowed_lights(const Setup& setup);
 
-// Of each light that shines, for FrameInputs::light_ids: the same whichever other lights shine.
+// Of each light that shines, for FrameInputs::light_ids: the same whichever other lights shine. Setup::sun is 0.
 std::vector<int> light_ids(const Setup& setup);
 
 // Leaves the first light alone: where the shadows of one light are measured.

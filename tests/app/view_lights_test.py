@@ -63,7 +63,9 @@ class Lights(WindowTest):
             # A click on a ring only opens the lamp's properties.
             viewer.click(ring, lambda: viewer.has("lamp radius"), "the lamp's properties")
             self.assertEqual(self.lamps(viewer), [])
-            viewer.drag(*viewer.middle(ring), LEFT, lambda: viewer.has("ring of lamp 0"), "a lamp of the user's")
+            x, y = viewer.middle(ring)
+            far = lambda: viewer.has("ring of lamp 0") and viewer.middle("ring of lamp 0")[0] > x + 60
+            viewer.drag(x, y, LEFT, far, "a lamp of the user's, 60 pixels to the right")
             self.assertFalse(viewer.has(ring))
             self.assertGreater(viewer.changed(before).differing(before, by=4), 0.005)
             words = viewer.copied()

@@ -123,6 +123,10 @@ void run() {
     thrown = error.what() == std::string("no such mesh");
   }
   expect(thrown, "a callback's exception is lost");
+  // A device that takes the place of another, as where a renderer starts anew.
+  device = api::Device([](const char* name) { return reinterpret_cast<penumbra_proc>(engine::proc_address(name)); });
+  const penumbra_mask anew = device.render(settings, frame);
+  expect(visibility_at(engine::read_red(anew.texture), view, umbra) < 0.01f, "a new device draws no shadow");
   frame.depth.width = 7;
   expect_error(PENUMBRA_ERROR_REFUSED, "not 7", [&] { device.render(settings, frame); });
 

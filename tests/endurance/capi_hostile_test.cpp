@@ -157,6 +157,11 @@ TEST_F(CInterfaceHostile, SizesCountsAndNulls) {
     wrong.struct_size = size;
     EXPECT_EQ(render(wrong), PENUMBRA_ERROR_ARGUMENT) << size;
   }
+  for (const std::size_t size : {std::size_t{65536}, std::numeric_limits<std::size_t>::max()}) {
+    penumbra_frame wrong = right;
+    wrong.struct_size = size;
+    EXPECT_EQ(render(wrong), PENUMBRA_ERROR_ARGUMENT) << size;
+  }
   for (std::size_t size = 0; size < sizeof(penumbra_light); ++size) {
     penumbra_light wrong = sun;
     wrong.struct_size = size;

@@ -246,7 +246,8 @@ TEST(CInterface, EveryFunctionRefusesNull) {
 // A struct of an earlier version ends before that of this one; sizes below the first version's are mistakes.
 TEST(CInterface, SizesOfStructsAreChecked) {
   penumbra_frame frame{};
-  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, sizeof frame - 1}) {
+  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, sizeof frame - 1, std::size_t{65536},
+                                 std::numeric_limits<std::size_t>::max()}) {
     expect_refused(penumbra_frame_init(&frame, size), PENUMBRA_ERROR_ARGUMENT,
                    fmt::format("penumbra_frame_init(): penumbra_frame.struct_size is {}; set it to "
                                "sizeof(penumbra_frame), which is {}",
@@ -254,7 +255,10 @@ TEST(CInterface, SizesOfStructsAreChecked) {
   }
   EXPECT_EQ(frame.struct_size, 0u);
   penumbra_param param{};
-  EXPECT_EQ(penumbra_param_info(0, &param), PENUMBRA_ERROR_ARGUMENT);
+  for (const std::size_t size : {std::size_t{0}, std::numeric_limits<std::size_t>::max()}) {
+    param.struct_size = size;
+    EXPECT_EQ(penumbra_param_info(0, &param), PENUMBRA_ERROR_ARGUMENT) << size;
+  }
   EXPECT_EQ(param.name, nullptr);
   param.struct_size = sizeof param;
   expect_refused(penumbra_param_info(penumbra_param_count(), &param), PENUMBRA_ERROR_ARGUMENT,

@@ -141,6 +141,14 @@ TEST_F(Presets, HoldOnlyWhatChanged) {
   EXPECT_EQ(text.find("pcss"), std::string::npos) << text;
 }
 
+// Each part of such a key is a table within the last one.
+TEST_F(Presets, RefuseKeysOfVeryManyParts) {
+  std::string key = "a";
+  for (int i = 0; i < 300'000; ++i) key += ".a";
+  for (const std::string& text : {"technique = \"pcss\"\n" + key + " = 1\n", "\n[" + key + "]\n"})
+    EXPECT_EQ(fault(text), path().filename().string() + ":2: the line is longer than 1024 bytes");
+}
+
 TEST_F(Presets, RefuseMissingFilesAndFolders) {
   ParamSet params = rows();
   EXPECT_THROW(penumbra::io::read_preset(path(), params, select), Error);
