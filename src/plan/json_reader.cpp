@@ -11,6 +11,9 @@ namespace {
 
 using io::Json;
 
+// Far more than plans and results have. nlohmann copies and destroys values with a call for each level.
+constexpr int deepest = 64;
+
 // What nlohmann says after its own prefix: "[json.exception.parse_error.101] parse error at line 3, column 7: …".
 std::string cause_of(const Json::parse_error& error) {
   const std::string text = error.what();
@@ -21,8 +24,13 @@ std::string cause_of(const Json::parse_error& error) {
 }  // namespace
 
 Json parse_json(std::string_view text, const Json::parser_callback_t& filter) {
+  const auto checked = [&filter](int depth, Json::parse_event_t event, Json& parsed) {
+    if (depth >= deepest && (event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start))
+      fail("it is nested more than {} deep", deepest);
+    return !filter || filter(depth, event, parsed);
+  };
   try {
-    return Json::parse(text, filter);
+    return Json::parse(text, checked);
   } catch (const Json::parse_error& error) {
     fail("it is no JSON: {}", cause_of(error));
   } catch (const Json::out_of_range& error) {  // a number that no double holds

@@ -11,7 +11,7 @@ namespace penumbra::plan {
 
 // Reads JSON that anybody may have written. All throw Error with the fault alone: the caller names the file.
 
-// `filter`: see nlohmann's parser_callback_t.
+// `filter`: see nlohmann's parser_callback_t. JSON that is nested more than 64 deep is refused.
 io::Json parse_json(std::string_view text, const io::Json::parser_callback_t& filter = nullptr);
 
 // The object's "format" must be that one.

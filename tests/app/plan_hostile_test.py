@@ -34,6 +34,15 @@ class Hostile(Plans):
             with self.subTest(text[:40]):
                 self.refused(text)
 
+    def test_deep_nesting(self):
+        deep = "[" * 300_000 + "]" * 300_000
+        objects = '{"a":' * 300_000 + "1" + "}" * 300_000
+        for text in (deep, objects, self.good.replace('"items": [', f'"more": {deep}, "items": [', 1),
+                     self.good.replace('"seconds":', f'"more":{objects},"seconds":', 1)):
+            self.assertNotEqual(text, self.good)
+            for error in self.refused(text):
+                self.assertIn("nested more than 64 deep", error)
+
     def test_wrong_values(self):
         def put(*path, value):
             def change(document):

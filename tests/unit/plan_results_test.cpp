@@ -73,6 +73,24 @@ TEST_F(PlanResults, ADamagedByteMakesTheFileAbsent) {
   }
 }
 
+// Of the right checksum, so somebody meant it: nlohmann would copy the values by a call for each level.
+TEST_F(PlanResults, OfTooDeepNestingAreAbsent) {
+  const fs::path file = results_.file_of(key_);
+  fs::create_directories(file.parent_path());
+  const auto found = [&](std::size_t depth) {
+    const std::string data = std::string(depth, '[') + std::string(depth, ']');
+    const std::string body = R"({"format":"penumbra.result/1","key":")" + key_.text() +
+                             R"(","command":"compare","data":)" + data + R"(,"files":[]})" + "\n";
+    io::Hasher hasher;
+    hasher.add(body);
+    std::ofstream(file, std::ios::binary) << body << hasher.key().text() << "\n";
+    return results_.find(key_).has_value();
+  };
+  EXPECT_TRUE(found(63));
+  EXPECT_FALSE(found(64));
+  EXPECT_FALSE(found(300'000));
+}
+
 TEST_F(PlanResults, BelongToTheirKeyAndCommand) {
   results_.keep(key_, result());
   const io::Key other{0x12, 0x35};
