@@ -276,6 +276,12 @@ class Folder(Plans):
         found = {path.name: path.read_bytes() for path in other.rglob("*.result")}
         self.assertEqual(found, {pathlib.Path(name).name: data for name, data in self.results().items()})
 
+    def test_threads_in_either_spelling(self):
+        for threads in (["--threads", "2"], ["--threads=2"]):
+            self.make("compare", *COMPARED, "--no-cost", *threads)
+            self.work("--item", "0", "--threads", "1")
+            self.work("--item", "0")
+
     def test_an_array_task_is_an_item(self):
         environment = {**os.environ, "SLURM_ARRAY_TASK_ID": "2"}
         self.assertEqual(self.work(env=environment), "1 done, 0 there already, 0 failed\n")

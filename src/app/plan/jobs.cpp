@@ -28,11 +28,17 @@ shadow::Registry truth_techniques(int threads) { return truth::TruthTechnique({.
 // Behind what is there, so that the place of -o stays.
 cli::Arguments with_threads(cli::Arguments arguments, std::optional<int> threads) {
   if (!threads) return arguments;
-  const auto given = std::ranges::find(arguments, "--threads");
-  if (given != arguments.end() && given + 1 != arguments.end()) {
-    *(given + 1) = std::to_string(*threads);
-  } else {
-    arguments.insert(std::ranges::find(arguments, "--"), {"--threads", std::to_string(*threads)});
+  const std::string name = "--threads", with_equals = name + "=", value = std::to_string(*threads);
+  const auto end = std::ranges::find(arguments, "--");
+  const auto given = std::find_if(arguments.begin(), end, [&](const std::string& argument) {
+    return argument == name || argument.starts_with(with_equals);
+  });
+  if (given == end) {
+    arguments.insert(end, {name, value});
+  } else if (*given != name) {
+    *given = with_equals + value;
+  } else if (given + 1 != end) {
+    *(given + 1) = value;
   }
   return arguments;
 }
