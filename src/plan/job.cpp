@@ -37,7 +37,10 @@ io::Key key_of(const Program& program, const std::string& command, const io::Jso
   add(program.build.text());
   add(command);
   add(depends.dump(-1, ' ', false, io::Json::error_handler_t::replace));
-  for (const PlannedFile& file : scene.files) add(file.hash.text());
+  for (const PlannedFile& file : scene.files) {
+    add(file.hash.text());
+    add(file.shader);
+  }
   return hasher.key();
 }
 

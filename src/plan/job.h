@@ -68,7 +68,8 @@ class DeviceCheck {
   std::size_t count_ = 0, others_ = 0;
 };
 
-// The key of an item: a hash of the program, of all that the item depends on, and of what its scene's files hold.
+// The key of an item: a hash of the program, of all that the item depends on, and of what its scene's files hold. Of
+// shaders also the names, which say what they replace.
 io::Key key_of(const Program& program, const std::string& command, const io::Json& depends, const PlannedScene& scene);
 
 }  // namespace penumbra::plan

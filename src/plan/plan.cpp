@@ -29,8 +29,11 @@ Json json_of_arguments(const Plan& plan) {
 
 Json json_of(const PlannedScene& scene) {
   Json files = Json::array();
-  for (const PlannedFile& file : scene.files)
-    files.push_back({{"path", file.path}, {"bytes", file.bytes}, {"hash", file.hash.text()}});
+  for (const PlannedFile& file : scene.files) {
+    Json one{{"path", file.path}, {"bytes", file.bytes}, {"hash", file.hash.text()}};
+    if (!file.shader.empty()) one["shader"] = file.shader;
+    files.push_back(std::move(one));
+  }
   Json json{{"path", scene.path.empty() ? Json() : Json(scene.path)}};
   json.update(scene.view);
   json["files"] = std::move(files);
@@ -70,8 +73,10 @@ PlannedScene scene_of(const Json& json) {
   PlannedScene scene;
   if (!member_of(json, "path").is_null()) scene.path = text_in(json, "path");
   for (const Json& file : array_in(json, "files")) {
-    scene.files.push_back(
-        {.path = text_in(file, "path"), .bytes = whole_in(file, "bytes", SIZE_MAX), .hash = key_in(file, "hash")});
+    scene.files.push_back({.path = text_in(file, "path"),
+                           .bytes = whole_in(file, "bytes", SIZE_MAX),
+                           .hash = key_in(file, "hash"),
+                           .shader = file.contains("shader") ? text_in(file, "shader") : ""});
   }
   return scene;
 }

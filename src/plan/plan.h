@@ -26,7 +26,8 @@ struct Estimate {
 struct PlannedFile {
   std::string path;
   std::uintmax_t bytes = 0;
-  io::Key hash;  // of its content
+  io::Key hash;        // of its content
+  std::string shader;  // of --glsl: its path in that folder, so which built-in shader it replaces; empty: another file
 };
 
 struct PlannedScene {

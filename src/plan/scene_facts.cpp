@@ -43,13 +43,14 @@ Json view_of(const render::Setup& setup) {
 }
 
 // All files in the folder, at any depth, in the order of their names.
-void add_shaders(std::vector<fs::path>& files, const fs::path& folder) {
+void add_shaders(std::vector<SceneFile>& files, const fs::path& folder) {
   std::vector<fs::path> shaders;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.is_regular_file()) shaders.push_back(entry.path());
   }
   std::ranges::sort(shaders);
-  files.insert(files.end(), shaders.begin(), shaders.end());
+  for (const fs::path& shader : shaders)
+    files.push_back({.path = shader, .shader = shader.lexically_relative(folder).generic_string()});
 }
 
 // Sample points of a technique that every pixel reads, or rays.
@@ -74,13 +75,14 @@ scene::ImageDecoder ImageSizes::decoder() {
 SceneFacts facts_of(const session::PreparedScene& prepared, const cli::DeviceOptions& device,
                     const ImageSizes& images) {
   const scene::Scene& scene = prepared.scene;
-  SceneFacts facts{.view = view_of(prepared.setup), .files = scene.files};
+  SceneFacts facts{.view = view_of(prepared.setup), .files = {}};
+  for (const fs::path& file : scene.files) facts.files.push_back({.path = file});
   if (!device.glsl.empty()) add_shaders(facts.files, device.glsl);
   facts.triangles = static_cast<double>(scene::count_drawn(scene).triangles);
   facts.lights = static_cast<double>(render::shadowed_lights(prepared.setup).size());
-  for (const fs::path& file : facts.files) {
+  for (const SceneFile& file : facts.files) {
     std::error_code unread;
-    const std::uintmax_t bytes = fs::file_size(file, unread);
+    const std::uintmax_t bytes = fs::file_size(file.path, unread);
     if (!unread) facts.bytes += static_cast<double>(bytes);
   }
   facts.decoded_mib = (images.bytes() + static_cast<double>(scene::describe(scene).gpu_vertex_bytes)) / mebibyte;

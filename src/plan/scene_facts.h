@@ -15,14 +15,20 @@
 
 namespace penumbra::plan {
 
+// A file that drawing reads.
+struct SceneFile {
+  std::filesystem::path path;
+  std::string shader = {};  // see PlannedFile
+};
+
 // What planning has to know about a scene.
 struct SceneFacts {
-  io::Json view;                             // camera and light at --time, for readers
-  std::vector<std::filesystem::path> files;  // all that drawing reads: the scene's, and those of --glsl
-  double triangles = 0;                      // drawn in a frame
-  double lights = 1;                         // that cast shadows
-  double bytes = 0;                          // of its files
-  double decoded_mib = 0;                    // vertices and images in memory
+  io::Json view;                 // camera and light at --time, for readers
+  std::vector<SceneFile> files;  // all that drawing reads: the scene's, and those of --glsl
+  double triangles = 0;          // drawn in a frame
+  double lights = 1;             // that cast shadows
+  double bytes = 0;              // of its files
+  double decoded_mib = 0;        // vertices and images in memory
 };
 
 // Reads scenes without their images, but adds up how much memory these would take, decoded.

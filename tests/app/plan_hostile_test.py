@@ -60,7 +60,8 @@ class Hostile(Plans):
                        put("items", 0, "scene", value=1), put("items", 0, "scene", value=-1),
                        put("items", 0, "scene", value=10**30), put("items", 0, "seconds", value="1"),
                        put("items", 0, "seconds", value=-1), put("scenes", 0, "files", 0, "bytes", value=-1),
-                       put("scenes", 0, "files", 0, "hash", value=None), put("scenes", 0, "path", value=[])):
+                       put("scenes", 0, "files", 0, "hash", value=None), put("scenes", 0, "files", 0, "shader", value=3),
+                       put("scenes", 0, "files", 0, value=3), put("scenes", 0, "path", value=[])):
             with self.subTest(change):
                 self.refused(self.changed(change))
 

@@ -258,8 +258,13 @@ class Folder(Plans):
         glsl.mkdir()
         (glsl / "a.glsl").write_text("// one\n")
         with_shaders = keys("--glsl", glsl, of=copied)
-        (glsl / "a.glsl").write_text("// two\n")
-        self.assertFalse(with_shaders & keys("--glsl", glsl, of=copied))
+        (glsl / "a.glsl").rename(glsl / "b.glsl")
+        renamed = keys("--glsl", glsl, of=copied)
+        self.assertFalse(with_shaders & renamed, "the same content in place of another shader")
+        self.assertEqual([file.get("shader") for file in self.document()["scenes"][0]["files"]], [None, "b.glsl"])
+        self.assertEqual([error.message for error in validator("plan").iter_errors(self.document())], [])
+        (glsl / "b.glsl").write_text("// two\n")
+        self.assertFalse((with_shaders | renamed) & keys("--glsl", glsl, of=copied))
 
     def test_a_scene_that_changed_is_refused(self):
         path = self.folder / "scene.glb"

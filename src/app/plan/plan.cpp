@@ -52,10 +52,12 @@ std::optional<std::size_t> split_output(Arguments& arguments) {
 
 plan::PlannedScene planned_scene(const std::string& path, const plan::SceneFacts& facts) {
   plan::PlannedScene scene{.path = path, .view = facts.view, .files = {}};
-  for (const std::filesystem::path& file : facts.files) {
+  for (const auto& [file, shader] : facts.files) {
     try {
-      scene.files.push_back(
-          {.path = file.string(), .bytes = std::filesystem::file_size(file), .hash = io::key_of_file(file)});
+      scene.files.push_back({.path = file.string(),
+                             .bytes = std::filesystem::file_size(file),
+                             .hash = io::key_of_file(file),
+                             .shader = shader});
     } catch (const Error& error) {
       fail("cannot read {}: {}", io::quoted(file), error.what());
     }
