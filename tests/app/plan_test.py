@@ -114,6 +114,16 @@ class Drawn(Plans):
         same = sorted(name for name in whole if divided[name] == whole[name])
         self.assertEqual(same, [f"frame_{i:04}.png" for i in range(6)])
 
+    def test_a_warm_up_before_a_lead_in_that_begins_at_the_first_frame(self):
+        for still in ((), ("--warmup-still",)):
+            arguments = (scene("moving"), "--technique", "thesis", *TINY, "--set", "cascades.size=256", "--frames",
+                         "0:3", "--warmup", "8", *still)
+            whole = f"whole{len(still)}"
+            self.succeed("render", *arguments, "-o", self.folder / whole / "frame.png")
+            self.make("render", *arguments, "--frames-per-item", 2, "--lead-in", 2)
+            self.assertEqual(self.work(), "2 done, 0 there already, 0 failed\n")
+            self.assertEqual(self.merge(f"merged{len(still)}"), self.contents(whole))
+
     def test_traced_frames(self):
         arguments = (scene("moving"), "--spp", "8", *TINY, "--frames", "0:2", "--no-cache")
         self.succeed("truth", *arguments, "-o", self.folder / "whole" / "truth.exr")

@@ -65,7 +65,10 @@ cli::FrameRange SequenceItems::frames(std::size_t item) const {
   return {first, std::min(first + per_item_ - 1, range_.last)};
 }
 
-int SequenceItems::lead_in(std::size_t item) const { return std::min(lead_in_, frames(item).first - range_.first); }
+cli::FrameRange SequenceItems::drawn(std::size_t item) const {
+  const cli::FrameRange written = frames(item);
+  return {std::max(written.first - lead_in_, range_.first), written.last};
+}
 
 std::string picture_name(const SequenceOptions& options) {
   const std::filesystem::path path = options.file;

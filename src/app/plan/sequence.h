@@ -35,8 +35,10 @@ class SequenceItems {
 
   std::size_t count() const;
   cli::FrameRange frames(std::size_t item) const;
-  // How many frames before the item's first are drawn, but not written: none for the first item.
-  int lead_in(std::size_t item) const;
+  // The item's frames, and those before them that are drawn, but not written: none for the first item.
+  cli::FrameRange drawn(std::size_t item) const;
+  // Whether these begin where the sequence does.
+  bool from_start(std::size_t item) const { return drawn(item).first == range_.first; }
 
  private:
   cli::FrameRange range_;

@@ -52,7 +52,8 @@ class RenderJob : public plan::Job {
             {"params", io::to_json(params_)},
             {"sequence", options_.frames.has_value()},
             {"frames", {frames.first, frames.last}},
-            {"before", warmup_of(item)}};
+            {"drawn_from", items_.drawn(item).first},
+            {"warmup", warmup_of(item)}};
   }
 
   Json what(std::size_t item) const override {
@@ -69,7 +70,7 @@ class RenderJob : public plan::Job {
   plan::Estimate estimate(std::size_t item, const plan::SceneFacts& facts) const override {
     const cli::Size pixels{options_.size.width * options_.supersample, options_.size.height * options_.supersample};
     const int frames = items_.frames(item).count();
-    const plan::Drawn drawn{.params = &params_, .frames = frames + warmup_of(item)};
+    const plan::Drawn drawn{.params = &params_, .frames = items_.drawn(item).count() + warmup_of(item)};
     const double values = 4 + 16.0 * static_cast<double>(options_.aovs.size());  // bytes of a pixel of a frame's files
     return plan::estimate_of(facts, pixels, {&drawn, 1}, session::all_techniques(), values * frames);
   }
@@ -82,7 +83,6 @@ class RenderJob : public plan::Job {
   plan::Result work(std::size_t item) const override {
     RenderOptions options = options_;
     options.warmup = warmup_of(item);
-    options.warmup_still = options.warmup_still && item == 0;
     options.quiet = true;
     const session::PreparedScene prepared =
         session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)));
@@ -90,7 +90,8 @@ class RenderJob : public plan::Job {
     session::RenderSession session(options, options, session::open_context(options, options), prepared,
                                    truth.registry(), /* timed= */ false);
     std::vector<cli::EncodedFile> files;
-    draw_frames(options, session, params_, items_.frames(item), [&](int frame) {
+    draw_frames(options, session, params_, items_.drawn(item), [&](int frame) {
+      if (frame < items_.frames(item).first) return;
       for (cli::EncodedFile& file : encoded_frame(session, options, params_, names_, frame))
         files.push_back(std::move(file));
     });
@@ -102,7 +103,7 @@ class RenderJob : public plan::Job {
   }
 
  private:
-  int warmup_of(std::size_t item) const { return item == 0 ? options_.warmup : items_.lead_in(item); }
+  int warmup_of(std::size_t item) const { return items_.from_start(item) ? options_.warmup : 0; }
 
   RenderOptions options_;
   ParamSet params_;
