@@ -95,7 +95,13 @@ class CompareJob : public plan::Job {
     return result_of(drawn, drawing.drawn_by());
   }
 
-  std::vector<std::filesystem::path> merge(const Read& read, const std::filesystem::path& folder) const override {
+  std::vector<std::filesystem::path> outputs(const std::filesystem::path& folder) const override {
+    CompareOptions options = options_;
+    options.output = folder.string();
+    return {options.page(), options.csv(), options.json()};
+  }
+
+  void merge(const Read& read, const std::filesystem::path& folder) const override {
     CompareOptions options = options_;
     options.output = folder.string();
     Comparison comparison{.reference_params = values_.reference};
@@ -119,7 +125,6 @@ class CompareJob : public plan::Job {
     cli::Arguments arguments = arguments_;
     arguments[output_] = options.output;
     write_reports(comparison, options, arguments);
-    return {options.page(), options.csv(), options.json()};
   }
 
  private:

@@ -297,6 +297,36 @@ class Folder(Plans):
             self.work("--item", "0", "--threads", "1")
             self.work("--item", "0")
 
+    def test_a_merge_overwrites_nothing_that_it_reads(self):
+        report = self.folder / "report"
+        report.mkdir()
+        self.work()
+        plan = report / "results.json"
+        plan.write_bytes(self.plan.read_bytes())
+        before = self.contents("report")
+        error = self.refuse("merge", plan, "--results", self.folder / "sweep.results", "-o", report, code=2)
+        self.assertIn(f"-o would overwrite the plan '{plan}'", error)
+        self.assertEqual(self.contents("report"), before)
+        # A picture that a scene refers to.
+        document = self.document()
+        document["scenes"][0]["files"].append(dict(document["scenes"][0]["files"][0], path=str(report / "index.html")))
+        self.plan.write_text(json.dumps(document))
+        self.assertIn(f"-o would overwrite the scene's file '{report / 'index.html'}'",
+                      self.refuse("merge", self.plan, "-o", report, code=2))
+        self.assertEqual(self.contents("report"), before)
+
+    def test_a_merge_of_pictures_does_not_overwrite_a_scene(self):
+        self.make("render", scene("steps"), *TINY, "--set", "cascades.size=256", "--frames", "0:1")
+        self.work()
+        frame = self.folder / "frame_0001.png"
+        frame.write_text("a texture")
+        document = self.document()
+        document["scenes"][0]["files"].append(dict(document["scenes"][0]["files"][0], path=str(frame)))
+        self.plan.write_text(json.dumps(document))
+        self.assertIn("frame_0001.png", self.refuse("merge", self.plan, "-o", self.folder, code=2))
+        self.assertEqual(frame.read_text(), "a texture")
+        self.assertFalse((self.folder / "frame_0000.png").exists())
+
     def test_an_array_task_is_an_item(self):
         environment = {**os.environ, "SLURM_ARRAY_TASK_ID": "2"}
         self.assertEqual(self.work(env=environment), "1 done, 0 there already, 0 failed\n")

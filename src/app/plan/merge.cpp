@@ -4,6 +4,7 @@
 
 #include "app/commands.h"
 #include "app/plan/jobs.h"
+#include "cli/input_files.h"
 #include "cli/options.h"
 #include "cli/output_names.h"
 #include "cli/signals.h"
@@ -36,8 +37,19 @@ std::size_t list_missing(const PlannedJob& planned, const plan::Results& results
   return missing;
 }
 
+void check_outputs(const std::vector<fs::path>& outputs, const fs::path& plan_file, const plan::Plan& plan) {
+  cli::InputFiles inputs;
+  inputs.add("the plan", plan_file);
+  for (const plan::PlannedScene& scene : plan.scenes) {
+    for (const plan::PlannedFile& file : scene.files) inputs.add("the scene's file", file.path);
+  }
+  for (const fs::path& output : outputs) inputs.check("-o", output);
+}
+
 int merge(const MergeOptions& options) {
   const PlannedJob planned = read_job(options.plan);
+  const std::vector<fs::path> written = planned.job->outputs(options.output);
+  check_outputs(written, options.plan, planned.plan);
   const plan::Results results(options.results.empty() ? plan::results_folder(options.plan) : fs::path(options.results),
                               planned.plan.command);
   if (const std::size_t missing = list_missing(planned, results); missing > 0)
@@ -50,7 +62,7 @@ int merge(const MergeOptions& options) {
            io::quoted(results.file_of(planned.plan.items[item].key)));
     return std::move(*result);
   };
-  const std::vector<fs::path> written = planned.job->merge(read, options.output);
+  planned.job->merge(read, options.output);
   if (options.quiet) return 0;
   const std::string more = written.size() > 1 ? fmt::format(" and {} more", written.size() - 1) : "";
   fmt::print("wrote {}{}\n", written.front().string(), more);

@@ -83,23 +83,22 @@ plan::Result result_of(std::vector<cli::EncodedFile> files, const std::string& d
   return result;
 }
 
-std::vector<std::filesystem::path> write_pictures(const plan::Job& job, const plan::Job::Read& read,
-                                                  const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> written;
+void write_pictures(const plan::Job& job, const plan::Job::Read& read, const std::filesystem::path& folder) {
+  const std::vector<std::filesystem::path> outputs = job.outputs(folder);
+  auto next = outputs.begin();
   plan::DeviceCheck devices;
   for (std::size_t item = 0; item < job.count(); ++item) {
     const plan::Result result = read(item);
     devices.add(plan::text_in(result.data, "device"));
     for (const plan::ResultFile& file : result.files) {
-      // Names come from a file: none may lead out of the folder.
-      const std::filesystem::path name = std::filesystem::path(file.name).filename();
-      if (name.empty() || name != file.name) fail("a result has a picture of the name '{}'", file.name);
-      written.push_back(folder / name);
-      io::write_text(written.back(), {reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()});
+      // Names come from a file that anybody may have written: none may lead elsewhere.
+      if (next == outputs.end() || next->filename() != file.name)
+        fail("the result of item {} has the picture '{}', which it should not have", item, file.name);
+      io::write_text(*next++, {reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()});
     }
   }
+  if (next != outputs.end()) fail("the results lack the picture {}", io::quoted(next->filename()));
   devices.warn();
-  return written;
 }
 
 }  // namespace penumbra::app

@@ -50,8 +50,7 @@ class SequenceItems {
 std::string picture_name(const SequenceOptions& options);
 
 plan::Result result_of(std::vector<cli::EncodedFile> files, const std::string& device);
-// Writes the files of all results into the folder; returns their paths.
-std::vector<std::filesystem::path> write_pictures(const plan::Job& job, const plan::Job::Read& read,
-                                                  const std::filesystem::path& folder);
+// Writes the files of all results, which must be the job's outputs, into the folder.
+void write_pictures(const plan::Job& job, const plan::Job::Read& read, const std::filesystem::path& folder);
 
 }  // namespace penumbra::app

@@ -64,6 +64,15 @@ cli::EncodedFile exr(const render::Renderer& renderer, const RenderOptions& opti
 
 }  // namespace
 
+std::vector<std::filesystem::path> frame_files(const RenderOptions& options, const cli::OutputNames& names, int frame) {
+  std::vector<std::filesystem::path> files{names.picture(frame)};
+  if (names.is_exr()) return files;
+  for (const std::string& name : options.aovs) {
+    if (name != color_name) files.push_back(names.aov(frame, name));
+  }
+  return files;
+}
+
 std::vector<cli::EncodedFile> encoded_frame(const session::RenderSession& session, const RenderOptions& options,
                                             const ParamSet& params, const cli::OutputNames& names, int frame) {
   const render::Renderer& renderer = session.renderer();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <vector>
 
 #include "app/render/options.h"
@@ -14,6 +15,9 @@ namespace penumbra::app {
 // with all of them.
 std::vector<cli::EncodedFile> encoded_frame(const session::RenderSession& session, const RenderOptions& options,
                                             const ParamSet& params, const cli::OutputNames& names, int frame);
+
+// The names of these files.
+std::vector<std::filesystem::path> frame_files(const RenderOptions& options, const cli::OutputNames& names, int frame);
 
 // Writes these files.
 void write_frame(const session::RenderSession& session, const RenderOptions& options, const ParamSet& params,

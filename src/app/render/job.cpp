@@ -98,8 +98,19 @@ class RenderJob : public plan::Job {
     return result_of(std::move(files), session.device_info().renderer);
   }
 
-  std::vector<std::filesystem::path> merge(const Read& read, const std::filesystem::path& folder) const override {
-    return write_pictures(*this, read, folder);
+  std::vector<std::filesystem::path> outputs(const std::filesystem::path& folder) const override {
+    std::vector<std::filesystem::path> files;
+    for (std::size_t item = 0; item < count(); ++item) {
+      const cli::FrameRange frames = items_.frames(item);
+      for (int frame = frames.first; frame <= frames.last; ++frame) {
+        for (const std::filesystem::path& name : frame_files(options_, names_, frame)) files.push_back(folder / name);
+      }
+    }
+    return files;
+  }
+
+  void merge(const Read& read, const std::filesystem::path& folder) const override {
+    write_pictures(*this, read, folder);
   }
 
  private:
