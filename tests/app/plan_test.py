@@ -8,7 +8,7 @@ import subprocess
 
 from pictures import scene
 from plans import COMPARED, TINY, Plans, validator
-from support import PROGRAM, main, run, wait_until_it_catches
+from support import PROGRAM, ROOT, main, run, wait_until_it_catches
 
 SEQUENCE = (scene("moving"), "--technique", "pcss", "--set", "cascades.size=256", *TINY)
 
@@ -364,6 +364,43 @@ class Folder(Plans):
         shown = self.succeed("plan", "show", self.plan).stdout
         self.assertEqual(dict(line.split() for line in shown.splitlines()),
                          {name: str(value) for name, value in plan["estimate"].items()})
+
+
+class Script(Plans):
+    """scripts/slurm/penumbra.sbatch, with an sbatch that prints what it is asked."""
+
+    def setUp(self):
+        super().setUp()
+        self.make("render", *SEQUENCE, "--frames", "0:3", "--frames-per-item", 1)
+        sbatch = self.folder / "bin" / "sbatch"
+        sbatch.parent.mkdir()
+        sbatch.write_text('#!/bin/bash\necho "$@"\n')
+        sbatch.chmod(0o755)
+
+    def script(self, path=ROOT / "scripts" / "slurm" / "penumbra.sbatch", **variables):
+        environment = {name: value for name, value in os.environ.items() if not name.startswith("SLURM_")}
+        environment |= {"PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}", "PENUMBRA": PROGRAM, **variables}
+        return subprocess.run(["bash", path, self.plan, "1"], capture_output=True, text=True, timeout=60,
+                              env=environment)
+
+    def test_it_submits_itself_from_the_shell_of_an_allocation(self):
+        for variables in ({}, {"SLURM_JOB_ID": "7"}):
+            result = self.script(**variables)
+            self.assertEqual(result.stderr, "")
+            self.assertIn("--array=0-3 --ntasks=1", result.stdout)
+
+    def test_a_task_of_the_array_draws_its_share(self):
+        for results in ({}, {"RESULTS": str(self.folder / "elsewhere")}):
+            result = self.script(SLURM_JOB_ID="7", SLURM_ARRAY_TASK_ID="2", **results)
+            self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+            self.assertEqual(len(list((self.folder / ("elsewhere" if results else "sweep.results")).rglob("*.result"))), 1)
+
+    def test_handed_to_sbatch_it_says_so(self):
+        copied = self.folder / "slurm_script"
+        copied.write_bytes((ROOT / "scripts" / "slurm" / "penumbra.sbatch").read_bytes())
+        result = self.script(copied, SLURM_JOB_ID="7")
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertRegex(result.stderr, r"^penumbra\.sbatch submits itself: .*, not with sbatch\n$")
 
 
 if __name__ == "__main__":
