@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <glm/trigonometric.hpp>
+#include <variant>
 
 #include "bench/machine.h"
 #include "cli/text.h"
@@ -81,8 +82,10 @@ std::vector<Cell> row_of(const ComparedTechnique& technique, bool sequence) {
 }
 
 Html table_of(const ComparedScene& scene, const Comparison& comparison, bool sequence) {
-  report::Table table{.caption = fmt::format("Measured against {} where the sun can shine: {} of {} pixels{}.",
-                                             reference_name(comparison), scene.receivers, scene.pixels,
+  const std::size_t lights = scene.lights.size();
+  const std::string masks = lights > 1 ? fmt::format(" of the masks of {} lights", lights) : "";
+  report::Table table{.caption = fmt::format("Measured against {} where the light can shine: {} of {} pixels{}{}.",
+                                             reference_name(comparison), scene.receivers, scene.pixels, masks,
                                              sequence ? " of the last frame" : ""),
                       .columns = columns_of(sequence),
                       .rows = {}};
@@ -208,6 +211,21 @@ std::string frames_text(const CompareOptions& options) {
   return text;
 }
 
+bool has_sun(const ComparedScene& scene) {
+  return std::ranges::any_of(
+      scene.lights, [](const render::FrameLight& light) { return std::holds_alternative<render::SunLight>(light); });
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of(const Comparison& comparison, const CompareOptions& options) {
+  const ParamSet& params = comparison.reference_params;
+  std::vector<std::pair<std::string, std::string>> facts{
+      {"Size", fmt::format("{} × {}", options.size.width, options.size.height)}, {"Drawn", frames_text(options)}};
+  if (std::ranges::any_of(comparison.scenes, has_sun))
+    facts.emplace_back("Sun", fmt::format("{:g}° {}", params.get_float("sun.angle"), params.get_word("sun.shape")));
+  facts.emplace_back("Device", comparison.drawn_by.device.at("renderer").get<std::string>());
+  return facts;
+}
+
 std::string count_of(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
@@ -237,11 +255,7 @@ report::Page comparison_page(Comparison& comparison, const CompareOptions& optio
       .title = "Shadow techniques on " + names,
       .summary = fmt::format("{} measured against {}.", count_of(options.contenders.size(), "technique", "techniques"),
                              reference_name(comparison)),
-      .facts = {{"Size", fmt::format("{} × {}", options.size.width, options.size.height)},
-                {"Drawn", frames_text(options)},
-                {"Sun", fmt::format("{:g}° {}", comparison.reference_params.get_float("sun.angle"),
-                                    comparison.reference_params.get_word("sun.shape"))},
-                {"Device", comparison.drawn_by.device.at("renderer").get<std::string>()}},
+      .facts = facts_of(comparison, options),
       .sections = std::move(comparison.sections),
       .footer = fmt::format("{}, commit {}.{}", cli::version(), bench::commit(),
                             options.no_cost ? ""

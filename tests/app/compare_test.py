@@ -56,6 +56,21 @@ class Compare(TestCase):
                     self.assertEqual(row[name], "" if value is None else f"{value:.6g}", name)
             self.assertEqual(int(row["shadow_bytes"]), technique["shadow_bytes"])
 
+    def test_the_page_speaks_of_the_lights_that_there_are(self):
+        def page(*arguments, of):
+            self.compare("--technique", "hard", "--spp", "8", "--no-cost", *SMALL_MAPS, *arguments, of=(of,))
+            return (self.folder / "report" / "index.html").read_text(encoding="utf-8")
+
+        sun = page(of=POSTS)
+        self.assertRegex(sun, r"where the light can shine: \d+ of \d+ pixels\.")
+        self.assertIn("0.53° disc", sun)
+        lamp = page("--no-sun", "--lamp", "1,3,0", "--lights", "none", of=POSTS)
+        self.assertNotIn("° disc", lamp)
+        self.assertRegex(lamp, r"where the light can shine: \d+ of \d+ pixels\.")
+        both = page(of=scene("gallery"))
+        self.assertIn("° disc", both)
+        self.assertRegex(both, r"where the light can shine: \d+ of \d+ pixels of the masks of 4 lights\.")
+
     def test_parameters_of_one_technique_are_its_own(self):
         _, _, data = self.compare(*BRUTE, "--set", "sun.angle=3")
         hard, pcf, pcss = (technique["changed_params"] for technique in data["scenes"][0]["techniques"])
