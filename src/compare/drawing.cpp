@@ -35,12 +35,14 @@ using Timed = session::RenderDevice::Timed;
 
 }  // namespace
 
-// Errors about cameras do not name the file: this adds it.
+// Errors about cameras and memory do not name the file: this adds it.
 session::PreparedScene load_scene(const CompareOptions& options, const scene::ImageDecoder& decode) {
   scene::Scene scene = cli::read_scene(options.scene, options.reading, decode);
   check_inputs(options, scene.files);
   try {
-    return session::prepare_scene(std::move(scene), options);
+    session::PreparedScene prepared = session::prepare_scene(std::move(scene), options);
+    check_memory(options, render::shadowed_lights(prepared.setup).size());
+    return prepared;
   } catch (const Error& error) {
     fail("{}: {}", io::quoted(options.scene), error.what());
   }

@@ -16,9 +16,14 @@ namespace {
 using cli::add_value;
 using cli::fail_usage;
 
-// The most bytes of all reference pictures, which are kept until the last technique is drawn.
+// The most bytes of a scene's reference pictures, which are kept until the last technique is drawn.
 constexpr long long largest_reference = 2LL << 30;
 constexpr long long reference_bytes = sizeof(float) + 1;  // a pixel: visibility, and whether it is a receiver
+
+// `kept`: the number of reference pictures.
+bool too_large(long long kept, const cli::Size& size) {
+  return kept * size.width * size.height > largest_reference / reference_bytes;
+}
 
 void add_contenders(std::vector<Contender>& list, const std::string& text) {
   for (Contender& contender : parse_contenders(text)) {
@@ -82,8 +87,8 @@ void check_together(const CompareOptions& o) {
   if (o.samples && o.reference != "truth") fail_usage("--spp is not for --reference {}", o.reference);
   if (o.warmup && o.frames) fail_usage("--warmup is for single pictures: with --frames every frame is measured");
   check_orbit(o);
-  const long long pixels = 1LL * o.size.width * o.size.height, frames = o.frames ? o.frames->count() : 1;
-  if (frames * pixels > largest_reference / reference_bytes)
+  const int frames = o.frames ? o.frames->count() : 1;
+  if (too_large(frames, o.size))
     fail_usage("{} reference pictures of {}x{} are over the limit of 2 GiB: fewer --frames or a smaller --size", frames,
                o.size.width, o.size.height);
 }
@@ -176,6 +181,15 @@ bool parse_compare(const cli::Arguments& arguments, CompareOptions& options, con
   check_values(options, session::all_techniques());
   cli::check_together(static_cast<const cli::DeviceOptions&>(options));  // looks for a folder
   return true;
+}
+
+void check_memory(const CompareOptions& options, std::size_t lights) {
+  const int frames = options.frames ? options.frames->count() : 1;
+  if (too_large(static_cast<long long>(lights) * frames, options.size))
+    fail(
+        "{} reference pictures of {}x{} for each of {} lights are over the limit of 2 GiB: fewer --frames or a smaller "
+        "--size",
+        frames, options.size.width, options.size.height, lights);
 }
 
 void check_inputs(const CompareOptions& options, std::span<const std::filesystem::path> scene_files) {

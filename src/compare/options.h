@@ -53,6 +53,10 @@ bool parse_compare(const cli::Arguments& arguments, CompareOptions& options, con
 // Throws UsageError if an output would overwrite one of a scene's files, or another file that the command reads.
 void check_inputs(const CompareOptions& options, std::span<const std::filesystem::path> scene_files);
 
+// Throws Error if the reference pictures of that many lights would take too much memory. parse_compare() checks those
+// of one light.
+void check_memory(const CompareOptions& options, std::size_t lights);
+
 // "a,b:p=1,q=2,c" means a, then b with two parameter values that only it uses, then c. Throws UsageError for an empty
 // name.
 std::vector<Contender> parse_contenders(const std::string& text);

@@ -71,6 +71,14 @@ class Compare(TestCase):
         self.assertIn("° disc", both)
         self.assertRegex(both, r"where the light can shine: \d+ of \d+ pixels of the masks of 4 lights\.")
 
+    def test_the_memory_of_references_is_that_of_all_lights(self):
+        # Within the limit for one light, over it for the four of the scene.
+        arguments = ("compare", scene("gallery"), "--technique", "hard", "--frames", "0:7", "--size", "4096x4096")
+        for command in (arguments, ("plan", *arguments)):
+            error = self.refuse(*command, "-o", self.folder / "out.json")
+            self.assertIn("gallery.glb': 8 reference pictures of 4096x4096 for each of 4 lights are over the limit", error)
+        self.assertEqual(self.files(), [])
+
     def test_parameters_of_one_technique_are_its_own(self):
         _, _, data = self.compare(*BRUTE, "--set", "sun.angle=3")
         hard, pcf, pcss = (technique["changed_params"] for technique in data["scenes"][0]["techniques"])
