@@ -67,7 +67,8 @@ class Lights(WindowTest):
             far = lambda: viewer.has("ring of lamp 0") and viewer.middle("ring of lamp 0")[0] > x + 60
             viewer.drag(x, y, LEFT, far, "a lamp of the user's, 60 pixels to the right")
             self.assertFalse(viewer.has(ring))
-            self.assertGreater(viewer.changed(before).differing(before, by=4), 0.005)
+            # Its light is weak beside that of the others, but reaches a large part of the room.
+            self.assertGreater(viewer.changed(before).differing(before, by=1), 0.1)
             words = viewer.copied()
             self.assertIn("--lights=0,1,2", words)
             (lamp,) = [word for word in words if word.startswith("--lamp=")]
