@@ -89,15 +89,16 @@ TEST(MergeMemory, IsThatOfTheReport) {
   const std::size_t before = resident();
   std::vector<int> reads(job->count(), 0);
   const auto start = std::chrono::steady_clock::now();
-  const auto files = job->merge(
+  const std::filesystem::path report_folder = folder.path() / "report";
+  job->merge(
       [&](std::size_t item) {
         ++reads[item];
         return *results.find(key(item));
       },
-      folder.path() / "report");
+      report_folder);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   std::size_t report = 0;
-  for (const std::filesystem::path& file : files) report += std::filesystem::file_size(file);
+  for (const std::filesystem::path& file : job->outputs(report_folder)) report += std::filesystem::file_size(file);
   std::printf("merge of %zu items, %.1f MiB: %.1f s, report of %.1f MiB, at most %.1f MiB of memory more\n",
               job->count(), static_cast<double>(bytes) / (1 << 20), seconds.count(),
               static_cast<double>(report) / (1 << 20), static_cast<double>(most_resident() - before) / (1 << 20));
