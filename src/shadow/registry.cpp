@@ -37,7 +37,8 @@ namespace penumbra::shadow {
   X(box)                    \
   X(gaussian)               \
   X(bilateral)              \
-  X(bilateral_separable)
+  X(bilateral_separable)    \
+  X(isophote)
 
 // One line for each denoiser; each is defined in denoisers/<name>.cpp.
 #define PENUMBRA_DENOISERS(X) X(history_and_filters)
@@ -118,7 +119,7 @@ std::vector<Preset> presets() {
       "slices",
       "The technique slices with few samples a pixel, and a filter that removes their noise.",
       {"slices.azimuths=6", "slices.samples=8", "slices.narrow=8", "sampling.noise=interleaved_gradient",
-       "denoiser=history_and_filters", "filter.penumbra=none", "filter.visibility=bilateral_separable"}};
+       "denoiser=history_and_filters", "filter.penumbra=none", "filter.visibility=isophote", "filter.taps=4"}};
   Preset history = denoised;
   history.name = "slices_history";
   history.summary =

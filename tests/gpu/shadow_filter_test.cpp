@@ -193,11 +193,11 @@ TEST_F(ShadowFilter, NothingBleedsAcrossADepthEdge) {
     const std::vector<float> apart = draw(slab_over_floor(), "low", "none").visibilities();
     for (const std::string& driver : drivers) {
       params.set("driver", driver);
-      for (const std::string filter : {"box", "gaussian", "bilateral", "bilateral_separable"}) {
+      for (const std::string filter : {"box", "gaussian", "bilateral", "bilateral_separable", "isophote"}) {
         const std::vector<float> filtered = draw(slab_over_floor(), "low", filter).visibilities();
         float most = 0;
         for (size_t i = 0; i < apart.size(); ++i) most = std::max(most, std::abs(filtered[i] - apart[i]));
-        if (filter.starts_with("bilateral")) {
+        if (filter.starts_with("bilateral") || filter == "isophote") {
           EXPECT_LE(most, 1.0f / 255) << filter;
         } else {
           EXPECT_GT(most, 0.25f) << filter;
@@ -211,7 +211,7 @@ TEST_F(ShadowFilter, AConstantMaskStaysConstant) {
   params.set("pattern.visibility", 0.37f);
   for (const std::string& driver : drivers) {
     params.set("driver", driver);
-    for (const std::string filter : {"box", "gaussian", "bilateral", "bilateral_separable"}) {
+    for (const std::string filter : {"box", "gaussian", "bilateral", "bilateral_separable", "isophote"}) {
       const TriangleScene scene = ground(70, 40, true);
       for (const float visibility : draw(scene, "none", filter).visibilities()) {
         ASSERT_NEAR(visibility, 0.37f, 3e-4f) << filter;  // the mask stores half floats
@@ -259,7 +259,7 @@ TEST_F(ShadowFilter, DarkDotsAmongLitPixelsAreFilteredAway) {
   params.set("pattern.visibility", 1.0f);
   params.set("pattern.distance", 0.0f);
   params.set("pattern.marked_visibility", 0.0f);
-  for (const std::string filter : {"box", "gaussian", "bilateral", "bilateral_separable"}) {
+  for (const std::string filter : {"box", "gaussian", "bilateral", "bilateral_separable", "isophote"}) {
     const std::vector<float> visibilities = draw(ground(61, 89.9f, true), "dots", filter).visibilities();
     EXPECT_GT(*std::ranges::min_element(visibilities), 0.7f) << filter;
   }

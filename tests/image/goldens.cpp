@@ -98,6 +98,7 @@ std::span<const Golden> goldens() {
       {"filter_gaussian", "thesis", "thesis", {"filter.visibility=gaussian"}, &rounding, {"filter.visibility=none"}},
       {"filter_bilateral", "thesis", "thesis", {"filter.visibility=bilateral"}, &rounding, {"filter.visibility=none"}},
       {"filter_bilateral_separable", "thesis", "thesis_compute", {"filter.visibility=bilateral_separable"}, &rounding, {"filter.visibility=none"}},
+      {"filter_isophote", "thesis", "thesis", {"filter.visibility=isophote"}, &rounding, {"filter.visibility=none"}},
       // Every AOV.
       {"aov_color", "courtyard", "pcss", {}, &rounding, {"technique=none"}, "color"},
       {"aov_shadow", "courtyard", "pcss", {"sun.angle=2"}, &rounding, {"technique=hard"}, "shadow"},

@@ -127,3 +127,22 @@ int tap_offset(TapLine taps, int index) {
 }
 
 ivec2 along(int axis, int offset) { return axis == 0 ? ivec2(offset, 0) : ivec2(0, offset); }
+
+// Gaussian mean over the pixels of a row (axis 0) or column (1) that lie on the receiver's plane.
+float mean_on_axis(int axis, ivec2 pixel, Surface surface, float sigma) {
+  TapLine taps = taps_along(axis, pixel, 2.0 * sigma);
+  float falloff = -0.5 / (sigma * sigma);
+  float sum = 0.0;
+  float weights = 0.0;
+  for (int i = taps.first; i <= taps.last; ++i) {
+    int offset = tap_offset(taps, i);
+    ivec2 to = along(axis, offset);
+    float depth = stored_depth_at(pixel + to);
+    float off_plane = plane_distance(surface, to, depth);
+    float weight = exp(falloff * float(offset * offset) - 0.5 * off_plane * off_plane);
+    weight = is_sky_depth(depth) ? 0.0 : weight;
+    sum += weight * texel_visibility(texel_at(pixel + to));
+    weights += weight;
+  }
+  return sum / weights;
+}

@@ -1,0 +1,66 @@
+// bilateral_separable with a narrower kernel, and then a mean along the line of equal visibility through the pixel. The
+// first blurs the penumbra's profile half as much; the second averages noise where the profile has none to lose.
+#include "shadow/drivers/filter.glsl"
+
+// Kernels of all passes, as standard deviations in units of the one that filter.width asks for.
+const float across = 0.5;      // of the first two passes,
+const float least_across = 0.8;  // which are no narrower than this many pixels, or else the whole kernel
+const float lengthwise = 0.7;  // of the last one
+// Difference of visibility at which a neighbour on the line weighs e^-1/2: a line that bends is left there.
+const float range = 0.05;
+
+// Visibility of a neighbour; the pixel's own in its place as far as the neighbour lies off the receiver's plane.
+float beside(ivec2 pixel, ivec2 to, Surface surface, float own) {
+  ivec2 at = clamp(pixel + to, lowest_pixel(), highest_pixel());
+  float depth = stored_depth_at(at);
+  float off_plane = plane_distance(surface, at - pixel, depth);
+  float weight = is_sky_depth(depth) ? 0.0 : exp(-0.5 * off_plane * off_plane);
+  return mix(own, texel_visibility(texel_at(at)), weight);
+}
+
+// How visibility changes from one side of the pixel to the other, a standard deviation away along each axis.
+vec2 gradient_at(ivec2 pixel, Surface surface, vec2 sigma, float own) {
+  ivec2 to = ivec2(max(sigma + 0.5, 1.0));
+  float a = beside(pixel, -to, surface, own), b = beside(pixel, ivec2(to.x, -to.y), surface, own);
+  float c = beside(pixel, ivec2(-to.x, to.y), surface, own), d = beside(pixel, to, surface, own);
+  return vec2(b + d - a - c, c + d - a - b);
+}
+
+float mean_on_isophote(ivec2 pixel, Surface surface, vec2 sigma, float own) {
+  vec2 gradient = gradient_at(pixel, surface, sigma, own);
+  float steepness = length(gradient);
+  if (steepness < 1e-4) return own;
+  vec2 line = vec2(-gradient.y, gradient.x) / steepness * sigma * lengthwise;  // to one standard deviation, pixels
+  float pixels = max(abs(line.x), abs(line.y));
+  float spacing = max(2.0 / float(filter_taps), 1.0 / pixels);
+  float shift = (tap_noise(pixel, 0) - 0.5) * (spacing - 1.0 / pixels);
+  int side = int(2.0 / spacing + 0.5);
+  float sum = own, weights = 1.0;
+  for (int i = -side; i <= side; ++i) {
+    float at = float(i) * spacing + shift;
+    ivec2 to = ivec2(roundEven(at * line));
+    ivec2 neighbour = pixel + to;
+    bool inside = all(greaterThanEqual(neighbour, lowest_pixel())) && all(lessThanEqual(neighbour, highest_pixel()));
+    if (i == 0 || !inside) continue;
+    float depth = stored_depth_at(neighbour), visibility = texel_visibility(texel_at(neighbour));
+    vec3 off = vec3(at, plane_distance(surface, to, depth), (visibility - own) / range);
+    float weight = is_sky_depth(depth) ? 0.0 : exp(-0.5 * dot(off, off));
+    sum += weight * visibility;
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+uint filtered(ivec2 pixel) {
+  uint texel = texel_at(pixel);
+  float distance_to = kernel_distance(pixel, texel);
+  Surface surface = surface_at(pixel);
+  vec2 sigma = distance_to > 0.0 ? kernel_sigma(surface, distance_to) : vec2(0.0);
+  if (filter_pass == 2) {
+    if (min(sigma.x, sigma.y) < least_sigma) return texel;
+    return with_visibility(texel, mean_on_isophote(pixel, surface, sigma, texel_visibility(texel)));
+  }
+  int axis = min(filter_pass, 1);
+  float width = max(across * sigma[axis], min(sigma[axis], least_across));
+  return width < least_sigma ? texel : with_visibility(texel, mean_on_axis(axis, pixel, surface, width));
+}
