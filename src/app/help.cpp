@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/light_layers.h"
 #include "cli/text.h"
 #include "cli/usage.h"
 #include "core/names.h"
@@ -143,6 +144,10 @@ bool explain_aov(const std::string& name) {
     if (aov.name != name) continue;
     say("{}: {}\n\n  channels       {}\n  --supersample  {}\n", aov.name, aov.help, fmt::join(aov.channels, ", "),
         to_text(aov.reduction));
+    if (aov.of_light)
+      say("\n  Of several lights with shadows, the first one's picture has this name, the second one's is {}, and so "
+          "on.\n",
+          layer_name(aov.name, 1));
     say("\n  penumbra render SCENE -o FILE --aov {}\n", aov.name);
     return true;
   }

@@ -4,6 +4,7 @@
 
 #include <glm/trigonometric.hpp>
 #include <string>
+#include <vector>
 
 #include "cli/command_line.h"
 #include "session/prepared_scene.h"
@@ -29,6 +30,9 @@ image::Metadata metadata_of(const cli::SceneOptions& options, const render::Setu
                            {"penumbra:camera.eye", text_of(render::position_of(camera))},
                            {"penumbra:camera.forward", text_of(forward)},
                            {"penumbra:lights", std::to_string(render::frame_lights(setup).size())}};
+  const std::vector<std::string> names = render::shadowed_names(setup);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    metadata.emplace_back(fmt::format("penumbra:light.{}", i + 1), names[i]);
   if (setup.sun_shines) {
     metadata.emplace_back("penumbra:sun.to_light", text_of(setup.sun.to_light));
     metadata.emplace_back("penumbra:sun.illuminance", text_of(setup.sun.illuminance));

@@ -108,8 +108,8 @@ class BenchJob : public plan::Job {
     return {folder / "index.html", folder / "results.csv", folder / "results.json"};
   }
 
-  void merge(const Read& read, const std::filesystem::path& folder) const override {
-    const std::vector<std::filesystem::path> files = outputs(folder);
+  std::vector<std::filesystem::path> merge(const Read& read, const std::filesystem::path& folder) const override {
+    std::vector<std::filesystem::path> files = outputs(folder);
     Results whole;
     for (std::size_t item = 0; item < points_; ++item) {
       Results kept = kept_point(read(item));
@@ -134,6 +134,7 @@ class BenchJob : public plan::Job {
     }
     fit_models(whole);
     for (const std::filesystem::path& file : files) write(whole, file.string());
+    return files;
   }
 
  private:

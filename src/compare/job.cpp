@@ -101,7 +101,7 @@ class CompareJob : public plan::Job {
     return {options.page(), options.csv(), options.json()};
   }
 
-  void merge(const Read& read, const std::filesystem::path& folder) const override {
+  std::vector<std::filesystem::path> merge(const Read& read, const std::filesystem::path& folder) const override {
     CompareOptions options = options_;
     options.output = folder.string();
     Comparison comparison{.reference_params = values_.reference};
@@ -125,6 +125,7 @@ class CompareJob : public plan::Job {
     cli::Arguments arguments = arguments_;
     arguments[output_] = options.output;
     write_reports(comparison, options, arguments);
+    return outputs(folder);
   }
 
  private:

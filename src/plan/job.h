@@ -47,13 +47,13 @@ class Job {
   // Draws an item. Throws Error.
   virtual Result work(std::size_t item) const = 0;
 
-  // The files that merge() writes into a folder, in order.
+  // All files that merge() may write into a folder.
   virtual std::vector<std::filesystem::path> outputs(const std::filesystem::path& folder) const = 0;
 
   // Gives the result of an item; called once for each. Throws Error if it is damaged.
   using Read = std::function<Result(std::size_t item)>;
-  // Writes what the whole command would write into a folder. Throws Error.
-  virtual void merge(const Read& read, const std::filesystem::path& folder) const = 0;
+  // Writes what the whole command would write into a folder. Returns the files. Throws Error.
+  virtual std::vector<std::filesystem::path> merge(const Read& read, const std::filesystem::path& folder) const = 0;
 };
 
 // The options of a command line that an item depends on, but for those of these names.

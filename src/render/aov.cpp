@@ -23,10 +23,10 @@ struct Pixels {
 // A frame, or one pixel of it.
 struct Source {
   const FrameParts& frame;
+  std::size_t light = 0;
   std::optional<glm::ivec2> pixel = {};  // counted from the upper left; absent: the whole frame
 
-  // Of an array texture, only the first layer is read: of the mask, that is the first light.
-  Pixels read(const gl::Texture& texture, int channels) const;
+  Pixels read(const gl::Texture& texture, int channels, int layer = 0) const;
   Pixels read_bits(const gl::Texture& texture) const;
 };
 
@@ -41,10 +41,10 @@ std::vector<float> rows_top_down(const std::vector<Value>& bottom_up, std::size_
   return rows;
 }
 
-Pixels Source::read(const gl::Texture& texture, int channels) const {
+Pixels Source::read(const gl::Texture& texture, int channels, int layer) const {
   if (pixel) return {channels, gl::read_float_texel(texture, channels, pixel->x, texture.height() - 1 - pixel->y)};
   const auto row = static_cast<std::size_t>(texture.width()) * static_cast<std::size_t>(channels);
-  return {channels, rows_top_down(gl::read_floats(texture, channels), row)};
+  return {channels, rows_top_down(gl::read_floats(texture, channels, 0, layer), row)};
 }
 
 // Small integers, which floats represent exactly.
@@ -133,7 +133,7 @@ template <class Convert>
 std::vector<float> of_mask(const Source& from, int channels, Convert convert) {
   const Pixels sky = from.read(*from.frame.gbuffer.depth, 1);
   return each(
-      from.read(*from.frame.mask.texture, channels),
+      from.read(*from.frame.mask.texture, channels, static_cast<int>(from.light)),
       [&](std::size_t i, const float* p, std::vector<float>& out) { out.push_back(convert(p, is_sky(sky, i))); });
 }
 
@@ -153,14 +153,14 @@ std::vector<float> under_texel(const Source& from) {
   return of_mask(from, 4, [](const float* p, bool) { return p[3] - std::floor(p[3]) >= 0.25f ? 1.0f : 0.0f; });
 }
 
-// Of the first light's shadow map: the side of a square of the texel's area.
+// Of the light's shadow map: the side of a square of the texel's area.
 std::vector<float> texel(const Source& from) {
   const gl::Texture& depth_texture = *from.frame.gbuffer.depth;
   const auto width = static_cast<float>(depth_texture.width()), height = static_cast<float>(depth_texture.height());
   const glm::mat4 projection = projection_of(from.frame.camera, width / height);
   const float pixel = 2.0f / (projection[1][1] * height);  // metres, at a distance of one metre in perspective
   const std::vector<float> distances = depth(from), layers = cascade(from);
-  const shadow::LightProjection& maps = from.frame.mask.lights.front().projection;
+  const shadow::LightProjection& maps = from.frame.mask.lights[from.light].projection;
   std::vector<float> texels;
   for (std::size_t i = 0; i < layers.size(); ++i) {
     if (layers[i] < 0) {  // the sky
@@ -176,7 +176,7 @@ std::vector<float> texel(const Source& from) {
 
 std::vector<float> history(const Source& from) {
   const Pixels sky = from.read(*from.frame.gbuffer.depth, 1);
-  const gl::Texture* notes = from.frame.mask.lights.front().notes;
+  const gl::Texture* notes = from.frame.mask.lights[from.light].notes;
   if (notes == nullptr) {
     return each(sky, [&](std::size_t i, const float*, std::vector<float>& out) {
       out.push_back(is_sky(sky, i) ? -1.0f : static_cast<float>(HISTORY_NONE));
@@ -191,7 +191,8 @@ std::vector<float> history(const Source& from) {
 
 // Of a channel of the mask beside visibility.
 Aov detail(const char* name, const char* help, Reduction reduction) {
-  return {.name = name, .help = help, .channels = {"V"}, .reduction = reduction, .mask_details = true};
+  return {
+      .name = name, .help = help, .channels = {"V"}, .reduction = reduction, .mask_details = true, .of_light = true};
 }
 
 struct Row {
@@ -204,7 +205,7 @@ const std::vector<Row>& rows() {
   using enum Reduction;
   static const std::vector<Row> all{
       {{"color", "Linear light, exposed, before the tone map.", rgb, mean}, color},
-      {{"shadow", "Visibility of the first light, which is the sun if there is one: 1 lit, 0 in shadow.", v, mean},
+      {{.name = "shadow", .help = "Visibility of the light: 1 lit, 0 in shadow.", .channels = v, .of_light = true},
        visibility},
       {{"depth", "Distance from the camera's plane, m; 0 for the sky.", {"Z"}, nearest_center}, depth},
       {{"position", "Position of the surface, world space, m; 0 for the sky.", xyz, nearest_center}, position},
@@ -225,8 +226,9 @@ const std::vector<Row>& rows() {
       {detail("cascade", "Layer of the shadow map that is read, for a sun its cascade, 0 the finest; -1 for the sky.",
               nearest_center),
        cascade},
-      {detail("blocker", "Mean distance from a surface to what hides the sun, m; 0 for none.", mean_of_valid), blocker},
-      {detail("penumbra", "Full width of the penumbra, m; 0 where nothing hides the sun.", mean_of_valid),
+      {detail("blocker", "Mean distance from a surface to what hides the light, m; 0 for none.", mean_of_valid),
+       blocker},
+      {detail("penumbra", "Full width of the penumbra, m; 0 where nothing hides the light.", mean_of_valid),
        penumbra_width},
       {detail("under_texel", "1 where the penumbra is narrower than the shadow map can show.", nearest_center),
        under_texel},
@@ -235,12 +237,15 @@ const std::vector<Row>& rows() {
         .channels = v,
         .reduction = nearest_center,
         .in_pixels = true,
-        .mask_details = true},
+        .mask_details = true,
+        .of_light = true},
        texel},
-      {{"history",
-        "Why the shadow of the last frames is not used: 0 it is used, 1 there is none, 2 the surface was off screen, 3 "
-        "another surface was there, 4 a caster moved; -1 for the sky.",
-        v, nearest_center},
+      {{.name = "history",
+        .help = "Why the shadow of the last frames is not used: 0 it is used, 1 there is none, 2 the surface was off "
+                "screen, 3 another surface was there, 4 a caster moved; -1 for the sky.",
+        .channels = v,
+        .reduction = nearest_center,
+        .of_light = true},
        history},
   };
   return all;
@@ -257,18 +262,14 @@ const std::vector<Aov>& aovs() {
   return all;
 }
 
-std::vector<float> read_visibility(const FrameParts& frame, int light) {
-  const gl::Texture& masks = *frame.mask.texture;
-  return rows_top_down(gl::read_floats(masks, 1, 0, light), static_cast<std::size_t>(masks.width()));
-}
-
-std::vector<float> read_aov(const FrameParts& frame, std::string_view name, std::optional<glm::ivec2> pixel) {
+std::vector<float> read_aov(const FrameParts& frame, std::string_view name, int light,
+                            std::optional<glm::ivec2> pixel) {
   std::vector<std::string> names;
   for (const Row& row : rows()) {
     if (row.aov.name == name) {
       if (row.aov.mask_details && frame.mask.texture->desc().format != GL_RGBA16F)
         fail("aov '{}' was not kept: the frame was drawn without details of its mask", name);
-      return row.read({frame, pixel});
+      return row.read({frame, static_cast<std::size_t>(light), pixel});
     }
     names.push_back(row.aov.name);
   }

@@ -26,9 +26,8 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
 // Adds the motion vectors to the G-buffer of the last frame that was drawn, where nothing in the frame has read them.
 void add_motion(gl::Device& device, FrameParts& frame);
 
-// A layer of its mask, as Renderer::read_visibilities() has it.
-std::vector<float> read_visibility(const FrameParts& frame, int light);
 // An AOV of a frame, as Renderer::read_aov(); of a single pixel if one is given.
-std::vector<float> read_aov(const FrameParts& frame, std::string_view name, std::optional<glm::ivec2> pixel = {});
+std::vector<float> read_aov(const FrameParts& frame, std::string_view name, int light,
+                            std::optional<glm::ivec2> pixel = {});
 
 }  // namespace penumbra::render

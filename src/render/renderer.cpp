@@ -99,22 +99,22 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   return state_->frame;
 }
 
-std::vector<float> Renderer::read_aov(std::string_view name) const {
-  return render::read_aov(state_->drawn_for(name), name);
+std::vector<float> Renderer::read_aov(std::string_view name, int light) const {
+  return render::read_aov(state_->drawn_for(name), name, light);
 }
 
 std::vector<float> Renderer::read_visibilities() const {
   std::vector<float> all;
   const std::size_t lights = state_->drawn().mask.lights.size();
   for (std::size_t light = 0; light < lights; ++light) {
-    const std::vector<float> one = render::read_visibility(state_->drawn(), static_cast<int>(light));
+    const std::vector<float> one = read_aov("shadow", static_cast<int>(light));
     all.insert(all.end(), one.begin(), one.end());
   }
   return all;
 }
 
 std::vector<float> Renderer::read_aov(std::string_view name, const glm::ivec2& pixel) const {
-  return render::read_aov(state_->drawn_for(name), name, pixel);
+  return render::read_aov(state_->drawn_for(name), name, 0, pixel);
 }
 
 std::vector<std::uint8_t> Renderer::read_display() const {

@@ -51,6 +51,7 @@ struct Aov {
   Reduction reduction = Reduction::mean;
   bool in_pixels = false;     // a length in drawn pixels, to be rescaled with supersampling
   bool mask_details = false;  // there only in frames drawn with FrameInputs::mask_details
+  bool of_light = false;      // one picture for each light that casts shadows
 };
 const std::vector<Aov>& aovs();
 
@@ -75,11 +76,11 @@ class Renderer {
   const Frame& draw(scene::GpuScene& scene, const FrameInputs& inputs, const ParamSet& params);
   // The last frame's AOV as floats, rows top to bottom, aov.channels.size() values for each pixel. Throws Error for
   // unknown names, and for an AOV that this frame did not keep (Aov::mask_details). The frame's scene must still exist:
-  // motion vectors that the frame did not need are drawn here.
-  std::vector<float> read_aov(std::string_view name) const;
+  // motion vectors that the frame did not need are drawn here. `light`: which one's, where Aov::of_light is set.
+  std::vector<float> read_aov(std::string_view name, int light = 0) const;
   // The AOV `shadow` of every light that casts shadows, one picture below the other.
   std::vector<float> read_visibilities() const;
-  // The same for one pixel, counted from the upper left.
+  // The same for one pixel, counted from the upper left, of the first light.
   std::vector<float> read_aov(std::string_view name, const glm::ivec2& pixel) const;
   // The last frame as it is displayed: RGB, 8 bits, sRGB-encoded, rows top to bottom.
   std::vector<std::uint8_t> read_display() const;

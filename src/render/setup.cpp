@@ -207,6 +207,7 @@ void choose_lights(Setup& setup, const scene::Scene& scene, const scene::Pose& p
     if (sun && !setup.sun_node) {
       setup.sun = std::get<SunLight>(shining);
       setup.sun_node = light.node;
+      setup.sun_name = light.name;
     } else {
       setup.lights.push_back({std::move(light.name), shining, light.node});
     }
@@ -256,6 +257,14 @@ std::vector<FrameLight> shadowed_lights(const Setup& setup) {
   return lights;
 }
 
+std::vector<std::string> shadowed_names(const Setup& setup) {
+  std::vector<std::string> names;
+  if (setup.sun_shines) names.push_back(setup.sun_name);
+  for (const PlacedLight& light : setup.lights) names.push_back(light.name);
+  names.resize(std::min<std::size_t>(names.size(), max_shadowed_lights));
+  return names;
+}
+
 std::vector<int> light_ids(const Setup& setup) {
   const auto of_node = [](std::size_t node) { return 1 + 2 * static_cast<int>(node); };
   std::vector<int> ids;
@@ -264,8 +273,6 @@ std::vector<int> light_ids(const Setup& setup) {
     ids.push_back(light.node ? of_node(*light.node) : 2 + 2 * std::get<LampLight>(light.light).number);
   return ids;
 }
-
-void keep_first_light(Setup& setup) { setup.lights.resize(setup.sun_shines ? 0 : 1); }
 
 std::vector<std::string> light_names(const scene::Scene& scene) {
   return names_of(file_lights(scene, scene::rest_pose(scene)));

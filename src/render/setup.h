@@ -40,6 +40,7 @@ struct PlacedLight {
 struct Setup {
   Camera camera;
   SunLight sun;
+  std::string sun_name = "sun";
   bool sun_shines = true;  // false: only `lights` light the scene
   std::vector<PlacedLight> lights = {};
   bool ground = false;  // the scene has no floor; add_ground() adds one
@@ -56,8 +57,8 @@ std::vector<FrameLight> shadowed_lights(const Setup& setup);
 // Of each light that shines, for FrameInputs::light_ids: the same whichever other lights shine. Setup::sun is 0.
 std::vector<int> light_ids(const Setup& setup);
 
-// Leaves the first light alone: where the shadows of one light are measured.
-void keep_first_light(Setup& setup);
+// The names of the lights that cast shadows, in the same order.
+std::vector<std::string> shadowed_names(const Setup& setup);
 
 // The names of the lights that the scene places, in the order of SetupRequest::lights' indices. None is empty.
 std::vector<std::string> light_names(const scene::Scene& scene);

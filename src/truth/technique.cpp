@@ -22,12 +22,19 @@ namespace penumbra::truth {
 
 namespace {
 
-TraceOptions trace_options(const ParamSet& params, const TechniqueOptions& options) {
+std::function<bool(double)> progress_of(const shadow::PassContext& frame, const TechniqueOptions& options) {
+  if (!options.progress || options.background) return options.progress;
+  const double light = frame.frame().layer, lights = static_cast<double>(frame.inputs().lights.size());
+  return [=, report = options.progress](double share_done) { return report((light + share_done) / lights); };
+}
+
+TraceOptions trace_options(const shadow::PassContext& frame, const TechniqueOptions& options) {
+  const ParamSet& params = frame.params();
   return {.samples = params.get_int("truth.samples"),
           .error = params.get_float("truth.error"),
           .seed = static_cast<std::uint32_t>(params.get_int("truth.seed")),
           .threads = options.threads,
-          .progress = options.progress};
+          .progress = progress_of(frame, options)};
 }
 
 }  // namespace
@@ -40,8 +47,8 @@ struct TruthTechnique::State {
   PictureTracer tracer;
   std::map<LightId, LightPictures> lights;
   Last none;
-  const Last* last = &none;
-  long long turn = 0;  // counts the lights drawn
+  std::vector<const Last*> last;  // of each layer of the mask
+  long long turn = 0;             // counts the lights drawn
 
   // For background tracing. Only the frame's thread uses the cache, because creating files briefly changes the umask,
   // which belongs to the whole process.
@@ -71,7 +78,7 @@ PictureRequest TruthTechnique::State::request(const shadow::PassContext& frame, 
                          .geometry = user.scene.posed_geometry(),
                          .width = frame.mask().width(),
                          .light = traced_light(frame),
-                         .options = trace_options(frame.params(), options)};
+                         .options = trace_options(frame, options)};
   request.receivers = receivers_of(request.geometry, eye_rays(user), drawn_surfaces(frame.device(), user));
   request.casters = key_of(*request.scene, request.geometry);
   request.key = key_of(request.casters, request.receivers, request.width, request.light, request.options);
@@ -85,7 +92,7 @@ LightPictures& TruthTechnique::State::pictures_of(LightId id) {
   light.turn = ++turn;
   if (lights.size() > most) {
     const auto oldest = std::ranges::min_element(lights, {}, [](const auto& entry) { return entry.second.turn; });
-    if (last == &oldest->second.last) last = &none;
+    std::ranges::replace(last, &oldest->second.last, &none);
     lights.erase(oldest);
   }
   return light;
@@ -108,7 +115,9 @@ bool TruthTechnique::State::find(LightPictures& light, const PictureRequest& wan
 }
 
 void TruthTechnique::State::fill(const shadow::PassContext& frame, const LightPictures& light) {
-  last = &light.last;
+  const auto layer = static_cast<std::size_t>(frame.frame().layer);
+  if (layer >= last.size()) last.resize(layer + 1, &none);
+  last[layer] = &light.last;
   fill_mask(frame, light.last.traced.visibility);
 }
 
@@ -247,6 +256,9 @@ void TruthTechnique::cancel() {
 
 void TruthTechnique::stop() { state_->stop(); }
 
-const TruthTechnique::Last& TruthTechnique::last() const { return *state_->last; }
+const TruthTechnique::Last& TruthTechnique::last(int layer) const {
+  const auto at = static_cast<std::size_t>(layer);
+  return at < state_->last.size() ? *state_->last[at] : state_->none;
+}
 
 }  // namespace penumbra::truth

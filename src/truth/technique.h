@@ -15,8 +15,8 @@ struct TechniqueOptions {
   std::filesystem::path cache = default_cache_folder();  // empty: no cache
   std::uintmax_t cache_bytes = Cache::usual_bytes;       // the most that it takes
   int threads = 0;                                       // 0: one for each core
-  // Same as TraceOptions::progress. With background tracing it is called on the background thread. If it interrupts a
-  // picture, the frame throws Interrupted.
+  // Same as TraceOptions::progress, of the pictures of all lights of the frame; with background tracing of the picture
+  // of one, and called on the background thread. If it interrupts a picture, the frame throws Interrupted.
   std::function<bool(double share_done)> progress;
   // Frames don't wait for their picture. Until it is traced, the mask is 0 where the surface faces away from the
   // light's centre, else 1. A light that needs another picture than in the view's last frame cancels the one that is
@@ -52,7 +52,7 @@ class TruthTechnique {
   // last frames, or its scene::Scene, is destroyed. The next frame starts tracing again.
   void stop();
 
-  // The last traced picture that a frame of this technique showed, of its last light; rows bottom to top.
+  // A traced picture of a light; rows bottom to top.
   struct Last {
     Traced traced;
     std::vector<float>
@@ -60,7 +60,8 @@ class TruthTechnique {
     bool from_cache = false;
     std::optional<BuildStats> build;  // set if a tracer had to be built for it
   };
-  const Last& last() const;
+  // The last one that a frame of this technique showed of the light of that layer of the mask.
+  const Last& last(int layer = 0) const;
 
  private:
   struct State;

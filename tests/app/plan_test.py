@@ -131,6 +131,17 @@ class Drawn(Plans):
         self.work()
         self.assertEqual(self.merge(), self.contents("whole"))
 
+    def test_pictures_of_every_light(self):
+        for command, more in (("truth", ("--spp", "8")), ("render", ("--technique", "hard", "--aov", "shadow,depth"))):
+            with self.subTest(command):
+                arguments = (scene("gallery"), *more, *TINY, "--frames", "0:2", "--no-cache")
+                self.succeed(command, *arguments, "-o", self.folder / command / "x.png")
+                whole = self.contents(command)
+                self.assertIn("x_0002.shadow_4.png", whole)
+                self.make(command, *arguments, "--file", "x.png", "--frames-per-item", 2)
+                self.work()
+                self.assertEqual(self.merge(f"merged-{command}"), whole)
+
     def test_options_that_a_plan_does_not_take(self):
         for arguments, word in ((["--stats", "x.json"], "--stats"), (["--save-preset", "x.toml"], "--save-preset"),
                                 (["--file", "a/b.png"], "folder"), (["--file", "b.gif"], ".png"),

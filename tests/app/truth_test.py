@@ -166,6 +166,56 @@ class Truth(TestCase):
                 for value in middle:
                     self.assertAlmostEqual(value, 0.5, delta=0.15)
 
+    def test_every_light_that_casts_shadows_is_traced(self):
+        of, few = scene("gallery"), ("--spp", "8")
+        said = self.trace("all.exr", *few, of=of)
+        self.assertIn("4 lights, 8 rays a pixel each", said)
+        together, header = read_exr(self.folder / "all.exr"), read_exr_header(self.folder / "all.exr")
+        names = [header[f"penumbra:light.{i}"] for i in (1, 2, 3, 4)]
+        self.assertEqual(set(together), {name.replace(".", f"_{i}.") if i > 1 else name
+                                         for name in LAYERS for i in (1, 2, 3, 4)})
+        self.trace("all.png", *few, of=of)
+        for i, name in enumerate(names):
+            with self.subTest(name):
+                self.assertIn("from the cache", self.trace("one.exr", *few, "--lights", name, of=of))
+                alone = read_exr(self.folder / "one.exr")
+                self.assertGreater(sum(v > 0 for row in alone["shadow.V"] for v in row), 50)
+                for layer, values in alone.items():
+                    self.assertEqual(values, together[layer.replace(".", f"_{i + 1}.") if i else layer], layer)
+                self.trace("one.png", *few, "--lights", name, of=of)
+                picture = self.folder / (f"all.shadow_{i + 1}.png" if i else "all.png")
+                self.assertEqual(read_png(picture), read_png(self.folder / "one.png"))
+        self.assertEqual(sorted(path.name for path in self.folder.glob("all*")),
+                         ["all.exr", "all.png", "all.shadow_2.png", "all.shadow_3.png", "all.shadow_4.png"])
+
+    def test_lights_are_chosen_as_for_render(self):
+        of = scene("gallery")
+        for more, names in (((), 4), (("--no-sun",), 3), (("--lights", "pendant,sun"), 2),
+                            (("--lights", "none", "--lamp", "0,2.4,0"), 1), (("--lamp", "0,2.4,0:radius=0.1"), 5)):
+            with self.subTest(more):
+                self.trace("t.exr", "--spp", "8", *more, of=of)
+                self.succeed("render", of, "-o", self.folder / "r.exr", *SMALL, "--technique", "truth", "--set",
+                             "truth.samples=8", "--aov", "shadow", "--cache", self.cache, *more)
+                traced, drawn = (read_exr(self.folder / f"{name}.exr") for name in ("t", "r"))
+                layers = [name for name in drawn if name.startswith("shadow")]
+                self.assertEqual(len(layers), names)
+                self.assertEqual(set(layers), {name for name in traced if name.startswith("shadow")})
+                for layer in layers:
+                    worst = max(abs(a - b) for rows in zip(traced[layer], drawn[layer]) for a, b in zip(*rows))
+                    self.assertLess(worst, 0.0006, layer)  # the mask holds half floats
+
+    def test_a_second_light_overwrites_no_file_that_the_scene_names(self):
+        of = self.local_scene("point")
+        gltf = json.loads(of.read_text())
+        gltf["images"] = [{"uri": "x.shadow_2.png"}]
+        of.write_text(json.dumps(gltf))
+        image = self.folder / "x.shadow_2.png"
+        image.write_bytes(b"data")
+        self.succeed("truth", of, "-o", self.folder / "y.png", *SMALL, "--spp", "8", "--lamp", "0,3,0")
+        error = self.refuse("truth", of, "-o", self.folder / "x.png", *SMALL, "--lamp", "0,3,0", code=2)
+        self.assertIn("overwrite the scene's file", error)
+        self.assertEqual(image.read_bytes(), b"data")
+
     def test_wrong_lights(self):
         lamp = self.local_scene("point")
         output = ("-o", self.folder / "x.exr", *SMALL)

@@ -48,8 +48,7 @@ void check_outputs(const std::vector<fs::path>& outputs, const fs::path& plan_fi
 
 int merge(const MergeOptions& options) {
   const PlannedJob planned = read_job(options.plan);
-  const std::vector<fs::path> written = planned.job->outputs(options.output);
-  check_outputs(written, options.plan, planned.plan);
+  check_outputs(planned.job->outputs(options.output), options.plan, planned.plan);
   const plan::Results results(options.results.empty() ? plan::results_folder(options.plan) : fs::path(options.results),
                               planned.plan.command);
   if (const std::size_t missing = list_missing(planned, results); missing > 0)
@@ -62,7 +61,7 @@ int merge(const MergeOptions& options) {
            io::quoted(results.file_of(planned.plan.items[item].key)));
     return std::move(*result);
   };
-  planned.job->merge(read, options.output);
+  const std::vector<fs::path> written = planned.job->merge(read, options.output);
   if (options.quiet) return 0;
   const std::string more = written.size() > 1 ? fmt::format(" and {} more", written.size() - 1) : "";
   fmt::print("wrote {}{}\n", written.front().string(), more);

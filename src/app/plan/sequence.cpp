@@ -2,12 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <utility>
 
 #include "cli/options.h"
 #include "core/log.h"
-#include "io/output_file.h"
-#include "plan/json_reader.h"
 
 namespace penumbra::app {
 
@@ -75,30 +72,6 @@ std::string picture_name(const SequenceOptions& options) {
   if (path.has_parent_path() || !path.has_filename() || options.file == "." || options.file == "..")
     cli::fail_usage("--file '{}' is not a name without a folder: merge -o names the folder", options.file);
   return options.file;
-}
-
-plan::Result result_of(std::vector<cli::EncodedFile> files, const std::string& device) {
-  plan::Result result{.data = {{"device", device}}, .files = {}};
-  for (cli::EncodedFile& file : files) result.files.push_back({file.path.string(), std::move(file.bytes)});
-  return result;
-}
-
-void write_pictures(const plan::Job& job, const plan::Job::Read& read, const std::filesystem::path& folder) {
-  const std::vector<std::filesystem::path> outputs = job.outputs(folder);
-  auto next = outputs.begin();
-  plan::DeviceCheck devices;
-  for (std::size_t item = 0; item < job.count(); ++item) {
-    const plan::Result result = read(item);
-    devices.add(plan::text_in(result.data, "device"));
-    for (const plan::ResultFile& file : result.files) {
-      // Names come from a file that anybody may have written: none may lead elsewhere.
-      if (next == outputs.end() || next->filename() != file.name)
-        fail("the result of item {} has the picture '{}', which it should not have", item, file.name);
-      io::write_text(*next++, {reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()});
-    }
-  }
-  if (next != outputs.end()) fail("the results lack the picture {}", io::quoted(next->filename()));
-  devices.warn();
 }
 
 }  // namespace penumbra::app

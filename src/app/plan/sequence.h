@@ -2,13 +2,10 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "cli/cli_fwd.h"
-#include "cli/encoded_file.h"
 #include "cli/output_names.h"
 #include "cli/usage.h"
-#include "plan/job.h"
 
 namespace penumbra::app {
 
@@ -48,9 +45,5 @@ class SequenceItems {
 
 // The name of the pictures: a name without a folder, which `merge` puts into one. Throws UsageError for others.
 std::string picture_name(const SequenceOptions& options);
-
-plan::Result result_of(std::vector<cli::EncodedFile> files, const std::string& device);
-// Writes the files of all results, which must be the job's outputs, into the folder.
-void write_pictures(const plan::Job& job, const plan::Job::Read& read, const std::filesystem::path& folder);
 
 }  // namespace penumbra::app

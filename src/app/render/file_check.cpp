@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <vector>
 
+#include "app/render/frame_files.h"
 #include "cli/input_files.h"
 #include "io/output_file.h"
+#include "render/view.h"
 
 namespace penumbra::app {
 
@@ -22,9 +24,7 @@ std::vector<fs::path> linked_places(const RenderOptions& options, const cli::Out
   };
   const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});
   for (int frame = range.first; frame <= range.last; ++frame) {
-    add(names.picture(frame));
-    if (names.is_exr()) continue;
-    for (const std::string& aov : options.aovs) add(names.aov(frame, aov));
+    for (const fs::path& file : frame_files(options, names, frame, render::max_shadowed_lights)) add(file);
   }
   return places;
 }
@@ -38,9 +38,8 @@ bool is_picture(const fs::path& result, const RenderOptions& options, const cli:
   const fs::path folder = names.picture(range.first).parent_path();
   if (place.parent_path() != io::place_of(folder / "picture").parent_path()) return false;
   for (int frame = range.first; frame <= range.last; ++frame) {
-    if (name == names.picture(frame).filename()) return true;
-    const auto is_aov = [&](const std::string& aov) { return name == names.aov(frame, aov).filename(); };
-    if (!names.is_exr() && std::any_of(options.aovs.begin(), options.aovs.end(), is_aov)) return true;
+    const std::vector<fs::path> files = frame_files(options, names, frame, render::max_shadowed_lights);
+    if (std::ranges::find(files, name, &fs::path::filename) != files.end()) return true;
   }
   return false;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -16,8 +17,9 @@ namespace penumbra::app {
 std::vector<cli::EncodedFile> encoded_frame(const session::RenderSession& session, const RenderOptions& options,
                                             const ParamSet& params, const cli::OutputNames& names, int frame);
 
-// The names of these files.
-std::vector<std::filesystem::path> frame_files(const RenderOptions& options, const cli::OutputNames& names, int frame);
+// The names of these files. `lights`: how many cast shadows.
+std::vector<std::filesystem::path> frame_files(const RenderOptions& options, const cli::OutputNames& names, int frame,
+                                               std::size_t lights);
 
 // Writes these files.
 void write_frame(const session::RenderSession& session, const RenderOptions& options, const ParamSet& params,

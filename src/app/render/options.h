@@ -4,14 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "cli/options.h"
-#include "session/cache_options.h"
+#include "app/frame_options.h"
 
 namespace penumbra::app {
 
 // What `penumbra render` was asked for; every value is parsed and in range.
-struct RenderOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions, session::CacheOptions {
-  std::string output;
+struct RenderOptions : FrameOptions {
   std::optional<int> frame;  // one frame of a sequence, whose picture has no number; `frames` is then that frame
   int warmup = 0;
   bool warmup_still = false;  // all warm-up frames are drawn at the time of the first frame
@@ -19,7 +17,6 @@ struct RenderOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions
   std::vector<std::string> aovs;
   std::string stats;
   int stats_frames = 1;
-  bool quiet = false;
 
   bool is_sequence() const { return frames && !frame; }
 };

@@ -8,8 +8,10 @@ namespace penumbra::app {
 void add_truth_options(CLI::App& app, TruthOptions& o) {
   using cli::add_value;
   cli::add_scene_option(app, o);
-  app.add_option("-o,--output", o.output,
-                 "File to write: .exr (layers shadow, standard_error, hard, receiver) or .png (shadow alone, 8 bits)")
+  app.add_option(
+         "-o,--output", o.output,
+         "File to write: .exr (layers shadow, standard_error, hard, receiver; of a second light shadow_2, ...) or .png "
+         "(shadow alone, 8 bits; of a second light FILE.shadow_2.png, ...)")
       ->required()
       ->type_name("FILE");
   add_value(app, "--spp", "N", "Rays of each pixel; short for --set truth.samples=N (256)",

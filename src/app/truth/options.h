@@ -3,16 +3,13 @@
 #include <optional>
 #include <string>
 
-#include "cli/options.h"
-#include "session/cache_options.h"
+#include "app/frame_options.h"
 
 namespace penumbra::app {
 
 // What `penumbra truth` was asked for.
-struct TruthOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions, session::CacheOptions {
-  std::string output;
+struct TruthOptions : FrameOptions {
   std::optional<std::string> samples, error, seed;
-  bool quiet = false;
 };
 
 void add_truth_options(CLI::App& app, TruthOptions& options);

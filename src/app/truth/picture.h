@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
 #include "cli/encoded_file.h"
 #include "cli/output_names.h"
 #include "cli/usage.h"
@@ -8,9 +12,13 @@
 
 namespace penumbra::app {
 
-// The file of a traced frame: an EXR with the layers shadow, standard_error, hard and receiver, or a PNG of the shadow
-// alone. Throws Error.
-cli::EncodedFile encoded_picture(const cli::OutputNames& names, int frame, const cli::Size& size,
-                                 const truth::TruthTechnique::Last& last, const image::Metadata& metadata);
+// The files of a frame that was traced for that many lights: one EXR with the layers shadow, standard_error, hard and
+// receiver of each light, or a PNG of the shadow for each.
+std::vector<std::filesystem::path> picture_files(const cli::OutputNames& names, int frame, std::size_t lights);
+
+// These files, of the last frame. Throws Error.
+std::vector<cli::EncodedFile> encoded_pictures(const cli::OutputNames& names, int frame, const cli::Size& size,
+                                               const truth::TruthTechnique& truth, std::size_t lights,
+                                               const image::Metadata& metadata);
 
 }  // namespace penumbra::app

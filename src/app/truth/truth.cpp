@@ -24,11 +24,14 @@ namespace penumbra::app {
 
 namespace {
 
-// The standard error that 99.9 % of the receivers stay below.
-float error_of_most(const truth::TruthTechnique::Last& last) {
+// The standard error that 99.9 % of the receivers stay below, each for each light.
+float error_of_most(const truth::TruthTechnique& truth, std::size_t lights) {
   std::vector<float> errors;
-  for (std::size_t i = 0; i < last.receiver.size(); ++i) {
-    if (last.receiver[i] > 0) errors.push_back(last.traced.standard_error[i]);
+  for (std::size_t light = 0; light < lights; ++light) {
+    const truth::TruthTechnique::Last& last = truth.last(static_cast<int>(light));
+    for (std::size_t i = 0; i < last.receiver.size(); ++i) {
+      if (last.receiver[i] > 0) errors.push_back(last.traced.standard_error[i]);
+    }
   }
   if (errors.empty()) return 0;
   const std::size_t rank = errors.size() - 1 - errors.size() / 1000;
@@ -36,24 +39,43 @@ float error_of_most(const truth::TruthTechnique::Last& last) {
   return errors[rank];
 }
 
-std::string summary(const std::filesystem::path& path, const cli::Size& size, const truth::TruthTechnique::Last& last) {
-  const truth::Traced& traced = last.traced;
-  const double millions = static_cast<double>(traced.rays) * 1e-6;
-  const std::string cost = last.from_cache
-                               ? "from the cache"
-                               : fmt::format("{:.1f} million rays in {:.2f} s, {:.1f} million a second", millions,
-                                             traced.seconds, millions / std::max(traced.seconds, 1e-9));
-  return fmt::format("wrote {} ({}×{}, {} rays a pixel, {}, standard error up to {:.2g} in 99.9 %)", path.string(),
-                     size.width, size.height, traced.samples, cost, error_of_most(last));
+// Of the last frame.
+std::string summary(const std::filesystem::path& path, const cli::Size& size, const truth::TruthTechnique& truth,
+                    std::size_t lights) {
+  double millions = 0, seconds = 0;
+  int samples = 0;
+  std::size_t kept = 0;
+  for (std::size_t light = 0; light < lights; ++light) {
+    const truth::TruthTechnique::Last& last = truth.last(static_cast<int>(light));
+    samples = std::max(samples, last.traced.samples);
+    if (last.from_cache) {
+      ++kept;
+      continue;
+    }
+    millions += static_cast<double>(last.traced.rays) * 1e-6;
+    seconds += last.traced.seconds;
+  }
+  std::string cost = "from the cache";
+  if (kept < lights) {
+    cost = fmt::format("{:.1f} million rays in {:.2f} s, {:.1f} million a second", millions, seconds,
+                       millions / std::max(seconds, 1e-9));
+    if (kept > 0) cost += fmt::format(", {} lights from the cache", kept);
+  }
+  const std::string of_lights = lights > 1 ? fmt::format("{} lights, ", lights) : "";
+  return fmt::format("wrote {} ({}×{}, {}{} rays a pixel{}, {}, standard error up to {:.2g} in 99.9 %)", path.string(),
+                     size.width, size.height, of_lights, samples, lights > 1 ? " each" : "", cost,
+                     error_of_most(truth, lights));
 }
 
 void check_inputs(const std::vector<std::filesystem::path>& scene_files, const TruthOptions& options,
-                  const cli::OutputNames& names, const cli::FrameRange& range) {
+                  const cli::OutputNames& names, const cli::FrameRange& range, std::size_t lights) {
   cli::InputFiles inputs;
   inputs.add_scene(scene_files);
   inputs.add_presets(options.presets);
   inputs.add_shaders(options);
-  for (int frame = range.first; frame <= range.last; ++frame) inputs.check("-o", names.picture(frame));
+  for (int frame = range.first; frame <= range.last; ++frame) {
+    for (const std::filesystem::path& file : picture_files(names, frame, lights)) inputs.check("-o", file);
+  }
 }
 
 void trace_files(TruthOptions options) {
@@ -63,12 +85,13 @@ void trace_files(TruthOptions options) {
   const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});
   cli::clean_up_on_signals();
   session::limit_threads(options);
-  check_inputs({options.scene}, options, names, range);
+  check_inputs({options.scene}, options, names, range, 1);
   io::check_writable(names.picture(range.first));
   options.reading.skies_chosen = cli::is_chosen(options, params, "casters.skies");
-  session::PreparedScene prepared = session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)));
-  render::keep_first_light(prepared.setup);
-  check_inputs(prepared.scene.files, options, names, range);
+  const session::PreparedScene prepared =
+      session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)));
+  const std::size_t lights = render::shadowed_lights(prepared.setup).size();
+  check_inputs(prepared.scene.files, options, names, range, lights);
 
   constexpr int parts = 1000;  // of a frame
   std::optional<cli::Progress> progress;
@@ -86,11 +109,11 @@ void trace_files(TruthOptions options) {
   std::string last_line;
   for (int frame = range.first; frame <= range.last; ++frame) {
     session.draw(frame, params);
-    const cli::EncodedFile file =
-        encoded_picture(names, frame, options.size, truth.last(), metadata_of(options, session.setup(), params, frame));
-    io::write_text(file.path, {reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()});
+    for (const cli::EncodedFile& file : encoded_pictures(names, frame, options.size, truth, lights,
+                                                         metadata_of(options, session.setup(), params, frame)))
+      io::write_text(file.path, {reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()});
     if (range.count() > 1) progress->step();
-    last_line = summary(names.picture(frame), options.size, truth.last());
+    last_line = summary(names.picture(frame), options.size, truth, lights);
   }
   progress.reset();
   if (!options.quiet) fmt::print("{}\n", last_line);
