@@ -27,18 +27,19 @@ Shadowed shadow_of(Receiver receiver, Light light) {
   LayerChoice choice = choose_layer(receiver, light.read_radius, light);
   if (choice.outside) return Shadowed(fully_lit(), choice.layer);
   int first = choice.layer;
-  float fade = choice.fade;
+  vec2 fades = choice.fades;
   if (cascades_seam == cascades_seam_dither) {
-    if (white_noise(uvec2(receiver.pixel), 977u).x < fade) first = choice.second;
-    fade = 0.0;
+    float noise = white_noise(uvec2(receiver.pixel), 977u).x;
+    first = noise < fades.x ? choice.others.x : noise < fades.x + fades.y ? choice.others.y : first;
+    fades = vec2(0.0);
   }
   Visibility mixed = Visibility(0.0, 0.0, 0.0, false);
-  int readings = fade > 0.0 ? 2 : 1;
+  int readings = fades.y > 0.0 ? 3 : fades.x > 0.0 ? 2 : 1;
   for (int i = 0; i < readings; ++i) {
-    int layer = i == 0 ? first : choice.second;
+    int layer = i == 0 ? first : i == 1 ? choice.others.x : choice.others.y;
     Receiver seen = seen_by_layer(receiver, layer);
     light = light_for_layer(seen, light, layer);
-    float weight = i == 0 ? 1.0 - fade : fade;
+    float weight = i == 0 ? 1.0 - fades.x - fades.y : i == 1 ? fades.x : fades.y;
     Visibility one = visibility(offset_receiver(seen, light), light);
     mixed.visibility += weight * one.visibility;
     mixed.penumbra_radius += weight * one.penumbra_radius;

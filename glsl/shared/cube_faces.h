@@ -26,13 +26,13 @@ GLSL_FUNCTION vec3 from_face(vec3 p, int face) {
   return vec3(p.x, -p.z, p.y);
 }
 
-// The faces in order of how straight they look at a vector: x the one that contains it, y the next one.
-GLSL_FUNCTION ivec2 faces_of(vec3 p) {
+// The three faces before which a vector lies, in order of how straight they look at it: x is the one that contains it.
+GLSL_FUNCTION ivec3 faces_of(vec3 p) {
   vec3 far = vec3(abs(p.x), abs(p.y), abs(p.z));
   int x = p.x < 0.0f ? 3 : 2, y = p.y < 0.0f ? 5 : 4, z = p.z < 0.0f ? 1 : 0;
-  if (far.z >= far.x && far.z >= far.y) return ivec2(z, far.x >= far.y ? x : y);
-  if (far.x >= far.y) return ivec2(x, far.z >= far.y ? z : y);
-  return ivec2(y, far.z >= far.x ? z : x);
+  if (far.z >= far.x && far.z >= far.y) return far.x >= far.y ? ivec3(z, x, y) : ivec3(z, y, x);
+  if (far.x >= far.y) return far.z >= far.y ? ivec3(x, z, y) : ivec3(x, y, z);
+  return far.z >= far.x ? ivec3(y, z, x) : ivec3(y, x, z);
 }
 
 GLSL_END

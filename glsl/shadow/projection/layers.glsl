@@ -22,8 +22,8 @@ int finest_layer(Receiver receiver, float radius, Light light) {
 struct LayerChoice {
   int layer;
   bool outside;  // no layer contains the position: it counts as lit
-  int second;    // the layer to blend with
-  float fade;    // 0 to 1: its weight
+  ivec2 others;  // the layers to blend with
+  vec2 fades;    // 0 to 1: their weights; if the first is 0, both are
 };
 
 // How far beside an edge of a lamp's cube two faces are blended, as a share of a receiver's depth: no further than the
@@ -34,19 +34,22 @@ float face_blend() {
   return min(cascades_blend, 1.0 - 1.0 / (0.5 / map.widths_per_metre.x - texels_beside * map.texel));
 }
 
-// A lamp's receiver reads the face that contains it. Beside an edge of the cube it also reads the face beyond, with a
-// weight that grows to a half at the edge, and goes to 0 where a third face is as near.
+// A lamp's receiver reads the face that contains it. Beside an edge of the cube it also reads the face beyond, and
+// beside a corner both, with weights that are those of all on the edge and at the corner itself.
 LayerChoice choose_face(Receiver receiver, Light light) {
   vec3 away = abs(receiver.from_lamp);
   float most = max(away.x, max(away.y, away.z)), least = min(away.x, min(away.y, away.z));
   float middle = away.x + away.y + away.z - most - least;
   bool outside = receiver.position.z <= 0.0 || layer_edge(receiver.layer, receiver.position, 0.0, light) > 1.0;
-  float fade = 0.0;
-  if (cascades_seam != cascades_seam_none && light.layers > 1) {
+  if (light.layers == 1) return LayerChoice(receiver.layer, outside, ivec2(0), vec2(0.0));
+  vec2 fades = vec2(0.0);
+  if (cascades_seam != cascades_seam_none) {
     float width = face_blend() * most;
-    fade = 0.5 * clamp((middle - most + width) / width, 0.0, 1.0) * clamp((middle - least) / width, 0.0, 1.0);
+    fades = clamp((vec2(middle, least) - most + width) / width, 0.0, 1.0);
+    // Multiples of a power of two, so that all weights add up to exactly 1: what all faces find lit is lit.
+    fades = floor(4096.0 * fades / (1.0 + fades.x + fades.y)) / 4096.0;
   }
-  return LayerChoice(receiver.layer, outside, light.layers > 1 ? faces_of(receiver.from_lamp).y : 0, fade);
+  return LayerChoice(receiver.layer, outside, faces_of(receiver.from_lamp).yz, fades);
 }
 
 // Chooses the layer from which a receiver reads a disc.
@@ -58,7 +61,8 @@ LayerChoice choose_layer(Receiver receiver, float radius, Light light) {
   if (cascades_seam != cascades_seam_none && !last) {
     fade = clamp((layer_edge(layer, receiver.position, radius, light) - 1.0) / cascades_blend + 1.0, 0.0, 1.0);
   }
-  return LayerChoice(layer, last && layer_edge(layer, receiver.position, 0.0, light) > 1.0, layer + 1, fade);
+  bool outside = last && layer_edge(layer, receiver.position, 0.0, light) > 1.0;
+  return LayerChoice(layer, outside, ivec2(layer + 1), vec2(fade, 0.0));
 }
 
 // The layer through which a receiver of a tile is seen, of which that one was named for all of them.

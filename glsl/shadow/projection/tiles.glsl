@@ -89,7 +89,8 @@ Receiver receiver_in_box(Box box, float depth, Light light) {
 bool reads_layer(Receiver receiver, Light light) {
   if (!is_lamp || receiver.layer == light.layer) return true;
   LayerChoice choice = choose_face(receiver, light_at(receiver));
-  return choice.fade > 0.0 && choice.second == light.layer;
+  return (choice.fades.x > 0.0 && choice.others.x == light.layer) ||
+         (choice.fades.y > 0.0 && choice.others.y == light.layer);
 }
 
 // Whether it lies outside of the map that sees it.
