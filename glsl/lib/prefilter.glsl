@@ -11,6 +11,26 @@ GLSL_FUNCTION int kernel_level(float radius, int levels) {
   return clamp(int(floor(log2(max(radius / 4.0f, 1.0f)))), 0, levels - 1);
 }
 
+// The radius of a kernel in texels of a level, of a light whose texels vary with depth. There that level holds the
+// kernel at the largest texels, where its radius is so many texels of level 0, and each coarser level one that is twice
+// as wide as the level before holds. Less than two texels would be lost among what texels and their interpolation blur.
+GLSL_FUNCTION float kernel_texels(float radius, int level, bool coarser) {
+  float texels = radius / exp2(float(level));
+  return coarser ? max(texels, 2.0f) : texels;
+}
+
+// The level, as a fraction, at which the kernel's radius is so many texels of level 0, if it is `largest` of them where
+// texels are largest. A mixture of the kernels of two levels, of which one is twice as wide, is from 10 to 90 % of an
+// edge as wide as a kernel of the mean radius, within 2 %.
+GLSL_FUNCTION float level_of_kernel(float radius, float largest, int levels) {
+  int first = kernel_level(largest, levels);
+  float coarse = kernel_texels(largest, first, true);
+  int level = max(int(floor(log2(max(radius / coarse, 1.0f)))), first);
+  float low = level == first ? largest : coarse * exp2(float(level)), high = coarse * exp2(float(level + 1));
+  float share = (radius - low) / max(high - low, 1e-6f);
+  return min(float(level) + clamp(share, 0.0f, 1.0f), float(levels - 1));
+}
+
 // Weight of a texel at a distance from the kernel's centre in radii, up to a factor: a Gaussian whose standard
 // deviation is half the radius, lowered so that it ends in 0 at the radius.
 GLSL_FUNCTION float kernel_weight(float distance_in_radii) {

@@ -45,17 +45,26 @@ const int most_points_in_a_row = 8;
 FilteredPlace filtered_place(sampler2DArray map, Receiver receiver, float radius, int shrink, Light light) {
   float side = float(textureSize(map, 0).x);
   vec2 texel = texel_extent(receiver, light) * float(shrink);
+  int levels = textureQueryLevels(map);
+  float texels = radius / min(texel.x, texel.y);
   // A little more than the radius: rounding must not lead to a finer level than the one that was filtered.
-  int finest = kernel_level(1.0001 * radius / min(texel.x, texel.y), textureQueryLevels(map));
+  float finest = float(kernel_level(1.0001 * texels, levels)), spacing = 1.0;
+  if (texels_vary()) {
+    vec2 largest = largest_texel_extent(receiver, light) * float(shrink);
+    float fewest = radius / min(largest.x, largest.y);
+    finest = level_of_kernel(texels, fewest, levels);
+    // Every level is filtered, so that points may lie half of its kernel's radius apart.
+    spacing = 0.5 * kernel_texels(fewest, kernel_level(fewest, levels), true);
+  }
   PixelSteps steps = pixel_steps(receiver);
   vec2 right = map_offset(steps.right, light) / float(shrink), up = map_offset(steps.up, light) / float(shrink);
   vec2 longer = length(right) > length(up) ? right : up;
-  float across = max(min(length(right), length(up)), exp2(float(finest)));
+  float across = max(min(length(right), length(up)), spacing * exp2(floor(finest)));
   int points = clamp(int(ceil(length(longer) / across)), 1, most_points_in_a_row);
   across = max(across, length(longer) / float(points));
   vec2 next = longer / (float(points) * side);
   vec2 at = map_place(receiver.position, light) / (float(shrink) * side);
-  float level = clamp(log2(across), float(finest), float(textureQueryLevels(map) - 1));
+  float level = clamp(log2(across / spacing), finest, float(levels - 1));
   return FilteredPlace(at - 0.5 * float(points - 1) * next, next, points, level);
 }
 

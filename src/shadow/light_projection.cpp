@@ -191,6 +191,8 @@ glm::vec2 LightProjection::texel(int layer) const {
   return cascades().texel(layer);
 }
 
+bool LightProjection::texels_vary() const { return std::holds_alternative<LampMaps>(maps_); }
+
 float LightProjection::depth_range(int layer) const {
   if (const auto* lamp = std::get_if<LampMaps>(&maps_))
     return static_cast<float>(lamp->far * lamp->far * (1 / lamp->near - 1 / lamp->far));

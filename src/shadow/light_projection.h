@@ -79,6 +79,8 @@ class LightProjection {
   int size() const;  // side of each layer, texels
   // Width and height of a layer's texel, metres; of a lamp: at the far plane, where texels are largest.
   glm::vec2 texel(int layer) const;
+  // Whether they are smaller for receivers nearer to the light.
+  bool texels_vary() const;
   // Metres along the light for the whole range of stored depths; of a lamp: as they are spaced at the far plane.
   float depth_range(int layer) const;
   // From world space to clip space of a layer: x and y in -1..1 within the map, z in 0..1, which is the stored depth.

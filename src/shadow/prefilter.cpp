@@ -47,18 +47,18 @@ class LayerPasses {
     while (first < level && shrink << (first + 1) <= most_block) ++first;
     from_depth(first, shrink << first);
     for (int coarser = first + 1; coarser <= level; ++coarser) halve(coarser);
-    const glm::vec2 texels = radius / (texel * std::exp2(static_cast<float>(level)));
-    if (std::max(texels.x, texels.y) > 1) {
-      const gl::Texture& rows = context_.target("rows", {.target = GL_TEXTURE_2D_ARRAY,
-                                                         .format = filtered_.desc().format,
-                                                         .width = filtered_.width(),
-                                                         .height = filtered_.height(),
-                                                         .layers = slices_,
-                                                         .levels = filtered_.desc().levels});
-      blur({.texture = filtered_, .slice = first_slice()}, {.texture = rows}, level, {1, 0}, texels.x);
-      blur({.texture = rows}, {.texture = filtered_, .slice = first_slice()}, level, {0, 1}, texels.y);
+    if (!context_.frame().projection.texels_vary()) {
+      filter(level, radius / (texel * std::exp2(static_cast<float>(level))));
+      for (int coarser = level + 1; coarser < filtered_.desc().levels; ++coarser) halve(coarser);
+      return;
     }
+    // For nearer receivers each coarser level holds a kernel of twice as many texels of the map.
     for (int coarser = level + 1; coarser < filtered_.desc().levels; ++coarser) halve(coarser);
+    for (int each = level; each < filtered_.desc().levels; ++each) {
+      const bool coarser = each > level;
+      filter(each, {glsl::kernel_texels(radius / texel.x, level, coarser),
+                    glsl::kernel_texels(radius / texel.y, level, coarser)});
+    }
   }
 
  private:
@@ -73,6 +73,19 @@ class LayerPasses {
     target.bind_image(0, GL_WRITE_ONLY, level);
     const int side = std::max(1, target.width() >> level);
     pass_.dispatch(side, side, slices_);
+  }
+
+  // With a kernel of that radius, texels.
+  void filter(int level, const glm::vec2& texels) {
+    if (std::max(texels.x, texels.y) <= 1) return;
+    const gl::Texture& rows = context_.target("rows", {.target = GL_TEXTURE_2D_ARRAY,
+                                                       .format = filtered_.desc().format,
+                                                       .width = filtered_.width(),
+                                                       .height = filtered_.height(),
+                                                       .layers = slices_,
+                                                       .levels = filtered_.desc().levels});
+    blur({.texture = filtered_, .slice = first_slice()}, {.texture = rows}, level, {1, 0}, texels.x);
+    blur({.texture = rows}, {.texture = filtered_, .slice = first_slice()}, level, {0, 1}, texels.y);
   }
 
   void from_depth(int level, int block) {

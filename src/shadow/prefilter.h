@@ -16,8 +16,9 @@ namespace penumbra::shadow {
 // map's texels, a separable Gaussian whose standard deviation is half the radius and which ends at the radius, and a
 // chain of levels. Each layer is filtered at the level at which the radius is 4 to 8 texels (kernel_level() in
 // glsl/lib/prefilter.glsl), or level 0 if it is smaller there; nothing may read its finer levels, which are not
-// filtered, or not filled at all. A texture's side is a power of two: texels beyond the shadow map are those of an
-// empty map.
+// filtered, or not filled at all. Where texels are smaller for nearer receivers (LightProjection::texels_vary()), that
+// is the level at the largest texels, and each coarser one holds the same function with a kernel twice as wide. A
+// texture's side is a power of two: texels beyond the shadow map are those of an empty map.
 struct FilteredMap {
   std::string name;    // of the recipe
   std::string prefix;  // of its parameters, PREFIX.radius and PREFIX.shrink

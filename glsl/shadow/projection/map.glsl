@@ -69,6 +69,14 @@ float texel_size(Receiver receiver, Light light) { return texel_size_at(receiver
 vec2 texel_extent_at(vec3 position, Light light) { return light.map.texel * light.map.texel_shares; }
 vec2 texel_extent(Receiver receiver, Light light) { return texel_extent_at(receiver.position, light); }
 
+// Whether texels are smaller for receivers nearer to the light; and their extent where they are largest, metres.
+bool texels_vary() { return is_lamp; }
+vec2 largest_texel_extent(Receiver receiver, Light light) {
+  if (!is_lamp) return texel_extent(receiver, light);
+  LayerBlock map = shadow.layers[0];
+  return map.texel * map.texel_shares / -(map.near_depth + map.depth_range);
+}
+
 // Slope of the receiver's plane in depth per width of a texel, over texel_size().
 float texel_slope(Receiver receiver, Light light) { return length(receiver.gradient * light.map.texel_shares); }
 
@@ -95,8 +103,12 @@ float depth_in(sampler2DArray map, ivec2 texel, Light light) {
 
 float depth_at(ivec2 texel, Light light) { return depth_in(shadow_depth, texel, light); }
 
-// Offset of a texel's centre from the receiver.
+// Offset from the receiver of the centre of a texel, beyond the rim of a cube's face of what is read there.
 vec2 texel_offset(Receiver receiver, ivec2 texel, Light light) {
+  if (has_faces(light) && leaves_map(texel, texel)) {
+    vec3 seen = face_texel_at(texel, light).seen;
+    return seen.xy * (light.depth / seen.z) - receiver.position.xy;
+  }
   vec2 extent = texel_extent(receiver, light);
   vec2 center = (vec2(texel) + 0.5) * extent - 0.5 / light.map.widths_per_metre + light.map.center;
   return center - receiver.position.xy;
@@ -145,10 +157,6 @@ Footprint footprint_beyond(Receiver receiver, ivec2 first, vec2 weight, Light li
     ivec2 texel = first + ivec2(i == 1 || i == 2, i < 2);
     found.depths[i] = depth_at(texel, light);
     vec2 offset = texel_offset(receiver, texel, light);
-    if (leaves_map(texel, texel)) {
-      vec3 seen = face_texel_at(texel, light).seen;
-      offset = seen.xy * (light.depth / seen.z) - receiver.position.xy;
-    }
     found.offsets.x[i] = offset.x;
     found.offsets.y[i] = offset.y;
   }

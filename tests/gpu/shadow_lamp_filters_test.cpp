@@ -1,0 +1,98 @@
+// Filters of a constant radius under a lamp, whose maps have smaller texels for nearer receivers.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <string>
+#include <vector>
+
+#include "gpu/lamp_screens.h"
+#include "shadow/soft_shadows.h"
+
+namespace penumbra::test {
+namespace {
+
+constexpr float radius = 0.1f;  // of the kernels, metres
+
+class LampFilters : public Lamps {
+ protected:
+  ParamSet parameters(const std::string& technique) const {
+    ParamSet params = renderer_->params();
+    params.set("technique", technique);
+    params.set(technique + ".radius", radius);
+    if (params.contains(technique + ".bleeding")) params.set(technique + ".bleeding", 0.0f);
+    if (technique == "pcf") params.set("pcf.filter_taps", 256);
+    if (technique == "pcf_poisson") params.set("pcf_poisson.taps", 64);
+    return params;
+  }
+
+  // Metres on a ground at that depth below a lamp, from where a tenth to where nine tenths of the light are visible
+  // under the edge of a half-plane. What else the lamp shines on is 7 m away.
+  double width(float depth, const ParamSet& params) {
+    const float height = 0.25f * depth;
+    TriangleScene scene;
+    scene.add_quad({-depth, -depth, -depth}, {0, 0, 2 * depth}, {2 * depth, 0, 0});
+    scene.add_quad({-depth, height - depth, -depth}, {0, 0, 2 * depth}, {depth, 0, 0});
+    scene.add_quad({-4, -4, -4}, {0, 0, 8}, {8, 0, 0});
+    scene.width = 192;
+    scene.height = 4;
+    scene.view = glm::lookAt(glm::vec3(0, 0.9f * height - depth, 0), glm::vec3(0, -depth, 0), glm::vec3(0, 0, -1));
+    scene.projection = orthographic(2.5f * radius, 2.5f * radius * 4 / 192, 0.001f, height);
+    const Shadowed shadowed = render(scene, {.radius = 0}, params);
+    std::vector<double> row;
+    for (int x = 0; x < shadowed.width; ++x) row.push_back(static_cast<double>(shadowed.visibility(x, 1)));
+    return width_10_90(row, static_cast<double>(shadowed.point(1, 1).x - shadowed.point(0, 1).x));
+  }
+};
+
+// Of the kernel of filtered maps along an edge, from a tenth to nine tenths; of a disc.
+constexpr double gaussian_width = 1.044, disc_width = 1.3737;
+
+TEST_F(LampFilters, KernelsAreAsWideAsAskedForAtEveryDepth) {
+  for (const std::string technique : {"pcf", "pcf_poisson", "vsm", "evsm", "msm"}) {
+    ParamSet params = parameters(technique);
+    params.set("lamps.size", 2048);
+    const double exact = radius * (technique.starts_with("pcf") ? disc_width : gaussian_width);
+    for (const float depth : {4.0f, 2.8f, 2.0f, 1.4f, 1.0f, 0.5f})
+      EXPECT_NEAR(width(depth, params), exact, 0.05 * exact) << technique << ", " << depth << " m below the lamp";
+  }
+}
+
+TEST_F(LampFilters, KernelsDependOnNeitherMapSizeNorNearPlane) {
+  for (const std::string technique : {"pcf", "pcf_poisson", "vsm", "evsm", "msm"}) {
+    for (const float depth : {4.0f, 1.4f}) {
+      ParamSet params = parameters(technique);
+      params.set("lamps.size", 4096);
+      const double fine = width(depth, params);
+      for (const int size : {1024, 2048}) {
+        params.set("lamps.size", size);
+        EXPECT_NEAR(width(depth, params), fine, 0.03 * fine) << technique << ", " << depth << " m, " << size;
+      }
+      params.set("lamps.near", 0.2f);
+      EXPECT_NEAR(width(depth, params), fine, 0.03 * fine) << technique << ", " << depth << " m, near plane at 20 cm";
+    }
+  }
+}
+
+// A wall that nothing shadows, with kernels that reach beyond the rims of the cube's faces.
+TEST_F(LampFilters, WideKernelsLeaveAWallLit) {
+  for (const std::string technique : {"pcf", "vsm", "evsm", "msm", "esm", "csm_fourier"}) {
+    ParamSet params = parameters(technique);
+    params.set("lamps.size", 512);
+    for (const float wide : {0.25f, 0.5f, 1.0f, 2.0f}) {
+      params.set(technique + ".radius", wide);
+      float least = 1;
+      for (const Screen& screen : screens()) {
+        TriangleScene scene = scene_of(screen, 64);
+        scene.triangles.resize(2);  // the wall alone
+        for (const float visibility : render(scene, {.radius = 0.03f}, params).visibilities())
+          least = std::min(least, visibility);
+      }
+      EXPECT_GE(least, technique == "csm_fourier" ? 0.99f : 0.999f) << technique << ", kernel of " << wide << " m";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
