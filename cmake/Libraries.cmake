@@ -16,6 +16,7 @@ set(typed_settings "${PROJECT_BINARY_DIR}/include/penumbra/penumbra_settings.hpp
 add_executable(penumbra_typed_settings EXCLUDE_FROM_ALL "${PROJECT_SOURCE_DIR}/src/capi/typed/main.cpp")
 target_link_libraries(penumbra_typed_settings PRIVATE penumbra_options penumbra_capi)
 add_custom_command(OUTPUT "${typed_settings}" COMMAND penumbra_typed_settings "${typed_settings}"
+  DEPENDS penumbra_typed_settings
   COMMENT "Generating penumbra_settings.hpp" VERBATIM)
 add_custom_target(penumbra_settings_header DEPENDS "${typed_settings}")
 
