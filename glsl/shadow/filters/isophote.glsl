@@ -2,10 +2,10 @@
 // first blurs the penumbra's profile half as much; the second averages noise where the profile has none to lose.
 #include "shadow/drivers/filter.glsl"
 
-// Kernels of all passes, as standard deviations in units of the one that filter.width asks for.
-const float across = 0.5;      // of the first two passes,
-const float least_across = 0.8;  // which are no narrower than this many pixels, or else the whole kernel
-const float lengthwise = 0.7;  // of the last one
+// Standard deviations of the kernels, as shares of that of filter.width: of the first two passes, and of the last one.
+const float across = 0.5, lengthwise = 0.7;
+// The first two are not made narrower than this, pixels.
+const float least_across = 0.8;
 // Difference of visibility at which a neighbour on the line weighs e^-1/2: a line that bends is left there.
 const float range = 0.05;
 
