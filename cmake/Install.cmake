@@ -2,17 +2,21 @@
 # CMake's has the targets penumbra::penumbra, the shared library with the C interface, penumbra::static, the same as a
 # static library, and penumbra::shadow, which adds the C++ of the layers, GLM and fmt; pkg-config's has the first two, and
 # the package "penumbra-shadow" the third. Nothing that is installed names a path of the building machine.
+#
+# Components, each a package of Debian's (Packages.cmake): program, runtime, which is the shared library for programs that
+# use it, and development.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development) # of what names none
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/penumbra")
 set(header_dir "${CMAKE_INSTALL_INCLUDEDIR}/penumbra")
 
 install(TARGETS penumbra_shared EXPORT penumbra
-  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT runtime NAMELINK_COMPONENT development
   INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(TARGETS penumbra_static penumbra_extending EXPORT penumbra_static
-  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development
   INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 foreach(header IN LISTS penumbra_interface_headers)
   install(FILES "${PROJECT_SOURCE_DIR}/src/capi/${header}" DESTINATION "${header_dir}")
@@ -47,7 +51,14 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${CMAKE_INSTALL_
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/penumbra")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/glsl" DESTINATION "${CMAKE_INSTALL_DATADIR}/penumbra")
 if(PENUMBRA_APP)
+  set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
   install(TARGETS penumbra RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/scenes" DESTINATION "${CMAKE_INSTALL_DATADIR}/penumbra"
     FILES_MATCHING PATTERN "*.glb" PATTERN "*.gltf")
+  # The manual page, and what completes command lines.
+  set(manual "${PROJECT_BINARY_DIR}/manual")
+  install(FILES "${manual}/penumbra.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+  install(FILES "${manual}/penumbra.bash" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
+    RENAME penumbra)
+  install(FILES "${manual}/_penumbra" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions")
 endif()

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/names.h"
 #include "cli/progress.h"
 #include "cli/usage.h"
 #include "image/write.h"
@@ -196,9 +197,13 @@ int bake_points(const Arguments& arguments) {
 
 }  // namespace
 
+const std::vector<std::string>& bake_kinds() {
+  static const std::vector<std::string> kinds{"noise", "keys", "points"};
+  return kinds;
+}
+
 int run_bake(const Arguments& arguments) {
-  const std::vector<std::string> kinds{"noise", "keys", "points"};
-  if (arguments.empty()) cli::fail_usage("what to bake is missing: {}", fmt::join(kinds, ", "));
+  if (arguments.empty()) cli::fail_usage("what to bake is missing: {}", fmt::join(bake_kinds(), ", "));
   const Arguments rest(arguments.begin() + 1, arguments.end());
   if (arguments.front() == "noise") return bake_noise(rest);
   if (arguments.front() == "keys") return bake_keys(rest);
@@ -209,7 +214,7 @@ int run_bake(const Arguments& arguments) {
         "--help and penumbra bake points --help\n");
     return 0;
   }
-  cli::fail_unknown_usage("thing to bake", arguments.front(), kinds);
+  cli::fail_unknown_usage("thing to bake", arguments.front(), bake_kinds());
 }
 
 }  // namespace penumbra::app

@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/light_layers.h"
+#include "app/names.h"
 #include "cli/text.h"
 #include "cli/usage.h"
 #include "core/names.h"
@@ -154,6 +155,8 @@ bool explain_aov(const std::string& name) {
   return false;
 }
 
+}  // namespace
+
 std::vector<std::string> explained_names() {
   std::vector<std::string> names = session::all_techniques().names();
   for (const Command& command : commands()) names.emplace_back(command.name);
@@ -169,8 +172,6 @@ std::vector<std::string> explained_names() {
   }
   return names;
 }
-
-}  // namespace
 
 int run_help(const Arguments& arguments) {
   CLI::App app("Explain a parameter or a group of them, a technique, filter, denoiser, product, AOV or command",

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/names.h"
 #include "cli/text.h"
 #include "cli/usage.h"
 #include "core/names.h"
@@ -110,12 +111,9 @@ Json listing_rows() {
 }
 
 const Listing& find_listing(const std::string& name) {
-  std::vector<std::string> names;
-  for (const Listing& listing : listings) {
+  for (const Listing& listing : listings)
     if (name == listing.name) return listing;
-    names.emplace_back(listing.name);
-  }
-  cli::fail_unknown_usage("list", name, names);
+  cli::fail_unknown_usage("list", name, listing_names());
 }
 
 // "0.53 deg (0 to 20)", what a parameter's row shows between its name and its sentence.
@@ -145,6 +143,12 @@ void print_rows(const Json& rows) {
 }
 
 }  // namespace
+
+std::vector<std::string> listing_names() {
+  std::vector<std::string> names;
+  for (const Listing& listing : listings) names.emplace_back(listing.name);
+  return names;
+}
 
 int run_list(const Arguments& arguments) {
   CLI::App app("List techniques, filters, parameters and others by name", "penumbra list");

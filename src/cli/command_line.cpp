@@ -10,7 +10,9 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 
+#include "cli/help_reader.h"
 #include "cli/resources.h"
 #include "cli/signals.h"
 #include "cli/text.h"
@@ -31,6 +33,13 @@ const std::map<std::string, int>& log_levels() {
                                                  {"error", static_cast<int>(LogLevel::error)},
                                                  {"quiet", static_cast<int>(LogLevel::error) + 1}};
   return levels;
+}
+
+std::function<void(const CLI::App&)>& help_reader() {
+  static std::function<void(const CLI::App&)> reader = [](const CLI::App& options) {
+    fmt::print("{}", wrapped(options.help()));
+  };
+  return reader;
 }
 
 void log_from(const std::string& name) {
@@ -152,17 +161,18 @@ int run_guarded(const std::function<int()>& program) {
   }
 }
 
+void read_help_with(std::function<void(const CLI::App&)> reader) { help_reader() = std::move(reader); }
+
 bool parse(CLI::App& options, const Arguments& arguments) {
   std::string level = "warning";
-  options
-      .add_option("--log-level", level, "Least severe message to show: debug, info, warning, error; or quiet for none")
-      ->type_name("LEVEL");
+  options.add_option("--log-level", level, "Least severe message to show; quiet: none (warning)")
+      ->type_name("debug|info|warning|error|quiet");
   options.allow_extras();
   refuse_equals_after_short_name(options, arguments);
   try {
     options.parse(Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
   } catch (const CLI::CallForHelp&) {
-    fmt::print("{}", wrapped(options.help()));
+    help_reader()(options);
     return false;
   } catch (const CLI::RequiredError& error) {
     hint_at_file(arguments);

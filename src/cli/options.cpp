@@ -141,7 +141,7 @@ void add_shadow_options(CLI::App& app, ShadowOptions& o) {
 }
 
 void add_device_options(CLI::App& app, DeviceOptions& o) {
-  add_value(app, "--backend", "NAME", "auto, egl, osmesa or window (auto)", [&o](const auto& text) {
+  add_value(app, "--backend", "auto|egl|osmesa|window", "How to open an OpenGL context (auto)", [&o](const auto& text) {
     o.backend = one_of("backend", text, std::vector<std::string>{"auto", "egl", "osmesa", "window"});
   });
   add_value(app, "--egl-device", "N", "EGL device by index; see penumbra doctor",

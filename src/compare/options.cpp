@@ -43,7 +43,7 @@ void add_compare_options(CLI::App& app, CompareOptions& o, const CommandHelp& he
             "Techniques and presets to compare; NAME:PARAM=VALUE,PARAM=VALUE changes values of one; see penumbra list "
             "techniques",
             [&o](const auto& text) { add_contenders(o.contenders, text); });
-  add_value(app, "--reference", "NAME", "Reference that they are measured against: truth or brute_force (truth)",
+  add_value(app, "--reference", "truth|brute_force", "Reference that they are measured against (truth)",
             [&o](const auto& text) {
               o.reference = cli::one_of("reference", text, std::vector<std::string>{"truth", "brute_force"});
             });

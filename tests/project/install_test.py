@@ -92,6 +92,10 @@ class Installed(support.TestCase):
                 text = path.read_bytes()
                 self.assertFalse(any(place in text for place in places), f"{path} names {support.ROOT}")
 
+    def test_manual_and_completion_are_where_shells_look(self):
+        for file in ("man/man1/penumbra.1", "bash-completion/completions/penumbra", "zsh/site-functions/_penumbra"):
+            self.assertIn("penumbra", (self.prefix / "share" / file).read_text(), file)
+
     def test_program_runs_with_its_own_data(self):
         program = self.prefix / "bin" / "penumbra"
         picture = self.folder / "steps.png"

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/names.h"
 #include "app/render/job.h"
 #include "app/truth/job.h"
 #include "bench/bench.h"
@@ -43,12 +44,12 @@ cli::Arguments with_threads(cli::Arguments arguments, std::optional<int> threads
   return arguments;
 }
 
+}  // namespace
+
 const std::vector<std::string>& planned_commands() {
   static const std::vector<std::string> names{"compare", "render", "truth", "bench"};
   return names;
 }
-
-}  // namespace
 
 // A commit says what the program is, unless its sources differed or are unknown.
 plan::Program this_program() {
