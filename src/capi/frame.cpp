@@ -151,6 +151,7 @@ std::vector<shadow::Light> lights_of(const penumbra_light* lights, std::size_t c
 
 shadow::Inputs inputs_of(const penumbra_frame& frame) {
   if (frame.reserved != 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_frame.reserved is not 0");
+  if (frame.reserved_2 != 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_frame.reserved_2 is not 0");
   require_finite(frame.jitter, "penumbra_frame.jitter");
   shadow::Inputs inputs;
   inputs.view = {.view = matrix_of(frame.view, "penumbra_frame.view"),
@@ -168,6 +169,7 @@ shadow::Inputs inputs_of(const penumbra_frame& frame) {
   inputs.viewport = {frame.viewport[0], frame.viewport[1], frame.viewport[2], frame.viewport[3]};
   inputs.casters = box_of(frame.casters, "penumbra_frame.casters");
   inputs.receivers = box_of(frame.receivers, "penumbra_frame.receivers");
+  inputs.exact_bounds = frame.exact_bounds != 0;
   inputs.forward_receivers = box_of(frame.forward_receivers, "penumbra_frame.forward_receivers");
   if (frame.moved_is_known != 0) inputs.moved = box_of(frame.moved, "penumbra_frame.moved");
   inputs.mask_details = frame.mask_details != 0;

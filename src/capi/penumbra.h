@@ -357,6 +357,13 @@ typedef struct penumbra_frame {
   size_t light_count;           /**< at most 256 */
   penumbra_draw_casters draw;   /**< required if there are lights */
   void* draw_user;              /**< passed to draw */
+
+  /** 1: `casters` and `receivers` are no larger than what they hold. 0 (default): where they reach farther than 10 km
+   * from the camera, as those of a sky's dome do, near shadows stay right, but receivers more than 1 km from the camera
+   * are lit (unless cascades.distance says how far shadows reach, or cascades.fit=visible measures it), and so is what
+   * casters shadow from more than 10 km along a sun's light. A warning says so once for a view. */
+  uint32_t exact_bounds;
+  uint32_t reserved_2; /**< 0 */
 } penumbra_frame;
 
 /** PENUMBRA_ERROR_ARGUMENT: `frame` is null or `struct_size` is not that of a version of the struct. */

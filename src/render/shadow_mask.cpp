@@ -102,6 +102,7 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
                                      .lights = inputs.lights,
                                      .casters = box_of(inputs.scene.casters()),
                                      .receivers = box_of(inputs.scene.receivers()),
+                                     .exact_bounds = true,
                                      .forward_receivers = box_or_none(inputs.scene.blended_receivers()),
                                      .moved = moved_box(inputs.scene, inputs.knows_moved),
                                      .mask_details = inputs.mask_details,

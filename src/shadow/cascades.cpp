@@ -48,13 +48,19 @@ double step_down(double value, double steps_an_octave) {
 }
 
 // The range of view depths, metres in front of the camera, in which receivers lie.
-Range view_range(const CascadeInputs& in) {
+Range view_range(const CascadeInputs& in, CutOff& cut_off) {
   Range range{1e30, -1e30};
+  double farthest = 0;
   for (const glm::dvec3& corner : in.receivers.corners()) {
-    const double depth = -(glm::dmat4(in.view) * glm::dvec4(corner, 1)).z;
-    range = {std::min(range.min, depth), std::max(range.max, depth)};
+    const glm::dvec3 at(glm::dmat4(in.view) * glm::dvec4(corner, 1));
+    range = {std::min(range.min, -at.z), std::max(range.max, -at.z)};
+    farthest = std::max(farthest, glm::length(at));
   }
-  const double limit = in.distance > 0 ? in.distance : range.max;
+  double limit = in.distance > 0 ? in.distance : range.max;
+  if (!in.exact_bounds && in.distance <= 0 && farthest > wide_bounds) {
+    limit = std::min(limit, std::max(range_in_wide_bounds, 10 * range.min));
+    cut_off.view = limit < range.max;
+  }
   const double far = in.distance > 0 ? limit : step_up(std::max(limit, 1e-6), 3);
   return {std::max(step_down(std::max(range.min, 0.0), 3), far * 1e-3), far};
 }
@@ -113,24 +119,36 @@ double split_distance(const Range& range, int index, int count, double blend) {
   return glm::mix(uniform, logarithmic, blend);
 }
 
-// What a cascade contains in light space, without margins: a column about `center`, as deep as `deepest`.
+// What a cascade contains in light space, without margins: a column about `center` with these depths.
 struct Region {
   glm::dvec3 center{0};
   glm::dvec2 half_width{0};
-  double deepest = 0;
+  double shallowest = 0, deepest = 0;
 };
+
+// The part of a range of light-space depths that a cascade's map holds.
+Range held_range(const Range& range, const Region& region, const CascadeInputs& in, CutOff& cut_off) {
+  if (in.exact_bounds) return range;
+  Range held = range;
+  if (range.min < region.shallowest - wide_bounds) {
+    held.min = region.shallowest - wide_bounds;
+    cut_off.light = true;
+  }
+  if (range.max > region.deepest + wide_bounds) held.max = region.deepest;  // which shadows no receiver
+  return held;
+}
 
 // About the part of the frustum up to each cascade's range, or about all receivers if that is smaller. A region turns
 // with the camera without changing size.
-std::vector<Region> stable_regions(const CascadeInputs& in, const Cascades& cascades) {
-  const Range view = view_range(in);
+std::vector<Region> stable_regions(const CascadeInputs& in, Cascades& cascades) {
+  const Range view = view_range(in, cascades.cut_off);
   const Sphere all = sphere_about(in.receivers);
   std::vector<Region> regions;
   for (int i = 0; i < in.count; ++i) {
     Sphere sphere = frustum_sphere(in, view.min, split_distance(view, i, in.count, in.split_blend));
     if (all.radius < sphere.radius) sphere = all;
     const glm::dvec3 center = cascades.world_to_light * (sphere.center - cascades.anchor);
-    regions.push_back({center, glm::dvec2(sphere.radius), center.z + sphere.radius});
+    regions.push_back({center, glm::dvec2(sphere.radius), center.z - sphere.radius, center.z + sphere.radius});
   }
   return regions;
 }
@@ -225,7 +243,7 @@ std::vector<Region> visible_regions(const CascadeInputs& in, Cascades& cascades)
     if (last) bounds = joined(bounds, seen_bounds(in.others, in, cascades));
     const glm::dvec3 center = 0.5 * (bounds.low + bounds.high), half = 0.5 * (bounds.high - bounds.low);
     const double pad = rounding * (glm::length(center) + glm::length(half));
-    regions.push_back({center, half_width_of(bounds) + pad, bounds.high.z + pad});
+    regions.push_back({center, half_width_of(bounds) + pad, bounds.low.z - pad, bounds.high.z + pad});
   }
   return regions;
 }
@@ -276,12 +294,14 @@ Cascades fit_cascades(const CascadeInputs& in) {
   const glm::dvec3 anchor = cascades.world_to_light * cascades.anchor;
 
   for (int i = 0; i < in.count; ++i) {
-    const auto& [center, half_width, deepest] = regions[static_cast<size_t>(i)];
+    const Region& region = regions[static_cast<size_t>(i)];
+    const auto& [center, half_width, shallowest, deepest] = region;
 
     // Margin for the search discs of receivers at the border: their radius follows from the light's size and the height
     // of casters above the deepest receiver. A finer cascade may leave some discs to the next one; the last one
     // contains all.
-    const double nearest = range_within({center, half_width, deepest, in.tan_half_angle}, corners).min;
+    const Range in_cone = range_within({center, half_width, deepest, in.tan_half_angle}, corners);
+    const double nearest = held_range(in_cone, region, in, cascades.cut_off).min;
     const double all_discs = in.tan_half_angle * std::max(deepest - nearest, 0.0);
     const glm::dvec2 margin =
         i + 1 < in.count ? glm::min(glm::dvec2(all_discs), 0.25 * half_width) : glm::dvec2(all_discs);
@@ -289,7 +309,7 @@ Cascades fit_cascades(const CascadeInputs& in) {
     const glm::dvec2 texel = 2.0 * half / static_cast<double>(in.size);
     const glm::dvec2 snapped = glm::floor(glm::dvec2(center + anchor) / texel) * texel - glm::dvec2(anchor);
 
-    Range range = range_within({snapped, half}, corners);
+    Range range = held_range(range_within({snapped, half}, corners), region, in, cascades.cut_off);
     const double wider = glm::max(half_width.x, half_width.y);
     if (range.max < range.min) range = {center.z - wider, center.z + wider};
     const double pad = 1e-3 * (range.max - range.min) + glm::max(texel.x, texel.y);

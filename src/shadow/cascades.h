@@ -59,6 +59,20 @@ struct Cascade {
   std::optional<TexelRange> drawn;
 };
 
+// Where bounds reach so far that maps made for all of it would be too coarse, in metres, see fit_cascades().
+// Bounds that reach less far are never cut off.
+constexpr double wide_bounds = 1e4;
+// How far shadows then reach from the camera, or ten times as far as receivers begin if that is farther.
+constexpr double range_in_wide_bounds = 1e3;
+
+// What cascades leave out because bounds are wide.
+struct CutOff {
+  bool view = false;   // receivers farther from the camera than range_in_wide_bounds
+  bool light = false;  // what is nearer to the light than the receivers by more than wide_bounds
+
+  bool operator==(const CutOff&) const = default;
+};
+
 // The cascades of a directional light, finest first. Each contains the whole view frustum up to its range, or what the
 // view shows of the receivers up to there. So where a receiver's search disc is not within one cascade, a coarser
 // cascade contains all of it.
@@ -68,6 +82,7 @@ struct Cascades {
   glm::dvec3 anchor{0};
   int size = 0;  // texels along a side
   std::vector<Cascade> items;
+  CutOff cut_off;
 
   // Width and height of a texel, metres.
   glm::vec2 texel(int index) const {
@@ -86,6 +101,7 @@ struct CascadeInputs {
   float tan_half_angle = 0;     // of the light; a large light and high casters make the last cascade wider
   Box casters;                  // bounds of all casters
   Box receivers;                // bounds of all receivers; limits the last cascade's range
+  bool exact_bounds = false;    // both are no larger than what they hold, and nothing is left out
   int count = 4;
   int size = 2048;
   float split_blend = 0.75f;  // 0 uniform, 1 logarithmic (Zhang 2006, parallel-split shadow maps, eq. 3)
@@ -106,6 +122,9 @@ glm::dmat3 light_axes(const glm::dvec3& to_light, double turn = 0);
 glm::dvec3 frustum_corner(const glm::dmat4& projection, double depth, double ndc_x, double ndc_y);
 
 // Fits `count` cascades to what the camera sees of the receivers. The inputs must be finite, the matrices invertible.
+// Unless the bounds are exact: where receivers reach farther than wide_bounds from the camera, those beyond
+// range_in_wide_bounds are left out if no `distance` and no `visible` says how far to go; and so is what lies along the
+// light more than wide_bounds before a cascade's receivers or behind them.
 Cascades fit_cascades(const CascadeInputs& inputs);
 
 // The column above the drawn part of a cascade, unbounded towards the light. A caster outside of it can't shadow a

@@ -258,6 +258,15 @@ void find_depth_error(ViewState& view, const Inputs& inputs) {
   }
 }
 
+// Says once for a view if its bounds are so wide that maps leave something out.
+void warn_of_bounds(ViewState& view, const LightFrame& frame) {
+  if (view.warned_of_bounds) return;
+  if (const std::string warning = bounds_warning(frame.projection.cut_off()); !warning.empty()) {
+    log(LogLevel::warning, warning);
+    view.warned_of_bounds = true;
+  }
+}
+
 }  // namespace
 
 Mask draw_mask(const MaskInputs& from, ViewState& view) {
@@ -276,6 +285,7 @@ Mask draw_mask(const MaskInputs& from, ViewState& view) {
                            .layer = static_cast<int>(mask.lights.size()),
                            .viewport = viewport_of(from.inputs)};
     mask.lights.push_back(draw_light(from, read, view, frame, *mask.texture));
+    warn_of_bounds(view, mask.lights.back());
   }
   forget_lights_left_out(from.device, view);
   view.drawn = true;

@@ -131,6 +131,12 @@ struct Inputs {
   // forward too: casters are drawn only to texels of the maps that what the view sees of this box can read (see
   // Technique::reads_light_discs).
   Box casters{glm::vec3(1), glm::vec3(-1)}, receivers{glm::vec3(1), glm::vec3(-1)};
+  // Whether `casters` and `receivers` are no larger than what they hold. If not, boxes of more than 10 km, such as
+  // those of a sky's dome, limit what a sun's maps hold, so that near shadows stay right. Receivers more than 1 km from
+  // the camera are then lit, unless the parameter cascades.distance says how far shadows reach or cascades.fit=visible
+  // measures it; and casters more than 10 km before the receivers, along the light, cast no shadow. A warning
+  // (core/log.h) says so once for a view.
+  bool exact_bounds = false;
   // World bounds of those receivers that `depth` does not hold, such as blended surfaces that are drawn forward; empty
   // (min > max): there are none. Only read where maps are fitted to what `depth` shows (cascades.fit): elsewhere in the
   // view no map holds anything, and receivers are lit.

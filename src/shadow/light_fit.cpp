@@ -1,7 +1,8 @@
 #include "light_fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <optional>
 
 #include "movement_map.h"
 
@@ -14,6 +15,7 @@ FitInputs fit_inputs(const Inputs& inputs, const ParamSet& params) {
           .projection = inputs.view.projection,
           .casters = inputs.casters,
           .receivers = inputs.receivers,
+          .exact_bounds = inputs.exact_bounds,
           .params = params};
 }
 
@@ -28,8 +30,8 @@ bool reads_light_discs(const LightWork& work, const std::vector<const Recipe*>& 
 bool is_for(const LightState::DrawnTexels& drawn, const LightWork& work, const ReadBounds& read) {
   const Inputs& inputs = work.inputs;
   return drawn.view == inputs.view.view && drawn.projection == inputs.view.projection &&
-         drawn.casters == inputs.casters && drawn.receivers == inputs.receivers && drawn.source == work.light.source &&
-         drawn.read == read;
+         drawn.casters == inputs.casters && drawn.receivers == inputs.receivers &&
+         drawn.exact_bounds == inputs.exact_bounds && drawn.source == work.light.source && drawn.read == read;
 }
 
 }  // namespace
@@ -41,6 +43,20 @@ LightProjection projection_of(const Inputs& inputs, const Light& light, const Pa
   fit.visible = visible;
   fit.others = inputs.forward_receivers;
   return fit_projection(light.source, fit);
+}
+
+std::string bounds_warning(const CutOff& cut_off) {
+  if (!cut_off.view && !cut_off.light) return "";
+  std::string cut;
+  if (cut_off.view) cut = fmt::format("receivers more than {} km from the camera are lit", range_in_wide_bounds / 1000);
+  if (cut_off.light) {
+    cut += fmt::format("{}casters more than {} km before the receivers along the light cast no shadow",
+                       cut.empty() ? "" : ", and ", wide_bounds / 1000);
+  }
+  return fmt::format(
+      "soft shadows: the bounding boxes of casters and receivers are wide: {}. Give the boxes of what is there, in "
+      "metres, and the range of shadows as cascades.distance; or say that the bounds are exact",
+      cut);
 }
 
 void narrow_projection(const LightWork& work, const std::vector<const Recipe*>& recipes) {
@@ -55,6 +71,7 @@ void narrow_projection(const LightWork& work, const std::vector<const Recipe*>& 
             .projection = inputs.view.projection,
             .casters = inputs.casters,
             .receivers = inputs.receivers,
+            .exact_bounds = inputs.exact_bounds,
             .source = work.light.source,
             .read = read,
             .of_layers = {}};

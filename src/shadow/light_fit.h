@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "light_work.h"
@@ -9,6 +11,9 @@ namespace penumbra::shadow {
 // The caller's projection of a light's maps, or one fitted to the view. `visible`: see find_visible_receivers().
 LightProjection projection_of(const Inputs& inputs, const Light& light, const ParamSet& params,
                               const std::optional<VisibleReceivers>& visible);
+
+// A warning of one line if a sun's maps leave something out because bounds are wide (Inputs::exact_bounds); else empty.
+std::string bounds_warning(const CutOff& cut_off);
 
 // Limits what is drawn of the maps that the library draws to what is read of them, if all that reads them declares
 // where it does (Technique::reads_light_discs). `recipes`: those that the frame makes.

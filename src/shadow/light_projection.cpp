@@ -108,6 +108,7 @@ CascadeInputs cascade_inputs(const Sun& sun, const FitInputs& inputs) {
           .tan_half_angle = shape_of(sun, params).extent,
           .casters = inputs.casters,
           .receivers = inputs.receivers,
+          .exact_bounds = inputs.exact_bounds,
           .count = params.get_int("cascades.count"),
           .size = params.get_int("cascades.size"),
           .split_blend = params.get_float("cascades.split"),
@@ -239,6 +240,11 @@ TexelRange LightProjection::drawn_texels(int layer) const {
 
 void LightProjection::set_drawn_texels(int layer, const TexelRange& texels) {
   if (auto* cascades = std::get_if<Cascades>(&maps_)) cascades->items.at(static_cast<size_t>(layer)).drawn = texels;
+}
+
+CutOff LightProjection::cut_off() const {
+  const auto* cascades = std::get_if<Cascades>(&maps_);
+  return cascades != nullptr ? cascades->cut_off : CutOff{};
 }
 
 void LightProjection::write(glsl::ShadowBlock& block, const glm::dmat4& view_to_world,

@@ -95,6 +95,8 @@ class LightProjection {
   // The texels that casters are drawn to; the others are empty: no receiver of the view reads them.
   TexelRange drawn_texels(int layer) const;
   void set_drawn_texels(int layer, const TexelRange& texels);
+  // What a sun's layers leave out; nothing for a lamp.
+  CutOff cut_off() const;
   // Only for a sun; throws std::bad_variant_access for a lamp.
   const Cascades& cascades() const { return std::get<Cascades>(maps_); }
 
@@ -112,6 +114,7 @@ class LightProjection {
 struct FitInputs {
   glm::mat4 view{1}, projection{1};  // of the camera
   Box casters, receivers;
+  bool exact_bounds = false;  // see CascadeInputs
   const ParamSet& params;
   // Where the maps are fitted to what the view shows: that, and the bounds of the receivers that it does not hold.
   std::optional<VisibleReceivers> visible = {};

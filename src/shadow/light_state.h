@@ -69,6 +69,7 @@ struct LightState {
   struct DrawnTexels {
     glm::mat4 view{1}, projection{1};
     Box casters, receivers;
+    bool exact_bounds = false;
     LightSource source;
     ReadBounds read;
     std::array<TexelRange, max_layers> of_layers;
@@ -98,7 +99,7 @@ struct ViewState {
   bool drawn = false;  // the last frame completed without an Error
   TextureChecks checked;
   NdcError depth_error;
-  bool warned_of_depth = false;
+  bool warned_of_depth = false, warned_of_bounds = false;
   std::map<int, LightState> lights;
 };
 

@@ -106,13 +106,14 @@ std::vector<std::uint32_t> hostile_values() {
 
 bool is_not_finite(std::uint32_t bits) { return (bits & 0x7f800000u) == 0x7f800000u; }
 
-// Fields up to the first pointer: the ways to lie with pointers are undefined, and their counts are tested below.
+// All fields but pointers, since the ways to lie with these are undefined, and their counts, which are tested below.
 TEST_F(CInterfaceHostile, EveryFieldOfAFrame) {
   const penumbra_light sun = light(PENUMBRA_SUN);
   const penumbra_frame right = frame(sun);
   ASSERT_EQ(render(right), PENUMBRA_OK) << penumbra_last_error();
   std::size_t refused = 0;
-  for (std::size_t at = offsetof(penumbra_frame, view_id); at < offsetof(penumbra_frame, lights); at += 4) {
+  for (std::size_t at = offsetof(penumbra_frame, view_id); at < sizeof(penumbra_frame); at += 4) {
+    if (at >= offsetof(penumbra_frame, lights) && at < offsetof(penumbra_frame, exact_bounds)) continue;
     for (const std::uint32_t value : hostile_values()) {
       penumbra_frame wrong = right;
       std::memcpy(reinterpret_cast<unsigned char*>(&wrong) + at, &value, sizeof value);
@@ -152,11 +153,16 @@ TEST_F(CInterfaceHostile, EveryFieldOfALight) {
 TEST_F(CInterfaceHostile, SizesCountsAndNulls) {
   const penumbra_light sun = light(PENUMBRA_SUN);
   const penumbra_frame right = frame(sun);
-  for (std::size_t size = 0; size < sizeof(penumbra_frame); ++size) {
+  constexpr std::size_t first_frame_size = 488;  // in the first version of the interface
+  for (std::size_t size = 0; size < first_frame_size; ++size) {
     penumbra_frame wrong = right;
     wrong.struct_size = size;
     EXPECT_EQ(render(wrong), PENUMBRA_ERROR_ARGUMENT) << size;
   }
+  penumbra_frame earlier = right;  // of a program that knows no later fields: none of their bytes is read
+  earlier.struct_size = first_frame_size;
+  std::memset(reinterpret_cast<unsigned char*>(&earlier) + first_frame_size, 0xff, sizeof earlier - first_frame_size);
+  EXPECT_EQ(render(earlier), PENUMBRA_OK) << penumbra_last_error();
   for (const std::size_t size : {std::size_t{65536}, std::numeric_limits<std::size_t>::max()}) {
     penumbra_frame wrong = right;
     wrong.struct_size = size;

@@ -117,6 +117,7 @@ penumbra_frame CInterface::frame_of(const shadow::Inputs& inputs, const Geometry
   frame.light_count = lights_.size();
   frame.draw = draw;
   frame.draw_user = this;
+  frame.exact_bounds = inputs.exact_bounds ? 1 : 0;
   return frame;
 }
 

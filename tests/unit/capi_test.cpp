@@ -243,10 +243,13 @@ TEST(CInterface, EveryFunctionRefusesNull) {
   refused(penumbra_unbind_forward(nullptr), "penumbra_unbind_forward(): 'device' is null");
 }
 
+// Of penumbra_frame in the first version of the interface.
+constexpr std::size_t first_frame_size = 488;
+
 // A struct of an earlier version ends before that of this one; sizes below the first version's are mistakes.
 TEST(CInterface, SizesOfStructsAreChecked) {
   penumbra_frame frame{};
-  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, sizeof frame - 1, std::size_t{65536},
+  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, first_frame_size - 1, std::size_t{65536},
                                  std::numeric_limits<std::size_t>::max()}) {
     expect_refused(penumbra_frame_init(&frame, size), PENUMBRA_ERROR_ARGUMENT,
                    fmt::format("penumbra_frame_init(): penumbra_frame.struct_size is {}; set it to "
@@ -254,6 +257,9 @@ TEST(CInterface, SizesOfStructsAreChecked) {
                                size, sizeof frame));
   }
   EXPECT_EQ(frame.struct_size, 0u);
+  frame.exact_bounds = 0x5a;
+  EXPECT_EQ(penumbra_frame_init(&frame, first_frame_size), PENUMBRA_OK) << penumbra_last_error();
+  EXPECT_EQ(frame.exact_bounds, 0x5au) << "written beyond what an earlier program has";
   penumbra_param param{};
   for (const std::size_t size : {std::size_t{0}, std::numeric_limits<std::size_t>::max()}) {
     param.struct_size = size;
@@ -294,6 +300,7 @@ TEST(CInterface, DefaultsAreThoseOfTheFacade) {
   EXPECT_EQ(frame.reversed_z != 0, conventions.reversed_z);
   EXPECT_EQ(frame.depth_zero_to_one != 0, conventions.depth_zero_to_one);
   EXPECT_EQ(frame.normals_encoding == PENUMBRA_NORMALS_OCTAHEDRAL, conventions.octahedral_normals);
+  EXPECT_EQ(frame.exact_bounds != 0, shadow::Inputs().exact_bounds);
   EXPECT_GT(frame.casters.min[0], frame.casters.max[0]);
   EXPECT_EQ(frame.view[5], 1.0f);
   EXPECT_EQ(frame.view[4], 0.0f);

@@ -146,6 +146,43 @@ TEST(Cascades, AFarAwayObjectOnTheGroundLeavesNearCascadesTheirDepthRange) {
   EXPECT_LT(range(far.items[0]), 2 * range(near.items[0]));
 }
 
+// The greatest depth of the last cascade's map, and the least, are those of the bounds, with a low sun too.
+TEST(Cascades, BoundsBelowTheWideOnesAreNotCutOff) {
+  for (const float elevation : {5.0f, 30.0f, 90.0f}) {
+    CascadeInputs in = courtyard();
+    in.to_light = {std::cos(glm::radians(elevation)), std::sin(glm::radians(elevation)), 0};
+    in.casters = in.receivers = {{-4000, 0, -4000}, {4000, 3000, 4000}};
+    const Cascades cascades = fit_cascades(in);
+    in.exact_bounds = true;
+    const Cascades exact = fit_cascades(in);
+    EXPECT_EQ(cascades.cut_off, CutOff{});
+    for (size_t i = 0; i < cascades.items.size(); ++i) {
+      EXPECT_EQ(cascades.items[i].world_to_clip, exact.items[i].world_to_clip) << elevation << ", cascade " << i;
+    }
+  }
+}
+
+TEST(Cascades, WideBoundsAreCutOffUnlessTheyAreExact) {
+  CascadeInputs in = courtyard();
+  in.to_light = {0, 1, 0};
+  in.receivers = {{-2e4f, 0, -2e4f}, {2e4f, 9, 2e4f}};
+  const auto last = [&] { return fit_cascades(in).items.back(); };
+  EXPECT_EQ(fit_cascades(in).cut_off, (CutOff{.view = true, .light = false}));
+  EXPECT_LT(last().half_extent.x, 2 * range_in_wide_bounds);
+  EXPECT_GT(last().half_extent.x, 0.5 * range_in_wide_bounds);
+  in.casters = {{-20, 0, -20}, {20, 1e6f, 20}};
+  EXPECT_EQ(fit_cascades(in).cut_off, (CutOff{.view = true, .light = true}));
+  EXPECT_LT(last().far_z - last().near_z, 1.5 * wide_bounds);
+  in.distance = 15000;
+  EXPECT_EQ(fit_cascades(in).cut_off, (CutOff{.view = false, .light = true}));
+  EXPECT_GT(last().half_extent.x, 0.5 * in.distance);
+  in.distance = 0;
+  in.exact_bounds = true;
+  EXPECT_EQ(fit_cascades(in).cut_off, CutOff{});
+  EXPECT_GT(last().half_extent.x, 1e4);
+  EXPECT_GT(last().far_z - last().near_z, 1e6);
+}
+
 TEST(Cascades, TheSunAtTheZenithHasAnAxis) {
   CascadeInputs in = courtyard();
   in.to_light = {0, 1, 0};
