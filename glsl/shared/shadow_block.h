@@ -34,6 +34,7 @@ struct ShadowBlock {
   vec4 noise_shift;        // toroidal shift of the noise's values; xy: blocker step; zw: filter step
   ivec4 noise_place[2];    // of both steps; xy: pixels added to the pixel's; z: frame of the noise texture; w: of keys
   vec2 depth_to_ndc;       // x: scale; y: offset
+  vec2 normal_decode;      // x: scale; y: offset: from what the normals texture holds to -1..1
   vec2 depth_error;        // most error of a receiver's NDC depth: x: absolute; y: times its absolute value
   float sky_depth;         // stored depth of pixels that show nothing
   int octahedral_normals;  // 1: normals are octahedral; 0: xyz
@@ -49,7 +50,8 @@ struct ShadowBlock {
   float light_stretch;     // most times that a disc which faces a receiver is longer along the map than across
   int light_is_lamp;       // 1: a lamp; 0: a sun
   float lamp_range;        // of a lamp: distance to which it shines, metres
-  float unused;
+  int normals_from_depth;  // 1: the caller brings no normals
+  vec2 unused;
   vec4 lamp;               // xyz: its centre, view space, metres; w: the cosine of its cone's half angle
   // The layer that contains every caster; apart from `layers`, because a load at an index costs more.
   LayerBlock widest;

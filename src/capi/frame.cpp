@@ -61,9 +61,13 @@ shadow::Conventions conventions_of(const penumbra_frame& frame) {
               "PENUMBRA_NORMALS_XYZ",
               frame.normals_encoding);
   }
+  const float decoding[] = {frame.normals_scale, frame.normals_offset};
+  require_finite(decoding, "penumbra_frame.normals_scale or normals_offset");
   return {.reversed_z = frame.reversed_z != 0,
           .depth_zero_to_one = frame.depth_zero_to_one != 0,
-          .octahedral_normals = frame.normals_encoding == PENUMBRA_NORMALS_OCTAHEDRAL};
+          .octahedral_normals = frame.normals_encoding == PENUMBRA_NORMALS_OCTAHEDRAL,
+          .normals_scale = frame.normals_scale,
+          .normals_offset = frame.normals_offset};
 }
 
 int32_t kind_of(shadow::CasterKind kind) {

@@ -327,8 +327,11 @@ typedef struct penumbra_frame {
 
   /** Depth as drawn: any depth format, or R32F. */
   penumbra_texture depth;
-  /** Geometric normals (of the triangle, not of shading), world space, unit length: SNORM or float formats, as many
-   * channels as normals_encoding needs; the size of `depth`. */
+  /** Geometric normals (of the triangle, not of shading), world space, unit length: SNORM or float formats, with
+   * normals_scale or normals_offset UNORM ones too (RGBA8, RGB10_A2, RG16), as many channels as normals_encoding needs;
+   * the size of `depth`. R11F_G11F_B10F and RGB9_E5 are refused. Or none (id 0): normals are then made from depth,
+   * which costs precision: at outlines, on surfaces of less than 3 pixels, and near contacts where depth is coarse.
+   * Depth of half floats (R16F) is refused then. */
   penumbra_texture normals;
   /** Motion vectors, or none (id 0): RG, SNORM or float: place of the surface after division by w (-1..1) minus that in
    * the last frame; the size of `depth`. Read only where penumbra_reads_motion() says so. */
@@ -364,6 +367,10 @@ typedef struct penumbra_frame {
    * casters shadow from more than 10 km along a sun's light. A warning says so once for a view. */
   uint32_t exact_bounds;
   uint32_t reserved_2; /**< 0 */
+  /** What `normals` holds, times normals_scale (default 1, not 0) and plus normals_offset (default 0), is in -1..1: 2
+   * and -1 for normals that were stored as 0.5 + 0.5 n. */
+  float normals_scale;
+  float normals_offset; /**< see normals_scale */
 } penumbra_frame;
 
 /** PENUMBRA_ERROR_ARGUMENT: `frame` is null or `struct_size` is not that of a version of the struct. */

@@ -27,6 +27,7 @@ penumbra_frame StructTraits<penumbra_frame>::defaults() {
   frame.reversed_z = 1;
   frame.depth_zero_to_one = 1;
   frame.normals_encoding = PENUMBRA_NORMALS_OCTAHEDRAL;
+  frame.normals_scale = 1;
   for (auto* matrix : {&frame.view, &frame.projection, &frame.last_view, &frame.last_projection}) set_identity(*matrix);
   for (penumbra_box* box : {&frame.casters, &frame.receivers, &frame.forward_receivers, &frame.moved}) *box = empty_box;
   return frame;

@@ -42,6 +42,20 @@ void check_conventions(const glm::dmat4& projection, const Conventions& conventi
   }
 }
 
+// Whether a scale or an offset says how what a texture holds becomes -1..1.
+bool decodes_normals(const Conventions& conventions) {
+  return conventions.normals_scale != 1 || conventions.normals_offset != 0;
+}
+
+void check_decoding(const Conventions& conventions) {
+  if (std::isfinite(conventions.normals_scale) && std::isfinite(conventions.normals_offset) &&
+      conventions.normals_scale != 0) {
+    return;
+  }
+  fail("soft shadows: the normals' scale is {} and their offset {}; both must be finite, and the scale not 0",
+       conventions.normals_scale, conventions.normals_offset);
+}
+
 void check_finite(std::string_view name, const Box& box) {
   if (!all_finite(glm::value_ptr(box.min), 3) || !all_finite(glm::value_ptr(box.max), 3)) {
     fail("soft shadows: the bounding box of the {} is not finite", name);
@@ -59,7 +73,7 @@ GLint level_parameter(unsigned texture, GLenum name) {
   return value;
 }
 
-bool is_color(GLint type) { return type == GL_FLOAT || type == GL_SIGNED_NORMALIZED; }
+bool is_signed(GLint type) { return type == GL_FLOAT || type == GL_SIGNED_NORMALIZED; }
 
 // Depth, or the first of the colour channels as plain numbers.
 bool holds_depth(unsigned texture) {
@@ -67,12 +81,18 @@ bool holds_depth(unsigned texture) {
          level_parameter(texture, GL_TEXTURE_RED_TYPE) == GL_FLOAT;
 }
 
-// At least that many signed channels. Unsigned formats are refused, since nothing defines how their values map to
-// -1..1.
-bool holds_signed(unsigned texture, int channels) {
+// R11F_G11F_B10F and RGB9_E5: floats without a sign.
+bool holds_unsigned_floats(unsigned texture) {
+  const GLint format = level_parameter(texture, GL_TEXTURE_INTERNAL_FORMAT);
+  return format == GL_R11F_G11F_B10F || format == GL_RGB9_E5;
+}
+
+// At least that many channels of numbers. Unsigned ones are refused unless the caller says how they map to -1..1.
+bool holds_numbers(unsigned texture, int channels, bool may_be_unsigned) {
   constexpr GLenum types[] = {GL_TEXTURE_RED_TYPE, GL_TEXTURE_GREEN_TYPE, GL_TEXTURE_BLUE_TYPE};
   for (int i = 0; i < channels; ++i) {
-    if (!is_color(level_parameter(texture, types[i]))) return false;
+    const GLint type = level_parameter(texture, types[i]);
+    if (!is_signed(type) && !(may_be_unsigned && type == GL_UNSIGNED_NORMALIZED)) return false;
   }
   return true;
 }
@@ -105,26 +125,35 @@ void check_depth(const TextureView& view, TextureChecks& checks) {
   checks.add(key);
 }
 
-// Checks a texture of signed values with one texel for each receiver; `texels`: what messages call it.
+// Checks a texture of values in -1..1 with one texel for each receiver; `texels`: what messages call it.
 struct ReceiverTexture {
   std::string_view name, texels;
   const TextureView& view;
   int channels = 0;
+  bool may_be_unsigned = false;
 };
 
 void check_receivers(const ReceiverTexture& texture, const TextureView& depth, TextureChecks& checks) {
   const TextureView& view = texture.view;
   check_given(texture.name, view);
-  const TextureChecks::Key key{.id = view.id, .width = view.width, .height = view.height, .channels = texture.channels};
+  const TextureChecks::Key key{.id = view.id,
+                               .width = view.width,
+                               .height = view.height,
+                               .channels = texture.channels,
+                               .may_be_unsigned = texture.may_be_unsigned};
   const bool known = checks.knows(key);
   if (!known) check_texture(texture.name, view, GL_TEXTURE_2D);
   if (view.width != depth.width || view.height != depth.height) {
     fail("soft shadows: {} are {}×{}, depth is {}×{}", texture.texels, view.width, view.height, depth.width,
          depth.height);
   }
-  if (!known && !holds_signed(view.id, texture.channels)) {
-    fail("soft shadows: {}: texture {} has not {} channels of a float or SNORM format", texture.texels, view.id,
-         texture.channels);
+  if (!known && holds_unsigned_floats(view.id)) {
+    fail("soft shadows: {}: texture {} has floats without a sign (R11F_G11F_B10F or RGB9_E5), which are too coarse",
+         texture.texels, view.id);
+  }
+  if (!known && !holds_numbers(view.id, texture.channels, texture.may_be_unsigned)) {
+    fail("soft shadows: {}: texture {} has not {} channels of a float or SNORM format{}", texture.texels, view.id,
+         texture.channels, texture.may_be_unsigned ? ", or of a UNORM one" : "");
   }
   checks.add(key);
 }
@@ -196,8 +225,17 @@ void check(const Inputs& inputs, TextureChecks& checks) {
   if (!all_finite(glm::value_ptr(inputs.view.jitter), 2)) fail("soft shadows: the jitter is not finite");
   check_depth(inputs.depth, checks);
   const int normal_channels = inputs.conventions.octahedral_normals ? 2 : 3;
-  check_receivers({.name = "normals", .texels = "normals", .view = inputs.normals, .channels = normal_channels},
-                  inputs.depth, checks);
+  check_decoding(inputs.conventions);
+  if (inputs.normals.id != 0) {
+    check_receivers({.name = "normals",
+                     .texels = "normals",
+                     .view = inputs.normals,
+                     .channels = normal_channels,
+                     .may_be_unsigned = decodes_normals(inputs.conventions)},
+                    inputs.depth, checks);
+  } else if (checks.depth.relative >= 0x1p-11f) {
+    fail("soft shadows: no normals texture, and depths of half floats are too coarse to make normals from");
+  }
   if (inputs.motion.id != 0) {
     check_receivers({.name = "motion", .texels = "motion vectors", .view = inputs.motion, .channels = 2}, inputs.depth,
                     checks);

@@ -15,8 +15,9 @@ class TextureChecks {
   struct Key {
     unsigned id = 0;
     int width = 0, height = 0;
-    int channels = 0;  // that it needs, of signed numbers; 0: it is a depth texture
-    int layers = 0;    // of an array, that it needs at least; 0: it is no array
+    int channels = 0;              // that it needs, of signed numbers; 0: it is a depth texture
+    int layers = 0;                // of an array, that it needs at least; 0: it is no array
+    bool may_be_unsigned = false;  // the numbers, because a scale and an offset are given
 
     bool operator==(const Key&) const = default;
   };

@@ -19,6 +19,9 @@ struct Conventions {
   bool reversed_z = true;          // the far plane has depth 0 (else 1); pixels with exactly that depth are sky and lit
   bool depth_zero_to_one = true;   // clip-space z in 0..1 (else -1..1)
   bool octahedral_normals = true;  // normals texture: RG, octahedral map; else RGB(A), xyz; both in -1..1
+  // What the normals texture holds, times that scale and plus that offset, is in -1..1: 2 and -1 for normals that were
+  // stored as 0.5 + 0.5 n. Finite, the scale not 0.
+  float normals_scale = 1, normals_offset = 0;
 };
 
 // A camera in this frame and in the last one. Projections are without jitter; `jitter` is the subpixel offset that was
@@ -121,10 +124,17 @@ struct Inputs {
   // m and 24 bits cost nothing visible; reversed Z in 32-bit floats is precise with any near plane. A warning
   // (core/log.h) says once for a view if positions are off by more than 1/200 of their distance from the camera.
   TextureView depth;
-  TextureView normals;  // geometric normals, world space, signed (float or SNORM); the size of `depth`
-  TextureView motion;   // optional (id 0: none), read only where a history is kept: RG, the surface's position in NDC
-                        // minus that in the last frame; the size of `depth`
-  Rect viewport;        // the part of the textures that the view was drawn to; all of it if the size is 0
+  // Geometric normals, world space; the size of `depth`. Float or SNORM formats, and with a scale and an offset (see
+  // Conventions) UNORM ones too, such as RGBA8, RGB10_A2 and RG16. RG8 is too coarse for octahedral normals, and
+  // R11F_G11F_B10F, whose floats have no sign and 6 bits, is refused.
+  // Optional (id 0: none): normals are then made from the depths of each pixel and its neighbours. Pixels at outlines
+  // and on surfaces of less than 3 pixels may get a wrong normal, and casters nearer to what they shadow than its
+  // rounded depths can tell cast no shadow, which shows in coarse depth formats. Half floats are refused as such
+  // depths.
+  TextureView normals;
+  TextureView motion;  // optional (id 0: none), read only where a history is kept: RG, the surface's position in NDC
+                       // minus that in the last frame; the size of `depth`
+  Rect viewport;       // the part of the textures that the view was drawn to; all of it if the size is 0
   std::span<const Light> lights;
   // World bounds; unused when every light brings its maps. A single point (min = max) is valid; the default (min > max)
   // is an unset box, which check() rejects. `receivers` must hold all surfaces whose shadows are computed, those drawn

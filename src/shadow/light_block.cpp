@@ -10,9 +10,9 @@ namespace {
 static_assert(sizeof(glsl::LayerBlock) == 48);
 static_assert(offsetof(glsl::ShadowBlock, viewport) == 320);
 static_assert(offsetof(glsl::ShadowBlock, depth_to_ndc) == 416);
-static_assert(offsetof(glsl::ShadowBlock, light_extent) == 440);
-static_assert(offsetof(glsl::ShadowBlock, lamp) == 496);
-static_assert(offsetof(glsl::ShadowBlock, layers) == 560);
+static_assert(offsetof(glsl::ShadowBlock, light_extent) == 448);
+static_assert(offsetof(glsl::ShadowBlock, lamp) == 512);
+static_assert(offsetof(glsl::ShadowBlock, layers) == 576);
 
 // ShadowBlock::pixel_size: metres that a pixel spans where clip w is 1, then factor and offset that give clip w from
 // view-space z.
@@ -40,6 +40,8 @@ glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, co
   block.noise_shift = traits.noise.shift;
   std::ranges::copy(traits.noise.place, block.noise_place);
   block.depth_to_ndc = zero_to_one ? glm::vec2(1, 0) : glm::vec2(2, -1);
+  block.normals_from_depth = inputs.normals.id == 0 ? 1 : 0;
+  block.normal_decode = {conventions.normals_scale, conventions.normals_offset};
   block.depth_error = {traits.depth_error.absolute, traits.depth_error.relative};
   block.sky_depth = conventions.reversed_z ? 0.0f : 1.0f;
   block.octahedral_normals = conventions.octahedral_normals ? 1 : 0;

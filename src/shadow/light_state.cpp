@@ -30,7 +30,8 @@ bool same_values(const Registry& registry, const ParamSet& a, const ParamSet& b)
 
 bool same_conventions(const Conventions& a, const Conventions& b) {
   return a.reversed_z == b.reversed_z && a.depth_zero_to_one == b.depth_zero_to_one &&
-         a.octahedral_normals == b.octahedral_normals;
+         a.octahedral_normals == b.octahedral_normals && a.normals_scale == b.normals_scale &&
+         a.normals_offset == b.normals_offset;
 }
 
 // Whether this is the next frame of the same scene, so that the caller's account of what moved starts at the last one.

@@ -36,6 +36,8 @@ Inputs warm_up_inputs(gl::Device& device, const std::string& prefix, const Frame
   inputs.view.projection = inputs.view.last_projection = projection_for(kind.conventions);
   inputs.conventions = kind.conventions;
   inputs.depth = cleared(device, prefix + "depth", GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, {0.5f});
+  inputs.conventions.normals_scale = 1;
+  inputs.conventions.normals_offset = 0;
   // An octahedral map has its centre at z, too.
   const float z = kind.conventions.octahedral_normals ? 0 : 1;
   inputs.normals = cleared(device, prefix + "normals", GL_RGBA16F, GL_RGBA, {0, 0, z, 0});

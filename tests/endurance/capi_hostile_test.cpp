@@ -117,8 +117,10 @@ TEST_F(CInterfaceHostile, EveryFieldOfAFrame) {
     for (const std::uint32_t value : hostile_values()) {
       penumbra_frame wrong = right;
       std::memcpy(reinterpret_cast<unsigned char*>(&wrong) + at, &value, sizeof value);
-      const bool is_float = (at >= offsetof(penumbra_frame, view) && at < offsetof(penumbra_frame, depth)) ||
-                            (at >= offsetof(penumbra_frame, casters) && at < offsetof(penumbra_frame, moved_is_known));
+      const bool is_float =
+          (at >= offsetof(penumbra_frame, view) && at < offsetof(penumbra_frame, depth)) ||
+          (at >= offsetof(penumbra_frame, casters) && at < offsetof(penumbra_frame, moved_is_known)) ||
+          at >= offsetof(penumbra_frame, normals_scale);
       const penumbra_result result = render(wrong);
       refused += result == PENUMBRA_OK ? 0 : 1;
       if (is_float && is_not_finite(value)) {

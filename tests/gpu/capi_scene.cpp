@@ -118,6 +118,8 @@ penumbra_frame CInterface::frame_of(const shadow::Inputs& inputs, const Geometry
   frame.draw = draw;
   frame.draw_user = this;
   frame.exact_bounds = inputs.exact_bounds ? 1 : 0;
+  frame.normals_scale = inputs.conventions.normals_scale;
+  frame.normals_offset = inputs.conventions.normals_offset;
   return frame;
 }
 

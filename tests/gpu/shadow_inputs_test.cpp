@@ -107,6 +107,8 @@ TEST_F(ShadowInputs, TexturesAreChecked) {
   const int size = 48;
   const auto color = texture("color", {.format = GL_RGBA8, .width = size, .height = size});
   const auto packed = texture("packed", {.format = GL_RG16, .width = size, .height = size});
+  const auto unsigned_floats = texture("unsigned floats", {.format = GL_R11F_G11F_B10F, .width = size, .height = size});
+  const auto half = texture("half", {.format = GL_R16F, .width = size, .height = size});
   const auto one = texture("one", {.format = GL_R32F, .width = size, .height = size});
   const auto small = texture("small", {.format = GL_RG32F, .width = size - 1, .height = size});
   const auto array =
@@ -116,9 +118,23 @@ TEST_F(ShadowInputs, TexturesAreChecked) {
   expect_refusal("depth: texture", [](Inputs& in) { in.depth.width += 1; });
   expect_refusal("holds no depth", [&](Inputs& in) { in.depth = color; });
   expect_refusal("is not a GL_TEXTURE_2D", [&](Inputs& in) { in.depth = array; });
-  expect_refusal("no normals texture", [](Inputs& in) { in.normals = {}; });
+  expect_refusal("depths of half floats are too coarse to make normals from", [&](Inputs& in) {
+    in.depth = half;
+    in.normals = {};
+  });
   expect_refusal("normals are 47×48, depth is 48×48", [&](Inputs& in) { in.normals = small; });
   expect_refusal("has not 2 channels of a float or SNORM format", [&](Inputs& in) { in.normals = packed; });
+  expect_refusal("has not 2 channels of a float or SNORM format, or of a UNORM one", [&](Inputs& in) {
+    in.normals = one;
+    in.conventions.normals_scale = 2;
+  });
+  expect_refusal("has floats without a sign", [&](Inputs& in) {
+    in.normals = unsigned_floats;
+    in.conventions = {.octahedral_normals = false, .normals_scale = 2, .normals_offset = -1};
+  });
+  expect_refusal("the normals' scale is 0", [&](Inputs& in) { in.conventions.normals_scale = 0; });
+  expect_refusal("the normals' scale is 1 and their offset nan",
+                 [&](Inputs& in) { in.conventions.normals_offset = NAN; });
   expect_refusal("has not 2 channels", [&](Inputs& in) { in.normals = one; });
   expect_refusal("has not 3 channels", [&](Inputs& in) { in.conventions.octahedral_normals = false; });
   expect_refusal("motion vectors are 47×48", [&](Inputs& in) { in.motion = small; });

@@ -88,6 +88,7 @@ TEST_F(ShadowLayout, BlocksLieAsTheDriverReadsThem) {
   expect_offset(light, "shadow.depth_to_ndc", offsetof(ShadowBlock, depth_to_ndc));
   expect_offset(light, "shadow.sky_depth", offsetof(ShadowBlock, sky_depth));
   expect_offset(light, "shadow.octahedral_normals", offsetof(ShadowBlock, octahedral_normals));
+  expect_offset(light, "shadow.normal_decode", offsetof(ShadowBlock, normal_decode));
   expect_offset(light, "shadow.light_extent", offsetof(ShadowBlock, light_extent));
   expect_offset(light, "shadow.light_is_square", offsetof(ShadowBlock, light_is_square));
   expect_offset(light, "shadow.layer_count", offsetof(ShadowBlock, layer_count));

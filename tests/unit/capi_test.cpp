@@ -301,6 +301,8 @@ TEST(CInterface, DefaultsAreThoseOfTheFacade) {
   EXPECT_EQ(frame.depth_zero_to_one != 0, conventions.depth_zero_to_one);
   EXPECT_EQ(frame.normals_encoding == PENUMBRA_NORMALS_OCTAHEDRAL, conventions.octahedral_normals);
   EXPECT_EQ(frame.exact_bounds != 0, shadow::Inputs().exact_bounds);
+  EXPECT_EQ(frame.normals_scale, conventions.normals_scale);
+  EXPECT_EQ(frame.normals_offset, conventions.normals_offset);
   EXPECT_GT(frame.casters.min[0], frame.casters.max[0]);
   EXPECT_EQ(frame.view[5], 1.0f);
   EXPECT_EQ(frame.view[4], 0.0f);

@@ -23,6 +23,7 @@ struct Receiver {
   Surroundings surroundings;
   vec2 pixel;     // seeds the noise
   float depth_error;  // the most by which its plane may be off along the light because depths were rounded, metres
+  float depth_tilt;   // the most by which it may also be tilted, metres along the light per metre across
   bool history_refused;  // there is a history, but it is invalid here: techniques take more taps
   int layer;             // of a lamp: the face that sees it so
   vec3 from_lamp;        // position and normal in the lamp's own space
@@ -196,7 +197,7 @@ Receiver make_receiver(vec3 view_position, vec3 light_normal, vec2 pixel) {
   }
   receiver.surroundings = Surroundings(vec4(0.0), 0.0, 0.0, 0.0);
   receiver.pixel = pixel;
-  receiver.depth_error = 0.0;
+  receiver.depth_error = receiver.depth_tilt = 0.0;
   receiver.history_refused = false;
   return receiver;
 }

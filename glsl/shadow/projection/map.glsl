@@ -83,7 +83,9 @@ float texel_slope(Receiver receiver, Light light) { return length(receiver.gradi
 // Upper bound of the error along the light that rounding in the map, in light space and in the receiver's depth causes,
 // metres.
 float depth_rounding(Receiver receiver, Light light) {
+  const float texels_beside = 2.0;  // that are compared with the plane of a receiver without blockers
   float rounding = light.map.rounding + receiver.depth_error;
+  rounding += texels_beside * receiver.depth_tilt * texel_size(receiver, light);
   return is_lamp ? rounding + 1e-6 * (length(shadow.lamp.xyz) + length(receiver.from_lamp)) : rounding;
 }
 

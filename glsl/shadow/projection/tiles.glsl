@@ -79,7 +79,7 @@ Receiver receiver_in_box(Box box, float depth, Light light) {
   receiver.gradient = vec2(0.0);
   receiver.surroundings = Surroundings(vec4(0.0), 0.0, 0.0, 0.0);
   receiver.pixel = vec2(0.0);
-  receiver.depth_error = 0.0;
+  receiver.depth_error = receiver.depth_tilt = 0.0;
   receiver.history_refused = false;
   receiver.layer = light.layer;
   return receiver;

@@ -1,0 +1,134 @@
+// Normals as engines store them: packed and unsigned ones with a scale and an offset, and none at all.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu/triangle_scene.h"
+#include "lib/octahedral.glsl"
+
+namespace penumbra::test {
+namespace {
+
+using ShadowNormals = TriangleTest;
+
+// How normals n are stored: 0.5 + 0.5 n, of x, y and z or of the octahedral map.
+struct Storage {
+  const char* name;
+  GLenum format;
+  bool octahedral;
+};
+
+constexpr Storage storages[] = {
+    {"RGBA8", GL_RGBA8, false},
+    {"RGB10_A2", GL_RGB10_A2, false},
+    {"RGBA16", GL_RGBA16, false},
+    {"RG16, octahedral", GL_RG16, true},
+};
+
+// A ground of 40 m with boxes and a roof on it, and walls that face every way.
+TriangleScene yard() {
+  TriangleScene scene;
+  scene.add_quad({-20, 0, 20}, {40, 0, 0}, {0, 0, -40});
+  scene.add_box({-3, 0, -3}, {-1, 2, -1});
+  scene.add_box({3, 0, -9}, {4, 5, -7});
+  scene.add_quad({1, 0, 2}, {2, 0, 1}, {0.3f, 2, 0});
+  scene.add_quad({-6, 3, -9}, {0, 0.5f, -3}, {4, 0, 0});
+  scene.width = 200;
+  scene.height = 125;
+  scene.view = glm::lookAt(glm::vec3(2, 4, 12), glm::vec3(0, 0, -4), glm::vec3(0, 1, 0));
+  scene.projection = perspective(0.87f, 1.6f, 0.1f);
+  return scene;
+}
+
+// Stores the normals of a frame's inputs in another way.
+void store(gl::Device& device, const Storage& as, shadow::Inputs& inputs) {
+  const int width = inputs.normals.width, height = inputs.normals.height;
+  const gl::Texture& given = device.target("test normals", {.format = GL_RG32F, .width = width, .height = height});
+  const std::vector<float> from = gl::read_floats(given, 2);
+  std::vector<glm::vec4> stored;
+  for (size_t i = 0; i < from.size(); i += 2) {
+    const glm::vec2 encoded(from[i], from[i + 1]);
+    const glm::vec3 n = as.octahedral ? glm::vec3(encoded, 0) : glsl::octahedral_decode(encoded);
+    stored.emplace_back(0.5f + 0.5f * n, 1);
+  }
+  const gl::Texture& to = device.target(as.name, {.format = as.format, .width = width, .height = height});
+  to.upload(GL_RGBA, GL_FLOAT, std::as_bytes(std::span(stored)));
+  inputs.normals.id = to.id();
+  inputs.conventions.octahedral_normals = as.octahedral;
+  inputs.conventions.normals_scale = 2;
+  inputs.conventions.normals_offset = -1;
+}
+
+// Of the pixels that show no sky: how many there are, how many differ, and how many of those are darker.
+struct Differences {
+  int all = 0, wrong = 0, darker = 0;
+};
+
+Differences between(const Shadowed& exact, const Shadowed& shadowed) {
+  Differences found;
+  for (int y = 0; y < exact.height; ++y) {
+    for (int x = 0; x < exact.width; ++x) {
+      if (exact.sky(x, y)) continue;
+      ++found.all;
+      const float change = shadowed.visibility(x, y) - exact.visibility(x, y);
+      if (std::abs(change) > 0.1f) ++found.wrong;
+      if (change < -0.1f) ++found.darker;
+    }
+  }
+  return found;
+}
+
+TEST_F(ShadowNormals, UnsignedFormatsShowNoAcneAndLoseNoShadow) {
+  TriangleScene scene = yard();
+  scene.to_light = sun_direction(35, 40);
+  for (const std::string technique : {"hard", "pcss"}) {
+    ParamSet params = renderer_->params();
+    params.set("technique", technique);
+    const Shadowed exact = renderer_->render(scene, params);
+    for (const Storage& as : storages) {
+      const Shadowed shadowed =
+          renderer_->render(scene, params, [&](shadow::Inputs& inputs) { store(renderer_->device(), as, inputs); });
+      const Differences found = between(exact, shadowed);
+      ASSERT_GT(found.all, 15000);
+      EXPECT_LE(found.wrong, found.all / 1000) << technique << ", " << as.name;
+    }
+  }
+}
+
+// Without normals, only pixels at outlines differ.
+TEST_F(ShadowNormals, AreMadeFromDepth) {
+  struct Buffer {
+    const char* name;
+    GLenum format;
+    bool reversed;
+  };
+  for (const Buffer& buffer : {Buffer{"32-bit float, reversed", GL_DEPTH_COMPONENT32F, true},
+                               {"24 bits, near 0.1", GL_DEPTH_COMPONENT24, false}}) {
+    TriangleScene scene = yard();
+    scene.depth_format = buffer.format;
+    scene.conventions.reversed_z = scene.conventions.depth_zero_to_one = buffer.reversed;
+    if (!buffer.reversed) scene.projection = standard_perspective(0.87f, 1.6f, 0.1f, 200);
+    for (const float elevation : {15.0f, 40.0f}) {
+      scene.to_light = sun_direction(35, elevation);
+      for (const std::string technique : {"hard", "pcss", "slices"}) {
+        ParamSet params = renderer_->params();
+        params.set("technique", technique);
+        const Shadowed exact = renderer_->render(scene, params);
+        const Shadowed made = renderer_->render(scene, params, [](shadow::Inputs& inputs) { inputs.normals = {}; });
+        const Differences found = between(exact, made);
+        ASSERT_GT(found.all, 15000);
+        const std::string of = technique + ", " + buffer.name + ", sun at " + std::to_string(elevation);
+        EXPECT_LE(found.darker, found.all / 1000) << of;
+        EXPECT_LE(found.wrong, found.all / 200) << of;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
