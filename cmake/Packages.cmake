@@ -62,6 +62,17 @@ if(PENUMBRA_APP)
     DEPENDS libegl1 libgl1-mesa-dri
     RECOMMENDS libosmesa6 libmeshoptimizer2d)
 endif()
+if(TARGET penumbra_python)
+  get_property(python_version TARGET penumbra_python PROPERTY PYTHON_VERSION)
+  penumbra_package(python python3-penumbra
+    SECTION python LIBRARIES
+    SUMMARY "soft shadows of glTF scenes as NumPy arrays"
+    DESCRIPTION "Penumbra draws the soft shadows of glTF scenes, and ray traces their truth."
+    "This package has its Python module, which gives both as arrays, without a"
+    "display, and measures how far they differ."
+    DEPENDS "python3 (>= ${python_version})" "python3 (<< ${python_version}.99)" python3-numpy libegl1 libgl1-mesa-dri
+    RECOMMENDS penumbra)
+endif()
 set(CPACK_COMPONENTS_ALL ${packages})
 
 # Copyright in Debian's format.

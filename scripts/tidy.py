@@ -110,7 +110,7 @@ def files_of(command):
 def own_commands(build):
     """The file and the command of each of the project's sources; of one that several targets compile, one command."""
     commands = json.loads((build / "compile_commands.json").read_text())
-    own = [ROOT / "src", ROOT / "tests", ROOT / "tools", ROOT / "bench"]
+    own = [ROOT / "src", ROOT / "tests", ROOT / "tools", ROOT / "bench", ROOT / "python"]
     found = {path: command["command"] for command in commands for path in files_of(command)}
     return {path: command for path, command in found.items() if any(folder in path.parents for folder in own)}
 

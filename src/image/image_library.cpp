@@ -1,9 +1,11 @@
 #include "image/image_library.h"
 
 #include <filesystem>
+#include <vector>
 
 #include "core/error.h"
 #include "gl/shared_library.h"
+#include "image/module_folder.h"
 
 namespace penumbra::image {
 
@@ -13,12 +15,19 @@ namespace fs = std::filesystem;
 
 constexpr const char* module_file = "penumbra_openimageio.so";
 
+std::vector<fs::path>& more_folders() {
+  static std::vector<fs::path> folders;
+  return folders;
+}
+
 // Next to the program, as it is built; above a test's folder; or where it is installed.
 std::string module_path() {
   std::error_code fault;
   const fs::path folder = fs::read_symlink("/proc/self/exe", fault).parent_path();
-  for (const char* place : {".", "..", PENUMBRA_MODULE_FOLDER}) {
-    const fs::path path = folder / place / module_file;
+  std::vector<fs::path> places{folder, folder / "..", folder / PENUMBRA_MODULE_FOLDER};
+  places.insert(places.end(), more_folders().begin(), more_folders().end());
+  for (const fs::path& place : places) {
+    const fs::path path = place / module_file;
     if (fs::exists(path, fault)) return path.lexically_normal().string();
   }
   fail("JPEG and EXR need {}, which is missing from {}", module_file,
@@ -33,6 +42,8 @@ const ImageLibrary& load() {
 }
 
 }  // namespace
+
+void add_module_folder(const fs::path& folder) { more_folders().push_back(folder); }
 
 const ImageLibrary& image_library() {
   static const ImageLibrary& library = load();

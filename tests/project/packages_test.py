@@ -93,6 +93,17 @@ class Packages(support.TestCase):
         left = [path for path in root.rglob("*penumbra*") if path.parent != root / "tmp"]
         self.assertEqual(left, [])
 
+    def test_python_module_draws_in_a_bare_root(self):
+        if "python3-penumbra" not in self.packages:
+            self.skipTest("skipped: built without the Python module")
+        root = self.install("python3-penumbra")
+        shutil.copy(support.ROOT / "scenes" / "steps.glb", root / "tmp")
+        code = ("import penumbra, importlib.metadata; scene = penumbra.open('/tmp/steps.glb', size='64x36', "
+                "no_cache=True); print(importlib.metadata.version('penumbra'), scene.render('shadow').shape, "
+                "scene.truth(samples=8)['shadow'].shape)")
+        version = self.field("python3-penumbra", "Version").split("-")[0]
+        self.assertEqual(self.succeed_in(root, "python3", "-c", code), f"{version} (36, 64) (36, 64)\n")
+
     def test_engine_is_built_and_runs_in_a_bare_root(self):
         root = self.install("libpenumbra0", "libpenumbra-dev", also="libegl1, libgl1-mesa-dri")
         self.assertIn("libpenumbra.so.0", self.succeed_in(root, "ldconfig", "-p"))

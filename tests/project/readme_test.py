@@ -114,6 +114,10 @@ class Commands(support.TestCase):
     def test_formats(self):
         self.run_page("docs/formats.md")
 
+    @unittest.skipUnless((support.BUILD / "python").exists(), "skipped: built without the Python module")
+    def test_python(self):
+        self.run_page("docs/python.md")
+
     def test_library(self):
         self.run_page("docs/library.md")
 

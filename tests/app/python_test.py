@@ -1,0 +1,158 @@
+"""The Python module, as users import it: pictures, truth, metrics, errors, Ctrl-C, and the code of its page in docs."""
+
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import unittest
+
+import support
+
+PACKAGE = support.BUILD / "python"
+PYTHON = "/usr/bin/python3" if os.path.exists("/usr/bin/python3") else support.sys.executable
+
+
+@unittest.skipUnless(any(PACKAGE.glob("penumbra/_penumbra*.so")), "skipped: built without the Python module")
+class Module(support.TestCase):
+    def environment(self):
+        return {**os.environ, "PYTHONPATH": str(PACKAGE), "XDG_CACHE_HOME": str(self.folder / "cache")}
+
+    def run_code(self, code, folder=support.ROOT):
+        return subprocess.run([PYTHON, "-B", "-c", code], capture_output=True, text=True, timeout=300, cwd=folder,
+                              env=self.environment())
+
+    def python(self, code):
+        result = self.run_code(code)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        return result.stdout
+
+    def test_pictures_are_those_of_the_program(self):
+        """Bit for bit, as `render` and `truth` write them; and again."""
+        render, truth = self.folder / "render.exr", self.folder / "truth.exr"
+        view = ["--size", "96x54", "--sun-angle", "2", "--backend", "osmesa"]
+        self.succeed("render", "scenes/steps.glb", "-o", render, *view, "--technique", "pcss", "--aov", "shadow,normal",
+                     "--set", "pcss.filter_taps=7", cwd=support.ROOT)
+        self.succeed("truth", "scenes/steps.glb", "-o", truth, *view, "--spp", "8", "--no-cache", cwd=support.ROOT)
+        self.python(f"""
+import penumbra, numpy
+scene = penumbra.open("scenes/steps.glb", size=(96, 54), sun_angle=2, backend="osmesa", no_cache=True)
+assert scene.size == (96, 54) and scene.lights == 1
+scene.select("pcss")
+scene["pcss.filter_taps"] = numpy.int64(7)
+assert scene["pcss.filter_taps"] == scene.params()["pcss.filter_taps"] == 7
+frame = scene.render(["shadow", "normal", "display"])
+assert frame["shadow"].shape == (54, 96) and frame["normal"].shape == (54, 96, 3)
+assert frame["display"].dtype == numpy.uint8 and frame["display"].shape == (54, 96, 3)
+traced = scene.truth(samples=8)
+assert not any(numpy.array_equal(frame["shadow"], picture) for picture in traced.values())
+assert numpy.array_equal(scene.render("shadow"), frame["shadow"])
+for file, layer, picture in (("{render}", "shadow", frame["shadow"]), ("{render}", "normal", frame["normal"]),
+                             ("{truth}", "shadow", traced["shadow"]), ("{truth}", "receiver", traced["receiver"])):
+    assert numpy.array_equal(penumbra.read(file, layer), picture), layer
+""")
+
+    def test_difference_is_that_of_the_program(self):
+        for name, sun in (("a", "1"), ("b", "3")):
+            self.succeed("render", "scenes/steps.glb", "-o", self.folder / f"{name}.exr", "--size", "96x54", "--aov",
+                         "shadow", "--sun-angle", sun, cwd=support.ROOT)
+        told = json.loads(self.succeed("diff", self.folder / "a.exr", self.folder / "b.exr", "--layer", "shadow", "--json",
+                                       "-").stdout)
+        figures = json.loads(self.python(f"""
+import penumbra, json
+a, b = (penumbra.read(f"{self.folder}/{{name}}.exr", "shadow") for name in "ab")
+print(json.dumps(penumbra.difference(a, b)))
+"""))
+        self.assertGreater(len(figures), 7)
+        for name, value in figures.items():
+            self.assertAlmostEqual(told["figures"][name], value, places=6, msg=name)
+
+    def test_errors_are_exceptions_of_one_line(self):
+        self.python("""
+import penumbra, numpy
+scene = penumbra.open("scenes/steps.glb", size="32x18")
+def refused(call, kind, text):
+    try:
+        call()
+    except kind as error:
+        assert text in str(error) and len(str(error)) < 200 + 100 * ("known:" in str(error)), str(error)
+    else:
+        raise AssertionError(text)
+shadow = scene.render("shadow")
+refused(lambda: penumbra.open("none.glb"), penumbra.Error, "none.glb: file not found")
+refused(lambda: penumbra.open("scenes/steps.glb", size=(0, 1)), penumbra.UsageError, "--size can't be '0x1'")
+refused(lambda: penumbra.open("scenes/steps.glb", siez=(1, 1)), penumbra.UsageError, "'--size'")
+refused(lambda: penumbra.open("scenes/steps.glb", eye=(1, 2, 3)), penumbra.UsageError, "--eye and --target")
+refused(lambda: scene.select("pccs"), penumbra.Error, "did you mean 'pcss'")
+refused(lambda: scene.__setitem__("sun.angle", 99), penumbra.UsageError, "0 to 20")
+refused(lambda: scene["sun.angel"], penumbra.Error, "sun.angle")
+refused(lambda: scene["zzzzzzzz"], penumbra.UsageError, "penumbra.params()")
+refused(lambda: scene.render("shadwo"), penumbra.UsageError, "'shadow'")
+refused(lambda: scene.render("shadow", light=1), IndexError, "light 1 of 1")
+refused(lambda: scene.truth(samples=1), penumbra.UsageError, "8 to 65536")
+refused(lambda: penumbra.difference(shadow, shadow[:, 1:]), penumbra.Error, "differ in size")
+refused(lambda: penumbra.difference(shadow[0], shadow), penumbra.Error, "1 dimensions")
+refused(lambda: penumbra.difference(shadow, shadow, shadow[1:]), penumbra.Error, "receivers")
+assert numpy.array_equal(scene.render("shadow"), shadow)
+""")
+
+    def test_scenes_of_other_threads_are_refused_and_several_can_be_open(self):
+        self.python("""
+import penumbra, numpy, threading
+first = penumbra.open("scenes/steps.glb", size="32x18")
+shadow = first.render("shadow")
+second = penumbra.open("scenes/posts.glb", size="16x9")
+assert second.render("shadow").shape == (9, 16)
+assert numpy.array_equal(first.render("shadow"), shadow)
+told = []
+def draw():
+    try:
+        first.render("shadow")
+    except penumbra.Error as error:
+        told.append(str(error))
+thread = threading.Thread(target=draw)
+thread.start()
+thread.join()
+assert told == ["a scene can be used only on the thread that opened it"], told
+""")
+
+    def test_ctrl_c_interrupts_tracing(self):
+        code = """
+import penumbra, sys
+scene = penumbra.open("scenes/steps.glb", size="320x180", no_cache=True)
+shadow = scene.render("shadow")
+print("tracing", flush=True)
+try:
+    scene.truth(samples=65536)
+except KeyboardInterrupt:
+    print("interrupted", (scene.render("shadow") == shadow).all())
+"""
+        process = subprocess.Popen([PYTHON, "-B", "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                   cwd=support.ROOT, env=self.environment())
+        self.addCleanup(process.kill)
+        self.assertEqual(process.stdout.readline(), "tracing\n")
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=120)
+        self.assertEqual((output, process.returncode), ("interrupted True\n", 0), errors)
+
+    def test_code_of_the_page_runs(self):
+        blocks = re.findall(r"(?ms)^```python\n(.*?)^```", (support.ROOT / "docs" / "python.md").read_text())
+        self.assertGreater(len(blocks), 1)
+        self.assertRegex(self.python("".join(blocks)), r"^rms error 0\.0\d+, \d\d\.\d dB in penumbrae\n$")
+
+    def test_example_shows_that_more_taps_err_less(self):
+        table = self.folder / "out" / "taps.csv"
+        result = subprocess.run([PYTHON, "-B", support.ROOT / "examples" / "python" / "error_over_taps.py",
+                                 support.ROOT / "scenes" / "steps.glb", "-o", table, "--taps", "2", "8", "32", "--size",
+                                 "160x90"], capture_output=True, text=True, timeout=300, env=self.environment())
+        self.assertEqual(result.returncode, 0, result.stderr)
+        lines = table.read_text().splitlines()
+        self.assertEqual(lines[0], "taps,rmse,psnr_penumbra")
+        errors = [float(line.split(",")[1]) for line in lines[1:]]
+        self.assertEqual(errors, sorted(errors, reverse=True))
+        self.assertLess(errors[-1], 0.6 * errors[0])
+
+
+if __name__ == "__main__":
+    support.main()
