@@ -65,7 +65,7 @@ vec3 normal_from_depth(ivec2 pixel, vec3 at, float depth, out vec2 apart) {
   vec3 right = way_along(pixel, ivec2(1, 0), at, depth), up = way_along(pixel, ivec2(0, 1), at, depth);
   vec3 normal = normalize(cross(right, up));
   apart = vec2(length(right), length(up));
-  return mat3(shadow.view_to_light) * (dot(normal, view_ray(at)) < 0.0 ? -normal : normal);
+  return direction_from_view(dot(normal, view_ray(at)) < 0.0 ? -normal : normal);
 }
 
 // Geometric normal of a pixel that is not sky, light space.
