@@ -75,11 +75,8 @@ std::vector<std::string> camera_arguments(const cli::SceneOptions& options) {
   return arguments;
 }
 
-std::vector<std::string> scene_arguments(const cli::SceneOptions& options) {
-  // A file whose name begins with a minus sign is no option.
-  std::vector<std::string> arguments{options.scene.starts_with('-') ? "./" + options.scene : options.scene};
-  add(arguments, "--size", fmt::format("{}x{}", options.size.width, options.size.height));
-  for (std::string& argument : camera_arguments(options)) arguments.push_back(std::move(argument));
+std::vector<std::string> view_arguments(const cli::SceneOptions& options) {
+  std::vector<std::string> arguments = camera_arguments(options);
   if (options.sun) {
     add(arguments, "--sun",
         fmt::format("{},{}", degrees_text(options.sun->azimuth), degrees_text(options.sun->elevation)));
@@ -90,6 +87,14 @@ std::vector<std::string> scene_arguments(const cli::SceneOptions& options) {
   }
   if (options.lamp_radius) add(arguments, "--lamp-radius", fmt::format("{}", *options.lamp_radius));
   for (const render::LampLight& lamp : options.lamps) add(arguments, "--lamp", cli::lamp_text(lamp));
+  return arguments;
+}
+
+std::vector<std::string> scene_arguments(const cli::SceneOptions& options) {
+  // A file whose name begins with a minus sign is no option.
+  std::vector<std::string> arguments{options.scene.starts_with('-') ? "./" + options.scene : options.scene};
+  add(arguments, "--size", fmt::format("{}x{}", options.size.width, options.size.height));
+  for (std::string& argument : view_arguments(options)) arguments.push_back(std::move(argument));
   if (options.ground == render::GroundChoice::on) add(arguments, "--ground", "on");
   if (options.ground == render::GroundChoice::off) add(arguments, "--ground", "off");
   if (options.time != 0) add(arguments, "--time", fmt::format("{}", options.time));

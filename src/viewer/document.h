@@ -29,7 +29,10 @@ struct Document {
 // Frames to draw before a picture is finished: techniques with a history need them.
 int warmup_of(const Document& document);
 
-// Scene, size, camera, sun, ground and time as arguments of `penumbra render`.
+// Camera, sun, lights and lamps as arguments of `penumbra render`.
+std::vector<std::string> view_arguments(const cli::SceneOptions& options);
+
+// Scene, size, view, ground and time as arguments of `penumbra render`.
 std::vector<std::string> scene_arguments(const cli::SceneOptions& options);
 
 // The arguments of `penumbra render` that draw this picture: "render", the scene, …, with everything that is not a

@@ -6,11 +6,15 @@ namespace penumbra::viewer {
 
 namespace {
 
-// References to all that an edit is made of; const or not as `options` is.
+// References to parts of an edit; const or not as `options` is.
 template <class Options>
-auto view_of(Options& options) {
-  return std::tie(options.camera, options.eye, options.target, options.fov, options.no_sun, options.lights,
-                  options.lamp_radius, options.lamps);
+auto camera_of(Options& options) {
+  return std::tie(options.camera, options.eye, options.target, options.fov);
+}
+
+template <class Options>
+auto lights_of(Options& options) {
+  return std::tie(options.no_sun, options.lights, options.lamp_radius, options.lamps);
 }
 
 bool same_sun(const std::optional<cli::Direction>& a, const std::optional<cli::Direction>& b) {
@@ -22,7 +26,11 @@ bool same_sun(const std::optional<cli::Direction>& a, const std::optional<cli::D
 
 bool Edit::operator==(const Edit& other) const {
   const bool same_b = b.rows().empty() || other.b.rows().empty() || b == other.b;
-  return same_b && a == other.a && view_of(view) == view_of(other.view) && same_sun(view.sun, other.view.sun);
+  return same_b && a == other.a && camera_of(view) == camera_of(other.view) && same_lights(*this, other);
+}
+
+bool same_lights(const Edit& a, const Edit& b) {
+  return lights_of(a.view) == lights_of(b.view) && same_sun(a.view.sun, b.view.sun);
 }
 
 Edit edit_of(const Document& document, const Comparison& comparison) {
@@ -30,7 +38,8 @@ Edit edit_of(const Document& document, const Comparison& comparison) {
 }
 
 void restore(const Edit& edit, Document& document, Comparison& comparison) {
-  view_of(document.options) = view_of(edit.view);
+  camera_of(document.options) = camera_of(edit.view);
+  lights_of(document.options) = lights_of(edit.view);
   document.options.sun = edit.view.sun;
   document.params = edit.a;
   if (!edit.b.rows().empty()) comparison.params = edit.b;

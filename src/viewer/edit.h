@@ -13,6 +13,9 @@ struct Edit {
   bool operator==(const Edit& other) const;
 };
 
+// Whether sun, lights and lamps are the same.
+bool same_lights(const Edit& a, const Edit& b);
+
 Edit edit_of(const Document& document, const Comparison& comparison);
 // Makes the document and B what they were. A B that the edit does not know stays.
 void restore(const Edit& edit, Document& document, Comparison& comparison);

@@ -23,11 +23,12 @@ void file_menu(const Panel& panel) {
   UiState& state = panel.state;
   const bool shown = panel.status.scene != nullptr;
   if (item(panel, "Open...", "Ctrl+O")) state.open_files();
+  if (item(panel, "Save", "Ctrl+S", shown)) state.requests.save = true;
   ImGui::Separator();
   if (item(panel, "Write picture", "F12", shown)) state.requests.write_picture = true;
   if (item(panel, "Copy command line", "Ctrl+C", shown)) state.requests.copy_command = true;
   ImGui::Separator();
-  if (item(panel, "Quit", "Esc")) state.requests.quit = true;
+  if (item(panel, "Quit", "Ctrl+Q")) state.requests.quit = true;
 }
 
 void edit_menu(const Panel& panel) {

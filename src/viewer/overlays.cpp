@@ -63,9 +63,10 @@ constexpr std::array keys{
     Key{"Ctrl + Z", "undo; with Shift, or Ctrl + Y: redo"},
     Key{"Ctrl + C", "copy the command line"},
     Key{"Ctrl + O", "open a scene or a preset"},
+    Key{"Ctrl + S", "save view and preset"},
     Key{"F12", "write the picture"},
     Key{"F1, H", "show or hide this list"},
-    Key{"Escape", "close the open list, or else the window"},
+    Key{"Escape, Ctrl + Q", "close the window; Escape first an open list"},
 };
 
 }  // namespace

@@ -32,6 +32,9 @@ void lights_panel(const Panel& panel);
 // A popup of the scene panel that lists a folder, to open a file. It opens when UiState::files.wanted is set.
 void file_browser(const Panel& panel);
 
+// Asks whether to save before the window closes. It opens when UiState::closing.wanted is set.
+void closing_question(const Panel& panel);
+
 // Windows over the picture, placed at corners of it, in pixels of the window.
 void help_overlay(const Panel& panel);
 void messages_overlay(const Panel& panel, const ImVec2& lower_left, double now);

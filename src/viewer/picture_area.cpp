@@ -141,9 +141,11 @@ bool letter_pressed(char letter) {
   return false;
 }
 
-void take_undo_keys(UiState& state) {
+void take_letters_with_ctrl(UiState& state) {
   const ImGuiIO& io = ImGui::GetIO();
   if (!io.KeyCtrl) return;
+  if (letter_pressed('s')) state.requests.save = true;
+  if (letter_pressed('q')) state.requests.quit = true;
   const bool z = letter_pressed('z');
   if (z && !io.KeyShift) state.requests.undo = true;
   if ((z && io.KeyShift) || letter_pressed('y')) state.requests.redo = true;
@@ -199,7 +201,7 @@ PictureArea picture_area(const Panel& panel, const gl::Texture* shown) {
 
 void take_keys(const Panel& panel, float seconds) {
   UiState& state = panel.state;
-  if (ImGui::GetIO().WantTextInput) return;
+  if (ImGui::GetIO().WantTextInput || state.closing.asks) return;
   const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, /* repeat= */ false); };
   if (pressed(GLFW_KEY_ESCAPE)) {
     if (state.help) {
@@ -225,7 +227,7 @@ void take_keys(const Panel& panel, float seconds) {
   if (pressed(GLFW_KEY_X) && state.comparison.on)
     state.comparison.how = state.comparison.how == CompareMode::a ? CompareMode::b : CompareMode::a;
   if (pressed(GLFW_KEY_O) && ImGui::GetIO().KeyCtrl) state.open_files();
-  take_undo_keys(state);
+  take_letters_with_ctrl(state);
   take_time_keys(panel);
   fly(panel, seconds);
 }

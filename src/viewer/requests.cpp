@@ -45,6 +45,8 @@ void Viewer::do_requests() {
     if (wanted.undo || wanted.redo) go_back(wanted.redo);
     if (wanted.copy_command && scene_ != nullptr) copy_command();
     if (wanted.copy_camera && scene_ != nullptr) copy_camera();
+    if (wanted.save && scene_ != nullptr) save();
+    if (wanted.closing) answer_closing(*wanted.closing);
   });
 }
 
@@ -70,7 +72,7 @@ void Viewer::open_preset(const std::string& file) {
   cli::ShadowOptions options;
   options.presets = {file};
   state_.document.params = cli::resolve_params(options, session::all_techniques());
-  state_.preset_file = file;
+  note_preset(file);
   tell(state_, "loaded " + file, ImGui::GetTime());
 }
 
@@ -87,6 +89,7 @@ void Viewer::save_preset(const std::string& file, bool overwrite) {
     return;
   }
   io::write_preset(file, state_.document.params);
+  note_preset(file);
   tell(state_, "wrote " + file, ImGui::GetTime());
 }
 
@@ -136,6 +139,7 @@ void Viewer::note_edit() {
   history_.note(edit_of(state_.document, state_.comparison), held);
   status_.can_undo = history_.can_undo();
   status_.can_redo = history_.can_redo();
+  update_unsaved();
 }
 
 void Viewer::go_back(bool redo) {

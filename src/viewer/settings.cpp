@@ -7,13 +7,12 @@
 #include <cstdlib>
 
 #include "cli/options.h"
-#include "cli/text.h"
 #include "core/error.h"
-#include "core/read_file.h"
 #include "io/output_file.h"
 #include "io/report.h"
 #include "render/renderer.h"
 #include "session/techniques.h"
+#include "viewer/json_file.h"
 
 namespace penumbra::viewer {
 
@@ -22,47 +21,12 @@ namespace {
 namespace fs = std::filesystem;
 using io::Json;
 
-constexpr std::size_t largest_file = std::size_t{1} << 20;  // bytes; what is kept takes a few thousand
-constexpr std::size_t longest_path = 4096, longest_cause = 200;
-constexpr int deepest = 4;       // of what is nested, unknown keys included
-constexpr int most_keys = 2000;  // each is compared with all before it
+constexpr std::size_t longest_path = 4096;
 
 fs::path folder_from(const char* variable) {
   const char* value = std::getenv(variable);
   const fs::path path = value == nullptr ? "" : value;
   return path.is_absolute() ? path : fs::path();
-}
-
-// One line of limited length, whatever text of the file it quotes.
-std::string one_line(std::string cause) {
-  if (cause.size() > longest_cause) {
-    std::size_t end = longest_cause;
-    while ((static_cast<unsigned char>(cause[end]) & 0xC0U) == 0x80U) --end;  // within a character of UTF-8
-    cause = cause.substr(0, end) + "…";
-  }
-  return cli::printable(std::move(cause));
-}
-
-Json parse(const std::vector<std::byte>& bytes) {
-  int keys = 0;
-  const auto guard = [&keys](int depth, Json::parse_event_t event, Json&) {
-    if (depth > deepest) fail("nested deeper than {}", deepest);
-    if (event == Json::parse_event_t::key && ++keys > most_keys) fail("more than {} keys", most_keys);
-    return true;
-  };
-  const auto* text = reinterpret_cast<const char*>(bytes.data());
-  try {
-    return Json::parse(text, text + bytes.size(), guard);
-  } catch (const Json::parse_error& error) {
-    fail("not JSON at byte {}", error.byte);
-  } catch (const Json::exception&) {
-    fail("not JSON: a number is out of range");
-  }
-}
-
-const Json* find(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  return found == object.end() ? nullptr : &*found;
 }
 
 void take(const Json& file, const char* key, bool& value) {
@@ -215,9 +179,9 @@ Settings read_settings(std::string& fault) {
   if (!exists && !code) return defaults();
   try {
     if (code) fail("{}", code.message());
-    return settings_of(parse(read_file(file, largest_file)));
+    return settings_of(read_json(file));
   } catch (const Error& error) {
-    fault = cli::printable("ignored the settings in " + io::quoted(file)) + ": " + one_line(error.what());
+    fault = ignored("settings", file, error.what());
   }
   return defaults();
 }

@@ -27,6 +27,9 @@ struct Message {
   double until = 0;  // seconds of the viewer's clock
 };
 
+// What becomes of changes that are not saved when the window closes.
+enum class ClosingAnswer { save, discard };
+
 // What the user asked for with a widget or a key; done between two frames of the interface.
 struct Requests {
   std::optional<std::string> open;  // a scene
@@ -36,7 +39,15 @@ struct Requests {
   bool frame_all = false;
   bool copy_command = false, copy_camera = false;
   bool undo = false, redo = false;
-  bool quit = false;
+  bool save = false;
+  bool quit = false;  // asks first where changes would be lost
+  std::optional<ClosingAnswer> closing;
+};
+
+// The window asks before it closes.
+struct ClosingQuestion {
+  bool wanted = false;  // ask in the next frame
+  bool asks = false;
 };
 
 // "Save preset" asks before it overwrites this file.
@@ -73,6 +84,7 @@ struct UiState {
   bool focus_search = false;  // put the keyboard focus into the search field in the next frame
   FileList files;             // of the file browser
   OverwriteQuestion overwrite;
+  ClosingQuestion closing;
   std::string preset_file = "preset.toml", picture_file = "penumbra.png", scene_file;
   cli::FrameRange sequence{0, 47};
   bool with_aovs = false;           // write every AOV beside the picture

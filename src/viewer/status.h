@@ -10,6 +10,7 @@
 #include "viewer/costs.h"
 #include "viewer/inspect.h"
 #include "viewer/picture_renderer.h"
+#include "viewer/unsaved.h"
 
 namespace penumbra::viewer {
 
@@ -38,6 +39,8 @@ struct ViewerStatus {
   int wanted = 1;            // frames until the picture is finished
   bool idle = false;         // all pictures are finished: nothing will be drawn until something changes
   bool can_undo = false, can_redo = false;
+  Unsaved unsaved;
+  std::string saved_to, preset;  // the files that saving writes: the view's and, or empty, the open preset's
   std::vector<std::string> shader_errors;
   std::optional<double> writing;                // share of the files that are written
   std::string command;                          // the command line that draws this picture

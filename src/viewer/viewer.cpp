@@ -86,6 +86,7 @@ Viewer::Viewer(ViewOptions options)
               .costs_b = b_.costs} {
   state_.document = document_of(options_);
   take_settings();
+  take_preset_option();
   guarded([&] {
     watch_.emplace();
     if (!options_.glsl.empty()) watch_->add_folder(options_.glsl);
@@ -111,17 +112,19 @@ int Viewer::run() {
 
 void Viewer::show_frames() {
   double last = ImGui::GetTime();
-  while (caught_signal == 0) {
+  while (caught_signal == 0 && !ended_) {
     const bool still = device_.info.software && ImGui::GetTime() - last_draw_ > 0.5 && loader_.file().empty();
-    if (!window_.poll(still ? 0.1 : 0.0)) break;
+    window_.poll(still ? 0.1 : 0.0);
+    if (window_.take_close()) state_.requests.quit = true;
     if (window_.pixels().x == 0 || window_.pixels().y == 0) {
+      if (closes()) break;
       window_.poll(0.1);
       continue;
     }
     const double now = ImGui::GetTime();
     frame(static_cast<float>(now - last));
     last = now;
-    if (state_.requests.quit) break;
+    if (closes()) break;
     do_requests();
   }
 }
@@ -184,8 +187,12 @@ void Viewer::take_loaded() {
       options.size = size;
       state_.document.frame = 0;
     }
+    if (is_first || is_other) take_view();
     use_light_indices(options, scene_->lights);
-    if (is_first || is_other) history_.start(edit_of(state_.document, state_.comparison));
+    if (is_first || is_other) {
+      history_.start(edit_of(state_.document, state_.comparison));
+      note_saved_view();
+    }
     state_.scene_file = loaded->options.scene;
     add_recent(state_.recent, loaded->options.scene);
     for (Side* side : {&a_, &b_}) {
@@ -193,7 +200,6 @@ void Viewer::take_loaded() {
       side->costs.clear();
     }
     view_options_.clear();
-    window_.set_title(std::filesystem::path(loaded->options.scene).filename().string() + " - Penumbra");
     if (watch_) watch_->set_files(scene_->prepared.scene.files);
   });
 }
@@ -264,6 +270,7 @@ PictureArea Viewer::build_interface(float seconds) {
   legend_overlay(panel, {corner.x + area.size.x, corner.y});
   messages_overlay(panel, {corner.x, corner.y + area.size.y}, ImGui::GetTime());
   help_overlay(panel);
+  closing_question(panel);
   state_.popup_open = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   return area;
 }

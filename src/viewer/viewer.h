@@ -26,6 +26,7 @@
 #include "viewer/settings.h"
 #include "viewer/state.h"
 #include "viewer/status.h"
+#include "viewer/unsaved.h"
 #include "viewer/widgets.h"
 #include "viewer/window.h"
 
@@ -97,6 +98,14 @@ class Viewer {
   void copy_command();
   void write_picture(bool sequence);
   void take_written();
+  void take_view();
+  void note_saved_view();
+  void take_preset_option();
+  void note_preset(const std::string& file);
+  void update_unsaved();
+  void save();
+  bool closes();
+  void answer_closing(ClosingAnswer answer);
   void note_edit();
   void go_back(bool redo);
   void copy_camera();
@@ -120,6 +129,10 @@ class Viewer {
   RenderProcess writer_;
   UiState state_;
   History<Edit> history_;
+  SavedState saved_;
+  std::string view_fault_;  // why the view beside the scene could not be read
+  std::string title_;
+  bool ended_ = false;
   Side a_, b_;
   FramePacing pacing_;
   CostReader cost_reader_;

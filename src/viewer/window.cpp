@@ -128,13 +128,18 @@ void Window::apply_scale(float scale) {
   set_theme(scale);
 }
 
-bool Window::poll(double seconds) {
+void Window::poll(double seconds) {
   if (seconds > 0 && changes_.empty()) {
     glfwWaitEventsTimeout(seconds);
   } else {
     glfwPollEvents();
   }
-  return glfwWindowShouldClose(window_) == GLFW_FALSE;
+}
+
+bool Window::take_close() {
+  const bool closed = glfwWindowShouldClose(window_) != GLFW_FALSE;
+  if (closed) glfwSetWindowShouldClose(window_, GLFW_FALSE);
+  return closed;
 }
 
 void Window::apply(const Change& change) {
@@ -255,6 +260,10 @@ cli::Size Window::size() {
       glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == 0 && glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == 0;
   if (usual) glfwGetWindowSize(window_, &size_.width, &size_.height);
   return size_;
+}
+
+void Window::restore() {
+  if (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0) glfwRestoreWindow(window_);
 }
 
 void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }

@@ -27,9 +27,10 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  // Handles the pending events, and waits up to `seconds` for one if there are none. Returns false once the user closes
-  // the window.
-  bool poll(double seconds);
+  // Handles the pending events, and waits up to `seconds` for one if there are none.
+  void poll(double seconds);
+  // Whether the user has closed the window since the last call; it stays open.
+  bool take_close();
 
   // begin() starts a frame of the user interface; show() ends it and puts it on the screen.
   void begin();
@@ -41,6 +42,8 @@ class Window {
   float scale() const { return scale_; }
   // In the desktop's units, while it is neither minimised nor maximised; else as it was before.
   cli::Size size();
+  // Shows it again if it is minimised.
+  void restore();
   void set_title(const std::string& title);
   void set_vsync(bool on);
   // Files that were dropped on the window since the last call.

@@ -168,6 +168,10 @@ class Connection:
         _x.XSendEvent(self._display, request.requestor, 0, 0, event)
         self._sync()
 
+    def ask_to_close(self, window):
+        """As a window manager does for the button of a window's frame; also reaches a window that is minimised."""
+        self._send(window, "WM_PROTOCOLS", self._atom("WM_DELETE_WINDOW"))
+
     def ping(self, window):
         """Asks the window's program for an answer, which it sends when it handles its events: see answered()."""
         self._pings += 1

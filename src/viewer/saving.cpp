@@ -1,0 +1,77 @@
+// What the user saves: the view beside the scene, and the open preset. Closing the window asks before it loses them.
+#include <imgui.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "core/error.h"
+#include "io/output_file.h"
+#include "viewer/view_file.h"
+#include "viewer/viewer.h"
+
+namespace penumbra::viewer {
+
+// The view that was saved beside a scene that has just been loaded.
+void Viewer::take_view() {
+  cli::SceneOptions& options = state_.document.options;
+  view_fault_.clear();
+  if (!options_.defaults) {
+    if (const std::optional<SavedView> view = read_view(options.scene, view_fault_)) use_view(view->options, options);
+  }
+  if (!view_fault_.empty()) tell_error(state_, view_fault_, ImGui::GetTime());
+}
+
+void Viewer::note_saved_view() { saved_.view = edit_of(state_.document, state_.comparison); }
+
+void Viewer::note_preset(const std::string& file) {
+  state_.preset_file = saved_.preset = file;
+  saved_.params = state_.document.params;
+}
+
+// A preset that the command line names alone can be saved as one that was opened in the window.
+void Viewer::take_preset_option() {
+  const bool alone = options_.presets.size() == 1 && options_.technique.empty() && options_.assignments.empty() &&
+                     options_.sun_angle.empty() && options_.exposure.empty();
+  if (alone && is_preset(options_.presets.front())) note_preset(options_.presets.front());
+}
+
+// Tells the interface what is not saved.
+void Viewer::update_unsaved() {
+  if (!options_.defaults) status_.unsaved = unsaved(saved_, edit_of(state_.document, state_.comparison));
+  status_.saved_to = scene_ == nullptr ? "" : view_file(state_.document.options.scene).filename().string();
+  status_.preset = saved_.preset;
+  if (scene_ == nullptr) return;
+  const std::string name = std::filesystem::path(state_.document.options.scene).filename().string();
+  std::string title = (status_.unsaved.any() ? "*" : "") + name + " - Penumbra";
+  if (title != title_) window_.set_title(title);
+  title_ = std::move(title);
+}
+
+void Viewer::save() {
+  if (options_.defaults) fail("nothing is saved: --defaults was given");
+  const std::filesystem::path file = view_file(state_.document.options.scene);
+  if (!view_fault_.empty()) fail("cannot write {}: what is there could not be read", io::quoted(file));
+  write_view(state_.document.options.scene, {.options = state_.document.options});
+  note_saved_view();
+  tell(state_, "wrote " + file.string(), ImGui::GetTime());
+  if (status_.unsaved.preset) save_preset(saved_.preset, /* overwrite= */ true);
+}
+
+// Whether the window closes now: the user wants it, and nothing would be lost. Else the next frame asks.
+bool Viewer::closes() {
+  if (!std::exchange(state_.requests.quit, false)) return false;
+  update_unsaved();
+  if (!status_.unsaved.any()) return true;
+  state_.closing.wanted = true;
+  window_.restore();
+  return false;
+}
+
+void Viewer::answer_closing(ClosingAnswer answer) {
+  if (answer == ClosingAnswer::save) save();
+  // The parameters that the next run begins with.
+  if (answer == ClosingAnswer::discard && status_.unsaved.preset) state_.document.params = saved_.params;
+  ended_ = true;
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "viewer/edit.h"
+
+namespace penumbra::viewer {
+
+// What was last saved or opened.
+struct SavedState {
+  Edit view;           // as beside the scene, or as the scene was opened
+  std::string preset;  // the file of the preset that was opened or saved last; empty if there is none
+  ParamSet params;     // its values
+};
+
+// What closing the window would lose.
+struct Unsaved {
+  bool view = false;    // sun, lights or lamps
+  bool preset = false;  // values that differ from the preset's
+
+  bool any() const { return view || preset; }
+};
+
+// The camera alone is no change: everyone moves it to look around. Parameters are kept for the next run, and so are
+// lost only for a preset.
+Unsaved unsaved(const SavedState& saved, const Edit& now);
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,132 @@
+"""penumbra view asks before it closes with changes that are not saved, and begins with what was saved beside the scene."""
+
+import json
+
+from desktop import LEFT, RIGHT
+from support import main
+from window import STEPS, WindowTest
+
+
+class Closing(WindowTest):
+    QUESTION, CANCEL = "closing=Save", "closing=Cancel"
+
+    def setUp(self):
+        super().setUp()
+        self.scene = self.folder / "mine.glb"
+        self.scene.write_bytes(STEPS.read_bytes())
+        self.saved = self.folder / "mine.glb.view.json"
+
+    def place(self, viewer, option="--sun"):
+        return [word for word in viewer.copied() if word.startswith(option + "=")]
+
+    def drag(self, viewer, button, option):
+        """Drags over the picture until the option is another one, and returns it."""
+        before = self.place(viewer, option)
+        x, y = viewer.middle("picture")
+        viewer.move(x, y)
+        self.desktop.xdotool("mousedown", button)
+        for step in (10, 60):
+            viewer.follow()
+            viewer.move(x + step, y + step // 2)
+        viewer.follow()
+        self.desktop.xdotool("mouseup", button)
+        viewer.follow()
+        self.assertNotEqual(self.place(viewer, option), before)
+        return self.place(viewer, option)
+
+    def ask(self, viewer, key):
+        self.desktop.xdotool("key", key)
+        viewer.wait_for(lambda: viewer.has(self.QUESTION), f"the question after {key}")
+
+    def answer(self, viewer, answer):
+        viewer.point_at(f"closing={answer}")
+        self.desktop.xdotool("click", LEFT)
+
+    def test_each_way_to_close_asks_and_escape_or_cancel_stays(self):
+        with self.view("mine.glb") as viewer:
+            sun = self.drag(viewer, RIGHT, "--sun")
+            for key in ("Escape", "ctrl+q", "alt+F4"):
+                with self.subTest(key=key):
+                    self.ask(viewer, key)
+                    viewer.press("Escape", lambda: not viewer.has(self.QUESTION), "no question")
+                    self.ask(viewer, key)
+                    viewer.press("Tab", lambda: True, "nothing")  # hides the panel where no question is open
+                    self.assertTrue(viewer.has("technique"))
+                    self.answer(viewer, "Cancel")
+                    viewer.wait_for(lambda: not viewer.has(self.QUESTION), "no question")
+            self.assertEqual(self.place(viewer), sun)
+            self.assertFalse(self.saved.exists())
+            viewer.tap("ctrl+z")
+            viewer.follow()
+            self.desktop.xdotool("key", "Escape")  # what was undone is no change
+            self.assertEqual(viewer.exit_code(), 0)
+
+    def test_discard_closes_and_writes_nothing(self):
+        with self.view("mine.glb") as viewer:
+            self.drag(viewer, RIGHT, "--sun")
+            self.ask(viewer, "Escape")
+            self.answer(viewer, "Discard")
+            self.assertEqual(viewer.exit_code(), 0)
+        self.assertFalse(self.saved.exists())
+
+    def test_what_is_saved_is_what_the_next_start_shows(self):
+        with self.view("mine.glb") as viewer:
+            eye, sun = self.drag(viewer, LEFT, "--eye"), self.drag(viewer, RIGHT, "--sun")
+            viewer.wait_for(lambda: not viewer.has("messages"), "no messages over the picture")
+            shown = viewer.rest()
+            self.ask(viewer, "alt+F4")
+            self.answer(viewer, "Save")
+            self.assertEqual(viewer.exit_code(), 0)
+        self.assertIn(sun[0], json.loads(self.saved.read_text())["view"])
+        with self.view("mine.glb") as viewer:
+            self.assertEqual(viewer.rest(), shown)
+            self.assertEqual((self.place(viewer, "--eye"), self.place(viewer)), (eye, sun))
+            self.drag(viewer, LEFT, "--eye")
+            viewer.tap("Escape")  # the camera alone asks nothing
+            self.assertEqual(viewer.exit_code(), 0)
+        with self.view("mine.glb", "--sun=10,30", "--defaults") as viewer:
+            self.assertEqual((self.place(viewer, "--eye"), self.place(viewer)), ([], ["--sun=10,30"]))
+            self.drag(viewer, RIGHT, "--sun")
+            viewer.tap("Escape")
+            self.assertEqual(viewer.exit_code(), 0)
+
+    def test_a_window_that_is_minimised_comes_back_to_ask(self):
+        with self.view("mine.glb") as viewer:
+            self.drag(viewer, RIGHT, "--sun")
+            self.desktop.xdotool("windowminimize", viewer.window)
+            viewer.wait_for(lambda: self.desktop.find_window(viewer.process.pid) is None, "an icon")
+            self.desktop.client.ask_to_close(viewer.window)
+            viewer.wait_for(lambda: self.desktop.find_window(viewer.process.pid), "the window")
+            viewer.wait_for(lambda: viewer.has(self.QUESTION), "the question")
+
+    def test_a_view_that_cannot_be_read_is_told_and_kept(self):
+        broken = '{"view": ["--eye=nan,0,0", "--target=0,0,0"]}'
+        self.saved.write_text(broken)
+        with self.view("mine.glb") as viewer:
+            viewer.wait_for(lambda: viewer.has("messages"), "a message")
+            self.drag(viewer, RIGHT, "--sun")
+            self.ask(viewer, "Escape")
+            self.answer(viewer, "Save")
+            viewer.wait_for(lambda: not viewer.has(self.QUESTION), "no question")
+            viewer.follow()
+            self.assertEqual(self.saved.read_text(), broken)
+            self.ask(viewer, "Escape")
+            self.answer(viewer, "Discard")
+            self.assertEqual(viewer.exit_code(), 0)
+
+    def test_the_parameters_of_a_preset_that_is_open(self):
+        preset = self.folder / "preset.toml"
+        first = 'technique = "pcf"\n'
+        preset.write_text(first)
+        for answer in ("Discard", "Save"):
+            with self.subTest(answer=answer), self.view("mine.glb", "--preset", "preset.toml", maps=()) as viewer:
+                viewer.choose("technique", "none")
+                self.ask(viewer, "Escape")
+                self.answer(viewer, answer)
+                self.assertEqual(viewer.exit_code(), 0)
+                self.assertEqual(preset.read_text() == first, answer == "Discard")
+        self.assertIn('"none"', preset.read_text())
+
+
+if __name__ == "__main__":
+    main()
