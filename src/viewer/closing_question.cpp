@@ -14,7 +14,7 @@ namespace {
 void list_changes(const ViewerStatus& status) {
   ImGui::TextUnformatted("There are changes that are not saved:");
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30.0f);
-  if (status.unsaved.view) ImGui::BulletText("sun, lights or lamps, in %s", status.saved_to.c_str());
+  if (status.unsaved.view) ImGui::BulletText("sun, lights, lamps or bookmarks, in %s", status.saved_to.c_str());
   if (status.unsaved.preset) ImGui::BulletText("parameters, in the preset %s", status.preset.c_str());
   ImGui::PopTextWrapPos();
 }

@@ -26,22 +26,24 @@ bool same_sun(const std::optional<cli::Direction>& a, const std::optional<cli::D
 
 bool Edit::operator==(const Edit& other) const {
   const bool same_b = b.rows().empty() || other.b.rows().empty() || b == other.b;
-  return same_b && a == other.a && camera_of(view) == camera_of(other.view) && same_lights(*this, other);
+  return same_b && a == other.a && bookmarks == other.bookmarks && camera_of(view) == camera_of(other.view) &&
+         same_lights(*this, other);
 }
 
 bool same_lights(const Edit& a, const Edit& b) {
   return lights_of(a.view) == lights_of(b.view) && same_sun(a.view.sun, b.view.sun);
 }
 
-Edit edit_of(const Document& document, const Comparison& comparison) {
-  return {.view = document.options, .a = document.params, .b = comparison.params};
+Edit edit_of(const Document& document, const Comparison& comparison, const Bookmarks& bookmarks) {
+  return {.view = document.options, .a = document.params, .b = comparison.params, .bookmarks = bookmarks};
 }
 
-void restore(const Edit& edit, Document& document, Comparison& comparison) {
+void restore(const Edit& edit, Document& document, Comparison& comparison, Bookmarks& bookmarks) {
   camera_of(document.options) = camera_of(edit.view);
   lights_of(document.options) = lights_of(edit.view);
   document.options.sun = edit.view.sun;
   document.params = edit.a;
+  bookmarks = edit.bookmarks;
   if (!edit.b.rows().empty()) comparison.params = edit.b;
 }
 

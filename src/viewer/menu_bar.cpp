@@ -5,48 +5,47 @@
 
 namespace penumbra::viewer {
 
-namespace {
-
-bool item(const Panel& panel, const char* name, const char* keys, bool possible = true) {
+bool menu_item(const Panel& panel, const char* name, const char* keys, bool possible) {
   const bool taken = ImGui::MenuItem(name, keys, /* selected= */ false, possible);
   panel.widgets.mark(std::string("menu=") + name);
   return taken;
 }
 
-bool begin(const Panel& panel, const char* name) {
+bool begin_menu(const Panel& panel, const char* name) {
   const bool open = ImGui::BeginMenu(name);
   panel.widgets.mark(std::string("menu ") + name);
   return open;
 }
 
+namespace {
+
 void file_menu(const Panel& panel) {
   UiState& state = panel.state;
   const bool shown = panel.status.scene != nullptr;
-  if (item(panel, "Open...", "Ctrl+O")) state.open_files();
-  if (item(panel, "Save", "Ctrl+S", shown)) state.requests.save = true;
+  if (menu_item(panel, "Open...", "Ctrl+O")) state.open_files();
+  if (menu_item(panel, "Save", "Ctrl+S", shown)) state.requests.save = true;
   ImGui::Separator();
-  if (item(panel, "Write picture", "F12", shown)) state.requests.write_picture = true;
-  if (item(panel, "Copy command line", "Ctrl+C", shown)) state.requests.copy_command = true;
+  if (menu_item(panel, "Write picture", "F12", shown)) state.requests.write_picture = true;
+  if (menu_item(panel, "Copy command line", "Ctrl+C", shown)) state.requests.copy_command = true;
   ImGui::Separator();
-  if (item(panel, "Quit", "Ctrl+Q")) state.requests.quit = true;
+  if (menu_item(panel, "Quit", "Ctrl+Q")) state.requests.quit = true;
 }
 
 void edit_menu(const Panel& panel) {
   UiState& state = panel.state;
   const bool shown = panel.status.scene != nullptr;
-  if (item(panel, "Undo", "Ctrl+Z", panel.status.can_undo)) state.requests.undo = true;
-  if (item(panel, "Redo", "Ctrl+Shift+Z", panel.status.can_redo)) state.requests.redo = true;
+  if (menu_item(panel, "Undo", "Ctrl+Z", panel.status.can_undo)) state.requests.undo = true;
+  if (menu_item(panel, "Redo", "Ctrl+Shift+Z", panel.status.can_redo)) state.requests.redo = true;
   ImGui::Separator();
-  if (item(panel, "Back to the scene's camera", "", shown)) use_scene_camera(state.document.options);
-  if (item(panel, "Frame all", "Home", shown)) state.requests.frame_all = true;
+  if (menu_item(panel, "Back to the scene's camera", "", shown)) use_scene_camera(state.document.options);
 }
 
 void view_menu(const Panel& panel) {
   UiState& state = panel.state;
-  if (item(panel, "Hide panel and menus", "Tab")) state.panel = false;
-  if (item(panel, state.comparison.on ? "Stop comparing" : "Compare A with B", "C"))
+  if (menu_item(panel, "Hide panel and menus", "Tab")) state.panel = false;
+  if (menu_item(panel, state.comparison.on ? "Stop comparing" : "Compare A with B", "C"))
     state.compare(!state.comparison.on);
-  if (item(panel, "Mouse and keys", "F1")) state.help = !state.help;
+  if (menu_item(panel, "Mouse and keys", "F1")) state.help = !state.help;
 }
 
 }  // namespace
@@ -57,8 +56,9 @@ float menu_bar(const Panel& panel) {
     const char* name;
     void (*draw)(const Panel&);
   };
-  for (const Menu& menu : {Menu{"File", file_menu}, Menu{"Edit", edit_menu}, Menu{"View", view_menu}}) {
-    if (!begin(panel, menu.name)) continue;
+  for (const Menu& menu :
+       {Menu{"File", file_menu}, Menu{"Edit", edit_menu}, Menu{"Camera", camera_menu}, Menu{"View", view_menu}}) {
+    if (!begin_menu(panel, menu.name)) continue;
     menu.draw(panel);
     ImGui::EndMenu();
   }

@@ -18,6 +18,16 @@ struct Panel {
 // The window's menus. Returns their height.
 float menu_bar(const Panel& panel);
 
+// A line of a menu; returns whether it is chosen.
+bool menu_item(const Panel& panel, const char* name, const char* keys, bool possible = true);
+// As ImGui::BeginMenu().
+bool begin_menu(const Panel& panel, const char* name);
+void camera_menu(const Panel& panel);
+
+// Bookmarks of cameras, by the number of their key less one. A bookmark that is empty tells how to store it.
+void store_bookmark(const Panel& panel, std::size_t index);
+void use_bookmark(const Panel& panel, std::size_t index);
+
 // The tabs of the side panel, each a file of its name.
 void shadow_panel(const Panel& panel);   // technique, parameters, presets
 void scene_panel(const Panel& panel);    // file, camera, sun, lights, time

@@ -122,7 +122,10 @@ void fly(const Panel& panel, float seconds) {
     return static_cast<float>(ImGui::IsKeyDown(positive)) - static_cast<float>(ImGui::IsKeyDown(negative));
   };
   const glm::vec3 way(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_S, GLFW_KEY_W));
-  if (way == glm::vec3(0) || io.KeyCtrl || panel.status.scene == nullptr) return;
+  // A hand that presses Ctrl + S may let go of Ctrl first.
+  bool& with_ctrl = panel.state.travel_keys_with_ctrl;
+  with_ctrl = way != glm::vec3(0) && (with_ctrl || io.KeyCtrl);
+  if (way == glm::vec3(0) || with_ctrl || panel.status.scene == nullptr) return;
   CameraRig rig = present_rig(panel.state.document, panel.status.scene->prepared);
   const float speed =
       0.25f * std::max(panel.status.scene->prepared.bounds.radius(), 0.1f) * (io.KeyShift ? 4.0f : 1.0f);
@@ -149,6 +152,13 @@ void take_letters_with_ctrl(UiState& state) {
   const bool z = letter_pressed('z');
   if (z && !io.KeyShift) state.requests.undo = true;
   if ((z && io.KeyShift) || letter_pressed('y')) state.requests.redo = true;
+}
+
+void take_digits(const Panel& panel) {
+  for (int i = 0; i < static_cast<int>(panel.state.bookmarks.size()); ++i) {
+    if (!ImGui::IsKeyPressed(GLFW_KEY_1 + i, /* repeat= */ false)) continue;
+    (ImGui::GetIO().KeyCtrl ? store_bookmark : use_bookmark)(panel, static_cast<std::size_t>(i));
+  }
 }
 
 void take_time_keys(const Panel& panel) {
@@ -216,7 +226,7 @@ void take_keys(const Panel& panel, float seconds) {
   if (pressed(GLFW_KEY_SLASH)) state.panel = state.focus_search = true;
   if (pressed(GLFW_KEY_F)) state.fly = !state.fly;
   if (pressed(GLFW_KEY_P)) state.probe = !state.probe;
-  if (pressed(GLFW_KEY_HOME)) state.requests.frame_all = true;
+  if (pressed(GLFW_KEY_HOME)) state.requests.frame_casters = true;
   if (pressed(GLFW_KEY_C)) {
     if (ImGui::GetIO().KeyCtrl) {
       state.requests.copy_command = true;
@@ -228,6 +238,7 @@ void take_keys(const Panel& panel, float seconds) {
     state.comparison.how = state.comparison.how == CompareMode::a ? CompareMode::b : CompareMode::a;
   if (pressed(GLFW_KEY_O) && ImGui::GetIO().KeyCtrl) state.open_files();
   take_letters_with_ctrl(state);
+  take_digits(panel);
   take_time_keys(panel);
   fly(panel, seconds);
 }

@@ -11,6 +11,7 @@
 #include "io/output_file.h"
 #include "io/presets.h"
 #include "session/techniques.h"
+#include "viewer/framing.h"
 #include "viewer/viewer.h"
 
 namespace penumbra::viewer {
@@ -41,7 +42,7 @@ void Viewer::do_requests() {
     if (wanted.save_preset) save_preset(*wanted.save_preset, /* overwrite= */ false);
     if (wanted.overwrite_preset) save_preset(*wanted.overwrite_preset, /* overwrite= */ true);
     if ((wanted.write_picture || wanted.write_sequence) && scene_ != nullptr) write_picture(wanted.write_sequence);
-    if (wanted.frame_all && scene_ != nullptr) frame_all();
+    if (wanted.frame_casters && scene_ != nullptr) frame_casters();
     if (wanted.undo || wanted.redo) go_back(wanted.redo);
     if (wanted.copy_command && scene_ != nullptr) copy_command();
     if (wanted.copy_camera && scene_ != nullptr) copy_camera();
@@ -131,12 +132,14 @@ void Viewer::take_written() {
   }
 }
 
+Edit Viewer::present_edit() const { return edit_of(state_.document, state_.comparison, state_.bookmarks); }
+
 // Lets the history see what the user has changed. Notches of the wheel, and keys that move the camera, belong together
 // if they follow each other closely.
 void Viewer::note_edit() {
   constexpr double pause = 0.5;
   const bool held = ImGui::IsAnyItemActive() || ImGui::GetTime() - state_.last_travel < pause;
-  history_.note(edit_of(state_.document, state_.comparison), held);
+  history_.note(present_edit(), held);
   status_.can_undo = history_.can_undo();
   status_.can_redo = history_.can_redo();
   update_unsaved();
@@ -144,9 +147,9 @@ void Viewer::note_edit() {
 
 void Viewer::go_back(bool redo) {
   if (ImGui::IsAnyItemActive()) return;  // the user holds what would change
-  const Edit now = edit_of(state_.document, state_.comparison);
+  const Edit now = present_edit();
   if (const std::optional<Edit> edit = redo ? history_.redo(now) : history_.undo(now))
-    restore(*edit, state_.document, state_.comparison);
+    restore(*edit, state_.document, state_.comparison, state_.bookmarks);
 }
 
 void Viewer::copy_camera() {
@@ -155,10 +158,13 @@ void Viewer::copy_camera() {
   tell(state_, text.empty() ? "the camera is the default one: nothing to copy" : "copied: " + text, ImGui::GetTime());
 }
 
-void Viewer::frame_all() {
+void Viewer::frame_casters() {
   const session::PreparedScene& prepared = scene_->prepared;
-  CameraRig rig = rig_of(prepared.setup.camera, prepared.bounds);
-  rig.frame(prepared.bounds, static_cast<float>(window_size_.x) / static_cast<float>(window_size_.y));
+  CameraRig rig = present_rig(state_.document, prepared);
+  const scene::Pose pose = scene::pose_at(prepared.scene, state_.document.seconds());
+  const scene::CasterChoice choice{.skies = state_.document.params.get_bool("casters.skies")};
+  rig.frame(caster_bounds(prepared.scene, pose, choice),
+            static_cast<float>(window_size_.x) / static_cast<float>(window_size_.y));
   place(state_.document, prepared, rig);
   state_.zoom = {};
 }

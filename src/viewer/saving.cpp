@@ -14,14 +14,17 @@ namespace penumbra::viewer {
 // The view that was saved beside a scene that has just been loaded.
 void Viewer::take_view() {
   cli::SceneOptions& options = state_.document.options;
+  state_.bookmarks = {};
   view_fault_.clear();
-  if (!options_.defaults) {
-    if (const std::optional<SavedView> view = read_view(options.scene, view_fault_)) use_view(view->options, options);
+  if (options_.defaults) return;
+  if (const std::optional<SavedView> view = read_view(options.scene, view_fault_)) {
+    use_view(view->options, options);
+    state_.bookmarks = view->bookmarks;
   }
   if (!view_fault_.empty()) tell_error(state_, view_fault_, ImGui::GetTime());
 }
 
-void Viewer::note_saved_view() { saved_.view = edit_of(state_.document, state_.comparison); }
+void Viewer::note_saved_view() { saved_.view = present_edit(); }
 
 void Viewer::note_preset(const std::string& file) {
   state_.preset_file = saved_.preset = file;
@@ -37,7 +40,7 @@ void Viewer::take_preset_option() {
 
 // Tells the interface what is not saved.
 void Viewer::update_unsaved() {
-  if (!options_.defaults) status_.unsaved = unsaved(saved_, edit_of(state_.document, state_.comparison));
+  if (!options_.defaults) status_.unsaved = unsaved(saved_, present_edit());
   status_.saved_to = scene_ == nullptr ? "" : view_file(state_.document.options.scene).filename().string();
   status_.preset = saved_.preset;
   if (scene_ == nullptr) return;
@@ -51,7 +54,7 @@ void Viewer::save() {
   if (options_.defaults) fail("nothing is saved: --defaults was given");
   const std::filesystem::path file = view_file(state_.document.options.scene);
   if (!view_fault_.empty()) fail("cannot write {}: what is there could not be read", io::quoted(file));
-  write_view(state_.document.options.scene, {.options = state_.document.options});
+  write_view(state_.document.options.scene, {.options = state_.document.options, .bookmarks = state_.bookmarks});
   note_saved_view();
   tell(state_, "wrote " + file.string(), ImGui::GetTime());
   if (status_.unsaved.preset) save_preset(saved_.preset, /* overwrite= */ true);

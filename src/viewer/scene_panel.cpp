@@ -82,8 +82,9 @@ void camera(const Panel& panel) {
   panel.widgets.mark("fov");
   end_rows();
   if (moved && rig.eye != rig.target) place(state.document, prepared, rig);
-  if (ImGui::Button("Frame all")) state.requests.frame_all = true;
-  panel.widgets.mark("frame all");
+  if (ImGui::Button("Frame casters")) state.requests.frame_casters = true;
+  panel.widgets.mark("frame casters");
+  tooltip("Shows all that casts shadows, without the ground (Home)");
   ImGui::SameLine();
   if (ImGui::Button("Copy camera")) state.requests.copy_camera = true;
   panel.widgets.mark("copy camera");

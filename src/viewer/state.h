@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/bookmarks.h"
 #include "viewer/comparison.h"
 #include "viewer/document.h"
 #include "viewer/drag.h"
@@ -36,7 +37,7 @@ struct Requests {
   std::optional<std::string> open_preset, save_preset;
   std::optional<std::string> overwrite_preset;         // as save_preset, and the user agrees to lose what is there
   bool write_picture = false, write_sequence = false;  // to the state's file
-  bool frame_all = false;
+  bool frame_casters = false;
   bool copy_command = false, copy_camera = false;
   bool undo = false, redo = false;
   bool save = false;
@@ -66,15 +67,17 @@ struct LampName {
 
 // Everything that the user can change.
 struct UiState {
-  Document document;  // picture A
+  Document document;    // picture A
+  Bookmarks bookmarks;  // of the scene
   Comparison comparison;
   Inspection inspection;
   Zoom zoom;
   Playback playback;
-  bool fly = false;            // the left button looks around from the eye, instead of orbiting the target
-  double last_travel = -1e9;   // when the wheel or a key moved the camera last, seconds of the viewer's clock
-  Drag drag;                   // of the pointer over the picture
-  bool dragging_line = false;  // the user drags the line between A and B
+  bool fly = false;                    // the left button looks around from the eye, instead of orbiting the target
+  bool travel_keys_with_ctrl = false;  // the keys that are down were pressed with Ctrl, and move nothing
+  double last_travel = -1e9;           // when the wheel or a key moved the camera last, seconds of the viewer's clock
+  Drag drag;                           // of the pointer over the picture
+  bool dragging_line = false;          // the user drags the line between A and B
   // The lamp whose properties are shown, and the one that the mouse drags.
   std::optional<LampName> lamp, dragged_lamp;
   bool popup_open = false;  // a list was open in the last frame: Escape closes it

@@ -15,7 +15,7 @@ struct SavedState {
 
 // What closing the window would lose.
 struct Unsaved {
-  bool view = false;    // sun, lights or lamps
+  bool view = false;    // sun, lights, lamps or bookmarks
   bool preset = false;  // values that differ from the preset's
 
   bool any() const { return view || preset; }

@@ -4,13 +4,14 @@
 #include <optional>
 #include <string>
 
-#include "cli/options.h"
+#include "viewer/bookmarks.h"
 
 namespace penumbra::viewer {
 
-// What is saved beside a scene for the next time that it is opened: camera, sun, lights and lamps.
+// What is saved beside a scene for the next time that it is opened: camera, sun, lights and lamps, and the bookmarks.
 struct SavedView {
   cli::SceneOptions options;  // of which only those of view_arguments() count
+  Bookmarks bookmarks;
 };
 
 // SCENE.view.json

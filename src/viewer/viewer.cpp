@@ -190,7 +190,7 @@ void Viewer::take_loaded() {
     if (is_first || is_other) take_view();
     use_light_indices(options, scene_->lights);
     if (is_first || is_other) {
-      history_.start(edit_of(state_.document, state_.comparison));
+      history_.start(present_edit());
       note_saved_view();
     }
     state_.scene_file = loaded->options.scene;

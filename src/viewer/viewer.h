@@ -106,10 +106,11 @@ class Viewer {
   void save();
   bool closes();
   void answer_closing(ClosingAnswer answer);
+  Edit present_edit() const;
   void note_edit();
   void go_back(bool redo);
   void copy_camera();
-  void frame_all();
+  void frame_casters();
   void take_settings();
   void keep_settings();
   void update_view();

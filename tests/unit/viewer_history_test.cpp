@@ -86,11 +86,12 @@ TEST(ViewerHistory, StartingAgainForgetsAll) {
 struct Shown {
   viewer::Document document{.options = {}, .params = ParamSet(render::Renderer::params(session::all_techniques()))};
   viewer::Comparison comparison;
+  viewer::Bookmarks bookmarks;
 
-  viewer::Edit edit() const { return edit_of(document, comparison); }
+  viewer::Edit edit() const { return edit_of(document, comparison, bookmarks); }
 };
 
-TEST(ViewerEdit, CameraSunLightsAndParametersAreStepsAndComeBack) {
+TEST(ViewerEdit, CameraBookmarksSunLightsAndParametersAreStepsAndComeBack) {
   using Change = void (*)(Shown&);
   const std::vector<Change> changes{
       [](Shown& s) { s.document.options.camera = "1"; },
@@ -107,6 +108,10 @@ TEST(ViewerEdit, CameraSunLightsAndParametersAreStepsAndComeBack) {
       [](Shown& s) { s.document.params.set("sun.angle", 3.0f); },
       [](Shown& s) { s.document.params.set_text("technique", "none"); },
       [](Shown& s) { s.comparison.params.set("sun.angle", 4.0f); },
+      [](Shown& s) {
+        s.bookmarks[2] = {.eye = {1, 2, 3}, .target = {0, 0, 0}, .fov = 40};
+      },
+      [](Shown& s) { s.bookmarks[2].reset(); },
   };
   Shown shown;
   shown.comparison.params = shown.document.params;
@@ -116,9 +121,9 @@ TEST(ViewerEdit, CameraSunLightsAndParametersAreStepsAndComeBack) {
     changes[i](shown);
     const viewer::Edit after = shown.edit();
     EXPECT_NE(after, before);
-    restore(before, shown.document, shown.comparison);
+    restore(before, shown.document, shown.comparison, shown.bookmarks);
     EXPECT_EQ(shown.edit(), before);
-    restore(after, shown.document, shown.comparison);
+    restore(after, shown.document, shown.comparison, shown.bookmarks);
     EXPECT_EQ(shown.edit(), after);
   }
 }
@@ -131,7 +136,7 @@ TEST(ViewerEdit, SceneSizeAndTimeAreNoStepsAndStay) {
   shown.document.frame = 4;
   EXPECT_EQ(shown.edit(), before);
   shown.document.params.set("sun.angle", 3.0f);
-  restore(before, shown.document, shown.comparison);
+  restore(before, shown.document, shown.comparison, shown.bookmarks);
   EXPECT_EQ(shown.document.options.scene, "other.glb");
   EXPECT_EQ(shown.document.options.size.height, 20);
   EXPECT_EQ(shown.document.frame, 4);
@@ -145,14 +150,14 @@ TEST(ViewerEdit, ThatBIsShownForTheFirstTimeIsNoStepButItsChangesAre) {
   history.note(shown.edit(), false);
   shown.comparison.params = shown.document.params;
   history.note(shown.edit(), false);
-  restore(*history.undo(shown.edit()), shown.document, shown.comparison);
+  restore(*history.undo(shown.edit()), shown.document, shown.comparison, shown.bookmarks);
   EXPECT_FALSE(history.can_undo());
   EXPECT_FALSE(shown.comparison.params.rows().empty());
   history.note(shown.edit(), false);
   EXPECT_TRUE(history.can_redo());
   shown.comparison.params.set("sun.angle", 5.0f);
   history.note(shown.edit(), false);
-  restore(*history.undo(shown.edit()), shown.document, shown.comparison);
+  restore(*history.undo(shown.edit()), shown.document, shown.comparison, shown.bookmarks);
   EXPECT_EQ(shown.comparison.params.get_float("sun.angle"), 3.0f);
 }
 

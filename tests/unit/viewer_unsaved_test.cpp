@@ -48,6 +48,13 @@ TEST(ViewerUnsaved, AnotherCameraIsNone) {
   EXPECT_FALSE(unsaved(saved_as(plain()), now).any());
 }
 
+TEST(ViewerUnsaved, ABookmarkIs) {
+  Edit now = plain();
+  now.bookmarks[8] = viewer::Bookmark{.eye = {1, 2, 3}, .target = {0, 0, 0}, .fov = 40};
+  EXPECT_TRUE(unsaved(saved_as(plain()), now).view);
+  EXPECT_FALSE(unsaved(saved_as(now), now).any());
+}
+
 TEST(ViewerUnsaved, ParametersAreOnlyWhereAPresetIsOpen) {
   SavedState saved = saved_as(plain());
   Edit now = plain();

@@ -54,9 +54,13 @@ TEST_F(ViewerViewFile, WhatWasWrittenIsReadBack) {
   options.lights = {"0", "2"};
   options.lamp_radius = 0.25;
   options.lamps = {{.number = 0}, {.number = 1}};
-  viewer::write_view(scene_, {.options = options});
+  viewer::Bookmarks bookmarks;
+  bookmarks[0] = {.eye = {0.1f, -2, 3e-5f}, .target = {1e6f, 0, 0}, .fov = 33.3333};
+  bookmarks[8] = {.eye = {0, 0, 0}, .target = {0, 0, -1}, .fov = 179};
+  viewer::write_view(scene_, {.options = options, .bookmarks = bookmarks});
   const std::optional<SavedView> again = read();
   ASSERT_TRUE(again);
+  EXPECT_EQ(again->bookmarks, bookmarks);
   EXPECT_EQ(viewer::view_arguments(again->options), viewer::view_arguments(options));
   EXPECT_EQ(again->options.eye, options.eye);
   EXPECT_EQ(again->options.lamps, options.lamps);
@@ -84,6 +88,23 @@ TEST_F(ViewerViewFile, ABrokenFileIsIgnoredAndNamed) {
   expect_fault(R"({"view": ["--fov=40", "--fov=50"]})", "--fov");
   for (const char* other : {"--help", "-h", "--log-level=quiet", "--ground=on", "--max-memory=1", "hall.glb", "", "--"})
     expect_fault(std::string(R"({"view": [")") + other + R"("]})", "is no option of a view");
+}
+
+TEST_F(ViewerViewFile, ABrokenBookmarkIsNamed) {
+  const auto with = [](const std::string& bookmarks) { return R"({"view": [], "bookmarks": )" + bookmarks + "}"; };
+  const auto third = [&](const std::string& options) { return with("{\"3\": [" + options + "]}"); };
+  expect_fault(with("[]"), "'bookmarks' takes cameras by number");
+  for (const char* name : {"0", "10", "", "one", "-1", "\u00e9"})
+    expect_fault(with("{\"" + std::string(name) + "\": []}"), "1 to 9");
+  expect_fault(with(R"({"3": null})"), "bookmark 3: 'bookmarks.3' takes a list");
+  expect_fault(third(R"("--eye=nan,0,0", "--target=0,0,1", "--fov=40")"), "bookmark 3: --eye can't be 'nan,0,0'");
+  expect_fault(third(R"("--eye=0,0,0", "--target=0,inf,1", "--fov=40")"), "bookmark 3: --target can't be");
+  expect_fault(third(R"("--eye=0,0,0", "--target=0,0,1", "--fov=nan")"), "bookmark 3: --fov can't be 'nan'");
+  expect_fault(third(R"("--eye=0,0,0", "--target=0,0,1", "--fov=180")"), "bookmark 3: --fov can't be");
+  expect_fault(third(R"("--eye=0,0,0", "--target=0,0,0", "--fov=40")"), "bookmark 3: --eye and --target are the same");
+  expect_fault(third(R"("--eye=0,0,0", "--target=0,0,1")"), "bookmark 3: --eye, --target and --fov are needed");
+  expect_fault(third(R"("--eye=0,0,0", "--target=0,0,1", "--fov=40", "--no-sun")"), "bookmark 3: '--no-sun'");
+  expect_fault(third(""), "bookmark 3: --eye, --target and --fov are needed");
 }
 
 TEST_F(ViewerViewFile, UnknownKeysAreIgnored) {
