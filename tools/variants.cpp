@@ -1,18 +1,22 @@
-// penumbra-variants FOLDER: writes the stages of every program variant that any choice of parameters can build, with
-// includes resolved, as FOLDER/<program>.vert, .frag or .comp, and has the driver compile and run each. Compilation
-// runs in child processes: if the driver crashes, the program is reported as failed and the check continues with the
-// next.
+// penumbra-variants FOLDER [PART/PARTS]: writes the stages of every program variant that any choice of parameters can
+// build, with includes resolved, as FOLDER/<program>.vert, .geom, .frag or .comp, and has the driver compile and run
+// each. With PART/PARTS, such as 1/2, it takes only every second one or so: several processes share the work.
+// Compilation runs in child processes: if the driver crashes, the program is reported as failed and the check continues
+// with the next.
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #ifdef PENUMBRA_VIEWER
@@ -39,11 +43,30 @@ struct Stage {
   const std::string& file;
 };
 
-std::array<Stage, 3> stages_of(const gl::ProgramDesc& program) {
-  return {Stage{"vert", program.vertex}, Stage{"frag", program.fragment}, Stage{"comp", program.compute}};
+std::array<Stage, 4> stages_of(const gl::ProgramDesc& program) {
+  return {Stage{"vert", program.vertex}, Stage{"geom", program.geometry}, Stage{"frag", program.fragment},
+          Stage{"comp", program.compute}};
 }
 
-std::vector<Variant> all_variants(gl::Device& device) {
+// The variants whose number, divided by `count`, leaves `index`.
+struct Part {
+  std::size_t index = 0, count = 1;
+};
+
+// Of "1/2", the first of two parts: index 0. Nothing: not such a text.
+std::optional<Part> read_part(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string_view::npos) return std::nullopt;
+  const auto number = [](std::string_view digits) {
+    std::size_t value = 0;
+    const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    return fault == std::errc() && end == digits.data() + digits.size() ? value : 0;
+  };
+  const std::size_t part = number(text.substr(0, slash)), count = number(text.substr(slash + 1));
+  return part >= 1 && part <= count ? std::optional(Part{part - 1, count}) : std::nullopt;
+}
+
+std::vector<Variant> variants_of(gl::Device& device, const Part& part) {
   render::Renderer renderer(device, session::all_techniques());
   const ParamSet defaults(render::Renderer::params(renderer.registry()));
   std::vector<gl::ProgramDesc> programs = renderer.all_programs(defaults);
@@ -54,11 +77,11 @@ std::vector<Variant> all_variants(gl::Device& device) {
   programs.erase(std::unique(programs.begin(), programs.end()), programs.end());
   std::vector<Variant> variants;
   std::map<std::string, int> numbers;
-  for (gl::ProgramDesc& program : programs) {
-    std::string name = program.name;
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    std::string name = programs[i].name;
     std::replace(name.begin(), name.end(), ' ', '_');
     name += fmt::format("-{}", ++numbers[name]);
-    variants.push_back({std::move(name), std::move(program)});
+    if (i % part.count == part.index) variants.push_back({std::move(name), std::move(programs[i])});
   }
   return variants;
 }
@@ -149,10 +172,10 @@ Outcome compile_in_child(gl::Device& device, const std::vector<Variant>& variant
   return {last + 1, false};
 }
 
-int check_variants(const std::filesystem::path& folder) {
+int check_variants(const std::filesystem::path& folder, const Part& part) {
   std::filesystem::create_directories(folder);
   gl::Device device(gl::ShaderFiles(), gl::Timers::Mode::off);
-  const std::vector<Variant> variants = all_variants(device);
+  const std::vector<Variant> variants = variants_of(device, part);
   for (const Variant& variant : variants) write_stages(device.shaders.files(), variant, folder);
   bool good = true;
   for (std::size_t next = 0; next < variants.size();) {
@@ -168,18 +191,21 @@ int check_variants(const std::filesystem::path& folder) {
 }  // namespace penumbra
 
 int main(int argc, char** argv) {
-  const std::string_view usage = "usage: penumbra-variants FOLDER\n";
-  const std::string_view argument = argc == 2 ? argv[1] : "";
-  if (argument == "--help" || argument == "-h") {
+  const std::string_view usage = "usage: penumbra-variants FOLDER [PART/PARTS]\n";
+  const std::vector<std::string_view> arguments(argv + 1, argv + argc);
+  const std::string_view folder = arguments.empty() ? "" : arguments[0];
+  if (folder == "--help" || folder == "-h") {
     fmt::print("{}", usage);
     return 0;
   }
-  if (argument.empty() || argument.starts_with('-')) {  // a folder whose name begins with a dash is written ./-name
+  const std::optional<penumbra::Part> part = penumbra::read_part(arguments.size() < 2 ? "1/1" : arguments[1]);
+  // A folder whose name begins with a dash is written ./-name.
+  if (folder.empty() || folder.starts_with('-') || arguments.size() > 2 || !part) {
     fmt::print(stderr, "{}", usage);
     return 2;
   }
   try {
-    return penumbra::check_variants(argument);
+    return penumbra::check_variants(folder, *part);
   } catch (const std::exception& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return 1;
