@@ -1,14 +1,16 @@
-// Copies the receivers' depths, a little nearer to the camera, and writes the mask as if nothing cast a shadow.
+// Writes the mask as if nothing cast a shadow, and where volumes are looked for: the receivers' places and depths.
 #include "shadow/shadowed.glsl"
 #include "shadow/drivers/gbuffer.glsl"
 
 layout(location = 0) out vec4 mask;
+layout(location = 1) out vec4 place;  // metres along the world's axes from the camera
 
+uniform mat4 view_to_world;
 uniform float stored_spacing;   // between two depths that the caller's texture can hold; 0: it holds floats
 uniform float camera_distance;  // from the world's origin, metres
 
 const float rounding = exp2(-24.0);  // of a float, as a share of it
-// Of depths, when they are interpolated and when they are stored, as a share of them.
+// Of depths, when they are interpolated, stored and turned into NDC, as a share of them.
 const float depth_rounding_share = 3.0 * rounding;
 // Of positions, over the size of the coordinates that they are computed from.
 const float position_rounding_share = 8.0 * rounding;
@@ -21,24 +23,36 @@ vec3 position_per_depth(ivec2 pixel, vec3 position, float depth) {
   return (change.xyz - position * change.w) / at.w;
 }
 
-// A receiver is on the near cap of its own triangle's volume. On the side of a surface that the sun lights and the
-// camera sees, nearer to the camera is out of the volume. So its depth is changed by as much as rounding may have
-// moved the receiver and the cap apart: across the surface, which is more along the ray where the view grazes it, and
-// in the stored depth.
-float depth_before_cap(Receiver receiver, vec3 position, ivec2 pixel, float depth) {
+// A receiver is on its own triangle, behind which it must not be. On the side of a surface that the light shines on and
+// the camera sees, nearer to the camera is nearer to the light than the surface. So its depth is changed by as much as
+// rounding may have moved the receiver and the triangle apart: across the surface, which is more along the ray where
+// the view grazes it, and in the stored depth.
+float change_to_clear_surface(Receiver receiver, vec3 position, vec3 per_depth, float depth) {
   float apart = position_rounding_share * (camera_distance + length(position));
-  float across = abs(dot(position_per_depth(pixel, position, depth), view_normal_of(receiver)));
-  float change = stored_spacing + depth_rounding_share * depth + apart / across;
-  return shadow.sky_depth > 0.0 ? depth - change : depth + change;
+  float across = abs(dot(per_depth, view_normal_of(receiver)));
+  float size = depth + abs(shadow.depth_to_ndc.y / shadow.depth_to_ndc.x);
+  return stored_spacing + depth_rounding_share * size + apart / across;
 }
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   mask = vec4(1.0, 0.0, 0.0, 0.0);
+  place = vec4(0.0);
   gl_FragDepth = shadow.sky_depth;
   if (is_sky(pixel)) return;
   Receiver receiver = receiver_at(pixel);
-  mask.x = faces_light(receiver) ? 1.0 : 0.0;
+  if (!faces_light(receiver)) {
+    mask.x = 0.0;
+    return;
+  }
   float depth = texelFetch(receiver_depth, pixel, 0).x;
-  gl_FragDepth = depth_before_cap(receiver, view_position_at(pixel), pixel, depth);
+  float nearer = shadow.sky_depth > 0.0 ? -1.0 : 1.0;
+  vec3 position = view_position_at(pixel);
+  vec3 per_depth = position_per_depth(pixel, position, depth);
+  float change = change_to_clear_surface(receiver, position, per_depth, depth);
+  float clear = clamp(depth + nearer * change, 0.0, 1.0);
+  place.xyz = mat3(view_to_world) * unproject(vec2(pixel) + 0.5, clear);
+  // The faces that end the volumes of this receiver are behind it. To find them for certain, it is tested a pixel's
+  // width nearer.
+  gl_FragDepth = depth + nearer * (2.0 * change + pixel_width(position) / length(per_depth));
 }

@@ -1,8 +1,10 @@
-// Shadow volumes: what lies behind each of the casters' triangles is counted in a stencil, by depth-fail.
+// Shadow volumes: each receiver is tested against the casters' triangles whose
+// volumes may hold it.
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "../pass_context.h"
@@ -12,21 +14,18 @@ namespace penumbra::shadow {
 
 namespace {
 
-// What shadow_volume.geom reads.
+// What shadow_volume.glsl declares. Positions are metres along the world's axes
+// from the camera.
 struct Volumes {
-  glm::mat4 world_to_clip;
-  glm::vec4 apex;   // clip space: the point at infinity where a sun's rays meet; of a lamp: minus its centre
-  glm::vec4 light;  // world, homogeneous: see place_of()
-  float short_of = 0, nearest = 0, unused[2] = {};
+  glm::mat4 to_clip;
+  glm::vec4 camera, eye, light, receivers_min, receivers_max;
+  float margin = 0, nearest = 0, unused[2] = {};
 };
 constexpr GLuint volumes_binding = block_samples;  // the technique has no sample points
 
-// The stencil of receivers in no volume. Where faces of a volume meet within the rasteriser's fraction of a pixel, one
-// that is entered behind a receiver can be left before it, which counts -1. This leaves room for it below.
-constexpr unsigned in_no_volume = 4;
-
-// From world space to the clip space whose depths, 0..1, are those of the receivers' texture.
-glm::mat4 world_to_depth(const Inputs& inputs) {
+// To the clip space whose depths, 0..1, are those of the receivers' texture;
+// from positions relative to the camera.
+glm::mat4 to_depth(const Inputs& inputs) {
   glm::dmat4 projection(inputs.view.projection);
   for (glm::length_t column = 0; column < 4; ++column) {
     const double w = projection[column].w;
@@ -34,7 +33,16 @@ glm::mat4 world_to_depth(const Inputs& inputs) {
     projection[column].y += w * static_cast<double>(inputs.view.jitter.y);
     if (!inputs.conventions.depth_zero_to_one) projection[column].z = 0.5 * (projection[column].z + w);
   }
-  return glm::mat4(projection) * inputs.view.view;
+  return glm::mat4(projection * glm::dmat4(glm::dmat3(inputs.view.view)));
+}
+
+// Homogeneous, relative to the camera.
+glm::vec4 eye_of(const Inputs& inputs) {
+  const glm::mat4& projection = inputs.view.projection;
+  if (projection[2][3] != 0) return {0, 0, 0, 1};
+  const bool depth_grows_with_z = (projection[2][2] > 0) != inputs.conventions.reversed_z;
+  const glm::dvec3 z = glm::inverse(glm::dmat3(inputs.view.view))[2];
+  return {glm::vec3(depth_grows_with_z ? -z : z), 0};
 }
 
 // Between two depths that a texture can hold; 0: it holds floats.
@@ -50,109 +58,109 @@ float spacing_of(GLenum format) {
   }
 }
 
-// Where the camera's rays are parallel, nothing at infinity is on the picture, and a rasteriser leaves out triangles
-// that are much larger than it. Volumes then end this share of the way short of infinity, beyond all receivers: the
-// corner of a caster at that distance from the lamp reaches twice as far as they do.
-float short_of_infinity(const Inputs& inputs, const glm::vec3& lamp, float nearest) {
-  const bool perspective = inputs.view.projection[2][3] != 0;
-  if (perspective) return 0;
-  constexpr float usual = 1e-3f;
+// Holds all receivers, even where the caller says nothing of them, because
+// every light brings its maps.
+Box receivers_of(const Inputs& inputs, const glm::vec3& camera) {
+  constexpr float far = 1e5f;  // metres
   const Box& box = inputs.receivers;
-  const float reach = glm::length(glm::max(glm::abs(box.min - lamp), glm::abs(box.max - lamp)));
-  return glm::all(glm::lessThanEqual(box.min, box.max)) ? 0.5f * nearest / std::max(reach, nearest) : usual;
+  return glm::all(glm::lessThanEqual(box.min, box.max)) ? box : Box{camera - far, camera + far};
 }
 
-void copy_receivers(const PassContext& context, const gl::Texture& depth_stencil) {
+Volumes volumes_of(const PassContext& context) {
+  const Inputs& inputs = context.inputs();
+  const Rect& viewport = context.frame().viewport;
+  const glm::mat4& projection = inputs.view.projection;
+  const glm::dvec3 camera(glm::inverse(glm::dmat4(inputs.view.view))[3]);
+  const glm::dvec4 light(place_of(context.light().source));
+  const Box receivers = receivers_of(inputs, glm::vec3(camera));
+  const float pixel = 2 / std::min(std::abs(projection[0][0]) * static_cast<float>(viewport.width),
+                                   std::abs(projection[1][1]) * static_cast<float>(viewport.height));
+  return {.to_clip = to_depth(inputs),
+          .camera = glm::vec4(camera, 1),
+          .eye = eye_of(inputs),
+          .light = glm::vec4(glm::dvec3(light) - light.w * camera, light.w),
+          .receivers_min = glm::vec4(glm::dvec3(receivers.min) - camera, 1),
+          .receivers_max = glm::vec4(glm::dvec3(receivers.max) - camera, 1),
+          .margin = pixel / 64,
+          .nearest = context.params().get_float("lamps.near")};
+}
+
+// Where receivers are, and the depth that what may shadow them is tested
+// against.
+struct Receivers {
+  const gl::Texture& places;
+  const gl::Texture& depth;
+};
+
+void write_receivers(const PassContext& context, const Receivers& receivers) {
   const Inputs& inputs = context.inputs();
   const Rect& viewport = context.frame().viewport;
   gl::Pass pass(context.device(), {.name = "receivers",
-                                   .colors = {{.texture = &context.mask(), .layer = context.frame().layer}},
-                                   .depth = gl::Attachment{.texture = &depth_stencil},
+                                   .colors = {{.texture = &context.mask(), .layer = context.frame().layer},
+                                              {.texture = &receivers.places, .dont_care = true}},
+                                   .depth = gl::Attachment{.texture = &receivers.depth, .dont_care = true},
                                    .depth_write = true});
+  const glm::dmat4 view_to_world = glm::inverse(glm::dmat4(inputs.view.view));
   const gl::Program& program = context.use(pass, "receivers");
+  program.set("view_to_world", glm::mat4(view_to_world));
   program.set("stored_spacing", spacing_of(context.receiver_depth().desc().format));
-  program.set("camera_distance",
-              static_cast<float>(glm::length(glm::dvec3(glm::inverse(glm::dmat4(inputs.view.view))[3]))));
+  program.set("camera_distance", static_cast<float>(glm::length(glm::dvec3(view_to_world[3]))));
   pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
   pass.draw_full_screen();
 }
 
-// Everitt and Kilgard 2002: of the faces behind a receiver, those that the camera sees from outside are subtracted from
-// those that it sees from inside. The difference is the number of volumes that hold the receiver, wherever the camera
-// is.
-void count_volumes(const PassContext& context, const gl::Texture& depth_stencil) {
-  const Inputs& inputs = context.inputs();
+void darken(const PassContext& context, const Receivers& receivers) {
   const Rect& viewport = context.frame().viewport;
-  const glm::mat4 world_to_clip = world_to_depth(inputs);
-  const glm::vec4 light = place_of(context.light().source);
   const gl::Buffer& volumes = context.scratch("volumes", sizeof(Volumes));
-  const float nearest = context.params().get_float("lamps.near");
-  gl::write_value(volumes, Volumes{.world_to_clip = world_to_clip,
-                                   .apex = world_to_clip * -light,
-                                   .light = light,
-                                   .short_of = short_of_infinity(inputs, glm::vec3(light), nearest),
-                                   .nearest = nearest});
-  const bool reversed = inputs.conventions.reversed_z;
+  gl::write_value(volumes, volumes_of(context));
+  const bool reversed = context.inputs().conventions.reversed_z;
   gl::Pass pass(context.device(), {.name = "shadow volumes",
-                                   .depth = gl::Attachment{.texture = &depth_stencil},
-                                   .depth_test = reversed ? gl::DepthTest::greater : gl::DepthTest::less,
-                                   .stencil = gl::Stencil{.front = {.depth_fail = gl::StencilOp::decrement_wrap},
-                                                          .back = {.depth_fail = gl::StencilOp::increment_wrap},
-                                                          .clear = in_no_volume},
+                                   .colors = {{.texture = &context.mask(), .layer = context.frame().layer}},
+                                   .depth = gl::Attachment{.texture = &receivers.depth},
+                                   .depth_test = reversed ? gl::DepthTest::less : gl::DepthTest::greater,
                                    .depth_clamp = true});
   pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
   volumes.bind_uniform(volumes_binding);
+  receivers.places.bind(first_pass_unit);
   context.draw_caster_geometry(pass, "volumes", glm::mat4(1));
 }
 
-void darken(const PassContext& context, const gl::Texture& depth_stencil) {
-  const gl::StencilFace inside{.test = gl::StencilTest::less};  // the reference is less than what is stored
-  const Rect& viewport = context.frame().viewport;
-  gl::Pass pass(context.device(), {.name = "shadowed receivers",
-                                   .colors = {{.texture = &context.mask(), .layer = context.frame().layer}},
-                                   .depth = gl::Attachment{.texture = &depth_stencil},
-                                   .stencil = gl::Stencil{.front = inside, .back = inside, .reference = in_no_volume}});
-  context.use(pass, "shadowed");
-  pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
-  pass.draw_full_screen();
-}
-
 void resolve(const PassContext& context) {
-  // Not the caller's texture, even if it has a stencil: that is the caller's.
-  const gl::Texture& depth_stencil = context.target(
-      "depth and stencil",
-      {.format = GL_DEPTH32F_STENCIL8, .width = context.mask().width(), .height = context.mask().height()});
-  copy_receivers(context, depth_stencil);
-  count_volumes(context, depth_stencil);
-  darken(context, depth_stencil);
+  const auto target = [&](std::string_view name, GLenum format) -> const gl::Texture& {
+    return context.target(name, {.format = format, .width = context.mask().width(), .height = context.mask().height()});
+  };
+  const Receivers receivers{.places = target("places", GL_RGBA32F), .depth = target("depth", GL_DEPTH_COMPONENT32F)};
+  write_receivers(context, receivers);
+  darken(context, receivers);
 }
 
 }  // namespace
 
 Technique shadow_volume() {
-  return {
-      .name = "shadow_volume",
-      .summary =
-          "The shadow of the light's centre without a map: the volumes behind the casters' triangles, of which those "
-          "with an alpha mask count as whole.",
-      .source =
-          "Crow 1977, Shadow algorithms for computer graphics; Everitt and Kilgard 2002, Practical and robust "
-          "stenciled shadow volumes for hardware-accelerated rendering",
-      .glsl = {},
-      .needs = {},
-      .resolve = resolve,
-      .resolve_reads_motion = false,
-      .programs =
-          [](const ParamSet&) {
-            const std::string folder = "shadow/techniques/shadow_volume";
-            return std::vector<gl::ProgramDesc>{
-                {.name = "receivers", .vertex = "shared/full_screen.vert", .fragment = folder + "_receivers.frag"},
-                {.name = "volumes", .geometry = folder + ".geom"},
-                {.name = "shadowed", .vertex = "shared/full_screen.vert", .fragment = folder + "_shadowed.frag"}};
-          },
-      .denoisable = false,
-      .soft = false,
-      .stand_in = "hard"};
+  return {.name = "shadow_volume",
+          .summary =
+              "The shadow of the light's centre without a map: the "
+              "volumes behind the casters' triangles, of which those "
+              "with an alpha mask count as whole.",
+          .source =
+              "Crow 1977, Shadow algorithms for computer graphics; "
+              "Sintorn, Olsson and Assarsson 2011, An efficient "
+              "alias-free shadow algorithm for opaque and transparent "
+              "objects using per-triangle shadow volumes",
+          .glsl = {},
+          .needs = {},
+          .resolve = resolve,
+          .resolve_reads_motion = false,
+          .programs =
+              [](const ParamSet&) {
+                const std::string folder = "shadow/techniques/shadow_volume";
+                return std::vector<gl::ProgramDesc>{
+                    {.name = "receivers", .vertex = "shared/full_screen.vert", .fragment = folder + "_receivers.frag"},
+                    {.name = "volumes", .geometry = folder + ".geom", .fragment = folder + ".frag"}};
+              },
+          .denoisable = false,
+          .soft = false,
+          .stand_in = "hard"};
 }
 
 }  // namespace penumbra::shadow
