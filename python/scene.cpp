@@ -73,6 +73,7 @@ Scene::Scene(const std::string& path, const std::vector<std::string>& arguments)
   options_.otherwise = session::usual_technique;
   cli::add_scene_option(app, options_);
   cli::add_size_option(app, options_);
+  cli::add_samples_option(app, options_);
   cli::add_view_options(app, options_);
   cli::add_time_options(app, options_);
   cli::add_technique_option(app, options_);
@@ -146,12 +147,12 @@ void Scene::check_light(int light) const {
   if (light < 0 || light >= count) throw py::index_error(fmt::format("light {} of {} that cast shadows", light, count));
 }
 
-void Scene::draw(const ParamSet& params, int frame) {
+void Scene::draw(const ParamSet& params, int frame, int samples) {
   use();
   {
     const py::gil_scoped_release release;
     try {
-      session_->draw(frame, params);
+      session_->draw(frame, params, samples);
     } catch (const truth::Interrupted&) {
       session_->cut();
     }
@@ -173,11 +174,13 @@ py::array Scene::render(const std::string& picture, int frame, int light) {
 
 py::dict Scene::render(const std::vector<std::string>& pictures, int frame, int light) {
   check_light(light);
+  int samples = 1;
   for (const std::string& picture : pictures) {
     const render::Aov* aov = find_picture(picture);
     if (aov != nullptr && aov->mask_details) session_->keep_mask_details();
+    if (aov == nullptr || aov->name == "color") samples = options_.samples;  // no other picture is a mean of samples
   }
-  draw(params_, frame);
+  draw(params_, frame, samples);
   py::dict result;
   for (const std::string& picture : pictures) result[py::str(picture)] = read(picture, light);
   return result;
@@ -189,7 +192,7 @@ py::dict Scene::truth(std::optional<int> samples, std::optional<double> error, i
   session::choose_technique(params, session::all_techniques(), "truth");
   if (samples) cli::assign(params, fmt::format("truth.samples={}", *samples));
   if (error) cli::assign(params, fmt::format("truth.error={}", *error));
-  draw(params, frame);
+  draw(params, frame, /* samples= */ 1);
   const truth::TruthTechnique::Last& last = truth_->last(light);
   py::dict result;
   result["shadow"] = flipped(last.traced.visibility, height(), width());

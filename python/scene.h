@@ -47,7 +47,7 @@ class Scene {
   struct Options : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions, session::CacheOptions {};
 
   void use() const;  // makes its context current; throws Error on another thread
-  void draw(const ParamSet& params, int frame);
+  void draw(const ParamSet& params, int frame, int samples);
   void check_light(int light) const;
   pybind11::array read(const std::string& picture, int light) const;
 

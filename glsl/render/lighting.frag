@@ -1,5 +1,6 @@
 // Computes the lighting of the G-buffer, and the sky where no surface is. LIGHTS: how many lights there are; SHADOWED:
-// how many of them have a layer of the mask.
+// how many of them have a layer of the mask. FURTHER_SAMPLE: 1 for a further sample of each pixel, which sees the
+// shadows of the first.
 #include "shared/view_block.h"
 #include "lib/octahedral.glsl"
 #include "render/shade.glsl"
@@ -14,7 +15,14 @@ layout(binding = 11) uniform sampler2DArray shadow_mask;  // one layer for each 
 layout(binding = 12) uniform sampler2D gbuffer_emission;
 #endif
 
-#if LAMPS
+#if FURTHER_SAMPLE
+layout(binding = 14) uniform sampler2D gbuffer_geometric_normal;
+layout(binding = 15) uniform sampler2D first_depth;
+layout(binding = 16) uniform sampler2D first_normal;  // geometric
+#include "render/first_mask.glsl"
+#endif
+
+#if LAMPS || FURTHER_SAMPLE
 layout(binding = 13) uniform sampler2D gbuffer_depth;
 
 uniform mat4 clip_to_world;
@@ -35,7 +43,7 @@ void main() {
   vec4 albedo = texelFetch(gbuffer_albedo, pixel, 0);
   vec4 material = texelFetch(gbuffer_material, pixel, 0);
   Shading s;
-#if LAMPS
+#if LAMPS || FURTHER_SAMPLE
   s.position = position_at(pixel, ndc);
 #endif
   s.albedo = albedo.rgb * albedo.rgb;
@@ -56,9 +64,14 @@ void main() {
   if (albedo.a > 0.5) {
     Reflection r = reflection_of(s);
     vec3 radiance = unshadowed_light(s, r, beyond);
-    for (int i = 0; i < LIGHTS; ++i) {
-      add_light(radiance, s, r, i, i < SHADOWED ? texelFetch(shadow_mask, ivec3(pixel, i), 0).r : 1.0);
-    }
+#if FURTHER_SAMPLE
+    vec3 geometric = octahedral_decode(texelFetch(gbuffer_geometric_normal, pixel, 0).xy);
+    MaskTexels at = mask_texels(pixel, sample_surface(s.position, geometric));
+#define VISIBILITY(light) visibility_at(at, light)
+#else
+#define VISIBILITY(light) texelFetch(shadow_mask, ivec3(pixel, light), 0).r
+#endif
+    for (int i = 0; i < LIGHTS; ++i) add_light(radiance, s, r, i, i < SHADOWED ? VISIBILITY(i) : 1.0);
     color = storable(radiance);
   }
   lit = vec4(color, 1.0);

@@ -65,6 +65,12 @@ void add_supersample_option(CLI::App& app, SceneOptions& o) {
             [&o](const auto& text) { o.supersample = parse_count("--supersample", text, 1, 16); });
 }
 
+void add_samples_option(CLI::App& app, SceneOptions& o) {
+  add_value(app, "--samples", "N",
+            "Samples of each pixel of the colour picture, for smooth edges; they share the first one's shadows (4)",
+            [&o](const auto& text) { o.samples = parse_count("--samples", text, 1, render::max_samples); });
+}
+
 void add_view_options(CLI::App& app, SceneOptions& o) {
   add_value(
       app, "--camera", "NAME|INDEX",

@@ -11,6 +11,7 @@
 #include "cli/reading.h"
 #include "cli/usage.h"
 #include "core/params.h"
+#include "render/renderer.h"
 #include "render/setup.h"
 #include "shadow/registry.h"
 
@@ -24,6 +25,7 @@ struct SceneOptions {
   ReadingOptions reading;
   Size size;
   int supersample = 1;
+  int samples = render::usual_samples;  // of each pixel of a colour picture that is drawn
 
   std::optional<std::string> camera;  // name or index in the file
   std::optional<glm::vec3> eye, target;
@@ -60,6 +62,7 @@ struct DeviceOptions {
 void add_scene_option(CLI::App& app, SceneOptions& options);
 void add_size_option(CLI::App& app, SceneOptions& options);
 void add_supersample_option(CLI::App& app, SceneOptions& options);
+void add_samples_option(CLI::App& app, SceneOptions& options);
 void add_view_options(CLI::App& app, SceneOptions& options);
 void add_time_options(CLI::App& app, SceneOptions& options);
 void add_technique_option(CLI::App& app, ShadowOptions& options);

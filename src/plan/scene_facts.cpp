@@ -91,27 +91,34 @@ SceneFacts facts_of(const session::PreparedScene& prepared, const cli::DeviceOpt
 
 Estimate estimate_of(const SceneFacts& facts, const cli::Size& pixels, std::span<const Drawn> drawn,
                      const shadow::Registry& registry, double kept_bytes) {
-  // Seconds: of a start; of reading a MiB; of a frame's triangle; of a pixel; of a sample point or a ray of a pixel.
+  // Seconds: of a start; of reading a MiB; of a frame's triangle; of a pixel; of a sample point or a ray of a pixel; of
+  // a further sample of a pixel.
   constexpr double start = 1, per_mib = 0.02, per_triangle = 1e-6, per_pixel = 1e-6, per_tap = 2e-8, per_ray = 1e-7;
-  // MiB: of the program with its driver; copies of the scene (read, uploaded, traced); bytes of a pixel's targets.
-  constexpr double program = 250, scene_copies = 3, per_target_pixel = 110;
+  constexpr double per_sample = 1e-7;
+  // MiB: of the program with its driver; copies of the scene (read, uploaded, traced); bytes of a pixel's targets, and
+  // of those of its further samples.
+  constexpr double program = 250, scene_copies = 3, per_target_pixel = 110, per_sampled_pixel = 68;
   constexpr double tracer = 100, per_traced_triangle = 300;  // MiB of a ray tracer, and bytes of a triangle in it
   constexpr double per_texel = 6;                            // bytes of a map and its pyramids
   const double count = 1.0 * pixels.width * pixels.height;
   Estimate estimate{.seconds = start + per_mib * facts.bytes / mebibyte};
-  double maps = 0, traced = 0;
+  double maps = 0, traced = 0, sampled = 0;
   for (const Drawn& one : drawn) {
     const bool is_traced = one.params->get_word("technique") == "truth";
     const double points = points_of(*one.params, registry);
-    estimate.seconds += one.frames * (facts.triangles * facts.lights * per_triangle +
-                                      count * (per_pixel + facts.lights * points * (is_traced ? per_ray : per_tap)));
+    const int further = one.samples - 1;
+    estimate.seconds +=
+        one.frames *
+        (facts.triangles * (facts.lights + further) * per_triangle +
+         count * (per_pixel + further * per_sample + facts.lights * points * (is_traced ? per_ray : per_tap)));
+    if (further > 0) sampled = count * per_sampled_pixel;
     if (is_traced) traced = tracer * mebibyte + facts.triangles * per_traced_triangle;
     const double side = one.params->get_int("cascades.size");
     maps += is_traced ? 0 : facts.lights * side * side * one.params->get_int("cascades.count") * per_texel;
   }
   const double targets = count * per_target_pixel * static_cast<double>(drawn.size());
   estimate.memory_mib =
-      program + scene_copies * facts.decoded_mib + (maps + traced + targets + count * kept_bytes) / mebibyte;
+      program + scene_copies * facts.decoded_mib + (maps + traced + targets + sampled + count * kept_bytes) / mebibyte;
   const auto rounded = [](double value) { return std::ceil(value * 10) / 10; };
   return {.seconds = rounded(estimate.seconds), .memory_mib = rounded(estimate.memory_mib)};
 }

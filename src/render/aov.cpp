@@ -69,7 +69,7 @@ void append(std::vector<float>& values, const glm::vec3& v) { values.insert(valu
 std::vector<float> color(const Source& from) {
   float exposure = 1.0f;
   gl::glGetNamedBufferSubData(from.frame.exposure->id(), 0, sizeof(exposure), &exposure);
-  return each(from.read(*from.frame.lit, 3), [&](std::size_t, const float* p, std::vector<float>& out) {
+  return each(from.read(*from.frame.color, 3), [&](std::size_t, const float* p, std::vector<float>& out) {
     append(out, exposure * glm::vec3(p[0], p[1], p[2]));
   });
 }

@@ -29,7 +29,7 @@ gl::ProgramDesc program(std::string fragment, std::vector<gl::Define> defines, b
 
 void draw_blended(gl::Device& device, const BlendedInputs& inputs) {
   if (!inputs.scene.has_blended()) return;
-  gl::Pass pass(device, {.name = "blended",
+  gl::Pass pass(device, {.name = inputs.sample == Sample::further ? "sample blended" : "blended",
                          .colors = {{.texture = &inputs.lit}},
                          .depth = gl::Attachment{.texture = inputs.gbuffer.depth},
                          .depth_test = gl::DepthTest::greater_equal,

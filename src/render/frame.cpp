@@ -12,6 +12,55 @@ void bind_view(gl::Device& device, const glsl::ViewBlock& view) {
   block.bind_uniform(view_binding);
 }
 
+// What all samples of a frame have in common.
+struct SamplesInputs {
+  shadow::SoftShadows& soft_shadows;
+  scene::GpuScene& scene;
+  const FrameInputs& frame;
+  const glsl::ViewBlock& view;  // of the first sample, as all that follows
+  const GBuffer& gbuffer;
+  const shadow::Mask& mask;
+  const gl::Texture& lit;
+  const gl::Buffer& exposure;
+  std::span<const shadow::Light> lights;
+  const ParamSet& params;
+};
+
+// Draws the further samples of each pixel with the first one's shadows and exposure, and returns the mean of all.
+SampleMean average_samples(gl::Device& device, const SamplesInputs& in) {
+  const FrameInputs& frame = in.frame;
+  const std::vector<glm::vec2> offsets = sample_offsets(frame.samples);
+  SampleMean mean = add_sample(device, {.lit = in.lit, .exposure = in.exposure, .index = 0, .count = frame.samples});
+  for (int i = 1; i < frame.samples; ++i) {
+    const glm::vec2 offset = offsets[static_cast<std::size_t>(i)];
+    const glsl::ViewBlock view = view_block(frame.camera, frame.last_camera, frame.width, frame.height, offset);
+    bind_view(device, view);
+    const GBuffer gbuffer = draw_gbuffer(device, {.scene = in.scene, .view = view, .sample = Sample::further});
+    const FirstSample first{
+        .gbuffer = in.gbuffer, .view = in.view, .offset = offset, .pixel_size = pixel_size(frame.camera, frame.height)};
+    const gl::Texture& lit = light_surfaces(device, {.gbuffer = gbuffer,
+                                                     .mask = in.mask,
+                                                     .first = &first,
+                                                     .lights = frame.lights,
+                                                     .view = view,
+                                                     .emission_in_nits = in.scene.lit_by_file(),
+                                                     .params = in.params});
+    draw_blended(device, {.soft_shadows = in.soft_shadows,
+                          .scene = in.scene,
+                          .camera = frame.camera,
+                          .view = view,
+                          .gbuffer = gbuffer,
+                          .mask = in.mask,
+                          .params = in.params,
+                          .lit = lit,
+                          .first = in.lights.front(),
+                          .lamps = has_lamps(frame.lights),
+                          .sample = Sample::further});
+    mean = add_sample(device, {.lit = lit, .exposure = in.exposure, .index = i, .count = frame.samples});
+  }
+  return mean;
+}
+
 }  // namespace
 
 FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, scene::GpuScene& scene,
@@ -64,18 +113,32 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
 
   const gl::Buffer& exposure = measure_exposure(device, {.gbuffer = gbuffer, .lit = lit, .params = params});
 
-  const gl::Texture& display = tone_map(device, {.lit = lit, .exposure = exposure, .noise = noise, .params = params});
-
-  return {.scene = &scene,
-          .last_time = inputs.last_time,
-          .time = inputs.time,
-          .view = view,
-          .camera = camera,
-          .gbuffer = gbuffer,
-          .mask = mask,
-          .lit = &lit,
-          .exposure = &exposure,
-          .display = &display};
+  FrameParts parts{.scene = &scene,
+                   .last_time = inputs.last_time,
+                   .time = inputs.time,
+                   .view = view,
+                   .camera = camera,
+                   .gbuffer = gbuffer,
+                   .mask = mask,
+                   .color = &lit,
+                   .exposure = &exposure};
+  if (inputs.samples == 1) {
+    parts.display = &tone_map(device, {.lit = lit, .exposure = exposure, .noise = noise, .params = params});
+  } else {
+    const SampleMean mean = average_samples(device, {.soft_shadows = soft_shadows,
+                                                     .scene = scene,
+                                                     .frame = inputs,
+                                                     .view = view,
+                                                     .gbuffer = gbuffer,
+                                                     .mask = mask,
+                                                     .lit = lit,
+                                                     .exposure = exposure,
+                                                     .lights = lights,
+                                                     .params = params});
+    parts.color = mean.color;
+    parts.display = &encode_mean(device, {.display = *mean.display, .noise = noise, .params = params});
+  }
+  return parts;
 }
 
 void add_motion(gl::Device& device, FrameParts& frame) {

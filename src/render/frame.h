@@ -13,7 +13,7 @@ struct FrameParts {
   Camera camera;
   GBuffer gbuffer;
   shadow::Mask mask;
-  const gl::Texture* lit = nullptr;
+  const gl::Texture* color = nullptr;
   const gl::Buffer* exposure = nullptr;
   const gl::Texture* display = nullptr;
 };

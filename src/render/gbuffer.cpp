@@ -1,3 +1,5 @@
+#include <string>
+
 #include "render/passes.h"
 #include "shared/scene_blocks.h"
 
@@ -29,10 +31,11 @@ float distance_to(const scene::Bounds& box, const glsl::ViewBlock& view) {
 }  // namespace
 
 GBuffer draw_gbuffer(gl::Device& device, const GBufferInputs& inputs) {
-  const auto target = [&](const char* name, GLenum format) {
-    return &device.target(name, {.format = format,
-                                 .width = static_cast<int>(inputs.view.viewport.x),
-                                 .height = static_cast<int>(inputs.view.viewport.y)});
+  const bool further = inputs.sample == Sample::further;
+  const auto target = [&](const std::string& name, GLenum format) {
+    return &device.target(further ? "sample " + name : name, {.format = format,
+                                                              .width = static_cast<int>(inputs.view.viewport.x),
+                                                              .height = static_cast<int>(inputs.view.viewport.y)});
   };
   const Optional writes{.emission = inputs.scene.has_emissive(), .motion = inputs.motion};
   const GBuffer gbuffer{.albedo = target("albedo", GL_RGB10_A2),
@@ -46,7 +49,7 @@ GBuffer draw_gbuffer(gl::Device& device, const GBufferInputs& inputs) {
   const auto visible = [&](const scene::Bounds& box) { return frustum.holds(box); };
   const glm::vec4 nothing(0.0f);
   {
-    gl::Pass pass(device, {.name = "depth",
+    gl::Pass pass(device, {.name = further ? "sample depth" : "depth",
                            .depth = gl::Attachment{.texture = gbuffer.depth, .clear = nothing},
                            .depth_test = gl::DepthTest::greater_equal,
                            .depth_write = true});
@@ -60,7 +63,7 @@ GBuffer draw_gbuffer(gl::Device& device, const GBufferInputs& inputs) {
   for (const gl::Texture* texture : {gbuffer.emission, gbuffer.motion}) {
     if (texture != nullptr) colors.push_back({.texture = texture, .clear = nothing});
   }
-  gl::Pass pass(device, {.name = "gbuffer",
+  gl::Pass pass(device, {.name = further ? "sample gbuffer" : "gbuffer",
                          .colors = colors,
                          .depth = gl::Attachment{.texture = gbuffer.depth},
                          .depth_test = gl::DepthTest::equal});

@@ -92,10 +92,13 @@ glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
   return block;
 }
 
+glm::mat4 clip_to_world(const glsl::ViewBlock& view) { return glm::mat4(glm::inverse(glm::dmat4(view.world_to_clip))); }
+
 // What the program is compiled for.
 struct Lit {
   std::size_t lights = 1, shadowed = 1;
   bool lamps = false, emission = false;
+  bool further = false;  // a further sample, which reads the mask of the first
 };
 
 gl::ProgramDesc program(const Lit& lit) {
@@ -105,30 +108,49 @@ gl::ProgramDesc program(const Lit& lit) {
           .defines = {{"EMISSION", lit.emission ? "1" : "0"},
                       {"LIGHTS", std::to_string(lit.lights)},
                       {"SHADOWED", std::to_string(lit.shadowed)},
-                      {"LAMPS", lit.lamps ? "1" : "0"}}};
+                      {"LAMPS", lit.lamps ? "1" : "0"},
+                      {"FURTHER_SAMPLE", lit.further ? "1" : "0"}}};
 }
 
 }  // namespace
 
+glm::vec2 pixel_size(const Camera& camera, int height) {
+  const float pixels = static_cast<float>(height) * 0.5f;
+  if (camera.orthographic) return {camera.half_height / pixels, 0};
+  return {0, std::tan(camera.fov_y * 0.5f) / pixels};
+}
+
 const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inputs) {
   const GBuffer& gbuffer = inputs.gbuffer;
+  const bool further = inputs.first != nullptr;
   const gl::Texture& lit =
-      device.target("lit", {.format = GL_RGBA16F, .width = gbuffer.depth->width(), .height = gbuffer.depth->height()});
+      device.target(further ? "sample lit" : "lit",
+                    {.format = GL_RGBA16F, .width = gbuffer.depth->width(), .height = gbuffer.depth->height()});
   const gl::Buffer& block = device.scratch("lighting", sizeof(glsl::LightingBlock));
   gl::write_value(block, lighting_block(inputs));
-  gl::Pass pass(device, {.name = "lighting", .colors = {{.texture = &lit, .dont_care = true}}});
+  gl::Pass pass(device,
+                {.name = further ? "sample lighting" : "lighting", .colors = {{.texture = &lit, .dont_care = true}}});
   const bool lamps = has_lamps(inputs.lights);
   const gl::Program& used = pass.use(program({.lights = inputs.lights.size(),
                                               .shadowed = inputs.mask.lights.size(),
                                               .lamps = lamps,
-                                              .emission = gbuffer.emission != nullptr}));
+                                              .emission = gbuffer.emission != nullptr,
+                                              .further = further}));
   block.bind_uniform(lighting_binding);
   GLuint unit = first_unit;
   std::vector<const gl::Texture*> sources{gbuffer.albedo, gbuffer.normal, gbuffer.material, inputs.mask.texture};
-  if (gbuffer.emission != nullptr || lamps) sources.push_back(gbuffer.emission);
-  if (lamps) {
+  if (gbuffer.emission != nullptr || lamps || further) sources.push_back(gbuffer.emission);
+  if (lamps || further) {
     sources.push_back(gbuffer.depth);
-    used.set("clip_to_world", glm::mat4(glm::inverse(glm::dmat4(inputs.view.world_to_clip))));
+    used.set("clip_to_world", clip_to_world(inputs.view));
+  }
+  if (further) {
+    for (const gl::Texture* texture :
+         {gbuffer.geometric_normal, inputs.first->gbuffer.depth, inputs.first->gbuffer.geometric_normal})
+      sources.push_back(texture);
+    used.set("first_clip_to_world", clip_to_world(inputs.first->view));
+    used.set("offset", inputs.first->offset);
+    used.set("pixel_size", inputs.first->pixel_size);
   }
   for (const gl::Texture* texture : sources) {
     device.sampler({}).bind(unit);
@@ -140,8 +162,13 @@ const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inpu
 }
 
 std::vector<gl::ProgramDesc> lighting_programs() {
-  return {program({.emission = true}), program({}), program({.lights = 2, .shadowed = 2}),
-          program({.lights = 10, .shadowed = 8, .lamps = true, .emission = true}), program({.lamps = true})};
+  return {program({.emission = true}),
+          program({}),
+          program({.lights = 2, .shadowed = 2}),
+          program({.lights = 10, .shadowed = 8, .lamps = true, .emission = true}),
+          program({.lamps = true}),
+          program({.further = true}),
+          program({.lights = 10, .shadowed = 8, .lamps = true, .emission = true, .further = true})};
 }
 
 }  // namespace penumbra::render

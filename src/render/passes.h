@@ -15,6 +15,10 @@ namespace penumbra::render {
 
 // The passes of a frame. Each is a function from named inputs to a named output, in the file that is named after it.
 
+// The first sample of each pixel of a frame, in its middle, or a further one. The further ones share their targets, and
+// leave those of the first as they are.
+enum class Sample { first, further };
+
 // The visible surfaces, before lighting.
 struct GBuffer {
   const gl::Texture* albedo = nullptr;  // RGB10_A2: square root of the linear colour; A: 0 sky, 1/3 unlit, 1 lit
@@ -30,6 +34,8 @@ struct GBufferInputs {
   scene::GpuScene& scene;
   const glsl::ViewBlock& view;
   bool motion = false;  // whether motion vectors are drawn
+  // Of the first sample of a frame, which is read once the others are drawn, or of one of the others.
+  Sample sample = Sample::first;
 };
 GBuffer draw_gbuffer(gl::Device& device, const GBufferInputs& inputs);
 std::vector<gl::ProgramDesc> gbuffer_programs();
@@ -76,9 +82,21 @@ struct ShadowMaskInputs {
 // One layer for each light, in the order of the lights.
 shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs);
 
+// How a further sample finds its shadows in the mask of the first one.
+struct FirstSample {
+  const GBuffer& gbuffer;
+  const glsl::ViewBlock& view;
+  glm::vec2 offset;      // of the further sample from the first, pixels
+  glm::vec2 pixel_size;  // see pixel_size()
+};
+
+// The size of a pixel where a surface is, metres: x, and y for each metre of its distance from the camera.
+glm::vec2 pixel_size(const Camera& camera, int height);
+
 struct LightingInputs {
   const GBuffer& gbuffer;
   const shadow::Mask& mask;
+  const FirstSample* first = nullptr;  // the sample that the mask is of; null: this one
   std::span<const FrameLight> lights;  // the first ones have a layer of the mask each, the others no shadows
   const glsl::ViewBlock& view;
   bool emission_in_nits = true;  // false: 1 is the luminance of white in the sun
@@ -98,6 +116,7 @@ struct BlendedInputs {
   const gl::Texture& lit;
   const shadow::Light& first;  // whose shadows they receive
   bool lamps = false;          // see has_lamps()
+  Sample sample = Sample::first;
 };
 // Draws blended surfaces over `lit`. Only the first light is shadowed on them; the others light them without shadows.
 void draw_blended(gl::Device& device, const BlendedInputs& inputs);
@@ -123,6 +142,32 @@ struct ToneMapInputs {
 gl::Texture dither_noise();
 const gl::Texture& tone_map(gl::Device& device, const ToneMapInputs& inputs);  // RGBA8, sRGB-encoded
 std::vector<gl::ProgramDesc> tone_map_programs();
+
+// Where in a pixel its samples are, pixels from its middle, x to the right and y upwards, -0.5 to 0.5: Halton points,
+// which are shifted on the torus so that the first is the middle.
+std::vector<glm::vec2> sample_offsets(int count);
+
+// The mean of the samples so far, times their share in all.
+struct SampleMean {
+  const gl::Texture* display = nullptr;  // RGBA32F: tone mapped, linear
+  const gl::Texture* color = nullptr;    // RGBA32F: linear light, as light_surfaces() gives it
+};
+struct SampleInputs {
+  const gl::Texture& lit;
+  const gl::Buffer& exposure;
+  int index = 0;  // of the sample; 0 begins the mean
+  int count = 1;
+};
+SampleMean add_sample(gl::Device& device, const SampleInputs& inputs);
+
+struct EncodeInputs {
+  const gl::Texture& display;  // SampleMean::display
+  const gl::Texture& noise;    // dither_noise()
+  const ParamSet& params;
+};
+// The picture of the tone map, of the mean of all samples: RGBA8, sRGB-encoded.
+const gl::Texture& encode_mean(gl::Device& device, const EncodeInputs& inputs);
+std::vector<gl::ProgramDesc> sample_programs();
 
 // The parameters that these passes read.
 std::vector<Param> render_params();

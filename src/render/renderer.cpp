@@ -76,6 +76,8 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
     fail("a frame has {} lights; 1 to {} can be drawn", inputs.lights.size(), max_lights);
   if (!inputs.light_ids.empty() && inputs.light_ids.size() != inputs.lights.size())
     fail("a frame has {} lights, and {} ids of lights", inputs.lights.size(), inputs.light_ids.size());
+  if (inputs.samples < 1 || inputs.samples > max_samples)
+    fail("a frame has {} samples for each pixel; 1 to {} can be drawn", inputs.samples, max_samples);
   check_lights(shadow_lights(inputs.lights, {}), registry(), params);
   gl::Device& device = state_->device;
   const State::Drawn now{.scene = scene.id(), .casters = caster_choice(params), .time = inputs.time};
@@ -95,7 +97,7 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   device.timers.end_frame();
   state_->last[inputs.view] = now;
   const FrameParts& parts = state_->parts;
-  state_->frame = {.display = parts.display, .color = parts.lit, .depth = parts.gbuffer.depth, .mask = parts.mask};
+  state_->frame = {.display = parts.display, .color = parts.color, .depth = parts.gbuffer.depth, .mask = parts.mask};
   return state_->frame;
 }
 
@@ -137,7 +139,7 @@ std::vector<gl::ProgramDesc> Renderer::all_programs(const ParamSet& defaults) {
        std::vector{scene::GpuScene::programs(), gbuffer_programs(), surface_id_programs(),
                    state_->soft_shadows.all_programs(defaults), lighting_programs(),
                    blended_programs(state_->device, state_->soft_shadows, defaults), exposure_programs(),
-                   tone_map_programs()}) {
+                   tone_map_programs(), sample_programs()}) {
     std::move(programs.begin(), programs.end(), std::back_inserter(all));
   }
   const auto of_casters = [](const gl::ProgramDesc& program) {

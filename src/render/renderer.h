@@ -16,6 +16,9 @@
 
 namespace penumbra::render {
 
+// The most samples of a pixel of a frame, and how many a finished picture has.
+inline constexpr int max_samples = 256, usual_samples = 4;
+
 // What one frame shows. It includes the camera and time of the last frame, for motion vectors; the first frame repeats
 // its own values there.
 struct FrameInputs {
@@ -34,6 +37,10 @@ struct FrameInputs {
   bool cut = false;
   bool restart = false;       // drops the histories alone; shadow maps in which nothing moved are kept
   bool mask_details = false;  // keeps what the AOVs need whose Aov::mask_details is set
+  // Of each pixel of the picture, 1 to max_samples: how many are averaged for display and colour, so that edges are
+  // smooth. The first is the middle of the pixel, and all that is read of the frame besides is that one's. The others
+  // see its shadows, and leave histories as they are.
+  int samples = 1;
 };
 
 // With supersampling, how the samples of one pixel become its value.
@@ -58,7 +65,8 @@ const std::vector<Aov>& aovs();
 // The finished frame. The textures are valid until the next frame.
 struct Frame {
   const gl::Texture* display = nullptr;  // RGBA8, sRGB-encoded, tone mapped
-  const gl::Texture* color = nullptr;    // RGBA16F, linear, before the tone map and its automatic exposure
+  // RGBA16F, or RGBA32F of several samples: linear, before the tone map and its automatic exposure
+  const gl::Texture* color = nullptr;
   const gl::Texture* depth = nullptr;
   shadow::Mask mask;
 };
@@ -72,7 +80,7 @@ class Renderer {
   static std::vector<Param> params(const shadow::Registry& registry);
 
   // `params` must have at least the parameters of params(). Throws Error for a frame without lights or with more than
-  // max_lights.
+  // max_lights, and for a number of samples that is out of range.
   const Frame& draw(scene::GpuScene& scene, const FrameInputs& inputs, const ParamSet& params);
   // The last frame's AOV as floats, rows top to bottom, aov.channels.size() values for each pixel. Throws Error for
   // unknown names, and for an AOV that this frame did not keep (Aov::mask_details). The frame's scene must still exist:

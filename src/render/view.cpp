@@ -10,6 +10,11 @@ namespace {
 glm::vec3 row(const glm::mat4& m, glm::length_t i) { return {m[0][i], m[1][i], m[2][i]}; }
 glm::vec4 full_row(const glm::mat4& m, glm::length_t i) { return {m[0][i], m[1][i], m[2][i], m[3][i]}; }
 
+// The projection in which what lies at `offset` (NDC) is in the middle of the picture.
+glm::mat4 shifted(const glm::mat4& projection, const glm::vec2& offset) {
+  return glm::translate(glm::mat4(1), glm::vec3(-offset, 0)) * projection;
+}
+
 }  // namespace
 
 Camera look_at(const glm::vec3& eye, const glm::vec3& target, float fov_y, float near) {
@@ -43,16 +48,19 @@ glm::vec3 position_of(const Camera& camera) {
   return -(glm::transpose(glm::mat3(camera.view)) * glm::vec3(camera.view[3]));
 }
 
-glsl::ViewBlock view_block(const Camera& camera, const Camera& last_camera, int width, int height) {
+glsl::ViewBlock view_block(const Camera& camera, const Camera& last_camera, int width, int height,
+                           const glm::vec2& offset) {
   const glm::vec2 size(static_cast<float>(width), static_cast<float>(height));
   const float aspect = size.x / size.y;
   const float turn = camera.orthographic ? 0.0f : std::tan(camera.fov_y * 0.5f);
-  return {.world_to_clip = projection_of(camera, aspect) * camera.view,
-          .last_world_to_clip = projection_of(last_camera, aspect) * last_camera.view,
+  const glm::vec2 shift = offset * 2.0f / size;
+  const glm::vec3 ray_x = row(camera.view, 0) * turn * aspect, ray_y = row(camera.view, 1) * turn;
+  return {.world_to_clip = shifted(projection_of(camera, aspect), shift) * camera.view,
+          .last_world_to_clip = shifted(projection_of(last_camera, aspect), shift) * last_camera.view,
           .camera = glm::vec4(position_of(camera), camera.orthographic ? 1.0f : 0.0f),
-          .forward = glm::vec4(-row(camera.view, 2), camera.near),
-          .ray_x = glm::vec4(row(camera.view, 0) * turn * aspect, 0.0f),
-          .ray_y = glm::vec4(row(camera.view, 1) * turn, 0.0f),
+          .forward = glm::vec4(-row(camera.view, 2) + shift.x * ray_x + shift.y * ray_y, camera.near),
+          .ray_x = glm::vec4(ray_x, 0.0f),
+          .ray_y = glm::vec4(ray_y, 0.0f),
           .viewport = glm::vec4(size, 1.0f / size)};
 }
 

@@ -56,8 +56,10 @@ using FrameLight = std::variant<SunLight, LampLight>;
 // The most lights of one frame, and the most of them that cast shadows: the first ones.
 inline constexpr int max_lights = 64, max_shadowed_lights = 8;
 
-// The uniform block by which passes that draw geometry know the camera.
-glsl::ViewBlock view_block(const Camera& camera, const Camera& last_camera, int width, int height);
+// The uniform block by which passes that draw geometry know the camera. `offset`: from the middle of a pixel to the
+// place in it that is drawn, pixels, x to the right and y upwards.
+glsl::ViewBlock view_block(const Camera& camera, const Camera& last_camera, int width, int height,
+                           const glm::vec2& offset = glm::vec2(0));
 
 // The planes that bound what a camera sees.
 class Frustum {

@@ -40,20 +40,23 @@ void RenderSession::show(const PreparedScene& prepared) {
   cut();
 }
 
-void RenderSession::draw(int frame, const ParamSet& params) {
+void RenderSession::draw(int frame, const ParamSet& params, int samples) {
   const double time = time_of(options_, frame), last_time = time_of(options_, frame - 1);
-  draw_at(time, last_time, /* cut= */ drawn_time_ != last_time, params);
+  draw_at({.time = time, .last_time = last_time, .cut = drawn_time_ != last_time}, params, samples);
 }
 
-void RenderSession::redraw(const ParamSet& params) { draw_at(*drawn_time_, *drawn_time_, /* cut= */ false, params); }
+void RenderSession::redraw(const ParamSet& params, int samples) {
+  draw_at({.time = *drawn_time_, .last_time = *drawn_time_}, params, samples);
+}
 
-void RenderSession::draw_at(double time, double last_time, bool cut, const ParamSet& params) {
+void RenderSession::draw_at(const FrameTime& when, const ParamSet& params, int samples) {
   const cli::Size pixels{options_.size.width * options_.supersample, options_.size.height * options_.supersample};
-  render::FrameInputs inputs = frame_inputs(*prepared_, pixels, {.time = time, .last_time = last_time, .cut = cut});
+  render::FrameInputs inputs = frame_inputs(*prepared_, pixels, when);
   inputs.mask_details = mask_details_;
-  setup_ = setup_at(*prepared_, time);
+  inputs.samples = samples;
+  setup_ = setup_at(*prepared_, when.time);
   renderer_.draw(*scene_, inputs, params);
-  drawn_time_ = time;
+  drawn_time_ = when.time;
 }
 
 }  // namespace penumbra::session

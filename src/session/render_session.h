@@ -21,11 +21,11 @@ class RenderSession {
                 bool timed);
 
   // Draws frame `frame`, with the motion since the frame before it. Techniques keep their history if that one was the
-  // last drawn and no animation jumps in between.
-  void draw(int frame, const ParamSet& params);
+  // last drawn and no animation jumps in between. `samples`: render::FrameInputs::samples.
+  void draw(int frame, const ParamSet& params, int samples = 1);
   // Draws the last frame again without advancing time. Used to measure what a technique with a history costs once the
   // history exists.
-  void redraw(const ParamSet& params);
+  void redraw(const ParamSet& params, int samples = 1);
 
   // From now on frames keep what the AOVs need whose render::Aov::mask_details is set.
   void keep_mask_details() { mask_details_ = true; }
@@ -44,7 +44,7 @@ class RenderSession {
   const gl::DeviceInfo& device_info() const { return device_.info; }
 
  private:
-  void draw_at(double time, double last_time, bool cut, const ParamSet& params);
+  void draw_at(const FrameTime& when, const ParamSet& params, int samples);
 
   // In order of construction, because members are destroyed in reverse order.
   const cli::SceneOptions& options_;

@@ -45,7 +45,9 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, int div
       session::frame_inputs(scene.prepared, pixels, {.time = time, .last_time = still ? time : last_time_, .cut = cut});
   inputs.view = view_;
   inputs.restart = restart_;
-  inputs.mask_details = true;                     // any AOV can be inspected once the picture is drawn
+  inputs.mask_details = true;  // any AOV can be inspected once the picture is drawn
+  // As `penumbra render` finishes it.
+  if (divisor == 1 && frames_ >= warmup_of(document)) inputs.samples = document.options.samples;
   if (!still) inputs.last_camera = last_camera_;  // the user moves the camera too
   cut_ = true;                                    // until the frame is drawn: after one that throws there is no history
   const render::Frame& frame = renderer_.draw(scene.gpu, inputs, document.params);

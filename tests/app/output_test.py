@@ -102,6 +102,32 @@ class Output(TestCase):
                 block = [drawn[2 * y + j][(2 * x + k) * channels + c] for j in (0, 1) for k in (0, 1)]
                 self.assertAlmostEqual(byte, encode(sum(map(decode, block)) / 4), delta=0.51)
 
+    def test_samples_smooth_the_colour_picture_alone(self):
+        names = [row["name"] for row in self.listed("aovs") if row["name"] != "color"]
+        aovs = ("--aov", ",".join(names))
+        for folder, samples in (("one", ["--samples", "1"]), ("usual", []), ("again", []),
+                                ("four", ["--samples", "4"])):
+            self.draw(f"{folder}/x.png", *aovs, *samples)
+
+        def file(folder, name):
+            return (self.folder / folder / name).read_bytes()
+
+        self.assertNotEqual(file("one", "x.png"), file("usual", "x.png"))
+        self.assertEqual(file("usual", "x.png"), file("again", "x.png"), "the same bytes twice")
+        self.assertEqual(file("usual", "x.png"), file("four", "x.png"), "the default")
+        for name in names:
+            self.assertEqual(file("one", f"x.{name}.png"), file("usual", f"x.{name}.png"), name)
+
+    def test_samples_leave_the_frames_of_a_sequence_their_history(self):
+        remembers = ("--technique", "thesis", "--frames", "0:3", "--aov", "shadow,history", "--quiet")
+        for samples in ("1", "5"):
+            self.succeed("render", scene("moving"), "-o", self.folder / samples / "x.png", *SMALL, *remembers,
+                         "--samples", samples)
+        for frame in range(4):
+            for aov in ("", ".shadow", ".history"):
+                one, five = ((self.folder / samples / f"x_{frame:04}{aov}.png").read_bytes() for samples in "15")
+                self.assertEqual(one == five, aov != "", f"frame {frame}{aov}")
+
     def test_supersampled_aovs_hold_no_value_that_means_nothing(self):
         names = [row["name"] for row in self.listed("aovs")]
         aovs = ("--aov", ",".join(names), "--exposure", "15")

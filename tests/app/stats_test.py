@@ -17,7 +17,7 @@ class Stats(TestCase):
         self.assertRegex(stats["version"], r"^Penumbra \d")
         self.assertEqual(stats["scene"], str(scene("posts")))
         self.assertGreater(stats["scene_facts"]["triangles"], 0)
-        self.assertEqual((stats["width"], stats["height"], stats["supersample"]), (96, 54, 1))
+        self.assertEqual((stats["width"], stats["height"], stats["supersample"], stats["samples"]), (96, 54, 1, 4))
         self.assertEqual((stats["technique"], stats["backend"]), ("pcf", "osmesa"))
         for field in ("vendor", "renderer", "version", "glsl_version", "software", "limits"):
             self.assertIn(field, stats["device"])
@@ -74,7 +74,8 @@ class Stats(TestCase):
         self.assertGreaterEqual(max(shares), 0.9)
 
     def test_the_table_names_every_pass_and_no_other(self):
-        always = ["depth", "gbuffer", "shadow mask", "lighting", "exposure", "tone map"]
+        always = ["depth", "gbuffer", "shadow mask", "lighting", "exposure"]
+        samples = ["sample depth", "sample gbuffer", "sample lighting", "add sample", "encode mean"]
         for of, arguments, more in (
             ("posts", ["--technique", "none"], []),
             ("posts", ["--technique", "hard"], ["shadow map"]),
@@ -84,9 +85,10 @@ class Stats(TestCase):
              ["shadow map", "depth pyramid", "tile decisions", "decided tiles"]),
             ("moving", ["--technique", "hard", "--frames", "0:2"], ["deform", "shadow map"]),
         ):
-            with self.subTest(f"{of} {arguments}"):
-                names = [row["name"] for row in self.stats(*arguments, of=of)["passes"]]
-                self.assertEqual(sorted(names), sorted(always + more))
+            for count, shown in (("1", ["tone map"]), ("3", samples)):
+                with self.subTest(f"{of} {arguments} {count}"):
+                    names = [row["name"] for row in self.stats(*arguments, "--samples", count, of=of)["passes"]]
+                    self.assertEqual(sorted(names), sorted(always + shown + more))
 
     def test_a_sequence_counts_every_frame_but_the_first(self):
         stats = self.stats("--frames", "0:3", of="moving")

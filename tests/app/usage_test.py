@@ -76,6 +76,7 @@ class Usage(TestCase):
             "--fps": ["0"],
             "--warmup": ["1.5"],
             "--supersample": ["17"],
+            "--samples": ["0", "257", "1.5"],
             "--threads": ["0"],
             "--stats-frames": ["0"],
             "--egl-device": ["-1"],

@@ -82,6 +82,11 @@ TEST_F(RenderSteadyFrame, MakesNothingAndAsksNothingUnderAnyTechnique) {
   }
 }
 
+TEST_F(RenderSteadyFrame, MakesNothingAndAsksNothingForSeveralSamples) {
+  inputs.samples = 3;
+  expect_steady();
+}
+
 TEST_F(RenderSteadyFrame, GeneratesTheShaderOfBlendedSurfacesOnce) {
   draw();
   gl::ShaderFiles& files = device->shaders.files();

@@ -39,6 +39,8 @@ class SequenceJob : public plan::Job {
   virtual const FrameOptions& options() const = 0;
   // Drawn, but not written, before the item's first frame.
   virtual int warmup_of(std::size_t /*item*/) const { return 0; }
+  // Of each pixel of a frame that is written.
+  virtual int samples() const { return 1; }
   // The files of a frame, without a folder. `lights`: how many cast shadows.
   virtual std::vector<std::filesystem::path> files_of(int frame, std::size_t lights) const = 0;
   // Bytes of a pixel of a frame's files, in memory.

@@ -12,11 +12,11 @@ namespace penumbra::app {
 namespace {
 
 // Draws a warm-up frame without advancing time: the first is drawn at its time, the others repeat it.
-void draw_still(session::RenderSession& session, int frame, const ParamSet& params, bool first) {
+void draw_still(session::RenderSession& session, int frame, const ParamSet& params, bool first, int samples) {
   if (first) {
-    session.draw(frame, params);
+    session.draw(frame, params, samples);
   } else {
-    session.redraw(params);
+    session.redraw(params, samples);
   }
 }
 
@@ -33,10 +33,11 @@ void draw_frames(const RenderOptions& options, session::RenderSession& session, 
   if (wants_mask_details(options)) session.keep_mask_details();
   cli::Progress progress("frame", options.warmup + range.count(), !options.quiet);
   for (int frame = range.first - options.warmup; frame <= range.last; ++frame) {
+    const int samples = frame < range.first ? 1 : options.samples;  // of warm-up frames nobody sees edges
     if (options.warmup_still && frame <= range.first) {
-      draw_still(session, range.first, params, frame == range.first - options.warmup);
+      draw_still(session, range.first, params, frame == range.first - options.warmup, samples);
     } else {
-      session.draw(frame, params);
+      session.draw(frame, params, samples);
     }
     if (frame >= range.first) drawn(frame);
     progress.step();
@@ -48,7 +49,7 @@ std::size_t measure(const RenderOptions& options, session::RenderSession& sessio
   if (range.count() > 1) return static_cast<std::size_t>(range.count() - (options.warmup == 0 ? 1 : 0));
   ParamSet all = params;
   all.set("maps.keep", false);
-  for (int i = 0; i < options.stats_frames; ++i) session.redraw(all);
+  for (int i = 0; i < options.stats_frames; ++i) session.redraw(all, options.samples);
   return static_cast<std::size_t>(options.stats_frames);
 }
 

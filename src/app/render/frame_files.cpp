@@ -93,7 +93,9 @@ std::vector<cli::EncodedFile> encoded_frame(const session::RenderSession& sessio
                                             const ParamSet& params, const cli::OutputNames& names, int frame) {
   try {
     if (!names.is_exr()) return pngs(session, options, names, frame);
-    return {exr(session, options, metadata_of(options, session.setup(), params, frame), names, frame)};
+    image::Metadata metadata = metadata_of(options, session.setup(), params, frame);
+    metadata.emplace_back("penumbra:samples", std::to_string(options.samples));
+    return {exr(session, options, metadata, names, frame)};
   } catch (const Error& error) {
     fail("cannot write {}: {}", io::quoted(names.picture(frame)), error.what());
   }

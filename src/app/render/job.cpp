@@ -30,6 +30,8 @@ class RenderJob : public SequenceJob {
 
   int warmup_of(std::size_t item) const override { return items().from_start(item) ? options_.warmup : 0; }
 
+  int samples() const override { return options_.samples; }
+
   std::vector<std::filesystem::path> files_of(int frame, std::size_t lights) const override {
     return frame_files(options_, names(), frame, lights);
   }

@@ -95,6 +95,7 @@ Json stats_of(const RenderOptions& options, const session::PreparedScene& prepar
        {"width", options.size.width},
        {"height", options.size.height},
        {"supersample", options.supersample},
+       {"samples", options.samples},
        {"technique", params.get_word("technique")},
        {"label", session::technique_label(params)},
        {"backend", gl::to_string(session.context().backend())},

@@ -1,0 +1,230 @@
+// Several samples of each pixel: the picture is the mean of all, and everything else that of the first.
+#include <algorithm>
+#include <cmath>
+
+#include "lib/tone_map.glsl"
+#include "render/aov_picture.h"
+#include "render/passes.h"
+#include "render_scenes.h"
+
+namespace penumbra::test {
+namespace {
+
+constexpr float edge_angle = 0.35f;  // radians, from upright
+const glm::vec2 across(std::cos(edge_angle), std::sin(edge_angle));
+
+// Pixels from the middle of the picture to a place in one, y upwards; row 0 is the top.
+glm::vec2 from_middle(int x, int y, int width, int height, const glm::vec2& offset) {
+  return glm::vec2(static_cast<float>(x) + 0.5f - static_cast<float>(width) * 0.5f,
+                   static_cast<float>(height) * 0.5f - static_cast<float>(y) - 0.5f) +
+         offset;
+}
+
+// A lit screen over one half of the picture, whose oblique edge goes through the middle. The ground behind it is in the
+// screen's shadow, as far as it can be seen.
+class SamplesTest : public RenderTest {
+ protected:
+  SamplesTest() {
+    params.set("render.sky_light", 0.0f);
+    params.set("render.ground_light", 0.0f);
+    params.set("render.dither", false);
+    params.set("exposure.auto", false);
+    params.set("exposure.ev", -std::log2(1.2f));  // a luminance of 1 has the value 1
+    params.set_text("technique", "hard");
+    sun() = {.to_light = glm::normalize(glm::vec3(-4.0f * across, 1.0f)), .illuminance = glm::vec3(10)};
+    stage.materials = {{.metallic = 0, .roughness = 1}};
+    add(square(), glm::scale(glm::mat4(1), glm::vec3(10)));
+    add(square(), screen_at(1));
+  }
+
+  void add(scene::Primitive primitive, const glm::mat4& place, int material = 0) {
+    primitive.material = material;
+    add_node(stage, std::move(primitive), place);
+  }
+
+  static glm::mat4 screen_at(float z) {
+    const glm::mat4 turned = glm::rotate(glm::mat4(1), edge_angle, glm::vec3(0, 0, 1));
+    return glm::scale(glm::translate(turned, {-8, 0, z}), glm::vec3(8));
+  }
+
+  // Red of the picture, as linear light.
+  std::vector<float> red(int samples, int scale = 1) {
+    inputs.samples = samples;
+    inputs.width = width * scale;
+    inputs.height = height * scale;
+    draw(stage);
+    const std::vector<float> color =
+        render::reduced(renderer.read_aov("color"), width, height, 3, scale, render::Reduction::mean);
+    std::vector<float> values;
+    for (std::size_t i = 0; i < color.size(); i += 3) values.push_back(color[i]);
+    return values;
+  }
+
+  // The share of a pixel's samples that show the screen; nothing where one is too near to the edge to tell.
+  static std::optional<float> share(int x, int y, std::span<const glm::vec2> offsets) {
+    int count = 0;
+    for (const glm::vec2& offset : offsets) {
+      const float distance = glm::dot(from_middle(x, y, width, height, offset), across);
+      if (std::abs(distance) < 1e-3f) return {};
+      count += distance < 0 ? 1 : 0;
+    }
+    return static_cast<float>(count) / static_cast<float>(offsets.size());
+  }
+
+  // Checks `seen` against `expected(share)` where the edge goes through pixels, and returns how many there are.
+  template <class Expected>
+  static int check_edges(std::span<const float> seen, int samples, float tolerance, Expected expected) {
+    const std::vector<glm::vec2> offsets = render::sample_offsets(samples);
+    int edges = 0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const std::optional<float> shown = share(x, y, offsets);
+        if (!shown) continue;
+        edges += *shown > 0 && *shown < 1 ? 1 : 0;
+        EXPECT_NEAR(seen[static_cast<std::size_t>(y * width + x)], expected(*shown), tolerance) << x << ' ' << y;
+      }
+    }
+    return edges;
+  }
+
+  scene::Scene stage;
+};
+
+// The screen's light: 10 lux at the sun's cosine, by glTF's rough white; its highlight varies by a little over the
+// view.
+constexpr float varies = 0.02f;
+
+TEST_F(SamplesTest, AnEdgeIsTheMeanOfItsSamplesEachWithItsOwnSurfacesShadow) {
+  const float lit = red(1)[height / 2 * width + width / 4];
+  ASSERT_GT(lit, 0.1f);
+  for (const int samples : {2, 5, 8, 64}) {
+    SCOPED_TRACE(samples);
+    EXPECT_GT(check_edges(red(samples), samples, varies * lit, [&](float share) { return share * lit; }), height / 4);
+  }
+}
+
+TEST_F(SamplesTest, AnOrthographicCameraHasThemToo) {
+  inputs.camera.orthographic = inputs.last_camera.orthographic = true;
+  inputs.camera.half_height = inputs.last_camera.half_height = 2;
+  const float lit = red(1)[height / 2 * width + width / 4];
+  ASSERT_GT(lit, 0.1f);
+  EXPECT_GT(check_edges(red(8), 8, varies * lit, [&](float share) { return share * lit; }), height / 2);
+}
+
+// The largest difference between the share of points in a half plane and its share of the pixel's area.
+float half_plane_discrepancy(const std::vector<glm::vec2>& points) {
+  constexpr int directions = 90, steps = 60, fine = 40;
+  float worst = 0;
+  for (int i = 0; i < directions; ++i) {
+    const float angle = 6.2832f * static_cast<float>(i) / directions;
+    const glm::vec2 normal(std::cos(angle), std::sin(angle));
+    for (int j = 0; j < steps; ++j) {
+      const float edge = 1.5f * (static_cast<float>(j) + 0.5f) / steps - 0.75f;
+      int area = 0;
+      for (int at = 0; at < fine * fine; ++at) {
+        const glm::ivec2 cell(at % fine, at / fine);
+        const glm::vec2 place = (glm::vec2(cell) + 0.5f) / static_cast<float>(fine) - 0.5f;
+        area += glm::dot(place, normal) < edge ? 1 : 0;
+      }
+      const auto in =
+          std::ranges::count_if(points, [&](const glm::vec2& point) { return glm::dot(point, normal) < edge; });
+      worst = std::max(worst, std::abs(static_cast<float>(in) / static_cast<float>(points.size()) -
+                                       static_cast<float>(area) / (fine * fine)));
+    }
+  }
+  return worst;
+}
+
+TEST_F(SamplesTest, EdgesAreThoseOfAPictureThatIsDrawnLargerAndAveraged) {
+  constexpr int scale = 8, samples = 32;
+  std::vector<glm::vec2> grid;
+  for (int i = 0; i < scale * scale; ++i)
+    grid.push_back((glm::vec2(i % scale, i / scale) + 0.5f) / static_cast<float>(scale) - 0.5f);
+  const std::vector<float> reference = red(1, scale), once = red(1), smooth = red(samples);
+  const float lit = once[height / 2 * width + width / 4];
+  const auto worst = [&](const std::vector<float>& picture) {
+    float most = 0;
+    for (std::size_t i = 0; i < picture.size(); ++i) most = std::max(most, std::abs(picture[i] - reference[i]) / lit);
+    return most;
+  };
+  // One straight edge in a pixel: either picture's error is at most the discrepancy of its points.
+  const float tolerance =
+      half_plane_discrepancy(render::sample_offsets(samples)) + half_plane_discrepancy(grid) + varies;
+  EXPECT_LT(tolerance, 0.25f);
+  EXPECT_LT(worst(smooth), tolerance);
+  EXPECT_GT(worst(once), tolerance) << "a staircase";
+}
+
+TEST_F(SamplesTest, AnEdgeOfADazzlingSurfaceIsSmoothOnTheDisplay) {
+  sun().illuminance = glm::vec3(10000);
+  red(8);
+  const std::vector<std::uint8_t> shown = renderer.read_display();
+  std::vector<float> red_bytes;
+  for (std::size_t i = 0; i < shown.size(); i += 3) red_bytes.push_back(shown[i]);
+  const float white = glsl::tone_map(glm::vec3(1000)).r, black = glsl::tone_map(glm::vec3(0)).r;
+  EXPECT_GT(check_edges(red_bytes, 8, 1.5f,
+                        [&](float share) { return 255 * glsl::srgb_encode(black + share * (white - black)); }),
+            height / 2);
+}
+
+TEST_F(SamplesTest, EdgesOfBlendedSurfacesAreSmoothToo) {
+  stage = {};
+  stage.materials = {{.base_color = {1, 1, 1, 1}, .unlit = true},
+                     {.base_color = {0, 0, 0, 0.5f}, .alpha_mode = scene::AlphaMode::blend, .unlit = true}};
+  add(square(), glm::scale(glm::mat4(1), glm::vec3(10)));
+  add(square(), screen_at(1), 1);
+  EXPECT_GT(check_edges(red(8), 8, 5e-3f, [](float share) { return 1.0f - 0.5f * share; }), height / 2);
+}
+
+TEST_F(SamplesTest, AllElseIsThatOfTheFirstSampleInEveryFrameOfAHistory) {
+  params.set_text("technique", "pcss");
+  renderer.registry().select(params, "thesis");
+  inputs.mask_details = true;
+  gpu_scene.emplace(device, stage);
+  for (int frame = 0; frame < 4; ++frame) {
+    std::vector<std::vector<float>> once;
+    for (const int samples : {1, 8}) {
+      inputs.samples = samples;
+      inputs.view = samples;  // each with a history of its own
+      renderer.draw(*gpu_scene, inputs, params);
+      for (std::size_t i = 0; i < render::aovs().size(); ++i) {
+        std::vector<float> values = renderer.read_aov(render::aovs()[i].name);
+        if (samples == 1) {
+          once.push_back(std::move(values));
+        } else if (render::aovs()[i].name == "color") {
+          EXPECT_NE(values, once[i]);
+        } else {
+          EXPECT_EQ(values, once[i]) << render::aovs()[i].name << " of frame " << frame;
+        }
+      }
+    }
+    inputs.last_camera = inputs.camera;
+    inputs.camera.view[3][0] += 0.013f;
+    inputs.last_time = inputs.time;
+    inputs.time += 0.1;
+  }
+}
+
+TEST_F(SamplesTest, TheirNumberIsChecked) {
+  for (const int samples : {0, -1, render::max_samples + 1}) {
+    inputs.samples = samples;
+    EXPECT_NE(message_of([&] { draw(stage); }).find("1 to 256 can be drawn"), std::string::npos) << samples;
+  }
+}
+
+TEST(SampleOffsets, TheFirstIsTheMiddleAndTheirMeanIsNear) {
+  for (const int count : {1, 2, 4, 8, 64, 256}) {
+    const std::vector<glm::vec2> offsets = render::sample_offsets(count);
+    ASSERT_EQ(offsets.size(), static_cast<std::size_t>(count));
+    EXPECT_EQ(offsets.front(), glm::vec2(0));
+    glm::vec2 sum(0);
+    for (const glm::vec2& offset : offsets) {
+      EXPECT_LE(std::max(std::abs(offset.x), std::abs(offset.y)), 0.5f);
+      sum += offset;
+    }
+    EXPECT_LE(glm::length(sum), 1.0f) << count;  // so pictures of different numbers lie on each other
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
