@@ -42,6 +42,7 @@ SampleMean average_samples(gl::Device& device, const SamplesInputs& in) {
                                                      .mask = in.mask,
                                                      .first = &first,
                                                      .lights = frame.lights,
+                                                     .on_ground = frame.on_ground,
                                                      .view = view,
                                                      .emission_in_nits = in.scene.lit_by_file(),
                                                      .params = in.params});
@@ -90,12 +91,15 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                                                       .mask_details = inputs.mask_details,
                                                       .knows_moved = knows_moved,
                                                       .lights = lights,
+                                                      .frame_lights = inputs.lights,
+                                                      .on_ground = inputs.on_ground,
                                                       .gbuffer = gbuffer,
                                                       .params = params});
 
   const gl::Texture& lit = light_surfaces(device, {.gbuffer = gbuffer,
                                                    .mask = mask,
                                                    .lights = inputs.lights,
+                                                   .on_ground = inputs.on_ground,
                                                    .view = view,
                                                    .emission_in_nits = scene.lit_by_file(),
                                                    .params = params});

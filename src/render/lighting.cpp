@@ -85,9 +85,12 @@ glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
         [&](const auto& kind) {
           const float level = level_share(kind) / glm::pi<float>();
           block.ground += ground_albedo * illuminance_of(kind) * (exposure * level);
-          block.lights[block.light_count++] = block_of(kind, exposure);
+          block.lights[block.light_count] = block_of(kind, exposure);
         },
         light);
+    // Where no mask is read: on blended surfaces, and of lights that are too many to cast shadows.
+    if (is_hidden(light, inputs.on_ground, inputs.params)) block.lights[block.light_count].illuminance = glm::vec3(0);
+    ++block.light_count;
   }
   return block;
 }

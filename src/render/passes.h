@@ -65,6 +65,10 @@ std::vector<shadow::Light> shadow_lights(std::span<const FrameLight> lights, std
 // Whether not all lights are suns.
 bool has_lamps(std::span<const FrameLight> lights);
 
+// Whether nothing is visible by a light, whatever casts shadows: a sun whose whole disc is below the horizon, where the
+// scene stands on ground (FrameInputs::on_ground).
+bool is_hidden(const FrameLight& light, bool on_ground, const ParamSet& params);
+
 struct ShadowMaskInputs {
   shadow::SoftShadows& soft_shadows;
   scene::GpuScene& scene;
@@ -76,6 +80,8 @@ struct ShadowMaskInputs {
   bool cut = false, restart = false, mask_details = false;  // same as in FrameInputs
   bool knows_moved = true;  // the scene's moved casters are those that moved since the view's last frame
   std::span<const shadow::Light> lights;
+  std::span<const FrameLight> frame_lights;  // the same lights, and those without shadows
+  bool on_ground = false;                    // same as in FrameInputs
   const GBuffer& gbuffer;
   const ParamSet& params;
 };
@@ -98,6 +104,7 @@ struct LightingInputs {
   const shadow::Mask& mask;
   const FirstSample* first = nullptr;  // the sample that the mask is of; null: this one
   std::span<const FrameLight> lights;  // the first ones have a layer of the mask each, the others no shadows
+  bool on_ground = false;              // same as in FrameInputs
   const glsl::ViewBlock& view;
   bool emission_in_nits = true;  // false: 1 is the luminance of white in the sun
   const ParamSet& params;

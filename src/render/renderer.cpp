@@ -1,11 +1,14 @@
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <mutex>
 #include <utility>
 
 #include "core/error.h"
+#include "core/log.h"
 #include "render/frame.h"
 #include "render/passes.h"
 
@@ -69,6 +72,12 @@ void check_lights(std::span<const shadow::Light> lights, const shadow::Registry&
        most_texels);
 }
 
+// Once, however many renderers draw the scene.
+void warn_of_hidden_sun() {
+  static std::once_flag told;
+  std::call_once(told, [] { warn("a sun is below the horizon: the ground hides it, and it lights nothing"); });
+}
+
 }  // namespace
 
 const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, const ParamSet& params) {
@@ -88,6 +97,8 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   // If the caller left out frames of this view, the scene does not know what moved since its last one.
   constexpr double rounding = 1e-6;  // seconds: the caller may have computed the time again
   const bool knows_moved = placed.cut || std::abs(last.mapped().time - inputs.last_time) <= rounding;
+  const auto hidden = [&](const FrameLight& light) { return is_hidden(light, inputs.on_ground, params); };
+  if (std::ranges::any_of(inputs.lights, hidden)) warn_of_hidden_sun();
   // If this frame throws, the textures of the last one are no longer valid and must not be read.
   state_->parts = {};
   if (!state_->noise) state_->noise = dither_noise();

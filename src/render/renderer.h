@@ -35,6 +35,7 @@ struct FrameInputs {
   // history, and the frame equals the first frame of a new run. A change of scene is always a cut, even if this is
   // false.
   bool cut = false;
+  bool on_ground = false;     // the scene stands on ground, which hides suns that are below the horizon
   bool restart = false;       // drops the histories alone; shadow maps in which nothing moved are kept
   bool mask_details = false;  // keeps what the AOVs need whose Aov::mask_details is set
   // Of each pixel of the picture, 1 to max_samples: how many are averaged for display and colour, so that edges are

@@ -322,8 +322,9 @@ Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const Set
   }
   follow(setup, pose);
   choose_lights(setup, scene, pose, request);
-  setup.ground = request.ground == GroundChoice::on ||
-                 (request.ground == GroundChoice::automatic && !has_ground(scene, pose, bounds));
+  const bool has_floor = has_ground(scene, pose, bounds);
+  setup.ground = request.ground == GroundChoice::on || (request.ground == GroundChoice::automatic && !has_floor);
+  setup.on_ground = setup.ground || has_floor;
   return setup;
 }
 

@@ -43,7 +43,8 @@ struct Setup {
   std::string sun_name = "sun";
   bool sun_shines = true;  // false: only `lights` light the scene
   std::vector<PlacedLight> lights = {};
-  bool ground = false;  // the scene has no floor; add_ground() adds one
+  bool ground = false;     // the scene has no floor; add_ground() adds one
+  bool on_ground = false;  // it has a floor, or gets one
   // The nodes that camera and sun are attached to, whose animation they follow. Absent: they do not move.
   std::optional<std::size_t> camera_node, sun_node;
 };

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
 
 #include "render/passes.h"
 
@@ -65,6 +67,11 @@ std::vector<shadow::Light> shadow_lights(std::span<const FrameLight> lights, std
   return all;
 }
 
+bool is_hidden(const FrameLight& light, bool on_ground, const ParamSet& params) {
+  const SunLight* sun = std::get_if<SunLight>(&light);
+  return on_ground && sun != nullptr && sun->to_light.y < -std::sin(glm::radians(params.get_float("sun.angle")) * 0.5f);
+}
+
 bool has_lamps(std::span<const FrameLight> lights) {
   return std::ranges::any_of(lights, [](const FrameLight& light) { return std::holds_alternative<LampLight>(light); });
 }
@@ -89,26 +96,34 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
       }
     }
   };
-  return inputs.soft_shadows.render({.view = {.view = inputs.camera.view,
-                                              .projection = projection_of(inputs.camera, aspect),
-                                              .last_view = inputs.last_camera.view,
-                                              .last_projection = projection_of(inputs.last_camera, aspect),
-                                              .id = inputs.view_id,
-                                              .cut = inputs.cut,
-                                              .restart = inputs.restart},
-                                     .depth = view_of(depth),
-                                     .normals = view_of(*inputs.gbuffer.geometric_normal),
-                                     .motion = motion,
-                                     .lights = inputs.lights,
-                                     .casters = box_of(inputs.scene.casters()),
-                                     .receivers = box_of(inputs.scene.receivers()),
-                                     .exact_bounds = true,
-                                     .forward_receivers = box_or_none(inputs.scene.blended_receivers()),
-                                     .moved = moved_box(inputs.scene, inputs.knows_moved),
-                                     .mask_details = inputs.mask_details,
-                                     .draw = draw,
-                                     .user = &frame_scene},
-                                    inputs.params);
+  shadow::Mask mask = inputs.soft_shadows.render({.view = {.view = inputs.camera.view,
+                                                           .projection = projection_of(inputs.camera, aspect),
+                                                           .last_view = inputs.last_camera.view,
+                                                           .last_projection = projection_of(inputs.last_camera, aspect),
+                                                           .id = inputs.view_id,
+                                                           .cut = inputs.cut,
+                                                           .restart = inputs.restart},
+                                                  .depth = view_of(depth),
+                                                  .normals = view_of(*inputs.gbuffer.geometric_normal),
+                                                  .motion = motion,
+                                                  .lights = inputs.lights,
+                                                  .casters = box_of(inputs.scene.casters()),
+                                                  .receivers = box_of(inputs.scene.receivers()),
+                                                  .exact_bounds = true,
+                                                  .forward_receivers = box_or_none(inputs.scene.blended_receivers()),
+                                                  .moved = moved_box(inputs.scene, inputs.knows_moved),
+                                                  .mask_details = inputs.mask_details,
+                                                  .draw = draw,
+                                                  .user = &frame_scene},
+                                                 inputs.params);
+  // The scene's own surfaces would hide such a sun too, but for those that reach through the ground.
+  for (std::size_t i = 0; i < mask.lights.size(); ++i) {
+    if (!is_hidden(inputs.frame_lights[i], inputs.on_ground, inputs.params)) continue;
+    const gl::Pass pass(
+        device, {.name = "hidden sun",
+                 .colors = {{.texture = mask.texture, .layer = static_cast<int>(i), .clear = glm::vec4(0.0f)}}});
+  }
+  return mask;
 }
 
 }  // namespace penumbra::render

@@ -79,7 +79,8 @@ render::FrameInputs frame_inputs(const PreparedScene& prepared, const cli::Size&
           .light_ids = render::light_ids(setup),
           .time = when.time,
           .last_time = when.last_time,
-          .cut = when.cut || scene::jumps_between(prepared.scene, when.last_time, when.time)};
+          .cut = when.cut || scene::jumps_between(prepared.scene, when.last_time, when.time),
+          .on_ground = setup.on_ground};
 }
 
 double time_of(const cli::SceneOptions& options, int frame) {
