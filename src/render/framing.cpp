@@ -16,6 +16,9 @@ constexpr float automatic_fov = glm::radians(40.0f);
 constexpr float automatic_azimuth = glm::radians(30.0f);
 constexpr float margin = 0.05f;
 constexpr float least_seen = 0.1f;
+constexpr float flat = 0.1f;         // most height of a flat node, in its widths
+constexpr float much_wider = 4.0f;   // least width of a flat node that is not framed, in those of what stands on it
+constexpr float shadow_room = 0.5f;  // around what is framed without it, in heights
 
 using Corners = std::array<glm::vec3, 8>;
 
@@ -116,7 +119,33 @@ void add_inside(Cover& cover, const glm::mat4& to_clip, const scene::Bounds& bou
   }
 }
 
+float width_of(const scene::Bounds& bounds) { return std::max(bounds.extent().x, bounds.extent().z); }
+
 }  // namespace
+
+scene::Bounds framed_bounds(std::vector<scene::Bounds> nodes, const scene::Bounds& all) {
+  std::erase_if(nodes, [](const scene::Bounds& node) { return node.empty; });
+  std::ranges::sort(nodes, {}, width_of);
+  std::vector<scene::Bounds> up_to{{}};  // the bounds of the first nodes
+  for (const scene::Bounds& node : nodes) {
+    up_to.push_back(up_to.back());
+    up_to.back().add(node);
+  }
+  // Of the widest ones, as many as are flat and lie under all that are less wide.
+  const auto lies_under = [](const scene::Bounds& node, const scene::Bounds& others) {
+    return node.extent().y <= flat * width_of(node) && node.center().y <= others.center().y;
+  };
+  std::size_t framed = nodes.size();
+  for (std::size_t i = nodes.size(); i-- > 1 && lies_under(nodes[i], up_to[i]);) {
+    if (width_of(nodes[i]) >= much_wider * width_of(up_to[i])) framed = i;
+  }
+  if (framed == nodes.size()) return all;
+  scene::Bounds bounds = up_to[framed];
+  const float room = shadow_room * bounds.extent().y;
+  bounds.min -= glm::vec3(room, 0, room);
+  bounds.max += glm::vec3(room, 0, room);
+  return bounds;
+}
 
 Camera framing_camera(const scene::Bounds& bounds, float aspect) {
   const float radius = std::max(bounds.radius(), 1e-6f);

@@ -318,7 +318,8 @@ Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const Set
     setup.camera = camera_of(*chosen);
     setup.camera_node = chosen->node;
   } else {
-    setup.camera = framing_camera(bounds, request.aspect);
+    setup.camera = framing_camera(framed_bounds(scene::node_bounds(scene, pose), bounds), request.aspect);
+    setup.camera.near = near_plane_for(bounds, position_of(setup.camera));
   }
   follow(setup, pose);
   choose_lights(setup, scene, pose, request);

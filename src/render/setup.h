@@ -17,7 +17,7 @@ enum class GroundChoice { automatic, on, off };
 struct SetupRequest {
   // Name or index of one of the file's cameras. Empty: the first camera that stands inside the scene's bounds, or in
   // whose picture the bounds are at least a tenth as wide or as high as the picture. If there is no such camera, one is
-  // placed that shows the whole scene.
+  // placed that shows the whole scene, or what stands on a ground that is many times wider.
   std::string camera;
   GroundChoice ground = GroundChoice::automatic;
   float aspect = 16.0f / 9.0f;               // width / height of the picture

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <set>
 #include <string>
@@ -70,6 +71,52 @@ TEST(Setup, FramesScenesOfEverySizeAndShape) {
       }
     }
   }
+}
+
+// Two columns, on an island and a sea whose sides are these times as long as the columns' bounds. A node each.
+scene::Scene island(float land, float sea, float height = 0) {
+  scene::Scene scene;
+  for (const scene::Primitive& primitive : {box({-1, 0, -1}, {-0.5f, 2, -0.5f}), box({0.5f, 0, 0.5f}, {1, 2, 1}),
+                                            box({-land, height - 0.1f, -land}, {land, height, land}),
+                                            box({-sea, height - 0.2f, -sea}, {sea, height - 0.1f, sea})}) {
+    scene.roots.push_back(static_cast<int>(scene.nodes.size()));
+    scene.nodes.push_back({.name = "node", .mesh = static_cast<int>(scene.meshes.size())});
+    scene.meshes.push_back({.name = "mesh", .primitives = {primitive}});
+  }
+  return scene;
+}
+
+// The height of a column, as a share of the picture's.
+float column_in(const render::Camera& camera) {
+  const glm::mat4 to_clip = render::projection_of(camera, 1) * camera.view;
+  const glm::vec4 low = to_clip * glm::vec4(1, 0, 1, 1), high = to_clip * glm::vec4(1, 2, 1, 1);
+  return (high.y / high.w - low.y / low.w) * 0.5f;
+}
+
+// Whether the picture shows all of a box.
+bool shows(const render::Camera& camera, const glm::vec3& low, const glm::vec3& high) {
+  const glm::mat4 to_clip = render::projection_of(camera, 1) * camera.view;
+  for (const glm::vec3& corner : box(low, high).positions) {
+    const glm::vec4 clip = to_clip * glm::vec4(corner, 1);
+    if (clip.w <= camera.near || std::abs(clip.x) > clip.w || std::abs(clip.y) > clip.w) return false;
+  }
+  return true;
+}
+
+TEST(Setup, FramesWhatStandsOnAMuchWiderGroundWithRoomForItsShadows) {
+  const auto framed = [](const scene::Scene& scene) { return setup_of(scene, {.aspect = 1}).camera; };
+  const render::Camera sea = framed(island(20, 500));
+  EXPECT_TRUE(shows(sea, {-2, 0, -2}, {2, 2, 2})) << "half of the columns' height around them";
+  EXPECT_GT(column_in(sea), 0.25f);
+  EXPECT_FLOAT_EQ(column_in(framed(island(20, 30))), column_in(sea)) << "a sea that is hardly wider than the land";
+  EXPECT_TRUE(shows(framed(island(3, 3.1f)), {-3.1f, -0.2f, -3.1f}, {3.1f, 2, 3.1f})) << "nothing is much wider";
+  EXPECT_TRUE(shows(framed(island(20, 500, 3)), {-500, 0, -500}, {500, 3, 500})) << "a roof casts shadows";
+}
+
+TEST(Setup, AWideGroundIsNotClipped) {
+  const scene::Scene scene = island(20, 500);
+  const render::Camera camera = setup_of(scene).camera;
+  EXPECT_LT(camera.near, render::position_of(camera).y) << "the ground below the eye";
 }
 
 TEST(Setup, GroundComesUnderWhatStandsFree) {
