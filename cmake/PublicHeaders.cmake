@@ -11,7 +11,7 @@ set(penumbra_public_headers
   gl/shader_library.h gl/shader_source.h
   gl/texture.h gl/timer.h
   shadow/cascades.h shadow/denoise_context.h shadow/denoiser.h shadow/filter.h shadow/inputs.h shadow/lamp_maps.h
-  shadow/light_frame.h
+  shadow/light_frame.h shadow/light_matrices.h
   shadow/light_projection.h shadow/pass_context.h shadow/recipe.h shadow/registry.h shadow/soft_shadows.h
   shadow/technique.h shadow/volume.h)
 

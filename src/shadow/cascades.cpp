@@ -248,14 +248,6 @@ std::vector<Region> visible_regions(const CascadeInputs& in, Cascades& cascades)
   return regions;
 }
 
-glm::dmat4 clip_from_world(const Cascades& cascades, const Cascade& cascade) {
-  const double range = cascade.far_z - cascade.near_z;
-  const glm::dvec3 scale{1.0 / glm::dvec2(cascade.half_extent), 1.0 / range};
-  const glm::dvec3 origin{cascade.center.x, cascade.center.y, cascade.near_z};
-  const glm::dmat4 to_light = glm::dmat4(cascades.world_to_light) * glm::translate(glm::dmat4(1), -cascades.anchor);
-  return glm::scale(glm::dmat4(1), scale) * glm::translate(glm::dmat4(1), -origin) * to_light;
-}
-
 }  // namespace
 
 LightBounds ReceiverSlice::bounds(int x_axis) const {
@@ -279,6 +271,18 @@ glm::dvec3 frustum_corner(const glm::dmat4& projection, double depth, double ndc
   const double shift_x = perspective ? projection[2][0] : -projection[3][0];
   const double shift_y = perspective ? projection[2][1] : -projection[3][1];
   return {(ndc_x + shift_x) / projection[0][0] * scale, (ndc_y + shift_y) / projection[1][1] * scale, -depth};
+}
+
+glm::dmat4 clip_from_world(const Cascades& cascades, const Cascade& cascade) {
+  const double range = cascade.far_z - cascade.near_z;
+  const glm::dvec3 scale{1.0 / glm::dvec2(cascade.half_extent), 1.0 / range};
+  const glm::dvec3 origin{cascade.center.x, cascade.center.y, cascade.near_z};
+  const glm::dmat4 to_light = glm::dmat4(cascades.world_to_light) * glm::translate(glm::dmat4(1), -cascades.anchor);
+  return glm::scale(glm::dmat4(1), scale) * glm::translate(glm::dmat4(1), -origin) * to_light;
+}
+
+double nearest_within(const Cascade& cascade, const std::array<glm::dvec3, 8>& corners) {
+  return range_within({glm::dvec2(cascade.center), glm::dvec2(cascade.half_extent)}, corners).min;
 }
 
 Cascades fit_cascades(const CascadeInputs& in) {

@@ -121,6 +121,13 @@ glm::dmat3 light_axes(const glm::dvec3& to_light, double turn = 0);
 // The corner of a projection's frustum at a depth in metres, in view space, for NDC x and y.
 glm::dvec3 frustum_corner(const glm::dmat4& projection, double depth, double ndc_x, double ndc_y);
 
+// Cascade::world_to_clip of a cascade whose other members are set.
+glm::dmat4 clip_from_world(const Cascades& cascades, const Cascade& cascade);
+
+// The least light-space depth, metres, of the part of a box that is over a cascade; 1e30: none is. `corners`: of the
+// box, light space, in the order of Box::corners().
+double nearest_within(const Cascade& cascade, const std::array<glm::dvec3, 8>& corners);
+
 // Fits `count` cascades to what the camera sees of the receivers. The inputs must be finite, the matrices invertible.
 // Unless the bounds are exact: where receivers reach farther than wide_bounds from the camera, those beyond
 // range_in_wide_bounds are left out if no `distance` and no `visible` says how far to go; and so is what lies along the

@@ -115,10 +115,11 @@ PROJECTION = re.compile(r"\bshadow\.(layers|layer_count|light_extent|light_is_sq
                         r"world_to_light|moved_depth|lamp|light_is_lamp|light_stretch)\b|\bshadow_depth\b|\bLayerBlock\b|\blight\.(map|extent)\b")
 PROJECTION_FOLDER = "shadow/projection/"
 CASCADES = re.compile(r"\b(Cascades?|LampMaps|fit_cascades|fit_lamp|get(_if)?<(Sun|Lamp)>)(?!\w)")
-# light_projection.cpp alone uses the other files: they are its parts for suns and for lamps.
+# light_projection.cpp alone uses the other files: they are its parts for suns and for lamps. light_matrices.cpp makes its
+# cascades of an engine's matrices.
 CASCADES_FILES = {"shadow/cascades.h", "shadow/cascades.cpp", "shadow/receiver_region.h", "shadow/receiver_region.cpp",
                   "shadow/lamp_maps.h", "shadow/lamp_maps.cpp", "shadow/light_projection.h",
-                  "shadow/light_projection.cpp"}
+                  "shadow/light_projection.cpp", "shadow/light_matrices.h", "shadow/light_matrices.cpp"}
 
 
 def code_of(text):

@@ -1,0 +1,157 @@
+#include "light_matrices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "../core/error.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+// By how much directions may differ because matrices were rounded to floats, radians.
+constexpr double same_direction = 1e-3;
+
+template <typename... Args>
+[[noreturn]] void refuse(std::size_t layer, fmt::format_string<Args...> text, Args&&... args) {
+  fail("shadow maps by the caller's matrices: layer {} {}", layer, fmt::format(text, std::forward<Args>(args)...));
+}
+
+// A clip-space coordinate as a function of the place in the world: how much it changes for each metre, in which
+// direction, and its value at the anchor.
+struct Axis {
+  glm::dvec3 direction{0};
+  double per_metre = 0, at_anchor = 0;
+};
+
+Axis axis_of(const glm::dmat4& world_to_clip, int row, const glm::dvec3& anchor) {
+  const glm::dvec4 values(world_to_clip[0][row], world_to_clip[1][row], world_to_clip[2][row], world_to_clip[3][row]);
+  const double length = glm::length(glm::dvec3(values));
+  return {glm::dvec3(values) / length, length, glm::dot(glm::dvec3(values), anchor) + values.w};
+}
+
+struct Axes {
+  Axis x, y, z;
+};
+
+Axes axes_of(const SunMatrices& maps, std::size_t layer) {
+  glm::dmat4 matrix(maps.world_to_clip[layer]);
+  for (glm::length_t column = 0; column < 4; ++column) {
+    for (glm::length_t row = 0; row < 4; ++row) {
+      if (!std::isfinite(matrix[column][row])) refuse(layer, "has a matrix that is not finite");
+    }
+  }
+  const double w = matrix[3].w;
+  const glm::dvec3 warp(matrix[0].w, matrix[1].w, matrix[2].w);
+  if (w == 0 || glm::length(warp) > 1e-9 * std::abs(w)) {
+    refuse(layer, "is warped (clip w is not constant): penumbrae need maps whose texels all have the same size");
+  }
+  matrix /= w;
+  if (!maps.depth_zero_to_one) {
+    for (glm::length_t column = 0; column < 4; ++column) matrix[column].z *= 0.5;
+    matrix[3].z += 0.5;
+  }
+  const glm::dvec3 anchor(maps.camera);
+  const Axes axes{axis_of(matrix, 0, anchor), axis_of(matrix, 1, anchor), axis_of(matrix, 2, anchor)};
+  for (const Axis* axis : {&axes.x, &axes.y, &axes.z}) {
+    if (!(axis->per_metre > 0)) refuse(layer, "has a matrix that can't be inverted");
+  }
+  return axes;
+}
+
+void check_directions(const Axes& axes, const SunMatrices& maps, std::size_t layer) {
+  const glm::dvec3 rays = -glm::normalize(glm::dvec3(maps.to_light));
+  const double along = glm::dot(axes.z.direction, rays);
+  if (along < -1 + same_direction * same_direction) {
+    refuse(layer, "has depths that grow towards the light: store 0 near the light and 1 far from it");
+  }
+  if (glm::length(axes.z.direction - rays) > same_direction) refuse(layer, "does not look along the sun's rays");
+  const double skew =
+      std::max({std::abs(glm::dot(axes.x.direction, axes.y.direction)), std::abs(glm::dot(axes.x.direction, rays)),
+                std::abs(glm::dot(axes.y.direction, rays))});
+  if (skew > same_direction)
+    refuse(layer, "is skewed: its axes are not perpendicular to each other and the sun's rays");
+  // Light space is left-handed, as what an observer at the light sees: x to the right, y up, z away.
+  if (glm::dot(glm::cross(axes.x.direction, axes.y.direction), rays) > 0) {
+    refuse(layer, "is mirrored: as seen from the light, x must grow to the right where y grows upwards");
+  }
+}
+
+// Rows: unit vectors, exactly perpendicular.
+glm::dmat3 light_space_of(const Axes& axes, const SunMatrices& maps) {
+  const glm::dvec3 z = -glm::normalize(glm::dvec3(maps.to_light));
+  const glm::dvec3 x = glm::normalize(axes.x.direction - glm::dot(axes.x.direction, z) * z);
+  return glm::transpose(glm::dmat3(x, glm::cross(x, z), z));
+}
+
+// The angle by which its x and y axes are turned from those of light_axes().
+double turn_of(const glm::dmat3& world_to_light, const glm::dvec3& to_light) {
+  const glm::dvec3 x = light_axes(to_light) * glm::transpose(world_to_light)[0];
+  return std::atan2(x.y, x.x);
+}
+
+Cascade cascade_of(const Axes& axes, const Cascades& cascades) {
+  Cascade cascade;
+  cascade.half_extent = glm::vec2(1 / axes.x.per_metre, 1 / axes.y.per_metre);
+  cascade.center = glm::vec2(-axes.x.at_anchor / axes.x.per_metre, -axes.y.at_anchor / axes.y.per_metre);
+  cascade.near_z = static_cast<float>(-axes.z.at_anchor / axes.z.per_metre);
+  cascade.far_z = static_cast<float>((1 - axes.z.at_anchor) / axes.z.per_metre);
+  cascade.world_to_clip = clip_from_world(cascades, cascade);
+  return cascade;
+}
+
+double texel_of(const Cascade& cascade) { return glm::max(cascade.half_extent.x, cascade.half_extent.y); }
+
+void check_casters(const Cascades& cascades, std::size_t layer, const Box& casters) {
+  if (glm::any(glm::greaterThan(casters.min, casters.max))) return;
+  const Cascade& cascade = cascades.items[layer];
+  std::array<glm::dvec3, 8> corners = casters.corners();
+  for (glm::dvec3& corner : corners) corner = cascades.world_to_light * (corner - cascades.anchor);
+  const double nearest = nearest_within(cascade, corners);
+  const double rounding = 1e-3 * (static_cast<double>(cascade.far_z) - cascade.near_z);
+  if (nearest < cascade.near_z - rounding) {
+    refuse(layer,
+           "begins {:.3g} m behind casters above it, whose depths are clamped to its near plane or cut off: move "
+           "the near plane towards the sun",
+           cascade.near_z - nearest);
+  }
+}
+
+}  // namespace
+
+LightProjection sun_projection(const SunMatrices& maps) {
+  const std::size_t count = maps.world_to_clip.size();
+  if (count < 1 || count > max_cascades) {
+    fail("shadow maps by the caller's matrices: {} layers, not 1 to {}", count, max_cascades);
+  }
+  if (maps.size < 1) fail("shadow maps by the caller's matrices: a size of {} texels", maps.size);
+  if (const std::string fault = fault_of(Sun{maps.to_light}); !fault.empty()) {
+    fail("shadow maps by the caller's matrices: the sun {}", fault);
+  }
+  Cascades cascades;
+  cascades.anchor = glm::dvec3(maps.camera);
+  cascades.size = maps.size;
+  for (std::size_t layer = 0; layer < count; ++layer) {
+    const Axes axes = axes_of(maps, layer);
+    check_directions(axes, maps, layer);
+    if (layer == 0) {
+      cascades.world_to_light = light_space_of(axes, maps);
+      cascades.turn = turn_of(cascades.world_to_light, glm::dvec3(maps.to_light));
+    } else if (glm::length(axes.x.direction - glm::transpose(cascades.world_to_light)[0]) > same_direction) {
+      refuse(layer, "is turned against layer 0 about the sun's rays");
+    }
+    cascades.items.push_back(cascade_of(axes, cascades));
+    if (layer > 0 && texel_of(cascades.items[layer]) < texel_of(cascades.items[layer - 1])) {
+      refuse(layer, "has finer texels than the layer before it: order layers from the finest to the coarsest");
+    }
+    check_casters(cascades, layer, maps.casters);
+  }
+  return cascades;
+}
+
+}  // namespace penumbra::shadow

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+
+#include "light_projection.h"
+
+namespace penumbra::shadow {
+
+// A sun's shadow maps that the caller draws with matrices of its own, as cascades or as a single map.
+struct SunMatrices {
+  // From world space to each layer's clip space, finest layer first; 1 to max_layers of them. Orthographic: x, y in
+  // -1..1 within the map, z growing away from the light. A receiver reads the first layer that holds its search disc,
+  // so layers may overlap or contain each other.
+  std::span<const glm::mat4> world_to_clip;
+  bool depth_zero_to_one = true;  // clip-space z in 0..1; else -1..1. The map stores 0 near and 1 far in both cases.
+  glm::vec3 to_light{0, 1, 0};    // as in Sun
+  int size = 0;                   // width and height of each layer, texels
+  glm::vec3 camera{0};            // world: positions near it are kept most exact
+  // World bounds of all casters in the maps. What lies before a map's near plane has been clamped to it or cut off, so
+  // that its distance from receivers, and with it the penumbra's width, is lost. The default, an empty box (min > max),
+  // says that the caller knows of none.
+  Box casters{glm::vec3(1), glm::vec3(-1)};
+};
+
+// The projection of these maps, for FinishedMaps::projection. Throws Error, in one line that names the layer, where
+// they can't serve:
+//   - perspective or otherwise warped maps, such as trapezoidal or light-space perspective ones, and skewed ones;
+//   - maps that do not look along the sun's rays, are mirrored, are turned against each other, or store 1 near the
+//     light;
+//   - maps whose near plane lies behind casters above them;
+//   - a finer layer behind a coarser one, matrices that are not finite, a wrong number of layers or size.
+LightProjection sun_projection(const SunMatrices& maps);
+
+}  // namespace penumbra::shadow

@@ -1,0 +1,136 @@
+// Shadow maps that the caller draws with its own matrices: what the library makes of them, and which it refuses.
+#include "shadow/light_matrices.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+
+namespace penumbra::shadow {
+namespace {
+
+const glm::vec3 to_light = glm::normalize(glm::vec3(0.4f, 0.7f, 0.2f));
+
+// As engines make them: a view from the light to a place, rolled about its direction, and a box of half that size.
+glm::mat4 map_matrix(const glm::vec3& target, float half, float roll = 0.3f, float near = 1, float far = 60) {
+  const glm::vec3 up(std::sin(roll), std::cos(roll), 0.1f);
+  return glm::orthoRH_ZO(-half, half, -half, half, near, far) * glm::lookAt(target + 30.0f * to_light, target, up);
+}
+
+SunMatrices maps_of(const std::vector<glm::mat4>& matrices) {
+  return {.world_to_clip = matrices, .to_light = to_light, .size = 1024, .camera = glm::vec3(3, 1.7f, 8)};
+}
+
+glm::dvec3 clip(const glm::dmat4& matrix, const glm::dvec3& at) {
+  const glm::dvec4 clip = matrix * glm::dvec4(at, 1);
+  return glm::dvec3(clip) / clip.w;
+}
+
+std::string refusal(const SunMatrices& maps) {
+  try {
+    sun_projection(maps);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string refusal(const std::vector<glm::mat4>& matrices) { return refusal(maps_of(matrices)); }
+
+TEST(LightMatrices, PlaceTheSameTexelsAndDepths) {
+  const std::vector<glm::mat4> matrices{map_matrix({1, 0, 2}, 5), map_matrix({-2, 0, -9}, 24)};
+  const LightProjection projection = sun_projection(maps_of(matrices));
+  ASSERT_EQ(projection.layers(), 2);
+  EXPECT_EQ(projection.size(), 1024);
+  EXPECT_EQ(projection.fault(), "");
+  for (int layer = 0; layer < 2; ++layer) {
+    const auto i = static_cast<std::size_t>(layer);
+    EXPECT_NEAR(projection.texel(layer).x, (layer == 0 ? 10.0 : 48.0) / 1024, 1e-6);
+    EXPECT_NEAR(projection.depth_range(layer), 59, 1e-4);
+    for (const glm::dvec3 at : {glm::dvec3(0), {3, 2, -4}, {-7, 1, 11}}) {
+      const glm::dvec3 expected = clip(glm::dmat4(matrices[i]), at), made = clip(projection.world_to_clip(layer), at);
+      EXPECT_LT(glm::length(expected - made), 1e-4) << layer;  // of a map: a tenth of a texel
+    }
+  }
+}
+
+TEST(LightMatrices, DepthsFromMinusOneAreThoseThatTheMapStores) {
+  const glm::mat4 to_minus_one(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2, 0, 0, 0, -1, 1);
+  const std::vector<glm::mat4> from_zero{map_matrix({1, 0, 2}, 5)}, from_minus_one{to_minus_one * from_zero[0]};
+  SunMatrices maps = maps_of(from_minus_one);
+  maps.depth_zero_to_one = false;
+  const glm::dvec3 at(3, 2, -4);
+  const glm::dvec3 a = clip(sun_projection(maps).world_to_clip(0), at);
+  const glm::dvec3 b = clip(sun_projection(maps_of(from_zero)).world_to_clip(0), at);
+  EXPECT_LT(glm::length(a - b), 1e-5);
+}
+
+TEST(LightMatrices, MatricesThatCannotServeAreRefusedWithTheReason) {
+  const std::string begin = "shadow maps by the caller's matrices: layer ";
+  const glm::mat4 good = map_matrix({1, 0, 2}, 5);
+  ASSERT_EQ(refusal({good}), "accepted");
+
+  const glm::mat4 spot =
+      glm::perspectiveRH_ZO(1.0f, 1.0f, 1.0f, 60.0f) * glm::lookAt(30.0f * to_light, glm::vec3(0), glm::vec3(0, 1, 0));
+  EXPECT_EQ(refusal({good, spot}),
+            begin + "1 is warped (clip w is not constant): penumbrae need maps whose texels all have the same size");
+  const glm::mat4 elsewhere = glm::orthoRH_ZO(-5.0f, 5.0f, -5.0f, 5.0f, 1.0f, 60.0f) *
+                              glm::lookAt(glm::vec3(0, 30, 0), glm::vec3(0), glm::vec3(0, 0, 1));
+  EXPECT_EQ(refusal({elsewhere}), begin + "0 does not look along the sun's rays");
+  const glm::mat4 reversed(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 1, 1);
+  EXPECT_EQ(refusal({reversed * good}),
+            begin + "0 has depths that grow towards the light: store 0 near the light and 1 far from it");
+  const glm::mat4 mirror = glm::scale(glm::mat4(1), glm::vec3(1, -1, 1));
+  EXPECT_EQ(refusal({mirror * good}),
+            begin + "0 is mirrored: as seen from the light, x must grow to the right where y grows upwards");
+  glm::mat4 shear(1);
+  shear[1][0] = 0.2f;
+  EXPECT_EQ(refusal({shear * good}),
+            begin + "0 is skewed: its axes are not perpendicular to each other and the sun's rays");
+  EXPECT_EQ(refusal({good, map_matrix({1, 0, 2}, 20, 0.5f)}),
+            begin + "1 is turned against layer 0 about the sun's rays");
+  EXPECT_EQ(refusal({map_matrix({1, 0, 2}, 20), good}),
+            begin + "1 has finer texels than the layer before it: order layers from the finest to the coarsest");
+  EXPECT_EQ(refusal({glm::mat4(0)}),
+            begin + "0 is warped (clip w is not constant): penumbrae need maps whose texels all have the same size");
+  glm::mat4 flat = good;
+  for (glm::length_t column = 0; column < 4; ++column) flat[column].x = 0;
+  EXPECT_EQ(refusal({flat}), begin + "0 has a matrix that can't be inverted");
+  glm::mat4 endless = good;
+  endless[3].y = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(refusal({endless}), begin + "0 has a matrix that is not finite");
+}
+
+TEST(LightMatrices, TheNumberOfLayersTheSizeAndTheSunAreChecked) {
+  const std::string begin = "shadow maps by the caller's matrices: ";
+  EXPECT_EQ(refusal(std::vector<glm::mat4>()), begin + "0 layers, not 1 to 8");
+  EXPECT_EQ(refusal(std::vector<glm::mat4>(9, map_matrix({1, 0, 2}, 5))), begin + "9 layers, not 1 to 8");
+  const std::vector<glm::mat4> matrices{map_matrix({1, 0, 2}, 5)};
+  SunMatrices maps = maps_of(matrices);
+  maps.size = 0;
+  EXPECT_EQ(refusal(maps), begin + "a size of 0 texels");
+  maps = maps_of(matrices);
+  maps.to_light = glm::vec3(0);
+  EXPECT_TRUE(refusal(maps).starts_with(begin + "the sun ")) << refusal(maps);
+}
+
+// Engines often let casters before the near plane be clamped to it, so that the map has more precision.
+TEST(LightMatrices, CastersBeforeTheNearPlaneAreNoticed) {
+  const std::vector<glm::mat4> matrices{map_matrix({1, 0, 2}, 5, 0.3f, 27, 60)};
+  SunMatrices maps = maps_of(matrices);
+  maps.casters = {{-3, 0, -3}, {3, 2, 3}};
+  EXPECT_EQ(refusal(maps), "accepted");
+  maps.casters.max.y = 12;  // its corner (3, 12, 3) is 11.32 m towards the sun from the target, the near plane 3 m
+  EXPECT_EQ(refusal(maps).substr(0, 66), "shadow maps by the caller's matrices: layer 0 begins 8.32 m behind");
+  maps.casters = {{40, 0, -3}, {43, 30, 3}};  // beside the map
+  EXPECT_EQ(refusal(maps), "accepted");
+}
+
+}  // namespace
+}  // namespace penumbra::shadow
