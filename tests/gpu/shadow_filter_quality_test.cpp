@@ -218,7 +218,7 @@ TEST_F(ShadowFilterQuality, AlongIsophotesLessIsBlurredAndMoreNoiseIsRemoved) {
   params_->set("filter.taps", 4);
   const double along = rmse(draw(scene, "isophote").visibilities(), truth);
   std::printf("6 slices, RMSE of bilateral_separable %.4f, of isophote %.4f\n", separable, along);
-  EXPECT_LT(along, 0.75 * separable);
+  EXPECT_LT(along, 0.4 * separable);  // 0.33; a mean across these lines, along the gradient, gives 0.55
 }
 
 }  // namespace
