@@ -121,6 +121,10 @@ class Commands(support.TestCase):
     def test_library(self):
         self.run_page("docs/library.md")
 
+    @unittest.skipUnless(support.has_openscenegraph(), "skipped: there is no OpenSceneGraph (libopenscenegraph-dev)")
+    def test_engines(self):
+        self.run_page("docs/engines.md")
+
 
 CODE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"\]\(([^)\s]+)\)")

@@ -74,6 +74,12 @@ def assets(folder):
     return pathlib.Path(base) / folder
 
 
+def has_openscenegraph():
+    """Whether the compiler finds its headers."""
+    folders = ["/usr/include", "/usr/local/include", *os.environ.get("CPATH", "").split(":")]
+    return any(pathlib.Path(folder, "osgViewer", "Viewer").exists() for folder in folders if folder)
+
+
 def temporary_folder():
     return tempfile.TemporaryDirectory(prefix="penumbra-test-")
 
