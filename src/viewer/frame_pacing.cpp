@@ -1,15 +1,33 @@
 #include "viewer/frame_pacing.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace penumbra::viewer {
 
-FramePacing::Step FramePacing::next(double now, bool changed, bool ui_active, int frames, int wanted) {
+namespace {
+
+// Each costs at least a quarter of the one before, so that one of them suits.
+constexpr std::array<Detail, FramePacing::level_count> levels{{{},
+                                                               {.maps = 2},
+                                                               {.maps = 4},
+                                                               {.maps = 4, .reads = 4},
+                                                               {.picture = 2, .maps = 4, .reads = 4},
+                                                               {.picture = 4, .maps = 4, .reads = 4},
+                                                               {.picture = 8, .maps = 4, .reads = 4}}};
+
+}  // namespace
+
+FramePacing::Step FramePacing::next(double now, bool changed, bool ui_active, int frames, int wanted, bool travels) {
+  travelling_ = changed && travels && software_;
+  if (changed && !travels) forget_travel();
   if (changed) {
     last_change_ = now;
     restarted_ = false;
-    return {.draw = true, .divisor = software_ ? divisor_ : 1};
+    Detail detail;
+    if (software_) detail = travels ? levels.at(level_) : Detail{.picture = divisor_};
+    return {.draw = true, .divisor = detail.picture, .detail = detail};
   }
   const bool idle = now - last_change_ >= idle_seconds;
   if (!software_) return {.draw = true, .idle = idle};
@@ -17,7 +35,45 @@ FramePacing::Step FramePacing::next(double now, bool changed, bool ui_active, in
   return {.draw = draw, .idle = idle, .restart = draw && !std::exchange(restarted_, restarted_ || draw)};
 }
 
+void FramePacing::go_to(std::size_t level) {
+  level_ = level;
+  drawn_at_level_ = 0;
+}
+
+void FramePacing::forget_travel() {
+  most_ = levels.size() - 1;
+  best_.fill(0);
+}
+
+// Where a smaller picture takes almost as long, such as where casters cost most, the larger one is kept.
+bool FramePacing::is_level_useless() const {
+  const double before = level_ > whole_picture ? best_.at(level_ - 1) : 0;
+  return drawn_at_level_ >= tried && before > 0 && best_.at(level_) > worth * before;
+}
+
+void FramePacing::drew_travelling(double milliseconds) {
+  double& best = best_.at(level_);
+  const bool other_view = level_ == most_ && best > 0 && milliseconds > 3 * best;
+  best = best > 0 ? std::min(best, milliseconds) : milliseconds;
+  ++drawn_at_level_;
+  if (milliseconds < fast_ms && level_ > 0) return go_to(level_ - 1);
+  if (milliseconds <= slow_ms) return;
+  if (is_level_useless()) {
+    most_ = level_ - 1;
+    go_to(most_);
+  } else if (other_view) {
+    forget_travel();
+    go_to(whole_picture);
+  } else if (level_ < whole_picture) {
+    go_to(milliseconds > 4 * slow_ms ? whole_picture : level_ + 1);
+  } else if (level_ < most_ && drawn_at_level_ >= tried) {
+    go_to(level_ + 1);
+  }
+}
+
 void FramePacing::drew(int divisor, double milliseconds) {
+  if (travelling_) return drew_travelling(milliseconds);
+  if (divisor == 1 && milliseconds < fast_ms) go_to(0);
   // Cost is about proportional to the number of pixels, so a frame of another size predicts this one's.
   const double expected = divisor == divisor_ ? milliseconds : milliseconds * divisor * divisor / divisor_ / divisor_;
   if (expected > slow_ms) divisor_ = std::min(divisor_ * 2, 8);

@@ -1,35 +1,60 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
+#include "viewer/detail.h"
+
 namespace penumbra::viewer {
 
-// Decides when to draw, and at what fraction of the full resolution, so that the picture follows the mouse without
-// delay also where the CPU draws. A GPU draws every frame at full size and keeps its history when the motion ends, so
+// Decides when to draw, and in what detail, so that the picture follows the mouse without delay also where the CPU
+// draws. While camera, lights or time move, what is expensive shrinks before what is seen: the shadow maps, then what a
+// pixel reads of them, and last the resolution. While a parameter changes, only the resolution does, so that its effect
+// can be seen. A GPU draws every frame at full size and keeps its history when the motion ends, so
 // that no restart is visible.
 class FramePacing {
  public:
+  static constexpr std::size_t level_count = 7;
+
   explicit FramePacing(bool software) : software_(software) {}
 
   struct Step {
     bool draw = false;
-    int divisor = 1;       // of both sides of the picture
+    int divisor = 1;  // of both sides of the picture: detail.picture
+    Detail detail;
     bool idle = false;     // nothing has changed for a while
     bool restart = false;  // the first full-size frame after motion: drawn without the motion's history
   };
   // What to do at `now`, seconds. `changed`: the last drawing does not show the present document. `frames`: drawn at
   // full size since the last change, of `wanted`. `ui_active`: the user holds a widget, so only changes are drawn.
-  Step next(double now, bool changed, bool ui_active, int frames, int wanted);
+  // `travels`: camera, lights or time change, and the parameters stay.
+  Step next(double now, bool changed, bool ui_active, int frames, int wanted, bool travels = false);
 
   bool software() const { return software_; }
 
-  // Reports how long a frame took, which chooses the divisor of the next ones.
+  // Reports how long the frame of the last step took, which chooses the detail of the next ones.
   void drew(int divisor, double milliseconds);
 
  private:
   static constexpr double idle_seconds = 0.25;         // without a change
   static constexpr double slow_ms = 90, fast_ms = 20;  // limits for a frame in motion
 
+  void drew_travelling(double milliseconds);
+  void go_to(std::size_t level);
+  void forget_travel();
+  bool is_level_useless() const;
+
+  static constexpr std::size_t whole_picture = 3;  // the last level at which the picture has its full size
+  static constexpr int tried = 2;                  // frames at a level before it is judged
+  static constexpr double worth = 0.75;            // of the time before: a smaller picture has to save that much
+
   bool software_;
-  int divisor_ = 4;
+  int divisor_ = 4;  // while a parameter changes
+  // Of the details while the view travels, from full on: the present one, and the last that is worth it.
+  std::size_t level_ = whole_picture, most_ = level_count - 1;
+  std::array<double, level_count> best_{};  // the shortest time of each, milliseconds; 0: not known
+  int drawn_at_level_ = 0;
+  bool travelling_ = false;  // the last step was drawn at that level
   double last_change_ = -1e9;
   bool restarted_ = false;  // since the last change
 };

@@ -26,6 +26,7 @@ struct FrameState {
   bool values_wanted = false;     // the interface shows numbers that were not read back yet
   bool last_is_b = false;         // the renderer's last frame is B's, so numbers read back would be B's
   bool ui_active = false;         // the user holds a widget
+  bool travels = false;           // what changed since the last drawing are not the parameters
 };
 
 // What the next frame does for one picture.
@@ -38,7 +39,8 @@ struct PicturePlan {
 // What the next frame of the viewer does.
 struct FramePlan {
   PicturePlan a, b;
-  int divisor = 1;            // of both sides of the picture
+  int divisor = 1;  // of both sides of the picture: detail.picture
+  Detail detail;
   bool inspect = false;       // read A's values back without drawing
   bool cancel_truth = false;  // neither picture needs what the background traces
   bool idle = false;          // both pictures are finished

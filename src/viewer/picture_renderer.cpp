@@ -31,14 +31,19 @@ bool PictureRenderer::shows(const Document& document) const {
   return picture_ != nullptr && !cut_ && drawn_ == text_of(document);
 }
 
-void PictureRenderer::draw(LoadedScene& scene, const Document& document, int divisor) {
+bool PictureRenderer::has_params_of(const Document& document) const {
+  return picture_ != nullptr && params_ == document.params;
+}
+
+void PictureRenderer::draw(LoadedScene& scene, const Document& document, const Detail& detail) {
   const auto start = std::chrono::steady_clock::now();
   const double time = document.seconds();
   std::string text = text_of(document);
-  frames_ = divisor == divisor_ && shows(document) ? frames_ : 0;
+  frames_ = detail == detail_ && shows(document) ? frames_ : 0;
   const cli::Size& size = document.options.size;
   const bool cut = cut_ || !continues(scene.prepared, last_time_, time);
-  const cli::Size pixels{.width = std::max(size.width / divisor, 1), .height = std::max(size.height / divisor, 1)};
+  const cli::Size pixels{.width = std::max(size.width / detail.picture, 1),
+                         .height = std::max(size.height / detail.picture, 1)};
   // The first frame of a picture has no motion, as in `penumbra render`.
   const bool still = cut || restart_;
   render::FrameInputs inputs =
@@ -47,14 +52,15 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, int div
   inputs.restart = restart_;
   inputs.mask_details = true;  // any AOV can be inspected once the picture is drawn
   // As `penumbra render` finishes it.
-  if (divisor == 1 && frames_ >= warmup_of(document)) inputs.samples = document.options.samples;
+  if (detail.is_full() && frames_ >= warmup_of(document)) inputs.samples = document.options.samples;
   if (!still) inputs.last_camera = last_camera_;  // the user moves the camera too
   cut_ = true;                                    // until the frame is drawn: after one that throws there is no history
-  const render::Frame& frame = renderer_.draw(scene.gpu, inputs, document.params);
+  const render::Frame& frame = renderer_.draw(scene.gpu, inputs, reduced(document.params, detail));
   keep(*frame.display);
   cut_ = restart_ = false;
   drawn_ = std::move(text);
-  divisor_ = divisor;
+  params_ = document.params;
+  detail_ = detail;
   ++frames_;
   last_time_ = time;
   last_camera_ = inputs.camera;

@@ -8,6 +8,7 @@
 #include "render/renderer.h"
 #include "scene/gpu_scene.h"
 #include "session/prepared_scene.h"
+#include "viewer/detail.h"
 #include "viewer/document.h"
 
 namespace penumbra::viewer {
@@ -32,9 +33,10 @@ class PictureRenderer {
 
   // Whether the last drawing is of this document, at full size or a smaller one.
   bool shows(const Document& document) const;
-  // Draws the document, with the picture's sides divided by `divisor` and the motion since the last drawing. Throws
-  // Error.
-  void draw(LoadedScene& scene, const Document& document, int divisor);
+  // Whether it has these parameters, whatever else has changed.
+  bool has_params_of(const Document& document) const;
+  // Draws the document in that detail, with the motion since the last drawing. Throws Error.
+  void draw(LoadedScene& scene, const Document& document, const Detail& detail);
   // The next drawing has nothing to do with the last one: after another scene or other shaders.
   void cut() {
     cut_ = true;
@@ -51,8 +53,8 @@ class PictureRenderer {
   // Frees the picture.
   void forget();
 
-  // Frames drawn at full size since the document changed.
-  int frames() const { return divisor_ == 1 ? frames_ : 0; }
+  // Frames drawn in full detail since the document changed.
+  int frames() const { return detail_.is_full() ? frames_ : 0; }
   double milliseconds() const { return milliseconds_; }
 
   // The last drawing, tone mapped, RGBA8; valid until the next draw().
@@ -67,7 +69,9 @@ class PictureRenderer {
   int view_;
   const gl::Texture* picture_ = nullptr;
   std::string drawn_;  // the document drawn last, as its command line
-  int divisor_ = 1, frames_ = 0;
+  ParamSet params_;    // its parameters, in full detail
+  Detail detail_;
+  int frames_ = 0;
   double milliseconds_ = 0, last_time_ = 0;
   render::Camera last_camera_;
   bool cut_ = true, restart_ = false;

@@ -72,10 +72,12 @@ FrameState Viewer::frame_state(const Document& b, const PictureArea& area, doubl
                    .truth_pending = truth_.pending().has_value(),
                    .values_wanted = chosen || (last_is_b_ && probes(area)),
                    .last_is_b = last_is_b_,
-                   .ui_active = ImGui::IsAnyItemActive() && !area.dragging};
+                   .ui_active = ImGui::IsAnyItemActive() && !area.dragging,
+                   .travels = a_.renderer.has_params_of(state_.document)};
   // The background traces one picture at a time: two would stop each other in every frame.
   status_.both_traced = state_.comparison.on && frame.a.traced && is_traced(b);
   if (state_.comparison.on && !b.params.rows().empty() && !status_.both_traced) frame.b = state_of(b_, b);
+  if (frame.b) frame.travels = frame.travels && b_.renderer.has_params_of(b);
   if (frame.a.missing() > 0 || !frame.b || frame.b->missing() > 0) status_.difference.reset();
   status_.b_is_old = frame.b && !frame.b->current;
   return frame;
@@ -109,35 +111,36 @@ void Viewer::draw_pictures(const PictureArea& area, double now) {
   for (const SideWork& each : work) {
     if (each.plan.restart) each.side.renderer.restart();
   }
-  if (plan.a.draw || plan.b.draw) draw_sides(work, plan.divisor, now);
+  if (plan.a.draw || plan.b.draw) draw_sides(work, plan.detail, now);
   if (frame.b && a_.measured && b_.measured && !status_.difference) measure_difference();
 }
 
-void Viewer::draw_sides(std::span<const SideWork> work, int divisor, double now) {
+void Viewer::draw_sides(std::span<const SideWork> work, const Detail& detail, double now) {
   last_draw_ = now;
   double milliseconds = 0;
   readable_ = true;
   for (const SideWork& each : work) {
     if (!each.plan.draw) continue;
-    readable_ = draw_side(each, divisor) && readable_;
+    readable_ = draw_side(each, detail) && readable_;
     milliseconds += each.side.renderer.milliseconds();
     last_is_b_ = &each.side == &b_;
   }
   if (!readable_) return;
-  pacing_.drew(divisor, milliseconds);
+  pacing_.drew(detail.picture, milliseconds);
+  status_.detail = detail;
   status_.drawn_size = {a_.renderer.picture().width(), a_.renderer.picture().height()};
   status_.frames = a_.renderer.frames();
   status_.wanted = warmup_of(state_.document) + 1;
 }
 
-bool Viewer::draw_side(const SideWork& work, int divisor) {
+bool Viewer::draw_side(const SideWork& work, const Detail& detail) {
   Side& side = work.side;
   bool drawn = false;
   guarded([&] {
-    // Costs that were measured at another size do not apply to this one.
-    if (std::exchange(side.divisor, divisor) != divisor) side.costs.clear();
+    // Costs that were measured in another detail do not apply to this one.
+    if (std::exchange(side.detail, detail) != detail) side.costs.clear();
     cost_reader_.start(device_.device.timers, side.costs);
-    side.renderer.draw(*scene_, work.document, divisor);
+    side.renderer.draw(*scene_, work.document, detail);
     side.costs.set_work(device_.device.timers.work());
     const bool finished = !is_traced(work.document) || !truth_.pending();
     if (work.plan.measure && finished) measure(side);

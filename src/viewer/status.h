@@ -35,6 +35,7 @@ struct ViewerStatus {
   const Costs& costs_a;
   const Costs& costs_b;
   glm::ivec2 drawn_size{0};  // of the last picture, pixels
+  Detail detail;             // of it
   int frames = 0;            // drawn since something changed
   int wanted = 1;            // frames until the picture is finished
   bool idle = false;         // all pictures are finished: nothing will be drawn until something changes

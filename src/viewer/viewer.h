@@ -49,7 +49,7 @@ class Viewer {
     Side(gl::Device& device, render::Renderer& shared, int view) : renderer(device, shared, view) {}
     PictureRenderer renderer;
     Costs costs;
-    int divisor = 1;                     // of the last frame
+    Detail detail;                       // of the last frame
     Values values;                       // of the inspected AOV or texture
     int reads = 0;                       // how often they were read back
     std::vector<float> visibility;       // if measured
@@ -76,10 +76,10 @@ class Viewer {
   void draw_pictures(const PictureArea& area, double now);
   FrameState frame_state(const Document& b, const PictureArea& area, double now);
   void take_traced(const Document& b);
-  void draw_sides(std::span<const SideWork> work, int divisor, double now);
+  void draw_sides(std::span<const SideWork> work, const Detail& detail, double now);
   void measure(Side& side);
   void forget_b();
-  bool draw_side(const SideWork& work, int divisor);
+  bool draw_side(const SideWork& work, const Detail& detail);
   Document document_b() const;
   void inspect(Side& side);
   void color_values(bool differ);

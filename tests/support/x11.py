@@ -67,6 +67,7 @@ _declare("XSelectInput", _int, _pointer, _ulong, ctypes.c_long)
 _declare("XSendEvent", _int, _pointer, _ulong, _int, ctypes.c_long, ctypes.POINTER(_Event))
 _declare("XPending", _int, _pointer)
 _declare("XNextEvent", _int, _pointer, ctypes.POINTER(_Event))
+_declare("XWarpPointer", _int, _pointer, _ulong, _ulong, _int, _int, ctypes.c_uint, ctypes.c_uint, _int, _int)
 _declare("XSync", _int, _pointer, _int)
 _declare("XFree", _int, ctypes.c_void_p)
 _declare("XSetErrorHandler", _pointer, _handler_type)
@@ -114,6 +115,11 @@ class Connection:
         x, y, child = _int(), _int(), _ulong()
         _x.XTranslateCoordinates(self._display, window, self._root, 0, 0, x, y, child)
         return x.value, y.value
+
+    def move_pointer(self, x, y):
+        """Moves the pointer to a pixel of the screen, in less time than xdotool takes to start."""
+        _x.XWarpPointer(self._display, 0, self._root, 0, 0, 0, 0, x, y)
+        self._sync()
 
     def size(self, window):
         """The window's size in pixels, without the frame of the window manager."""

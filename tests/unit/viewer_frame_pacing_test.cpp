@@ -10,6 +10,7 @@
 namespace penumbra {
 namespace {
 
+using viewer::Detail;
 using viewer::FramePacing;
 
 // Simulates a viewer on a machine that draws the full-size picture in `full_ms` milliseconds.
@@ -155,6 +156,111 @@ TEST(ViewerPace, AnotherSceneOrTechniqueIsAnotherPace) {
   EXPECT_EQ(machine.in_motion(), 8);
   machine.becomes(10);
   EXPECT_EQ(machine.in_motion(), 1);
+}
+
+// A camera that orbits on a machine that takes some milliseconds for the maps, for what pixels read of them and for the
+// rest of a picture, all in full.
+class Orbit {
+ public:
+  Orbit(double maps, double reads, double rest) : maps_(maps), reads_(reads), rest_(rest) {}
+
+  FramePacing::Step turn(bool changed) {
+    now_ += 0.02;
+    const FramePacing::Step step = pacing_.next(now_, changed, /*ui_active=*/false, frames_, 1, /*travels=*/true);
+    frames_ = changed ? 0 : frames_ + (step.draw ? 1 : 0);
+    if (step.draw) pacing_.drew(step.divisor, took(step.detail));
+    return step;
+  }
+  double took(const Detail& detail) const {
+    const double pixels = 1.0 / (detail.picture * detail.picture);
+    return maps_ / (detail.maps * detail.maps) + pixels * (reads_ / detail.reads + rest_);
+  }
+  void becomes(double maps, double reads, double rest) {
+    maps_ = maps;
+    reads_ = reads;
+    rest_ = rest;
+  }
+  Detail in_motion() {
+    Detail detail;
+    for (int i = 0; i < 50; ++i) detail = turn(/*changed=*/true).detail;
+    return detail;
+  }
+
+ private:
+  double maps_, reads_, rest_, now_ = 10;
+  int frames_ = 0;
+  FramePacing pacing_{/*software=*/true};
+};
+
+TEST(ViewerTravel, MapsShrinkBeforeReadsAndReadsBeforeThePicture) {
+  EXPECT_EQ(Orbit(2, 3, 5).in_motion(), Detail{});
+  EXPECT_EQ(Orbit(150, 5, 5).in_motion(), (Detail{.maps = 2}));
+  EXPECT_EQ(Orbit(100, 20, 2).in_motion(), (Detail{.maps = 4}));
+  EXPECT_EQ(Orbit(400, 150, 10).in_motion(), (Detail{.maps = 4, .reads = 4}));
+  EXPECT_EQ(Orbit(400, 150, 100).in_motion(), (Detail{.picture = 2, .maps = 4, .reads = 4}));
+  EXPECT_EQ(Orbit(0, 0, 1000).in_motion(), (Detail{.picture = 4, .maps = 4, .reads = 4}));
+}
+
+TEST(ViewerTravel, NothingShrinksFurtherThanItsLimit) {
+  EXPECT_EQ(Orbit(1e6, 1e6, 1e6).in_motion(), (Detail{.picture = 8, .maps = 4, .reads = 4}));
+}
+
+TEST(ViewerTravel, ThePictureDoesNotShrinkWhereThatSavesNothing) {
+  EXPECT_EQ(Orbit(8000, 10, 10).in_motion(), (Detail{.maps = 4, .reads = 4}));
+  EXPECT_EQ(Orbit(3000, 150, 300).in_motion(), (Detail{.picture = 2, .maps = 4, .reads = 4}));
+}
+
+TEST(ViewerTravel, AnotherViewIsJudgedAnew) {
+  Orbit orbit(8000, 10, 10);
+  EXPECT_EQ(orbit.in_motion().picture, 1);
+  orbit.becomes(160, 400, 3000);
+  EXPECT_EQ(orbit.in_motion().picture, 8);
+  orbit.becomes(8000, 10, 10);
+  EXPECT_EQ(orbit.in_motion().picture, 1);
+}
+
+TEST(ViewerTravel, TheDetailSettlesAndIsTheSameAfterARest) {
+  for (double full = 1; full < 20000; full *= 1.1) {
+    Orbit orbit(0.5 * full, 0.3 * full, 0.2 * full);
+    const Detail settled = orbit.in_motion();
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(orbit.turn(true).detail, settled) << full;
+    for (int i = 0; i < 40; ++i) orbit.turn(false);
+    EXPECT_EQ(orbit.turn(true).detail, settled) << full;
+  }
+}
+
+TEST(ViewerTravel, AtRestThePictureIsFull) {
+  Orbit orbit(500, 300, 200);
+  orbit.in_motion();
+  int drawn = 0;
+  for (int i = 0; i < 100; ++i) {
+    const FramePacing::Step step = orbit.turn(/*changed=*/false);
+    if (!step.draw) continue;
+    EXPECT_TRUE(step.detail.is_full());
+    EXPECT_TRUE(step.restart);
+    ++drawn;
+  }
+  EXPECT_EQ(drawn, 1);
+}
+
+TEST(ViewerTravel, AParameterThatChangesIsSeenInFullEffect) {
+  Orbit orbit(500, 300, 200);
+  orbit.in_motion();
+  FramePacing pacing(/*software=*/true);
+  for (int i = 0; i < 20; ++i) {
+    const FramePacing::Step step = pacing.next(i, /*changed=*/true, /*ui_active=*/true, 0, 1, /*travels=*/false);
+    EXPECT_EQ(step.detail.maps, 1);
+    EXPECT_EQ(step.detail.reads, 1);
+    pacing.drew(step.divisor, 1000);
+  }
+}
+
+TEST(ViewerTravel, AGpuDrawsInFullDetail) {
+  FramePacing pacing(/*software=*/false);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_TRUE(pacing.next(i, /*changed=*/true, /*ui_active=*/false, 0, 1, /*travels=*/true).detail.is_full());
+    pacing.drew(1, 1000);
+  }
 }
 
 }  // namespace
