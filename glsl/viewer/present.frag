@@ -7,10 +7,13 @@ const int comparison_difference = 4;
 
 layout(binding = 0) uniform sampler2D picture_a;
 layout(binding = 1) uniform sampler2D picture_b;
+layout(binding = 2) uniform sampler2D tint_a;
+layout(binding = 3) uniform sampler2D tint_b;
 
 uniform int comparison;
 uniform float wipe;         // x where the second picture begins, 0..1 of the window's width
 uniform float gain;         // of the difference
+uniform float tint;         // share of the tints in the pictures
 uniform float zoom;         // window pixels for each pixel of the picture
 uniform vec2 center;        // the picture's point in the middle of the window, pixels from its lower left
 uniform vec2 picture_size;  // pixels at full resolution, however large the textures are
@@ -19,7 +22,9 @@ uniform vec2 window_size;   // pixels
 layout(location = 0) out vec4 display;
 
 vec3 shown(bool second, vec2 at) {
-  return second ? textureLod(picture_b, at, 0.0).rgb : textureLod(picture_a, at, 0.0).rgb;
+  vec3 picture = second ? textureLod(picture_b, at, 0.0).rgb : textureLod(picture_a, at, 0.0).rgb;
+  if (tint == 0.0) return picture;
+  return mix(picture, second ? textureLod(tint_b, at, 0.0).rgb : textureLod(tint_a, at, 0.0).rgb, tint);
 }
 
 void main() {

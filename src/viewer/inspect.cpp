@@ -66,6 +66,11 @@ Values read_aov(const std::string& name, const render::Renderer& renderer, const
 
 }  // namespace
 
+void toggle_cascade_tint(Inspection& inspection) {
+  const bool on = inspection.what == "cascade" && inspection.over;
+  inspection = on ? Inspection{} : Inspection{.what = "cascade", .over = true};
+}
+
 const float* Values::at(int x, int y) const {
   const auto index = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   return &numbers[index * static_cast<std::size_t>(channels)];

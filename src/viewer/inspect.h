@@ -14,10 +14,14 @@ namespace penumbra::viewer {
 // What is inspected in place of the picture: an AOV by name, or "target NAME", a texture that passes draw to.
 struct Inspection {
   std::string what;       // empty: the picture
+  bool over = false;      // mix its colours into the lit picture, instead of showing them alone
   bool automatic = true;  // the range of colours follows the values
   float low = 0, high = 1;
   int layer = 0, level = 0, part = 0;  // of a texture; `part` is an index into parts_of()
 };
+
+// Begins to show the cascades as a tint of the lit picture, or ends it.
+void toggle_cascade_tint(Inspection& inspection);
 
 // Numbers read back from a texture, rows top to bottom.
 struct Values {

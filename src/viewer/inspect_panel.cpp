@@ -14,7 +14,8 @@ namespace {
 void choose(const Panel& panel, const std::string& what, const std::string& label, const std::string& help) {
   Inspection& inspection = panel.state.inspection;
   ImGui::PushID(what.c_str());  // a texture and an AOV may have the same name
-  if (ImGui::Selectable(label.c_str(), inspection.what == what)) inspection = Inspection{.what = what};
+  if (ImGui::Selectable(label.c_str(), inspection.what == what))
+    inspection = Inspection{.what = what, .over = inspection.over};
   ImGui::PopID();
   panel.widgets.mark("show=" + (what.empty() ? "picture" : what));
   if (!help.empty()) tooltip(help);
@@ -75,6 +76,9 @@ void choose_part(const Panel& panel) {
 void range(const Panel& panel) {
   Inspection& inspection = panel.state.inspection;
   begin_rows("range");
+  row("over the picture", "Tints the lit picture with the colours, instead of showing them alone (T for cascades).");
+  ImGui::Checkbox("##over", &inspection.over);
+  panel.widgets.mark("over");
   choose_part(panel);
   if (panel.status.mapping.scale == ColorScale::labels) {
     end_rows();

@@ -58,6 +58,7 @@ constexpr std::array keys{
     Key{"left, right", "previous frame, next frame"},
     Key{"C", "compare A with B, or stop"},
     Key{"X", "switch between A and B alone"},
+    Key{"T", "tint the picture by cascade, or stop"},
     Key{"P", "show values under the cursor"},
     Key{"Tab", "show or hide panel and menus"},
     Key{"/", "search parameters"},

@@ -225,6 +225,7 @@ void take_keys(const Panel& panel, float seconds) {
   if (pressed(GLFW_KEY_TAB)) state.panel = !state.panel;
   if (pressed(GLFW_KEY_SLASH)) state.panel = state.focus_search = true;
   if (pressed(GLFW_KEY_F)) state.fly = !state.fly;
+  if (pressed(GLFW_KEY_T)) toggle_cascade_tint(state.inspection);
   if (pressed(GLFW_KEY_P)) state.probe = !state.probe;
   if (pressed(GLFW_KEY_HOME)) state.requests.frame_casters = true;
   if (pressed(GLFW_KEY_C)) {

@@ -160,7 +160,7 @@ void Viewer::measure(Side& side) {
 void Viewer::forget_b() {
   if (!b_.renderer.has_picture()) return;
   b_.renderer.forget();
-  b_.shown = nullptr;
+  b_.shown = b_.colors = nullptr;
   b_.measured = false;
   renderer_.forget_view(1);
 }

@@ -6,6 +6,8 @@ namespace penumbra::viewer {
 
 namespace {
 
+constexpr float tint_share = 0.45f;
+
 // The picture's point in the middle of its part of the window, pixels.
 glm::vec2 center_of(const PresentInputs& inputs) { return inputs.zoom.center * glm::vec2(inputs.picture_size); }
 
@@ -42,6 +44,12 @@ const gl::Texture& present(gl::Device& device, const PresentInputs& inputs) {
     const gl::Program& program = pass.use(present_program());
     bind(device, inputs, *inputs.a, 0);
     bind(device, inputs, inputs.b != nullptr ? *inputs.b : *inputs.a, 1);
+    // A picture without a tint shows itself.
+    (inputs.tint_a != nullptr ? inputs.tint_a : inputs.a)->bind(2);
+    (inputs.tint_b != nullptr ? inputs.tint_b : inputs.b != nullptr ? inputs.b : inputs.a)->bind(3);
+    for (const GLuint unit : {2U, 3U}) device.sampler({.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST}).bind(unit);
+    const bool tinted = inputs.tint_a != nullptr || inputs.tint_b != nullptr;
+    program.set("tint", tinted ? tint_share : 0.0f);
     program.set("comparison", static_cast<int>(how_of(inputs)));
     program.set("wipe", inputs.comparison.wipe);
     program.set("gain", inputs.comparison.gain);

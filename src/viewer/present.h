@@ -11,8 +11,10 @@ namespace penumbra::viewer {
 // Pictures in the window's frame. Pixels count from the upper left.
 struct PresentInputs {
   const gl::Texture* a = nullptr;
-  const gl::Texture* b = nullptr;  // absent: there is only A
-  glm::ivec2 picture_size{1};      // at full resolution; textures drawn in motion are smaller
+  const gl::Texture* b = nullptr;       // absent: there is only A
+  const gl::Texture* tint_a = nullptr;  // colours to mix into it
+  const gl::Texture* tint_b = nullptr;
+  glm::ivec2 picture_size{1};  // at full resolution; textures drawn in motion are smaller
   glm::ivec2 window_size{1};
   Comparison comparison;
   Zoom zoom;

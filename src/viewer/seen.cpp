@@ -22,6 +22,7 @@ std::string number_text(const std::vector<float>& values, const std::string& uni
 
 void Viewer::inspect(Side& side) {
   side.shown = &side.renderer.picture();
+  side.colors = nullptr;
   side.values = {};
   ++side.reads;
   if (state_.inspection.what.empty()) return;
@@ -66,11 +67,11 @@ void Viewer::show_pictures() {
   const bool values = !state_.inspection.what.empty();
   const bool differ = values && state_.comparison.on && state_.comparison.how == CompareMode::difference &&
                       !a_.values.numbers.empty() && a_.values.numbers.size() == b_.values.numbers.size();
-  if (values) {
-    color_values(differ);
-  } else {
-    a_.shown = &a_.renderer.picture();
-    if (b_.renderer.has_picture()) b_.shown = &b_.renderer.picture();
+  if (values) color_values(differ);
+  for (Side* side : {&a_, &b_}) {
+    if (!side->renderer.has_picture()) continue;
+    const bool colored = values && side->colors != nullptr && (!state_.inspection.over || differ);
+    side->shown = colored ? side->colors : &side->renderer.picture();
   }
   PresentInputs inputs = present_inputs(window_size_);
   if (differ) inputs.b = nullptr;
@@ -102,18 +103,22 @@ void Viewer::color(Side& side, const Values& values, int number) {
   const gl::Texture& texture =
       device_.device.target(fmt::format("viewer/colors {}", number), {.width = values.width, .height = values.height});
   texture.upload(GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(colors)));
-  side.shown = &texture;
+  side.colors = &texture;
 }
 
 PresentInputs Viewer::present_inputs(const glm::ivec2& window_size) const {
   const cli::Size size = state_.document.options.size;
+  const bool values = !state_.inspection.what.empty(), tints = values && state_.inspection.over;
+  const auto tint_of = [&](const Side& side) { return tints && side.shown != side.colors ? side.colors : nullptr; };
   return {.a = a_.shown,
           .b = state_.comparison.on ? b_.shown : nullptr,
+          .tint_a = tint_of(a_),
+          .tint_b = state_.comparison.on ? tint_of(b_) : nullptr,
           .picture_size = {size.width, size.height},
           .window_size = window_size,
           .comparison = state_.comparison,
           .zoom = state_.zoom,
-          .values = !state_.inspection.what.empty()};
+          .values = values && !tints};
 }
 
 }  // namespace penumbra::viewer

@@ -49,12 +49,13 @@ class Viewer {
     Side(gl::Device& device, render::Renderer& shared, int view) : renderer(device, shared, view) {}
     PictureRenderer renderer;
     Costs costs;
-    Detail detail;                       // of the last frame
-    Values values;                       // of the inspected AOV or texture
-    int reads = 0;                       // how often they were read back
-    std::vector<float> visibility;       // if measured
-    bool measured = false;               // the visibility is that of the finished picture
-    const gl::Texture* shown = nullptr;  // its picture, or its values in false colour
+    Detail detail;                        // of the last frame
+    Values values;                        // of the inspected AOV or texture
+    int reads = 0;                        // how often they were read back
+    std::vector<float> visibility;        // if measured
+    bool measured = false;                // the visibility is that of the finished picture
+    const gl::Texture* colors = nullptr;  // its values in false colour, if any are inspected
+    const gl::Texture* shown = nullptr;   // its picture, or these colours
   };
   // What a frame does for one of them.
   struct SideWork {

@@ -124,6 +124,26 @@ class Search(WindowTest):
         self.assertGreater(angle, 0.1)
 
 
+class Tint(WindowTest):
+    def test_t_mixes_the_cascades_into_the_picture_and_stops(self):
+        with self.view(STEPS) as viewer:
+            lit = viewer.rest()
+            viewer.press("t", lambda: viewer.has("legend"), "the legend")
+            tinted = viewer.changed(lit)
+            viewer.open_tab("Inspect", "over")
+            viewer.click("over", lambda: viewer.picture() != tinted, "the cascades alone")
+            alone = viewer.changed(tinted)
+            left, _, right, _ = viewer.box("legend")
+            width = left - viewer.box("picture")[0]
+            for rows in zip(*(each.crop(0, 0, width, each.height).rows for each in (lit, alone, tinted))):
+                for light, label, mixed in zip(*rows):
+                    self.assertLess(abs(0.55 * light + 0.45 * label - mixed), 2)
+            viewer.press("t", lambda: viewer.picture() != alone, "the tint")
+            self.assertEqual(viewer.rest(), tinted)
+            viewer.press("t", lambda: not viewer.has("legend"), "no legend")
+            self.assertEqual(viewer.rest(), lit)
+
+
 class Preset(WindowTest):
     def test_one_that_is_saved_draws_the_same_picture_by_render(self):
         preset = self.folder / "preset.toml"
