@@ -106,6 +106,11 @@ void probe(const Panel& panel) {
   ImGui::Checkbox("Values under the cursor", &panel.state.probe);
   panel.widgets.mark("probe");
   if (!panel.state.probe) return;
+  bool locked = panel.state.locked_pixel.has_value();
+  ImGui::SameLine();
+  if (ImGui::Checkbox("locked", &locked)) toggle_lock(panel);
+  panel.widgets.mark("lock");
+  tooltip("Keeps the pixel, which a cross marks, while the mouse moves (L). Its values follow the picture.");
   if (!panel.status.probed) {
     ImGui::TextDisabled("Point at the picture.");
     return;
@@ -121,9 +126,19 @@ void probe(const Panel& panel) {
     ImGui::TextUnformatted(each.value.c_str());
   }
   ImGui::EndTable();
+  panel.widgets.mark("probe values");
 }
 
 }  // namespace
+
+void toggle_lock(const Panel& panel) {
+  std::optional<glm::ivec2>& locked = panel.state.locked_pixel;
+  if (locked) {
+    locked.reset();
+  } else if (panel.state.probe) {
+    locked = panel.status.last_probed;
+  }
+}
 
 void inspect_panel(const Panel& panel) {
   list(panel);

@@ -60,6 +60,7 @@ constexpr std::array keys{
     Key{"X", "switch between A and B alone"},
     Key{"T", "tint the picture by cascade, or stop"},
     Key{"P", "show values under the cursor"},
+    Key{"L", "lock these values to their pixel, or unlock"},
     Key{"Tab", "show or hide panel and menus"},
     Key{"/", "search parameters"},
     Key{"Ctrl + Z", "undo; with Shift, or Ctrl + Y: redo"},

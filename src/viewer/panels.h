@@ -24,6 +24,9 @@ bool menu_item(const Panel& panel, const char* name, const char* keys, bool poss
 bool begin_menu(const Panel& panel, const char* name);
 void camera_menu(const Panel& panel);
 
+// Locks the values under the cursor to their pixel, or unlocks them.
+void toggle_lock(const Panel& panel);
+
 // Bookmarks of cameras, by the number of their key less one. A bookmark that is empty tells how to store it.
 void store_bookmark(const Panel& panel, std::size_t index);
 void use_bookmark(const Panel& panel, std::size_t index);

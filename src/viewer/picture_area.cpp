@@ -116,6 +116,19 @@ void draw_line(const Panel& panel, const PictureArea& area) {
   }
 }
 
+// A cross about the pixel whose values are locked, which leaves the pixel itself open.
+void draw_lock(const Panel& panel, const PictureArea& area) {
+  if (!panel.status.locked_at) return;
+  const glm::vec2 at = area.corner + *panel.status.locked_at;
+  const float inner = 0.5f * panel.state.zoom.factor + 2, outer = inner + 0.6f * ImGui::GetFontSize();
+  for (const glm::vec2& way : {glm::vec2(1, 0), glm::vec2(-1, 0), glm::vec2(0, 1), glm::vec2(0, -1)}) {
+    const glm::vec2 from = at + way * inner, to = at + way * outer;
+    ImGui::GetWindowDrawList()->AddLine({from.x, from.y}, {to.x, to.y}, IM_COL32(0, 0, 0, 220), 4);
+    ImGui::GetWindowDrawList()->AddLine({from.x, from.y}, {to.x, to.y}, IM_COL32(255, 255, 255, 255), 2);
+  }
+  panel.widgets.mark("locked pixel", {at.x - outer, at.y - outer}, {at.x + outer, at.y + outer});
+}
+
 void fly(const Panel& panel, float seconds) {
   const ImGuiIO& io = ImGui::GetIO();
   const auto axis = [](int positive, int negative) {
@@ -205,6 +218,7 @@ PictureArea picture_area(const Panel& panel, const gl::Texture* shown) {
     ImGui::GetWindowDrawList()->AddImage(texture, corner, end, {0, 1}, {1, 0});
     draw_line(panel, area);
     draw_lamp_rings(panel, area);
+    draw_lock(panel, area);
   }
   return area;
 }
@@ -227,6 +241,7 @@ void take_keys(const Panel& panel, float seconds) {
   if (pressed(GLFW_KEY_F)) state.fly = !state.fly;
   if (pressed(GLFW_KEY_T)) toggle_cascade_tint(state.inspection);
   if (pressed(GLFW_KEY_P)) state.probe = !state.probe;
+  if (pressed(GLFW_KEY_L)) toggle_lock(panel);
   if (pressed(GLFW_KEY_HOME)) state.requests.frame_casters = true;
   if (pressed(GLFW_KEY_C)) {
     if (ImGui::GetIO().KeyCtrl) {

@@ -71,4 +71,10 @@ std::optional<glm::ivec2> pixel_at(const PresentInputs& inputs, const glm::vec2&
   return inside ? std::optional(pixel) : std::nullopt;
 }
 
+glm::vec2 place_of(const PresentInputs& inputs, const glm::ivec2& pixel) {
+  glm::vec2 middle = glm::vec2(inputs.window_size) * 0.5f;
+  if (how_of(inputs) == CompareMode::side_by_side) middle.x *= 0.5f;
+  return middle + (glm::vec2(pixel) + 0.5f - center_of(inputs)) * inputs.zoom.factor;
+}
+
 }  // namespace penumbra::viewer

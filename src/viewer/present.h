@@ -29,5 +29,7 @@ gl::ProgramDesc present_program();
 
 // The picture's pixel that a pixel of the window shows; nothing outside of the picture.
 std::optional<glm::ivec2> pixel_at(const PresentInputs& inputs, const glm::vec2& window);
+// The middle of a pixel of picture A in the window, which may lie outside of it.
+glm::vec2 place_of(const PresentInputs& inputs, const glm::ivec2& pixel);
 
 }  // namespace penumbra::viewer

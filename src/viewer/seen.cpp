@@ -40,16 +40,32 @@ void Viewer::inspect(Side& side) {
 
 // Reading a value back waits for the GPU, so it is done only while the values are on screen.
 bool Viewer::probes(const PictureArea& area) const {
-  return state_.probe && state_.panel && state_.open_tab == "Inspect" && area.cursor.has_value();
+  return state_.probe && state_.panel && state_.open_tab == "Inspect" &&
+         (area.cursor.has_value() || state_.locked_pixel.has_value());
+}
+
+// The pixel whose values are shown.
+std::optional<glm::ivec2> Viewer::probed_pixel(const PictureArea& area) {
+  const PresentInputs inputs = present_inputs(window_size_);
+  std::optional<glm::ivec2>& locked = state_.locked_pixel;
+  if (locked && glm::any(glm::greaterThanEqual(*locked, inputs.picture_size))) locked.reset();  // a smaller window
+  status_.locked_at.reset();
+  if (locked) {
+    status_.locked_at = place_of(inputs, *locked) * area.size / glm::vec2(window_size_);
+    return locked;
+  }
+  if (!area.cursor) return {};
+  return pixel_at(inputs, *area.cursor * glm::vec2(window_size_) / area.size);
 }
 
 void Viewer::probe(const PictureArea& area) {
   std::optional<glm::ivec2> pixel;
+  if (!state_.locked_pixel || !probes(area)) status_.locked_at.reset();
   if (probes(area) && readable_ && !last_is_b_ && a_.shown != nullptr && status_.drawn_size.x > 0)
-    pixel = pixel_at(present_inputs(window_size_), *area.cursor * glm::vec2(window_size_) / area.size);
+    pixel = probed_pixel(area);
   status_.probed = pixel;
-  if (!pixel || (pixel == last_probed_ && last_draw_ < ImGui::GetTime())) return;
-  last_probed_ = pixel;
+  if (!pixel || (pixel == status_.last_probed && last_draw_ < ImGui::GetTime())) return;
+  status_.last_probed = pixel;
   // Pictures are smaller while the camera moves.
   const glm::ivec2 full(state_.document.options.size.width, state_.document.options.size.height);
   const glm::ivec2 drawn = glm::min(*pixel * status_.drawn_size / full, status_.drawn_size - 1);

@@ -80,7 +80,8 @@ struct UiState {
   bool dragging_line = false;          // the user drags the line between A and B
   // The lamp whose properties are shown, and the one that the mouse drags.
   std::optional<LampName> lamp, dragged_lamp;
-  bool popup_open = false;  // a list was open in the last frame: Escape closes it
+  std::optional<glm::ivec2> locked_pixel;  // whose values stay, wherever the cursor is
+  bool popup_open = false;                 // a list was open in the last frame: Escape closes it
   bool panel = true, help = false, probe = true, vsync = true;
   std::string search;         // filters the parameters
   std::string tab, open_tab;  // the one to open in the next frame; the one that is open

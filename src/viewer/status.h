@@ -49,11 +49,13 @@ struct ViewerStatus {
   bool both_traced = false;                     // A and B are both ray traced: then B is not drawn
   bool b_is_old = false;                        // the shown B is older than A
   std::optional<PictureDifference> difference;  // of A and B, once both are finished
-  std::optional<glm::ivec2> probed;             // the picture's pixel under the cursor
+  std::optional<glm::ivec2> probed;             // the picture's pixel under the cursor, or the locked one
+  std::optional<glm::ivec2> last_probed;        // the last one, also once the cursor has left the picture
   std::vector<ProbeRow> probe;
-  ColorMapping mapping;  // of the inspected values
-  Range range;           // of the colours
-  Range values;          // of A's values; the same unless differences are shown
+  std::optional<glm::vec2> locked_at;  // the middle of the locked pixel, from the picture's upper left
+  ColorMapping mapping;                // of the inspected values
+  Range range;                         // of the colours
+  Range values;                        // of A's values; the same unless differences are shown
 };
 
 }  // namespace penumbra::viewer

@@ -87,6 +87,7 @@ class Viewer {
   void color(Side& side, const Values& values, int number);
   void measure_difference();
   bool probes(const PictureArea& area) const;
+  std::optional<glm::ivec2> probed_pixel(const PictureArea& area);
   void probe(const PictureArea& area);
   void show_pictures();
   PresentInputs present_inputs(const glm::ivec2& window_size) const;
@@ -144,8 +145,7 @@ class Viewer {
   std::string inspected_, colored_;  // what values were last read back from, and coloured
   bool readable_ = false;            // the renderer's last frame succeeded, so values can be read back
   bool last_is_b_ = false;           // it drew B
-  std::optional<glm::ivec2> last_probed_;
-  glm::ivec2 window_size_{1};  // of the picture's area, pixels
+  glm::ivec2 window_size_{1};        // of the picture's area, pixels
   bool vsync_ = true;
   double last_draw_ = 0;
 };

@@ -144,6 +144,30 @@ class Tint(WindowTest):
             self.assertEqual(viewer.rest(), lit)
 
 
+class Lock(WindowTest):
+    def test_locked_values_stay_while_the_mouse_moves(self):
+        with self.view(STEPS, size=(1000, 700)) as viewer:
+            viewer.open_tab("Inspect", "show=picture")
+            left, top, right, bottom = viewer.box("picture")
+
+            def at(x, y):
+                """The values in the panel with the pointer at a place of the picture, 0 to 1."""
+                viewer.move(left + int(x * (right - left)), top + int(y * (bottom - top)))
+                viewer.follow()
+                return viewer.seen("probe values")
+
+            low = at(0.5, 0.8)
+            self.assertNotEqual(at(0.5, 0.3), low)
+            self.assertEqual(at(0.5, 0.8), low)
+            viewer.press("l", lambda: viewer.has("locked pixel"), "the lock")
+            x, y = viewer.middle("locked pixel")
+            self.assertLess(abs(x - left - 0.5 * (right - left)) + abs(y - top - 0.8 * (bottom - top)), 4)
+            self.assertEqual(at(0.5, 0.3), low)
+            self.desktop.xdotool("mousemove", "--window", viewer.window, *viewer.middle("lock"), "click", LEFT)
+            viewer.wait_for(lambda: not viewer.has("locked pixel"), "no lock")
+            self.assertNotEqual(at(0.5, 0.3), low)
+
+
 class Preset(WindowTest):
     def test_one_that_is_saved_draws_the_same_picture_by_render(self):
         preset = self.folder / "preset.toml"
