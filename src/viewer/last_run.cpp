@@ -20,6 +20,8 @@ void Viewer::take_settings() {
   state_.recent = settings_.recent;
   state_.panel = settings_.panel;
   state_.vsync = settings_.vsync;
+  state_.panel_width = settings_.panel_width;
+  state_.scale = settings_.scale;
   state_.tab = settings_.tab;
   if (!settings_.params.rows().empty() && has_no_shadow_options(options_)) state_.document.params = settings_.params;
 }
@@ -32,6 +34,8 @@ void Viewer::keep_settings() {
                     .window = window_.size(),
                     .panel = state_.panel,
                     .vsync = state_.vsync,
+                    .panel_width = state_.panel_width,
+                    .scale = state_.scale,
                     .tab = state_.open_tab.empty() ? state_.tab : state_.open_tab,
                     .params = state_.document.params});
   } catch (const Error& error) {

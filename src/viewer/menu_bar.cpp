@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include "viewer/edit.h"
@@ -40,12 +41,23 @@ void edit_menu(const Panel& panel) {
   if (menu_item(panel, "Back to the scene's camera", "", shown)) use_scene_camera(state.document.options);
 }
 
+void scale_menu(const Panel& panel) {
+  if (!begin_menu(panel, "Interface scale")) return;
+  for (const int percent : {75, 100, 125, 150, 175, 200, 250, 300}) {
+    const float scale = static_cast<float>(percent) / 100.0f;
+    if (menu_item(panel, fmt::format("{} %", percent).c_str(), panel.state.scale == scale ? "now" : ""))
+      panel.state.scale = scale;
+  }
+  ImGui::EndMenu();
+}
+
 void view_menu(const Panel& panel) {
   UiState& state = panel.state;
   if (menu_item(panel, "Hide panel and menus", "Tab")) state.panel = false;
   if (menu_item(panel, state.comparison.on ? "Stop comparing" : "Compare A with B", "C"))
     state.compare(!state.comparison.on);
   if (menu_item(panel, "Tint by cascade", "T", panel.status.scene != nullptr)) toggle_cascade_tint(state.inspection);
+  scale_menu(panel);
   if (menu_item(panel, "Mouse and keys", "F1")) state.help = !state.help;
 }
 

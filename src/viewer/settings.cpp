@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 
@@ -34,6 +35,14 @@ void take(const Json& file, const char* key, bool& value) {
   if (json == nullptr) return;
   if (!json->is_boolean()) fail("'{}' takes true or false, not {}", key, json->type_name());
   value = json->get<bool>();
+}
+
+void take(const Json& file, const char* key, float least, float most, float& value) {
+  const Json* json = find(file, key);
+  if (json == nullptr) return;
+  const double number = json->is_number() ? json->get<double>() : NAN;
+  if (!(number >= least && number <= most)) fail("'{}' takes a number from {:g} to {:g}", key, least, most);
+  value = static_cast<float>(number);
 }
 
 int side_of(const Json& window, const char* key) {
@@ -109,6 +118,8 @@ Settings settings_of(const Json& file) {
   take_window(file, settings);
   take(file, "panel", settings.panel);
   take(file, "vsync", settings.vsync);
+  take(file, "panel_width", least_panel_width, most_panel_width, settings.panel_width);
+  take(file, "scale", least_scale, most_scale, settings.scale);
   take_tab(file, settings);
   take_params(file, settings);
   return settings;
@@ -149,6 +160,8 @@ Json to_json(const Settings& settings) {
     json["window"] = {{"width", settings.window->width}, {"height", settings.window->height}};
   json["panel"] = settings.panel;
   json["vsync"] = settings.vsync;
+  json["panel_width"] = std::clamp(settings.panel_width, least_panel_width, most_panel_width);
+  json["scale"] = std::clamp(settings.scale, least_scale, most_scale);
   if (settings.tab.size() <= longest_tab) json["tab"] = settings.tab;
   json["params"] = params_of(settings);
   return json;

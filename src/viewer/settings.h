@@ -10,12 +10,17 @@
 
 namespace penumbra::viewer {
 
+constexpr float usual_panel_width = 390, least_panel_width = 240, most_panel_width = 1600;  // pixels
+constexpr float least_scale = 0.75f, most_scale = 3;
+
 // What the viewer keeps from one run to the next.
 struct Settings {
   std::vector<std::string> recent;  // scenes, absolute paths, the last one first
   std::optional<cli::Size> window;  // its last size; absent if it was never saved
   bool panel = true, vsync = true;
-  std::string tab;  // the open one of the side panel; empty: the first
+  float panel_width = usual_panel_width;  // at an interface scale of 1
+  float scale = 1;                        // of the interface, beside the desktop's own
+  std::string tab;                        // the open one of the side panel; empty: the first
   ParamSet params;  // all parameters; those that the file lacks are as session::usual_technique has them
 };
 

@@ -18,7 +18,7 @@ namespace penumbra::viewer {
 
 namespace {
 
-constexpr float panel_width = 390, least_picture = 240;
+constexpr float least_picture = 240;
 constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                           ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
@@ -139,6 +139,7 @@ void Viewer::guarded(const std::function<void()>& action) {
 
 void Viewer::frame(float seconds) {
   take_events();
+  window_.set_user_scale(state_.scale);
   window_.begin();
   widgets_.begin();
   play(seconds);
@@ -252,12 +253,13 @@ PictureArea Viewer::build_interface(float seconds) {
   const Panel panel{state_, status_, widgets_};
   take_keys(panel, seconds);
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
-  const float width = std::min(panel_width * window_.scale(), std::max(whole.x - least_picture, 0.0f));
+  const float width = std::min(state_.panel_width * window_.scale(), std::max(whole.x - least_picture, 0.0f));
   const bool beside = state_.panel;
   const float top = beside ? menu_bar(panel) : 0.0f, left = beside ? width : 0.0f;
   const float bar = ImGui::GetFrameHeight() + 4 * window_.scale();
   if (beside) side_panel(panel, top, width);
   const PictureArea area = picture_window(panel, {left, top}, {whole.x - left, std::max(whole.y - top - bar, 1.0f)});
+  if (beside) panel_edge(panel, {left, top}, whole.y - top);
   ImGui::SetNextWindowPos({left, whole.y - bar});
   ImGui::SetNextWindowSize({whole.x - left, bar});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10 * window_.scale(), 2 * window_.scale()});
@@ -273,6 +275,27 @@ PictureArea Viewer::build_interface(float seconds) {
   closing_question(panel);
   state_.popup_open = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   return area;
+}
+
+// The edge between panel and picture, which the mouse drags.
+void Viewer::panel_edge(const Panel& panel, const ImVec2& upper, float height) {
+  const float grip = 3 * window_.scale();
+  ImGui::SetNextWindowPos({upper.x - grip, upper.y});
+  ImGui::SetNextWindowSize({2 * grip, std::max(height, 1.0f)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+  // Windows that are never brought to the front lie behind those before them, and this one lies over both.
+  constexpr ImGuiWindowFlags flags = (fixed_window & ~ImGuiWindowFlags_NoBringToFrontOnFocus) |
+                                     ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNav |
+                                     ImGuiWindowFlags_NoFocusOnAppearing;
+  ImGui::Begin("panel edge", nullptr, flags);
+  ImGui::PopStyleVar(2);
+  ImGui::InvisibleButton("edge", {2 * grip, std::max(height, 1.0f)});
+  panel.widgets.mark("panel edge");
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (ImGui::IsItemActive() && ImGui::IsMousePosValid())
+    state_.panel_width = std::clamp(ImGui::GetIO().MousePos.x / window_.scale(), least_panel_width, most_panel_width);
+  ImGui::End();
 }
 
 PictureArea Viewer::picture_window(const Panel& panel, const ImVec2& corner, const ImVec2& size) {

@@ -73,6 +73,7 @@ class Viewer {
   void play(float seconds);
   PictureArea build_interface(float seconds);
   void side_panel(const Panel& panel, float top, float width);
+  void panel_edge(const Panel& panel, const ImVec2& upper, float height);
   PictureArea picture_window(const Panel& panel, const ImVec2& corner, const ImVec2& size);
   void draw_pictures(const PictureArea& area, double now);
   FrameState frame_state(const Document& b, const PictureArea& area, double now);

@@ -108,10 +108,11 @@ void Window::set_up_interface() {
 float Window::wanted_scale() const {
   float x = 1, y = 1;
   glfwGetWindowContentScale(window_, &x, &y);
-  return std::isfinite(x) && x > 0 ? x : 1.0f;
+  return user_scale_ * (std::isfinite(x) && x > 0 ? x : 1.0f);
 }
 
 void Window::apply_scale(float scale) {
+  const bool is_first = scale_ == 0;
   scale_ = scale;
   ImGuiIO& io = ImGui::GetIO();
   io.Fonts->Clear();
@@ -124,7 +125,12 @@ void Window::apply_scale(float scale) {
     config.SizePixels = size;
     io.Fonts->AddFontDefault(&config);
   }
-  ImGui_ImplOpenGL3_DestroyDeviceObjects();  // the next frame creates them again, with the new font
+  // The first frame creates the first texture. Not all of the backend's objects are replaced: Dear ImGui 1.86 would
+  // believe that its new buffers are as large as the old ones, and draw nothing.
+  if (!is_first) {
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+  }
   set_theme(scale);
 }
 

@@ -38,8 +38,9 @@ class Window {
 
   // Of the framebuffer; 0 while it is minimised.
   glm::ivec2 pixels() const;
-  // The desktop's content scale: 2 on a screen with twice as many dots per inch.
+  // The desktop's content scale, 2 on a screen with twice as many dots per inch, times the user's.
   float scale() const { return scale_; }
+  void set_user_scale(float scale) { user_scale_ = scale; }
   // In the desktop's units, while it is neither minimised nor maximised; else as it was before.
   cli::Size size();
   // Shows it again if it is minimised.
@@ -72,7 +73,7 @@ class Window {
 
   std::unique_ptr<gl::Context> context_;
   GLFWwindow* window_ = nullptr;
-  float scale_ = 0;
+  float scale_ = 0, user_scale_ = 1;
   cli::Size size_;
   std::vector<std::string> dropped_;
   glm::vec2 dots_{1};             // pixels of the framebuffer over units of the window

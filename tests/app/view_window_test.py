@@ -70,6 +70,34 @@ class Size(WindowTest):
             self.assertEqual(viewer.signal(signal.SIGTERM), 128 + signal.SIGTERM)
 
 
+class Panel(WindowTest):
+    def test_its_edge_and_the_scale_are_dragged_and_chosen_and_kept(self):
+        home = self.folder / "home"
+        home.mkdir()
+        with self.view(STEPS, home=home, size=(1000, 600)) as viewer:
+            left, height_before = viewer.box("picture")[0], height(viewer.box("technique"))
+            x, y = viewer.middle("panel edge")
+            self.assertLess(abs(x - left), 2)
+            self.desktop.xdotool("mousemove", "--window", viewer.window, x, y, "mousedown", 1)
+            viewer.follow()
+            viewer.move(x + 120, y)
+            viewer.follow()
+            self.desktop.xdotool("mouseup", 1)
+            viewer.wait_for(lambda: viewer.box("picture")[0] == x + 120, "a wider panel")
+            self.assertGreater(len(viewer.rest().colors()), 30)
+            viewer.click("menu View", lambda: viewer.has("menu Interface scale"), "the menu")
+            viewer.click("menu Interface scale", lambda: viewer.has("menu=125 %"), "the scales")
+            viewer.click("menu=125 %", lambda: not viewer.has("menu=125 %"), "the menu to close")
+            viewer.wait_for(lambda: height(viewer.box("technique")) > height_before, "a larger interface")
+            self.assertAlmostEqual(height(viewer.box("technique")) / height_before, 1.25, delta=0.08)
+            viewer.rest()
+            wanted = viewer.box("panel edge"), viewer.box("technique")
+            viewer.tap("Escape")
+            self.assertEqual(viewer.exit_code(), 0)
+        with self.view(STEPS, home=home, size=(1000, 600)) as viewer:
+            self.assertEqual((viewer.box("panel edge"), viewer.box("technique")), wanted)
+
+
 class Scale(TestCase):
     def test_twice_the_dots_take_twice_the_pixels(self):
         boxes = []

@@ -78,6 +78,8 @@ TEST_F(ViewerSettings, WhatWasWrittenIsReadBack) {
   settings.window = {1234, 567};
   settings.panel = settings.vsync = false;
   settings.tab = "Cost";
+  settings.panel_width = 512.5f;
+  settings.scale = 1.75f;
   for (const Param& row : settings.params.rows()) {
     if (const bool* flag = std::get_if<bool>(&row.default_value)) settings.params.set(row.name, !*flag);
     if (const float* quantity = std::get_if<float>(&row.default_value))
@@ -93,6 +95,8 @@ TEST_F(ViewerSettings, WhatWasWrittenIsReadBack) {
   EXPECT_FALSE(again.panel);
   EXPECT_FALSE(again.vsync);
   EXPECT_EQ(again.tab, "Cost");
+  EXPECT_EQ(again.panel_width, 512.5f);
+  EXPECT_EQ(again.scale, 1.75f);
   for (const Param& row : settings.params.rows())
     EXPECT_EQ(again.params.value(row.name), settings.params.value(row.name)) << row.name;
 }
@@ -132,6 +136,10 @@ TEST_F(ViewerSettings, AWrongPartSpoilsTheWhole) {
                            R"("window": {"width": 18446744073709551617, "height": 9})",
                            R"("window": {"width": 1000000000, "height": 9})"}) {
     expect_fault(good + part + "}", "'window");
+  }
+  for (const char* value : {"0.5", "4", "-1", "\"1\"", "null", "[1]", "1e300"}) {
+    expect_fault(good + "\"scale\": " + value + "}", "'scale' takes a number from 0.75 to 3");
+    expect_fault(good + "\"panel_width\": " + value + "}", "'panel_width' takes a number from 240 to 1600");
   }
   expect_fault(good + R"("tab": 3})", "'tab'");
   expect_fault(good + R"("tab": ")" + std::string(1000, 'x') + "\"}", "'tab'");
@@ -230,6 +238,8 @@ TEST_F(ViewerSettings, WhatIsWrittenCanAlwaysBeRead) {
   for (int i = 0; i < 20; ++i) settings.recent.emplace_back("/more.glb");
   settings.window = {0, 1'000'000'000};
   settings.tab = std::string(100, 't');
+  settings.panel_width = -5;
+  settings.scale = 1e9f;
   settings.params.set_text("cascades.count", "8");
   settings.params.set_text("cascades.size", "8192");
   viewer::write_settings(settings);
@@ -237,6 +247,8 @@ TEST_F(ViewerSettings, WhatIsWrittenCanAlwaysBeRead) {
   ASSERT_EQ(again.recent.size(), viewer::most_recent);
   EXPECT_EQ(again.recent.front(), "/good.glb");
   EXPECT_FALSE(again.window);
+  EXPECT_EQ(again.panel_width, viewer::least_panel_width);
+  EXPECT_EQ(again.scale, viewer::most_scale);
   EXPECT_TRUE(again.params.is_default("cascades.size")) << "more memory than --set would grant";
 }
 
