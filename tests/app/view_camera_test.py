@@ -57,7 +57,9 @@ class Bookmarks(Camera):
             self.assertEqual(self.camera(viewer), first)
             self.tap(viewer, "ctrl+z")
             self.assertEqual(self.camera(viewer), second)
-            self.tap(viewer, "ctrl+z", "1")  # takes back that 9 was stored
+            self.tap(viewer, "ctrl+z")  # takes back that 9 was stored, and nothing else
+            self.assertEqual(self.camera(viewer), second)
+            self.tap(viewer, "1")
             self.tap(viewer, "9")
             self.assertEqual(self.camera(viewer), first)
 
