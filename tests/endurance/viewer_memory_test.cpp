@@ -47,10 +47,10 @@ class ViewerMemory : public GpuTest {
                                                  session::load_scene(document_.options, image::image_decoder()));
   }
 
-  void draw(viewer::LoadedScene& scene, int frames, int divisor = 1) {
+  void draw(viewer::LoadedScene& scene, int frames, const viewer::Detail& detail = {}) {
     for (int i = 0; i < frames; ++i) {
       document_.params.set("sampling.seed", i % 2);  // changes the document, as a user would
-      renderer_of_a_.draw(scene, document_, divisor);
+      renderer_of_a_.draw(scene, document_, detail);
       device_.timers.take();
     }
   }
@@ -78,7 +78,7 @@ TEST_F(ViewerMemory, IsFlatOverFiftyScenesAndTheirSizes) {
     const auto scene = load(number % 2 == 0 ? "steps.glb" : "posts.glb");
     document_.options.size = {64 + 16 * (number % 3), 48};
     renderer_of_a_.cut();
-    draw(*scene, 2, 1 + number % 2);
+    draw(*scene, 2, number % 2 == 0 ? viewer::Detail{} : viewer::Detail{.picture = 2});
   };
   for (int i = 0; i < 12; ++i) show(i);
   const std::size_t before = resident();

@@ -21,8 +21,8 @@ class ViewerKeep : public GpuTest {
   }
 
   // How many maps the next frame draws.
-  std::size_t maps(int divisor = 1) {
-    picture_.draw(*scene_, document_, divisor);
+  std::size_t maps(const viewer::Detail& detail = {}) {
+    picture_.draw(*scene_, document_, detail);
     const auto& work = device_.timers.work();
     const auto found = work.find("shadow map");
     return found == work.end() ? 0 : found->second.draws;
@@ -43,10 +43,18 @@ TEST_F(ViewerKeep, TuningAFilterDrawsNoMaps) {
                                     {"exposure.compensation", "1"}}) {
     document_.params.set_text(name, value);
     EXPECT_EQ(maps(), 0u) << name;
-    EXPECT_EQ(maps(/*divisor=*/2), 0u) << name << ", drawn smaller while the user drags";
+    EXPECT_EQ(maps({.picture = 2, .reads = 2}), 0u) << name << ", drawn smaller while the user drags";
     picture_.restart();
     EXPECT_EQ(maps(), 0u) << name << ", at full size again";
   }
+}
+
+TEST_F(ViewerKeep, SmallerMapsWhileTheViewMovesAndThoseOfTheRestAreDrawn) {
+  document_.params.set("cascades.size", 512);
+  maps();
+  EXPECT_GT(maps({.maps = 2}), 0u);
+  EXPECT_EQ(maps({.maps = 2}), 0u);
+  EXPECT_GT(maps(), 0u);
 }
 
 TEST_F(ViewerKeep, ARestartGivesThePictureOfAFirstFrame) {
