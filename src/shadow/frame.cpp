@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <utility>
@@ -209,6 +210,9 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, const ViewS
   frame.shape = shape_of(light.source, state.params);
   if (frame.shape.lamp && technique.suns_only) {
     fail("soft shadows: light {} is a lamp, and technique '{}' is for suns alone", light.id, technique.name);
+  }
+  if (frame.shape.square && light.maps && std::abs(std::sin(2 * frame.projection.cascades().turn)) > 1e-3) {
+    fail("soft shadows: the maps of light {} are turned about its rays, which a square sun does not allow", light.id);
   }
   take_shape(state, frame.shape);
   begin_frame(state, light, frame.projection.layers(), same_params);

@@ -14,7 +14,7 @@ namespace penumbra::shadow {
 
 namespace {
 
-// By how much directions may differ because matrices were rounded to floats, radians.
+// By how much directions may differ, radians: what matrices of floats round away, and more; see check_places().
 constexpr double same_direction = 1e-3;
 
 template <typename... Args>
@@ -39,6 +39,15 @@ struct Axes {
   Axis x, y, z;
 };
 
+// The clip space whose z is in 0..1, with w = 1.
+glm::dmat4 zero_to_one(glm::dmat4 world_to_clip, bool already) {
+  world_to_clip /= world_to_clip[3].w;
+  if (already) return world_to_clip;
+  for (glm::length_t column = 0; column < 4; ++column) world_to_clip[column].z *= 0.5;
+  world_to_clip[3].z += 0.5;
+  return world_to_clip;
+}
+
 Axes axes_of(const SunMatrices& maps, std::size_t layer) {
   glm::dmat4 matrix(maps.world_to_clip[layer]);
   for (glm::length_t column = 0; column < 4; ++column) {
@@ -51,11 +60,7 @@ Axes axes_of(const SunMatrices& maps, std::size_t layer) {
   if (w == 0 || glm::length(warp) > 1e-9 * std::abs(w)) {
     refuse(layer, "is warped (clip w is not constant): penumbrae need maps whose texels all have the same size");
   }
-  matrix /= w;
-  if (!maps.depth_zero_to_one) {
-    for (glm::length_t column = 0; column < 4; ++column) matrix[column].z *= 0.5;
-    matrix[3].z += 0.5;
-  }
+  matrix = zero_to_one(matrix, maps.depth_zero_to_one);
   const glm::dvec3 anchor(maps.camera);
   const Axes axes{axis_of(matrix, 0, anchor), axis_of(matrix, 1, anchor), axis_of(matrix, 2, anchor)};
   for (const Axis* axis : {&axes.x, &axes.y, &axes.z}) {
@@ -105,7 +110,42 @@ Cascade cascade_of(const Axes& axes, const Cascades& cascades) {
   return cascade;
 }
 
-double texel_of(const Cascade& cascade) { return glm::max(cascade.half_extent.x, cascade.half_extent.y); }
+// Half of a layer's longer side, metres.
+double half_side_of(const Cascade& cascade) { return glm::max(cascade.half_extent.x, cascade.half_extent.y); }
+
+// What differs is what this library reads and what the caller draws: a part of a texel, or of a texel's width in depth.
+void check_places(const Cascades& cascades, const SunMatrices& maps, std::size_t layer) {
+  const Cascade& cascade = cascades.items[layer];
+  const glm::dmat4 drawn = zero_to_one(glm::dmat4(maps.world_to_clip[layer]), maps.depth_zero_to_one);
+  const glm::dmat4 to_world = glm::inverse(cascade.world_to_clip);
+  const double range = static_cast<double>(cascade.far_z) - cascade.near_z;
+  const double depth_of_texel = 2 * half_side_of(cascade) / cascades.size / range;
+  for (int i = 0; i < 8; ++i) {
+    const glm::dvec3 corner((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : 0);
+    const glm::dvec4 at = drawn * to_world * glm::dvec4(corner, 1);
+    const glm::dvec3 apart = glm::abs(glm::dvec3(at) / at.w - corner);
+    if (std::max({apart.x * cascades.size / 2, apart.y * cascades.size / 2, apart.z / depth_of_texel}) > 0.25) {
+      refuse(layer, "does not look along the sun's rays exactly: at its border that is more than a quarter of a texel");
+    }
+  }
+}
+
+// A receiver's search begins in the last layer, which shows how near to the light its casters can be.
+void check_last(const Cascades& cascades) {
+  const Cascade& last = cascades.items.back();
+  const glm::dvec2 low = last.center - last.half_extent, high = last.center + last.half_extent;
+  const double rounding = 0.5 * half_side_of(last) / cascades.size;
+  for (std::size_t layer = 0; layer + 1 < cascades.items.size(); ++layer) {
+    const Cascade& cascade = cascades.items[layer];
+    const glm::dvec2 from = cascade.center - cascade.half_extent, to = cascade.center + cascade.half_extent;
+    if (glm::any(glm::lessThan(from, low - rounding)) || glm::any(glm::greaterThan(to, high + rounding))) {
+      refuse(layer, "reaches beyond the last one, which must hold all others: receivers look for casters there first");
+    }
+    if (cascade.near_z < last.near_z - rounding) {
+      refuse(layer, "begins nearer to the sun than the last one, which must hold all casters of the others");
+    }
+  }
+}
 
 void check_casters(const Cascades& cascades, std::size_t layer, const Box& casters) {
   if (glm::any(glm::greaterThan(casters.min, casters.max))) return;
@@ -126,12 +166,16 @@ void check_casters(const Cascades& cascades, std::size_t layer, const Box& caste
 
 LightProjection sun_projection(const SunMatrices& maps) {
   const std::size_t count = maps.world_to_clip.size();
+  const auto finite = [](const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
   if (count < 1 || count > max_cascades) {
     fail("shadow maps by the caller's matrices: {} layers, not 1 to {}", count, max_cascades);
   }
   if (maps.size < 1) fail("shadow maps by the caller's matrices: a size of {} texels", maps.size);
   if (const std::string fault = fault_of(Sun{maps.to_light}); !fault.empty()) {
     fail("shadow maps by the caller's matrices: the sun {}", fault);
+  }
+  if (!finite(maps.camera) || !finite(maps.casters.min) || !finite(maps.casters.max)) {
+    fail("shadow maps by the caller's matrices: the camera or the casters' box is not finite");
   }
   Cascades cascades;
   cascades.anchor = glm::dvec3(maps.camera);
@@ -146,12 +190,18 @@ LightProjection sun_projection(const SunMatrices& maps) {
       refuse(layer, "is turned against layer 0 about the sun's rays");
     }
     cascades.items.push_back(cascade_of(axes, cascades));
-    if (layer > 0 && texel_of(cascades.items[layer]) < texel_of(cascades.items[layer - 1])) {
+    if (layer > 0 && half_side_of(cascades.items[layer]) < half_side_of(cascades.items[layer - 1])) {
       refuse(layer, "has finer texels than the layer before it: order layers from the finest to the coarsest");
     }
+    check_places(cascades, maps, layer);
     check_casters(cascades, layer, maps.casters);
   }
-  return cascades;
+  check_last(cascades);
+  LightProjection projection(std::move(cascades));
+  if (const std::string fault = projection.fault(); !fault.empty()) {
+    fail("shadow maps by the caller's matrices: {}", fault);
+  }
+  return projection;
 }
 
 }  // namespace penumbra::shadow

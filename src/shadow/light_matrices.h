@@ -11,7 +11,8 @@ namespace penumbra::shadow {
 struct SunMatrices {
   // From world space to each layer's clip space, finest layer first; 1 to max_layers of them. Orthographic: x, y in
   // -1..1 within the map, z growing away from the light. A receiver reads the first layer that holds its search disc,
-  // so layers may overlap or contain each other.
+  // so layers may overlap or contain each other. The last one must hold all others: in it receivers look first for how
+  // near to the light casters can be. What lies beyond a far plane casts and receives no shadow.
   std::span<const glm::mat4> world_to_clip;
   bool depth_zero_to_one = true;  // clip-space z in 0..1; else -1..1. The map stores 0 near and 1 far in both cases.
   glm::vec3 to_light{0, 1, 0};    // as in Sun
@@ -26,10 +27,12 @@ struct SunMatrices {
 // The projection of these maps, for FinishedMaps::projection. Throws Error, in one line that names the layer, where
 // they can't serve:
 //   - perspective or otherwise warped maps, such as trapezoidal or light-space perspective ones, and skewed ones;
-//   - maps that do not look along the sun's rays, are mirrored, are turned against each other, or store 1 near the
-//     light;
+//   - maps that do not look along the sun's rays to a quarter of a texel, are mirrored, are turned against each other,
+//     or store 1 near the light;
 //   - maps whose near plane lies behind casters above them;
-//   - a finer layer behind a coarser one, matrices that are not finite, a wrong number of layers or size.
+//   - a last layer that does not hold the others, or that begins farther from the light than one of them;
+//   - a finer layer behind a coarser one, input that is not finite, a wrong number of layers or size.
+// With a square sun, render() refuses maps whose x axis is not horizontal: the square is that of light_axes().
 LightProjection sun_projection(const SunMatrices& maps);
 
 }  // namespace penumbra::shadow

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "gpu/triangle_scene.h"
 #include "shadow/light_matrices.h"
 
@@ -15,14 +16,14 @@ namespace {
 
 constexpr int size = 1024;
 
-// Slices of the view as engines fit them: each about a part of the ground, so that the coarser one does not hold all of
-// the finer one; rolled about the sun's rays.
+// Slices of the view as engines fit them, neither of which holds the other, and a map that holds both; rolled about the
+// sun's rays.
 std::vector<glm::mat4> slices(const glm::vec3& to_light) {
-  const auto slice = [&](const glm::vec3& target, float half) {
-    return glm::orthoRH_ZO(-half, half, -half, half, 1.0f, 60.0f) *
-           glm::lookAt(target + 30.0f * to_light, target, glm::vec3(0.4f, 1, 0.2f));
+  const auto slice = [&](const glm::vec3& target, float half, float away) {
+    return glm::orthoRH_ZO(-half, half, -half, half, 1.0f, 2 * away) *
+           glm::lookAt(target + away * to_light, target, glm::vec3(0.4f, 1, 0.2f));
   };
-  return {slice({0, 0, 3}, 3), slice({0, 0, -1}, 6)};
+  return {slice({0, 0, 3}, 3, 30), slice({0, 0, -1}, 3.5f, 30), slice({0, 0, 0}, 9, 40)};
 }
 
 class ShadowMatrices : public TriangleTest {
@@ -63,10 +64,12 @@ class ShadowMatrices : public TriangleTest {
     params.set("technique", technique);
     params.set("sun.angle", 6.0f);
     params.set("cascades.size", size);
+    params.set("sun.shape", shape_);
     return renderer_->render(scene_, params, adjust);
   }
 
   TriangleScene scene_ = box_on_ground(192);
+  std::string shape_ = "disc";
 };
 
 TEST_F(ShadowMatrices, OfTheEnginesOwnGiveTheSameShadows) {
@@ -82,6 +85,17 @@ TEST_F(ShadowMatrices, OfTheEnginesOwnGiveTheSameShadows) {
     EXPECT_LE(different, 8) << technique;
     EXPECT_GT(dark, 500) << technique;
     EXPECT_GT(penumbra, 200) << technique;
+  }
+}
+
+TEST_F(ShadowMatrices, TurnedOnesDoNotServeASquareSun) {
+  shape_ = "square";
+  try {
+    draw_with(slices(scene_.to_light), "pcss");
+    FAIL() << "nothing thrown";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "soft shadows: the maps of light 0 are turned about its rays, which a square sun does not allow");
   }
 }
 

@@ -44,7 +44,7 @@ std::string refusal(const SunMatrices& maps) {
 std::string refusal(const std::vector<glm::mat4>& matrices) { return refusal(maps_of(matrices)); }
 
 TEST(LightMatrices, PlaceTheSameTexelsAndDepths) {
-  const std::vector<glm::mat4> matrices{map_matrix({1, 0, 2}, 5), map_matrix({-2, 0, -9}, 24)};
+  const std::vector<glm::mat4> matrices{map_matrix({1, 0, 2}, 5), map_matrix({-2, 0, -9}, 24, 0.3f, -10, 69)};
   const LightProjection projection = sun_projection(maps_of(matrices));
   ASSERT_EQ(projection.layers(), 2);
   EXPECT_EQ(projection.size(), 1024);
@@ -52,7 +52,7 @@ TEST(LightMatrices, PlaceTheSameTexelsAndDepths) {
   for (int layer = 0; layer < 2; ++layer) {
     const auto i = static_cast<std::size_t>(layer);
     EXPECT_NEAR(projection.texel(layer).x, (layer == 0 ? 10.0 : 48.0) / 1024, 1e-6);
-    EXPECT_NEAR(projection.depth_range(layer), 59, 1e-4);
+    EXPECT_NEAR(projection.depth_range(layer), layer == 0 ? 59 : 79, 1e-4);
     for (const glm::dvec3 at : {glm::dvec3(0), {3, 2, -4}, {-7, 1, 11}}) {
       const glm::dvec3 expected = clip(glm::dmat4(matrices[i]), at), made = clip(projection.world_to_clip(layer), at);
       EXPECT_LT(glm::length(expected - made), 1e-4) << layer;  // of a map: a tenth of a texel
@@ -107,6 +107,29 @@ TEST(LightMatrices, MatricesThatCannotServeAreRefusedWithTheReason) {
   EXPECT_EQ(refusal({endless}), begin + "0 has a matrix that is not finite");
 }
 
+TEST(LightMatrices, TheLastLayerMustHoldAllOthers) {
+  const std::string begin = "shadow maps by the caller's matrices: layer 0 ";
+  const glm::mat4 good = map_matrix({1, 0, 2}, 5);
+  EXPECT_EQ(refusal({good, map_matrix({1, 0, 2}, 20)}), "accepted");
+  EXPECT_EQ(refusal({good, map_matrix({30, 0, 0}, 20, 0.3f, -40, 80)}),
+            begin + "reaches beyond the last one, which must hold all others: receivers look for casters there first");
+  EXPECT_EQ(refusal({good, map_matrix({1, 0, 2}, 20, 0.3f, 5, 60)}),
+            begin + "begins nearer to the sun than the last one, which must hold all casters of the others");
+}
+
+// Half a thousandth of a radian is a few texels at the border of the map.
+TEST(LightMatrices, ASunThatIsNotTheMapsOwnIsNoticed) {
+  const std::vector<glm::mat4> matrices{map_matrix({1, 0, 2}, 5)};
+  SunMatrices maps = maps_of(matrices);
+  maps.to_light = glm::normalize(to_light + glm::vec3(5e-4f, 0, 0));
+  EXPECT_EQ(
+      refusal(maps),
+      "shadow maps by the caller's matrices: layer 0 does not look along the sun's rays exactly: at its border that "
+      "is more than a quarter of a texel");
+  maps.to_light = glm::normalize(to_light + glm::vec3(1e-6f, 0, 0));
+  EXPECT_EQ(refusal(maps), "accepted");
+}
+
 TEST(LightMatrices, TheNumberOfLayersTheSizeAndTheSunAreChecked) {
   const std::string begin = "shadow maps by the caller's matrices: ";
   EXPECT_EQ(refusal(std::vector<glm::mat4>()), begin + "0 layers, not 1 to 8");
@@ -115,6 +138,9 @@ TEST(LightMatrices, TheNumberOfLayersTheSizeAndTheSunAreChecked) {
   SunMatrices maps = maps_of(matrices);
   maps.size = 0;
   EXPECT_EQ(refusal(maps), begin + "a size of 0 texels");
+  maps = maps_of(matrices);
+  maps.casters.min.x = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(refusal(maps), begin + "the camera or the casters' box is not finite");
   maps = maps_of(matrices);
   maps.to_light = glm::vec3(0);
   EXPECT_TRUE(refusal(maps).starts_with(begin + "the sun ")) << refusal(maps);

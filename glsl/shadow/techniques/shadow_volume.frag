@@ -9,10 +9,12 @@ flat in vec3 corner_a, corner_b, corner_c;
 layout(location = 0) out vec4 mask;
 
 // On which side of the plane through an edge and the light a position is. Triangles with a common edge have its ends in
-// the same order, so they get the same number, and none of the positions is outside of both.
+// the same order, so they get the same number, and none of the positions is outside of both. `precise` does not reach
+// into functions, so none is called.
 float side(vec3 from, vec3 to, vec3 position) {
-  precise vec3 normal = cross(towards_light(from), to - from);
-  precise float distance = dot(normal, position - from);
+  precise vec3 ray = light.xyz - light.w * from, edge = to - from, way = position - from;
+  precise vec3 normal = ray.yzx * edge.zxy - ray.zxy * edge.yzx;
+  precise float distance = normal.x * way.x + normal.y * way.y + normal.z * way.z;
   return distance;
 }
 

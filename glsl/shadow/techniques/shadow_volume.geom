@@ -11,6 +11,7 @@ layout(triangle_strip, max_vertices = 24) out;
 flat out vec3 corner_a, corner_b, corner_c;
 
 const float largest_miter = 64.0;  // margins that a corner moves at most: it can be sharp
+const float longest_lead = 256.0;  // margins by which a volume begins before its triangle at most
 const float overhang = 64.0;       // margins by which a volume reaches beyond the receivers
 const float longest = 1e9;         // times a frustum's end is as large as its beginning at most
 
@@ -32,6 +33,13 @@ vec3 miter(vec3 previous, vec3 corner, vec3 next, vec3 ray) {
   bool acute = dot(from_next, from_previous) > 0.0;
   vec3 outwards = acute ? from_next + from_previous : cross(apart, ray);
   return unit(outwards) * min(1.0 / max(half_sine, 1e-30), largest_miter);
+}
+
+// By how many margins a corner that moves across its ray has to move towards the light too, to be one before the
+// triangle's plane.
+float lead(vec3 way, vec3 ray, vec3 normal) {
+  float before = dot(way, normal), rise = abs(dot(ray, normal));
+  return min(1.0 + max(-before, 0.0) / max(rise, 1e-30), longest_lead);
 }
 
 float margin_at(vec3 position) { return margin * abs((to_clip * vec4(position, 1.0)).w); }
@@ -102,6 +110,7 @@ void main() {
   float end = end_of(corners, abs(along) / length(normal));
   if (!(end > begin)) return;
 
+  vec3 lit_normal = normal * (along < 0.0 ? -1.0 : 1.0) / length(normal);
   vec3 near[3], far[3];
   for (int i = 0; i < 3; ++i) {
     vec3 corner = corners[i], ray = ray_at(corner);
@@ -112,7 +121,7 @@ void main() {
     vec3 last = corner + end * ray;
 #endif
     float near_margin = margin_at(corner), far_margin = margin_at(last);
-    near[i] = corner + near_margin * way - min(near_margin, 0.5 * away[i]) * ray;
+    near[i] = corner + near_margin * way - min(near_margin * lead(way, ray, lit_normal), 0.5 * away[i]) * ray;
     far[i] = last + far_margin * (way + overhang * ray);
   }
 

@@ -2,6 +2,7 @@
 // volumes may hold it.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <string>
 #include <string_view>
@@ -21,6 +22,7 @@ struct Volumes {
   glm::vec4 camera, eye, light, receivers_min, receivers_max;
   float margin = 0, nearest = 0, unused[2] = {};
 };
+static_assert(offsetof(Volumes, camera) == 64 && offsetof(Volumes, margin) == 144 && sizeof(Volumes) == 160);
 constexpr GLuint volumes_binding = block_samples;  // the technique has no sample points
 
 // To the clip space whose depths, 0..1, are those of the receivers' texture;
