@@ -17,5 +17,7 @@ struct Detail {
 // The parameters with smaller maps and fewer reads of their technique; never below what still looks like its shadows,
 // nor above what they ask for. The technique `truth` stays as it is.
 ParamSet reduced(const ParamSet& params, const Detail& detail);
+// The detail without what leaves these parameters as they are.
+Detail effective(const ParamSet& params, const Detail& detail);
 
 }  // namespace penumbra::viewer

@@ -27,7 +27,7 @@ FramePacing::Step FramePacing::next(double now, bool changed, bool ui_active, in
     restarted_ = false;
     Detail detail;
     if (software_) detail = travels ? levels.at(level_) : Detail{.picture = divisor_};
-    return {.draw = true, .divisor = detail.picture, .detail = detail};
+    return {.draw = true, .detail = detail};
   }
   const bool idle = now - last_change_ >= idle_seconds;
   if (!software_) return {.draw = true, .idle = idle};
@@ -71,8 +71,9 @@ void FramePacing::drew_travelling(double milliseconds) {
   }
 }
 
-void FramePacing::drew(int divisor, double milliseconds) {
+void FramePacing::drew(const Detail& detail, double milliseconds) {
   if (travelling_) return drew_travelling(milliseconds);
+  const int divisor = detail.picture;
   if (divisor == 1 && milliseconds < fast_ms) go_to(0);
   // Cost is about proportional to the number of pixels, so a frame of another size predicts this one's.
   const double expected = divisor == divisor_ ? milliseconds : milliseconds * divisor * divisor / divisor_ / divisor_;

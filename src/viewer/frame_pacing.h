@@ -20,7 +20,6 @@ class FramePacing {
 
   struct Step {
     bool draw = false;
-    int divisor = 1;  // of both sides of the picture: detail.picture
     Detail detail;
     bool idle = false;     // nothing has changed for a while
     bool restart = false;  // the first full-size frame after motion: drawn without the motion's history
@@ -33,7 +32,7 @@ class FramePacing {
   bool software() const { return software_; }
 
   // Reports how long the frame of the last step took, which chooses the detail of the next ones.
-  void drew(int divisor, double milliseconds);
+  void drew(const Detail& detail, double milliseconds);
 
  private:
   static constexpr double idle_seconds = 0.25;         // without a change

@@ -56,7 +56,7 @@ FramePlan plan_frame(FramePacing& pacing, const FrameState& state) {
   const FramePacing::Step step =
       pacing.next(state.now, moves, state.ui_active, wanted - missing, wanted, state.travels);
 
-  FramePlan plan{.divisor = step.divisor, .detail = step.detail, .idle = missing == 0 && !state.truth_pending};
+  FramePlan plan{.detail = step.detail, .idle = missing == 0 && !state.truth_pending};
   plan.cancel_truth = state.truth_pending && !waits_for_truth(a) && !waits_for_truth(b);
   const std::array<Side, 2> sides{{{a, plan.a, /* follows_motion= */ true, /* is_last= */ !state.last_is_b},
                                    {b, plan.b, b_follows, state.last_is_b}}};

@@ -39,7 +39,6 @@ struct PicturePlan {
 // What the next frame of the viewer does.
 struct FramePlan {
   PicturePlan a, b;
-  int divisor = 1;  // of both sides of the picture: detail.picture
   Detail detail;
   bool inspect = false;       // read A's values back without drawing
   bool cancel_truth = false;  // neither picture needs what the background traces

@@ -1,5 +1,7 @@
 #include "viewer/json_file.h"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <vector>
 

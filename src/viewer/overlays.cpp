@@ -5,6 +5,7 @@
 #include <array>
 
 #include "session/techniques.h"
+#include "viewer/detail.h"
 #include "viewer/panels.h"
 #include "viewer/targets.h"
 
@@ -205,8 +206,9 @@ void status_bar(const Panel& panel) {
     const glm::ivec2 full(panel.state.document.options.size.width, panel.state.document.options.size.height);
     text += fmt::format("{} × {}", status.drawn_size.x, status.drawn_size.y);
     if (status.drawn_size != full) text += fmt::format(" of {} × {}", full.x, full.y);
-    if (status.detail.maps > 1) text += fmt::format("   maps 1/{}", status.detail.maps);
-    if (status.detail.reads > 1) text += fmt::format("   taps 1/{}", status.detail.reads);
+    const Detail detail = effective(panel.state.document.params, status.detail);
+    if (detail.maps > 1) text += fmt::format("   maps 1/{}", detail.maps);
+    if (detail.reads > 1) text += fmt::format("   taps 1/{}", detail.reads);
     text +=
         fmt::format("   {:.1f} ms   {}", status.costs_a.frame(), session::technique_label(panel.state.document.params));
     text += status.idle ? "   idle" : "   " + progress(status);

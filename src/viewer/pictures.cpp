@@ -126,7 +126,7 @@ void Viewer::draw_sides(std::span<const SideWork> work, const Detail& detail, do
     last_is_b_ = &each.side == &b_;
   }
   if (!readable_) return;
-  pacing_.drew(detail.picture, milliseconds);
+  pacing_.drew(detail, milliseconds);
   status_.detail = detail;
   status_.drawn_size = {a_.renderer.picture().width(), a_.renderer.picture().height()};
   status_.frames = a_.renderer.frames();

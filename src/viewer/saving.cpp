@@ -2,6 +2,8 @@
 #include <imgui.h>
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "core/error.h"
@@ -38,9 +40,10 @@ void Viewer::take_preset_option() {
   if (alone && is_preset(options_.presets.front())) note_preset(options_.presets.front());
 }
 
-// Tells the interface what is not saved.
+// Tells the interface what is not saved. Without a scene there is no view to lose.
 void Viewer::update_unsaved() {
   if (!options_.defaults) status_.unsaved = unsaved(saved_, present_edit());
+  if (scene_ == nullptr) status_.unsaved.view = false;
   status_.saved_to = scene_ == nullptr ? "" : view_file(state_.document.options.scene).filename().string();
   status_.preset = saved_.preset;
   if (scene_ == nullptr) return;
@@ -50,13 +53,17 @@ void Viewer::update_unsaved() {
   title_ = std::move(title);
 }
 
-void Viewer::save() {
-  if (options_.defaults) fail("nothing is saved: --defaults was given");
+void Viewer::save_view() {
   const std::filesystem::path file = view_file(state_.document.options.scene);
   if (!view_fault_.empty()) fail("cannot write {}: what is there could not be read", io::quoted(file));
   write_view(state_.document.options.scene, {.options = state_.document.options, .bookmarks = state_.bookmarks});
   note_saved_view();
   tell(state_, "wrote " + file.string(), ImGui::GetTime());
+}
+
+void Viewer::save() {
+  if (options_.defaults) fail("nothing is saved: --defaults was given");
+  if (scene_ != nullptr) save_view();
   if (status_.unsaved.preset) save_preset(saved_.preset, /* overwrite= */ true);
 }
 

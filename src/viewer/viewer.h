@@ -106,6 +106,7 @@ class Viewer {
   void take_preset_option();
   void note_preset(const std::string& file);
   void update_unsaved();
+  void save_view();
   void save();
   bool closes();
   void answer_closing(ClosingAnswer answer);

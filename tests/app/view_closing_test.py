@@ -114,6 +114,23 @@ class Closing(WindowTest):
             self.answer(viewer, "Discard")
             self.assertEqual(viewer.exit_code(), 0)
 
+    def test_a_scene_that_was_not_loaded_has_no_view_to_save(self):
+        self.scene.write_text("no scene")
+        preset = self.folder / "preset.toml"
+        preset.write_text('technique = "pcf"\n')
+        with self.view("mine.glb", "--sun=10,30", rests=False) as viewer:
+            viewer.wait_for(lambda: viewer.has("messages"), "a message")
+            viewer.tap("Escape")
+            self.assertEqual(viewer.exit_code(), 0)
+        with self.view("mine.glb", "--sun=10,30", "--preset", "preset.toml", maps=(), rests=False) as viewer:
+            viewer.wait_for(lambda: viewer.has("messages"), "a message")
+            viewer.choose("technique", "none")
+            self.ask(viewer, "Escape")
+            self.answer(viewer, "Save")
+            self.assertEqual(viewer.exit_code(), 0)
+        self.assertIn('"none"', preset.read_text())
+        self.assertFalse(self.saved.exists())
+
     def test_the_parameters_of_a_preset_that_is_open(self):
         preset = self.folder / "preset.toml"
         first = 'technique = "pcf"\n'

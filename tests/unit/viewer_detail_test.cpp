@@ -9,6 +9,8 @@
 namespace penumbra {
 namespace {
 
+using viewer::Detail;
+using viewer::effective;
 using viewer::reduced;
 
 ParamSet of(const std::string& technique) {
@@ -67,6 +69,18 @@ TEST(ViewerDetail, EveryTechniqueTakesTheReducedValues) {
       EXPECT_NO_THROW(again.assign(row.name + "=" + to_text(fewer.value(row.name)))) << technique.name;
     }
   }
+}
+
+TEST(ViewerDetail, OnlyWhatShrinksIsShown) {
+  const Detail least{.picture = 8, .maps = 4, .reads = 4};
+  EXPECT_EQ(effective(of("slices_denoised"), least), least);
+  EXPECT_EQ(effective(of("pcss"), least), least);
+  EXPECT_EQ(effective(of("pcf_tent"), least), (Detail{.picture = 8, .maps = 4}));
+  EXPECT_EQ(effective(of("truth"), least), (Detail{.picture = 8}));
+  ParamSet small = of("pcss");
+  small.set("cascades.size", 256);
+  EXPECT_EQ(effective(small, least), (Detail{.picture = 8, .reads = 4}));
+  EXPECT_EQ(effective(of("pcss"), {}), Detail{});
 }
 
 TEST(ViewerDetail, TheTruthIsTheTruth) {

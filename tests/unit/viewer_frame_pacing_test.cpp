@@ -22,7 +22,7 @@ class Machine {
   FramePacing::Step turn(bool changed, int frames = 0, int wanted = 32, bool ui_active = false) {
     now_ += 0.02;
     const FramePacing::Step step = pacing.next(now_, changed, ui_active, frames, wanted);
-    if (step.draw) pacing.drew(step.divisor, took(step.divisor));
+    if (step.draw) pacing.drew(step.detail, took(step.detail.picture));
     return step;
   }
   double took(int divisor) const { return full_ms_ / divisor / divisor; }
@@ -31,7 +31,7 @@ class Machine {
   // The divisor of the resolution after a motion of one second.
   int in_motion() {
     int divisor = 0;
-    for (int i = 0; i < 50; ++i) divisor = turn(/*changed=*/true).divisor;
+    for (int i = 0; i < 50; ++i) divisor = turn(/*changed=*/true).detail.picture;
     return divisor;
   }
 
@@ -46,17 +46,17 @@ TEST(ViewerPace, AGpuDrawsEveryFrameInFull) {
   for (const bool changed : {true, false, true, false, false}) {
     const FramePacing::Step step = machine.turn(changed, /*frames=*/100, /*wanted=*/1, /*ui_active=*/true);
     EXPECT_TRUE(step.draw);
-    EXPECT_EQ(step.divisor, 1);
+    EXPECT_TRUE(step.detail.is_full());
   }
 }
 
 TEST(ViewerPace, WhatChangesIsDrawnAtOnceAndSmall) {
   Machine machine(800);
-  EXPECT_GT(machine.turn(true).divisor, 1) << "before anything is known of the machine";
+  EXPECT_GT(machine.turn(true).detail.picture, 1) << "before anything is known of the machine";
   for (int i = 0; i < 20; ++i) {
     const FramePacing::Step step = machine.turn(true, 0, 1, /*ui_active=*/true);
     EXPECT_TRUE(step.draw);
-    EXPECT_GT(step.divisor, 1);
+    EXPECT_GT(step.detail.picture, 1);
   }
 }
 
@@ -69,7 +69,7 @@ TEST(ViewerPace, AtRestThePictureIsFullAndDrawnAsOftenAsWanted) {
   for (int i = 0; i < 100; ++i) {
     const FramePacing::Step step = machine.turn(false, frames, 31);
     if (!step.draw) continue;
-    EXPECT_EQ(step.divisor, 1);
+    EXPECT_TRUE(step.detail.is_full());
     ++frames;
     ++drawn;
   }
@@ -142,10 +142,10 @@ TEST(ViewerPace, TheSizeSettles) {
   for (double full = 1; full < 20000; full *= 1.1) {
     Machine machine(full);
     const int settled = machine.in_motion();
-    for (int i = 0; i < 10; ++i) EXPECT_EQ(machine.turn(true).divisor, settled) << full;
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(machine.turn(true).detail.picture, settled) << full;
     // Full-size pictures show the machine's speed as well.
     for (int i = 0; i < 40; ++i) machine.turn(false);
-    EXPECT_EQ(machine.turn(true).divisor, settled) << full;
+    EXPECT_EQ(machine.turn(true).detail.picture, settled) << full;
   }
 }
 
@@ -168,7 +168,7 @@ class Orbit {
     now_ += 0.02;
     const FramePacing::Step step = pacing_.next(now_, changed, /*ui_active=*/false, frames_, 1, /*travels=*/true);
     frames_ = changed ? 0 : frames_ + (step.draw ? 1 : 0);
-    if (step.draw) pacing_.drew(step.divisor, took(step.detail));
+    if (step.draw) pacing_.drew(step.detail, took(step.detail));
     return step;
   }
   double took(const Detail& detail) const {
@@ -251,7 +251,7 @@ TEST(ViewerTravel, AParameterThatChangesIsSeenInFullEffect) {
     const FramePacing::Step step = pacing.next(i, /*changed=*/true, /*ui_active=*/true, 0, 1, /*travels=*/false);
     EXPECT_EQ(step.detail.maps, 1);
     EXPECT_EQ(step.detail.reads, 1);
-    pacing.drew(step.divisor, 1000);
+    pacing.drew(step.detail, 1000);
   }
 }
 
@@ -259,7 +259,7 @@ TEST(ViewerTravel, AGpuDrawsInFullDetail) {
   FramePacing pacing(/*software=*/false);
   for (int i = 0; i < 20; ++i) {
     EXPECT_TRUE(pacing.next(i, /*changed=*/true, /*ui_active=*/false, 0, 1, /*travels=*/true).detail.is_full());
-    pacing.drew(1, 1000);
+    pacing.drew({}, 1000);
   }
 }
 

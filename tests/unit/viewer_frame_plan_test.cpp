@@ -40,10 +40,10 @@ class Desk {
       EXPECT_TRUE(last_is_b_ && b->missing() == 0);
       b->measured = true;
     }
-    if (b && plan.b.draw) draw(*b, plan.b.restart, plan.b.measure, plan.divisor, drawn_b);
-    if (plan.a.draw) draw(a, plan.a.restart, plan.a.measure, plan.divisor, drawn_a);
+    if (b && plan.b.draw) draw(*b, plan.b.restart, plan.b.measure, plan.detail, drawn_b);
+    if (plan.a.draw) draw(a, plan.a.restart, plan.a.measure, plan.detail, drawn_a);
     if (plan.a.draw || plan.b.draw) last_is_b_ = !plan.a.draw;
-    if (plan.a.draw || plan.b.draw) pacing_.drew(plan.divisor, 50);
+    if (plan.a.draw || plan.b.draw) pacing_.drew(plan.detail, 50);
     return plan;
   }
   // Runs until the viewer is idle, and some turns longer. Returns the last turn.
@@ -72,12 +72,12 @@ class Desk {
   int drawn_a = 0, drawn_b = 0;  // frames since the last cut
 
  private:
-  void draw(PictureState& picture, bool cut, bool measure, int divisor, int& drawn) {
+  void draw(PictureState& picture, bool cut, bool measure, const viewer::Detail& detail, int& drawn) {
     drawn = cut || !picture.current ? 1 : drawn + 1;
     if (cut) picture.frames = 0;
     if (picture.traced && !picture.current) tracing = 20;
     picture.current = true;
-    picture.frames = divisor == 1 ? picture.frames + 1 : 0;
+    picture.frames = detail.is_full() ? picture.frames + 1 : 0;
     picture.measured |= measure && !(picture.traced && tracing > 0);
   }
 
@@ -221,7 +221,7 @@ TEST(ViewerPlan, AGpuDrawsEveryFrame) {
   for (int i = 0; i < 50; ++i) {
     const FramePlan plan = desk.turn();
     EXPECT_TRUE(plan.a.draw && plan.b.draw);
-    EXPECT_EQ(plan.divisor, 1);
+    EXPECT_TRUE(plan.detail.is_full());
   }
 }
 
