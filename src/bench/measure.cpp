@@ -159,6 +159,7 @@ class Bench {
       if (point.lights) {
         inputs.lights.resize(static_cast<std::size_t>(*point.lights));
         inputs.light_ids.resize(inputs.lights.size());
+        inputs.light_names.resize(inputs.lights.size());
       }
       for (std::size_t c = 0; c < contenders_.size(); ++c) contenders_[c]->draw(inputs, params[c]);
       progress.step();

@@ -16,9 +16,10 @@ constexpr float automatic_fov = glm::radians(40.0f);
 constexpr float automatic_azimuth = glm::radians(30.0f);
 constexpr float margin = 0.05f;
 constexpr float least_seen = 0.1f;
-constexpr float flat = 0.1f;         // most height of a flat node, in its widths
-constexpr float much_wider = 4.0f;   // least width of a flat node that is not framed, in those of what stands on it
-constexpr float shadow_room = 0.5f;  // around what is framed without it, in heights
+constexpr float flat = 0.1f;           // most height of a flat node, in its widths
+constexpr float much_wider = 4.0f;     // least width of a flat node that is not framed, in those of what stands on it
+constexpr float least_framed = 1e-3f;  // least size of what is framed without it, in those of the scene
+constexpr float shadow_room = 0.5f;    // around what is framed without it, in heights
 
 using Corners = std::array<glm::vec3, 8>;
 
@@ -137,7 +138,8 @@ scene::Bounds framed_bounds(std::vector<scene::Bounds> nodes, const scene::Bound
   };
   std::size_t framed = nodes.size();
   for (std::size_t i = nodes.size(); i-- > 1 && lies_under(nodes[i], up_to[i]);) {
-    if (width_of(nodes[i]) >= much_wider * width_of(up_to[i])) framed = i;
+    const bool large_enough = up_to[i].radius() > least_framed * all.radius();
+    if (large_enough && width_of(nodes[i]) >= much_wider * width_of(up_to[i])) framed = i;
   }
   if (framed == nodes.size()) return all;
   scene::Bounds bounds = up_to[framed];

@@ -68,10 +68,19 @@ glm::vec3 illuminance_of(const LampLight& lamp) { return lamp.intensity / (usual
 float level_share(const SunLight& sun) { return std::max(sun.to_light.y, 0.0f); }
 float level_share(const LampLight& /*lamp*/) { return 0; }
 
+// The sum of the lights' illuminance without those that the ground hides. Where it hides all, with them: what reaches
+// surfaces is then the light of the sky alone, as the picture would be black without it.
+glm::vec3 direct_light(const LightingInputs& inputs) {
+  glm::vec3 hidden(0), others(0);
+  for (const FrameLight& light : inputs.lights) {
+    glm::vec3& sum = is_hidden(light, inputs.on_ground, inputs.params) ? hidden : others;
+    sum += std::visit([](const auto& kind) { return illuminance_of(kind); }, light);
+  }
+  return others == glm::vec3(0) ? hidden : others;
+}
+
 glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
-  glm::vec3 direct(0);
-  for (const FrameLight& light : inputs.lights)
-    direct += std::visit([](const auto& kind) { return illuminance_of(kind); }, light);
+  const glm::vec3 direct = direct_light(inputs);
   const float sky_share = inputs.params.get_float("render.sky_light");
   const float white = luminance(direct) * (1.0f + sky_share) / glm::pi<float>();
   const float exposure = exposure_factor(inputs, white);

@@ -57,6 +57,7 @@ struct FrameScene {
   const glsl::ViewBlock& view;
   const gl::Texture& depth;  // the G-buffer's
   double time;               // seconds
+  std::vector<bool> hidden;  // of each light of the mask: whether it is_hidden()
 };
 
 // The lights that cast shadows, as the shadow library takes them. `ids`: FrameInputs::light_ids.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <mutex>
 #include <utility>
 
 #include "core/error.h"
@@ -72,10 +71,16 @@ void check_lights(std::span<const shadow::Light> lights, const shadow::Registry&
        most_texels);
 }
 
-// Once, however many renderers draw the scene.
-void warn_of_hidden_sun() {
-  static std::once_flag told;
-  std::call_once(told, [] { warn("a sun is below the horizon: the ground hides it, and it lights nothing"); });
+// Once for each, however many renderers draw the scene.
+void warn_of_hidden_suns(const FrameInputs& inputs, const ParamSet& params) {
+  if (inputs.told_hidden == nullptr) return;
+  for (std::size_t i = 0; i < inputs.lights.size(); ++i) {
+    if (!is_hidden(inputs.lights[i], inputs.on_ground, params)) continue;
+    const int id = inputs.light_ids.empty() ? static_cast<int>(i) : inputs.light_ids[i];
+    if (!inputs.told_hidden->insert(id).second) continue;
+    const std::string name = inputs.light_names.empty() ? std::to_string(i) : inputs.light_names[i];
+    warn("light '{}' is below the horizon: the ground hides it, and it lights nothing", name);
+  }
 }
 
 }  // namespace
@@ -85,6 +90,8 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
     fail("a frame has {} lights; 1 to {} can be drawn", inputs.lights.size(), max_lights);
   if (!inputs.light_ids.empty() && inputs.light_ids.size() != inputs.lights.size())
     fail("a frame has {} lights, and {} ids of lights", inputs.lights.size(), inputs.light_ids.size());
+  if (!inputs.light_names.empty() && inputs.light_names.size() != inputs.lights.size())
+    fail("a frame has {} lights, and {} names of lights", inputs.lights.size(), inputs.light_names.size());
   if (inputs.samples < 1 || inputs.samples > max_samples)
     fail("a frame has {} samples for each pixel; 1 to {} can be drawn", inputs.samples, max_samples);
   check_lights(shadow_lights(inputs.lights, {}), registry(), params);
@@ -97,8 +104,7 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   // If the caller left out frames of this view, the scene does not know what moved since its last one.
   constexpr double rounding = 1e-6;  // seconds: the caller may have computed the time again
   const bool knows_moved = placed.cut || std::abs(last.mapped().time - inputs.last_time) <= rounding;
-  const auto hidden = [&](const FrameLight& light) { return is_hidden(light, inputs.on_ground, params); };
-  if (std::ranges::any_of(inputs.lights, hidden)) warn_of_hidden_sun();
+  warn_of_hidden_suns(inputs, params);
   // If this frame throws, the textures of the last one are no longer valid and must not be read.
   state_->parts = {};
   if (!state_->noise) state_->noise = dither_noise();

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,12 +31,17 @@ struct FrameInputs {
   // One for each light: under which its maps and history are kept from frame to frame, whatever other lights there are.
   // Empty: their places in the list.
   std::vector<int> light_ids;
+  // What warnings call each light. Empty: its place in the list.
+  std::vector<std::string> light_names;
   double time = 0, last_time = 0;  // seconds
   // The view or the time jumps, so nothing of the last frame may be reused: techniques and denoisers drop their
   // history, and the frame equals the first frame of a new run. A change of scene is always a cut, even if this is
   // false.
   bool cut = false;
-  bool on_ground = false;     // the scene stands on ground, which hides suns that are below the horizon
+  bool on_ground = false;  // the scene stands on ground, which hides suns that are below the horizon
+  // The ids of the lights of which a warning said that the ground hides them, of all frames that one user draws of one
+  // scene, with whichever renderer. Null: there is no warning.
+  std::shared_ptr<std::set<int>> told_hidden;
   bool restart = false;       // drops the histories alone; shadow maps in which nothing moved are kept
   bool mask_details = false;  // keeps what the AOVs need whose Aov::mask_details is set
   // Of each pixel of the picture, 1 to max_samples: how many are averaged for display and colour, so that edges are

@@ -234,6 +234,14 @@ float distance_to(const scene::Bounds& box, const glm::vec3& point) {
   return glm::length(glm::max(glm::max(box.min - point, point - box.max), glm::vec3(0.0f)));
 }
 
+std::vector<scene::Bounds> bounds_below_sky(const scene::Scene& scene, const scene::Pose& pose) {
+  std::vector<scene::Bounds> nodes = scene::node_bounds(scene, pose);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (scene.nodes[i].sky) nodes[i] = {};
+  }
+  return nodes;
+}
+
 scene::Bounds usable(scene::Bounds bounds) {
   if (bounds.empty) {
     bounds.add(glm::vec3(-1));
@@ -257,10 +265,15 @@ std::vector<FrameLight> shadowed_lights(const Setup& setup) {
   return lights;
 }
 
-std::vector<std::string> shadowed_names(const Setup& setup) {
+std::vector<std::string> shining_names(const Setup& setup) {
   std::vector<std::string> names;
   if (setup.sun_shines) names.push_back(setup.sun_name);
   for (const PlacedLight& light : setup.lights) names.push_back(light.name);
+  return names;
+}
+
+std::vector<std::string> shadowed_names(const Setup& setup) {
+  std::vector<std::string> names = shining_names(setup);
   names.resize(std::min<std::size_t>(names.size(), max_shadowed_lights));
   return names;
 }
@@ -318,7 +331,7 @@ Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const Set
     setup.camera = camera_of(*chosen);
     setup.camera_node = chosen->node;
   } else {
-    setup.camera = framing_camera(framed_bounds(scene::node_bounds(scene, pose), bounds), request.aspect);
+    setup.camera = framing_camera(framed_bounds(bounds_below_sky(scene, pose), bounds), request.aspect);
     setup.camera.near = near_plane_for(bounds, position_of(setup.camera));
   }
   follow(setup, pose);

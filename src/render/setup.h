@@ -58,6 +58,9 @@ std::vector<FrameLight> shadowed_lights(const Setup& setup);
 // Of each light that shines, for FrameInputs::light_ids: the same whichever other lights shine. Setup::sun is 0.
 std::vector<int> light_ids(const Setup& setup);
 
+// Of each light that shines, in the same order.
+std::vector<std::string> shining_names(const Setup& setup);
+
 // The names of the lights that cast shadows, in the same order.
 std::vector<std::string> shadowed_names(const Setup& setup);
 

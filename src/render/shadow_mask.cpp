@@ -79,7 +79,11 @@ bool has_lamps(std::span<const FrameLight> lights) {
 shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs) {
   const gl::Texture& depth = *inputs.gbuffer.depth;
   const float aspect = static_cast<float>(depth.width()) / static_cast<float>(depth.height());
-  const FrameScene frame_scene{.scene = inputs.scene, .view = inputs.view, .depth = depth, .time = inputs.time};
+  std::vector<bool> hidden;
+  for (const FrameLight& light : inputs.frame_lights.first(inputs.lights.size()))
+    hidden.push_back(is_hidden(light, inputs.on_ground, inputs.params));
+  const FrameScene frame_scene{
+      .scene = inputs.scene, .view = inputs.view, .depth = depth, .time = inputs.time, .hidden = hidden};
   const gl::Texture* drawn_motion = inputs.gbuffer.motion;
   const shadow::TextureView motion = drawn_motion != nullptr ? view_of(*drawn_motion) : shadow::TextureView{};
   const auto draw = [&](const shadow::CasterPass& casters, gl::Pass& pass) {
@@ -118,7 +122,7 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
                                                  inputs.params);
   // The scene's own surfaces would hide such a sun too, but for those that reach through the ground.
   for (std::size_t i = 0; i < mask.lights.size(); ++i) {
-    if (!is_hidden(inputs.frame_lights[i], inputs.on_ground, inputs.params)) continue;
+    if (!hidden[i]) continue;
     const gl::Pass pass(
         device, {.name = "hidden sun",
                  .colors = {{.texture = mask.texture, .layer = static_cast<int>(i), .clear = glm::vec4(0.0f)}}});

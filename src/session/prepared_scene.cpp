@@ -77,10 +77,12 @@ render::FrameInputs frame_inputs(const PreparedScene& prepared, const cli::Size&
           .last_camera = when.last_time == when.time ? setup.camera : setup_at(prepared, when.last_time).camera,
           .lights = render::frame_lights(setup),
           .light_ids = render::light_ids(setup),
+          .light_names = render::shining_names(setup),
           .time = when.time,
           .last_time = when.last_time,
           .cut = when.cut || scene::jumps_between(prepared.scene, when.last_time, when.time),
-          .on_ground = setup.on_ground};
+          .on_ground = setup.on_ground,
+          .told_hidden = prepared.told_hidden};
 }
 
 double time_of(const cli::SceneOptions& options, int frame) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <memory>
+#include <set>
+
 #include "cli/options.h"
 #include "render/renderer.h"
 #include "render/setup.h"
@@ -13,6 +16,8 @@ struct PreparedScene {
   scene::Scene scene;
   scene::Bounds bounds;  // at --time, without the ground
   render::Setup setup;   // at --time
+  // Same as FrameInputs::told_hidden, of this scene's frames.
+  std::shared_ptr<std::set<int>> told_hidden = std::make_shared<std::set<int>>();
 };
 
 // Adds the ground and chooses camera and sun. Choices that depend on the scene's bounds use the bounds at --time, so

@@ -67,6 +67,7 @@ struct TruthTechnique::State {
   void fill(const shadow::PassContext& frame, const LightPictures& light);
   void resolve_now(const shadow::PassContext& frame, LightPictures& light, const PictureRequest& wanted);
   void resolve_later(const shadow::PassContext& frame, LightId id, PictureRequest wanted);
+  void resolve_hidden(const shadow::PassContext& frame, LightId id, const PictureRequest& wanted);
   void collect();
   bool worker_is_free(LightId id, long long last_turn) const;
   void cancel();
@@ -186,11 +187,30 @@ void TruthTechnique::State::resolve_later(const shadow::PassContext& frame, Ligh
   light.awaited = key;
 }
 
+// Of a light that the ground hides from everything: no ray is traced.
+void TruthTechnique::State::resolve_hidden(const shadow::PassContext& frame, LightId id, const PictureRequest& wanted) {
+  LightPictures& light = pictures_of(id);
+  if (tracing && tracing->light == id) cancel();
+  light.awaited.reset();
+  light.finished.reset();
+  const std::vector<float> none_visible(wanted.receivers.size(), 0.0f);
+  show(light, wanted,
+       {.key = wanted.key,
+        .traced = {.visibility = none_visible, .standard_error = none_visible, .hard = none_visible},
+        .build = {}},
+       /*from_cache=*/false);
+  light.shown.reset();  // the same light's picture may be requested where there is no ground
+  fill(frame, light);
+}
+
 void TruthTechnique::State::resolve(const shadow::PassContext& frame) {
-  PictureRequest wanted = request(frame, frame_scene(frame, "truth"));
+  const render::FrameScene& user = frame_scene(frame, "truth");
+  PictureRequest wanted = request(frame, user);
   const LightId id{.view = frame.inputs().view.id, .light = frame.light().id};
   const gl::Pass pass(frame.device(), {.name = "ray trace"});
-  if (options.background) {
+  if (user.hidden[static_cast<std::size_t>(frame.frame().layer)]) {
+    resolve_hidden(frame, id, wanted);
+  } else if (options.background) {
     resolve_later(frame, id, std::move(wanted));
   } else {
     resolve_now(frame, pictures_of(id), wanted);

@@ -53,6 +53,17 @@ for file, layer, picture in (("{render}", "shadow", frame["shadow"]), ("{render}
     assert numpy.array_equal(penumbra.read(file, layer), picture), layer
 """)
 
+    def test_each_scene_warns_of_a_sun_that_its_ground_hides(self):
+        result = self.run_code("""
+import penumbra
+for name in ("steps", "posts"):
+    scene = penumbra.open(f"scenes/{name}.glb", size=(96, 54), sun=(40, -10), no_cache=True)
+    for _ in range(2):
+        assert scene.render("shadow").max() == 0 and scene.truth(samples=8)["shadow"].max() == 0
+""")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr.count("below the horizon"), 2, result.stderr)
+
     def test_difference_is_that_of_the_program(self):
         for name, sun in (("a", "1"), ("b", "3")):
             self.succeed("render", "scenes/steps.glb", "-o", self.folder / f"{name}.exr", "--size", "96x54", "--aov",

@@ -1,7 +1,12 @@
 // Several lights in one frame: each has a layer of the mask, and the picture is the sum of the pictures with one light
 // each.
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <set>
+#include <string>
 
+#include "core/log.h"
 #include "render_scenes.h"
 
 namespace penumbra::test {
@@ -54,6 +59,49 @@ TEST_F(LightsTest, TwoSunsGiveTheSumOfEach) {
     // Each of the three was rounded to a half float.
     ASSERT_NEAR(both.color[i], sum, 1.5f * sum / 1024) << i;
   }
+}
+
+TEST_F(LightsTest, AHiddenSunAddsNothingToWhatOtherLightsShow) {
+  params.set("render.sky_light", 0.5f);
+  inputs.on_ground = true;
+  const render::SunLight hidden{.to_light = glm::normalize(glm::vec3(0, -0.3f, 1)), .illuminance = glm::vec3(1000)};
+  for (const bool automatic : {true, false}) {
+    SCOPED_TRACE(automatic);
+    params.set("exposure.auto", automatic);
+    const Drawn alone = draw_with({warm_});
+    EXPECT_EQ(draw_with({warm_, hidden}).color, alone.color);
+    EXPECT_EQ(draw_with({hidden, warm_}).color, alone.color);
+    inputs.on_ground = false;
+    EXPECT_NE(draw_with({warm_, hidden}).color, alone.color) << "there, nothing hides it";
+    inputs.on_ground = true;
+    // The light of the sky is left where there is no other.
+    const std::vector<float> night = draw_with({hidden}).color;
+    EXPECT_TRUE(std::ranges::all_of(night, [](float value) { return std::isfinite(value); }));
+    EXPECT_GT(std::ranges::max(night), 0);
+  }
+  params.set("render.sky_light", 0.0f);
+  const std::vector<float> black = draw_with({hidden}).color;
+  EXPECT_TRUE(std::ranges::all_of(renderer.read_display(), [](int value) { return value <= 1; })) << "dither";
+  EXPECT_TRUE(std::ranges::all_of(black, [](float value) { return value == 0; }));
+}
+
+TEST_F(LightsTest, AHiddenSunIsToldOnceForEachScene) {
+  inputs.on_ground = true;
+  inputs.light_names = {"day", "evening"};
+  const render::SunLight hidden{.to_light = glm::normalize(glm::vec3(0, -0.3f, 1))};
+  std::vector<std::string> told;
+  const LogSink sink = [&](LogLevel level, std::string_view message) {
+    if (level == LogLevel::warning) told.emplace_back(message);
+  };
+  const ThreadLogSink scope(sink);
+  for (std::size_t scene = 1; scene <= 2; ++scene) {
+    inputs.told_hidden = std::make_shared<std::set<int>>();
+    for (int frame = 0; frame < 2; ++frame) draw_with({warm_, hidden});
+    ASSERT_EQ(told.size(), scene);
+    EXPECT_NE(told.back().find("'evening' is below the horizon"), std::string::npos) << told.back();
+  }
+  draw_with({hidden, hidden});
+  EXPECT_EQ(told.size(), 3u) << "the other one is told of too";
 }
 
 TEST_F(LightsTest, EachLightHasItsOwnLayerOfTheMask) {

@@ -113,6 +113,33 @@ TEST(Setup, FramesWhatStandsOnAMuchWiderGroundWithRoomForItsShadows) {
   EXPECT_TRUE(shows(framed(island(20, 500, 3)), {-500, 0, -500}, {500, 3, 500})) << "a roof casts shadows";
 }
 
+TEST(Setup, WhatIsTinyOnAGroundIsNotFramedByItself) {
+  for (const float size : {0.0f, 1e-3f}) {
+    SCOPED_TRACE(size);
+    scene::Scene scene = island(20, 30);
+    scene.roots = {0, 3};
+    for (glm::vec3& corner : scene.meshes[0].primitives[0].positions) corner *= size;
+    EXPECT_TRUE(shows(setup_of(scene, {.aspect = 1}).camera, {-30, -0.2f, -30}, {30, 0, 30}));
+  }
+}
+
+TEST(Setup, ASkyIsNoGroundAndStandsOnNone) {
+  // A dome, and a flat shell under the sea such as that of clouds in a lake.
+  for (const scene::Primitive& shell :
+       {box({-600, -600, -600}, {600, 600, 600}), box({-600, -1, -600}, {600, -0.9f, 600})}) {
+    scene::Scene scene = island(20, 500);
+    scene.roots.push_back(static_cast<int>(scene.nodes.size()));
+    scene.nodes.push_back({.name = "sky", .mesh = static_cast<int>(scene.meshes.size()), .sky = true});
+    scene.meshes.push_back({.name = "mesh", .primitives = {shell}});
+    EXPECT_GT(column_in(setup_of(scene, {.aspect = 1}).camera), 0.25f) << "as without it";
+  }
+  scene::Scene scene = scene_of({box({-1, 0, -1}, {1, 2, 1})});
+  scene.roots.push_back(1);
+  scene.nodes.push_back({.name = "sky", .mesh = 1, .sky = true});
+  scene.meshes.push_back({.name = "mesh", .primitives = {box({-9, -0.1f, -9}, {9, 0, 9})}});
+  EXPECT_TRUE(shows(setup_of(scene, {.aspect = 1}).camera, {-9, -0.1f, -9}, {9, 2, 9})) << "a sky of any shape";
+}
+
 TEST(Setup, AWideGroundIsNotClipped) {
   const scene::Scene scene = island(20, 500);
   const render::Camera camera = setup_of(scene).camera;
