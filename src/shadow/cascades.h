@@ -50,7 +50,7 @@ using VisibleReceivers = std::vector<ReceiverSlice>;  // nearest slice first; no
 
 // One cascade: a layer of the shadow map. The map's depth is linear: 0 at near_z, 1 at far_z.
 struct Cascade {
-  glm::vec2 center{0};       // light space, metres; a whole number of texels from the world's origin
+  glm::vec2 center{0};       // light space, metres; by fit_cascades(), whole texels from the world's origin
   glm::vec2 half_extent{1};  // of the layer, metres
   float near_z = 0;  // nearer to the light than every caster that can shadow the cascade, so depths need no clamping
   float far_z = 1;
@@ -73,9 +73,9 @@ struct CutOff {
   bool operator==(const CutOff&) const = default;
 };
 
-// The cascades of a directional light, finest first. Each contains the whole view frustum up to its range, or what the
-// view shows of the receivers up to there. So where a receiver's search disc is not within one cascade, a coarser
-// cascade contains all of it.
+// The cascades of a directional light, finest first. Those of fit_cascades() each contain the whole view frustum up to
+// their range, or what the view shows of the receivers up to there. So where a receiver's search disc is not within one
+// cascade, a coarser cascade contains all of it. Of an engine's own (light_matrices.h) the last contains all others.
 struct Cascades {
   glm::dmat3 world_to_light{1};
   double turn = 0;  // of world_to_light about its z axis, from light_axes(), radians
