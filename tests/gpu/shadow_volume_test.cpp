@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
 #include <vector>
@@ -203,6 +204,60 @@ TEST_F(ShadowVolume, OpenMeshesCastFromBothSides) {
   expect_rays(scene, "front");
   for (Triangle& triangle : scene.triangles) std::swap(triangle.b, triangle.c);
   expect_rays(scene, "turned over");
+}
+
+// Around the centre triangles are much narrower than the rasteriser's grid: the shadow has no holes there.
+TEST_F(ShadowVolume, AFanOfSliversCastsAShadowWithoutHoles) {
+  TriangleScene scene;
+  scene.add_quad({-10, 0, 10}, {20, 0, 0}, {0, 0, -20});
+  scene.width = 640;
+  scene.height = 360;
+  scene.view = glm::lookAt(glm::vec3(2, 3, 9), glm::vec3(0, 0.5f, 0), glm::vec3(0, 1, 0));
+  scene.projection = perspective(0.785f, 640.0f / 360, 0.1f);
+  scene.to_light = sun_direction(170, 25);
+  constexpr int count = 2000;
+  const glm::vec3 centre(0, 2, 0);
+  const auto rim = [](int i) {
+    const double angle = 2 * glm::pi<double>() * (i % count) / count;
+    return glm::vec3(3 * std::cos(angle), 2 + 0.2 * std::sin(7 * angle), 3 * std::sin(angle));
+  };
+  for (int i = 0; i < count; ++i) scene.triangles.push_back({centre, rim(i), rim(i + 1)});
+  const Shadowed shadowed = draw(scene);
+  const glm::vec3 middle = centre - scene.to_light * (centre.y / scene.to_light.y);
+  int seen = 0, lit_pixels = 0;
+  for (int y = 0; y < shadowed.height; ++y) {
+    for (int x = 0; x < shadowed.width; ++x) {
+      if (shadowed.sky(x, y) || glm::distance(shadowed.point(x, y), middle) > 1) continue;
+      ++seen;
+      lit_pixels += shadowed.visibility(x, y) > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(seen, 1000);
+  EXPECT_EQ(lit_pixels, 0);
+}
+
+// A lamp 1 cm behind a wall: what its rays cross nearer than lamps.near does not shadow, however large the triangle is.
+TEST_F(ShadowVolume, WhatIsNearerToALampThanItsNearPlaneCastsNoShadow) {
+  TriangleScene scene = ground();
+  scene.add_quad({-3, 0, 0}, {6, 0, 0}, {0, 3, 0});
+  scene.view = glm::lookAt(glm::vec3(0, 4, 8), glm::vec3(0), glm::vec3(0, 1, 0));
+  params_.set("lamps.near", 0.02f);
+  const shadow::Light lamp{.source = shadow::Lamp{.position = {0, 1, -0.01f}}};
+  const Shadowed shadowed = draw(scene, [&](shadow::Inputs& inputs) { inputs.lights = {&lamp, 1}; });
+  int lit_pixels = 0, dark_pixels = 0, wrong = 0;
+  for (int y = 0; y < shadowed.height; ++y) {
+    for (int x = 0; x < shadowed.width; ++x) {
+      const glm::vec3 point = shadowed.point(x, y);
+      if (shadowed.sky(x, y) || point.y > 1e-3f || point.z < 0.1f) continue;
+      const float crossed = 0.01f * glm::distance(point, glm::vec3(0, 1, -0.01f)) / (point.z + 0.01f);  // from the lamp
+      if (std::abs(crossed - 0.02f) < 2e-4f) continue;
+      ++(crossed < 0.02f ? lit_pixels : dark_pixels);
+      wrong += (shadowed.visibility(x, y) > 0) != (crossed < 0.02f) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(lit_pixels, 500);
+  EXPECT_GT(dark_pixels, 100);
+  EXPECT_EQ(wrong, 0);
 }
 
 TEST_F(ShadowVolume, ThreeTrianglesMayShareAnEdge) {

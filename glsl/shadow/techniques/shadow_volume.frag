@@ -1,5 +1,5 @@
 // Writes the mask of receivers that a triangle shadows: those behind it, between the planes through its edges and the
-// light (Sintorn et al. 2011, section 3).
+// light (Sintorn et al. 2011, section 3). LAMP: 1 for a lamp.
 #include "shadow/techniques/shadow_volume.glsl"
 
 layout(binding = 8) uniform sampler2D places;  // of the receivers
@@ -28,6 +28,16 @@ float distance_before(vec3 position, float turn, vec3 normal) {
   return turn * dot(normal, way) + 4.0 * rounding * dot(parts, abs(way));
 }
 
+// Whether the ray from a lamp to a position crosses the triangle's plane so near to the lamp that nothing shadows there.
+bool in_lamp(vec3 position, vec3 normal) {
+#if LAMP
+  float share = dot(normal, towards_light(corner_a)) / dot(normal, towards_light(position));
+  return share * distance(position, light.xyz) < nearest;
+#else
+  return false;
+#endif
+}
+
 void main() {
   vec3 position = texelFetch(places, ivec2(gl_FragCoord.xy), 0).xyz;
   vec3 normal = cross(corner_b - corner_a, corner_c - corner_a);
@@ -36,6 +46,6 @@ void main() {
   float on_ab = turn * side(corner_a, corner_b, position);
   float on_bc = turn * side(corner_b, corner_c, position);
   float on_ac = turn * side(corner_a, corner_c, position);
-  if (before >= 0.0 || min(on_ab, on_bc) < 0.0 || on_ac > 0.0) discard;
+  if (before >= 0.0 || min(on_ab, on_bc) < 0.0 || on_ac > 0.0 || in_lamp(position, normal)) discard;
   mask = vec4(0.0);
 }

@@ -10,10 +10,10 @@ layout(triangle_strip, max_vertices = 24) out;
 // The triangle's corners, in an order that depends on their positions alone.
 flat out vec3 corner_a, corner_b, corner_c;
 
-const float largest_miter = 64.0;  // margins that a corner moves at most: it can be sharp
-const float longest_lead = 256.0;  // margins by which a volume begins before its triangle at most
-const float overhang = 64.0;       // margins by which a volume reaches beyond the receivers
-const float longest = 1e9;         // times a frustum's end is as large as its beginning at most
+const float largest_miter = 1e5;  // margins that a corner moves at most: it can be sharp
+const float longest_lead = 1e5;   // margins that it then moves along the ray at most
+const float overhang = 64.0;      // margins by which a volume reaches beyond the receivers
+const float longest = 1e9;        // times a frustum's end is as large as its beginning at most
 
 bool precedes(vec3 a, vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 
@@ -35,11 +35,10 @@ vec3 miter(vec3 previous, vec3 corner, vec3 next, vec3 ray) {
   return unit(outwards) * min(1.0 / max(half_sine, 1e-30), largest_miter);
 }
 
-// By how many margins a corner that moves across its ray has to move towards the light too, to be one before the
-// triangle's plane.
-float lead(vec3 way, vec3 ray, vec3 normal) {
-  float before = dot(way, normal), rise = abs(dot(ray, normal));
-  return min(1.0 + max(-before, 0.0) / max(rise, 1e-30), longest_lead);
+// By how much a corner that moves across its ray has to move along it too, to be on the other side of a plane, or on it.
+// `outwards`: the plane's normal, to that side.
+float lead(vec3 way, vec3 ray, vec3 outwards) {
+  return min(max(-dot(way, outwards), 0.0) / max(abs(dot(ray, outwards)), 1e-30), longest_lead);
 }
 
 float margin_at(vec3 position) { return margin * abs((to_clip * vec4(position, 1.0)).w); }
@@ -121,8 +120,8 @@ void main() {
     vec3 last = corner + end * ray;
 #endif
     float near_margin = margin_at(corner), far_margin = margin_at(last);
-    near[i] = corner + near_margin * way - min(near_margin * lead(way, ray, lit_normal), 0.5 * away[i]) * ray;
-    far[i] = last + far_margin * (way + overhang * ray);
+    near[i] = corner + near_margin * way - min(near_margin * (1.0 + lead(way, ray, lit_normal)), 0.5 * away[i]) * ray;
+    far[i] = last + far_margin * (way + (overhang + lead(way, ray, -lit_normal)) * ray);
   }
 
   vec3 sorted[3] = corners;

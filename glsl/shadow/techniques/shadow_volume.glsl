@@ -9,7 +9,7 @@ layout(std140, binding = 2) uniform Volumes {
   vec4 receivers_min;  // a box that holds all receivers
   vec4 receivers_max;
   float margin;   // a 64th of a pixel: metres where clip w is 1
-  float nearest;  // metres: triangles nearer to a lamp are a part of it
+  float nearest;  // metres: what is nearer to a lamp is a part of it
 };
 
 vec3 towards_light(vec3 from) { return light.xyz - light.w * from; }
