@@ -28,7 +28,8 @@ float distance_before(vec3 position, float turn, vec3 normal) {
   return turn * dot(normal, way) + 4.0 * rounding * dot(parts, abs(way));
 }
 
-// Whether the ray from a lamp to a position crosses the triangle's plane so near to the lamp that nothing shadows there.
+// Whether the ray from a lamp to a position crosses the triangle's plane so near to the lamp that nothing shadows
+// there.
 bool in_lamp(vec3 position, vec3 normal) {
 #if LAMP
   float share = dot(normal, towards_light(corner_a)) / dot(normal, towards_light(position));

@@ -35,8 +35,8 @@ vec3 miter(vec3 previous, vec3 corner, vec3 next, vec3 ray) {
   return unit(outwards) * min(1.0 / max(half_sine, 1e-30), largest_miter);
 }
 
-// By how much a corner that moves across its ray has to move along it too, to be on the other side of a plane, or on it.
-// `outwards`: the plane's normal, to that side.
+// By how much a corner that moves across its ray has to move along it too, so that it does not fall behind a plane.
+// `outwards`: the plane's normal, to the side on which it must be.
 float lead(vec3 way, vec3 ray, vec3 outwards) {
   return min(max(-dot(way, outwards), 0.0) / max(abs(dot(ray, outwards)), 1e-30), longest_lead);
 }
