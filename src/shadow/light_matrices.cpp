@@ -113,7 +113,8 @@ Cascade cascade_of(const Axes& axes, const Cascades& cascades) {
 // Half of a layer's longer side, metres.
 double half_side_of(const Cascade& cascade) { return glm::max(cascade.half_extent.x, cascade.half_extent.y); }
 
-// What differs is what this library reads and what the caller draws: a part of a texel, or of a texel's width in depth.
+// The library reads a layer by exact axes, the caller has drawn it by the matrix: within the whole layer they must
+// place points within a quarter of a texel of each other, also along the light.
 void check_places(const Cascades& cascades, const SunMatrices& maps, std::size_t layer) {
   const Cascade& cascade = cascades.items[layer];
   const glm::dmat4 drawn = zero_to_one(glm::dmat4(maps.world_to_clip[layer]), maps.depth_zero_to_one);

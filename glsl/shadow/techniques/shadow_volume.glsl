@@ -1,5 +1,4 @@
 // What the stages of shadow_volume share. Positions are metres along the world's axes from the camera.
-#include "shadow/light_projection.glsl"
 
 layout(std140, binding = 2) uniform Volumes {
   mat4 to_clip;

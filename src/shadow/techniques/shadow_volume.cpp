@@ -1,5 +1,4 @@
-// Shadow volumes: each receiver is tested against the casters' triangles whose
-// volumes may hold it.
+// Shadow volumes: each receiver is tested against the casters' triangles whose volumes may hold it.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,8 +14,7 @@ namespace penumbra::shadow {
 
 namespace {
 
-// What shadow_volume.glsl declares. Positions are metres along the world's axes
-// from the camera.
+// What shadow_volume.glsl declares. Positions are metres along the world's axes from the camera.
 struct Volumes {
   glm::mat4 to_clip;
   glm::vec4 camera, eye, light, receivers_min, receivers_max;
@@ -25,8 +23,7 @@ struct Volumes {
 static_assert(offsetof(Volumes, camera) == 64 && offsetof(Volumes, margin) == 144 && sizeof(Volumes) == 160);
 constexpr GLuint volumes_binding = block_samples;  // the technique has no sample points
 
-// To the clip space whose depths, 0..1, are those of the receivers' texture;
-// from positions relative to the camera.
+// To the clip space whose depths, 0..1, are those of the receivers' texture; from positions relative to the camera.
 glm::mat4 to_depth(const Inputs& inputs) {
   glm::dmat4 projection(inputs.view.projection);
   for (glm::length_t column = 0; column < 4; ++column) {
@@ -38,7 +35,8 @@ glm::mat4 to_depth(const Inputs& inputs) {
   return glm::mat4(projection * glm::dmat4(glm::dmat3(inputs.view.view)));
 }
 
-// Homogeneous, relative to the camera.
+// Where the camera is, homogeneous and relative to itself: the origin, or the direction towards it if its rays are
+// parallel.
 glm::vec4 eye_of(const Inputs& inputs) {
   const glm::mat4& projection = inputs.view.projection;
   if (projection[2][3] != 0) return {0, 0, 0, 1};
@@ -60,8 +58,7 @@ float spacing_of(GLenum format) {
   }
 }
 
-// Holds all receivers, even where the caller says nothing of them, because
-// every light brings its maps.
+// The caller's box. It may be empty where every light brings its maps: then what is within 100 km of the camera.
 Box receivers_of(const Inputs& inputs, const glm::vec3& camera) {
   constexpr float far = 1e5f;  // metres
   const Box& box = inputs.receivers;
@@ -87,8 +84,7 @@ Volumes volumes_of(const PassContext& context) {
           .nearest = context.params().get_float("lamps.near")};
 }
 
-// Where receivers are, and the depth that what may shadow them is tested
-// against.
+// Of each pixel: where its receiver is, and the depth behind which the faces of volumes that may hold it lie.
 struct Receivers {
   const gl::Texture& places;
   const gl::Texture& depth;
