@@ -26,6 +26,7 @@ static void on_log(void* user, int32_t level, const char* message) {
 typedef struct scene {
   GLuint program, vertices; /* of horizontal squares: uniform 0 the matrix, 1 their centre and half side */
   GLuint depth, normals, framebuffer;
+  GLuint shadows; /* of the sun, for a shader that reads them in 8 bits */
 } scene;
 
 static GLuint compile(GLenum kind, const char* text) {
@@ -68,6 +69,8 @@ static scene make_scene(void) {
   glTextureStorage2D(made.depth, 1, GL_DEPTH_COMPONENT32F, width, height);
   glCreateTextures(GL_TEXTURE_2D, 1, &made.normals);
   glTextureStorage2D(made.normals, 1, GL_RGBA16F, width, height);
+  glCreateTextures(GL_TEXTURE_2D, 1, &made.shadows);
+  glTextureStorage2D(made.shadows, 1, GL_R8, width, height);
   glCreateFramebuffers(1, &made.framebuffer);
   glNamedFramebufferTexture(made.framebuffer, GL_DEPTH_ATTACHMENT, made.depth, 0);
   glNamedFramebufferTexture(made.framebuffer, GL_COLOR_ATTACHMENT0, made.normals, 0);
@@ -151,7 +154,7 @@ static int is_right(const float* row, float light_x) {
 }
 
 int main(void) {
-  static float mask_row[width];
+  static float mask_row[width], shadows_row[width];
   penumbra_device_desc desc;
   penumbra_device* device = NULL;
   penumbra_settings* settings = NULL;
@@ -177,6 +180,7 @@ int main(void) {
   check(penumbra_light_init(&sun, sizeof sun));
   sun.to_light[0] = 0.75f; /* to the right, and as high as it is long */
   sun.to_light[1] = 1;
+  sun.output_texture = scene.shadows; /* only for engines that want the result in a texture of their own */
   frame = frame_of(&scene, &sun);
   check(penumbra_warm_up(device, settings, &frame)); /* while the level loads */
 
@@ -186,9 +190,12 @@ int main(void) {
   mask.struct_size = sizeof mask;
   check(penumbra_render(device, settings, &frame, &mask));
   restore_state(&guard);
-  /* Now the engine multiplies the sun's light by texelFetch(mask, ivec3(gl_FragCoord.xy, 0), 0).r. */
+  /* Now the engine multiplies the sun's light by texelFetch(mask, ivec3(gl_FragCoord.xy, 0), 0).r, or by the same value
+   * in 8 bits, texelFetch(shadows, ivec2(gl_FragCoord.xy), 0).r. */
 
   glGetTextureSubImage(mask.texture, 0, 0, height / 2, 0, width, 1, 1, GL_RED, GL_FLOAT, sizeof mask_row, mask_row);
+  glGetTextureSubImage(scene.shadows, 0, 0, height / 2, 0, width, 1, 1, GL_RED, GL_FLOAT, sizeof shadows_row,
+                       shadows_row);
   for (int i = 4; i < width; i += 8) printf("%.2f ", (double)mask_row[i]);
   printf("\n");
 
@@ -196,10 +203,11 @@ int main(void) {
   check(penumbra_device_destroy(device));
   glDeleteTextures(1, &scene.depth);
   glDeleteTextures(1, &scene.normals);
+  glDeleteTextures(1, &scene.shadows);
   glDeleteFramebuffers(1, &scene.framebuffer);
   glDeleteVertexArrays(1, &scene.vertices);
   glDeleteProgram(scene.program);
-  if (!is_right(mask_row, sun.to_light[0])) {
+  if (!is_right(mask_row, sun.to_light[0]) || !is_right(shadows_row, sun.to_light[0])) {
     fprintf(stderr, "error: the shadow is not where it must be\n");
     return 1;
   }

@@ -126,6 +126,12 @@ penumbra_caster_pass pass_of(const shadow::CasterPass& casters, penumbra_device&
 
 shadow::Light light_of(const penumbra_light& light) {
   shadow::Light made{.id = light.id, .source = source_of(light), .overrides = {}, .maps = {}};
+  if (light.output_texture != 0) {
+    made.output = shadow::OutputTexture{.id = light.output_texture,
+                                        .level = light.output_level,
+                                        .layer = light.output_layer,
+                                        .channel = light.output_channel};
+  }
   if (light.override_count == 0) return made;
   required(light.overrides, "penumbra_light.overrides");
   for (std::size_t i = 0; i < light.override_count; ++i) {

@@ -221,6 +221,16 @@ typedef struct penumbra_light {
   float range;        /**< of a lamp, m: the mask is 0 beyond it; 0 (default): unlimited */
   const char* const* overrides; /**< "name=value": values of parameters for this light alone; null if there are none */
   size_t override_count;        /**< of overrides; default 0 */
+
+  /** A texture of the engine's, by OpenGL's name, to one channel of which the light's visibility is written beside the
+   * mask, rounded to the nearest value of the format; 0 (default): none. GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY,
+   * immutable or not, R8, RG8, RGBA8, R16F, RG16F or RGBA16F. All else in it stays as it is: other channels, layers and
+   * levels, and texels outside of penumbra_frame.viewport. Lights may share a texture, but not a channel of the same
+   * layer and level. Read only by penumbra_render(), which refuses what does not suit (PENUMBRA_ERROR_REFUSED). */
+  uint32_t output_texture;
+  int32_t output_level;   /**< its level, which is as large as penumbra_frame.depth; default 0 */
+  int32_t output_layer;   /**< its layer, if it is an array; else and by default 0 */
+  int32_t output_channel; /**< 0 (default) red, 1 green, 2 blue, 3 alpha */
 } penumbra_light;
 
 /** PENUMBRA_ERROR_ARGUMENT: `light` is null or `struct_size` is not that of a version of the struct. */

@@ -66,7 +66,8 @@ struct PassDesc {
   // stencil test is off and stored stencil values stay.
   std::optional<Stencil> stencil;
   Blend blend = Blend::off;
-  bool cull_back = false;  // counter-clockwise is front
+  unsigned channels = 0xf;  // of colours that draws write: bit 0 red to bit 3 alpha; clears write all
+  bool cull_back = false;   // counter-clockwise is front
   bool depth_clamp = false;
   std::optional<TexelRect> scissor;  // draws change only these texels; clears are not limited
 };

@@ -127,6 +127,11 @@ void set_blend(Blend blend) {
   }
 }
 
+void set_channels(unsigned channels) {
+  const auto writes = [&](unsigned bit) { return static_cast<GLboolean>((channels >> bit & 1u) != 0); };
+  glColorMask(writes(0), writes(1), writes(2), writes(3));
+}
+
 void clear_color(GLuint framebuffer, GLint index, const Attachment& attachment) {
   const glm::vec4& value = *attachment.clear;
   switch (format_info(attachment.texture->desc().format).kind) {
@@ -184,6 +189,7 @@ void begin_raster_state(GLuint framebuffer, const PassDesc& desc) {
   set_depth(desc);
   set_stencil(desc.stencil);
   set_blend(desc.blend);
+  set_channels(desc.channels);
   set_enabled(GL_CULL_FACE, desc.cull_back);
   if (!desc.scissor) return;
   glEnable(GL_SCISSOR_TEST);

@@ -85,6 +85,9 @@ void Program::set(std::string_view name, float value) const { glProgramUniform1f
 void Program::set(std::string_view name, const glm::ivec2& value) const {
   glProgramUniform2iv(id(), location(name), 1, glm::value_ptr(value));
 }
+void Program::set(std::string_view name, const glm::ivec4& value) const {
+  glProgramUniform4iv(id(), location(name), 1, glm::value_ptr(value));
+}
 void Program::set(std::string_view name, const glm::vec2& value) const {
   glProgramUniform2fv(id(), location(name), 1, glm::value_ptr(value));
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 #include "depth_precision.h"
@@ -15,21 +17,31 @@ class TextureChecks {
   struct Key {
     unsigned id = 0;
     int width = 0, height = 0;
-    int channels = 0;              // that it needs, of signed numbers; 0: it is a depth texture
-    int layers = 0;                // of an array, that it needs at least; 0: it is no array
-    bool may_be_unsigned = false;  // the numbers, because a scale and an offset are given
+    int channels = 0;                          // that it needs, of signed numbers; 0: it is a depth texture
+    int layers = 0;                            // of an array, that it needs at least; 0: it is no array
+    bool may_be_unsigned = false;              // the numbers, because a scale and an offset are given
+    std::optional<OutputTexture> output = {};  // drawn to, not read
 
     bool operator==(const Key&) const = default;
   };
 
   void begin() { last_.swap(now_), now_.clear(); }
-  bool knows(const Key& key) const { return std::ranges::find(last_, key) != last_.end(); }
-  void add(const Key& key) { now_.push_back(key); }
+  bool knows(const Key& key) const { return std::ranges::find(last_, key, &Entry::key) != last_.end(); }
+  void add(const Key& key) { now_.push_back({key, {}}); }
+
+  // The same for an output of this frame, with its description; `size`: of its level.
+  bool takes_known_output(const OutputTexture& output, const glm::ivec2& size);
+  void add_output(const OutputTexture& output, const glm::ivec2& size, const gl::TextureDesc& desc);
+  const gl::TextureDesc& desc_of(const OutputTexture& output) const;
 
   DepthRounding depth;  // of the depth texture
 
  private:
-  std::vector<Key> last_, now_;
+  struct Entry {
+    Key key;
+    gl::TextureDesc desc;  // of an output
+  };
+  std::vector<Entry> last_, now_;
 };
 
 // Like check(Inputs), but skips the textures that `checks` knows from the last frame.

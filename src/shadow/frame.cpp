@@ -15,6 +15,7 @@
 #include "light_block.h"
 #include "light_fit.h"
 #include "movement_map.h"
+#include "outputs.h"
 #include "products.h"
 #include "shadow_map.h"
 #include "visible_receivers.h"
@@ -292,6 +293,7 @@ Mask draw_mask(const MaskInputs& from, ViewState& view) {
     warn_of_bounds(view, mask.lights.back());
   }
   forget_lights_left_out(from.device, view);
+  write_outputs(from.device, from.inputs, view.checked, *mask.texture);
   view.drawn = true;
   gl::leave_initial_state();
   return mask;

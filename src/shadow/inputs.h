@@ -108,12 +108,26 @@ struct FinishedMaps {
   LightProjection projection;
 };
 
+// A channel of a texture of the caller's, to which a light's visibility is written beside the mask: 1 is lit, 0 is in
+// shadow, rounded to the nearest value of the format. The texture is a GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY, immutable
+// or not, in R8, RG8, RGBA8, R16F, RG16F or RGBA16F; the level is as large as Inputs::depth. Other channels, layers and
+// levels stay as they are, and so do texels outside of the viewport.
+struct OutputTexture {
+  unsigned id = 0;
+  int level = 0;
+  int layer = 0;    // of an array; else 0
+  int channel = 0;  // 0 to 3: red, green, blue, alpha
+
+  bool operator==(const OutputTexture&) const = default;
+};
+
 // A light that casts shadows. Its colour and intensity are left to the caller: the mask is the same for all.
 struct Light {
   int id = 0;  // unique among the lights of a frame; identifies the light's maps and history from frame to frame
   LightSource source;
   std::vector<std::string> overrides;  // "name=value": parameter values for this light only
   std::optional<FinishedMaps> maps;    // absent: drawn by Inputs::draw
+  std::optional<OutputTexture> output = {};
 };
 
 struct Inputs {
@@ -172,7 +186,7 @@ struct Inputs {
 // Throws Error, in one line that names the input and the fault, for: textures that don't exist, have the wrong size or
 // a format that does not suit their use; matrices that are not finite or not invertible; boxes that are empty or not
 // finite (`moved` and `forward_receivers` may be empty); lights without direction, without maps, or with the same id as
-// another.
+// another; outputs that two lights share, or whose level, layer, channel or format does not exist or suit.
 void check(const Inputs& inputs);
 
 // Inputs::viewport, or the whole depth texture if that has no size.

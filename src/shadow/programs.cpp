@@ -7,6 +7,7 @@
 #include "filters.h"
 #include "light_work.h"
 #include "movement_map.h"
+#include "outputs.h"
 #include "tiles.h"
 #include "visible_receivers.h"
 
@@ -284,7 +285,7 @@ void Programs::add_own(std::vector<gl::ProgramDesc>& programs, const PassOwner& 
 }
 
 std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
-  std::vector<gl::ProgramDesc> programs{pack(true), pack(false), filter_tiles()};
+  std::vector<gl::ProgramDesc> programs{pack(true), pack(false), filter_tiles(), output_program()};
   for (gl::ProgramDesc& program : visible_receivers_programs()) programs.push_back(std::move(program));
   for (const MaskForm& form : {MaskForm{}, {.packed = true}, {.packed = true, .history = true}}) {
     programs.push_back(decided(form));

@@ -119,8 +119,11 @@ void SoftShadows::warm_up(const FrameKind& kind, const ParamSet& params) {
   ViewState view;
   view.prefix = fmt::format("shadow {}/warm up/", state_->number);
   const DroppedAtEnd targets(device_, view.prefix);
+  const std::vector<Light> lights = warm_up_lights(device_, view.prefix, kind);
+  FrameKind small = kind;
+  small.lights = lights;
   // The second has a history, and casters that may have moved.
-  for (int i = 0; i < 2; ++i) draw(warm_up_inputs(device_, view.prefix, kind), params, view);
+  for (int i = 0; i < 2; ++i) draw(warm_up_inputs(device_, view.prefix, small), params, view);
 }
 
 void SoftShadows::forget_view(int id) {

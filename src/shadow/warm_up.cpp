@@ -31,6 +31,20 @@ glm::mat4 projection_for(const Conventions& conventions) {
 
 }  // namespace
 
+std::vector<Light> warm_up_lights(gl::Device& device, const std::string& prefix, const FrameKind& kind) {
+  std::vector<Light> lights(kind.lights.begin(), kind.lights.end());
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (!lights[i].output) continue;
+    const gl::Texture& texture = device.target(prefix + "output", {.target = GL_TEXTURE_2D_ARRAY,
+                                                                   .format = GL_R8,
+                                                                   .width = side,
+                                                                   .height = side,
+                                                                   .layers = static_cast<int>(lights.size())});
+    lights[i].output = OutputTexture{.id = texture.id(), .layer = static_cast<int>(i)};
+  }
+  return lights;
+}
+
 Inputs warm_up_inputs(gl::Device& device, const std::string& prefix, const FrameKind& kind) {
   Inputs inputs;
   inputs.view.projection = inputs.view.last_projection = projection_for(kind.conventions);

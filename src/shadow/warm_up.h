@@ -1,11 +1,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "../gl/device.h"
 #include "soft_shadows.h"
 
 namespace penumbra::shadow {
+
+// The lights of a frame of that kind. Outputs are layers of a texture of the small frame's size.
+std::vector<Light> warm_up_lights(gl::Device& device, const std::string& prefix, const FrameKind& kind);
 
 // Inputs of a small frame of that kind without casters: a plane that fills the picture. Their textures are targets of
 // the device that begin with `prefix`.

@@ -32,6 +32,11 @@ penumbra_light light_of(const shadow::Light& from) {
     light.cone = lamp.cone;
     light.range = lamp.range;
   }
+  if (!from.output) return light;
+  light.output_texture = from.output->id;
+  light.output_level = from.output->level;
+  light.output_layer = from.output->layer;
+  light.output_channel = from.output->channel;
   return light;
 }
 

@@ -102,6 +102,34 @@ TEST_F(CapiTest, MasksOfEveryPresetAreThoseOfTheFacadeWhileCastersMove) {
   EXPECT_GT(c_->passes[PENUMBRA_PASS_MOVED_LAST], 0);
 }
 
+TEST_F(CapiTest, ALightsVisibilityIsWrittenToATextureOfTheEngines) {
+  const TriangleScene scene = box_on_ground(48);
+  const Geometry geometry(scene);
+  penumbra_frame frame = frame_of(scene, geometry);
+  const gl::Texture texture(
+      "output",
+      {.target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA8, .width = 96, .height = 96, .layers = 3, .levels = 2});
+  gl::glClearTexImage(texture.id(), 1, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  penumbra_light light = *frame.lights;
+  light.output_texture = texture.id();
+  light.output_level = 1;
+  light.output_layer = 2;
+  light.output_channel = 1;
+  frame.lights = &light;
+  const std::vector<float> mask = c_->render(frame);
+  const std::vector<float> written = gl::read_floats(texture, 4, 1, 2);
+  ASSERT_EQ(mask.size(), written.size());
+  for (std::size_t i = 0; i < mask.size(); i += 4) {
+    ASSERT_NEAR(written[i + 1], std::floor(mask[i] * 255 + 0.5f) / 255, 1e-6f) << i;
+    ASSERT_EQ(written[i] + written[i + 2] + written[i + 3], 0.0f) << i;
+  }
+  light.output_channel = 4;
+  penumbra_mask refused{};
+  refused.struct_size = sizeof refused;
+  EXPECT_EQ(penumbra_render(c_->device, c_->settings, &frame, &refused), PENUMBRA_ERROR_REFUSED);
+  EXPECT_NE(std::string(penumbra_last_error()).find("has no channel 4"), std::string::npos) << penumbra_last_error();
+}
+
 TEST_F(CapiTest, SecondLayersAreDrawn) {
   ParamSet params = renderer_->params();
   params.set("technique", std::string("slices"));

@@ -241,7 +241,14 @@ class ShadowState : public GpuTest {
 
   // Draws the same frame in a clean OpenGL state and in one that an engine has changed, each with a separate renderer.
   void expect_promises(TriangleRenderer& clean, TriangleRenderer& disturbed, const ParamSet& params) {
+    shadow::Light light;
     const auto with_memory = [&](shadow::Inputs& inputs) {
+      if (output) {
+        light = inputs.lights[0];
+        light.output = output;
+        inputs.lights = {&light, 1};
+        gl::glClearTexImage(output->id, 0, GL_RED, GL_FLOAT, nullptr);
+      }
       inputs.view.last_view = scene.view;
       inputs.view.last_projection = scene.projection;
     };
@@ -261,6 +268,7 @@ class ShadowState : public GpuTest {
   }
 
   const TriangleScene scene = small_scene();
+  std::optional<shadow::OutputTexture> output;  // of the light
 };
 
 TEST_F(ShadowState, AFirstFrameUploadsNoiseAndKeepsWhatIsNotListed) {
@@ -281,6 +289,21 @@ TEST_F(ShadowState, EveryTechniqueInheritsNothingAndLeavesWhatIsDocumented) {
     ParamSet params = small_params(clean);
     clean.shadows().registry().select(params, name);
     for (int frame = 0; frame < 2; ++frame) expect_promises(clean, disturbed, params);
+  }
+}
+
+TEST_F(ShadowState, ATextureOfTheCallersIsWrittenInAnyState) {
+  TriangleRenderer clean, disturbed;
+  const gl::Texture texture("output", {.format = GL_RG16F, .width = scene.width, .height = scene.height});
+  output = {.id = texture.id(), .channel = 1};
+  for (int frame = 0; frame < 2; ++frame) {
+    expect_promises(clean, disturbed, small_params(clean));
+    const std::vector<float> mask = gl::read_floats(*disturbed.mask().texture, 1);
+    const std::vector<float> written = gl::read_floats(texture, 2);
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+      ASSERT_EQ(written[2 * i], 0.0f) << i;
+      ASSERT_EQ(written[2 * i + 1], mask[i]) << i;
+    }
   }
 }
 

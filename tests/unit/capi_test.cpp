@@ -310,6 +310,7 @@ TEST(CInterface, DefaultsAreThoseOfTheFacade) {
   ASSERT_EQ(penumbra_light_init(&light, sizeof light), PENUMBRA_OK);
   EXPECT_EQ(light.radius, shadow::Lamp().radius);
   EXPECT_EQ(light.to_light[1], shadow::Sun().to_light.y);
+  EXPECT_EQ(light.output_texture, 0u);
 }
 
 TEST(CInterface, EachThreadHasItsOwnLastError) {
