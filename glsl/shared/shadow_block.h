@@ -50,7 +50,7 @@ struct ShadowBlock {
   float light_stretch;     // most times that a disc which faces a receiver is longer along the map than across
   int light_is_lamp;       // 1: a lamp; 0: a sun
   float lamp_range;        // of a lamp: distance to which it shines, metres
-  int normals_from_depth;  // 1: the caller brings no normals
+  int normals_from_depth;  // 1: the caller brings no normals: they were made from depths
   vec2 unused;
   vec4 lamp;               // xyz: its centre, view space, metres; w: the cosine of its cone's half angle
   // The layer that contains every caster; apart from `layers`, because a load at an index costs more.

@@ -12,6 +12,7 @@
 #include "../core/error.h"
 #include "../core/log.h"
 #include "denoise_context.h"
+#include "depth_normals.h"
 #include "light_block.h"
 #include "light_fit.h"
 #include "movement_map.h"
@@ -180,7 +181,7 @@ ReadLight read_light(const MaskInputs& from, const Light& light, ViewState& view
 }
 
 // Runs all steps for one light, from its projection to its layer of the mask.
-LightFrame draw_light(const MaskInputs& from, const ReadLight& read, const ViewState& view, LightFrame frame,
+LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& view, LightFrame frame,
                       const gl::Texture& mask) {
   const auto& [light, state, same_params] = read;
   const Technique& technique = from.registry.find(state.params.get_word("technique"));
@@ -224,6 +225,7 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, const ViewS
   if (!has_shadow_map || light.maps) state.map = {};
   if (has_shadow_map) draw_maps(work);
   upload_blocks(work);
+  if (from.inputs.normals.id == 0 && view.normals == nullptr) view.normals = &make_normals(work);
   build_products(work, wanted.recipes);
   draw_layer(work);
   release_unused(work, has_shadow_map && !light.maps);
@@ -278,6 +280,7 @@ Mask draw_mask(const MaskInputs& from, ViewState& view) {
   // False until this frame is complete: after one that throws, the next has no history.
   const bool last_completed = std::exchange(view.drawn, false);
   check(from.inputs, view.checked);
+  view.normals = nullptr;
   begin_frame(view, from.inputs, last_completed);
   find_depth_error(view, from.inputs);
   std::vector<ReadLight> lights;

@@ -74,11 +74,16 @@ void bind_light(gl::Device& device, const LightFrame& frame, const LightState& s
   }
 }
 
-void bind_inputs(const LightWork& work, const PassOwner& owner) {
-  bind_light(work.device, work.frame, work.state, owner);
+void bind_receivers(const LightWork& work) {
   for (const GLuint unit : {unit_receiver_depth, unit_receiver_normal}) work.device.sampler({}).bind(unit);
   gl::glBindTextureUnit(unit_receiver_depth, work.inputs.depth.id);
-  gl::glBindTextureUnit(unit_receiver_normal, work.inputs.normals.id);
+  const GLuint normals = work.view.normals != nullptr ? work.view.normals->id() : work.inputs.normals.id;
+  gl::glBindTextureUnit(unit_receiver_normal, normals);
+}
+
+void bind_inputs(const LightWork& work, const PassOwner& owner) {
+  bind_light(work.device, work.frame, work.state, owner);
+  bind_receivers(work);
 }
 
 }  // namespace penumbra::shadow

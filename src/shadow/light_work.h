@@ -40,7 +40,9 @@ const Product* find_product(const LightFrame& frame, std::string_view name);
 
 // Binds what every program of the owner reads, except the receivers: uniform blocks, maps, noise, products.
 void bind_light(gl::Device& device, const LightFrame& frame, const LightState& state, const PassOwner& owner);
-// The same, and the receivers' depth and normals.
+// Binds the receivers' depth and normals.
+void bind_receivers(const LightWork& work);
+// Both.
 void bind_inputs(const LightWork& work, const PassOwner& owner);
 
 // The beginning of the names of all targets and buffers of an owner.

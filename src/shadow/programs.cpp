@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "depth_normals.h"
 #include "filters.h"
 #include "light_work.h"
 #include "movement_map.h"
@@ -285,7 +286,8 @@ void Programs::add_own(std::vector<gl::ProgramDesc>& programs, const PassOwner& 
 }
 
 std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
-  std::vector<gl::ProgramDesc> programs{pack(true), pack(false), filter_tiles(), output_program()};
+  std::vector<gl::ProgramDesc> programs{pack(true), pack(false), filter_tiles(), output_program(),
+                                        ready(depth_normals_program())};
   for (gl::ProgramDesc& program : visible_receivers_programs()) programs.push_back(std::move(program));
   for (const MaskForm& form : {MaskForm{}, {.packed = true}, {.packed = true, .history = true}}) {
     programs.push_back(decided(form));

@@ -117,6 +117,7 @@ vec2 outline_reach(Light light) {
 // Light space and back. Directions of light space are unit where those of the world are.
 
 vec3 light_direction(vec3 world_direction) { return mat3(shadow.world_to_light) * world_direction; }
+vec3 world_direction(vec3 light_space_direction) { return light_space_direction * mat3(shadow.world_to_light); }
 vec3 direction_from_view(vec3 view_vector) { return mat3(shadow.view_to_light) * view_vector; }
 vec3 view_direction(vec3 light_space_direction) { return light_space_direction * mat3(shadow.view_to_light); }
 

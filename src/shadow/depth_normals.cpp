@@ -1,0 +1,26 @@
+#include "depth_normals.h"
+
+namespace penumbra::shadow {
+
+LibraryProgram depth_normals_program() {
+  return {.desc = {.name = "normals from depth",
+                   .vertex = "shared/full_screen.vert",
+                   .fragment = "shadow/drivers/normals_from_depth.frag"}};
+}
+
+const gl::Texture& make_normals(const LightWork& work) {
+  const gl::Texture& normals =
+      work.device.target(work.view.prefix + "normals from depth",
+                         {.format = GL_RGBA32F, .width = work.inputs.depth.width, .height = work.inputs.depth.height});
+  gl::Pass pass(work.device, {.name = "normals from depth", .colors = {{.texture = &normals}}});
+  pass.use(work.programs.ready(depth_normals_program()));
+  work.state.params_block->bind_uniform(block_params);
+  work.state.shadow_block->bind_uniform(block_shadow);
+  bind_receivers(work);
+  const Rect& viewport = work.frame.viewport;
+  pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  pass.draw_full_screen();
+  return normals;
+}
+
+}  // namespace penumbra::shadow

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "light_work.h"
+
+namespace penumbra::shadow {
+
+// For callers that bring no normals: RGBA32F, the normal of the plane through each pixel of the viewport and its
+// neighbours, in the octahedral map, and the distances of the points that it was made from. See Inputs::normals. In a
+// pass of its own, that reads the light's uniform blocks; the result is the same for all lights of a view.
+const gl::Texture& make_normals(const LightWork& work);
+
+LibraryProgram depth_normals_program();
+
+}  // namespace penumbra::shadow
