@@ -20,8 +20,20 @@ vec4 in_light_cone(Receiver receiver, Offsets at, vec4 blocker_distances, Light 
   return within_cone(radii, is_square(light), place.x, place.y);
 }
 
-// Adds the four texels around a point. A texel is a blocker if it is nearer to the light than the receiver and its
-// plane, and within the light's cone.
+// A texel is a blocker if it is nearer to the light than the receiver and its plane, and within the light's cone.
+
+// Adds the texel at a point.
+void add_blocker(inout Blockers blockers, Receiver receiver, vec2 offset, float bias, Light light) {
+  PointTexel texel = fetch_texel(receiver, offset, light);
+  float distance_to = receiver.position.z - texel.depth;
+  Offsets at = Offsets(vec4(texel.offset.x), vec4(texel.offset.y));
+  float inside = in_light_cone(receiver, at, vec4(distance_to), light).x;
+  float blocks = texel.depth < blocking_depths_at(receiver, at, bias).x ? inside : 0.0;
+  blockers.weight += blocks;
+  blockers.depth_sum += blocks * distance_to;
+}
+
+// Adds the four texels around a point, by bilinear weights.
 void add_blockers(inout Blockers blockers, Receiver receiver, vec2 offset, float bias, Light light) {
   Footprint footprint = fetch_footprint(receiver, offset, light);
   vec4 distance_to = receiver.position.z - footprint.depths;
@@ -31,14 +43,19 @@ void add_blockers(inout Blockers blockers, Receiver receiver, vec2 offset, float
   blockers.depth_sum += bilinear(blocks * distance_to, footprint.weight);
 }
 
-// The mean over the points of the set, or, where the disc is smaller than the four texels around the receiver, over
-// these alone.
-Blockers find_blockers(Receiver receiver, float radius, int taps, float bias, Light light) {
+// The mean over the points of the set, each with its texel or with the four texels around it; or, where the disc is
+// smaller than the four texels around the receiver, over these alone.
+Blockers find_blockers(Receiver receiver, float radius, int taps, bool footprints, float bias, Light light) {
   Scramble scramble = blocker_scramble(receiver);
   Blockers blockers = Blockers(0.0, 0.0);
   int count = radius < 0.5 * texel_size(receiver, light) ? 0 : taps;
   for (int i = 0; i < count; ++i) {
-    add_blockers(blockers, receiver, radius * blocker_point(i, scramble, light), bias, light);
+    vec2 offset = radius * blocker_point(i, scramble, light);
+    if (footprints) {
+      add_blockers(blockers, receiver, offset, bias, light);
+    } else {
+      add_blocker(blockers, receiver, offset, bias, light);
+    }
   }
   // Also because near the receiver the cone is narrow, so that all taps of a wide disc can miss a blocker that touches
   // the receiver. This tap at the receiver itself can't.
@@ -75,15 +92,15 @@ Visibility filtered(Receiver receiver, float mean, FilterPoints points, float bi
                     radius < texel_size(receiver, light));
 }
 
-// Both steps with the given numbers of taps, and with another number where the history is rejected. With early exit,
-// both are skipped where the depth bounds rule out blockers.
-Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, int filter_taps, int disocclusion_taps,
-                       bool early_exits) {
+// Both steps with the given numbers of taps, and with another number where the history is rejected. `footprints`: see
+// find_blockers(). With early exit, both are skipped where the depth bounds rule out blockers.
+Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, bool footprints, int filter_taps,
+                       int disocclusion_taps, bool early_exits) {
   float bias = depth_bias(receiver, light);
   Search search = narrow_search(receiver, light, light.read_radius);
   if (early_exits && search.nearest >= receiver.position.z - bias) return fully_lit();
   receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
-  Blockers blockers = find_blockers(receiver, search.radius, blocker_taps, bias, light);
+  Blockers blockers = find_blockers(receiver, search.radius, blocker_taps, footprints, bias, light);
   if (blockers.weight == 0.0) return fully_lit();
   float mean = mean_distance(blockers);
   if (receiver.history_refused) return filtered(receiver, mean, FilterPoints(disocclusion_taps, true), bias, light);

@@ -89,9 +89,11 @@ TEST_F(KnifeEdge, BruteForceWithEveryTexelMatchesTheExactFunction) {
 }
 
 TEST_F(KnifeEdge, PcssAveragedOverRotationsMatchesTheExactFunction) {
-  for (const std::string shape : {"disc", "square"}) {
+  for (const auto& [shape, reads] :
+       {std::pair<std::string, std::string>("disc", "footprint"), {"disc", "texel"}, {"square", "footprint"}}) {
     for (const Case& c : cases) {
       ParamSet params = parameters(*renderer_, c.angle, shape);
+      params.set("pcss.blocker_reads", reads);
       params.set("pcss.blocker_taps", 64);
       params.set("pcss.filter_taps", 64);
       const float radius = c.height * std::tan(glm::radians(c.angle) / 2);
@@ -105,7 +107,7 @@ TEST_F(KnifeEdge, PcssAveragedOverRotationsMatchesTheExactFunction) {
       for (float& value : mean.mask) value /= 64;
       expect_wide_kernel(*renderer_, radius);
       const Deviation d = deviation(mean, radius, shape == "disc" ? exact_disc : exact_square);
-      EXPECT_LE(d.worst, 0.03) << shape << " sun of " << c.angle << " degrees, caster at " << c.height
+      EXPECT_LE(d.worst, 0.03) << reads << ", " << shape << " sun of " << c.angle << " degrees, caster at " << c.height
                                << " m, t = " << d.at;
     }
   }

@@ -182,6 +182,21 @@ Footprint fetch_footprint(Receiver receiver, vec2 offset, Light light) {
 // How much deeper than the receiver its plane lies at offsets, metres.
 vec4 plane_depths(Receiver receiver, Offsets at) { return receiver.gradient.x * at.x + receiver.gradient.y * at.y; }
 
+// The texel that contains a point, or what is read there beyond the rim of a cube's face.
+struct PointTexel {
+  float depth;  // metres
+  vec2 offset;  // of its centre from the receiver, metres
+};
+
+PointTexel fetch_texel(Receiver receiver, vec2 offset, Light light) {
+  vec2 at = map_place(receiver.position, light) + map_offset(offset, light);
+  vec2 first = floor(at);
+  ivec2 texel = ivec2(first);
+  vec2 center = offset + (first + 0.5 - at) * texel_extent(receiver, light);
+  if (has_faces(light) && leaves_map(texel, texel)) center = texel_offset(receiver, texel, light);
+  return PointTexel(depth_at(texel, light), center);
+}
+
 // The share of the four texels around a point that lie at or behind the receiver's plane less the bias, weighted
 // bilinearly: one fetch of a sampler that compares and filters. It compares all four with one depth, the least of the
 // plane at their centres: with a greater one, a lit plane would shadow itself.

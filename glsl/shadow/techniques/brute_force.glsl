@@ -88,8 +88,8 @@ Visibility visibility(Receiver receiver, Light light) {
 #else
 
 Visibility visibility(Receiver receiver, Light light) {
-  return soft_shadow(receiver, light, brute_force_blocker_taps, brute_force_filter_taps, brute_force_filter_taps,
-                     /* early_exits= */ false);
+  return soft_shadow(receiver, light, brute_force_blocker_taps, /* footprints= */ true, brute_force_filter_taps,
+                     brute_force_filter_taps, /* early_exits= */ false);
 }
 
 #endif

@@ -15,6 +15,12 @@ Technique pcss() {
       .params =
           {
               {"pcss.blocker_taps", 16, 1, 256, "taps", "Points that the blocker search reads.", compiled},
+              {.name = "pcss.blocker_reads",
+               .default_value = "footprint",
+               .help = "What the blocker search reads at a point: the four texels around it, or, for a quarter of the "
+                       "cost and with more noise, the texel there.",
+               .binding = compiled,
+               .choices = {"footprint", "texel"}},
               {"pcss.filter_taps", 16, 1, 256, "taps", "Points of the penumbra's disc that are compared.", compiled},
               {.name = "pcss.disocclusion_taps",
                .default_value = 64,
