@@ -1,4 +1,5 @@
-// Fills a level of a filtered map: means of a function of the map's stored depth, which the including file defines:
+// Fills a level of a filtered map: means of a function of depth as filtered_of_stored() has it, 0 to 1, which the
+// including file defines:
 //   vec4 of_depth(float depth, int slice)
 #include "shadow/light_projection.glsl"
 #include "shadow/prefilter/mean.glsl"
@@ -17,7 +18,8 @@ void main() {
   float share = 1.0 / float(block * block);
   for (int y = 0; y < block; ++y) {
     for (int x = 0; x < block; ++x) {
-      mean = with_value(mean, of_depth(stored_at(at.xy * block + ivec2(x, y), light), at.z), share);
+      float depth = filtered_of_stored(stored_at(at.xy * block + ivec2(x, y), light));
+      mean = with_value(mean, of_depth(depth, at.z), share);
     }
   }
   imageStore(level, ivec3(at.xy, first_slice + at.z), result_of(mean));

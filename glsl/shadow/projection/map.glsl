@@ -13,6 +13,32 @@ float stored_of(float depth, Light light) { return (depth - light.map.near_depth
 float stored_difference(float difference, Light light) { return difference / light.map.depth_range; }
 float stored_metres(Light light) { return light.map.depth_range; }  // from 0 to 1
 
+// What filtered maps hold of a depth, 0 to 1: for a sun what the map stores. Most of what a lamp's map can store are
+// depths near the lamp, so that far from it a caster and its shadow would hardly differ. For a lamp it is the logarithm
+// of the share of the far plane's depth, of which the near plane's is 1/2000 or more, wherever it is.
+const float lamp_depth_logarithm = 7.6009025;  // of 2000
+
+// For a depth as stored in the map.
+float filtered_of_stored(float stored) {
+  if (!is_lamp) return stored;
+  LayerBlock map = shadow.layers[0];
+  float share = (map.near_depth + map.depth_range) / (map.near_depth + map.depth_range * stored);
+  return 1.0 + log(share) / lamp_depth_logarithm;
+}
+
+// For a depth in light space, metres; and for little differences from a receiver's depth.
+float filtered_of(float depth, Light light) {
+  if (!is_lamp) return stored_of(depth, light);
+  LayerBlock map = shadow.layers[0];
+  float before_lamp = max(2.0 * light.depth - depth, 1e-6 * light.depth);
+  float share = -(map.near_depth + map.depth_range) * light.depth * light.depth / before_lamp;
+  return 1.0 + log(share) / lamp_depth_logarithm;
+}
+
+float filtered_difference(float difference, Light light) {
+  return is_lamp ? difference / (light.depth * lamp_depth_logarithm) : stored_difference(difference, light);
+}
+
 // Beyond the rim of a cube's face the map goes on in the faces there. Their texels lie elsewhere, so that what is read
 // of one is a depth and its own place.
 

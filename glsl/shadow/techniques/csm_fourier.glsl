@@ -16,7 +16,7 @@ float sine_of_difference(vec2 cosine_and_sine, float angle) {
 Visibility visibility(Receiver receiver, Light light) {
   const int slices = (csm_fourier_terms + 1) / 2;
   FilteredPlace place = filtered_place(fourier_terms, receiver, csm_fourier_radius, csm_fourier_shrink, light);
-  float depth = stored_of(receiver.position.z - depth_bias(receiver, light), light);
+  float depth = filtered_of(receiver.position.z - depth_bias(receiver, light), light);
   float sum = 0.5;
   for (int slice = 0; slice < slices; ++slice) {
     vec4 means = filtered_texel(fourier_terms, place, slice, slices, light);

@@ -23,10 +23,15 @@ float exponential_at(vec2 at, int level, float depth, Light light) {
 }
 
 float filtered_exponential(FilteredPlace place, float depth, Light light) {
-  int level = int(place.level + 0.5);
+  // A sun's kernel is the same in every level; a lamp's lies between those of two.
+  float at = texels_vary() ? place.level : floor(place.level + 0.5);
+  int level = int(at);
+  float coarser = at - float(level);
   float sum = 0.0;
   for (int i = 0; i < place.points; ++i) {
-    sum += exponential_at(place.first + float(i) * place.next, level, depth, light);
+    vec2 point = place.first + float(i) * place.next;
+    sum += (1.0 - coarser) * exponential_at(point, level, depth, light);
+    if (coarser > 0.0) sum += coarser * exponential_at(point, level + 1, depth, light);
   }
   return sum / float(place.points);
 }
@@ -48,8 +53,8 @@ bool may_lie_before_depths(Receiver receiver, Light light) {
   float radius = light.read_radius;
   float deepest = receiver.position.z + radius * length(receiver.gradient);
   float reach = radius + 1.5 * max(0.25 * radius, float(esm_shrink) * texel_size(receiver, light));
-  float behind = greatest_near(receiver.position, reach, light) - deepest;
-  return stored_difference(behind, light) > log(1.0 + esm_threshold) / esm_exponent;
+  float behind = filtered_of(greatest_near(receiver.position, reach, light), light) - filtered_of(deepest, light);
+  return behind > log(1.0 + esm_threshold) / esm_exponent;
 }
 
 bool fails(float lit, Receiver receiver, Light light) {
@@ -60,7 +65,7 @@ bool fails(float lit, Receiver receiver, Light light) {
 
 Visibility visibility(Receiver receiver, Light light) {
   FilteredPlace place = filtered_place(esm_depths, receiver, esm_radius, esm_shrink, light);
-  float depth = stored_of(receiver.position.z - depth_bias(receiver, light), light);
+  float depth = filtered_of(receiver.position.z - depth_bias(receiver, light), light);
   float lit = filtered_exponential(place, depth, light);
   if (fails(lit, receiver, light)) lit = compared_share(receiver, light);
   return of_constant_kernel(min(lit, 1.0), esm_radius, receiver, light);

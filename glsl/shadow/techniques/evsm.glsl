@@ -18,10 +18,10 @@ Visibility visibility(Receiver receiver, Light light) {
   FilteredPlace place = filtered_place(evsm_moments, receiver, evsm_radius, evsm_shrink, light);
   vec4 moments = filtered_texel(evsm_moments, place, 0, 1, light);
   float bias = depth_bias(receiver, light) + evsm_plane_bias * plane_deviation(receiver, light);
-  float depth = clamp(stored_of(receiver.position.z - bias, light), 0.0, 1.0);
+  float depth = clamp(filtered_of(receiver.position.z - bias, light), 0.0, 1.0);
   vec2 warped = warped_depth(depth);
   vec2 slopes = abs(warped) * warp_exponents();
-  float deviation = 2.0 * stored_difference(evsm_least_deviation, light);
+  float deviation = 2.0 * filtered_difference(evsm_least_deviation, light);
   float lit = bound_of(moments.xy, warped.x, slopes.x, deviation);
   if (evsm_warps == 2) lit = min(lit, bound_of(moments.zw, warped.y, slopes.y, deviation));
   return of_constant_kernel(lit, evsm_radius, receiver, light);

@@ -20,7 +20,7 @@ Visibility visibility(Receiver receiver, Light light) {
   vec4 moments = filtered_texel(msm_moments, place, 0, 1, light);
   if (msm_format == msm_format_unorm16) moments = unpacked_moments(moments);
   float bias = depth_bias(receiver, light) + msm_plane_bias * plane_deviation(receiver, light);
-  float depth = stored_of(receiver.position.z - bias, light);
+  float depth = filtered_of(receiver.position.z - bias, light);
   float lit = without_bleeding(hamburger_bound(2.0 * depth - 1.0, biased(moments)), msm_bleeding);
   return of_constant_kernel(lit, msm_radius, receiver, light);
 }

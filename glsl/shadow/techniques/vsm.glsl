@@ -9,8 +9,8 @@ float read_radius(Receiver receiver, Light light) { return filter_reach(receiver
 Visibility visibility(Receiver receiver, Light light) {
   FilteredPlace place = filtered_place(vsm_moments, receiver, vsm_radius, vsm_shrink, light);
   vec2 moments = filtered_texel(vsm_moments, place, 0, 1, light).xy;
-  float depth = stored_of(receiver.position.z - depth_bias(receiver, light), light) - 0.5;
-  float deviation = stored_difference(vsm_least_deviation, light);
+  float depth = filtered_of(receiver.position.z - depth_bias(receiver, light), light) - 0.5;
+  float deviation = filtered_difference(vsm_least_deviation, light);
   float variance = max(moments.y - moments.x * moments.x, deviation * deviation);
   float lit = without_bleeding(chebyshev_bound(depth, moments.x, variance), vsm_bleeding);
   return of_constant_kernel(lit, vsm_radius, receiver, light);
