@@ -126,8 +126,7 @@ TEST_F(LampLightTest, CrossingPenumbraeAddUp) {
       .position = {1, 0, 2.5f}, .radius = 0.3f, .axis = glm::normalize(glm::vec3(-0.3f, 0, -1)), .outer_cone = 1};
   const render::FrameLight sun = render::SunLight{.to_light = {0, 0, 1}, .illuminance = glm::vec3(20)};
   for (const char* technique : {"pcss", "slices_denoised"}) {
-    const bool preset = std::string_view(technique) == "slices_denoised";
-    params.set_text("technique", preset ? "slices" : technique);
+    renderer.registry().select(params, technique);
     const std::vector<float> a = color_with({left}), b = color_with({right}), c = color_with({sun});
     const std::vector<float> all = color_with({left, right, sun});
     for (std::size_t i = 0; i < all.size(); ++i) {
