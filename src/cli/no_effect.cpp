@@ -80,6 +80,7 @@ bool takes_pattern(const Technique& technique, SampleSet::Step step) {
 bool reads(const Technique& technique, const std::string& name, const Registry& registry) {
   if (name == "sun.angle" || name == "sun.shape") return technique.soft;
   if (name == "mask.tiles") return technique.decides_tiles;
+  if (name == "mask.scale") return !technique.resolve;
   if (name == "sampling.blocker_pattern") return takes_pattern(technique, SampleSet::Step::blocker);
   if (name == "sampling.filter_pattern") return takes_pattern(technique, SampleSet::Step::filter);
   if (name == "sampling.scramble") return !technique.samples.empty() && technique.scramble.empty();

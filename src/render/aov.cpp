@@ -27,7 +27,8 @@ struct Source {
   std::optional<glm::ivec2> pixel = {};  // counted from the upper left; absent: the whole frame
 
   Pixels read(const gl::Texture& texture, int channels, int layer = 0) const;
-  Pixels read_bits(const gl::Texture& texture) const;
+  // Of a texture with a texel for every scale-th pixel of each row and column.
+  Pixels read_bits(const gl::Texture& texture, int scale) const;
 };
 
 template <class Value>
@@ -48,10 +49,19 @@ Pixels Source::read(const gl::Texture& texture, int channels, int layer) const {
 }
 
 // Small integers, which floats represent exactly.
-Pixels Source::read_bits(const gl::Texture& texture) const {
-  const std::vector<unsigned> bits =
-      pixel ? gl::read_uint_texel(texture, 1, pixel->x, texture.height() - 1 - pixel->y) : gl::read_uints(texture, 1);
-  return {1, rows_top_down(bits, pixel ? 1 : static_cast<std::size_t>(texture.width()))};
+Pixels Source::read_bits(const gl::Texture& texture, int scale) const {
+  const int width = frame.gbuffer.depth->width(), height = frame.gbuffer.depth->height();
+  if (pixel) {
+    const auto bits = gl::read_uint_texel(texture, 1, pixel->x / scale, (height - 1 - pixel->y) / scale);
+    return {1, rows_top_down(bits, 1)};
+  }
+  const std::vector<unsigned> bits = gl::read_uints(texture, 1);
+  std::vector<unsigned> of_pixels;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x)
+      of_pixels.push_back(bits[static_cast<std::size_t>(y / scale * texture.width() + x / scale)]);
+  }
+  return {1, rows_top_down(of_pixels, static_cast<std::size_t>(width))};
 }
 
 // Converts each pixel of `picture` by a function that appends the result's values.
@@ -176,13 +186,14 @@ std::vector<float> texel(const Source& from) {
 
 std::vector<float> history(const Source& from) {
   const Pixels sky = from.read(*from.frame.gbuffer.depth, 1);
-  const gl::Texture* notes = from.frame.mask.lights[from.light].notes;
+  const shadow::LightFrame& light = from.frame.mask.lights[from.light];
+  const gl::Texture* notes = light.notes;
   if (notes == nullptr) {
     return each(sky, [&](std::size_t i, const float*, std::vector<float>& out) {
       out.push_back(is_sky(sky, i) ? -1.0f : static_cast<float>(HISTORY_NONE));
     });
   }
-  const Pixels bits = from.read_bits(*notes);
+  const Pixels bits = from.read_bits(*notes, light.scale);
   return each(sky, [&](std::size_t i, const float*, std::vector<float>& out) {
     const auto note = static_cast<unsigned>(bits.values[i]);
     out.push_back(is_sky(sky, i) ? -1.0f : static_cast<float>(glsl::notes_refusal(note)));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "depth_normals.h"
 #include "light_block.h"
 #include "light_fit.h"
+#include "mask_scale.h"
 #include "movement_map.h"
 #include "outputs.h"
 #include "products.h"
@@ -113,10 +115,18 @@ void upload_samples(const LightWork& work, const Technique& technique, const cha
   tables.buffer->write(std::as_bytes(std::span(points)));
 }
 
+// Uploads the uniforms of the view and the light.
+void upload_light(const LightWork& work, const char* name, const glm::vec2& last_jitter) {
+  const LightTraits traits{.noise = noise_read(work.params(), static_cast<int>(work.state.age)),
+                           .last_jitter = last_jitter,
+                           .depth_error = work.view.depth_error};
+  work.state.shadow_block = &work.device.scratch(work.prefix() + name, sizeof(glsl::ShadowBlock));
+  gl::write_value(*work.state.shadow_block, shadow_block(work.inputs, work.frame, traits));
+}
+
 // Uploads the uniforms that every program reads: the parameters, the view and the light.
 void upload_blocks(const LightWork& work) {
   LightState& state = work.state;
-  const int age = static_cast<int>(state.age);
   if (!state.uploaded) {
     const std::vector<std::byte> params = uniform_bytes(state.params);
     state.params_block = &work.device.scratch(work.prefix() + "params", params.size());
@@ -126,11 +136,7 @@ void upload_blocks(const LightWork& work) {
   upload_samples(work, work.technique, "samples");
   if (&work.forward != &work.technique) upload_samples(work, work.forward, "samples of the stand-in");
   state.uploaded = true;
-  const LightTraits traits{.noise = noise_read(state.params, age),
-                           .last_jitter = work.view.last_jitter,
-                           .depth_error = work.view.depth_error};
-  state.shadow_block = &work.device.scratch(work.prefix() + "light", sizeof(glsl::ShadowBlock));
-  gl::write_value(*state.shadow_block, shadow_block(work.inputs, work.frame, traits));
+  upload_light(work, "light", work.view.last_jitter);
 }
 
 void draw_layer(const LightWork& work) {
@@ -141,6 +147,52 @@ void draw_layer(const LightWork& work) {
     work.technique.resolve(context);
   } else {
     context.evaluate(work.mask, work.frame.layer);
+  }
+}
+
+// The receivers of masks of fewer pixels, by scale.
+using ScaledViews = std::map<int, ScaledInputs>;
+
+std::string scaled_prefix(const ViewState& view, int scale) { return fmt::format("{}scale {}/", view.prefix, scale); }
+
+// Runs the technique and the denoiser for every scale-th pixel, and fills the light's layer of the mask from these.
+void draw_layer_at(int scale, const LightWork& work, ScaledViews& views) {
+  const std::string prefix = scaled_prefix(work.view, scale);
+  if (!views.contains(scale)) views.emplace(scale, scaled_inputs(work.device, prefix, work.inputs, scale));
+  const ScaledInputs& scaled = views.at(scale);
+  gl::TextureDesc desc = work.mask.desc();
+  desc.width = scaled.inputs.depth.width;
+  desc.height = scaled.inputs.depth.height;
+  LightFrame frame = work.frame;
+  frame.viewport = viewport_of(scaled.inputs);
+  const LightWork small{.device = work.device,
+                        .registry = work.registry,
+                        .programs = work.programs,
+                        .samples = work.samples,
+                        .inputs = scaled.inputs,
+                        .light = work.light,
+                        .mask = work.device.target(prefix + "mask", desc),
+                        .view = work.view,
+                        .state = work.state,
+                        .frame = frame,
+                        .technique = work.technique,
+                        .forward = work.forward,
+                        .denoiser = work.denoiser,
+                        .remembered = work.remembered};
+  const gl::Buffer* of_view = work.state.shadow_block;
+  upload_light(small, "scaled light", scaled.ndc * work.view.last_jitter);
+  draw_layer(small);
+  work.state.shadow_block = of_view;
+  work.frame.notes = frame.notes;
+  work.frame.scale = scale;
+  upsample(work, small.mask, scale);
+}
+
+// Releases what scales that no light of the frame has used.
+void release_scales(gl::Device& device, const ViewState& view, const ScaledViews& used) {
+  constexpr int most = 4;
+  for (int scale = 2; scale <= most; ++scale) {
+    if (!used.contains(scale)) device.drop(scaled_prefix(view, scale));
   }
 }
 
@@ -182,7 +234,7 @@ ReadLight read_light(const MaskInputs& from, const Light& light, ViewState& view
 
 // Runs all steps for one light, from its projection to its layer of the mask.
 LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& view, LightFrame frame,
-                      const gl::Texture& mask) {
+                      const gl::Texture& mask, ScaledViews& scaled) {
   const auto& [light, state, same_params] = read;
   const Technique& technique = from.registry.find(state.params.get_word("technique"));
   const Denoiser* denoiser = denoiser_for(from.registry, technique, state.params);
@@ -227,7 +279,12 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   upload_blocks(work);
   if (from.inputs.normals.id == 0 && view.normals == nullptr) view.normals = &make_normals(work);
   build_products(work, wanted.recipes);
-  draw_layer(work);
+  const int scale = mask_scale(from.inputs, technique, state.params);
+  if (scale == 1) {
+    draw_layer(work);
+  } else {
+    draw_layer_at(scale, work, scaled);
+  }
   release_unused(work, has_shadow_map && !light.maps);
   state.drawn = true;
   return frame;
@@ -287,15 +344,17 @@ Mask draw_mask(const MaskInputs& from, ViewState& view) {
   for (const Light& light : from.inputs.lights) lights.push_back(read_light(from, light, view));
   Mask mask;
   mask.texture = &mask_target(from, view, has_details(from, lights) ? GL_RGBA16F : GL_R16F);
+  ScaledViews scaled;
   for (const ReadLight& read : lights) {
     const LightFrame frame{.view = from.inputs.view.id,
                            .light = read.light.id,
                            .layer = static_cast<int>(mask.lights.size()),
                            .viewport = viewport_of(from.inputs)};
-    mask.lights.push_back(draw_light(from, read, view, frame, *mask.texture));
+    mask.lights.push_back(draw_light(from, read, view, frame, *mask.texture, scaled));
     warn_of_bounds(view, mask.lights.back());
   }
   forget_lights_left_out(from.device, view);
+  release_scales(from.device, view, scaled);
   write_outputs(from.device, from.inputs, view.checked, *mask.texture);
   view.drawn = true;
   gl::leave_initial_state();

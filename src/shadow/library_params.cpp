@@ -65,6 +65,10 @@ std::vector<Param> map_rows() {
       {"bias.normal_offset", 0.0f, 0, 10, "texels", "Shift of receivers along their normal."},
       {"mask.tiles", true, 0, 1, "",
        "Computes only the tiles of 8 × 8 pixels that a penumbra can reach, and decides all others at once.", host},
+      {"mask.scale", 1, 1, 4, "px",
+       "Computes only every n-th pixel of each row and column, and those between that show another surface or a sharp "
+       "edge; the others are interpolated.",
+       host},
   };
 }
 

@@ -99,6 +99,23 @@ const gl::Texture* run_mask_pass(const LightWork& work, const MaskOutput& output
   return &tiles.decisions;
 }
 
+void run_for_missing(const LightWork& work, const MissingPixels& missing) {
+  Programs::MaskForm form{.compiled = Programs::compiled_for(work.technique, work.params(), work.frame.shape)};
+  form.missing = true;
+  form.tiles = fits_tiles(work);
+  const MaskOutput output{.mask = &work.mask, .layer = work.frame.layer};
+  gl::Pass pass(work.device, pass_of("missing pixels", output));
+  set_viewport(pass, work.frame.viewport);
+  use(pass, work, work.programs.mask(work.technique, work.params(), form), output);
+  work.device.sampler({}).bind(unit_decisions);
+  missing.pixels.bind(unit_decisions);
+  if (form.tiles) {
+    draw_tiles(pass, missing.list, listed_draw_offset);
+  } else {
+    pass.draw_full_screen();
+  }
+}
+
 void bind_history(const LightWork& work, const gl::Texture& last_surfaces) {
   const gl::Texture* movement = work.frame.movement;
   for (const GLuint unit : {unit_motion, unit_last_surface, unit_movement}) work.device.sampler({}).bind(unit);

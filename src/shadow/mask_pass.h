@@ -17,6 +17,16 @@ struct MaskOutput {
 // tiles were decided.
 const gl::Texture* run_mask_pass(const LightWork& work, const MaskOutput& output);
 
+// The pixels of a mask that are yet to be computed: RG32UI, one texel a tile of 8 × 8, bit 8 y + x for each pixel; and
+// a list of the tiles that have any.
+struct MissingPixels {
+  const gl::Texture& pixels;
+  const gl::Buffer& list;
+};
+
+// Runs the technique's visibility() for these pixels of the light's layer of the mask, always in fragment shaders.
+void run_for_missing(const LightWork& work, const MissingPixels& missing);
+
 // Binds what glsl/shadow/history.glsl and movement.glsl read; `last_surfaces` as above.
 void bind_history(const LightWork& work, const gl::Texture& last_surfaces);
 

@@ -7,6 +7,7 @@
 #include "depth_normals.h"
 #include "filters.h"
 #include "light_work.h"
+#include "mask_scale.h"
 #include "movement_map.h"
 #include "outputs.h"
 #include "tiles.h"
@@ -36,6 +37,7 @@ std::vector<ParamSet> compiled_variants(const std::vector<Param>& own, const Par
 
 std::vector<Programs::MaskForm> mask_forms(const Programs::Compiled& compiled) {
   std::vector<Programs::MaskForm> forms;
+  for (const bool tiles : {false, true}) forms.push_back({.compiled = compiled, .tiles = tiles, .missing = true});
   for (const bool compute : {false, true}) {
     for (const bool tiles : {false, true}) {
       forms.push_back({.compiled = compiled, .compute = compute, .tiles = tiles});
@@ -199,6 +201,7 @@ gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& param
   } else {
     program.vertex = form.tiles ? "shadow/drivers/tile.vert" : "shared/full_screen.vert";
     program.fragment = driver_file(technique, "mask.frag");
+    program.defines.push_back({"MISSING", form.missing ? "1" : "0"});
     if (form.tiles) program.defines.push_back({"DECIDED", "0"});
   }
   return program;
@@ -223,6 +226,10 @@ gl::ProgramDesc Programs::decided(const MaskForm& form) const {
 
 gl::ProgramDesc Programs::filter_tiles() const {
   return ready({.desc = {.name = "filter tiles", .compute = "shadow/drivers/filter_tiles.comp"}});
+}
+
+gl::ProgramDesc Programs::upsample() const {
+  return ready({.desc = {.name = "upsample mask", .compute = "shadow/drivers/upsample.comp"}});
 }
 
 gl::ProgramDesc Programs::pack(bool history) const {
@@ -286,7 +293,12 @@ void Programs::add_own(std::vector<gl::ProgramDesc>& programs, const PassOwner& 
 }
 
 std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
-  std::vector<gl::ProgramDesc> programs{pack(true), pack(false), filter_tiles(), output_program(),
+  std::vector<gl::ProgramDesc> programs{pack(true),
+                                        pack(false),
+                                        filter_tiles(),
+                                        output_program(),
+                                        upsample(),
+                                        scaled_receivers_program(),
                                         ready(depth_normals_program())};
   for (gl::ProgramDesc& program : visible_receivers_programs()) programs.push_back(std::move(program));
   for (const MaskForm& form : {MaskForm{}, {.packed = true}, {.packed = true, .history = true}}) {
@@ -303,7 +315,8 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
          compiled_variants(params_of(technique.params, technique.needs, registry_), defaults)) {
       for (const Compiled& compiled : all_compiled(technique)) {
         for (const MaskForm& form : mask_forms(compiled)) {
-          if (technique.glsl.empty() || (form.tiles && !technique.decides_tiles)) continue;
+          const bool runs = form.missing ? !technique.resolve : !form.tiles || technique.decides_tiles;
+          if (technique.glsl.empty() || !runs) continue;
           programs.push_back(mask(technique, params, form));
         }
       }

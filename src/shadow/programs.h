@@ -47,6 +47,7 @@ class Programs {
     bool packed = false;   // packed texels and notes, for denoisers; else the mask itself
     bool history = false;  // packed, and the notes say whether the history is valid
     bool tiles = false;    // over the listed tiles alone
+    bool missing = false;  // for the missing pixels alone; neither compute nor packed
   };
   gl::ProgramDesc mask(const Technique& technique, const ParamSet& params, const MaskForm& form) const;
   // The programs that decide tiles and that fill the mask with them.
@@ -54,6 +55,8 @@ class Programs {
   gl::ProgramDesc decided(const MaskForm& form) const;
   // The program that lists the tiles that filters can change.
   gl::ProgramDesc filter_tiles() const;
+  // The program that interpolates a mask between every n-th pixel.
+  gl::ProgramDesc upsample() const;
   // Whether the driver can draw tiles as points: OpenGL 4.5 guarantees neither points of their size nor storage buffers
   // in vertex shaders. Asked of OpenGL once, by the first frame: programs are listed without a context too.
   bool draws_tiles() const;

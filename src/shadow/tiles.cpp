@@ -4,21 +4,11 @@
 #include <cstdint>
 #include <span>
 
-#include "pass_context.h"
-
 namespace penumbra::shadow {
 
 namespace {
 
 int tiles_across(int pixels) { return (pixels + Tiles::size - 1) / Tiles::size; }
-
-const gl::Buffer& begin_list(const PassContext& context, const char* name, const glm::ivec2& tiles) {
-  const std::size_t count = static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
-  const auto head = empty_tile_list(count);
-  const gl::Buffer& list = context.scratch(name, sizeof(head) + sizeof(std::uint32_t) * count);
-  list.write(std::as_bytes(std::span(head)));
-  return list;
-}
 
 }  // namespace
 
@@ -29,10 +19,21 @@ std::array<std::uint32_t, 12> empty_tile_list(std::size_t capacity) {
   return {256, 0, 1, /*listed*/ 0, 1, 0, 0, /*decided*/ 0, 1, 0, 0, static_cast<std::uint32_t>(capacity)};
 }
 
-bool decides_tiles(const LightWork& work) {
+const gl::Buffer& begin_tile_list(const PassContext& context, const char* name, const glm::ivec2& tiles) {
+  const std::size_t count = static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
+  const auto head = empty_tile_list(count);
+  const gl::Buffer& list = context.scratch(name, sizeof(head) + sizeof(std::uint32_t) * count);
+  list.write(std::as_bytes(std::span(head)));
+  return list;
+}
+
+bool fits_tiles(const LightWork& work) {
   const Rect& viewport = work.frame.viewport;
-  const bool fits = viewport.width >= Tiles::size && viewport.height >= Tiles::size;
-  return work.technique.decides_tiles && fits && work.programs.draws_tiles() && work.params().get_bool("mask.tiles");
+  return viewport.width >= Tiles::size && viewport.height >= Tiles::size && work.programs.draws_tiles();
+}
+
+bool decides_tiles(const LightWork& work) {
+  return work.technique.decides_tiles && fits_tiles(work) && work.params().get_bool("mask.tiles");
 }
 
 Tiles decide_tiles(const LightWork& work) {
@@ -42,7 +43,7 @@ Tiles decide_tiles(const LightWork& work) {
   // As large as the mask, not the viewport: a view whose size varies from frame to frame then keeps its texture.
   const gl::TextureDesc of_mask{
       .format = GL_RGBA32UI, .width = tiles_across(work.mask.width()), .height = tiles_across(work.mask.height())};
-  const Tiles tiles{context.target("tile decisions", of_mask), begin_list(context, "tile list", size)};
+  const Tiles tiles{context.target("tile decisions", of_mask), begin_tile_list(context, "tile list", size)};
   gl::Pass pass(work.device, {.name = "tile decisions"});
   pass.use(work.programs.decide_tiles(work.technique, work.frame.shape.lamp));
   bind_inputs(work, owner);
@@ -55,7 +56,7 @@ Tiles decide_tiles(const LightWork& work) {
 const gl::Buffer& list_filter_tiles(const LightWork& work, const gl::Texture& decisions) {
   const PassOwner owner = owner_of(*work.denoiser);
   const glm::ivec2 size = tile_count(work.frame.viewport);
-  const gl::Buffer& list = begin_list(PassContext(work, owner), "filter tiles", size);
+  const gl::Buffer& list = begin_tile_list(PassContext(work, owner), "filter tiles", size);
   gl::Pass pass(work.device, {.name = "filter tiles"});
   pass.use(work.programs.filter_tiles());
   bind_inputs(work, owner);

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "light_work.h"
+#include "pass_context.h"
 
 namespace penumbra::shadow {
 
@@ -29,8 +30,12 @@ glm::ivec2 tile_count(const Rect& viewport);
 // The beginning of a list without tiles.
 std::array<std::uint32_t, 12> empty_tile_list(std::size_t capacity);
 
-// Whether the technique and the parameters allow it. Not for viewports smaller than a tile: the fragment driver draws
-// listed tiles as points, whose centres must lie inside.
+// A list without tiles for a viewport of so many.
+const gl::Buffer& begin_tile_list(const PassContext& context, const char* name, const glm::ivec2& tiles);
+
+// Whether tiles can be drawn. Not in viewports smaller than a tile: they are points, whose centres must lie inside.
+bool fits_tiles(const LightWork& work);
+// Whether, moreover, the technique and the parameters allow to decide them.
 bool decides_tiles(const LightWork& work);
 
 // In a pass of its own.

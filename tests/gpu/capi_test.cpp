@@ -248,6 +248,22 @@ TEST_F(CapiTest, AfterAWarmUpNoFrameCompilesAProgram) {
   EXPECT_GT(programs.size(), 20u);
 }
 
+TEST_F(CapiTest, AfterAWarmUpNoFrameWithAMaskOfFewerPixelsCompilesAProgram) {
+  const gl::ShaderLibrary& programs = c_->device->objects->device.shaders;
+  const TriangleScene scene = box_on_ground(48);
+  const Geometry geometry(scene);
+  const penumbra_frame frame = frame_of(scene, geometry);
+  for (const char* name : {"pcss", "slices_denoised", "thesis"}) {
+    SCOPED_TRACE(name);
+    ASSERT_EQ(penumbra_settings_select(c_->settings, name), PENUMBRA_OK);
+    ASSERT_EQ(penumbra_settings_set_number(c_->settings, "mask.scale", 2), PENUMBRA_OK) << penumbra_last_error();
+    EXPECT_EQ(penumbra_warm_up(c_->device, c_->settings, &frame), PENUMBRA_OK) << penumbra_last_error();
+    const std::size_t warm = programs.size();
+    for (int i = 0; i < 3; ++i) c_->render(frame);
+    EXPECT_EQ(programs.size(), warm);
+  }
+}
+
 TEST_F(CapiTest, AWarmUpLeavesNoTextureOfItsOwn) {
   const TriangleScene scene = box_on_ground(48);
   const Geometry geometry(scene);

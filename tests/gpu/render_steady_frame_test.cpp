@@ -82,6 +82,14 @@ TEST_F(RenderSteadyFrame, MakesNothingAndAsksNothingUnderAnyTechnique) {
   }
 }
 
+TEST_F(RenderSteadyFrame, MakesNothingAndAsksNothingWithAMaskOfFewerPixels) {
+  for (const char* name : {"pcss", "slices_denoised", "thesis"}) {
+    renderer->registry().select(params, name);
+    params.set("mask.scale", 2);
+    expect_steady();
+  }
+}
+
 TEST_F(RenderSteadyFrame, MakesNothingAndAsksNothingForSeveralSamples) {
   inputs.samples = 3;
   expect_steady();

@@ -206,9 +206,19 @@ TEST_F(ShadowInputs, AViewMayBeAPartOfItsTextures) {
   const shadow::Rect part{13, 5, scene.width, scene.height};
   constexpr int width = 80;
   constexpr int height = 64;
-  for (const char* technique : {"hard", "pcss", "slices", "backprojection", "ssss", "vssm", "pcss_compute",
-                                "thesis_8x8", "thesis_8x8_compute"}) {
+  for (const auto& [technique, scale] : {std::pair{"hard", 1},
+                                         {"pcss", 1},
+                                         {"slices", 1},
+                                         {"backprojection", 1},
+                                         {"ssss", 1},
+                                         {"vssm", 1},
+                                         {"pcss_compute", 1},
+                                         {"thesis_8x8", 1},
+                                         {"thesis_8x8_compute", 1},
+                                         {"pcss", 2},
+                                         {"slices_denoised", 3}}) {
     renderer.shadows().registry().select(params, technique);
+    params.set("mask.scale", scale);
     params.set("sampling.noise", std::string("none"));  // its tile is fixed to the textures
     const Shadowed whole = renderer.render(scene, params);
     const auto larger = [&](const shadow::TextureView& from, GLenum format) {

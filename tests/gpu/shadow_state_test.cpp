@@ -292,6 +292,17 @@ TEST_F(ShadowState, EveryTechniqueInheritsNothingAndLeavesWhatIsDocumented) {
   }
 }
 
+TEST_F(ShadowState, AMaskOfFewerPixelsInheritsNothingAndLeavesWhatIsDocumented) {
+  TriangleRenderer clean, disturbed;
+  for (const std::string name : {"pcss", "pcss_compute", "thesis", "slices_denoised"}) {
+    SCOPED_TRACE(name);
+    ParamSet params = small_params(clean);
+    clean.shadows().registry().select(params, name);
+    params.set("mask.scale", 2);
+    for (int frame = 0; frame < 2; ++frame) expect_promises(clean, disturbed, params);
+  }
+}
+
 TEST_F(ShadowState, ATextureOfTheCallersIsWrittenInAnyState) {
   TriangleRenderer clean, disturbed;
   const gl::Texture texture("output", {.format = GL_RG16F, .width = scene.width, .height = scene.height});

@@ -1,0 +1,113 @@
+#include "mask_scale.h"
+
+#include <fmt/format.h>
+
+#include "mask_pass.h"
+#include "tiles.h"
+
+namespace penumbra::shadow {
+
+namespace {
+
+glm::ivec2 scaled_size(const Rect& viewport, int scale) {
+  return {(viewport.width + scale - 1) / scale, (viewport.height + scale - 1) / scale};
+}
+
+TextureView view_of(const gl::Texture& texture) { return {texture.id(), texture.width(), texture.height()}; }
+
+// From the caller's NDC to those of a view that has only every scale-th pixel: x' = scale x + offset.
+struct NdcMap {
+  glm::dvec2 scale{1}, offset{0};
+};
+
+// Pixel i of such a view is pixel scale · i of the caller's: their centres are at (2 i + 1) / size - 1 there and
+// (2 scale i + 1) / width - 1 here.
+NdcMap ndc_map(const Rect& viewport, int scale) {
+  const glm::dvec2 of_all(viewport.width, viewport.height);
+  const glm::dvec2 covered = static_cast<double>(scale) * glm::dvec2(scaled_size(viewport, scale));
+  return {of_all / covered, (of_all + static_cast<double>(scale - 1)) / covered - 1.0};
+}
+
+glm::mat4 mapped(const glm::mat4& projection, const NdcMap& map) {
+  glm::dmat4 result(projection);
+  for (int column = 0; column < 4; ++column) {
+    glm::dvec4& values = result[column];
+    values.x = map.scale.x * values.x + map.offset.x * values.w;
+    values.y = map.scale.y * values.y + map.offset.y * values.w;
+  }
+  return glm::mat4(result);
+}
+
+}  // namespace
+
+int mask_scale(const Inputs& inputs, const Technique& technique, const ParamSet& params) {
+  return technique.resolve || inputs.normals.id == 0 ? 1 : params.get_int("mask.scale");
+}
+
+gl::ProgramDesc scaled_receivers_program() {
+  return {.name = "scaled receivers",
+          .vertex = "shared/full_screen.vert",
+          .fragment = "shadow/drivers/scaled_receivers.frag"};
+}
+
+ScaledInputs scaled_inputs(gl::Device& device, const std::string& prefix, const Inputs& inputs, int scale) {
+  const Rect viewport = viewport_of(inputs);
+  const glm::ivec2 size = scaled_size(viewport, scale);
+  const NdcMap map = ndc_map(viewport, scale);
+  const auto target = [&](const char* name, GLenum format) -> const gl::Texture& {
+    return device.target(prefix + name, {.format = format, .width = size.x, .height = size.y});
+  };
+  const gl::Texture& depth = target("depth", GL_R32F);
+  const gl::Texture& normals = target("normals", inputs.conventions.octahedral_normals ? GL_RG32F : GL_RGBA32F);
+  ScaledInputs scaled{.inputs = inputs, .ndc = map.scale};
+  scaled.inputs.depth = view_of(depth);
+  scaled.inputs.normals = view_of(normals);
+  scaled.inputs.viewport = {};
+  View& view = scaled.inputs.view;
+  view.projection = mapped(view.projection, map);
+  view.last_projection = mapped(view.last_projection, map);
+  view.jitter *= scaled.ndc;
+  gl::PassDesc desc{.name = "scaled receivers", .colors = {{.texture = &depth}, {.texture = &normals}}};
+  if (inputs.motion.id != 0) {
+    const gl::Texture& vectors = target("motion", GL_RG32F);
+    scaled.inputs.motion = view_of(vectors);
+    desc.colors.push_back({.texture = &vectors});
+  }
+  gl::Pass pass(device, desc);
+  const gl::Program& program = pass.use(scaled_receivers_program());
+  program.set("corner", glm::ivec2(viewport.x, viewport.y));
+  program.set("scale", scale);
+  program.set("ndc_scale", scaled.ndc);
+  for (const GLuint unit : {unit_receiver_depth, unit_receiver_normal, unit_motion}) device.sampler({}).bind(unit);
+  gl::glBindTextureUnit(unit_receiver_depth, inputs.depth.id);
+  gl::glBindTextureUnit(unit_receiver_normal, inputs.normals.id);
+  gl::glBindTextureUnit(unit_motion, inputs.motion.id);
+  pass.draw_full_screen();
+  return scaled;
+}
+
+void upsample(const LightWork& work, const gl::Texture& scaled_mask, int scale) {
+  const PassOwner owner = owner_of(work.technique);
+  const PassContext context(work, owner);
+  const Rect& viewport = work.frame.viewport;
+  const glm::ivec2 tiles = tile_count(viewport);
+  const gl::Texture& missing =
+      context.target("missing pixels", {.format = GL_RG32UI, .width = tiles.x, .height = tiles.y});
+  const gl::Buffer& list = begin_tile_list(context, "missing tiles", tiles);
+  {
+    gl::Pass pass(work.device, {.name = "upsample mask"});
+    const gl::Program& program = pass.use(work.programs.upsample());
+    bind_inputs(work, owner);
+    program.set("mask_layer", work.frame.layer);
+    program.set("scale", scale);
+    work.device.sampler({}).bind(unit_texels);
+    scaled_mask.bind(unit_texels);
+    work.mask.bind_image(0, GL_WRITE_ONLY);
+    missing.bind_image(1, GL_WRITE_ONLY);
+    list.bind_storage(tile_list_binding);
+    pass.dispatch(viewport.width, viewport.height);
+  }
+  run_for_missing(work, {.pixels = missing, .list = list});
+}
+
+}  // namespace penumbra::shadow

@@ -1,0 +1,197 @@
+// Masks of which the technique computes only every n-th pixel (mask.scale).
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "gpu/triangle_scene.h"
+#include "lib/packed_texel.glsl"
+
+namespace penumbra::test {
+namespace {
+
+class ShadowScale : public TriangleTest {
+ protected:
+  void SetUp() override {
+    TriangleTest::SetUp();
+    params = renderer_->params();
+    params.set("sun.angle", 4.0f);
+    params.set("cascades.size", 512);
+    params.set("sampling.noise", std::string("none"));
+  }
+  Shadowed render(const TriangleScene& scene, int scale, const TriangleRenderer::Adjust& adjust = {}) {
+    params.set("mask.scale", scale);
+    return renderer_->render(scene, params, [&](shadow::Inputs& in) {
+      in.view.last_view = last_view.value_or(in.view.view);
+      in.view.last_projection = in.view.projection;
+      in.view.id = scale;
+      if (adjust) adjust(in);
+    });
+  }
+
+  ParamSet params;
+  std::optional<glm::mat4> last_view;
+};
+
+double rms(const std::vector<float>& a, const std::vector<float>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += std::pow(static_cast<double>(a[i]) - b[i], 2);
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+TriangleScene box_on_ground(int width, int height) {
+  TriangleScene scene = test::box_on_ground();
+  scene.width = width;
+  scene.height = height;
+  scene.projection = perspective(0.8f, static_cast<float>(width) / static_cast<float>(height), 0.1f);
+  return scene;
+}
+
+TEST_F(ShadowScale, PixelsThatAreComputedAreThoseOfTheFullMaskWhateverTheSize) {
+  for (const auto& [width, height] : {std::pair{120, 80}, {121, 83}, {7, 5}, {6, 90}}) {
+    const TriangleScene scene = box_on_ground(width, height);
+    const Shadowed full = render(scene, 1);
+    for (const int scale : {2, 3, 4}) {
+      SCOPED_TRACE(testing::Message() << width << "×" << height << " scale " << scale);
+      const Shadowed scaled = render(scene, scale);
+      int apart = 0, of = 0;
+      for (int y = 0; y < height; y += scale) {
+        for (int x = 0; x < width; x += scale, ++of)
+          apart += std::abs(full.visibility(x, y) - scaled.visibility(x, y)) > 0.01f ? 1 : 0;
+      }
+      EXPECT_LE(apart, of / 200);
+    }
+  }
+}
+
+TEST_F(ShadowScale, ThePixelsBetweenAreNearTheFullMask) {
+  const TriangleScene scene = box_on_ground(241, 161);
+  for (const char* technique : {"pcss", "slices", "vsm", "thesis"}) {
+    renderer_->shadows().registry().select(params, technique);
+    params.set("history.reuse", false);
+    params.set("sampling.noise", std::string("none"));
+    const std::vector<float> full = render(scene, 1).visibilities();
+    for (const int scale : {2, 4}) {
+      SCOPED_TRACE(testing::Message() << technique << " scale " << scale);
+      const std::vector<float> scaled = render(scene, scale).visibilities();
+      const double error = rms(full, scaled);
+      EXPECT_LT(error, 0.012 * scale);
+      EXPECT_GT(error, 0.0) << "something is interpolated";
+    }
+  }
+}
+
+// Posts of about a pixel before a ground that lies in shadow where they shine, and the other way round.
+TEST_F(ShadowScale, ThinSurfacesKeepTheirOwnLight) {
+  TriangleScene scene;
+  scene.add_quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
+  scene.add_quad({-5, 3, 1}, {10, 0, 0}, {0, 0, -3});
+  constexpr float post = 0.03f;
+  for (int i = 0; i < 12; ++i) {
+    const float x = -2.2f + 0.37f * static_cast<float>(i);
+    scene.add_box({x, 0, 1.5f}, {x + post, 1.5f, 1.5f + post});
+  }
+  scene.view = glm::lookAt(glm::vec3(0, 1.5f, 7), glm::vec3(0, 0.5f, 0), glm::vec3(0, 1, 0));
+  scene.width = 160;
+  scene.height = 120;
+  scene.projection = perspective(0.8f, 4.0f / 3, 0.1f);
+  scene.to_light = sun_direction(20, 70);
+  const Shadowed full = render(scene, 1);
+  for (const int scale : {2, 4}) {
+    const Shadowed scaled = render(scene, scale);
+    int posts = 0, lit = 0;
+    for (int y = 0; y < scene.height; ++y) {
+      for (int x = 0; x < scene.width; ++x) {
+        const glm::vec3& at = full.point(x, y);
+        if (full.sky(x, y) || at.y < 0.05f || at.y > 1.4f || at.z < 1.4f) continue;
+        ++posts;
+        lit += full.visibility(x, y) > 0.9f ? 1 : 0;
+        ASSERT_NEAR(scaled.visibility(x, y), full.visibility(x, y), 0.02f) << x << ", " << y << " scale " << scale;
+      }
+    }
+    EXPECT_GT(posts, 200);
+    EXPECT_GT(lit, 50);
+  }
+}
+
+TEST_F(ShadowScale, AnEdgeStaysSharp) {
+  params.set("technique", std::string("hard"));
+  const TriangleScene scene = box_on_ground(160, 120);
+  const Shadowed full = render(scene, 1), scaled = render(scene, 4);
+  int between = 0;
+  for (const float value : scaled.visibilities()) between += value > 0.25f && value < 0.75f ? 1 : 0;
+  EXPECT_LE(between, 10);
+  EXPECT_LT(rms(full.visibilities(), scaled.visibilities()), 0.05);
+}
+
+TEST_F(ShadowScale, WithoutNormalsAndForTechniquesWithPassesOfTheirOwnTheMaskIsThatOfAllPixels) {
+  const TriangleScene scene = box_on_ground(61, 47);
+  const auto without = [](shadow::Inputs& in) { in.normals = {}; };
+  EXPECT_EQ(render(scene, 1, without).mask, render(scene, 2, without).mask);
+  for (const char* technique : {"shadow_volume", "ssss"}) {
+    params.set("technique", std::string(technique));
+    EXPECT_EQ(render(scene, 1).mask, render(scene, 2).mask) << technique;
+  }
+}
+
+TEST_F(ShadowScale, LightsMayHaveDifferentScales) {
+  const TriangleScene scene = box_on_ground(61, 47);
+  const auto of = [&](const std::vector<std::string>& scales) {
+    std::vector<shadow::Light> lights;
+    for (const std::string& scale : scales) {
+      const int id = static_cast<int>(lights.size());
+      lights.push_back({.id = id,
+                        .source = shadow::Sun{sun_direction(60.0f * static_cast<float>(id), 40)},
+                        .overrides = {"mask.scale=" + scale},
+                        .maps = {}});
+    }
+    render(scene, 1, [&](shadow::Inputs& in) { in.lights = lights; });
+    std::vector<std::vector<float>> layers;
+    for (int layer = 0; layer < static_cast<int>(lights.size()); ++layer)
+      layers.push_back(gl::read_floats(*renderer_->mask().texture, 4, 0, layer));
+    return layers;
+  };
+  const auto mixed = of({"2", "1", "4", "2"}), twos = of({"2", "2", "2", "2"}), ones = of({"1", "1", "1", "1"});
+  EXPECT_EQ(mixed[0], twos[0]);
+  EXPECT_EQ(mixed[1], ones[1]);
+  EXPECT_EQ(mixed[3], twos[3]);
+  EXPECT_NE(mixed[2], twos[2]);
+  of({"1", "1", "1", "1"});
+  for (const gl::Device::NamedTarget& target : renderer_->device().targets())
+    EXPECT_EQ(target.name.find("/scale "), std::string::npos) << target.name << " is kept though nothing uses it";
+}
+
+// The share of the receivers whose history the second frame keeps.
+TEST_F(ShadowScale, TheHistoryIsFoundWhereTheSurfaceWas) {
+  renderer_->shadows().registry().select(params, "thesis");
+  params.set("history.reuse", true);
+  params.set("cascades.size", 512);
+  for (const int width : {120, 121, 123}) {
+    TriangleScene scene = box_on_ground(width, 83);
+    for (const bool moves : {false, true}) {
+      SCOPED_TRACE(testing::Message() << width << (moves ? " a camera that moves" : ""));
+      last_view.reset();
+      render(scene, 4, [](shadow::Inputs& in) { in.view.cut = true; });
+      const TriangleScene before = scene;
+      if (moves) scene.view = glm::translate(glm::mat4(1), {0.4f, 0, 0}) * scene.view;
+      last_view = before.view;
+      const Shadowed shadowed = render(scene, 4);
+      const gl::Texture& notes = *renderer_->mask().lights[0].notes;
+      const std::vector<unsigned> bits = gl::read_uints(notes, 1);
+      int receivers = 0, kept = 0;
+      for (int y = 0; y < notes.height(); ++y) {
+        for (int x = 0; x < notes.width(); ++x) {
+          if (shadowed.sky(4 * x, 4 * y)) continue;
+          ++receivers;
+          const unsigned note = bits[static_cast<std::size_t>(y * notes.width() + x)];
+          kept += glsl::notes_refusal(note) == HISTORY_KEPT ? 1 : 0;
+        }
+      }
+      EXPECT_GT(receivers, 300);
+      EXPECT_GE(kept, moves ? receivers * 85 / 100 : receivers);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
