@@ -40,7 +40,7 @@ class Own {
   std::vector<float> values(int channel, int layer = 0, int level = 0) const {
     const std::vector<float> all = gl::read_floats(gl::Texture::wrap(id_, desc_), 4, level, layer);
     std::vector<float> one;
-    for (std::size_t i = static_cast<std::size_t>(channel); i < all.size(); i += 4) one.push_back(all[i]);
+    for (auto i = static_cast<std::size_t>(channel); i < all.size(); i += 4) one.push_back(all[i]);
     return one;
   }
   GLuint id() const { return id_; }
@@ -56,7 +56,7 @@ gl::TextureDesc flat(GLenum format, int size = side) { return {.format = format,
 struct MutableTexture {
   GLuint id = 0;
 
-  explicit MutableTexture(std::initializer_list<int> sizes) {
+  MutableTexture(std::initializer_list<int> sizes) {
     gl::glGenTextures(1, &id);
     gl::glBindTexture(GL_TEXTURE_2D, id);
     int level = 0;
