@@ -106,9 +106,10 @@ std::string why_without_effect(const std::string& name, const ParamSet& params, 
     if (!technique.denoisable) return fmt::format("what the technique {} draws is not denoised", technique.name);
     if (registry.find_denoiser(params.get_word("denoiser")) == nullptr) return "denoiser is none";
   }
-  // A stand-in shadows blended surfaces.
-  const bool read = reads(technique, name, registry) ||
-                    (!technique.stand_in.empty() && reads(registry.find(technique.stand_in), name, registry));
+  // A stand-in shadows blended surfaces, which have no mask.
+  const bool asks_stand_in = !technique.stand_in.empty() && !name.starts_with("mask.");
+  const bool read =
+      reads(technique, name, registry) || (asks_stand_in && reads(registry.find(technique.stand_in), name, registry));
   if (!read && name.starts_with("sun."))
     return fmt::format("the shadows of the technique {} do not soften with the sun's size", technique.name);
   if (!read) return fmt::format("the technique {} does not read it", technique.name);

@@ -2,6 +2,14 @@
 
 namespace penumbra::shadow {
 
+namespace {
+
+std::string target_name(const ViewState& view) { return view.prefix + "normals from depth"; }
+
+}  // namespace
+
+void drop_normals(gl::Device& device, const ViewState& view) { device.drop(target_name(view)); }
+
 LibraryProgram depth_normals_program() {
   return {.desc = {.name = "normals from depth",
                    .vertex = "shared/full_screen.vert",
@@ -10,7 +18,7 @@ LibraryProgram depth_normals_program() {
 
 const gl::Texture& make_normals(const LightWork& work) {
   const gl::Texture& normals =
-      work.device.target(work.view.prefix + "normals from depth",
+      work.device.target(target_name(work.view),
                          {.format = GL_RGBA32F, .width = work.inputs.depth.width, .height = work.inputs.depth.height});
   gl::Pass pass(work.device, {.name = "normals from depth", .colors = {{.texture = &normals}}});
   pass.use(work.programs.ready(depth_normals_program()));

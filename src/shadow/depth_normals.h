@@ -9,6 +9,9 @@ namespace penumbra::shadow {
 // pass of its own, that reads the light's uniform blocks; the result is the same for all lights of a view.
 const gl::Texture& make_normals(const LightWork& work);
 
+// Releases that texture.
+void drop_normals(gl::Device& device, const ViewState& view);
+
 LibraryProgram depth_normals_program();
 
 }  // namespace penumbra::shadow

@@ -337,6 +337,7 @@ Mask draw_mask(const MaskInputs& from, ViewState& view) {
   // False until this frame is complete: after one that throws, the next has no history.
   const bool last_completed = std::exchange(view.drawn, false);
   check(from.inputs, view.checked);
+  if (view.normals != nullptr && from.inputs.normals.id != 0) drop_normals(from.device, view);
   view.normals = nullptr;
   begin_frame(view, from.inputs, last_completed);
   find_depth_error(view, from.inputs);

@@ -43,7 +43,8 @@ bool follows(const ViewState& last, const Inputs& inputs) {
 // Whether the pixels of the last frame can be found in this one.
 bool same_pixels(const ViewState& last, const Inputs& inputs) {
   return last.width == inputs.depth.width && last.height == inputs.depth.height &&
-         last.viewport == viewport_of(inputs) && same_conventions(last.conventions, inputs.conventions);
+         last.viewport == viewport_of(inputs) && last.brings_normals == (inputs.normals.id != 0) &&
+         same_conventions(last.conventions, inputs.conventions);
 }
 
 }  // namespace
@@ -64,6 +65,7 @@ void begin_frame(ViewState& view, const Inputs& inputs, bool last_completed) {
   view.width = inputs.depth.width;
   view.height = inputs.depth.height;
   view.viewport = viewport_of(inputs);
+  view.brings_normals = inputs.normals.id != 0;
 }
 
 bool take_params(LightState& state, const GivenParams& given, const Light& light) {

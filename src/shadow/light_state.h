@@ -96,6 +96,7 @@ struct ViewState {
   Conventions conventions;
   int width = 0, height = 0;  // of the receivers' textures
   Rect viewport;
+  bool brings_normals = false;
   bool drawn = false;  // the last frame completed without an Error
   TextureChecks checked;
   NdcError depth_error;

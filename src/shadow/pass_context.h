@@ -41,7 +41,8 @@ struct PassOwner {
 //   - with View::cut or View::restart, and when View::last_view or last_projection are not the matrices of the view's
 //     last frame,
 //   - when the viewport, the size of the textures, the conventions, the light's source or the number of layers
-//     of its shadow map changes, or a parameter does, except those of techniques and denoisers that are not chosen,
+//     of its shadow map changes, or whether the caller brings normals, or a parameter does, except those of techniques
+//     and denoisers that are not chosen,
 //   - after a frame that ended in an Error.
 // So a frame after a cut is the same as the first frame of a run that starts there.
 class PassContext {

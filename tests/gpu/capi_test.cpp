@@ -217,9 +217,10 @@ TEST_F(CapiTest, AfterAWarmUpNoFrameCompilesAProgram) {
     for (const char* size : {"cascades.size", "lamps.size"})
       ASSERT_EQ(penumbra_settings_set_number(c_->settings, size, 128), PENUMBRA_OK);
     TriangleScene scene = box_on_ground(48);
-    const auto draw = [&](const penumbra_light& light, bool warm) {
+    const auto draw = [&](const penumbra_light& light, bool warm, bool normals = true) {
       const Geometry geometry(scene);
       penumbra_frame frame = frame_of(scene, geometry);
+      if (!normals) frame.normals = {};
       frame.lights = &light;
       frame.view_id = light.kind;
       if (warm) {
@@ -241,6 +242,7 @@ TEST_F(CapiTest, AfterAWarmUpNoFrameCompilesAProgram) {
         if (i == 2) scene.move_from(2, glm::vec3(0.1f, 0, 0));
         draw(light, false);
       }
+      draw(light, false, /* normals= */ false);
       EXPECT_EQ(penumbra_forget_view(c_->device, light.kind), PENUMBRA_OK);
     }
     EXPECT_EQ(programs.size(), warm);

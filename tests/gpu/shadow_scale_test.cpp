@@ -65,7 +65,7 @@ TEST_F(ShadowScale, PixelsThatAreComputedAreThoseOfTheFullMaskWhateverTheSize) {
 }
 
 TEST_F(ShadowScale, ThePixelsBetweenAreNearTheFullMask) {
-  const TriangleScene scene = box_on_ground(241, 161);
+  const TriangleScene scene = box_on_ground(240, 159);
   for (const char* technique : {"pcss", "slices", "vsm", "thesis"}) {
     renderer_->shadows().registry().select(params, technique);
     params.set("history.reuse", false);
@@ -77,6 +77,20 @@ TEST_F(ShadowScale, ThePixelsBetweenAreNearTheFullMask) {
       const double error = rms(full, scaled);
       EXPECT_LT(error, 0.012 * scale);
       EXPECT_GT(error, 0.0) << "something is interpolated";
+    }
+  }
+}
+
+// There is nothing to interpolate with on their other side.
+TEST_F(ShadowScale, PixelsBeyondTheLastComputedOnesAreThoseOfTheFullMask) {
+  TriangleScene scene = box_on_ground(240, 159);
+  scene.view = glm::lookAt(glm::vec3(1.5f, 2.5f, 4), glm::vec3(-1.5f, 0, 0), glm::vec3(0, 1, 0));
+  const Shadowed full = render(scene, 1);
+  for (const int scale : {2, 3, 4}) {
+    const Shadowed scaled = render(scene, scale);
+    for (int y = 0; y < scene.height; ++y) {
+      for (int x = (scene.width - 1) / scale * scale + 1; x < scene.width; ++x)
+        ASSERT_NEAR(full.visibility(x, y), scaled.visibility(x, y), 0.01f) << x << " " << y << " scale " << scale;
     }
   }
 }

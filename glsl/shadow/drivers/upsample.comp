@@ -37,6 +37,7 @@ bool interpolate(ivec2 place, vec3 position, vec3 normal, float depth, out vec4 
   float off_plane = most_pixels_off * pixel_width(position);
   float weights = 0.0, least = 1.0, greatest = 0.0;
   texel = vec4(0.0);
+  if (any(greaterThan(place, scale * last))) return false;  // beyond the last that were computed
   for (int i = 0; i < 4; ++i) {
     ivec2 to = ivec2(i & 1, i >> 1);
     vec2 of_axes = mix(1.0 - part, part, vec2(to));

@@ -15,7 +15,7 @@ float stored_metres(Light light) { return light.map.depth_range; }  // from 0 to
 
 // What filtered maps hold of a depth, 0 to 1: for a sun what the map stores. Most of what a lamp's map can store are
 // depths near the lamp, so that far from it a caster and its shadow would hardly differ. For a lamp it is the logarithm
-// of the share of the far plane's depth, of which the near plane's is 1/2000 or more, wherever it is.
+// of the share of the far plane's depth, 0 up to 1/2000 of it: the library's own maps have no nearer near plane.
 const float lamp_depth_logarithm = 7.6009025;  // of 2000
 
 // For a depth as stored in the map.
@@ -23,7 +23,7 @@ float filtered_of_stored(float stored) {
   if (!is_lamp) return stored;
   LayerBlock map = shadow.layers[0];
   float share = (map.near_depth + map.depth_range) / (map.near_depth + map.depth_range * stored);
-  return 1.0 + log(share) / lamp_depth_logarithm;
+  return max(1.0 + log(share) / lamp_depth_logarithm, 0.0);
 }
 
 // For a depth in light space, metres; and for little differences from a receiver's depth.
@@ -32,7 +32,7 @@ float filtered_of(float depth, Light light) {
   LayerBlock map = shadow.layers[0];
   float before_lamp = max(2.0 * light.depth - depth, 1e-6 * light.depth);
   float share = -(map.near_depth + map.depth_range) * light.depth * light.depth / before_lamp;
-  return 1.0 + log(share) / lamp_depth_logarithm;
+  return max(1.0 + log(share) / lamp_depth_logarithm, 0.0);
 }
 
 float filtered_difference(float difference, Light light) {
