@@ -207,5 +207,23 @@ TEST_F(ShadowScale, TheHistoryIsFoundWhereTheSurfaceWas) {
   }
 }
 
+// Without normals all pixels are computed, with textures of another size.
+TEST_F(ShadowScale, AFrameThatBeginsOrCeasesToBringNormalsHasNoHistory) {
+  renderer_->shadows().registry().select(params, "thesis");
+  params.set("history.reuse", true);
+  const TriangleScene scene = box_on_ground(120, 83);
+  const auto frame = [&](int view, bool normals) {
+    const Shadowed shadowed = render(scene, 2, [&](shadow::Inputs& in) {
+      in.view.id = view;
+      if (!normals) in.normals = {};
+    });
+    return shadowed.visibilities();
+  };
+  const std::vector<float> first_without = frame(10, false), first_with = frame(11, true);
+  EXPECT_NE(frame(11, true), first_with) << "the second frame has a history";
+  EXPECT_EQ(frame(11, false), first_without);
+  EXPECT_EQ(frame(11, true), first_with);
+}
+
 }  // namespace
 }  // namespace penumbra::test
