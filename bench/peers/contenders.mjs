@@ -77,11 +77,13 @@ export class PenumbraContender {
       newRow('Penumbra', name === 'pcss' ? `pcss ${blocker}/${filter}` : name, maps));
   }
 
-  // A preset file: the taps are those of pcss alone, not those of presets that are built on it.
+  // A preset file: the taps are those of pcss alone, not those of presets that are built on it. A peer's blocker tap
+  // reads one texel.
   technique(name, folder) {
     if (name !== 'pcss') return name;
     const { blocker, filter } = this.options.taps, file = path.join(folder, 'pcss.toml');
-    fs.writeFileSync(file, `technique = "pcss"\n[pcss]\nblocker_taps = ${blocker}\nfilter_taps = ${filter}\n`);
+    fs.writeFileSync(file, `technique = "pcss"\n[pcss]\nblocker_taps = ${blocker}\n` +
+      `blocker_reads = "texel"\nfilter_taps = ${filter}\n`);
     return file;
   }
 

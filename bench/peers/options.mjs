@@ -21,7 +21,7 @@ usage: bench/peers/run.sh SCENE... [OPTIONS]
   --techniques T,...  Penumbra's techniques (pcss)
   --cascades N,...    Numbers of shadow maps, 1 to 4, each measured with every renderer that has it (4,1)
   --map-size N        Width of a map in texels (2048)
-  --taps B/F          Blocker and filter taps (16/16)
+  --taps B/F          Blocker taps of one texel each, and filter taps (16/16)
   --sun-angle DEG     Full angle of the sun's disc (0.53)
   --camera NAME       A camera of the scene, as in penumbra render
   --ground HOW        auto, on or off, as in penumbra render
