@@ -122,16 +122,22 @@ bool decide_out_of_reach(Pixels pixels, inout TileState tile) {
   return true;
 }
 
+// Bounds the search_radius() of a box's receivers, of which this is the one that is farthest from the light, metres.
+float most_search_radius(Receiver deepest, vec2 half_widths, Light light) {
+  Light widest = with_widest_layer(deepest, light);
+  float widest_radius = penumbra_radius(deepest, deepest.position.z - least_depth(widest), light);
+  vec2 margins = half_widths + (2.0 + bias_normal_offset) * texel_size(deepest, widest);
+  float nearest = depth_bounds(deepest.position, margins + widest_radius, widest).least;
+  return min(widest_radius, penumbra_radius(deepest, deepest.position.z - nearest, light));
+}
+
 // The same for all layers in which receivers of a box are read.
 bool decide_box(Pixels pixels, Box box, Light light, inout TileState tile) {
   vec2 half_widths = 0.5 * (box.high.xy - box.low.xy);
   float box_radius = max(half_widths.x, half_widths.y);
   Receiver deepest = receiver_in_box(box, box.high.z, light);
   Light widest = with_widest_layer(deepest, light);
-  float widest_radius = penumbra_radius(deepest, deepest.position.z - least_depth(widest), light);
-  vec2 margins = half_widths + (2.0 + bias_normal_offset) * texel_size(deepest, widest);
-  float nearest = depth_bounds(deepest.position, margins + widest_radius, widest).least;
-  float radius = min(widest_radius, penumbra_radius(deepest, deepest.position.z - nearest, light));
+  float radius = most_search_radius(deepest, half_widths, light);
   Receiver shallowest = receiver_in_box(box, box.low.z, light);
   SearchRadii radii = search_radii(shallowest, deepest, box_radius, widest);
   Layers layers = layers_of(shallowest, deepest, radii, box_radius, light);
@@ -147,24 +153,45 @@ bool decide_box(Pixels pixels, Box box, Light light, inout TileState tile) {
   return true;
 }
 
+// Texels beyond the disc of search_radius() that techniques read: must match src/shadow/light_projection.h.
+const float read_margin = 8.0;
+
+// Whether a receiver of the hull may read texels beyond the rim of a map that sees it.
+bool may_read_beyond_rim(Hull hull) {
+  if (!has_faces(frame_light())) return false;
+  for (int left = sights_of(hull); left != 0; left &= left - 1) {
+    Box box;
+    Light light = frame_light();
+    if (!box_of(hull, findLSB(left), box, light)) return true;
+    Receiver deepest = receiver_in_box(box, box.high.z, light);
+    float radius = most_search_radius(deepest, 0.5 * (box.high.xy - box.low.xy), light);
+    if (reaches_rim(box, radius, read_margin + 1.0 + bias_normal_offset, light)) return true;
+  }
+  return false;
+}
+
+// What becomes of a tile.
+const int tile_decided = 0, tile_listed = 1, tile_at_rim = 2;
+
 // Decides all pixels of a tile, if that is possible.
-bool decide_tile(Pixels pixels, out Decision decision) {
+int decide_tile(Pixels pixels, out Decision decision) {
   decision = Decision(uvec2(~0u), 0.0, 0.0, 0);
   vec2 range = depth_range(pixels);
-  if (range.x > range.y) return true;
+  if (range.x > range.y) return tile_decided;
   TileState tile = TileState(uvec2(0u), 0, 0, 0.0, Decision(uvec2(0u), 0.0, 0.0, 0));
   Hull hull = hull_of(pixels, range);
   bool done = may_be_out_of_reach() && decide_out_of_reach(pixels, tile);
-  for (int sight = 0; !done && sight < sight_count(frame_light()); ++sight) {
-    if (!may_see(hull, sight)) continue;
+  int listed = may_read_beyond_rim(hull) ? tile_at_rim : tile_listed;
+  for (int left = done ? 0 : sights_of(hull); left != 0; left &= left - 1) {
     Box box;
     Light light = frame_light();
-    if (!box_of(hull, sight, box, light) || !decide_box(pixels, box, light, tile)) return false;
+    if (!box_of(hull, findLSB(left), box, light) || !decide_box(pixels, box, light, tile)) return listed;
   }
   decision = tile.decision;
   if (tile.covered > 0) decision.blocker_distance = tile.distance_sum / float(tile.covered);
   ivec2 size = pixels.high - pixels.low;
-  return bitCount(tile.decided.x) + bitCount(tile.decided.y) == size.x * size.y;
+  bool all_decided = bitCount(tile.decided.x) + bitCount(tile.decided.y) == size.x * size.y;
+  return all_decided ? tile_decided : listed;
 }
 
 // The pixels of a tile of the viewport.

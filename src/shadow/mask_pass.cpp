@@ -40,8 +40,12 @@ Programs::MaskForm form_of(const LightWork& work, const MaskOutput& output) {
           .history = output.last_surfaces != nullptr};
 }
 
+// Whether a receiver may read beyond the rim of the map that sees it, where the next face of a cube goes on.
+bool has_rims(const LightWork& work) { return work.frame.shape.lamp && work.frame.projection.layers() > 1; }
+
 void compute_all(const LightWork& work, const MaskOutput& output) {
-  const Programs::MaskForm form = form_of(work, output);
+  Programs::MaskForm form = form_of(work, output);
+  form.rim = has_rims(work);
   gl::Pass pass(work.device, form.compute ? gl::PassDesc{.name = "shadow mask"} : pass_of("shadow mask", output));
   const gl::Program& program = use(pass, work, work.programs.mask(work.technique, work.params(), form), output);
   const Rect& viewport = work.frame.viewport;
@@ -62,17 +66,26 @@ void fill_decided(const LightWork& work, const MaskOutput& output, const Tiles& 
   draw_tiles(pass, tiles.list, decided_draw_offset);
 }
 
-void compute_listed(const LightWork& work, const MaskOutput& output, const Tiles& tiles, gl::Pass& pass) {
-  Programs::MaskForm form = form_of(work, output);
-  form.tiles = true;
+// The listed tiles, or those of them that are at a rim.
+void compute_list(const LightWork& work, const MaskOutput& output, const Tiles& tiles, Programs::MaskForm form,
+                  gl::Pass& pass) {
   const gl::Program& program = use(pass, work, work.programs.mask(work.technique, work.params(), form), output);
   if (form.compute) {
     bind_images(program, output);
     tiles.list.bind_storage(tile_list_binding);
-    pass.dispatch_indirect(tiles.list);
+    pass.dispatch_indirect(tiles.list, form.rim ? rim_dispatch_offset : listed_dispatch_offset);
   } else {
-    draw_tiles(pass, tiles.list, listed_draw_offset);
+    draw_tiles(pass, tiles.list, form.rim ? rim_draw_offset : listed_draw_offset);
   }
+}
+
+void compute_listed(const LightWork& work, const MaskOutput& output, const Tiles& tiles, gl::Pass& pass) {
+  Programs::MaskForm form = form_of(work, output);
+  form.tiles = true;
+  compute_list(work, output, tiles, form, pass);
+  if (!has_rims(work)) return;
+  form.rim = true;
+  compute_list(work, output, tiles, form, pass);
 }
 
 }  // namespace
@@ -103,6 +116,7 @@ void run_for_missing(const LightWork& work, const MissingPixels& missing) {
   Programs::MaskForm form{.compiled = Programs::compiled_for(work.technique, work.params(), work.frame.shape)};
   form.missing = true;
   form.tiles = fits_tiles(work);
+  form.rim = has_rims(work);
   const MaskOutput output{.mask = &work.mask, .layer = work.frame.layer};
   gl::Pass pass(work.device, pass_of("missing pixels", output));
   set_viewport(pass, work.frame.viewport);

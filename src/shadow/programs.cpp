@@ -45,6 +45,12 @@ std::vector<Programs::MaskForm> mask_forms(const Programs::Compiled& compiled) {
       forms.push_back({.compiled = compiled, .compute = compute, .packed = true, .history = true, .tiles = tiles});
     }
   }
+  if (!compiled.lamp) return forms;
+  const std::vector<Programs::MaskForm> others = forms;
+  for (Programs::MaskForm form : others) {
+    form.rim = true;
+    forms.push_back(form);
+  }
   return forms;
 }
 
@@ -196,6 +202,7 @@ gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& param
   program.defines.push_back({"PACKED", form.packed ? "1" : "0"});
   program.defines.push_back({"HISTORY", form.history ? "1" : "0"});
   program.defines.push_back({"TILES", form.tiles ? "1" : "0"});
+  program.defines.push_back({"RIM", form.rim ? "1" : "0"});
   if (form.compute) {
     program.compute = driver_file(technique, "mask.comp");
   } else {

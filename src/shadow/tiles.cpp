@@ -1,6 +1,5 @@
 #include "tiles.h"
 
-#include <array>
 #include <cstdint>
 #include <span>
 
@@ -14,16 +13,11 @@ int tiles_across(int pixels) { return (pixels + Tiles::size - 1) / Tiles::size; 
 
 glm::ivec2 tile_count(const Rect& viewport) { return {tiles_across(viewport.width), tiles_across(viewport.height)}; }
 
-// Its commands, for no tiles, and its capacity.
-std::array<std::uint32_t, 12> empty_tile_list(std::size_t capacity) {
-  return {256, 0, 1, /*listed*/ 0, 1, 0, 0, /*decided*/ 0, 1, 0, 0, static_cast<std::uint32_t>(capacity)};
-}
-
 const gl::Buffer& begin_tile_list(const PassContext& context, const char* name, const glm::ivec2& tiles) {
   const std::size_t count = static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
-  const auto head = empty_tile_list(count);
-  const gl::Buffer& list = context.scratch(name, sizeof(head) + sizeof(std::uint32_t) * count);
-  list.write(std::as_bytes(std::span(head)));
+  const TileListHead head{.capacity = static_cast<std::uint32_t>(count)};
+  const gl::Buffer& list = context.scratch(name, sizeof(head) + sizeof(std::uint32_t) * 2 * count);
+  list.write(std::as_bytes(std::span(&head, 1)));
   return list;
 }
 

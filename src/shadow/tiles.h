@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 
@@ -21,15 +21,24 @@ struct Tiles {
 };
 
 constexpr GLuint tile_list_binding = 7;  // storage buffer
-// Of the commands in the list, bytes.
-constexpr std::size_t listed_draw_offset = 12;
-constexpr std::size_t decided_draw_offset = 28;
 
+// The beginning of TileList there, of a list without tiles.
+struct TileListHead {
+  gl::DispatchCommand dispatch_listed{256, 0, 1};
+  gl::DrawArraysCommand draw_listed, draw_decided;
+  gl::DispatchCommand dispatch_rim{256, 0, 1};
+  gl::DrawArraysCommand draw_rim;
+  std::uint32_t capacity = 0;
+};
+
+// Where the commands are in the list, bytes.
+constexpr std::size_t listed_dispatch_offset = offsetof(TileListHead, dispatch_listed);
+constexpr std::size_t listed_draw_offset = offsetof(TileListHead, draw_listed);
+constexpr std::size_t decided_draw_offset = offsetof(TileListHead, draw_decided);
+constexpr std::size_t rim_dispatch_offset = offsetof(TileListHead, dispatch_rim);
+constexpr std::size_t rim_draw_offset = offsetof(TileListHead, draw_rim);
 // How many tiles cover a viewport along each axis.
 glm::ivec2 tile_count(const Rect& viewport);
-// The beginning of a list without tiles.
-std::array<std::uint32_t, 12> empty_tile_list(std::size_t capacity);
-
 // A list without tiles for a viewport of so many.
 const gl::Buffer& begin_tile_list(const PassContext& context, const char* name, const glm::ivec2& tiles);
 

@@ -110,9 +110,9 @@ class HybridFrame {
   const gl::Buffer& decide_tiles(const gl::Texture* masked) const {
     const glm::ivec2 tiles = shadow::tile_count(context_.frame().viewport);
     const auto capacity = static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
-    const auto head = shadow::empty_tile_list(capacity);
+    const shadow::TileListHead head{.capacity = static_cast<std::uint32_t>(capacity)};
     const gl::Buffer& list = context_.scratch("tile list", sizeof(head) + sizeof(std::uint32_t) * capacity);
-    list.write(std::as_bytes(std::span(head)));
+    list.write(std::as_bytes(std::span(&head, 1)));
     gl::Pass pass(context_.device(), {.name = "tile decisions"});
     use_decision(pass, "tiles", masked);
     list.bind_storage(shadow::tile_list_binding);

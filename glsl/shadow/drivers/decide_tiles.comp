@@ -8,11 +8,13 @@ void main() {
   ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
   if (!in_viewport(tile)) return;
   Decision decision;
-  if (decide_tile(pixels_of(tile), decision)) {
-    imageStore(decisions, tile, packed_decision(decision));
+  int outcome = decide_tile(pixels_of(tile), decision);
+  imageStore(decisions, tile, outcome == tile_decided ? packed_decision(decision) : no_decision);
+  if (outcome == tile_decided) {
     list_decided(tile);
-  } else {
-    imageStore(decisions, tile, no_decision);
+  } else if (outcome == tile_listed) {
     list_tile(tile);
+  } else {
+    list_rim_tile(tile);
   }
 }

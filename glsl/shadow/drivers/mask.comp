@@ -15,8 +15,14 @@ uniform int mask_layer;
 // The pixel of an invocation in a group that runs over a listed tile; beyond the viewport where there is no such tile.
 ivec2 pixel_in_viewport() {
   uint index = gl_WorkGroupID.y * list_row + gl_WorkGroupID.x;
+#if RIM
+  if (index >= tile_list.rim.count) return ivec2(shadow.viewport.zw);
+  ivec2 tile = rim_tile(index);
+#else
   if (index >= tile_list.listed.count) return ivec2(shadow.viewport.zw);
-  return listed_tile(index) * tile_size + ivec2(gl_LocalInvocationID.xy);
+  ivec2 tile = listed_tile(index);
+#endif
+  return tile * tile_size + ivec2(gl_LocalInvocationID.xy);
 }
 #else
 ivec2 pixel_in_viewport() { return ivec2(gl_GlobalInvocationID.xy); }

@@ -1,7 +1,11 @@
-// The centre of a tile in one of the two lists: a point as large as the tile covers its pixels. Two triangles would run
+// The centre of a tile in one of the lists: a point as large as the tile covers its pixels. Two triangles would run
 // the fragment shader twice along their diagonal.
 #include "shared/shadow_block.h"
 #include "shadow/drivers/tiles.glsl"
+
+#ifndef RIM
+#define RIM 0  // 1: a tile at the rim of a cube's face
+#endif
 
 layout(std140, binding = 1) uniform ShadowData { ShadowBlock shadow; };
 
@@ -12,6 +16,8 @@ void main() {
   // Fragment shaders discard the pixels of other tiles that it then covers.
 #if DECIDED
   tile = decided_tile(uint(gl_VertexID));
+#elif RIM
+  tile = rim_tile(uint(gl_VertexID));
 #else
   tile = listed_tile(uint(gl_VertexID));
 #endif

@@ -26,7 +26,8 @@ Decision unpacked_decision(uvec4 texel) {
 }
 
 // The commands are for the listed tiles in the compute driver, the listed tiles in the fragment driver, and the decided
-// tiles.
+// tiles. Tiles whose receivers may read beyond the rim of a lamp's face are listed apart, with commands for both
+// drivers.
 struct DrawPoints {
   uint count, instance_count, first_vertex, base_instance;
 };
@@ -34,8 +35,12 @@ struct DrawPoints {
 layout(std430, binding = 7) restrict buffer TileList {
   uint groups_x, groups_y, groups_z;  // rows of `list_row` tiles
   DrawPoints listed, decided;
-  uint capacity;  // of `tiles`
-  uint tiles[];   // x in the lower 16 bits, y in the upper ones; listed ones from the front, decided ones from the end
+  uint rim_groups_x, rim_groups_y, rim_groups_z;
+  DrawPoints rim;
+  uint capacity;  // tiles, of each of both halves of `tiles`
+  // x in the lower 16 bits, y in the upper ones; of the first half listed ones from the front, decided ones from the
+  // end; of the second half those at a rim.
+  uint tiles[];
 } tile_list;
 
 const uint list_row = 256u;
@@ -44,4 +49,5 @@ uint packed_tile(ivec2 tile) { return uint(tile.x) | uint(tile.y) << 16; }
 ivec2 unpacked_tile(uint tile) { return ivec2(tile & 0xffffu, tile >> 16); }
 
 ivec2 listed_tile(uint index) { return unpacked_tile(tile_list.tiles[index]); }
+ivec2 rim_tile(uint index) { return unpacked_tile(tile_list.tiles[tile_list.capacity + index]); }
 ivec2 decided_tile(uint index) { return unpacked_tile(tile_list.tiles[tile_list.capacity - 1u - index]); }

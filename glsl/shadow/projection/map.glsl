@@ -1,4 +1,7 @@
 // The texels of a layer of the map: where they lie, and what their depths are.
+#ifndef RIM
+#define RIM 1  // 0: no receiver reads beyond the rim of a map that sees it
+#endif
 #include "shadow/projection/light_space.glsl"
 
 // Light-space depth, metres, for a depth as stored in the map.
@@ -42,7 +45,13 @@ float filtered_difference(float difference, Light light) {
 // Beyond the rim of a cube's face the map goes on in the faces there. Their texels lie elsewhere, so that what is read
 // of one is a depth and its own place.
 
-bool has_faces(Light light) { return is_lamp && light.layers > 1; }
+bool has_faces(Light light) {
+#if RIM
+  return is_lamp && light.layers > 1;
+#else
+  return false;
+#endif
+}
 
 bool leaves_map(ivec2 low, ivec2 high) {
   return any(lessThan(low, ivec2(0))) || any(greaterThan(high, last_texel()));

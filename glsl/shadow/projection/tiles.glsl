@@ -14,12 +14,8 @@ struct Hull {
 // Whether tiles are looked for on which the light does not shine at all: a lamp's cone and range end.
 bool may_be_out_of_reach() { return is_lamp; }
 
-// How often the light is to be looked from at a tile: a lamp has faces, each with a light space of its own.
-int sight_count(Light light) { return is_lamp ? light.layers : 1; }
-
-// Whether the face reads any of the receivers.
+// Whether the face of a lamp reads any of the receivers.
 bool may_see(Hull hull, int face) {
-  if (!is_lamp) return true;
   vec3 low = vec3(1e30), high = vec3(-1e30);
   float along = -1e30;
   for (int i = 0; i < 8; ++i) {
@@ -29,6 +25,14 @@ bool may_see(Hull hull, int face) {
   }
   vec3 least = max(max(low, -high), 0.0);
   return along > 0.0 && along >= (1.0 - face_blend()) * max(least.x, max(least.y, least.z));
+}
+
+// The light spaces in which a tile is to be looked at, as bits: a lamp has one for each face, a sun one for all layers.
+int sights_of(Hull hull) {
+  if (!is_lamp) return 1;
+  int sights = 0;
+  for (int face = 0; face < shadow.layer_count; ++face) sights |= int(may_see(hull, face)) << face;
+  return sights;
 }
 
 Box box_around(Hull hull) {
@@ -69,6 +73,14 @@ bool box_of(Hull hull, int face, out Box box, inout Light light) {
   // A normal offset may lead away from the lamp's plane.
   box.high.z += bias_normal_offset * light.map.texel;
   return true;
+}
+
+// Whether a disc of that radius, metres, about a receiver of a lamp's box ends less than so many texels before the rim
+// of the face's map.
+bool reaches_rim(Box box, float radius, float texels, Light light) {
+  vec2 farthest = max(abs(box.low.xy), abs(box.high.xy));
+  vec2 margin = texels * light.map.texel * light.map.texel_shares;
+  return any(greaterThan(farthest + radius * outline_reach(light) + margin, 0.5 / light.map.widths_per_metre));
 }
 
 // A receiver at the box's centre, at this depth, as that light sees it.
