@@ -121,7 +121,8 @@ class Commands(support.TestCase):
     def test_library(self):
         self.run_page("docs/library.md")
 
-    @unittest.skipUnless(support.has_openscenegraph(), "skipped: there is no OpenSceneGraph (libopenscenegraph-dev)")
+    @unittest.skipUnless(support.has_openscenegraph() and support.has_ogre(),
+                         "skipped: there is no OpenSceneGraph (libopenscenegraph-dev) or no OGRE (libogre-1.12-dev)")
     def test_engines(self):
         self.run_page("docs/engines.md")
 

@@ -74,10 +74,18 @@ def assets(folder):
     return pathlib.Path(base) / folder
 
 
-def has_openscenegraph():
-    """Whether the compiler finds its headers."""
+def has_header(*path):
+    """Whether the compiler finds it."""
     folders = ["/usr/include", "/usr/local/include", *os.environ.get("CPATH", "").split(":")]
-    return any(pathlib.Path(folder, "osgViewer", "Viewer").exists() for folder in folders if folder)
+    return any(pathlib.Path(folder, *path).exists() for folder in folders if folder)
+
+
+def has_openscenegraph():
+    return has_header("osgViewer", "Viewer")
+
+
+def has_ogre():
+    return has_header("OGRE", "OgreRoot.h")
 
 
 def temporary_folder():
