@@ -33,8 +33,8 @@ shadow::Box box_of(const penumbra_box& box, const char* name) {
   return {vec3_of(box.min), vec3_of(box.max)};
 }
 
-shadow::TextureView texture_of(const penumbra_texture& texture) {
-  return {.id = texture.id, .width = texture.width, .height = texture.height};
+shadow::TextureView texture_of(const penumbra_texture& texture, int32_t layer) {
+  return {.id = texture.id, .width = texture.width, .height = texture.height, .layer = layer};
 }
 
 shadow::LightSource source_of(const penumbra_light& light) {
@@ -173,9 +173,9 @@ shadow::Inputs inputs_of(const penumbra_frame& frame) {
                  .cut = frame.cut != 0,
                  .restart = frame.restart != 0};
   inputs.conventions = conventions_of(frame);
-  inputs.depth = texture_of(frame.depth);
-  inputs.normals = texture_of(frame.normals);
-  inputs.motion = texture_of(frame.motion);
+  inputs.depth = texture_of(frame.depth, frame.depth_layer);
+  inputs.normals = texture_of(frame.normals, frame.normals_layer);
+  inputs.motion = texture_of(frame.motion, frame.motion_layer);
   inputs.viewport = {frame.viewport[0], frame.viewport[1], frame.viewport[2], frame.viewport[3]};
   inputs.casters = box_of(frame.casters, "penumbra_frame.casters");
   inputs.receivers = box_of(frame.receivers, "penumbra_frame.receivers");

@@ -337,7 +337,9 @@ typedef struct penumbra_frame {
   float last_projection[16]; /**< `projection` of the view's last frame: see last_view */
   float jitter[2];           /**< what was added to x and y of clip space after division by w, -1..1; default 0 */
 
-  /** Depth as drawn: any depth format, or R32F. */
+  /** Depth as drawn: any depth format, or R32F. This texture and the next two may each be a GL_TEXTURE_2D, a layer of a
+   * GL_TEXTURE_2D_ARRAY (see depth_layer), or one of both with samples, of which the one nearest to the centre of each
+   * pixel is read. All but a GL_TEXTURE_2D are copied in each frame. */
   penumbra_texture depth;
   /** Geometric normals (of the triangle, not of shading), world space, unit length: SNORM or float formats, with
    * normals_scale or normals_offset UNORM ones too (RGBA8, RGB10_A2, RG16), as many channels as normals_encoding needs;
@@ -383,6 +385,13 @@ typedef struct penumbra_frame {
    * and -1 for normals that were stored as 0.5 + 0.5 n. */
   float normals_scale;
   float normals_offset; /**< see normals_scale */
+
+  /** Where the textures are arrays, such as those of both eyes of a headset: the layers that this view was drawn to;
+   * else 0 (default). */
+  int32_t depth_layer;
+  int32_t normals_layer; /**< see depth_layer */
+  int32_t motion_layer;  /**< see depth_layer */
+  uint32_t reserved_3;   /**< 0 */
 } penumbra_frame;
 
 /** PENUMBRA_ERROR_ARGUMENT: `frame` is null or `struct_size` is not that of a version of the struct. */

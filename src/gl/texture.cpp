@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cassert>
+#include <utility>
 
 #include "../core/error.h"
 #include "compatibility.h"
@@ -248,8 +249,14 @@ GLenum target_of(GLuint id) {
   glActiveTexture(GL_TEXTURE0);
   glBindTextureUnit(0, id);
   GLenum target = GL_NONE;
-  if (static_cast<GLuint>(integer(GL_TEXTURE_BINDING_2D)) == id) target = GL_TEXTURE_2D;
-  if (static_cast<GLuint>(integer(GL_TEXTURE_BINDING_2D_ARRAY)) == id) target = GL_TEXTURE_2D_ARRAY;
+  constexpr std::pair<GLenum, GLenum> bindings[] = {
+      {GL_TEXTURE_BINDING_2D, GL_TEXTURE_2D},
+      {GL_TEXTURE_BINDING_2D_ARRAY, GL_TEXTURE_2D_ARRAY},
+      {GL_TEXTURE_BINDING_2D_MULTISAMPLE, GL_TEXTURE_2D_MULTISAMPLE},
+      {GL_TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY, GL_TEXTURE_2D_MULTISAMPLE_ARRAY}};
+  for (const auto& [binding, of] : bindings) {
+    if (static_cast<GLuint>(integer(binding)) == id) target = of;
+  }
   glBindTextureUnit(0, 0);
   glActiveTexture(active);
   return target;

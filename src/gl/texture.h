@@ -86,8 +86,8 @@ class Sampler {
   Handle<delete_sampler> handle_;
 };
 
-// The target of a texture that the caller made, or 0 if it is neither GL_TEXTURE_2D nor GL_TEXTURE_2D_ARRAY and the
-// context has the compatibility profile. May unbind the textures of unit 0.
+// The target of a texture that the caller made, or 0 if it is neither GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY nor one of
+// these with samples, and the context has the compatibility profile. May unbind the textures of unit 0.
 GLenum target_of(GLuint id);
 
 // Asks OpenGL for the description of a texture that the caller made. Throws Error, with `name` in its message, when

@@ -102,12 +102,12 @@ void check_given(std::string_view name, const TextureView& view) {
   if (view.id == 0 || view.width < 1 || view.height < 1) fail("soft shadows: no {} texture", name);
 }
 
-void check_texture(std::string_view name, const TextureView& view, GLenum target) {
+GLenum target_of_existing(std::string_view name, const TextureView& view) {
   if (gl::glIsTexture(view.id) == GL_FALSE) fail("soft shadows: {}: {} is not the name of a texture", name, view.id);
-  if (gl::target_of(view.id) != target) {
-    fail("soft shadows: {}: texture {} is not a {}", name, view.id,
-         target == GL_TEXTURE_2D ? "GL_TEXTURE_2D" : "GL_TEXTURE_2D_ARRAY");
-  }
+  return gl::target_of(view.id);
+}
+
+void check_size(std::string_view name, const TextureView& view) {
   const GLint width = level_parameter(view.id, GL_TEXTURE_WIDTH);
   const GLint height = level_parameter(view.id, GL_TEXTURE_HEIGHT);
   if (width != view.width || height != view.height) {
@@ -115,15 +115,58 @@ void check_texture(std::string_view name, const TextureView& view, GLenum target
   }
 }
 
+// The sample that is nearest to the centre of a pixel.
+TextureChecks::Source nearest_sample(const TextureView& view, GLenum target) {
+  const GLenum attachment =
+      level_parameter(view.id, GL_TEXTURE_DEPTH_SIZE) > 0 ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0;
+  GLuint framebuffer = 0;
+  gl::glCreateFramebuffers(1, &framebuffer);
+  gl::glNamedFramebufferTexture(framebuffer, attachment, view.id, 0);
+  gl::glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  TextureChecks::Source nearest{.target = target};
+  float least = 2;
+  const GLint samples = level_parameter(view.id, GL_TEXTURE_SAMPLES);
+  for (GLint i = 0; i < samples; ++i) {
+    glm::vec2 place(0.5f);
+    gl::glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(i), glm::value_ptr(place));
+    const float away = glm::distance(place, glm::vec2(0.5f));
+    if (away >= least) continue;
+    least = away;
+    nearest.sample = i;
+    nearest.place = place;
+  }
+  gl::glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+  gl::glDeleteFramebuffers(1, &framebuffer);
+  return nearest;
+}
+
+// Checks a texture that is new, of receivers, and says how it is read.
+TextureChecks::Source check_source(std::string_view name, const TextureView& view) {
+  const GLenum target = target_of_existing(name, view);
+  const bool array = target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
+  if (!array && target != GL_TEXTURE_2D && target != GL_TEXTURE_2D_MULTISAMPLE) {
+    fail("soft shadows: {}: texture {} is not a GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY or one of these with samples", name,
+         view.id);
+  }
+  check_size(name, view);
+  const GLint layers = array ? level_parameter(view.id, GL_TEXTURE_DEPTH) : 1;
+  if (view.layer < 0 || view.layer >= layers) {
+    fail("soft shadows: {}: texture {} has no layer {}", name, view.id, view.layer);
+  }
+  const TextureChecks::Source source{.target = target};
+  return source.has_samples() ? nearest_sample(view, target) : source;
+}
+
 void check_depth(const TextureView& view, TextureChecks& checks) {
   check_given("depth", view);
-  const TextureChecks::Key key{.id = view.id, .width = view.width, .height = view.height};
-  if (!checks.knows(key)) {
-    check_texture("depth", view, GL_TEXTURE_2D);
+  const TextureChecks::Key key{.id = view.id, .width = view.width, .height = view.height, .layer = view.layer};
+  const TextureChecks::Source* known = checks.known_source(key);
+  const TextureChecks::Source source = known != nullptr ? *known : check_source("depth", view);
+  if (known == nullptr) {
     if (!holds_depth(view.id)) fail("soft shadows: depth: texture {} holds no depth", view.id);
     checks.depth = depth_rounding_of(view.id);
   }
-  checks.add(key);
+  checks.add(key, source);
 }
 
 // Checks a texture of values in -1..1 with one texel for each receiver; `texels`: what messages call it.
@@ -141,9 +184,11 @@ void check_receivers(const ReceiverTexture& texture, const TextureView& depth, T
                                .width = view.width,
                                .height = view.height,
                                .channels = texture.channels,
+                               .layer = view.layer,
                                .may_be_unsigned = texture.may_be_unsigned};
-  const bool known = checks.knows(key);
-  if (!known) check_texture(texture.name, view, GL_TEXTURE_2D);
+  const TextureChecks::Source* found = checks.known_source(key);
+  const bool known = found != nullptr;
+  const TextureChecks::Source source = known ? *found : check_source(texture.name, view);
   if (view.width != depth.width || view.height != depth.height) {
     fail("soft shadows: {} are {}×{}, depth is {}×{}", texture.texels, view.width, view.height, depth.width,
          depth.height);
@@ -156,7 +201,7 @@ void check_receivers(const ReceiverTexture& texture, const TextureView& depth, T
     fail("soft shadows: {}: texture {} has not {} channels of a float or SNORM format{}", texture.texels, view.id,
          texture.channels, texture.may_be_unsigned ? ", or of a UNORM one" : "");
   }
-  checks.add(key);
+  checks.add(key, source);
 }
 
 void check_map_texture(const TextureView& depth, GLint count, int light) {
@@ -174,7 +219,12 @@ void check_maps(const FinishedMaps& maps, int light, TextureChecks& checks) {
   const TextureChecks::Key key{
       .id = depth.id, .width = depth.width, .height = depth.height, .layers = projection.layers()};
   const bool known = checks.knows(key);
-  if (!known) check_texture(name, depth, GL_TEXTURE_2D_ARRAY);
+  if (!known) {
+    if (target_of_existing(name, depth) != GL_TEXTURE_2D_ARRAY) {
+      fail("soft shadows: {}: texture {} is not a GL_TEXTURE_2D_ARRAY", name, depth.id);
+    }
+    check_size(name, depth);
+  }
   if (depth.width != projection.size() || depth.height != projection.size()) {
     fail("soft shadows: light {} has maps of {}×{} and a projection for {}", light, depth.width, depth.height,
          projection.size());
@@ -306,6 +356,26 @@ TextureChecks::Key key_of(const OutputTexture& output, const glm::ivec2& size) {
 }
 
 }  // namespace
+
+bool TextureChecks::Source::is_plain() const { return target == GL_TEXTURE_2D; }
+
+bool TextureChecks::Source::has_samples() const {
+  return target == GL_TEXTURE_2D_MULTISAMPLE || target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
+}
+
+const TextureChecks::Source* TextureChecks::known_source(const Key& key) const {
+  const auto found = std::ranges::find(last_, key, &Entry::key);
+  return found == last_.end() ? nullptr : &found->source;
+}
+
+const TextureChecks::Source& TextureChecks::source_of(const TextureView& view) const {
+  return std::ranges::find_if(now_,
+                              [&](const Entry& entry) {
+                                return entry.key.id == view.id && entry.key.layer == view.layer && !entry.key.output &&
+                                       entry.key.layers == 0;
+                              })
+      ->source;
+}
 
 bool TextureChecks::takes_known_output(const OutputTexture& output, const glm::ivec2& size) {
   const auto found = std::ranges::find(last_, key_of(output, size), &Entry::key);

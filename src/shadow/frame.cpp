@@ -20,6 +20,7 @@
 #include "movement_map.h"
 #include "outputs.h"
 #include "products.h"
+#include "receiver_copies.h"
 #include "shadow_map.h"
 #include "visible_receivers.h"
 
@@ -333,10 +334,18 @@ void warn_of_bounds(ViewState& view, const LightFrame& frame) {
 
 }  // namespace
 
-Mask draw_mask(const MaskInputs& from, ViewState& view) {
+Mask draw_mask(const MaskInputs& given, ViewState& view) {
   // False until this frame is complete: after one that throws, the next has no history.
   const bool last_completed = std::exchange(view.drawn, false);
-  check(from.inputs, view.checked);
+  check(given.inputs, view.checked);
+  const Inputs inputs = with_copies(given.device, view, given.inputs);
+  const MaskInputs from{.device = given.device,
+                        .registry = given.registry,
+                        .programs = given.programs,
+                        .samples = given.samples,
+                        .defaults = given.defaults,
+                        .inputs = inputs,
+                        .params = given.params};
   if (view.normals != nullptr && from.inputs.normals.id != 0) drop_normals(from.device, view);
   view.normals = nullptr;
   begin_frame(view, from.inputs, last_completed);

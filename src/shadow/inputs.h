@@ -37,12 +37,14 @@ struct View {
   bool restart = false;  // discards the history alone: Inputs::moved still says what moved since the view's last frame
 };
 
-// A texture that the caller owns: GL_TEXTURE_2D, not multisampled (shadow maps: GL_TEXTURE_2D_ARRAY). Its filter, wrap
-// and compare modes do not matter; its swizzle, base and maximum level and GL_DEPTH_STENCIL_TEXTURE_MODE must have
-// OpenGL's initial values.
+// A texture that the caller owns. Shadow maps are a GL_TEXTURE_2D_ARRAY. Of receivers it is a GL_TEXTURE_2D or a layer
+// of an array, such as that of one eye; or one of both with samples, of which the one nearest to the pixel's centre is
+// read. What is not a GL_TEXTURE_2D is copied in each frame. Its filter, wrap and compare modes do not matter; its
+// swizzle, base and maximum level and GL_DEPTH_STENCIL_TEXTURE_MODE must have OpenGL's initial values.
 struct TextureView {
   unsigned id = 0;
   int width = 0, height = 0;  // of level 0, texels
+  int layer = 0;              // of an array of receivers; else 0
 };
 
 // A rectangle of texels; (x, y) is its lower left texel.
@@ -133,10 +135,11 @@ struct Light {
 struct Inputs {
   View view;
   Conventions conventions;
-  // Any depth texture, or R32F. The bias covers what the texture's format and the projection round away, so it grows
-  // where positions are imprecise, and casters nearer than that to what they shadow cast no shadow. A near plane of 0.1
-  // m and 24 bits cost nothing visible; reversed Z in 32-bit floats is precise with any near plane. A warning
-  // (core/log.h) says once for a view if positions are off by more than 1/200 of their distance from the camera.
+  // Any depth texture, or R32F. The bias covers what the texture's format and the projection round
+  // away, so it grows where positions are imprecise, and casters nearer than that to what they shadow cast no shadow. A
+  // near plane of 0.1 m and 24 bits cost nothing visible; reversed Z in 32-bit floats is precise with any near plane. A
+  // warning (core/log.h) says once for a view if positions are off by more than 1/200 of their distance from the
+  // camera.
   TextureView depth;
   // Geometric normals, world space; the size of `depth`. Float or SNORM formats, and with a scale and an offset (see
   // Conventions) UNORM ones too, such as RGBA8, RGB10_A2 and RG16. RG8 is too coarse for octahedral normals, and

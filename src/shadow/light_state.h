@@ -100,6 +100,7 @@ struct ViewState {
   bool drawn = false;  // the last frame completed without an Error
   TextureChecks checked;
   NdcError depth_error;
+  bool has_copies = false;               // of receivers' textures
   const gl::Texture* normals = nullptr;  // made from depths in this frame; null where the caller brings some
   bool warned_of_depth = false, warned_of_bounds = false;
   std::map<int, LightState> lights;

@@ -124,9 +124,7 @@ void SoftShadows::warm_up(const FrameKind& kind, const ParamSet& params) {
   small.lights = lights;
   // The second has a history, and casters that may have moved.
   for (int i = 0; i < 2; ++i) draw(warm_up_inputs(device_, view.prefix, small), params, view);
-  Inputs without_normals = warm_up_inputs(device_, view.prefix, small);
-  without_normals.normals = {};
-  draw(without_normals, params, view);
+  draw(other_warm_up_inputs(device_, view.prefix, small), params, view);
 }
 
 void SoftShadows::forget_view(int id) {

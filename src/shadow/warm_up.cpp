@@ -12,8 +12,8 @@ constexpr int side = 64;                              // of the picture, pixels
 constexpr float half_width = 10, depth_of_view = 20;  // of what the picture shows, metres
 
 TextureView cleared(gl::Device& device, const std::string& name, GLenum format, GLenum channels,
-                    const std::array<float, 4>& value) {
-  const gl::Texture& texture = device.target(name, {.format = format, .width = side, .height = side});
+                    const std::array<float, 4>& value, GLenum target = GL_TEXTURE_2D) {
+  const gl::Texture& texture = device.target(name, {.target = target, .format = format, .width = side, .height = side});
   gl::glClearTexImage(texture.id(), 0, channels, GL_FLOAT, value.data());
   return {.id = texture.id(), .width = side, .height = side};
 }
@@ -61,6 +61,14 @@ Inputs warm_up_inputs(gl::Device& device, const std::string& prefix, const Frame
       inputs.receivers = {glm::vec3(-half_width, -half_width, -depth_of_view), glm::vec3(half_width, half_width, 0)};
   inputs.mask_details = kind.mask_details;
   inputs.draw = [](const CasterPass&, gl::Pass&) {};
+  return inputs;
+}
+
+Inputs other_warm_up_inputs(gl::Device& device, const std::string& prefix, const FrameKind& kind) {
+  Inputs inputs = warm_up_inputs(device, prefix, kind);
+  inputs.depth =
+      cleared(device, prefix + "depths", GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, {0.5f}, GL_TEXTURE_2D_ARRAY);
+  inputs.normals = {};
   return inputs;
 }
 

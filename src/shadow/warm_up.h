@@ -15,4 +15,7 @@ std::vector<Light> warm_up_lights(gl::Device& device, const std::string& prefix,
 // the device that begin with `prefix`.
 Inputs warm_up_inputs(gl::Device& device, const std::string& prefix, const FrameKind& kind);
 
+// The same without normals, and with depths in an array.
+Inputs other_warm_up_inputs(gl::Device& device, const std::string& prefix, const FrameKind& kind);
+
 }  // namespace penumbra::shadow

@@ -120,7 +120,7 @@ TEST_F(CInterfaceHostile, EveryFieldOfAFrame) {
       const bool is_float =
           (at >= offsetof(penumbra_frame, view) && at < offsetof(penumbra_frame, depth)) ||
           (at >= offsetof(penumbra_frame, casters) && at < offsetof(penumbra_frame, moved_is_known)) ||
-          at >= offsetof(penumbra_frame, normals_scale);
+          (at >= offsetof(penumbra_frame, normals_scale) && at < offsetof(penumbra_frame, depth_layer));
       const penumbra_result result = render(wrong);
       refused += result == PENUMBRA_OK ? 0 : 1;
       if (is_float && is_not_finite(value)) {

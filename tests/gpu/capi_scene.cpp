@@ -125,6 +125,9 @@ penumbra_frame CInterface::frame_of(const shadow::Inputs& inputs, const Geometry
   frame.exact_bounds = inputs.exact_bounds ? 1 : 0;
   frame.normals_scale = inputs.conventions.normals_scale;
   frame.normals_offset = inputs.conventions.normals_offset;
+  frame.depth_layer = inputs.depth.layer;
+  frame.normals_layer = inputs.normals.layer;
+  frame.motion_layer = inputs.motion.layer;
   return frame;
 }
 

@@ -130,6 +130,30 @@ TEST_F(CapiTest, ALightsVisibilityIsWrittenToATextureOfTheEngines) {
   EXPECT_NE(std::string(penumbra_last_error()).find("has no channel 4"), std::string::npos) << penumbra_last_error();
 }
 
+// As in stereo: the other layers hold nothing that would give this mask.
+TEST_F(CapiTest, LayersOfArraysAreRead) {
+  const gl::TextureDesc array{
+      .target = GL_TEXTURE_2D_ARRAY, .format = GL_DEPTH_COMPONENT32F, .width = 48, .height = 48, .layers = 2};
+  gl::TextureDesc array_of_normals = array;
+  array_of_normals.format = GL_RG32F;
+  array_of_normals.layers = 3;
+  const gl::Texture depth("depth", array), normals("normals", array_of_normals);
+  const auto to_layer = [](shadow::TextureView& view, const gl::Texture& texture, int layer) {
+    gl::glCopyImageSubData(view.id, GL_TEXTURE_2D, 0, 0, 0, 0, texture.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, 48,
+                           48, 1);
+    view.id = texture.id();
+    view.layer = layer;
+  };
+  ParamSet params = renderer_->params();
+  params.set("cascades.size", 256);
+  const std::vector<float> plain = renderer_->render(box_on_ground(48), params).mask;
+  expect_same_mask(box_on_ground(48), params, [&](shadow::Inputs& inputs) {
+    to_layer(inputs.depth, depth, 1);
+    to_layer(inputs.normals, normals, 2);
+  });
+  EXPECT_EQ(gl::read_floats(*renderer_->mask().texture, 4), plain);
+}
+
 TEST_F(CapiTest, SecondLayersAreDrawn) {
   ParamSet params = renderer_->params();
   params.set("technique", std::string("slices"));

@@ -135,16 +135,19 @@ TEST(GlCompatibility, ATextureOfAnotherTargetIsRefusedAsInTheCoreProfile) {
   std::vector<std::string> messages;
   for (const bool compatibility : {false, true}) {
     const Engine engine(compatibility);
-    GLuint array = 0;
+    GLuint array = 0, cube = 0;
     gl::glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &array);
     gl::glTextureStorage3D(array, 1, GL_DEPTH_COMPONENT32F, 16, 16, 1);
+    gl::glCreateTextures(GL_TEXTURE_CUBE_MAP, 1, &cube);
+    gl::glTextureStorage2D(cube, 1, GL_DEPTH_COMPONENT32F, 16, 16);
     messages.push_back(message_of([&] {
       engine.renderer->render(box_on_ground(16), engine.renderer->params(), [&](shadow::Inputs& inputs) {
-        inputs.depth = {array, 16, 16};
+        inputs.depth = {cube, 16, 16};
       });
     }));
     EXPECT_EQ(gl::target_of(array), static_cast<GLenum>(GL_TEXTURE_2D_ARRAY));
     gl::glDeleteTextures(1, &array);
+    gl::glDeleteTextures(1, &cube);
   }
   EXPECT_NE(messages[0].find("is not a GL_TEXTURE_2D"), std::string::npos) << messages[0];
   EXPECT_EQ(messages[0], messages[1]);

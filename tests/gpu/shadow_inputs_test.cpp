@@ -117,7 +117,7 @@ TEST_F(ShadowInputs, TexturesAreChecked) {
   expect_refusal("depth: 4242 is not the name of a texture", [](Inputs& in) { in.depth.id = 4242; });
   expect_refusal("depth: texture", [](Inputs& in) { in.depth.width += 1; });
   expect_refusal("holds no depth", [&](Inputs& in) { in.depth = color; });
-  expect_refusal("is not a GL_TEXTURE_2D", [&](Inputs& in) { in.depth = array; });
+  expect_refusal("has no layer 1", [&](Inputs& in) { in.depth = array, in.depth.layer = 1; });
   expect_refusal("depths of half floats are too coarse to make normals from", [&](Inputs& in) {
     in.depth = half;
     in.normals = {};
