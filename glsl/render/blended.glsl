@@ -25,7 +25,7 @@ void main() {
   if (!is_unlit()) {
     vec3 view_position = (world_to_view * vec4(surface.world, 1.0)).xyz;
     Reflection r = reflection_of(s);
-    radiance = unshadowed_light(s, r, surroundings(reflect(-s.to_eye, s.normal), s.roughness));
+    radiance = unshadowed_light(s, r, lighting.ambient);
     // The forward driver reads the shadow map of the first light only.
     add_light(radiance, s, r, 0, shadow_visibility(view_position, geometric, gl_FragCoord.xy - 0.5));
     for (int i = 1; i < lighting.light_count; ++i) add_light(radiance, s, r, i, 1.0);

@@ -1,11 +1,10 @@
-// Computes the lighting of the G-buffer, and the sky where no surface is. LIGHTS: how many lights there are; SHADOWED:
-// how many of them have a layer of the mask. FURTHER_SAMPLE: 1 for a further sample of each pixel, which sees the
-// shadows of the first.
-#include "shared/view_block.h"
+// Computes the lighting of the G-buffer's surfaces. LIGHTS: how many lights there are; SHADOWED: how many of them have
+// a layer of the mask. FURTHER_SAMPLE: 1 for a further sample of each pixel, which sees the shadows of the first.
 #include "lib/octahedral.glsl"
 #include "render/shade.glsl"
 
-layout(std140, binding = 4) uniform ViewData { ViewBlock view; };
+layout(location = 0) noperspective in vec3 view_ray;  // as in lighting.vert
+layout(location = 1) flat in AmbientLight ambient;
 
 layout(binding = 8) uniform sampler2D gbuffer_albedo;
 layout(binding = 9) uniform sampler2D gbuffer_normal;
@@ -13,6 +12,12 @@ layout(binding = 10) uniform sampler2D gbuffer_material;
 layout(binding = 11) uniform sampler2DArray shadow_mask;  // one layer for each light
 #if EMISSION
 layout(binding = 12) uniform sampler2D gbuffer_emission;
+#endif
+
+#if LAMPS || FURTHER_SAMPLE
+#include "shared/view_block.h"
+
+layout(std140, binding = 4) uniform ViewData { ViewBlock view; };
 #endif
 
 #if FURTHER_SAMPLE
@@ -27,7 +32,8 @@ layout(binding = 13) uniform sampler2D gbuffer_depth;
 
 uniform mat4 clip_to_world;
 
-vec3 position_at(ivec2 pixel, vec2 ndc) {
+vec3 position_at(ivec2 pixel) {
+  vec2 ndc = gl_FragCoord.xy * view.viewport.zw * 2.0 - 1.0;
   float depth = texelFetch(gbuffer_depth, pixel, 0).x;
   vec4 world = clip_to_world * vec4(ndc, depth, 1.0);
   return world.xyz / world.w;
@@ -38,17 +44,15 @@ layout(location = 0) out vec4 lit;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  vec2 ndc = gl_FragCoord.xy * view.viewport.zw * 2.0 - 1.0;
-  vec3 ray = normalize(view.forward.xyz + ndc.x * view.ray_x.xyz + ndc.y * view.ray_y.xyz);
   vec4 albedo = texelFetch(gbuffer_albedo, pixel, 0);
   vec4 material = texelFetch(gbuffer_material, pixel, 0);
   Shading s;
 #if LAMPS || FURTHER_SAMPLE
-  s.position = position_at(pixel, ndc);
+  s.position = position_at(pixel);
 #endif
   s.albedo = albedo.rgb * albedo.rgb;
   s.normal = octahedral_decode(texelFetch(gbuffer_normal, pixel, 0).xy * 2.0 - 1.0);
-  s.to_eye = -ray;
+  s.to_eye = -normalize(view_ray);
   s.metallic = material.r;
   s.roughness = material.g;
   s.occlusion = material.b;
@@ -57,13 +61,10 @@ void main() {
 #else
   s.emission = vec3(0.0);
 #endif
-  bool sky = albedo.a == 0.0;
-  // What the eye sees beyond the scene, or the surface mirrors.
-  vec3 beyond = surroundings(sky ? ray : reflect(ray, s.normal), sky ? 0.02 : s.roughness);
-  vec3 color = sky ? beyond : s.albedo;
+  vec3 color = s.albedo;
   if (albedo.a > 0.5) {
     Reflection r = reflection_of(s);
-    vec3 radiance = unshadowed_light(s, r, beyond);
+    vec3 radiance = unshadowed_light(s, r, ambient);
 #if FURTHER_SAMPLE
     vec3 geometric = octahedral_decode(texelFetch(gbuffer_geometric_normal, pixel, 0).xy);
     MaskTexels at = mask_texels(pixel, sample_surface(s.position, geometric));

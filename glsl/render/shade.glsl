@@ -50,31 +50,34 @@ Incident incident_at(vec3 position, DirectLightBlock light) { return Incident(li
 // Reflected radiance of an unshadowed light. Without branches, which would hardly ever skip work for a whole group of
 // pixels.
 vec3 direct_light(Shading s, Reflection r, Incident light) {
-  float n_dot_l = max(dot(s.normal, light.to_light), 0.0);
-  vec3 half_vector = light.to_light + s.to_eye;
-  half_vector *= inversesqrt(max(dot(half_vector, half_vector), 1e-12));  // 0 where the eye looks into the light
-  float n_dot_v = max(dot(s.normal, s.to_eye), 1e-4);
+  float n_dot_l = dot(s.normal, light.to_light), n_dot_v = dot(s.normal, s.to_eye);
+  // The half vector is l + v over its length, the root of 2 + 2 l·v; 0 where the eye looks into the light.
+  float l_dot_v = dot(light.to_light, s.to_eye);
+  float inverse_length = inversesqrt(max(2.0 + 2.0 * l_dot_v, 1e-12));
+  float n_dot_h = clamp((n_dot_l + n_dot_v) * inverse_length, 0.0, 1.0);
+  float v_dot_h = (1.0 + l_dot_v) * inverse_length;
+  n_dot_l = max(n_dot_l, 0.0);
+  n_dot_v = max(n_dot_v, 1e-4);
   // Lights are not points: with less roughness than this, a highlight would be smaller than the light's mirror image.
   float alpha = max(s.roughness * s.roughness, 0.005);
-  vec3 fresnel = mix(r.at_normal, vec3(1.0), schlick_weight(dot(s.to_eye, half_vector)));
-  float lobe = ggx_distribution(clamp(dot(s.normal, half_vector), 0.0, 1.0), alpha) *
-               smith_visibility(n_dot_l, n_dot_v, alpha);
-  vec3 brdf = (1.0 - fresnel) * r.diffuse / brdf_pi + fresnel * lobe;
+  vec3 fresnel = mix(r.at_normal, vec3(1.0), schlick_weight(v_dot_h));
+  float lobe = ggx_distribution(n_dot_h, alpha) * smith_visibility(n_dot_l, n_dot_v, alpha);
+  vec3 brdf = (1.0 - fresnel) * r.diffuse * (1.0 / brdf_pi) + fresnel * lobe;
   return light.illuminance * n_dot_l * brdf;
 }
 
-// `mirrored`: the radiance of the surroundings in the mirror's direction, blurred by the roughness.
-vec3 skylight(Shading s, Reflection r, vec3 mirrored) {
+vec3 skylight(Shading s, Reflection r, AmbientLight ambient) {
   float n_dot_v = clamp(dot(s.normal, s.to_eye), 0.0, 1.0);
   vec2 scale_bias = environment_brdf(s.roughness, n_dot_v);
-  vec3 all_around = ambient(s.normal);
+  vec3 all_around = irradiance(ambient, s.normal);
+  vec3 mirrored = mirrored_light(ambient, reflect(-s.to_eye, s.normal), s.roughness);
   mirrored = mix(mirrored, all_around, s.roughness);
   return s.occlusion * (r.diffuse * all_around + (r.at_normal * scale_bias.x + scale_bias.y) * mirrored);
 }
 
 // Radiance that does not depend on shadows: ambient light and emission.
-vec3 unshadowed_light(Shading s, Reflection r, vec3 mirrored) {
-  return skylight(s, r, mirrored) + s.emission * lighting.emission;
+vec3 unshadowed_light(Shading s, Reflection r, AmbientLight ambient) {
+  return skylight(s, r, ambient) + s.emission * lighting.emission;
 }
 
 // Adds a light that is visible to the given degree, 0 to 1.

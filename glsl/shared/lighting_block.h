@@ -21,15 +21,38 @@ struct DirectLightBlock {
   float pad_a, pad_b, pad_c;
 };
 
+// The light from all around, of sky, ground and lamps. Of a unit vector, y is its height and u its part towards the
+// side of the horizon where the sun is.
+struct AmbientLight {
+  vec3 ground;  // radiance of the ground around the scene, in the open
+  float pad_a;
+  // What surfaces mirror from above the horizon: radiance at the zenith, and what the horizon has besides; its side
+  // where the sun is has u times this share of the zenith's more.
+  vec3 zenith;
+  float side;
+  vec3 horizon;
+  float pad_b;
+  // Irradiance over pi on a plane by its normal: `vertical` times 1 and the shares of y², u, yu and u², and `upward`
+  // times y.
+  vec3 vertical;
+  float pad_c;
+  vec3 upward;
+  float pad_d;
+  vec4 shares;
+  vec2 sun_side;  // x and z of a unit vector
+  vec2 pad_e;
+};
+
 struct LightingBlock {
-  vec3 sky;             // radiance, the mean over the upper hemisphere
-  float ground_albedo;  // of the ground around the scene
-  vec3 ground;          // radiance of that ground by direct light alone
-  float ground_light;   // fraction of its light that reaches surfaces
+  AmbientLight ambient;
+  vec3 ground_albedo;   // of the ground around the scene
+  float ground_height;  // world, metres
+  float scene_reach;    // from the eye to the farthest place of the scene on the ground, metres
+  float sky;            // radiance for each 1 in the table of the sky
+  float room;           // radiance of the surroundings by the light of lamps
   float emission;       // luminance of a material's emission of 1
   int light_count;
-  int pad_a;
-  int pad_b;
+  int pad_a, pad_b, pad_c;
   DirectLightBlock lights[LIGHTING_MAX_LIGHTS];
 };
 

@@ -58,7 +58,7 @@ std::vector<double> PassTimes::sums() const {
 }
 
 bool is_shadow_pass(std::string_view name) {
-  constexpr std::array own{"deform", "depth", "gbuffer", "lighting", "blended", "exposure", "tone map"};
+  constexpr std::array own{"deform", "depth", "gbuffer", "lighting", "sky", "blended", "exposure", "tone map"};
   return std::find(own.begin(), own.end(), name.substr(0, name.find('/'))) == own.end();
 }
 

@@ -8,9 +8,10 @@ namespace {
 
 constexpr GLuint exposure_binding = 0;
 
-// Luminance of a white surface in the average light of the picture, and the range of automatic exposure relative to
-// white in the sun: half a stop darker, and up to two and a half stops brighter for pictures in shade.
-constexpr float white = 0.8f;
+// Value of a white surface in the average light of the picture: as a photographer's incident meter has it, so that a
+// grey card keeps its 18 %. The range of automatic exposure is relative to white in the sun: half a stop darker, and up
+// to two and a half stops brighter for pictures in shade.
+constexpr float white = 1.0f;
 constexpr float least = 0.7f, most = 6.0f;
 
 gl::ProgramDesc program() { return {.name = "exposure", .compute = "render/exposure.comp"}; }

@@ -22,6 +22,8 @@ struct SamplesInputs {
   const shadow::Mask& mask;
   const gl::Texture& lit;
   const gl::Buffer& exposure;
+  const Sky& sky;
+  const scene::Bounds& bounds;
   std::span<const shadow::Light> lights;
   const ParamSet& params;
 };
@@ -41,6 +43,9 @@ SampleMean average_samples(gl::Device& device, const SamplesInputs& in) {
     const gl::Texture& lit = light_surfaces(device, {.gbuffer = gbuffer,
                                                      .mask = in.mask,
                                                      .first = &first,
+                                                     .sky = in.sky,
+                                                     .bounds = in.bounds,
+                                                     .ground_color = frame.ground_color,
                                                      .lights = frame.lights,
                                                      .on_ground = frame.on_ground,
                                                      .view = view,
@@ -65,7 +70,8 @@ SampleMean average_samples(gl::Device& device, const SamplesInputs& in) {
 }  // namespace
 
 FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, scene::GpuScene& scene,
-                      const FrameInputs& inputs, bool knows_moved, const ParamSet& params, const gl::Texture& noise) {
+                      const FrameInputs& inputs, bool knows_moved, const ParamSet& params, const Sky& sky,
+                      const gl::Texture& noise) {
   const Camera& camera = inputs.camera;
   const Camera& last_camera = inputs.last_camera;
   const glsl::ViewBlock view = view_block(camera, last_camera, inputs.width, inputs.height);
@@ -96,8 +102,12 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                                                       .gbuffer = gbuffer,
                                                       .params = params});
 
+  const scene::Bounds bounds = scene.receivers();
   const gl::Texture& lit = light_surfaces(device, {.gbuffer = gbuffer,
                                                    .mask = mask,
+                                                   .sky = sky,
+                                                   .bounds = bounds,
+                                                   .ground_color = inputs.ground_color,
                                                    .lights = inputs.lights,
                                                    .on_ground = inputs.on_ground,
                                                    .view = view,
@@ -137,6 +147,8 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                                                      .mask = mask,
                                                      .lit = lit,
                                                      .exposure = exposure,
+                                                     .sky = sky,
+                                                     .bounds = bounds,
                                                      .lights = lights,
                                                      .params = params});
     parts.color = mean.color;

@@ -19,9 +19,10 @@ struct FrameParts {
 };
 
 // `knows_moved`: what moved between the inputs' two times is what moved since the view's last frame.
-// `noise`: dither_noise().
+// `sky`: see update_sky(); `noise`: dither_noise().
 FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, scene::GpuScene& scene,
-                      const FrameInputs& inputs, bool knows_moved, const ParamSet& params, const gl::Texture& noise);
+                      const FrameInputs& inputs, bool knows_moved, const ParamSet& params, const Sky& sky,
+                      const gl::Texture& noise);
 
 // Adds the motion vectors to the G-buffer of the last frame that was drawn, where nothing in the frame has read them.
 void add_motion(gl::Device& device, FrameParts& frame);

@@ -4,6 +4,7 @@
 #include <array>
 #include <bitset>
 #include <cmath>
+#include <map>
 
 #include "render/setup.h"
 
@@ -96,6 +97,7 @@ struct Layers {
   Footprint footprint;
   float top;  // height below which a triangle is low
   Cells floor, above;
+  std::map<int, float> areas;  // of level triangles that are low, by their material
 };
 
 bool faces_up(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
@@ -115,13 +117,14 @@ void add(Layers& layers, const scene::Primitive& primitive, const glm::mat4& wor
       layers.footprint.cover(layers.above, a, b, c);
     } else if (faces_up(a, b, c)) {
       layers.footprint.cover(layers.floor, a, b, c);
+      layers.areas[primitive.material] += glm::length(glm::cross(b - a, c - a));
     }
   }
 }
 
 }  // namespace
 
-bool has_ground(const scene::Scene& scene, const scene::Pose& pose, const scene::Bounds& bounds) {
+Floor find_floor(const scene::Scene& scene, const scene::Pose& pose, const scene::Bounds& bounds) {
   Layers layers{.footprint = Footprint(bounds),
                 .top = bounds.min.y + std::max(low * bounds.extent().y, 1e-3f * bounds.radius())};
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -135,7 +138,13 @@ bool has_ground(const scene::Scene& scene, const scene::Pose& pose, const scene:
       }
     }
   }
-  return mostly(layers.floor, outline()) && mostly(layers.floor, rim_of(layers.above));
+  Floor floor{.wide = mostly(layers.floor, outline()) && mostly(layers.floor, rim_of(layers.above))};
+  const auto largest = std::max_element(layers.areas.begin(), layers.areas.end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (largest == layers.areas.end() || largest->first < 0) return floor;
+  const scene::Material& material = scene.materials[static_cast<std::size_t>(largest->first)];
+  if (material.base_color_texture.texture < 0) floor.albedo = glm::clamp(glm::vec3(material.base_color), 0.0f, 1.0f);
+  return floor;
 }
 
 void add_ground(scene::Scene& scene, const scene::Bounds& bounds) {

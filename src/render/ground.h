@@ -5,10 +5,14 @@
 
 namespace penumbra::render {
 
-// Albedo of the plane that add_ground() adds, and of the ground that the sky model assumes around every scene.
+// Albedo of the plane that add_ground() adds.
 inline constexpr float ground_albedo = 0.5f;
 
-// Whether most of the scene already has a floor below it that is wide enough to show its shadows.
-bool has_ground(const scene::Scene& scene, const scene::Pose& pose, const scene::Bounds& bounds);
+// The floor that a scene already has.
+struct Floor {
+  bool wide = false;                // it is below most of the scene, wide enough to show its shadows
+  glm::vec3 albedo{ground_albedo};  // of the material that covers most of it, unless that has a texture
+};
+Floor find_floor(const scene::Scene& scene, const scene::Pose& pose, const scene::Bounds& bounds);
 
 }  // namespace penumbra::render

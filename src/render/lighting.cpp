@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "render/ground.h"
 #include "render/passes.h"
 #include "shared/lighting_block.h"
 
@@ -14,7 +13,7 @@ namespace penumbra::render {
 namespace {
 
 static_assert(sizeof(glsl::DirectLightBlock) == 64);
-static_assert(offsetof(glsl::LightingBlock, lights) == 48);
+static_assert(offsetof(glsl::LightingBlock, lights) == 160);
 static_assert(LIGHTING_MAX_LIGHTS == max_lights);
 
 float luminance(const glm::vec3& color) { return glm::dot(color, {0.2126f, 0.7152f, 0.0722f}); }
@@ -68,32 +67,64 @@ glm::vec3 illuminance_of(const LampLight& lamp) { return lamp.intensity / (usual
 float level_share(const SunLight& sun) { return std::max(sun.to_light.y, 0.0f); }
 float level_share(const LampLight& /*lamp*/) { return 0; }
 
-// The sum of the lights' illuminance without those that the ground hides. Where it hides all, with them: what reaches
-// surfaces is then the light of the sky alone, as the picture would be black without it.
-glm::vec3 direct_light(const LightingInputs& inputs) {
-  glm::vec3 hidden(0), others(0);
+// The lights' luminous illuminance, as above, without those that the ground hides. Where it hides all, with them: what
+// reaches surfaces is then the light of the sky alone, as the picture would be black without it.
+struct Illuminance {
+  float suns = 0, lamps = 0;
+  float all() const { return suns + lamps; }
+  void add(const SunLight& sun) { suns += luminance(illuminance_of(sun)); }
+  void add(const LampLight& lamp) { lamps += luminance(illuminance_of(lamp)); }
+};
+
+Illuminance illuminance_of(const LightingInputs& inputs) {
+  Illuminance hidden, others;
   for (const FrameLight& light : inputs.lights) {
-    glm::vec3& sum = is_hidden(light, inputs.on_ground, inputs.params) ? hidden : others;
-    sum += std::visit([](const auto& kind) { return illuminance_of(kind); }, light);
+    Illuminance& sum = is_hidden(light, inputs.on_ground, inputs.params) ? hidden : others;
+    std::visit([&](const auto& kind) { sum.add(kind); }, light);
   }
-  return others == glm::vec3(0) ? hidden : others;
+  return others.all() == 0 ? hidden : others;
+}
+
+// Where the ground around the scene is, and how far the eye sees the scene upon it.
+void place_ground(glsl::LightingBlock& block, const scene::Bounds& scene, const glm::vec3& eye) {
+  block.ground_height = scene.min.y;
+  const glm::vec2 farthest = glm::max(glm::abs(glm::vec2(scene.min.x, scene.min.z) - glm::vec2(eye.x, eye.z)),
+                                      glm::abs(glm::vec2(scene.max.x, scene.max.z) - glm::vec2(eye.x, eye.z)));
+  block.scene_reach = std::max(glm::length(glm::vec3(farthest, eye.y - scene.min.y)), 1e-6f);
+}
+
+// What surfaces get of the sky and, as from the sky, of lamps; and irradiance over pi by the ground from below.
+glsl::AmbientLight ambient_light(const SkyTable& table, float sky, float room, const glm::vec3& from_ground) {
+  const auto& [all, upward, side, square, side_up, side_square] = table.irradiance;
+  glsl::AmbientLight ambient{};
+  ambient.zenith = sky * table.mirrored[0] + room;
+  ambient.horizon = sky * table.mirrored[1];
+  ambient.side = sky * luminance(table.mirrored[2]) / std::max(luminance(ambient.zenith), 1e-6f);
+  ambient.sun_side = {table.sun_side.x, table.sun_side.z};
+  ambient.vertical = sky * all + 0.5f * (room + from_ground);
+  ambient.upward = sky * upward + 0.5f * (room - from_ground);
+  ambient.shares = glm::vec4(luminance(square), luminance(side), luminance(side_up), luminance(side_square)) *
+                   (sky / std::max(luminance(ambient.vertical), 1e-6f));
+  return ambient;
 }
 
 glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
-  const glm::vec3 direct = direct_light(inputs);
+  const Illuminance direct = illuminance_of(inputs);
   const float sky_share = inputs.params.get_float("render.sky_light");
-  const float white = luminance(direct) * (1.0f + sky_share) / glm::pi<float>();
+  const float white = direct.all() * (1.0f + sky_share) / glm::pi<float>();
   const float exposure = exposure_factor(inputs, white);
+  const float ambience = exposure * sky_share / glm::pi<float>();
+  const auto& level = inputs.sky.table.irradiance;
   glsl::LightingBlock block{};
-  block.sky = glm::vec3(exposure * sky_share * luminance(direct) / glm::pi<float>());
-  block.ground_albedo = ground_albedo;
-  block.ground_light = inputs.params.get_float("render.ground_light");
+  block.sky = ambience * direct.suns;
+  block.room = ambience * direct.lamps;
+  block.ground_albedo = inputs.ground_color;
   block.emission = inputs.emission_in_nits ? exposure : exposure * white;
+  glm::vec3 ground = block.sky * (level[0] + level[1] + level[3]) + block.room;
   for (const FrameLight& light : inputs.lights) {
     std::visit(
         [&](const auto& kind) {
-          const float level = level_share(kind) / glm::pi<float>();
-          block.ground += ground_albedo * illuminance_of(kind) * (exposure * level);
+          ground += illuminance_of(kind) * (exposure * level_share(kind) / glm::pi<float>());
           block.lights[block.light_count] = block_of(kind, exposure);
         },
         light);
@@ -101,6 +132,12 @@ glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
     if (is_hidden(light, inputs.on_ground, inputs.params)) block.lights[block.light_count].illuminance = glm::vec3(0);
     ++block.light_count;
   }
+  ground *= inputs.ground_color;
+  // The scene itself blocks part of the ground's light.
+  block.ambient =
+      ambient_light(inputs.sky.table, block.sky, block.room, inputs.params.get_float("render.ground_light") * ground);
+  block.ambient.ground = ground;
+  place_ground(block, inputs.bounds, glm::vec3(inputs.view.camera));
   return block;
 }
 
@@ -115,13 +152,20 @@ struct Lit {
 
 gl::ProgramDesc program(const Lit& lit) {
   return {.name = "lighting",
-          .vertex = "shared/full_screen.vert",
+          .vertex = "render/lighting.vert",
           .fragment = "render/lighting.frag",
           .defines = {{"EMISSION", lit.emission ? "1" : "0"},
                       {"LIGHTS", std::to_string(lit.lights)},
                       {"SHADOWED", std::to_string(lit.shadowed)},
                       {"LAMPS", lit.lamps ? "1" : "0"},
                       {"FURTHER_SAMPLE", lit.further ? "1" : "0"}}};
+}
+
+gl::ProgramDesc sky_program(std::size_t lights, bool lamps) {
+  return {.name = "sky",
+          .vertex = "render/lighting.vert",
+          .fragment = "render/sky.frag",
+          .defines = {{"LIGHTS", std::to_string(lights)}, {"LAMPS", lamps ? "1" : "0"}}};
 }
 
 }  // namespace
@@ -132,14 +176,11 @@ glm::vec2 pixel_size(const Camera& camera, int height) {
   return {0, std::tan(camera.fov_y * 0.5f) / pixels};
 }
 
-const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inputs) {
+namespace {
+
+void draw_surfaces(gl::Device& device, const LightingInputs& inputs, const gl::Texture& lit) {
   const GBuffer& gbuffer = inputs.gbuffer;
   const bool further = inputs.first != nullptr;
-  const gl::Texture& lit =
-      device.target(further ? "sample lit" : "lit",
-                    {.format = GL_RGBA16F, .width = gbuffer.depth->width(), .height = gbuffer.depth->height()});
-  const gl::Buffer& block = device.scratch("lighting", sizeof(glsl::LightingBlock));
-  gl::write_value(block, lighting_block(inputs));
   gl::Pass pass(device,
                 {.name = further ? "sample lighting" : "lighting", .colors = {{.texture = &lit, .dont_care = true}}});
   const bool lamps = has_lamps(inputs.lights);
@@ -148,7 +189,6 @@ const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inpu
                                               .lamps = lamps,
                                               .emission = gbuffer.emission != nullptr,
                                               .further = further}));
-  block.bind_uniform(lighting_binding);
   GLuint unit = first_unit;
   std::vector<const gl::Texture*> sources{gbuffer.albedo, gbuffer.normal, gbuffer.material, inputs.mask.texture};
   if (gbuffer.emission != nullptr || lamps || further) sources.push_back(gbuffer.emission);
@@ -170,6 +210,33 @@ const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inpu
     ++unit;
   }
   pass.draw_full_screen();
+}
+
+// Where no surface is.
+void draw_sky(gl::Device& device, const LightingInputs& inputs, const gl::Texture& lit) {
+  gl::Pass pass(device, {.name = inputs.first != nullptr ? "sample sky" : "sky",
+                         .colors = {{.texture = &lit}},
+                         .depth = gl::Attachment{.texture = inputs.gbuffer.depth},
+                         .depth_test = gl::DepthTest::equal});
+  const bool lamps = has_lamps(inputs.lights);
+  const gl::Program& used = pass.use(sky_program(inputs.lights.size(), lamps));
+  if (lamps) used.set("clip_to_world", clip_to_world(inputs.view));
+  device.sampler({.min_filter = GL_LINEAR, .mag_filter = GL_LINEAR}).bind(first_unit);
+  inputs.sky.texture.bind(first_unit);
+  pass.draw_full_screen();
+}
+
+}  // namespace
+
+const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inputs) {
+  const gl::Texture& depth = *inputs.gbuffer.depth;
+  const gl::Texture& lit = device.target(inputs.first != nullptr ? "sample lit" : "lit",
+                                         {.format = GL_RGBA16F, .width = depth.width(), .height = depth.height()});
+  const gl::Buffer& block = device.scratch("lighting", sizeof(glsl::LightingBlock));
+  gl::write_value(block, lighting_block(inputs));
+  block.bind_uniform(lighting_binding);
+  draw_surfaces(device, inputs, lit);
+  draw_sky(device, inputs, lit);
   return lit;
 }
 
@@ -180,7 +247,9 @@ std::vector<gl::ProgramDesc> lighting_programs() {
           program({.lights = 10, .shadowed = 8, .lamps = true, .emission = true}),
           program({.lamps = true}),
           program({.further = true}),
-          program({.lights = 10, .shadowed = 8, .lamps = true, .emission = true, .further = true})};
+          program({.lights = 10, .shadowed = 8, .lamps = true, .emission = true, .further = true}),
+          sky_program(1, false),
+          sky_program(10, true)};
 }
 
 }  // namespace penumbra::render

@@ -10,7 +10,12 @@ std::vector<Param> render_params() {
       {"exposure.ev", 15.0f, -16, 24, "EV", "Exposure value at ISO 100 when exposure.auto is off.", host},
       {"exposure.compensation", 0.0f, -8, 8, "stops", "Added to the automatic exposure; positive is brighter.", host},
       {"render.sky_light", 0.2f, 0, 4, "",
-       "Illuminance of a level plane by the sky, as a fraction of the sun's on a plane that faces it.", host},
+       "Illuminance of a level plane by the sky under a sun that is 45° high, as a fraction of the sun's on a plane "
+       "that "
+       "faces it; the sky is darker when the sun is lower. Of lamps: by what they light around a scene.",
+       host},
+      {"render.haze", 0.1f, 0, 1, "",
+       "Optical depth of the haze in the air, which whitens the sky: 0.05 is very clear.", host},
       {"render.ground_light", 0.5f, 0, 1, "",
        "Fraction of the light from the ground around a scene that reaches its surfaces.", host},
       {"render.dither", true, 0, 1, "",

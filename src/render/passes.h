@@ -2,11 +2,13 @@
 
 #include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/params.h"
 #include "gl/pass.h"
+#include "render/atmosphere.h"
 #include "render/view.h"
 #include "scene/gpu_scene.h"
 #include "shadow/soft_shadows.h"
@@ -89,6 +91,18 @@ struct ShadowMaskInputs {
 // One layer for each light, in the order of the lights.
 shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs);
 
+// The sky of a frame.
+struct Sky {
+  SkyTable table;
+  gl::Texture texture;                   // RGBA16F: SkyTable::radiance
+  std::optional<Atmosphere> atmosphere;  // what they were made of, and for which sun
+  float haze = 0;
+  glm::vec3 to_sun{0};
+};
+// Makes it that of the brightest sun, among those that is_hidden() if there is no other; it stays as it is where
+// nothing changed, or there is no sun.
+void update_sky(Sky& sky, std::span<const FrameLight> lights, bool on_ground, const ParamSet& params);
+
 // How a further sample finds its shadows in the mask of the first one.
 struct FirstSample {
   const GBuffer& gbuffer;
@@ -104,6 +118,9 @@ struct LightingInputs {
   const GBuffer& gbuffer;
   const shadow::Mask& mask;
   const FirstSample* first = nullptr;  // the sample that the mask is of; null: this one
+  const Sky& sky;
+  const scene::Bounds& bounds;         // of the scene
+  const glm::vec3& ground_color;       // same as in FrameInputs
   std::span<const FrameLight> lights;  // the first ones have a layer of the mask each, the others no shadows
   bool on_ground = false;              // same as in FrameInputs
   const glsl::ViewBlock& view;

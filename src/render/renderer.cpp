@@ -16,6 +16,7 @@ namespace penumbra::render {
 struct Renderer::State {
   gl::Device& device;
   shadow::SoftShadows soft_shadows;
+  Sky sky;
   gl::Texture noise;  // dither_noise(), from the first frame on: programs can be listed without a context
   FrameParts parts;
   Frame frame;
@@ -42,7 +43,7 @@ struct Renderer::State {
 };
 
 Renderer::Renderer(gl::Device& device, shadow::Registry registry)
-    : state_(new State{device, shadow::SoftShadows(device, std::move(registry)), {}, {}, {}, {}}) {}
+    : state_(new State{device, shadow::SoftShadows(device, std::move(registry)), {}, {}, {}, {}, {}}) {}
 
 Renderer::~Renderer() = default;
 
@@ -108,9 +109,11 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   // If this frame throws, the textures of the last one are no longer valid and must not be read.
   state_->parts = {};
   if (!state_->noise) state_->noise = dither_noise();
+  update_sky(state_->sky, inputs.lights, inputs.on_ground, params);
   device.shaders.next_frame();
   device.timers.begin_frame();
-  state_->parts = draw_frame(device, state_->soft_shadows, scene, placed, knows_moved, params, state_->noise);
+  state_->parts =
+      draw_frame(device, state_->soft_shadows, scene, placed, knows_moved, params, state_->sky, state_->noise);
   device.timers.end_frame();
   state_->last[inputs.view] = now;
   const FrameParts& parts = state_->parts;

@@ -38,7 +38,8 @@ struct FrameInputs {
   // history, and the frame equals the first frame of a new run. A change of scene is always a cut, even if this is
   // false.
   bool cut = false;
-  bool on_ground = false;  // the scene stands on ground, which hides suns that are below the horizon
+  glm::vec3 ground_color{ground_albedo};  // albedo of the ground around the scene
+  bool on_ground = false;                 // the scene stands on ground, which hides suns that are below the horizon
   // The ids of the lights of which a warning said that the ground hides them, of all frames that one user draws of one
   // scene, with whichever renderer. Null: there is no warning.
   std::shared_ptr<std::set<int>> told_hidden;

@@ -336,9 +336,10 @@ Setup choose_setup(const scene::Scene& scene, const scene::Pose& pose, const Set
   }
   follow(setup, pose);
   choose_lights(setup, scene, pose, request);
-  const bool has_floor = has_ground(scene, pose, bounds);
-  setup.ground = request.ground == GroundChoice::on || (request.ground == GroundChoice::automatic && !has_floor);
-  setup.on_ground = setup.ground || has_floor;
+  const Floor floor = find_floor(scene, pose, bounds);
+  setup.ground = request.ground == GroundChoice::on || (request.ground == GroundChoice::automatic && !floor.wide);
+  setup.on_ground = setup.ground || floor.wide;
+  if (floor.wide && !setup.ground) setup.ground_color = floor.albedo;
   return setup;
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "render/ground.h"
 #include "render/view.h"
 #include "scene/pose.h"
 #include "scene/scene.h"
@@ -45,6 +46,8 @@ struct Setup {
   std::vector<PlacedLight> lights = {};
   bool ground = false;     // the scene has no floor; add_ground() adds one
   bool on_ground = false;  // it has a floor, or gets one
+  // Albedo of the ground around the scene, to the horizon: that of the floor.
+  glm::vec3 ground_color{ground_albedo};
   // The nodes that camera and sun are attached to, whose animation they follow. Absent: they do not move.
   std::optional<std::size_t> camera_node, sun_node;
 };

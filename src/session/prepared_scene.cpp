@@ -81,6 +81,7 @@ render::FrameInputs frame_inputs(const PreparedScene& prepared, const cli::Size&
           .time = when.time,
           .last_time = when.last_time,
           .cut = when.cut || scene::jumps_between(prepared.scene, when.last_time, when.time),
+          .ground_color = setup.ground_color,
           .on_ground = setup.on_ground,
           .told_hidden = prepared.told_hidden};
 }

@@ -74,8 +74,8 @@ class Stats(TestCase):
         self.assertGreaterEqual(max(shares), 0.9)
 
     def test_the_table_names_every_pass_and_no_other(self):
-        always = ["depth", "gbuffer", "shadow mask", "lighting", "exposure"]
-        samples = ["sample depth", "sample gbuffer", "sample lighting", "add sample", "encode mean"]
+        always = ["depth", "gbuffer", "shadow mask", "lighting", "sky", "exposure"]
+        samples = ["sample depth", "sample gbuffer", "sample lighting", "sample sky", "add sample", "encode mean"]
         for of, arguments, more in (
             ("posts", ["--technique", "none"], []),
             ("posts", ["--technique", "hard"], ["shadow map"]),

@@ -79,10 +79,19 @@ TEST_F(LayoutTest, DeformProgram) {
 TEST_F(LayoutTest, LightingProgram) {
   const auto found = offsets(device.shaders.get(program_named(renderer, params, "lighting")).id());
   using glsl::LightingBlock;
-  expect_offset(found, "lighting.sky", offsetof(LightingBlock, sky));
+  expect_offset(found, "lighting.ambient.ground", offsetof(LightingBlock, ambient.ground));
+  expect_offset(found, "lighting.ambient.zenith", offsetof(LightingBlock, ambient.zenith));
+  expect_offset(found, "lighting.ambient.side", offsetof(LightingBlock, ambient.side));
+  expect_offset(found, "lighting.ambient.horizon", offsetof(LightingBlock, ambient.horizon));
+  expect_offset(found, "lighting.ambient.vertical", offsetof(LightingBlock, ambient.vertical));
+  expect_offset(found, "lighting.ambient.upward", offsetof(LightingBlock, ambient.upward));
+  expect_offset(found, "lighting.ambient.shares", offsetof(LightingBlock, ambient.shares));
+  expect_offset(found, "lighting.ambient.sun_side", offsetof(LightingBlock, ambient.sun_side));
   expect_offset(found, "lighting.ground_albedo", offsetof(LightingBlock, ground_albedo));
-  expect_offset(found, "lighting.ground", offsetof(LightingBlock, ground));
-  expect_offset(found, "lighting.ground_light", offsetof(LightingBlock, ground_light));
+  expect_offset(found, "lighting.room", offsetof(LightingBlock, room));
+  expect_offset(found, "lighting.sky", offsetof(LightingBlock, sky));
+  expect_offset(found, "lighting.ground_height", offsetof(LightingBlock, ground_height));
+  expect_offset(found, "lighting.scene_reach", offsetof(LightingBlock, scene_reach));
   expect_offset(found, "lighting.emission", offsetof(LightingBlock, emission));
   expect_offset(found, "lighting.light_count", offsetof(LightingBlock, light_count));
   for (std::size_t i : {std::size_t{0}, std::size_t{LIGHTING_MAX_LIGHTS - 1}}) {

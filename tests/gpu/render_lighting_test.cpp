@@ -60,8 +60,8 @@ TEST_F(LightingTest, ShadowTakesTheSunAndLeavesTheSky) {
   params.set("render.sky_light", 0.5f);
   scene::Scene scene = white_square({.metallic = 0, .roughness = 1});
   add_node(scene, square(), glm::translate(glm::scale(glm::mat4(1), glm::vec3(0.5f)), glm::vec3(0, 0, 20)));
-  scene.nodes[1].matrix = glm::translate(glm::mat4(1), glm::vec3(1, 0, 6));  // off screen, towards the sun
-  sun() = {.to_light = glm::normalize(glm::vec3(1, 0, 6)), .illuminance = glm::vec3(2)};
+  scene.nodes[1].matrix = glm::translate(glm::mat4(1), glm::vec3(6, 6, 3));  // off screen, towards the sun
+  sun() = {.to_light = glm::normalize(glm::vec3(6, 6, 3)), .illuminance = glm::vec3(2)};
   params.set("exposure.ev", unit_ev());
   draw(scene);
   EXPECT_EQ(pixel("shadow", width / 2, height / 2)[0], 0);
@@ -95,6 +95,24 @@ TEST_F(LightingTest, AutomaticExposureSuitsBrightSunsAndDimOnes) {
       EXPECT_NEAR(grey, first[(height / 2 * width + width / 2) * 3 + 1], 2) << lux;
     }
     first = shown;
+  }
+}
+
+TEST_F(LightingTest, AutomaticExposureIsThatOfAnIncidentMeter) {
+  params.reset("exposure.auto");
+  params.reset("render.sky_light");
+  for (const float elevation : {15.0f, 45.0f, 75.0f}) {
+    sun().to_light = render::direction_to(0.5f, glm::radians(elevation));
+    const auto shown = [&](float albedo) {
+      scene::Scene ground = white_square({.base_color = {albedo, albedo, albedo, 1}, .metallic = 0});
+      ground.nodes[0].matrix = glm::scale(glm::rotate(glm::mat4(1), -glm::half_pi<float>(), {1, 0, 0}), glm::vec3(10));
+      inputs.camera = inputs.last_camera = render::look_at({0, 5, 1}, {0, 0, 0}, 1.0f, 0.01f);
+      draw(ground);
+      return renderer.read_display()[(height / 2 * width + width / 2) * 3 + 1];
+    };
+    EXPECT_NEAR(shown(0.18f), 118, 8) << "a grey card, " << elevation;
+    EXPECT_NEAR(shown(0.5f), 189, 8) << "the ground, " << elevation;
+    EXPECT_NEAR(shown(0.9f), 220, 8) << "white paint, which is not clipped, " << elevation;
   }
 }
 

@@ -63,7 +63,7 @@ TEST(Cost, SaysWhetherThePassesAddUp) {
 }
 
 TEST(Cost, KnowsTheRenderersOwnPasses) {
-  for (const char* name : {"depth", "gbuffer", "lighting", "tone map", "exposure", "blended"})
+  for (const char* name : {"depth", "gbuffer", "lighting", "sky", "tone map", "exposure", "blended"})
     EXPECT_FALSE(bench::is_shadow_pass(name)) << name;
   for (const char* name : {"shadow map", "shadow map/cascade", "filter", "shadow history", "anything new"})
     EXPECT_TRUE(bench::is_shadow_pass(name)) << name;

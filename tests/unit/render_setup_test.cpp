@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <set>
@@ -153,6 +154,21 @@ TEST(Setup, GroundComesUnderWhatStandsFree) {
   EXPECT_TRUE(setup_of(scene_of({house, box({-1.05f, -0.1f, -1.05f}, {1.05f, 0, 1.05f})})).ground);
   EXPECT_FALSE(setup_of(scene_of({house}), {.ground = render::GroundChoice::off}).ground);
   EXPECT_TRUE(setup_of(scene_of({box({-9, -0.1f, -9}, {9, 0, 9})}), {.ground = render::GroundChoice::on}).ground);
+}
+
+TEST(Setup, GroundAroundASceneHasTheColourOfItsFloorWhateverStandsThere) {
+  const glm::vec3 brown(0.3f, 0.2f, 0.1f);
+  for (const float height : {0.05f, 3.0f}) {
+    scene::Scene scene =
+        scene_of({box({-9, -0.1f, -9}, {9, 0, 9}), box({4, 0, 4}, {5, 3, 5}), box({-1, 0, -1}, {1, height, 1})});
+    scene.materials = {{.base_color = glm::vec4(brown, 1)}, {.base_color = {1, 0, 0, 1}}};
+    for (const int i : {0, 1, 2}) scene.meshes[0].primitives[static_cast<std::size_t>(i)].material = std::min(i, 1);
+    EXPECT_EQ(setup_of(scene).ground_color, brown) << height;
+    scene.materials[0].base_color_texture.texture = 0;
+    EXPECT_EQ(setup_of(scene).ground_color, glm::vec3(render::ground_albedo)) << "a texture's colour is not known";
+  }
+  EXPECT_EQ(setup_of(scene_of({box({-1, 0, -1}, {1, 2, 1})})).ground_color, glm::vec3(render::ground_albedo))
+      << "that of the ground that is added";
 }
 
 TEST(Setup, AddedGroundLiesUnderTheScene) {
