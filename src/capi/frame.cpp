@@ -2,6 +2,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "../shadow/light_matrices.h"
 #include "structs.h"
 
 namespace penumbra::capi {
@@ -122,6 +123,38 @@ penumbra_caster_pass pass_of(const shadow::CasterPass& casters, penumbra_device&
   return pass;
 }
 
+glm::vec3 camera_of(const glm::mat4& view) { return glm::vec3(glm::inverse(glm::dmat4(view))[3]); }
+
+// Of a light that brings some.
+shadow::FinishedMaps maps_of(const penumbra_light& light, const shadow::Inputs& inputs) {
+  if (light.kind != PENUMBRA_SUN) {
+    fail_with(PENUMBRA_ERROR_REFUSED, "light {} is a lamp, and penumbra_light.maps are those of a sun", light.id);
+  }
+  if (light.maps_count < 1 || light.maps_count > shadow::max_layers) {
+    fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_light.maps_count is {}; it is 1 to {}", light.maps_count,
+              shadow::max_layers);
+  }
+  const auto count = static_cast<std::size_t>(light.maps_count);
+  required(light.maps_world_to_clip, "penumbra_light.maps_world_to_clip");
+  std::vector<glm::mat4> matrices;
+  for (std::size_t i = 0; i < count; ++i) {
+    float values[16];
+    std::copy_n(light.maps_world_to_clip + 16 * i, 16, values);
+    matrices.push_back(matrix_of(values, "penumbra_light.maps_world_to_clip"));
+  }
+  shadow::FinishedMaps maps{
+      .depth = texture_of(light.maps, 0),
+      .projection = shadow::sun_projection({.world_to_clip = matrices,
+                                            .depth_zero_to_one = light.maps_depth_zero_to_one != 0,
+                                            .to_light = direction_of(light.to_light, "penumbra_light.to_light"),
+                                            .size = light.maps_size,
+                                            .camera = camera_of(inputs.view.view),
+                                            .casters = inputs.casters})};
+  if (light.maps_atlas == nullptr) return maps;
+  for (std::size_t i = 0; i < count; ++i) maps.atlas.emplace_back(light.maps_atlas[2 * i], light.maps_atlas[2 * i + 1]);
+  return maps;
+}
+
 }  // namespace
 
 shadow::Light light_of(const penumbra_light& light) {
@@ -140,7 +173,7 @@ shadow::Light light_of(const penumbra_light& light) {
   return made;
 }
 
-std::vector<shadow::Light> lights_of(const penumbra_light* lights, std::size_t count) {
+std::vector<shadow::Light> lights_of(const penumbra_light* lights, std::size_t count, const shadow::Inputs* inputs) {
   if (count > most_lights) fail_with(PENUMBRA_ERROR_ARGUMENT, "{} lights: at most {}", count, most_lights);
   std::vector<shadow::Light> made;
   if (count == 0) return made;
@@ -154,7 +187,9 @@ std::vector<shadow::Light> lights_of(const penumbra_light* lights, std::size_t c
       fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_light.struct_size is {} in lights[{}] and {} in lights[0]",
                 light->struct_size, i, size);
     }
-    made.push_back(light_of(read_struct(light)));
+    const penumbra_light known = read_struct(light);
+    made.push_back(light_of(known));
+    if (inputs != nullptr && known.maps.id != 0) made.back().maps = maps_of(known, *inputs);
   }
   return made;
 }
@@ -209,7 +244,7 @@ penumbra_result penumbra_render(penumbra_device* device, const penumbra_settings
     const penumbra_frame given = read_struct(&required(frame, "frame"));
     check_size<penumbra_mask>(required(mask, "mask").struct_size);
     penumbra::shadow::Inputs inputs = inputs_of(given);
-    const std::vector<penumbra::shadow::Light> lights = lights_of(given.lights, given.light_count);
+    const std::vector<penumbra::shadow::Light> lights = lights_of(given.lights, given.light_count, &inputs);
     inputs.lights = lights;
     inputs.draw = casters_of(given, *device);
     device->masks.erase(given.view_id);

@@ -8,7 +8,9 @@
 namespace penumbra::capi {
 
 shadow::Light light_of(const penumbra_light& light);
-std::vector<shadow::Light> lights_of(const penumbra_light* lights, std::size_t count);
+// `inputs`: of the frame, whose lights may bring maps; null: maps are left out.
+std::vector<shadow::Light> lights_of(const penumbra_light* lights, std::size_t count,
+                                     const shadow::Inputs* inputs = nullptr);
 
 // All but the lights and the caster callback.
 shadow::Inputs inputs_of(const penumbra_frame& frame);

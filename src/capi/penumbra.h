@@ -208,6 +208,14 @@ enum {
   PENUMBRA_LAMP = 1 /**< a sphere that shines in all directions or, with an axis, within a spot's cone */
 };
 
+/** A texture of the engine's. Filters, wrap and compare modes do not matter; swizzle, base and maximum level and
+ * GL_DEPTH_STENCIL_TEXTURE_MODE must have OpenGL's initial values. */
+typedef struct penumbra_texture {
+  uint32_t id;    /**< OpenGL's name; 0: none */
+  int32_t width;  /**< of level 0, texels */
+  int32_t height; /**< of level 0, texels */
+} penumbra_texture;
+
 /** A light that casts shadows. Its colour and intensity stay with the engine. */
 typedef struct penumbra_light {
   size_t struct_size; /**< sizeof(penumbra_light); the same for all lights of an array */
@@ -233,6 +241,23 @@ typedef struct penumbra_light {
   int32_t output_level;   /**< its level, which is as large as penumbra_frame.depth; default 0 */
   int32_t output_layer;   /**< its layer, if it is an array; else and by default 0 */
   int32_t output_channel; /**< 0 (default) red, 1 green, 2 blue, 3 alpha */
+
+  /** Shadow maps of a sun that the engine has drawn; id 0 (default): none, penumbra_frame.draw draws them. Any depth
+   * format, or R32F (an array of it not with the technique pcf_hardware); 0 is near the light, 1 far. A
+   * GL_TEXTURE_2D_ARRAY with a layer for each map, or an atlas: see maps_atlas. */
+  penumbra_texture maps;
+  int32_t maps_size;               /**< width and height of each map, texels */
+  int32_t maps_count;              /**< 1 to 8; default 0 */
+  uint32_t maps_depth_zero_to_one; /**< 1 (default): clip space of maps_world_to_clip has z in 0..1; 0: in -1..1 */
+  /** maps_count matrices of 16 floats, from world to clip space: orthographic, along the sun's rays, the finest map
+   * first; they may overlap or contain each other. The last one must hold all others, because receivers look there
+   * first for how near to the light casters can be. PENUMBRA_ERROR_REFUSED says which map can't serve, and why:
+   * perspective, warped, skewed or mirrored ones, depths that grow towards the light, a near plane behind casters
+   * (penumbra_frame.casters), whose depths were clamped. With a square sun their x axis must be horizontal. */
+  const float* maps_world_to_clip;
+  /** maps_count pairs of x and y: each map's lower left texel in an atlas, which is a GL_TEXTURE_2D. The maps are
+   * copied to an array in each frame. Null (default): `maps` is an array. */
+  const int32_t* maps_atlas;
 } penumbra_light;
 
 /** PENUMBRA_ERROR_ARGUMENT: `light` is null or `struct_size` is not that of a version of the struct. */
@@ -294,14 +319,6 @@ typedef struct penumbra_caster_pass {
 typedef int32_t (*penumbra_draw_casters)(void* user, const penumbra_caster_pass* pass);
 
 /* ----------------------------------------------------------------------------------------------------------- Frames */
-
-/** A texture of the engine's: GL_TEXTURE_2D, not multisampled. Filters, wrap and compare modes do not matter; swizzle,
- * base and maximum level and GL_DEPTH_STENCIL_TEXTURE_MODE must have OpenGL's initial values. */
-typedef struct penumbra_texture {
-  uint32_t id;    /**< OpenGL's name; 0: none */
-  int32_t width;  /**< of level 0, texels */
-  int32_t height; /**< of level 0, texels */
-} penumbra_texture;
 
 /** An axis-aligned box in world space, m. Empty if min > max in an axis, as boxes are after penumbra_frame_init(). */
 typedef struct penumbra_box {

@@ -19,6 +19,7 @@ penumbra_light StructTraits<penumbra_light>::defaults() {
   light.kind = PENUMBRA_SUN;
   light.to_light[1] = 1;
   light.radius = 0.03f;
+  light.maps_depth_zero_to_one = 1;
   return light;
 }
 

@@ -204,8 +204,23 @@ void check_receivers(const ReceiverTexture& texture, const TextureView& depth, T
   checks.add(key, source);
 }
 
+// Whether each layer lies in the atlas.
+void check_atlas(const FinishedMaps& maps, int light) {
+  const int layers = maps.projection.layers(), size = maps.projection.size();
+  if (maps.atlas.size() != static_cast<std::size_t>(layers)) {
+    fail("soft shadows: light {} has an atlas of {} maps for {} layers", light, maps.atlas.size(), layers);
+  }
+  for (const glm::ivec2& corner : maps.atlas) {
+    const bool inside =
+        corner.x >= 0 && corner.y >= 0 && size <= maps.depth.width - corner.x && size <= maps.depth.height - corner.y;
+    if (!inside) {
+      fail("soft shadows: light {} has a map of {}×{} at {}, {}, which is not a part of its atlas of {}×{}", light,
+           size, size, corner.x, corner.y, maps.depth.width, maps.depth.height);
+    }
+  }
+}
+
 void check_map_texture(const TextureView& depth, GLint count, int light) {
-  if (!holds_depth(depth.id)) fail("soft shadows: the maps of light {} hold no depth", light);
   const GLint layers = level_parameter(depth.id, GL_TEXTURE_DEPTH);
   if (layers < count) fail("soft shadows: light {} has {} maps for {} layers", light, layers, count);
 }
@@ -216,20 +231,28 @@ void check_maps(const FinishedMaps& maps, int light, TextureChecks& checks) {
   const std::string name = fmt::format("maps of light {}", light);
   const TextureView& depth = maps.depth;
   check_given(name, depth);
-  const TextureChecks::Key key{
-      .id = depth.id, .width = depth.width, .height = depth.height, .layers = projection.layers()};
-  const bool known = checks.knows(key);
+  const TextureChecks::Key key{.id = depth.id,
+                               .width = depth.width,
+                               .height = depth.height,
+                               .layers = projection.layers(),
+                               .atlas = !maps.atlas.empty()};
+  const bool known = checks.knows(key), atlas = !maps.atlas.empty();
   if (!known) {
-    if (target_of_existing(name, depth) != GL_TEXTURE_2D_ARRAY) {
-      fail("soft shadows: {}: texture {} is not a GL_TEXTURE_2D_ARRAY", name, depth.id);
+    const GLenum target = target_of_existing(name, depth);
+    if (target != (atlas ? GL_TEXTURE_2D : GL_TEXTURE_2D_ARRAY)) {
+      fail("soft shadows: {}: texture {} is not a {}", name, depth.id,
+           atlas ? "GL_TEXTURE_2D, as an atlas is" : "GL_TEXTURE_2D_ARRAY");
     }
     check_size(name, depth);
+    if (!holds_depth(depth.id)) fail("soft shadows: the maps of light {} hold no depth", light);
   }
-  if (depth.width != projection.size() || depth.height != projection.size()) {
+  if (atlas) {
+    check_atlas(maps, light);
+  } else if (depth.width != projection.size() || depth.height != projection.size()) {
     fail("soft shadows: light {} has maps of {}×{} and a projection for {}", light, depth.width, depth.height,
          projection.size());
   }
-  if (!known) check_map_texture(depth, projection.layers(), light);
+  if (!known && !atlas) check_map_texture(depth, projection.layers(), light);
   checks.add(key);
 }
 

@@ -12,6 +12,7 @@
 
 #include "../core/error.h"
 #include "../core/log.h"
+#include "copies.h"
 #include "denoise_context.h"
 #include "depth_normals.h"
 #include "light_block.h"
@@ -20,7 +21,6 @@
 #include "movement_map.h"
 #include "outputs.h"
 #include "products.h"
-#include "receiver_copies.h"
 #include "shadow_map.h"
 #include "visible_receivers.h"
 
@@ -93,7 +93,13 @@ void draw_maps(const LightWork& work) {
                                   .moved_bounds = inputs.moved,
                                   .kept = frame.kept_layers});
   }
-  frame.depth = finished ? work.light.maps->depth.id : depth->id();
+  if (!finished) {
+    frame.depth = depth->id();
+  } else if (work.light.maps->atlas.empty()) {
+    frame.depth = work.light.maps->depth.id;
+  } else {
+    frame.depth = copy_atlas(work.device, work.prefix() + shadow_map_name, *work.light.maps).id();
+  }
   if (!frame.casters_moved) return;
   draw_movement(work.device, {.map = *frame.movement,
                               .form = movement_form(work.params()),
@@ -286,7 +292,7 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   } else {
     draw_layer_at(scale, work, scaled);
   }
-  release_unused(work, has_shadow_map && !light.maps);
+  release_unused(work, has_shadow_map && (!light.maps || !light.maps->atlas.empty()));
   state.drawn = true;
   return frame;
 }

@@ -4,13 +4,13 @@
 
 #include <array>
 
+#include "copies.h"
 #include "depth_normals.h"
 #include "filters.h"
 #include "light_work.h"
 #include "mask_scale.h"
 #include "movement_map.h"
 #include "outputs.h"
-#include "receiver_copies.h"
 #include "tiles.h"
 #include "visible_receivers.h"
 
@@ -308,7 +308,7 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
                                         upsample(),
                                         scaled_receivers_program(),
                                         ready(depth_normals_program())};
-  for (gl::ProgramDesc& program : receiver_copy_programs()) programs.push_back(std::move(program));
+  for (gl::ProgramDesc& program : copy_programs()) programs.push_back(std::move(program));
   for (gl::ProgramDesc& program : visible_receivers_programs()) programs.push_back(std::move(program));
   for (const MaskForm& form : {MaskForm{}, {.packed = true}, {.packed = true, .history = true}}) {
     programs.push_back(decided(form));

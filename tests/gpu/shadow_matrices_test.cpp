@@ -2,12 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <string>
 #include <vector>
 
+#include "capi/penumbra.h"
 #include "core/error.h"
+#include "gpu/capi_scene.h"
 #include "gpu/triangle_scene.h"
 #include "shadow/light_matrices.h"
 
@@ -28,13 +32,28 @@ std::vector<glm::mat4> slices(const glm::vec3& to_light) {
 
 class ShadowMatrices : public TriangleTest {
  protected:
-  // The scene's shadow, from maps that are drawn with these matrices.
-  Shadowed draw_with(const std::vector<glm::mat4>& matrices, const std::string& technique) {
-    const gl::Texture maps("engine's maps", {.target = GL_TEXTURE_2D_ARRAY,
-                                             .format = GL_DEPTH_COMPONENT32F,
-                                             .width = size,
-                                             .height = size,
-                                             .layers = static_cast<int>(matrices.size())});
+  // The scene's shadow, from maps that are drawn with these matrices; `adjust` may change what is given of the maps.
+  using AdjustMaps = std::function<void(shadow::FinishedMaps&)>;
+  Shadowed draw_with(const std::vector<glm::mat4>& matrices, const std::string& technique,
+                     const AdjustMaps& adjust = {}) {
+    const gl::Texture maps = draw_maps(matrices);
+    const shadow::LightProjection projection = shadow::sun_projection(
+        {.world_to_clip = matrices, .to_light = scene_.to_light, .size = size, .camera = glm::vec3(2, 5, 6)});
+    shadow::FinishedMaps finished{{maps.id(), size, size}, projection};
+    if (adjust) adjust(finished);
+    const shadow::Light light{.source = shadow::Sun{scene_.to_light}, .maps = finished};
+    return render(technique, [&](shadow::Inputs& inputs) {
+      inputs.lights = {&light, 1};
+      inputs.draw = {};
+    });
+  }
+
+  gl::Texture draw_maps(const std::vector<glm::mat4>& matrices) {
+    gl::Texture maps("engine's maps", {.target = GL_TEXTURE_2D_ARRAY,
+                                       .format = GL_DEPTH_COMPONENT32F,
+                                       .width = size,
+                                       .height = size,
+                                       .layers = static_cast<int>(matrices.size())});
     const Geometry casters(scene_);
     for (std::size_t i = 0; i < matrices.size(); ++i) {
       gl::Pass pass(renderer_->device(),
@@ -49,15 +68,23 @@ class ShadowMatrices : public TriangleTest {
                          .source = shadow::Sun{scene_.to_light}},
                         pass);
     }
-    const shadow::LightProjection projection = shadow::sun_projection(
-        {.world_to_clip = matrices, .to_light = scene_.to_light, .size = size, .camera = glm::vec3(2, 5, 6)});
-    const shadow::Light light{.source = shadow::Sun{scene_.to_light},
-                              .maps = shadow::FinishedMaps{{maps.id(), size, size}, projection}};
-    return render(technique, [&](shadow::Inputs& inputs) {
-      inputs.lights = {&light, 1};
-      inputs.draw = {};
-    });
+    return maps;
   }
+
+  // As engines pack them: maps of several sizes in one texture, here with a gap.
+  struct Atlas {
+    gl::Texture texture{"engine's atlas",
+                        {.format = GL_DEPTH_COMPONENT32F, .width = 2 * size + 40, .height = 2 * size}};
+    std::vector<glm::ivec2> corners{{size + 40, size}, {0, 0}, {size + 7, 0}};
+
+    explicit Atlas(const gl::Texture& maps) {
+      for (int i = 0; i < maps.desc().layers; ++i) {
+        const glm::ivec2 corner = corners[static_cast<std::size_t>(i)];
+        gl::glCopyImageSubData(maps.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, i, texture.id(), GL_TEXTURE_2D, 0, corner.x,
+                               corner.y, 0, size, size, 1);
+      }
+    }
+  };
 
   Shadowed render(const std::string& technique, const TriangleRenderer::Adjust& adjust = {}) {
     ParamSet params = renderer_->params();
@@ -85,6 +112,82 @@ TEST_F(ShadowMatrices, OfTheEnginesOwnGiveTheSameShadows) {
     EXPECT_LE(different, 8) << technique;
     EXPECT_GT(dark, 500) << technique;
     EXPECT_GT(penumbra, 200) << technique;
+  }
+}
+
+TEST_F(ShadowMatrices, AnAtlasGivesTheShadowsOfAnArray) {
+  const std::vector<glm::mat4> matrices = slices(scene_.to_light);
+  const Atlas atlas(draw_maps(matrices));
+  const auto from_atlas = [&](shadow::FinishedMaps& maps) {
+    maps.depth = {atlas.texture.id(), atlas.texture.width(), atlas.texture.height()};
+    maps.atlas = atlas.corners;
+  };
+  for (const char* technique : {"pcss", "slices", "pcf_hardware"}) {
+    EXPECT_EQ(draw_with(matrices, technique, from_atlas).mask, draw_with(matrices, technique).mask) << technique;
+  }
+  const auto refusal = [&](const AdjustMaps& change) {
+    return message_of([&] {
+      draw_with(matrices, "pcss", [&](shadow::FinishedMaps& maps) {
+        from_atlas(maps);
+        change(maps);
+      });
+    });
+  };
+  EXPECT_NE(refusal([](auto& maps) { maps.atlas.pop_back(); }).find("an atlas of 2 maps for 3 layers"),
+            std::string::npos);
+  for (const glm::ivec2 corner : {glm::ivec2(-1, 0), {0, size + 1}, {size + 41, 0}, {2147483647, 0}}) {
+    EXPECT_NE(refusal([&](auto& maps) { maps.atlas[1] = corner; }).find("is not a part of its atlas of 2088×2048"),
+              std::string::npos);
+  }
+  EXPECT_NE(refusal([](auto& maps) { maps.atlas.clear(); }).find("is not a GL_TEXTURE_2D_ARRAY"), std::string::npos);
+}
+
+// By the C interface, from an array and from an atlas, without a callback that draws casters.
+TEST_F(ShadowMatrices, AreTakenByTheCInterface) {
+  const std::vector<glm::mat4> matrices = slices(scene_.to_light);
+  const std::vector<float> expected = draw_with(matrices, "pcss").mask;
+  const gl::Texture maps = draw_maps(matrices);
+  const Atlas atlas(maps);
+  CInterface c(test_context().get_proc_address());
+  const Geometry geometry(scene_);
+  ParamSet params = renderer_->params();
+  params.set("sun.angle", 6.0f);
+  c.set(params);
+  std::vector<std::vector<float>> of_c;
+  std::string refused;
+  render("pcss", [&](shadow::Inputs& inputs) {
+    penumbra_frame frame = c.frame_of(inputs, geometry);
+    penumbra_light light = frame.lights[0];
+    frame.lights = &light;
+    frame.draw = nullptr;
+    light.maps = {maps.id(), size, size};
+    light.maps_size = size;
+    light.maps_count = static_cast<int>(matrices.size());
+    light.maps_world_to_clip = glm::value_ptr(matrices[0]);
+    of_c.push_back(c.render(frame));
+    std::vector<std::array<int32_t, 2>> corners;
+    for (const glm::ivec2& corner : atlas.corners) corners.push_back({corner.x, corner.y});
+    light.maps = {atlas.texture.id(), atlas.texture.width(), atlas.texture.height()};
+    light.maps_atlas = corners[0].data();
+    of_c.push_back(c.render(frame));
+    penumbra_mask mask{};
+    mask.struct_size = sizeof mask;
+    light.maps_count = 2;  // of which the second does not hold the first
+    EXPECT_EQ(penumbra_render(c.device, c.settings, &frame, &mask), PENUMBRA_ERROR_REFUSED);
+    refused = penumbra_last_error();
+    light.maps_count = 9;
+    EXPECT_EQ(penumbra_render(c.device, c.settings, &frame, &mask), PENUMBRA_ERROR_ARGUMENT);
+    light.maps_count = 3;
+    light.kind = PENUMBRA_LAMP;
+    EXPECT_EQ(penumbra_render(c.device, c.settings, &frame, &mask), PENUMBRA_ERROR_REFUSED);
+    EXPECT_EQ(c.passes[PENUMBRA_PASS_DEPTH], 0);
+  });
+  EXPECT_NE(refused.find("layer"), std::string::npos) << refused;
+  for (const std::vector<float>& mask : of_c) {
+    ASSERT_EQ(mask.size(), expected.size());
+    double most = 0;  // the camera is another: it comes from the view's matrix
+    for (std::size_t i = 0; i < mask.size(); i += 4) most = std::max<double>(most, std::abs(mask[i] - expected[i]));
+    EXPECT_LE(most, 0.02);
   }
 }
 

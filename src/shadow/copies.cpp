@@ -1,8 +1,9 @@
-#include "receiver_copies.h"
+#include "copies.h"
 
 #include <string>
 
 #include "light_frame.h"
+#include "shadow_map.h"
 
 namespace penumbra::shadow {
 
@@ -10,7 +11,7 @@ namespace {
 
 using Source = TextureChecks::Source;
 
-static_assert(first_pass_unit == 8, "glsl/shadow/drivers/copy_receivers.frag has this number");
+static_assert(first_pass_unit == 8, "the shaders have this number");
 
 std::string prefix_of(const ViewState& view) { return view.prefix + "receivers/"; }
 
@@ -20,6 +21,10 @@ gl::ProgramDesc copy_program(const Source& source) {
           .vertex = "shared/full_screen.vert",
           .fragment = "shadow/drivers/copy_receivers.frag",
           .defines = {{"ARRAY", array ? "1" : "0"}, {"SAMPLES", source.has_samples() ? "1" : "0"}}};
+}
+
+gl::ProgramDesc atlas_program() {
+  return {.name = "copy atlas", .vertex = "shared/full_screen.vert", .fragment = "shadow/drivers/copy_atlas.frag"};
 }
 
 // One of the textures, and the format of its copy.
@@ -71,9 +76,25 @@ Inputs with_copies(gl::Device& device, ViewState& view, const Inputs& inputs) {
   return copies;
 }
 
-std::array<gl::ProgramDesc, 3> receiver_copy_programs() {
+const gl::Texture& copy_atlas(gl::Device& device, std::string_view name, const FinishedMaps& maps) {
+  const gl::Texture& target = shadow_map_target(device, name, maps.projection);
+  for (std::size_t i = 0; i < maps.atlas.size(); ++i) {
+    gl::Pass pass(device,
+                  {.name = "copy atlas",
+                   .depth = gl::Attachment{.texture = &target, .layer = static_cast<int>(i), .clear = glm::vec4(0)},
+                   .depth_test = gl::DepthTest::greater_equal,
+                   .depth_write = true});
+    pass.use(atlas_program()).set("corner", maps.atlas[i]);
+    device.sampler({}).bind(first_pass_unit);
+    gl::glBindTextureUnit(first_pass_unit, maps.depth.id);
+    pass.draw_full_screen();
+  }
+  return target;
+}
+
+std::array<gl::ProgramDesc, 4> copy_programs() {
   return {copy_program({.target = GL_TEXTURE_2D_ARRAY}), copy_program({.target = GL_TEXTURE_2D_MULTISAMPLE}),
-          copy_program({.target = GL_TEXTURE_2D_MULTISAMPLE_ARRAY})};
+          copy_program({.target = GL_TEXTURE_2D_MULTISAMPLE_ARRAY}), atlas_program()};
 }
 
 }  // namespace penumbra::shadow
