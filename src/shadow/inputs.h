@@ -104,8 +104,8 @@ struct CasterPass {
 using DrawCasters = std::function<void(const CasterPass&, gl::Pass&)>;
 
 // A shadow map that the caller has already drawn: a depth texture array, or R32F except for the technique pcf_hardware,
-// one layer for each layer of the projection; 0 is near, 1 far. Or an atlas, a GL_TEXTURE_2D whose parts are copied to an
-// array in each frame.
+// one layer for each layer of the projection; 0 is near, 1 far. Or an atlas, a GL_TEXTURE_2D whose parts are copied to
+// an array in each frame.
 struct FinishedMaps {
   TextureView depth;
   LightProjection projection;
