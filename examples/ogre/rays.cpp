@@ -62,9 +62,12 @@ std::vector<Triangle> read_triangles(const Ogre::Entity& entity) {
 
 class RayTracer {
  public:
-  explicit RayTracer(Ogre::SceneManager& manager) : query_(*manager.createRayQuery(Ogre::Ray())) {
+  explicit RayTracer(Ogre::SceneManager& manager) : manager_(manager), query_(*manager.createRayQuery(Ogre::Ray())) {
     query_.setSortByDistance(true);
   }
+  ~RayTracer() { manager_.destroyQuery(&query_); }
+  RayTracer(const RayTracer&) = delete;
+  RayTracer& operator=(const RayTracer&) = delete;
 
   std::optional<Hit> first_hit(const Ogre::Ray& ray) {
     query_.setRay(ray);
@@ -92,6 +95,7 @@ class RayTracer {
     return place->second;
   }
 
+  Ogre::SceneManager& manager_;
   Ogre::RaySceneQuery& query_;
   std::map<const Ogre::Entity*, std::vector<Triangle>> triangles_;
 };

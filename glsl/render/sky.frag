@@ -19,7 +19,7 @@ float haze(float distance) {
 }
 
 // Distance along a ray that points downwards, from a place to the ground.
-float to_ground(vec3 from, vec3 ray) { return max(from.y - lighting.ground_height, 0.0) / max(-ray.y, 1e-5); }
+float to_ground(vec3 from, vec3 ray) { return abs(from.y - lighting.ground_height) / max(-ray.y, 1e-5); }
 
 #if LAMPS
 uniform mat4 clip_to_world;

@@ -8,7 +8,7 @@ layout(std140, binding = 5) uniform LightingData { LightingBlock lighting; };
 vec3 mirrored_light(AmbientLight ambient, vec3 direction, float blur) {
   float low = low_sky(direction.y);
   float side = 1.0 + low * ambient.side * dot(direction.xz, ambient.sun_side);
-  vec3 sky = side * ambient.zenith + low * ambient.horizon;
+  vec3 sky = max(side * ambient.zenith + low * ambient.horizon, vec3(0.0));
   return mix(ambient.ground, sky, smoothstep(-0.01 - blur, 0.01 + blur, direction.y));
 }
 

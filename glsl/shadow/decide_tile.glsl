@@ -76,6 +76,16 @@ Layers layers_of(Receiver shallowest, Receiver deepest, SearchRadii radii, float
   return layers;
 }
 
+// Radius, metres, of the disc outside of which nothing can block light from a box's receivers, of which this is the one
+// that is farthest from the light. Techniques may read wider discs, whose bounds are coarser: see SearchRadii.
+float most_blocking_radius(Receiver deepest, vec2 half_widths, Light light) {
+  Light widest = with_widest_layer(deepest, light);
+  float widest_radius = penumbra_radius(deepest, deepest.position.z - least_depth(widest), light);
+  vec2 margins = half_widths + (2.0 + bias_normal_offset) * texel_size(deepest, widest);
+  float nearest = depth_bounds(deepest.position, margins + widest_radius, widest).least;
+  return min(widest_radius, penumbra_radius(deepest, deepest.position.z - nearest, light));
+}
+
 // What is known of a tile so far.
 struct TileState {
   uvec2 decided;  // bits as in Decision::lit: pixels that one layer has decided
@@ -122,22 +132,13 @@ bool decide_out_of_reach(Pixels pixels, inout TileState tile) {
   return true;
 }
 
-// Bounds the search_radius() of a box's receivers, of which this is the one that is farthest from the light, metres.
-float most_search_radius(Receiver deepest, vec2 half_widths, Light light) {
-  Light widest = with_widest_layer(deepest, light);
-  float widest_radius = penumbra_radius(deepest, deepest.position.z - least_depth(widest), light);
-  vec2 margins = half_widths + (2.0 + bias_normal_offset) * texel_size(deepest, widest);
-  float nearest = depth_bounds(deepest.position, margins + widest_radius, widest).least;
-  return min(widest_radius, penumbra_radius(deepest, deepest.position.z - nearest, light));
-}
-
 // The same for all layers in which receivers of a box are read.
 bool decide_box(Pixels pixels, Box box, Light light, inout TileState tile) {
   vec2 half_widths = 0.5 * (box.high.xy - box.low.xy);
   float box_radius = max(half_widths.x, half_widths.y);
   Receiver deepest = receiver_in_box(box, box.high.z, light);
   Light widest = with_widest_layer(deepest, light);
-  float radius = most_search_radius(deepest, half_widths, light);
+  float radius = most_blocking_radius(deepest, half_widths, light);
   Receiver shallowest = receiver_in_box(box, box.low.z, light);
   SearchRadii radii = search_radii(shallowest, deepest, box_radius, widest);
   Layers layers = layers_of(shallowest, deepest, radii, box_radius, light);
@@ -164,7 +165,10 @@ bool may_read_beyond_rim(Hull hull) {
     Light light = frame_light();
     if (!box_of(hull, findLSB(left), box, light)) return true;
     Receiver deepest = receiver_in_box(box, box.high.z, light);
-    float radius = most_search_radius(deepest, 0.5 * (box.high.xy - box.low.xy), light);
+    Receiver shallowest = receiver_in_box(box, box.low.z, light);
+    vec2 half_widths = 0.5 * (box.high.xy - box.low.xy);
+    Light widest = with_widest_layer(deepest, light);
+    float radius = search_radii(shallowest, deepest, max(half_widths.x, half_widths.y), widest).most;
     if (reaches_rim(box, radius, read_margin + 1.0 + bias_normal_offset, light)) return true;
   }
   return false;
@@ -181,17 +185,18 @@ int decide_tile(Pixels pixels, out Decision decision) {
   TileState tile = TileState(uvec2(0u), 0, 0, 0.0, Decision(uvec2(0u), 0.0, 0.0, 0));
   Hull hull = hull_of(pixels, range);
   bool done = may_be_out_of_reach() && decide_out_of_reach(pixels, tile);
-  int listed = may_read_beyond_rim(hull) ? tile_at_rim : tile_listed;
-  for (int left = done ? 0 : sights_of(hull); left != 0; left &= left - 1) {
+  bool failed = false;
+  for (int left = done ? 0 : sights_of(hull); left != 0 && !failed; left &= left - 1) {
     Box box;
     Light light = frame_light();
-    if (!box_of(hull, findLSB(left), box, light) || !decide_box(pixels, box, light, tile)) return listed;
+    failed = !box_of(hull, findLSB(left), box, light) || !decide_box(pixels, box, light, tile);
   }
   decision = tile.decision;
   if (tile.covered > 0) decision.blocker_distance = tile.distance_sum / float(tile.covered);
   ivec2 size = pixels.high - pixels.low;
   bool all_decided = bitCount(tile.decided.x) + bitCount(tile.decided.y) == size.x * size.y;
-  return all_decided ? tile_decided : listed;
+  if (all_decided && !failed) return tile_decided;
+  return may_read_beyond_rim(hull) ? tile_at_rim : tile_listed;
 }
 
 // The pixels of a tile of the viewport.

@@ -197,6 +197,7 @@ std::vector<shadow::Light> lights_of(const penumbra_light* lights, std::size_t c
 shadow::Inputs inputs_of(const penumbra_frame& frame) {
   if (frame.reserved != 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_frame.reserved is not 0");
   if (frame.reserved_2 != 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_frame.reserved_2 is not 0");
+  if (frame.reserved_3 != 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_frame.reserved_3 is not 0");
   require_finite(frame.jitter, "penumbra_frame.jitter");
   shadow::Inputs inputs;
   inputs.view = {.view = matrix_of(frame.view, "penumbra_frame.view"),

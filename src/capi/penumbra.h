@@ -243,8 +243,8 @@ typedef struct penumbra_light {
   int32_t output_channel; /**< 0 (default) red, 1 green, 2 blue, 3 alpha */
 
   /** Shadow maps of a sun that the engine has drawn; id 0 (default): none, penumbra_frame.draw draws them. Any depth
-   * format, or R32F (an array of it not with the technique pcf_hardware); 0 is near the light, 1 far. A
-   * GL_TEXTURE_2D_ARRAY with a layer for each map, or an atlas: see maps_atlas. */
+   * format, or R32F (an array of it not with the techniques pcf_hardware and pcf_poisson, whose samplers compare); 0 is
+   * near the light, 1 far. A GL_TEXTURE_2D_ARRAY with a layer for each map, or an atlas: see maps_atlas. */
   penumbra_texture maps;
   int32_t maps_size;               /**< width and height of each map, texels */
   int32_t maps_count;              /**< 1 to 8; default 0 */
@@ -444,8 +444,8 @@ PENUMBRA_API penumbra_result penumbra_reads_motion(penumbra_device* device, cons
 PENUMBRA_API penumbra_result penumbra_forget_view(penumbra_device* device, int32_t view_id);
 
 /** Compiles the programs and makes the tables that penumbra_render() needs with these settings and the frame's
- * conventions, lights and mask_details, so that no later frame of that kind has to. Draws two frames of 64 x 64 pixels
- * without casters, with maps of the settings' size, which are released afterwards: textures, boxes, matrices and
+ * conventions, lights and mask_details, so that no later frame of that kind has to. Draws three frames of 64 x 64
+ * pixels without casters, with maps of the settings' size, which are released afterwards: textures, boxes, matrices and
  * callbacks of `frame` are not used and need not be set. Programs that only an engine's own callback compiles are not
  * among them. Errors as for penumbra_render(). */
 PENUMBRA_API penumbra_result penumbra_warm_up(penumbra_device* device, const penumbra_settings* settings,

@@ -43,7 +43,7 @@ class Pass {
   Pass& operator=(const Pass&) = delete;
 
   const Program& use(const ProgramDesc& desc);  // compiles on first use (see ShaderLibrary::get), makes current
-  void draw_full_screen();                      // one triangle, for the vertex shader "shared/full_screen.vert"
+  void draw_full_screen();                      // one triangle, for vertex shaders as shared/full_screen.vert is
   void set_cull_back(bool cull);                // double-sided materials
   void set_front_clockwise(bool clockwise);     // mirrored instances
   void set_viewport(int x, int y, int width, int height);

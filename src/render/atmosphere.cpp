@@ -83,8 +83,6 @@ glm::vec3 look_up(const std::vector<glm::vec3>& table, int width, int height, fl
 // The transmittance's table has more room near the horizon and the ground (Bruneton and Neyret 2008, section 4).
 const float horizon_distance = std::sqrt(top * top - bottom * bottom);
 
-// That of multiple scattering has more room for low suns and for the haze near the ground.
-
 // The side of the horizon where a direction points, as a unit vector.
 glm::vec3 side_of(const glm::vec3& direction) {
   const glm::vec3 level(direction.x, 0, direction.z);

@@ -37,10 +37,10 @@ struct View {
   bool restart = false;  // discards the history alone: Inputs::moved still says what moved since the view's last frame
 };
 
-// A texture that the caller owns. Shadow maps are a GL_TEXTURE_2D_ARRAY. Of receivers it is a GL_TEXTURE_2D or a layer
-// of an array, such as that of one eye; or one of both with samples, of which the one nearest to the pixel's centre is
-// read. What is not a GL_TEXTURE_2D is copied in each frame. Its filter, wrap and compare modes do not matter; its
-// swizzle, base and maximum level and GL_DEPTH_STENCIL_TEXTURE_MODE must have OpenGL's initial values.
+// A texture that the caller owns. Shadow maps are a GL_TEXTURE_2D_ARRAY or an atlas. Of receivers it is a GL_TEXTURE_2D
+// or a layer of an array, such as that of one eye; or one of both with samples, of which the one nearest to the pixel's
+// centre is read. What is not a GL_TEXTURE_2D is copied in each frame. Its filter, wrap and compare modes do not
+// matter; its swizzle, base and maximum level and GL_DEPTH_STENCIL_TEXTURE_MODE must have OpenGL's initial values.
 struct TextureView {
   unsigned id = 0;
   int width = 0, height = 0;  // of level 0, texels
@@ -103,9 +103,9 @@ struct CasterPass {
 };
 using DrawCasters = std::function<void(const CasterPass&, gl::Pass&)>;
 
-// A shadow map that the caller has already drawn: a depth texture array, or R32F except for the technique pcf_hardware,
-// one layer for each layer of the projection; 0 is near, 1 far. Or an atlas, a GL_TEXTURE_2D whose parts are copied to
-// an array in each frame.
+// A shadow map that the caller has already drawn: a depth texture array, or R32F except for the techniques pcf_hardware
+// and pcf_poisson, one layer for each layer of the projection; 0 is near, 1 far. Or an atlas, a GL_TEXTURE_2D whose
+// parts are copied to an array in each frame.
 struct FinishedMaps {
   TextureView depth;
   LightProjection projection;

@@ -204,6 +204,7 @@ gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& param
   program.defines.push_back({"HISTORY", form.history ? "1" : "0"});
   program.defines.push_back({"TILES", form.tiles ? "1" : "0"});
   program.defines.push_back({"RIM", form.rim ? "1" : "0"});
+  program.defines.push_back({"RIM_LIST", form.rim && !form.missing ? "1" : "0"});
   if (form.compute) {
     program.compute = driver_file(technique, "mask.comp");
   } else {

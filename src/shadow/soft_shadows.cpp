@@ -9,6 +9,7 @@
 #include "../core/error.h"
 #include "../gl/compatibility.h"
 #include "../gl/debug.h"
+#include "copies.h"
 #include "forward_source.h"
 #include "frame.h"
 #include "warm_up.h"
@@ -119,6 +120,7 @@ void SoftShadows::warm_up(const FrameKind& kind, const ParamSet& params) {
   ViewState view;
   view.prefix = fmt::format("shadow {}/warm up/", state_->number);
   const DroppedAtEnd targets(device_, view.prefix);
+  for (const gl::ProgramDesc& program : copy_programs()) device_.shaders.get(program);
   const std::vector<Light> lights = warm_up_lights(device_, view.prefix, kind);
   FrameKind small = kind;
   small.lights = lights;

@@ -54,7 +54,7 @@ struct Technique {
   std::function<std::vector<gl::ProgramDesc>(const ParamSet&)> programs = {};
   // Whether the library may decide for it which tiles of pixels no penumbra reaches (see tiles.h). It needs
   // "shadow_map" and "least_depth_pyramid", and its result must be the share of the light that the casters in the map
-  // leave free.
+  // leave free. Under lamps it must moreover read texels as reads_light_discs says.
   bool decides_tiles = false;
   // Whether the denoiser that the parameters choose is applied to its result.
   bool denoisable = true;

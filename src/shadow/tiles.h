@@ -31,12 +31,15 @@ struct TileListHead {
   std::uint32_t capacity = 0;
 };
 
+static_assert(sizeof(TileListHead) == 76, "must match TileList in glsl/shadow/drivers/tiles.glsl");
+
 // Where the commands are in the list, bytes.
 constexpr std::size_t listed_dispatch_offset = offsetof(TileListHead, dispatch_listed);
 constexpr std::size_t listed_draw_offset = offsetof(TileListHead, draw_listed);
 constexpr std::size_t decided_draw_offset = offsetof(TileListHead, draw_decided);
 constexpr std::size_t rim_dispatch_offset = offsetof(TileListHead, dispatch_rim);
 constexpr std::size_t rim_draw_offset = offsetof(TileListHead, draw_rim);
+
 // How many tiles cover a viewport along each axis.
 glm::ivec2 tile_count(const Rect& viewport);
 // A list without tiles for a viewport of so many.

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <bit>
 #include <cstring>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "capi/penumbra.h"
@@ -152,6 +154,49 @@ TEST_F(CInterfaceHostile, EveryFieldOfALight) {
     }
     EXPECT_EQ(render(frame(right)), PENUMBRA_OK) << penumbra_last_error();
   }
+}
+
+// Shadow maps of the engine's: what is said of them, their matrices and their places in an atlas.
+TEST_F(CInterfaceHostile, EveryNumberOfGivenMaps) {
+  penumbra_light right = light(PENUMBRA_SUN);
+  std::array<float, 8 * 16> matrices{};
+  for (std::size_t i = 0; i < matrices.size(); ++i) matrices[i] = i % 16 % 5 == 0 ? 0.05f : 0;
+  for (std::size_t i = 14; i < matrices.size(); i += 16) matrices[i] = 1;
+  std::array<int32_t, 8 * 2> corners{};
+  matrices[0] = -0.05f;
+  right.to_light[1] = 0;
+  right.to_light[2] = -1;
+  right.maps = {frame(right).depth.id, 16, 16};
+  right.maps_size = 16;
+  right.maps_count = 1;
+  right.maps_world_to_clip = matrices.data();
+  right.maps_atlas = corners.data();
+  ASSERT_EQ(render(frame(right)), PENUMBRA_OK) << penumbra_last_error();
+  for (std::size_t at = offsetof(penumbra_light, maps); at < offsetof(penumbra_light, maps_world_to_clip); at += 4) {
+    for (const std::uint32_t value : hostile_values()) {
+      penumbra_light wrong = right;
+      std::memcpy(reinterpret_cast<unsigned char*>(&wrong) + at, &value, sizeof value);
+      render(frame(wrong));
+    }
+  }
+  for (std::size_t i = 0; i < 16; ++i) {
+    for (const std::uint32_t value : hostile_values()) {
+      const float kept = std::exchange(matrices[i], std::bit_cast<float>(value));
+      const penumbra_result result = render(frame(right));
+      if (is_not_finite(value)) {
+        EXPECT_EQ(result, PENUMBRA_ERROR_ARGUMENT) << "value " << i << " of a matrix";
+      }
+      matrices[i] = kept;
+    }
+  }
+  for (int32_t& corner : corners) {
+    for (const std::uint32_t value : hostile_values()) {
+      const int32_t kept = std::exchange(corner, std::bit_cast<int32_t>(value));
+      render(frame(right));
+      corner = kept;
+    }
+  }
+  EXPECT_EQ(render(frame(light(PENUMBRA_SUN))), PENUMBRA_OK) << penumbra_last_error();
 }
 
 TEST_F(CInterfaceHostile, SizesCountsAndNulls) {

@@ -64,6 +64,23 @@ TEST_F(ShadowScale, PixelsThatAreComputedAreThoseOfTheFullMaskWhateverTheSize) {
   }
 }
 
+TEST_F(ShadowScale, ThePixelsBetweenAreNearTheFullMaskUnderLamps) {
+  const TriangleScene scene = box_on_ground(240, 159);
+  for (const float cone : {0.0f, 0.5f}) {
+    shadow::Lamp lamp{.position = {3, 5, 2}, .radius = 0.15f};
+    if (cone > 0) lamp.axis = glm::normalize(-lamp.position), lamp.cone = cone;
+    const shadow::Light light{.source = lamp};
+    const auto under_lamp = [&](shadow::Inputs& in) { in.lights = {&light, 1}; };
+    const std::vector<float> full = render(scene, 1, under_lamp).visibilities();
+    for (const int scale : {2, 4}) {
+      SCOPED_TRACE(testing::Message() << "cone " << cone << " scale " << scale);
+      const double error = rms(full, render(scene, scale, under_lamp).visibilities());
+      EXPECT_LT(error, 0.012 * scale);
+      EXPECT_GT(error, 0.0) << "something is interpolated";
+    }
+  }
+}
+
 TEST_F(ShadowScale, ThePixelsBetweenAreNearTheFullMask) {
   const TriangleScene scene = box_on_ground(240, 159);
   for (const char* technique : {"pcss", "slices", "vsm", "thesis"}) {

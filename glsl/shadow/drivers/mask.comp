@@ -15,7 +15,7 @@ uniform int mask_layer;
 // The pixel of an invocation in a group that runs over a listed tile; beyond the viewport where there is no such tile.
 ivec2 pixel_in_viewport() {
   uint index = gl_WorkGroupID.y * list_row + gl_WorkGroupID.x;
-#if RIM
+#if RIM_LIST
   if (index >= tile_list.rim.count) return ivec2(shadow.viewport.zw);
   ivec2 tile = rim_tile(index);
 #else

@@ -3,8 +3,8 @@
 #include "shared/shadow_block.h"
 #include "shadow/drivers/tiles.glsl"
 
-#ifndef RIM
-#define RIM 0  // 1: a tile at the rim of a cube's face
+#ifndef RIM_LIST
+#define RIM_LIST 0  // 1: of the tiles at the rim of a cube's face
 #endif
 
 layout(std140, binding = 1) uniform ShadowData { ShadowBlock shadow; };
@@ -16,7 +16,7 @@ void main() {
   // Fragment shaders discard the pixels of other tiles that it then covers.
 #if DECIDED
   tile = decided_tile(uint(gl_VertexID));
-#elif RIM
+#elif RIM_LIST
   tile = rim_tile(uint(gl_VertexID));
 #else
   tile = listed_tile(uint(gl_VertexID));
