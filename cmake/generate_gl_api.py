@@ -1,4 +1,4 @@
-"""Writes api.h and api.cpp: one function pointer for each function of OpenGL 4.5 core, from GL/glcorearb.h."""
+"""Writes api.h and api.cpp: the functions of OpenGL 4.5 core, from GL/glcorearb.h, and a table of their entry points."""
 
 import argparse
 import pathlib
@@ -8,13 +8,34 @@ LAST_VERSION = (4, 5)
 
 HEADER = """#pragma once
 
-// Generated from GL/glcorearb.h by cmake/generate_gl_api.py: the functions of OpenGL {version} core, as pointers in a
-// namespace of their own so that they do not clash with another loader in the same program.
+// Generated from GL/glcorearb.h by cmake/generate_gl_api.py: the functions of OpenGL {version} core, in a namespace of
+// their own so that they do not clash with another loader in the same program.
 #include <GL/glcorearb.h>
 
 namespace penumbra::gl {{
 
-{declarations}
+// The entry points of one driver.
+struct Api {{
+{members}
+  // Of the compatibility profile; null in a context of the core profile.
+  void(APIENTRYP glPixelTransferf)(GLenum pname, GLfloat param) = nullptr;
+  void(APIENTRYP glPixelTransferi)(GLenum pname, GLint param) = nullptr;
+
+  bool operator==(const Api&) const = default;
+}};
+
+// Of thread-local variables, a library that is loaded at run time finds those at a fixed place the fastest. glibc keeps
+// room for a few.
+#if defined(__GLIBC__) && defined(__GNUC__)
+#define PENUMBRA_FIXED_PLACE __attribute__((tls_model("initial-exec")))
+#else
+#define PENUMBRA_FIXED_PLACE
+#endif
+
+// What the calling thread's calls go to; null: load_api() was not called on it. Set by load_api() and by DeviceScope.
+extern constinit thread_local Api* current_api PENUMBRA_FIXED_PLACE;
+
+{functions}
 
 }}  // namespace penumbra::gl
 """
@@ -25,7 +46,7 @@ SOURCE = """#include "api.h"
 
 namespace penumbra::gl {{
 
-{definitions}
+constinit thread_local Api* current_api = nullptr;
 
 namespace {{
 // Each entry stores a pointer of its own type: no pointer is written through another type.
@@ -40,17 +61,33 @@ std::span<const ApiEntry> api_table() {{ return table; }}
 """
 
 
+class Function:
+    """A prototype: what it returns, its name, and its parameters as text and as names."""
+
+    def __init__(self, result, name, parameters):
+        self.result, self.name = result.strip(), name
+        self.parameters = "" if parameters.strip() == "void" else parameters
+        self.arguments = [re.search(r"(\w+)$", one).group(1) for one in self.parameters.split(",") if one]
+
+    def pointer(self):
+        return f"PFN{self.name.upper()}PROC"
+
+    def definition(self):
+        call = f"current_api->{self.name}({', '.join(self.arguments)})"
+        return f"inline {self.result} {self.name}({self.parameters}) {{ return {call}; }}"
+
+
 def core_functions(header):
-    """Function names of every GL_VERSION section up to LAST_VERSION, in order, without repeats."""
-    names = {}
+    """The functions of every GL_VERSION section up to LAST_VERSION, in order, without repeats."""
+    functions = {}
     for major, minor in re.findall(r"^#ifndef GL_VERSION_(\d)_(\d)$", header, re.MULTILINE):
         if (int(major), int(minor)) > LAST_VERSION:
             continue
         version = f"GL_VERSION_{major}_{minor}"
         section = header[header.index(f"#ifndef {version}\n") : header.index(f"#endif /* {version} */")]
-        for name in re.findall(r"^GLAPI .*?\bAPIENTRY (gl\w+) \(", section, re.MULTILINE):
-            names[name] = None
-    return list(names)
+        for prototype in re.findall(r"^GLAPI (.*?)APIENTRY (gl\w+) \((.*)\);$", section, re.MULTILINE):
+            functions[prototype[1]] = Function(*prototype)
+    return functions
 
 
 def write_if_changed(path, text):
@@ -64,24 +101,24 @@ def main():
     parser.add_argument("out", type=pathlib.Path, help="folder for api.h and api.cpp")
     args = parser.parse_args()
 
-    names = core_functions(args.header.read_text())
-    if "glCreateTextures" not in names or "glClear" not in names:
+    functions = core_functions(args.header.read_text())
+    if "glCreateTextures" not in functions or "glClear" not in functions:
         raise SystemExit(f"{args.header}: no OpenGL 4.5 core functions found")
-    typed = [(name, f"PFN{name.upper()}PROC") for name in names]
     args.out.mkdir(parents=True, exist_ok=True)
     write_if_changed(
         args.out / "api.h",
         HEADER.format(
             version=".".join(map(str, LAST_VERSION)),
-            declarations="\n".join(f"extern {kind} {name};" for name, kind in typed),
+            members="\n".join(f"  {one.pointer()} {name} = nullptr;" for name, one in functions.items()),
+            functions="\n".join(one.definition() for one in functions.values()),
         ),
     )
     write_if_changed(
         args.out / "api.cpp",
         SOURCE.format(
-            definitions="\n".join(f"{kind} {name} = nullptr;" for name, kind in typed),
             entries="\n".join(
-                f'    {{"{name}", [](void* p) {{ {name} = reinterpret_cast<{kind}>(p); }}}},' for name, kind in typed
+                f'    {{"{name}", [](Api& api, void* p) {{ api.{name} = reinterpret_cast<{one.pointer()}>(p); }}}},'
+                for name, one in functions.items()
             ),
         ),
     )

@@ -9,22 +9,7 @@ namespace penumbra::capi {
 
 namespace {
 
-// The device whose driver's entry points are loaded; null: none.
-const penumbra_device* loaded = nullptr;
-
-void load(const penumbra_device& device) {
-  if (loaded == &device) return;
-  loaded = nullptr;
-  gl::load_api(device.get_proc);
-  loaded = &device;
-}
-
-bool in_call = false;
-
-// Messages of a call go to its device's callback.
-void set_sink(std::optional<penumbra::ThreadLogSink>& sink, const penumbra_device& device) {
-  if (device.log) sink.emplace(device.log);
-}
+thread_local bool in_call = false;
 
 int32_t level_of(LogLevel level) {
   switch (level) {
@@ -42,8 +27,6 @@ int32_t level_of(LogLevel level) {
 
 std::unique_ptr<penumbra_device> make_device(const penumbra_device_desc& desc) {
   auto device = std::make_unique<penumbra_device>();
-  device->get_proc = [get_proc = &required(desc.get_proc, "penumbra_device_desc.get_proc"), user = desc.get_proc_user](
-                         const char* name) { return reinterpret_cast<void*>(get_proc(user, name)); };
   if (desc.log != nullptr) {
     device->log = [log = desc.log, user = desc.log_user](LogLevel level, std::string_view message) {
       log(user, level_of(level), std::string(message).c_str());
@@ -51,6 +34,20 @@ std::unique_ptr<penumbra_device> make_device(const penumbra_device_desc& desc) {
   }
   return device;
 }
+
+// The scope of a call that makes a device: OpenGL's entry points are those of the current context's driver.
+class LoadedApi {
+ public:
+  LoadedApi(penumbra_get_proc get_proc, void* user) : outer_(gl::current_api) {
+    gl::load_api([&](const char* name) { return reinterpret_cast<void*>(get_proc(user, name)); });
+  }
+  ~LoadedApi() { gl::current_api = outer_; }
+  LoadedApi(const LoadedApi&) = delete;
+  LoadedApi& operator=(const LoadedApi&) = delete;
+
+ private:
+  gl::Api* outer_;
+};
 
 // Frees all that the device has made, without OpenGL calls where its context is not there.
 void release(penumbra_device& device, bool context_is_lost) {
@@ -60,19 +57,30 @@ void release(penumbra_device& device, bool context_is_lost) {
   device.objects.reset();
 }
 
-}  // namespace
-
-OneCall::OneCall() {
-  if (in_call) fail_with(PENUMBRA_ERROR_ARGUMENT, "called from within a callback of a device");
-  in_call = true;
+void check_context(gl::DeviceScope& scope) {
+  if (!scope.has_context())
+    fail_with(PENUMBRA_ERROR_CONTEXT, "the device's OpenGL context is not current on this thread");
 }
 
-OneCall::~OneCall() { in_call = false; }
+}  // namespace
 
-DeviceCall::DeviceCall(penumbra_device* device) : device_(required(device, "device")) {
+ThreadCall::ThreadCall(const penumbra_device& device) {
+  if (in_call) fail_with(PENUMBRA_ERROR_ARGUMENT, "called from within a callback of a device");
+  in_call = true;
+  if (device.log) sink_.emplace(device.log);
+}
+
+ThreadCall::~ThreadCall() { in_call = false; }
+
+OneCall::OneCall(penumbra_device& device) : thread_(device), device_(device) {
+  if (device.in_use.test_and_set()) fail_with(PENUMBRA_ERROR_ARGUMENT, "another thread is in a call with the device");
+}
+
+OneCall::~OneCall() { device_.in_use.clear(); }
+
+DeviceCall::DeviceCall(penumbra_device* device) : device_(required(device, "device")), one_(device_) {
   if (device_.objects == nullptr) fail_with(PENUMBRA_ERROR_CONTEXT, "the device was abandoned");
-  set_sink(sink_, device_);
-  load(device_);
+  check_context(scope_.emplace(device_.objects->device));
 }
 
 const ParamSet& params_of(const penumbra_settings* settings) { return required(settings, "settings").params; }
@@ -84,17 +92,12 @@ using namespace penumbra::capi;
 penumbra_result penumbra_device_create(const penumbra_device_desc* desc, penumbra_device** device) {
   return run("penumbra_device_create", [&] {
     required(device, "device") = nullptr;
-    std::unique_ptr<penumbra_device> made = make_device(read_struct(&required(desc, "desc")));
-    const OneCall one;
-    std::optional<penumbra::ThreadLogSink> sink;
-    set_sink(sink, *made);
-    load(*made);
-    try {
-      made->objects = std::make_unique<DeviceObjects>();
-    } catch (...) {
-      loaded = nullptr;
-      throw;
-    }
+    const penumbra_device_desc given = read_struct(&required(desc, "desc"));
+    required(given.get_proc, "penumbra_device_desc.get_proc");
+    std::unique_ptr<penumbra_device> made = make_device(given);
+    const ThreadCall call(*made);
+    const LoadedApi api(given.get_proc, given.get_proc_user);
+    made->objects = std::make_unique<DeviceObjects>();
     *device = made.release();
   });
 }
@@ -102,30 +105,27 @@ penumbra_result penumbra_device_create(const penumbra_device_desc* desc, penumbr
 penumbra_result penumbra_device_destroy(penumbra_device* device) {
   if (device == nullptr) return PENUMBRA_OK;
   return run("penumbra_device_destroy", [&] {
-    const OneCall one;
-    const std::unique_ptr<penumbra_device> owned(device);
-    std::optional<penumbra::ThreadLogSink> sink;
-    set_sink(sink, *device);
+    std::optional<OneCall> call(*device);
     std::exception_ptr no_context;
     if (device->objects != nullptr) {
+      penumbra::gl::DeviceScope scope(device->objects->device);
       try {
-        load(*device);
         penumbra::gl::check_context_is_current("penumbra_device_destroy()");
-      } catch (const penumbra::gl::ContextError&) {
+        check_context(scope);
+      } catch (...) {
         no_context = std::current_exception();
       }
       release(*device, /*context_is_lost=*/no_context != nullptr);
     }
-    if (loaded == device) loaded = nullptr;
+    call.reset();
+    delete device;
     if (no_context) std::rethrow_exception(no_context);
   });
 }
 
 penumbra_result penumbra_device_abandon(penumbra_device* device) {
   return run("penumbra_device_abandon", [&] {
-    required(device, "device");
-    const OneCall one;
+    const OneCall call(required(device, "device"));
     release(*device, /*context_is_lost=*/true);
-    if (loaded == device) loaded = nullptr;
   });
 }

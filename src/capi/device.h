@@ -1,8 +1,9 @@
 #pragma once
 
-#include <functional>
+#include <atomic>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "../core/log.h"
@@ -29,27 +30,44 @@ struct CasterProgram {
 
 // The object behind the C interface's pointer to a device.
 struct penumbra_device {
-  std::function<void*(const char*)> get_proc;
   penumbra::LogSink log;                                   // empty: none of its own
   std::unique_ptr<penumbra::capi::DeviceObjects> objects;  // null: abandoned
   std::map<int, penumbra::shadow::Mask> masks;             // of the last frame, by view
   std::map<penumbra::gl::ProgramDesc, penumbra::capi::CasterProgram> caster_programs;
+  std::atomic_flag in_use;  // by a call
 };
 
 namespace penumbra::capi {
 
-// The scope of any call with a device: refuses to begin within another one, as from a callback. Calls with different
-// devices don't mix either, because OpenGL's entry points belong to the process.
+// The scope of any call with a device: refuses to begin within another one of this thread, as from a callback, which
+// would change the state that the other device draws with. Messages go to the device's callback.
+class ThreadCall {
+ public:
+  explicit ThreadCall(const penumbra_device& device);
+  ~ThreadCall();
+  ThreadCall(const ThreadCall&) = delete;
+  ThreadCall& operator=(const ThreadCall&) = delete;
+
+ private:
+  std::optional<ThreadLogSink> sink_;
+};
+
+// The scope of a call with a device that exists: refuses the same, and calls while another thread uses the device.
 class OneCall {
  public:
-  OneCall();
+  explicit OneCall(penumbra_device& device);
   ~OneCall();
   OneCall(const OneCall&) = delete;
   OneCall& operator=(const OneCall&) = delete;
+
+ private:
+  ThreadCall thread_;
+  penumbra_device& device_;
 };
 
-// The scope of a call with a device: refuses null, abandoned devices and calls from within a callback; OpenGL's entry
-// points are those of the device's driver, and messages go to its callback.
+// The scope of a call that uses what a device has made: refuses the same, null, abandoned devices and, where that can
+// be told at no cost, threads on which the device's context is not current. OpenGL's entry points are those of the
+// device's driver.
 class DeviceCall {
  public:
   explicit DeviceCall(penumbra_device* device);
@@ -60,7 +78,7 @@ class DeviceCall {
  private:
   penumbra_device& device_;
   OneCall one_;
-  std::optional<ThreadLogSink> sink_;
+  std::optional<gl::DeviceScope> scope_;
 };
 
 // Settings whose values `device` can use.

@@ -21,9 +21,12 @@
  * fields; one that was compiled with a later one is refused if it sets fields which this library does not know. The
  * functions penumbra_..._init() set all fields to their defaults.
  *
- * Threads. At any time, only one thread may use devices, since OpenGL's entry points belong to the process; a device's
- * context is current on it. Settings, and the lists of parameters and techniques, can be used on any thread, each
- * object on one at a time. An engine may have several devices, with a context each: of one driver or of several.
+ * Threads. An engine may have several devices, with a context each, of one driver or of several, and use them on
+ * several threads at the same time. A device is used on one thread at a time, on which its context is current; context
+ * and device may move to another thread. Settings, and the lists of parameters and techniques, can be used on any
+ * thread, each object on one at a time; calls may share settings that none of them changes. A call on another thread
+ * than the device's last one fails if the device's context is not current there (PENUMBRA_ERROR_CONTEXT), and a call
+ * while another thread is in one with the device fails too (PENUMBRA_ERROR_ARGUMENT).
  *
  * OpenGL state. "State" at the end of this file says what functions change.
  */
@@ -61,8 +64,8 @@ typedef enum penumbra_result {
                                   from within a callback of a device */
   PENUMBRA_ERROR_REFUSED = 2,  /**< what it was given does not suit: textures, matrices, lights, names or values of
                                   parameters; or the driver can't: a shader does not compile, its memory is full */
-  PENUMBRA_ERROR_CONTEXT = 3,  /**< no OpenGL context is current, it can't be drawn with now, it has no OpenGL 4.5, or
-                                  the device was abandoned */
+  PENUMBRA_ERROR_CONTEXT = 3,  /**< no OpenGL context is current, it is not the device's, it can't be drawn with now, it
+                                  has no OpenGL 4.5, or the device was abandoned */
   PENUMBRA_ERROR_CALLBACK = 4, /**< penumbra_frame.draw returned something else than 0 */
   PENUMBRA_ERROR_BUFFER = 5,   /**< the caller's buffer is too small for a text: see penumbra_settings_get() */
   PENUMBRA_ERROR_MEMORY = 6,   /**< no memory of the process is left */
@@ -94,7 +97,7 @@ typedef void (*penumbra_log)(void* user, int32_t level, const char* message);
 /** What a device is made from. */
 typedef struct penumbra_device_desc {
   size_t struct_size;         /**< sizeof(penumbra_device_desc) */
-  penumbra_get_proc get_proc; /**< required; called as long as the device lives */
+  penumbra_get_proc get_proc; /**< required; called during penumbra_device_create() */
   void* get_proc_user;        /**< passed to get_proc */
   penumbra_log log; /**< receives messages during calls with the device; null: warnings and errors go to stderr */
   void* log_user;   /**< passed to log */
@@ -109,7 +112,7 @@ PENUMBRA_API penumbra_result penumbra_device_desc_init(penumbra_device_desc* des
  */
 PENUMBRA_API penumbra_result penumbra_device_create(const penumbra_device_desc* desc, penumbra_device** device);
 
-/** Deletes the device and all its OpenGL objects. Its context must be current. If no context is, the objects are left
+/** Deletes the device and all its OpenGL objects. Its context must be current. If it is not, the objects are left
  * to their context, and the result is PENUMBRA_ERROR_CONTEXT; the device is gone nevertheless. Null: nothing happens.
  * PENUMBRA_ERROR_ARGUMENT: called from within a callback of a device; this one stays then. */
 PENUMBRA_API penumbra_result penumbra_device_destroy(penumbra_device* device);

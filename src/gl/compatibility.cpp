@@ -30,27 +30,18 @@ constexpr std::array<GLenum, InitialLegacyState::scales> scales{
 
 constexpr float initial_scale(std::size_t i) { return i % 2 == 0 ? 1.0f : 0.0f; }
 
-// Those of the last context for which entry points were loaded; null in the core profile.
-using PixelTransferf = void(APIENTRYP)(GLenum name, GLfloat value);
-using PixelTransferi = void(APIENTRYP)(GLenum name, GLint value);
-PixelTransferf pixel_transfer_float = nullptr;
-PixelTransferi pixel_transfer_int = nullptr;
-
 void set_enabled(GLenum capability, bool enabled) { enabled ? glEnable(capability) : glDisable(capability); }
 
 }  // namespace
 
-void find_legacy_state(const std::function<void*(const char*)>& get_proc_address, bool compatibility) {
-  pixel_transfer_float = nullptr;
-  pixel_transfer_int = nullptr;
-  if (!compatibility) return;
-  pixel_transfer_float = reinterpret_cast<PixelTransferf>(get_proc_address("glPixelTransferf"));
-  pixel_transfer_int = reinterpret_cast<PixelTransferi>(get_proc_address("glPixelTransferi"));
-  if (pixel_transfer_float == nullptr || pixel_transfer_int == nullptr)
+void find_legacy_state(Api& api, const std::function<void*(const char*)>& get_proc_address) {
+  api.glPixelTransferf = reinterpret_cast<decltype(api.glPixelTransferf)>(get_proc_address("glPixelTransferf"));
+  api.glPixelTransferi = reinterpret_cast<decltype(api.glPixelTransferi)>(get_proc_address("glPixelTransferi"));
+  if (api.glPixelTransferf == nullptr || api.glPixelTransferi == nullptr)
     throw ContextError("OpenGL 4.5: the driver lacks glPixelTransfer in a context of the compatibility profile");
 }
 
-bool has_legacy_state() { return pixel_transfer_float != nullptr; }
+bool has_legacy_state() { return current_api->glPixelTransferf != nullptr; }
 
 InitialLegacyState::InitialLegacyState() {
   if (!has_legacy_state()) return;
@@ -62,11 +53,11 @@ InitialLegacyState::InitialLegacyState() {
   glClampColor(clamp_fragment_color, GL_FIXED_ONLY);
   for (std::size_t i = 0; i < switches_.size(); ++i) {
     glGetIntegerv(gl::switches[i], &switches_[i]);
-    pixel_transfer_int(gl::switches[i], 0);
+    current_api->glPixelTransferi(gl::switches[i], 0);
   }
   for (std::size_t i = 0; i < scales_.size(); ++i) {
     glGetFloatv(gl::scales[i], &scales_[i]);
-    pixel_transfer_float(gl::scales[i], initial_scale(i));
+    current_api->glPixelTransferf(gl::scales[i], initial_scale(i));
   }
 }
 
@@ -74,12 +65,12 @@ InitialLegacyState::~InitialLegacyState() {
   if (!has_legacy_state()) return;
   for (std::size_t i = 0; i < tests_.size(); ++i) set_enabled(gl::tests[i], tests_[i]);
   glClampColor(clamp_fragment_color, static_cast<GLenum>(fragment_clamp_));
-  for (std::size_t i = 0; i < switches_.size(); ++i) pixel_transfer_int(gl::switches[i], switches_[i]);
-  for (std::size_t i = 0; i < scales_.size(); ++i) pixel_transfer_float(gl::scales[i], scales_[i]);
+  for (std::size_t i = 0; i < switches_.size(); ++i) current_api->glPixelTransferi(gl::switches[i], switches_[i]);
+  for (std::size_t i = 0; i < scales_.size(); ++i) current_api->glPixelTransferf(gl::scales[i], scales_[i]);
 }
 
 void check_context_is_current(const char* subject) {
-  if (glGetIntegerv == nullptr)
+  if (current_api == nullptr)
     throw ContextError(fmt::format("{}: OpenGL's entry points are not loaded; call load_api()", subject));
   GLint major = 0;
   glGetIntegerv(GL_MAJOR_VERSION, &major);

@@ -7,14 +7,16 @@
 
 namespace penumbra::gl {
 
+struct Api;
+
 // Legacy state: what the compatibility profile keeps of older versions of OpenGL beside the core profile. Most of it
 // has no effect on programs of shaders. The rest is here, by the specification of the profile (Segal and Akeley,
 // OpenGL 4.5, 2017).
 
-// For load_api(): whether the current context has legacy state.
-void find_legacy_state(const std::function<void*(const char*)>& get_proc_address, bool compatibility);
+// For load_api(): loads what sets the legacy state of the current context, which is of the compatibility profile.
+void find_legacy_state(Api& api, const std::function<void*(const char*)>& get_proc_address);
 
-// Whether the context had legacy state for which entry points were last loaded.
+// Whether the context has legacy state whose entry points the calling thread uses.
 bool has_legacy_state();
 
 // In this scope legacy state that could change what is drawn or how texels are transferred has its initial values;

@@ -21,10 +21,11 @@ class ContextError : public Error {
   using Error::Error;
 };
 
-// Loads Penumbra's OpenGL entry points from the driver of the current context. The contexts below do this themselves;
-// an engine with its own context, of the core or the compatibility profile, calls it once before anything else here.
-// `get_proc_address` is not kept. Throws ContextError that names what OpenGL 4.5 lacks here: a function, the version,
-// or a current context.
+// Loads the OpenGL entry points that the calling thread uses, from the driver of the context that is current on it. The
+// contexts below do this themselves; an engine with its own context, of the core or the compatibility profile, calls it
+// on each thread that uses Penumbra's C++, before anything else here. `get_proc_address` is not kept. Throws
+// ContextError that names what OpenGL 4.5 lacks here, a function, the version, or a current context; the thread's entry
+// points are then as before.
 void load_api(const std::function<void*(const char* name)>& get_proc_address);
 
 enum class Backend { egl, osmesa, window };
@@ -43,9 +44,9 @@ struct ContextOptions {
   bool vsync = true;    // window only
 };
 
-// An OpenGL 4.5 context. Making it current also loads Penumbra's entry points from its driver. GL objects must be
-// destroyed before their context, while it is current. The entry points are global to the process, so several contexts
-// can only be used alternately, on one thread.
+// An OpenGL 4.5 context. Making it current also loads the calling thread's entry points from its driver. GL objects
+// must be destroyed before their context, while it is current. A context is current on one thread at a time; several
+// can take turns on a thread, or be used on a thread each.
 class Context {
  public:
   virtual ~Context() = default;

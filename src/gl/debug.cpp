@@ -1,7 +1,6 @@
 #include "debug.h"
 
 #include <algorithm>
-#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,16 +13,8 @@ namespace {
 
 thread_local std::vector<std::string> open_groups;
 
-// The first error since the last check.
-struct Pending {
-  std::mutex mutex;
-  std::string message;
-};
-
-Pending& pending() {
-  static Pending instance;
-  return instance;
-}
+// The first error since the last check. Debug output is synchronous, so it comes on the thread of the call.
+thread_local std::string pending;
 
 std::string here(std::string_view otherwise) {
   return open_groups.empty() ? std::string(otherwise) : open_groups.back();
@@ -41,8 +32,7 @@ void APIENTRY on_message(GLenum source, GLenum type, GLuint /*id*/, GLenum sever
       length < 0 ? std::string_view(message) : std::string_view(message, static_cast<std::size_t>(length));
   while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
   if (type == GL_DEBUG_TYPE_ERROR) {
-    const std::lock_guard lock(pending().mutex);
-    if (pending().message.empty()) pending().message = located(here(""), text);
+    if (pending.empty()) pending = located(here(""), text);
   } else if (severity == GL_DEBUG_SEVERITY_HIGH || severity == GL_DEBUG_SEVERITY_MEDIUM) {
     log(LogLevel::debug, located(here(""), text));
   }
@@ -78,15 +68,9 @@ std::vector<GLenum> take_error_flags() {
   return flags;
 }
 
-std::string take_message() {
-  const std::lock_guard lock(pending().mutex);
-  return std::exchange(pending().message, {});
-}
+std::string take_message() { return std::exchange(pending, {}); }
 
-void put_message(std::string message) {
-  const std::lock_guard lock(pending().mutex);
-  pending().message = std::move(message);
-}
+void put_message(std::string message) { pending = std::move(message); }
 
 }  // namespace
 

@@ -1,9 +1,12 @@
 #include "device.h"
 
+#include <array>
+#include <atomic>
 #include <compare>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <thread>
 #include <tuple>
 #include <utility>
 
@@ -16,6 +19,18 @@ namespace {
 
 void delete_framebuffer(GLuint id) { glDeleteFramebuffers(1, &id); }
 void delete_vertex_array(GLuint id) { glDeleteVertexArrays(1, &id); }
+
+// Of the vertex array without vertices. Contexts don't share vertex arrays, so the name tells a context from others.
+std::string next_name() {
+  static std::atomic<std::uint64_t> last{0};
+  return fmt::format("no vertices, device {}", ++last);
+}
+
+std::string label_of(GLenum kind, GLuint id) {
+  std::array<GLchar, 64> text{};
+  glGetObjectLabel(kind, id, static_cast<GLsizei>(text.size()), nullptr, text.data());
+  return text.data();
+}
 
 // What identifies a framebuffer's attachment; zeros: none. Penumbra's own textures are identified by serial, as a
 // driver reuses ids and a framebuffer keeps drawing to the deleted texture. Foreign textures have no serial: they are
@@ -89,6 +104,9 @@ void attach_foreign(GLuint framebuffer, std::span<const Attachment> colors, cons
 }  // namespace
 
 struct Device::Impl {
+  Api* api = current_api;
+  std::thread::id thread = std::this_thread::get_id();  // the last one that used the device
+  const std::string name = next_name();
   std::map<std::string, Texture, std::less<>> targets;
   std::map<std::string, Buffer, std::less<>> buffers;
   std::map<SamplerKey, Sampler> samplers;
@@ -216,9 +234,27 @@ GLuint Device::empty_vertex_array() {
     GLuint id = 0;
     glCreateVertexArrays(1, &id);
     impl_->empty_vertex_array = Handle<delete_vertex_array>(id);
-    label(GL_VERTEX_ARRAY, id, "no vertices");
+    label(GL_VERTEX_ARRAY, id, impl_->name);
   }
   return impl_->empty_vertex_array.id();
+}
+
+DeviceScope::DeviceScope(Device& device) : device_(device), outer_(current_api) {
+  Device::Impl& impl = *device.impl_;
+  if (impl.api == nullptr) impl.api = current_api;
+  current_api = impl.api;
+}
+
+DeviceScope::~DeviceScope() { current_api = outer_; }
+
+bool DeviceScope::has_context() {
+  Device::Impl& impl = *device_.impl_;
+  const std::thread::id here = std::this_thread::get_id();
+  if (impl.thread == here) return true;
+  const GLuint mark = impl.empty_vertex_array.id();
+  if (mark != 0 && (glIsVertexArray(mark) == GL_FALSE || label_of(GL_VERTEX_ARRAY, mark) != impl.name)) return false;
+  impl.thread = here;
+  return true;
 }
 
 }  // namespace penumbra::gl

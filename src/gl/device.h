@@ -50,6 +50,7 @@ class Device {
 
  private:
   friend class Pass;
+  friend class DeviceScope;
   GLuint framebuffer(std::string_view name, std::span<const Attachment> colors, const Attachment* depth);
   GLuint empty_vertex_array();
   // Whether the context has the debug callback; queried from OpenGL once.
@@ -57,6 +58,24 @@ class Device {
 
   struct Impl;
   std::unique_ptr<Impl> impl_;
+};
+
+// In this scope the calling thread's OpenGL calls go to the entry points that were loaded when the device was made, or
+// else those that were when it was first used, whatever the thread itself has loaded. Scopes may nest.
+class DeviceScope {
+ public:
+  explicit DeviceScope(Device& device);
+  ~DeviceScope();
+  DeviceScope(const DeviceScope&) = delete;
+  DeviceScope& operator=(const DeviceScope&) = delete;
+
+  // Whether the context that is current on this thread may be the device's. OpenGL is asked only where the device was
+  // last used on another thread, since drivers would have to wait.
+  bool has_context();
+
+ private:
+  Device& device_;
+  Api* outer_;
 };
 
 }  // namespace penumbra::gl

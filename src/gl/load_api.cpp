@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,7 +26,21 @@ template <class... Args>
   throw ContextError(fmt::format(format, std::forward<Args>(args)...));
 }
 
-void load_functions(const std::function<void*(const char*)>& get_proc_address) {
+// In this scope the calling thread uses `api`; afterwards what it used before, or what keep() names.
+class Trial {
+ public:
+  explicit Trial(Api& api) : outer_(std::exchange(current_api, &api)) {}
+  ~Trial() { current_api = outer_; }
+  Trial(const Trial&) = delete;
+  Trial& operator=(const Trial&) = delete;
+
+  void keep(Api& api) { outer_ = &api; }
+
+ private:
+  Api* outer_;
+};
+
+void load_functions(Api& api, const std::function<void*(const char*)>& get_proc_address) {
   constexpr std::size_t named = 3;
   std::vector<std::string> missing;
   for (const ApiEntry& entry : api_table()) {
@@ -32,7 +48,7 @@ void load_functions(const std::function<void*(const char*)>& get_proc_address) {
     if (address == nullptr && is_of_robustness(entry.name)) {
       address = get_proc_address(fmt::format("{}ARB", entry.name).c_str());
     }
-    entry.store(address);
+    entry.store(api, address);
     if (address == nullptr) missing.emplace_back(entry.name);
   }
   if (missing.empty()) return;
@@ -56,13 +72,28 @@ bool is_of_core_profile() {
   return (static_cast<GLenum>(profile) & GL_CONTEXT_CORE_PROFILE_BIT) != 0;
 }
 
+// The table with these entry points: one for each driver and profile. They stay until the program ends, since threads
+// and devices of any age may use them.
+Api& shared_table(const Api& api) {
+  static std::mutex mutex;
+  static auto& tables = *new std::vector<std::unique_ptr<Api>>;  // never destroyed: static objects may still draw
+  const std::lock_guard lock(mutex);
+  for (const auto& table : tables) {
+    if (*table == api) return *table;
+  }
+  return *tables.emplace_back(std::make_unique<Api>(api));
+}
+
 }  // namespace
 
 void load_api(const std::function<void*(const char*)>& get_proc_address) {
   if (!get_proc_address) fail_context("OpenGL 4.5: load_api() got no function that finds entry points");
-  load_functions(get_proc_address);
+  Api api;
+  load_functions(api, get_proc_address);
+  Trial trial(api);
   check_context();
-  find_legacy_state(get_proc_address, !is_of_core_profile());
+  if (!is_of_core_profile()) find_legacy_state(api, get_proc_address);
+  trial.keep(shared_table(api));
 }
 
 }  // namespace penumbra::gl

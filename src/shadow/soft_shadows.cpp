@@ -25,6 +25,18 @@ void check_nothing_is_left_out() {
     throw gl::ContextError(fmt::format("{}: conditional rendering is active; end it before", subject));
 }
 
+// The scope of a call: OpenGL's entry points are those of the device's driver.
+class Call {
+ public:
+  explicit Call(gl::Device& device) : scope_(device) {
+    if (!scope_.has_context())
+      throw gl::ContextError(fmt::format("{}: the device's OpenGL context is not current on this thread", subject));
+  }
+
+ private:
+  gl::DeviceScope scope_;
+};
+
 int next_number() {
   static std::atomic<int> last{0};
   return ++last;
@@ -85,12 +97,17 @@ struct SoftShadows::State {
 SoftShadows::SoftShadows(gl::Device& device, Registry registry)
     : device_(device), registry_(std::move(registry)), state_(std::make_unique<State>(device, registry_)) {}
 
-SoftShadows::~SoftShadows() { device_.drop(fmt::format("shadow {}/", state_->number)); }
+SoftShadows::~SoftShadows() {
+  const gl::DeviceScope scope(device_);
+  device_.drop(fmt::format("shadow {}/", state_->number));
+  state_.reset();
+}
 
 std::string SoftShadows::view_prefix(int id) const { return fmt::format("shadow {}/view {}/", state_->number, id); }
 
 Mask SoftShadows::render(const Inputs& inputs, const ParamSet& params) {
   const Rendering rendering(state_->rendering);
+  const Call call(device_);
   // A steady frame in the core profile asks OpenGL nothing: a driver that works on another thread would have to wait.
   const bool first = !state_->views.contains(inputs.view.id);
   if (first || gl::has_legacy_state()) gl::check_context_is_ready(subject);
@@ -114,6 +131,7 @@ Mask SoftShadows::draw(const Inputs& inputs, const ParamSet& params, ViewState& 
 
 void SoftShadows::warm_up(const FrameKind& kind, const ParamSet& params) {
   const Rendering rendering(state_->rendering);
+  const Call call(device_);
   gl::check_context_is_ready(subject);
   check_nothing_is_left_out();
   const gl::InitialLegacyState legacy;
@@ -130,17 +148,22 @@ void SoftShadows::warm_up(const FrameKind& kind, const ParamSet& params) {
 }
 
 void SoftShadows::forget_view(int id) {
+  const Call call(device_);
   state_->views.erase(id);
   device_.drop(view_prefix(id));
 }
 
 void SoftShadows::bind_forward(const Mask& mask, size_t light) {
+  const Call call(device_);
   const LightFrame& frame = mask.lights.at(light);
   const LightState& state = state_->views.at(frame.view).lights.at(frame.light);
   bind_light(device_, frame, state, owner_of(forward_technique(registry_, state.params)));
 }
 
-void SoftShadows::unbind_forward() { gl::unbind_textures(first_pass_unit); }
+void SoftShadows::unbind_forward() {
+  const Call call(device_);
+  gl::unbind_textures(first_pass_unit);
+}
 
 bool SoftShadows::reads_motion(const ParamSet& params, std::span<const Light> lights) const {
   return std::ranges::any_of(lights, [&](const Light& light) {

@@ -67,9 +67,14 @@ struct FrameKind {
 // Waiting. With the parameter cascades.fit=visible, render() waits once a light until the GPU has finished all earlier
 // work and has found what the depth texture shows. No other step of the library's own reads back what the GPU computes.
 //
+// Threads. A device, and all that draws with it, is used on one thread at a time, with its context current there.
+// Devices of several contexts, of one driver or of several, can be used on several threads at the same time.
+// gl::load_api() is called on the thread that makes a device, and on each that destroys one.
+//
 // Throws Error for bad input (see check()), for shaders that do not compile, when it is called from a callback of its
-// own, when a display list is recorded, and in a view's first frame when no context is current or load_api() was not
-// called. A caller's texture is checked again only when its name, size or use differs from the last frame of the view.
+// own, when a display list is recorded, in a view's first frame when no context is current or load_api() was not
+// called, and in the first call on another thread than before when the current context is not the device's. A caller's
+// texture is checked again only when its name, size or use differs from the last frame of the view.
 class SoftShadows {
  public:
   explicit SoftShadows(gl::Device& device, Registry registry = built_in_registry());

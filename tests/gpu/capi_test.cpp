@@ -474,10 +474,11 @@ TEST(CapiContext, SeveralDevicesAreUsedInTurn) {
   for (int i = 0; i < 4; ++i) {
     const auto index = static_cast<std::size_t>(i % 2);
     contexts[index]->make_current();
-    // An engine's context does not load entry points when it is made current.
-    gl::find_legacy_state(contexts[index]->get_proc_address(), index == 0);
+    gl::current_api = nullptr;  // an engine's context does not load entry points when it is made current
     EXPECT_EQ(penumbra_warm_up(devices[index]->device, devices[index]->settings, &frame), PENUMBRA_OK)
         << penumbra_last_error();
+    EXPECT_EQ(gl::current_api, nullptr);
+    const gl::DeviceScope scope(devices[index]->device->objects->device);
     EXPECT_EQ(gl::has_legacy_state(), index == 1);
     EXPECT_EQ(gl::glGetError(), static_cast<GLenum>(GL_NO_ERROR));
   }

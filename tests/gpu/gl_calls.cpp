@@ -12,11 +12,11 @@
 namespace penumbra::test {
 namespace {
 
-// A function that counts a call and then calls the entry point whose pointer *slot held.
+// A function that counts a call and then calls the entry point that the table's member `slot` held.
 template <auto slot>
 struct Counting;
 
-template <class Result, class... Args, Result(APIENTRY** slot)(Args...)>
+template <class Result, class... Args, Result (APIENTRYP gl::Api::*slot)(Args...)>
 struct Counting<slot> {
   static inline Result(APIENTRY* real)(Args...) = nullptr;
   static inline int calls = 0;
@@ -26,11 +26,11 @@ struct Counting<slot> {
     return real(args...);
   }
   static void install() {
-    real = *slot;
-    *slot = call;
+    real = gl::current_api->*slot;
+    gl::current_api->*slot = call;
     calls = 0;
   }
-  static void remove() { *slot = real; }
+  static void remove() { gl::current_api->*slot = real; }
 };
 
 struct Entry {
@@ -45,7 +45,7 @@ constexpr Entry entry(const char* name) {
   return {name, Counting<slot>::install, Counting<slot>::remove, &Counting<slot>::calls};
 }
 
-#define COUNTED(function) entry<&gl::function>(#function)
+#define COUNTED(function) entry<&gl::Api::function>(#function)
 
 constexpr Entry queries[] = {
     COUNTED(glGetBooleanv),

@@ -5,8 +5,8 @@
 
 namespace penumbra::test {
 
-// Counts OpenGL calls during its lifetime: it replaces Penumbra's entry points of a kind by functions that count and
-// then call the real ones. Only one may exist at a time, and the context that was current at its start must stay
+// Counts OpenGL calls during its lifetime: it replaces entry points of a kind, in the table that the thread uses, by
+// functions that count and then call the real ones. Only one may exist at a time, and the context that was current at its start must stay
 // current.
 class GlCalls {
  public:

@@ -164,7 +164,7 @@ void APIENTRY told_get_integer(GLenum name, GLint* value) {
   if (name == question) {
     *value = answer;
   } else {
-    reinterpret_cast<decltype(gl::glGetIntegerv)>(real_driver("glGetIntegerv"))(name, value);
+    reinterpret_cast<PFNGLGETINTEGERVPROC>(real_driver("glGetIntegerv"))(name, value);
   }
 }
 

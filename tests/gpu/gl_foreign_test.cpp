@@ -142,8 +142,8 @@ TEST_F(GlForeign, DontCareContentsAreInvalidatedAndOthersKept) {
   static int invalidated = 0;
   static PFNGLINVALIDATENAMEDFRAMEBUFFERDATAPROC real = nullptr;
   invalidated = 0;
-  real = gl::glInvalidateNamedFramebufferData;
-  gl::glInvalidateNamedFramebufferData = [](GLuint framebuffer, GLsizei count, const GLenum* points) {
+  real = gl::current_api->glInvalidateNamedFramebufferData;
+  gl::current_api->glInvalidateNamedFramebufferData = [](GLuint framebuffer, GLsizei count, const GLenum* points) {
     invalidated += count;
     real(framebuffer, count, points);
   };
@@ -159,7 +159,7 @@ TEST_F(GlForeign, DontCareContentsAreInvalidatedAndOthersKept) {
                        .depth = gl::Attachment{.texture = &both, .dont_care = true},
                        .stencil = gl::Stencil{.dont_care = true}});
   EXPECT_EQ(invalidated, 4);
-  gl::glInvalidateNamedFramebufferData = real;
+  gl::current_api->glInvalidateNamedFramebufferData = real;
 }
 
 }  // namespace

@@ -51,14 +51,14 @@ TEST_F(GlTimers, WhereOnlyFramesAreFinishedNoPassHasATime) {
   gl::Device timed(test::pass_files(), gl::Timers::Mode::finish_frames);
   static PFNGLFINISHPROC real = nullptr;
   static int finishes = 0;
-  real = gl::glFinish;
+  real = gl::current_api->glFinish;
   finishes = 0;
-  gl::glFinish = [] {
+  gl::current_api->glFinish = [] {
     ++finishes;
     real();
   };
   frames(timed, 3);
-  gl::glFinish = real;
+  gl::current_api->glFinish = real;
   const auto rows = timed.timers.rows();
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].name, "frame");
@@ -74,14 +74,14 @@ TEST_F(GlTimers, TheCpusTimeOfAFrameIsThatOfTheThreadAndLeavesOutWaiting) {
     timed.timers.rows();  // waits for its times, so that take() removes this frame
     timed.timers.take();
     static PFNGLFINISHPROC real = nullptr;
-    real = gl::glFinish;
-    gl::glFinish = [] {
+    real = gl::current_api->glFinish;
+    gl::current_api->glFinish = [] {
       volatile double waste = 1;
       for (int i = 0; i < 1000000; ++i) waste = waste * 1.0000001;
       real();
     };
     frames(timed, 3);
-    gl::glFinish = real;
+    gl::current_api->glFinish = real;
     const std::vector<double> cpu = timed.timers.cpu_milliseconds();
     const auto rows = timed.timers.rows();
     ASSERT_EQ(cpu.size(), 3u);
