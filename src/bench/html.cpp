@@ -90,6 +90,30 @@ Html passes(const Cost& cost) {
   return html;
 }
 
+// The passes of each technique's frame, one bar for each. Empty where passes were not timed.
+Html pass_bars(const Measured& point) {
+  report::BarPlot plot{.title = "What each technique's frame is made of, medians of its passes",
+                       .x = {.label = "time of the passes", .unit = "ms"},
+                       .parts = {},
+                       .bars = {}};
+  for (const Cost& cost : point.costs) {
+    for (const PassCost& pass : cost.passes) {
+      const bool outer = pass.name.find('/') == std::string::npos;
+      if (outer && std::ranges::find(plot.parts, pass.name) == plot.parts.end()) plot.parts.push_back(pass.name);
+    }
+  }
+  if (plot.parts.empty()) return {};
+  for (const Cost& cost : point.costs) {
+    report::Bar bar{.label = cost.label, .values = std::vector<double>(plot.parts.size(), 0.0)};
+    for (const PassCost& pass : cost.passes) {
+      const auto part = std::ranges::find(plot.parts, pass.name);
+      if (part != plot.parts.end()) bar.values[static_cast<std::size_t>(part - plot.parts.begin())] = pass.ms.median;
+    }
+    plot.bars.push_back(std::move(bar));
+  }
+  return to_html(plot);
+}
+
 // ---- Sweeps ----
 
 // "blocker_taps", the key of files, in words.
@@ -205,7 +229,8 @@ std::string html_of(const Results& results) {
   if (results.sweep.axes.empty()) {
     Html costs;
     for (const Cost& cost : results.points.front().costs) costs.add(passes(cost));
-    page.sections.push_back({"Techniques", to_html(overview(results.points.front()))});
+    page.sections.push_back(
+        {"Techniques", to_html(overview(results.points.front())).add(pass_bars(results.points.front()))});
     page.sections.push_back({"Passes", std::move(costs)});
   } else {
     page.sections = sweep_sections(results);

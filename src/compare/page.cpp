@@ -126,23 +126,19 @@ Html pictures_of(const ComparedScene& scene, const Comparison& comparison) {
     };
     html.add(report::heading(label));
     html.add(report::note(figures_text(technique)));
-    html.add(report::tiles({{.title = "Picture",
-                             .note = "The last frame, tone mapped.",
-                             .body = report::picture_slider(figure(label, "The scene", technique.pictures.display),
-                                                            figure(reference, "The scene", scene.reference.display))},
-                            {.title = lights > 1 ? "Visibility of the lights" : "Visibility of the light",
-                             .note = lights > 1 ? "White: all of a light is visible; one light below the other. The "
-                                                  "figures are of these pictures."
-                                                : "White: all of it is visible. The figures are of these pictures.",
-                             .body = report::picture_slider(
-                                 figure(label, "The visible share of the light", technique.pictures.visibility),
-                                 figure(reference, "The visible share of the light", scene.reference.visibility))},
-                            {.title = "Error",
-                             .note = {},
-                             .body = report::error_map({.label = {},
-                                                        .alt = fmt::format("Where {} is too bright or too dark", label),
-                                                        .picture = error_picture(technique.pictures, scale)},
-                                                       error_legend(scale))}}));
+    html.add(report::tiles(
+        {{.title = "Picture",
+          .note = "The last frame, tone mapped.",
+          .body = report::picture_slider(figure(label, "The scene", technique.pictures.display),
+                                         figure(reference, "The scene", scene.reference.display))},
+         {.title = lights > 1 ? "Visibility of the lights" : "Visibility of the light",
+          .note = lights > 1 ? "White: all of a light is visible; one light below the other. The "
+                               "figures are of these pictures."
+                             : "White: all of it is visible. The figures are of these pictures.",
+          .body =
+              report::picture_slider(figure(label, "The visible share of the light", technique.pictures.visibility),
+                                     figure(reference, "The visible share of the light", scene.reference.visibility))},
+         {.title = "Error", .note = {}, .body = report::error_map(error_map(technique.pictures, label, scale))}}));
   }
   return html;
 }

@@ -41,6 +41,8 @@ Rgb colour_of(float error) {
   return colour;
 }
 
+std::string text_of(const Rgb& colour) { return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]); }
+
 report::EncodedPicture encoded(const std::vector<std::uint8_t>& pixels, int channels, const cli::Size& size) {
   return report::make_picture(image::encode_png(size.width, size.height, channels, pixels), size.width, size.height);
 }
@@ -72,25 +74,29 @@ float error_scale(const ComparedScene& scene) {
   return 1.0f;
 }
 
-report::EncodedPicture error_picture(const ComparedPictures& pictures, float scale) {
+report::ErrorMap error_map(const ComparedPictures& pictures, const std::string& technique, float scale) {
   const cli::Size size{.width = pictures.visibility.width, .height = pictures.visibility.height};
-  std::vector<std::uint8_t> pixels;
   const std::vector<float> errors = image::unpack_floats(
       pictures.error, static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+  std::vector<std::uint8_t> pixels, codes;
   pixels.reserve(errors.size() * 3);
+  codes.reserve(errors.size());
   for (const float error : errors) {
     const Rgb colour = colour_of(error / scale);
     pixels.insert(pixels.end(), colour.begin(), colour.end());
+    codes.push_back(report::error_code(error));
   }
-  return encoded(pixels, 3, size);
-}
-
-report::Legend error_legend(float scale) {
-  std::vector<std::string> colours;
-  for (const Rgb& colour : ramp) colours.push_back(fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]));
-  return {.title = "Visibility minus the reference's; dark grey: not measured",
-          .colours = std::move(colours),
-          .labels = {fmt::format("−{:g} too dark", scale), "0", fmt::format("+{:g} too bright", scale)}};
+  report::ErrorMap map{.figure = {.label = {},
+                                  .alt = fmt::format("Where {} is too bright or too dark", technique),
+                                  .picture = encoded(pixels, 3, size)},
+                       .legend = {.title = "Visibility minus the reference's; dark grey: not measured",
+                                  .colours = {},
+                                  .labels = {"−{} too dark", "0", "+{} too bright"}},
+                       .codes = encoded(codes, 1, size),
+                       .unmeasured = text_of(no_receiver),
+                       .range = scale};
+  for (const Rgb& colour : ramp) map.legend.colours.push_back(text_of(colour));
+  return map;
 }
 
 }  // namespace penumbra::compare

@@ -14,7 +14,6 @@ ComparedPictures encoded_pictures(const std::vector<std::uint8_t>& display, cons
 float error_scale(const ComparedScene& scene);
 
 // Errors as colours: blue where the technique is too dark, red where it is too bright, grey where there is no receiver.
-report::EncodedPicture error_picture(const ComparedPictures& pictures, float scale);
-report::Legend error_legend(float scale);
+report::ErrorMap error_map(const ComparedPictures& pictures, const std::string& technique, float scale);
 
 }  // namespace penumbra::compare

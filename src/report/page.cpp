@@ -6,6 +6,7 @@
 #include <map>
 #include <string_view>
 
+#include "report/picture.h"
 #include "report/web_files.h"
 
 namespace penumbra::report {
@@ -46,6 +47,13 @@ Html contents(const Page& page) {
   return html.add("</ul></nav>\n");
 }
 
+// Chooses the range of all error maps.
+std::string range_choice() {
+  std::string options = "<option value=''>as drawn</option>";
+  for (const double range : error_ranges) options += fmt::format("<option value='{0:g}'>±{0:g}</option>", range);
+  return "<label class='range'>Colours of errors <select id='error-range'>" + options + "</select></label>";
+}
+
 // Stays in sight while the page has pictures.
 constexpr std::string_view picture_bar =
     "<div class='picture-bar' role='toolbar' aria-label='All pictures'>"
@@ -54,14 +62,21 @@ constexpr std::string_view picture_bar =
     "<button type='button' data-zoom='2' aria-pressed='false'>2×</button>"
     "<button type='button' data-zoom='4' aria-pressed='false'>4×</button></span>"
     "<label><input type='checkbox' id='together' checked> Move all dividers together</label>"
-    "<span class='hint'>Zoomed in, drag a picture or use the arrow keys: all pictures show the same spot.</span>"
+    "{}<span class='hint'>Zoomed in, drag a picture or use the arrow keys: all pictures show the same spot.</span>"
     "</div>\n";
 
+bool has_part(const Page& page, const std::function<bool(const Html::Part&)>& is) {
+  return std::ranges::any_of(page.sections,
+                             [&](const Section& section) { return std::ranges::any_of(section.body.parts(), is); });
+}
+
 bool has_pictures(const Page& page) {
-  return std::ranges::any_of(page.sections, [](const Section& section) {
-    return std::ranges::any_of(section.body.parts(),
-                               [](const Html::Part& part) { return part.picture.png != nullptr; });
-  });
+  return has_part(page, [](const Html::Part& part) { return part.picture.png != nullptr; });
+}
+
+bool has_error_maps(const Page& page) {
+  return has_part(page,
+                  [](const Html::Part& part) { return part.markup.find("class='error-map'") != std::string::npos; });
 }
 
 // The first <img> of a picture holds its data; page.js copies it to the others.
@@ -99,7 +114,7 @@ void write_text(const Page& page, const std::function<void(std::string_view)>& w
   writer.add("<body>\n");
   writer.add(header(page));
   writer.add(contents(page));
-  if (has_pictures(page)) writer.add(picture_bar);
+  if (has_pictures(page)) writer.add(fmt::format(picture_bar, has_error_maps(page) ? range_choice() : ""));
   writer.add("<main>\n");
   for (std::size_t i = 0; i < page.sections.size(); ++i) {
     const Section& section = page.sections[i];

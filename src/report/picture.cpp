@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace penumbra::report {
 
@@ -44,10 +46,19 @@ Html picture(const Figure& figure) {
   return html.add(image(figure)).add("</div>" + label("left", figure.label) + "</div>\n");
 }
 
-Html legend(const Legend& legend) {
+namespace {
+
+// A legend whose labels contain "{}" where the script writes the range.
+Html ranged_legend(const Legend& legend, const std::string& range) {
   std::string colours, labels;
   for (const std::string& colour : legend.colours) colours += fmt::format(",{}", escape(colour));
-  for (const std::string& text : legend.labels) labels += fmt::format("<span>{}</span>", escape(text));
+  for (const std::string& text : legend.labels) {
+    const std::size_t place = range.empty() ? text.npos : text.find("{}");
+    std::string shown = text;
+    if (place != text.npos) shown.replace(place, 2, range);
+    const std::string pattern = place == text.npos ? "" : fmt::format(" data-label='{}'", escape(text));
+    labels += fmt::format("<span{}>{}</span>", pattern, escape(shown));
+  }
   return Html(
       fmt::format("<div class='legend'><span class='legend-title'>{}</span>"
                   "<div class='bar' style='background:linear-gradient(90deg{})'></div>"
@@ -55,7 +66,27 @@ Html legend(const Legend& legend) {
                   escape(legend.title), colours, labels));
 }
 
-Html error_map(const Figure& figure, const Legend& of) { return picture(figure).add(legend(of)); }
+}  // namespace
+
+Html legend(const Legend& legend) { return ranged_legend(legend, ""); }
+
+std::uint8_t error_code(float error) {
+  if (std::isnan(error)) return 0;
+  const float root = std::copysign(std::sqrt(std::min(std::abs(error), 1.0f)), error);
+  return static_cast<std::uint8_t>(128 + std::lround(root * 127));
+}
+
+Html error_map(const ErrorMap& map) {
+  std::string colours;
+  for (const std::string& colour : map.legend.colours) colours += (colours.empty() ? "" : " ") + colour;
+  const std::string range = fmt::format("{:g}", map.range);
+  return Html(fmt::format(
+                  "<div class='error-map' data-range='{}' data-colours='{}' data-unmeasured='{}' data-codes='{}'>",
+                  range, escape(colours), escape(map.unmeasured), data_uri(map.codes)))
+      .add(picture(map.figure))
+      .add(ranged_legend(map.legend, range))
+      .add("</div>\n");
+}
 
 Html tiles(const std::vector<Tile>& tiles) {
   Html html("<div class='tiles'>\n");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -30,8 +32,21 @@ struct Legend {
 };
 Html legend(const Legend& legend);
 
-// A picture of errors with its legend below.
-Html error_map(const Figure& figure, const Legend& legend);
+// Errors in colours, whose range the reader can choose for all maps of a page.
+struct ErrorMap {
+  Figure figure;           // in the colours of the legend, from -range to range
+  Legend legend;           // "{}" in a label stands for the range
+  EncodedPicture codes;    // grey, 8 bits: error_code() of each pixel
+  std::string unmeasured;  // the colour of pixels without an error, "#rrggbb"
+  double range = 1;
+};
+Html error_map(const ErrorMap& map);
+
+// An error from -1 to 1 in 8 bits, finer near 0: 1 to 255, 128 for 0; beyond, as -1 or 1. 0 for not-a-number.
+std::uint8_t error_code(float error);
+
+// The ranges that a page offers beside its own.
+inline constexpr std::array error_ranges{0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0};
 
 // Side by side where there is room, each under its title and over its note, which may be empty.
 struct Tile {

@@ -48,4 +48,20 @@ struct LinePlot {
 };
 Html to_html(const LinePlot& plot);
 
+// One bar of a bar plot: its parts lie end to end, in the order of BarPlot::parts.
+struct Bar {
+  std::string label;
+  std::vector<double> values;  // of each part, 0 or more
+};
+
+// Horizontal bars of parts, which a list of colours names. Each part's value is its tooltip; the sum stands at the
+// bar's end. Of more parts than there are colours, the least are drawn as one, "others".
+struct BarPlot {
+  std::string title;
+  Axis x;                          // not logarithmic
+  std::vector<std::string> parts;  // their names
+  std::vector<Bar> bars;
+};
+Html to_html(const BarPlot& plot);
+
 }  // namespace penumbra::report

@@ -65,6 +65,46 @@ class Page(TestCase):
         self.assertTrue(all(size == [320, 180] for size in sizes), sizes)
         self.assertTrue(all(self.script("return Array.from(document.images, image => image.alt)")))
 
+    def errors(self):
+        """The first error map's pixels, RGBA, and the texts of its legend."""
+        pixels = self.script(
+            "const image = document.querySelector('.error-map .pane img'); return image.decode().then(() => {"
+            "const canvas = document.createElement('canvas'); canvas.width = 320; canvas.height = 180;"
+            "const context = canvas.getContext('2d'); context.drawImage(image, 0, 0);"
+            "return Array.from(context.getImageData(0, 0, 320, 180).data); })")
+        return pixels, self.script("return Array.from(document.querySelectorAll('.error-map:first-of-type .ends span'),"
+                                   "label => label.textContent)")[:3]
+
+    def choose_range(self, value):
+        self.script("const select = document.getElementById('error-range'); select.value = arguments[0];"
+                    "select.dispatchEvent(new Event('change'));", value)
+        shown = value or self.script("return document.querySelector('.error-map').dataset.range")
+        wait_for(lambda: self.script("return Array.from(document.querySelectorAll('.error-map'),"
+                                     "map => map.querySelector('.ends span').textContent)")
+                 == [f"−{shown} too dark"] * 10, "every legend")
+        return self.errors()
+
+    def test_the_reader_chooses_the_range_of_all_error_maps(self):
+        drawn, labels = self.errors()
+        own = self.script("return document.querySelector('.error-map').dataset.range")
+        self.assertEqual(labels, [f"−{own} too dark", "0", f"+{own} too bright"])
+        again, _ = self.choose_range(own)
+        # The codes are finest near 0; elsewhere they are as far apart as eight bits allow.
+        self.assertLess(max(abs(a - b) for a, b in zip(drawn, again)), 24)
+        self.assertLess(sum(abs(a - b) for a, b in zip(drawn, again)) / len(drawn), 1)
+        deep_red, grey = (178, 24, 43), (72, 75, 82)
+
+        def count(pixels, color):
+            return sum(tuple(pixels[at:at + 3]) == color for at in range(0, len(pixels), 4))
+
+        least, labels = self.choose_range("0.01")
+        self.assertEqual(labels, ["−0.01 too dark", "0", "+0.01 too bright"])
+        self.assertEqual(count(least, grey), count(drawn, grey))
+        widest, _ = self.choose_range("1")
+        self.assertGreaterEqual(count(least, deep_red), count(widest, deep_red))
+        self.assertNotEqual(least, widest)
+        self.assertEqual(self.choose_range("")[0], drawn)
+
     def test_keys_move_a_divider_and_all_with_it(self):
         slider = self.browser.one(".slider input")
         self.assertEqual(set(self.splits()), {50})

@@ -69,7 +69,10 @@ TEST(ReportHtml, AHostileNameStaysAName) {
   const std::string evil = "\"'><script>alert(1)</script>";
   const Figure figure{.label = evil, .alt = evil, .picture = picture_of("png")};
   Html body = picture_slider(figure, figure);
-  body.add(error_map(figure, {.title = evil, .colours = {evil, "#fff"}, .labels = {evil, evil}}));
+  body.add(error_map({.figure = figure,
+                      .legend = {.title = evil, .colours = {evil, "#fff"}, .labels = {evil, "{}" + evil}},
+                      .codes = picture_of("codes"),
+                      .unmeasured = evil}));
   body.add(tiles({{.title = evil, .note = evil, .body = note(evil)}}));
   body.add(code_block(evil)).add(definition_list({{evil, evil}})).add(details(evil, heading(evil)));
   const std::string text = to_text({.title = evil,
@@ -110,6 +113,37 @@ TEST(ReportHtml, ZoomIsOfferedWhereThereArePictures) {
   const Figure figure{.label = "a", .alt = "a", .picture = picture_of("one")};
   EXPECT_EQ(count(to_text({.title = "t", .sections = {{"s", picture(figure)}}}), "data-zoom='4'"), 1u);
   EXPECT_EQ(count(to_text({.title = "t", .sections = {{"s", paragraph("text")}}}), "data-zoom='4'"), 0u);
+}
+
+TEST(ReportHtml, ErrorCodesAreSymmetricAndFinestNearZero) {
+  EXPECT_EQ(error_code(std::nanf("")), 0);
+  EXPECT_EQ(error_code(0), 128);
+  EXPECT_EQ(error_code(1), 255);
+  EXPECT_EQ(error_code(-1), 1);
+  EXPECT_EQ(error_code(3), 255);
+  EXPECT_EQ(error_code(-std::numeric_limits<float>::infinity()), 1);
+  for (const float error : {0.0001f, 0.003f, 0.05f, 0.4f, 0.97f}) {
+    const int code = error_code(error);
+    EXPECT_EQ(code - 128, 128 - error_code(-error));
+    // As page.js decodes it.
+    const auto root = static_cast<float>(code - 128) / 127;
+    EXPECT_NEAR(root * root, error, std::sqrt(error) / 127 + 1e-5f);
+  }
+}
+
+TEST(ReportHtml, OnlyAPageWithErrorMapsOffersTheirRange) {
+  const Figure figure{.label = {}, .alt = "map", .picture = picture_of("map")};
+  Page page{.title = "t", .sections = {{"s", picture(figure)}}};
+  EXPECT_EQ(to_text(page).find("<select"), std::string::npos);
+  page.sections.front().body.add(
+      error_map({.figure = figure,
+                 .legend = {.title = "e", .colours = {"#000000", "#ffffff"}, .labels = {"{}"}},
+                 .codes = picture_of("codes"),
+                 .unmeasured = "#123456",
+                 .range = 0.2}));
+  const std::string text = to_text(page);
+  EXPECT_EQ(count(text, "<select"), 1u);
+  EXPECT_NE(text.find("<span data-label='{}'>0.2</span>"), std::string::npos);
 }
 
 }  // namespace

@@ -132,5 +132,47 @@ TEST(ReportPlot, EveryDotSaysWhatItIs) {
   EXPECT_NE(html.find("aria-label='cost &amp; error'"), std::string::npos);
 }
 
+std::vector<double> numbers_of(const std::string& svg, const std::string& pattern) {
+  const std::regex each(pattern);
+  std::vector<double> numbers;
+  for (std::sregex_iterator found(svg.begin(), svg.end(), each), end; found != end; ++found)
+    numbers.push_back(std::stod((*found)[1]));
+  return numbers;
+}
+
+TEST(ReportPlot, ABarsPartsLieEndToEndInProportion) {
+  const BarPlot plot{.title = "costs",
+                     .x = {.label = "time", .unit = "ms"},
+                     .parts = {"a", "b <c>", "d"},
+                     .bars = {{.label = "first", .values = {10, 20, 5}}, {.label = "second", .values = {10, 0, 40}}}};
+  const std::string svg = to_html(plot).str();
+  const std::vector<double> x = numbers_of(svg, "<rect[^>]* x='([0-9.]+)'");
+  const std::vector<double> width = numbers_of(svg, "<rect[^>]* width='([0-9.]+)'");
+  ASSERT_EQ(x.size(), 5u) << "nothing is drawn of a part that is 0";
+  EXPECT_NEAR(width[1], 2 * width[0], 0.03);
+  EXPECT_NEAR(width[2], 0.5 * width[0], 0.03);
+  EXPECT_NEAR(width[4], 4 * width[3], 0.03);
+  EXPECT_NEAR(width[3], width[0], 0.03) << "bars share a scale";
+  EXPECT_NEAR(x[1], x[0] + width[0], 0.03);
+  EXPECT_NEAR(x[2], x[1] + width[1], 0.03);
+  EXPECT_EQ(x[3], x[0]);
+  EXPECT_NE(svg.find("<title>first: b &lt;c&gt;, 20 ms</title>"), svg.npos);
+  EXPECT_NE(svg.find(">35 ms</text>"), svg.npos) << "the sum";
+}
+
+TEST(ReportPlot, OfManyPartsTheLeastAreOneAndTheSumStays) {
+  BarPlot plot{
+      .title = "", .x = {.label = "time", .unit = "ms"}, .parts = {}, .bars = {{.label = "bar", .values = {}}}};
+  for (int i = 1; i <= 12; ++i) {
+    plot.parts.push_back("part " + std::to_string(i));
+    plot.bars.front().values.push_back(i);
+  }
+  const std::string svg = to_html(plot).str();
+  EXPECT_EQ(numbers_of(svg, "<rect[^>]* x='([0-9.]+)'").size(), 8u);
+  EXPECT_NE(svg.find("bar: others, 15 ms"), svg.npos) << "1 + 2 + 3 + 4 + 5";
+  EXPECT_NE(svg.find("bar: part 6, 6 ms"), svg.npos);
+  EXPECT_NE(svg.find(">78 ms</text>"), svg.npos);
+}
+
 }  // namespace
 }  // namespace penumbra::report

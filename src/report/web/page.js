@@ -124,6 +124,62 @@ for (const pane of document.querySelectorAll(".view")) {
   pane.addEventListener("dblclick", onDoubleClick);
 }
 
+// Error maps
+
+// The error that a code of 8 bits stands for: report::error_code().
+const errorOf = (code) => Math.sign(code - 128) * ((code - 128) / 127) ** 2;
+const channels = (colour) => [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
+
+// The colour of each of the 256 codes.
+function coloursFor(map, range) {
+  const ramp = map.dataset.colours.split(" ").map(channels);
+  const colours = [channels(map.dataset.unmeasured)];
+  for (let code = 1; code < 256; ++code) {
+    const share = Math.min(Math.max(errorOf(code) / range, -1), 1);
+    const place = ((share + 1) / 2) * (ramp.length - 1);
+    const index = Math.min(Math.floor(place), ramp.length - 2);
+    colours.push(ramp[index].map((low, i) => Math.round(low + (ramp[index + 1][i] - low) * (place - index))));
+  }
+  return colours;
+}
+
+async function drawnErrors(map, range) {
+  const codes = new Image();
+  codes.src = map.dataset.codes;
+  await codes.decode();
+  const canvas = document.createElement("canvas");
+  canvas.width = codes.naturalWidth;
+  canvas.height = codes.naturalHeight;
+  const context = canvas.getContext("2d");
+  context.drawImage(codes, 0, 0);
+  const pixels = context.getImageData(0, 0, canvas.width, canvas.height);
+  const colours = coloursFor(map, range);
+  for (let at = 0; at < pixels.data.length; at += 4) pixels.data.set(colours[pixels.data[at]], at);
+  context.putImageData(pixels, 0, 0);
+  return canvas.toDataURL();
+}
+
+// An empty range: as the page was written.
+async function showErrors(map, range) {
+  const image = map.querySelector(".pane img");
+  image.dataset.drawn ??= image.src;
+  image.src = range === "" ? image.dataset.drawn : await drawnErrors(map, Number(range));
+  for (const label of map.querySelectorAll("[data-label]")) {
+    label.textContent = label.dataset.label.replace("{}", range || map.dataset.range);
+  }
+}
+
+const errorRange = document.getElementById("error-range");
+
+function showAllErrors() {
+  for (const map of document.querySelectorAll(".error-map")) showErrors(map, errorRange.value);
+}
+
+if (errorRange) {
+  if (errorRange.value !== "") showAllErrors();  // a browser may remember the choice
+  errorRange.addEventListener("change", showAllErrors);
+}
+
 // Tables
 
 // A cell's number, or else its text; null where there is no number to sort by.
