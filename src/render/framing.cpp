@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "render/setup.h"
@@ -18,6 +20,7 @@ constexpr float margin = 0.05f;
 constexpr float least_seen = 0.1f;
 constexpr float flat = 0.1f;           // most height of a flat node, in its widths
 constexpr float much_wider = 4.0f;     // least width of a flat node that is not framed, in those of what stands on it
+constexpr float just_wider = 1.1f;     // the same where only what casts shadows is asked for
 constexpr float least_framed = 1e-3f;  // least size of what is framed without it, in those of the scene
 constexpr float shadow_room = 0.5f;    // around what is framed without it, in heights
 
@@ -122,9 +125,9 @@ void add_inside(Cover& cover, const glm::mat4& to_clip, const scene::Bounds& bou
 
 float width_of(const scene::Bounds& bounds) { return std::max(bounds.extent().x, bounds.extent().z); }
 
-}  // namespace
-
-scene::Bounds framed_bounds(std::vector<scene::Bounds> nodes, const scene::Bounds& all) {
+// The bounds of the nodes without floors, which are flat, lie under all nodes that are less wide, and are `wider` times
+// as wide as these together. Nothing if none is a floor. What is left is no smaller than `least`.
+std::optional<scene::Bounds> without_floors(std::vector<scene::Bounds> nodes, float wider, float least) {
   std::erase_if(nodes, [](const scene::Bounds& node) { return node.empty; });
   std::ranges::sort(nodes, {}, width_of);
   std::vector<scene::Bounds> up_to{{}};  // the bounds of the first nodes
@@ -138,15 +141,43 @@ scene::Bounds framed_bounds(std::vector<scene::Bounds> nodes, const scene::Bound
   };
   std::size_t framed = nodes.size();
   for (std::size_t i = nodes.size(); i-- > 1 && lies_under(nodes[i], up_to[i]);) {
-    const bool large_enough = up_to[i].radius() > least_framed * all.radius();
-    if (large_enough && width_of(nodes[i]) >= much_wider * width_of(up_to[i])) framed = i;
+    if (up_to[i].radius() > least && width_of(nodes[i]) >= wider * width_of(up_to[i])) framed = i;
   }
-  if (framed == nodes.size()) return all;
-  scene::Bounds bounds = up_to[framed];
-  const float room = shadow_room * bounds.extent().y;
-  bounds.min -= glm::vec3(room, 0, room);
-  bounds.max += glm::vec3(room, 0, room);
-  return bounds;
+  return framed == nodes.size() ? std::nullopt : std::optional(up_to[framed]);
+}
+
+bool casts(const scene::Scene& scene, const scene::Node& node, const scene::CasterChoice& choice) {
+  if (node.mesh < 0) return false;
+  const auto& primitives = scene.meshes[static_cast<std::size_t>(node.mesh)].primitives;
+  return std::ranges::any_of(primitives, [&](const scene::Primitive& primitive) {
+    static const scene::Material plain;  // of primitives without one
+    const auto index = static_cast<std::size_t>(primitive.material);
+    return scene::casting_faces(node, primitive.material < 0 ? plain : scene.materials[index], choice).has_value();
+  });
+}
+
+}  // namespace
+
+scene::Bounds framed_bounds(std::vector<scene::Bounds> nodes, const scene::Bounds& all) {
+  std::optional<scene::Bounds> bounds = without_floors(std::move(nodes), much_wider, least_framed * all.radius());
+  if (!bounds) return all;
+  const float room = shadow_room * bounds->extent().y;
+  bounds->min -= glm::vec3(room, 0, room);
+  bounds->max += glm::vec3(room, 0, room);
+  return *bounds;
+}
+
+scene::Bounds caster_bounds(const scene::Scene& scene, const scene::Pose& pose, const scene::CasterChoice& choice) {
+  const std::vector<scene::Bounds> boxes = scene::node_bounds(scene, pose);
+  std::vector<scene::Bounds> casters;
+  scene::Bounds together;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (boxes[i].empty || !casts(scene, scene.nodes[i], choice)) continue;
+    casters.push_back(boxes[i]);
+    together.add(boxes[i]);
+  }
+  if (casters.empty()) return scene::bounds_of(scene, pose);
+  return without_floors(std::move(casters), just_wider, /* least= */ 0).value_or(together);
 }
 
 Camera framing_camera(const scene::Bounds& bounds, float aspect) {

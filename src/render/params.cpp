@@ -1,4 +1,5 @@
 #include "render/passes.h"
+#include "render/renderer.h"
 
 namespace penumbra::render {
 

@@ -196,8 +196,6 @@ std::vector<gl::ProgramDesc> sample_programs();
 
 // The parameters that these passes read.
 std::vector<Param> render_params();
-// The casters that these parameters choose.
-scene::CasterChoice caster_choice(const ParamSet& params);
 
 // Binding of the uniform block of the view, which several passes read; bound once per frame.
 inline constexpr GLuint view_binding = 4;

@@ -79,6 +79,9 @@ struct Frame {
   shadow::Mask mask;
 };
 
+// The casters that the parameters choose.
+scene::CasterChoice caster_choice(const ParamSet& params);
+
 class Renderer {
  public:
   explicit Renderer(gl::Device& device, shadow::Registry registry = shadow::built_in_registry());

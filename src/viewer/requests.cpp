@@ -10,8 +10,8 @@
 #include "core/error.h"
 #include "io/output_file.h"
 #include "io/presets.h"
+#include "render/framing.h"
 #include "session/techniques.h"
-#include "viewer/framing.h"
 #include "viewer/viewer.h"
 
 namespace penumbra::viewer {
@@ -162,8 +162,7 @@ void Viewer::frame_casters() {
   const session::PreparedScene& prepared = scene_->prepared;
   CameraRig rig = present_rig(state_.document, prepared);
   const scene::Pose pose = scene::pose_at(prepared.scene, state_.document.seconds());
-  const scene::CasterChoice choice{.skies = state_.document.params.get_bool("casters.skies")};
-  rig.frame(caster_bounds(prepared.scene, pose, choice),
+  rig.frame(render::caster_bounds(prepared.scene, pose, render::caster_choice(state_.document.params)),
             static_cast<float>(window_size_.x) / static_cast<float>(window_size_.y));
   place(state_.document, prepared, rig);
   state_.zoom = {};

@@ -1,5 +1,5 @@
 // "Frame casters" shows what casts shadows, without the ground below it.
-#include "viewer/framing.h"
+#include "render/framing.h"
 
 #include <gtest/gtest.h>
 
@@ -27,13 +27,13 @@ scene::Node& add(Scene& scene, const glm::vec3& min, const glm::vec3& max) {
 
 void expect_framed(const Scene& scene, const glm::vec3& min, const glm::vec3& max,
                    const scene::CasterChoice& choice = {}) {
-  const Bounds framed = viewer::caster_bounds(scene, scene::rest_pose(scene), choice);
+  const Bounds framed = render::caster_bounds(scene, scene::rest_pose(scene), choice);
   EXPECT_FALSE(framed.empty);
   EXPECT_EQ(framed.min, min);
   EXPECT_EQ(framed.max, max);
 }
 
-TEST(ViewerFraming, TheGroundIsLeftOut) {
+TEST(RenderFraming, TheGroundIsLeftOut) {
   Scene scene;
   add(scene, {-50, 0, -50}, {50, 0, 50});
   add(scene, {-1, 0, -1}, {1, 2, 1});
@@ -41,14 +41,14 @@ TEST(ViewerFraming, TheGroundIsLeftOut) {
   expect_framed(scene, {-1, 0, -1}, {4, 3, 1});
 }
 
-TEST(ViewerFraming, SoIsTheGroundBelowAThinCaster) {
+TEST(RenderFraming, SoIsTheGroundBelowAThinCaster) {
   Scene scene;
   add(scene, {-50, -0.1f, -50}, {50, 0, 50});
   add(scene, {-1, 2, -1}, {1, 2.01f, 1});
   expect_framed(scene, {-1, 2, -1}, {1, 2.01f, 1});
 }
 
-TEST(ViewerFraming, ARoofAndAFloorWithinWallsStay) {
+TEST(RenderFraming, ARoofAndAFloorWithinWallsStay) {
   Scene scene;
   add(scene, {-50, 3, -50}, {50, 3, 50});
   add(scene, {-1, 0, -1}, {1, 3, 1});
@@ -58,7 +58,7 @@ TEST(ViewerFraming, ARoofAndAFloorWithinWallsStay) {
   expect_framed(scene, {-50, 0, -50}, {50, 4, 50});
 }
 
-TEST(ViewerFraming, StepsOfAStaircaseStay) {
+TEST(RenderFraming, StepsOfAStaircaseStay) {
   Scene scene;
   for (int i = 0; i < 10; ++i) {
     const auto at = static_cast<float>(i);
@@ -67,7 +67,7 @@ TEST(ViewerFraming, StepsOfAStaircaseStay) {
   expect_framed(scene, {0, 0, 0}, {4, 0.2f * 9 + 0.1f, 10});
 }
 
-TEST(ViewerFraming, WhatCastsNothingIsLeftOut) {
+TEST(RenderFraming, WhatCastsNothingIsLeftOut) {
   Scene scene;
   add(scene, {-1, 0, -1}, {1, 2, 1});
   add(scene, {7, 0, 0}, {8, 9, 1}).casting = scene::CastSetting::off;
@@ -76,7 +76,7 @@ TEST(ViewerFraming, WhatCastsNothingIsLeftOut) {
   expect_framed(scene, {-90, -90, -90}, {90, 90, 90}, {.skies = true});
 }
 
-TEST(ViewerFraming, AllIsShownWhereNothingCastsAndTheGroundWhereItIsAlone) {
+TEST(RenderFraming, AllIsShownWhereNothingCastsAndTheGroundWhereItIsAlone) {
   Scene scene;
   add(scene, {-1, 0, -1}, {1, 2, 1}).casting = scene::CastSetting::off;
   expect_framed(scene, {-1, 0, -1}, {1, 2, 1});
