@@ -137,6 +137,20 @@ Device::Device(ShaderFiles files, Timers::Mode timing)
 
 Device::~Device() = default;
 
+Device& Device::interrupted() {
+  if (!before_pass) return *this;
+  struct Turn {
+    explicit Turn(Device& of) : device(of), action(std::exchange(of.before_pass, nullptr)) {}
+    ~Turn() { device.before_pass = std::move(action); }
+    Device& device;
+    std::function<void()> action;
+  };
+  const Timers::Break uncounted(timers);
+  const Turn turn(*this);
+  turn.action();
+  return *this;
+}
+
 const Texture& Device::target(std::string_view name, const TextureDesc& desc) {
   auto found = impl_->targets.find(name);
   if (found == impl_->targets.end()) found = impl_->targets.emplace(name, Texture()).first;

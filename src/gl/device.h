@@ -29,6 +29,11 @@ class Device {
   ShaderLibrary shaders;
   Timers timers;
 
+  // Called before each pass, if set: a program that must answer its user during a long frame does so here, in the same
+  // context. It may leave any state behind but bindings of uniform and storage buffers. It must not change the targets
+  // of the frame. Passes that it draws itself do not call it again. What it throws ends the frame.
+  std::function<void()> before_pass;
+
   // The texture of that name; created on first use, and again when the description changes. The reference stays valid;
   // contents persist until the texture is created again. Throws Error as Texture's constructor does.
   const Texture& target(std::string_view name, const TextureDesc& desc);
@@ -51,6 +56,7 @@ class Device {
  private:
   friend class Pass;
   friend class DeviceScope;
+  Device& interrupted();  // this device, after before_pass
   GLuint framebuffer(std::string_view name, std::span<const Attachment> colors, const Attachment* depth);
   GLuint empty_vertex_array();
   // Whether the context has the debug callback; queried from OpenGL once.

@@ -21,7 +21,7 @@ void bind_commands(GLenum target, const IndirectCommands& commands) {
 }  // namespace
 
 Pass::Pass(Device& device, const PassDesc& desc)
-    : device_(device), group_(desc.name), timer_(device.timers, desc.name), debug_(device.is_debugged()) {
+    : device_(device.interrupted()), group_(desc.name), timer_(device.timers, desc.name), debug_(device.is_debugged()) {
   if (!desc.colors.empty() || desc.depth) bind(desc);
   check();
 }

@@ -40,7 +40,7 @@ void Timers::begin(std::string_view name) {
 }
 
 void Timers::end() {
-  if (stack_.empty()) return;
+  if (!in_frame_ || stack_.empty()) return;
   Open open = std::move(stack_.back());
   stack_.pop_back();
   finish(std::move(open));
@@ -55,6 +55,23 @@ void Timers::end_frame() {
   work_ = std::exchange(open_work_, {});
   ++frame_;
   collect(/*wait=*/false);
+}
+
+Timers::Break::Break(Timers& timers) : timers_(timers), in_frame_(std::exchange(timers.in_frame_, false)) {
+  if (!in_frame_) return;
+  if (timers_.mode_ != Mode::query) timers_.wait_for_gpu();
+  cpu_began_ = cpu_now();
+  began_ = Clock::now();
+}
+
+Timers::Break::~Break() {
+  if (!in_frame_) return;
+  timers_.in_frame_ = true;
+  if (timers_.mode_ != Mode::query) glFinish();
+  const Clock::duration lasted = Clock::now() - began_;
+  timers_.open_frame_.started += lasted;
+  for (Open& open : timers_.stack_) open.started += lasted;
+  timers_.cpu_started_ += cpu_now() - cpu_began_;
 }
 
 void Timers::count(const Work& work) {

@@ -40,6 +40,22 @@ class Timers {
     Timers& timers_;
   };
 
+  // While it lives, time and work do not count: what is drawn is no part of the open frame. (Of timer queries, which
+  // a GPU answers, the frame's total still contains it.)
+  class Break {
+   public:
+    explicit Break(Timers& timers);
+    ~Break();
+    Break(const Break&) = delete;
+    Break& operator=(const Break&) = delete;
+
+   private:
+    Timers& timers_;
+    bool in_frame_;
+    double cpu_began_ = 0;
+    std::chrono::steady_clock::time_point began_;
+  };
+
   // What a pass submits to OpenGL.
   struct Work {
     std::size_t draws = 0;       // draw commands; an indirect draw counts as many as it has commands

@@ -1,5 +1,9 @@
 #include "mask_pass.h"
 
+#include <algorithm>
+#include <optional>
+#include <vector>
+
 #include "light_work.h"
 #include "tiles.h"
 
@@ -33,6 +37,27 @@ void bind_images(const gl::Program& program, const MaskOutput& output) {
   }
 }
 
+// The parts of the viewport that passes of their own draw. Where a program does something before each pass (see
+// gl::Device::before_pass), it must not wait for the whole mask; else there is one, without a scissor.
+std::vector<std::optional<gl::TexelRect>> bands_of(const LightWork& work) {
+  if (!work.device.before_pass) return {std::nullopt};
+  constexpr int pixels = 1 << 18;  // about 30 ms on a software rasteriser
+  const Rect& all = work.frame.viewport;
+  const int height = std::max(pixels / all.width / Tiles::size, 1) * Tiles::size;
+  std::vector<std::optional<gl::TexelRect>> bands;
+  for (int y = 0; y < all.height; y += height) {
+    bands.push_back(
+        gl::TexelRect{.x = all.x, .y = all.y + y, .width = all.width, .height = std::min(height, all.height - y)});
+  }
+  return bands;
+}
+
+gl::PassDesc pass_of(const MaskOutput& output, const std::optional<gl::TexelRect>& band) {
+  gl::PassDesc desc = pass_of("shadow mask", output);
+  desc.scissor = band;
+  return desc;
+}
+
 Programs::MaskForm form_of(const LightWork& work, const MaskOutput& output) {
   return {.compiled = Programs::compiled_for(work.technique, work.params(), work.frame.shape),
           .compute = work.params().get_word("driver") == "compute",
@@ -46,13 +71,17 @@ bool has_rims(const LightWork& work) { return work.frame.shape.lamp && work.fram
 void compute_all(const LightWork& work, const MaskOutput& output) {
   Programs::MaskForm form = form_of(work, output);
   form.rim = has_rims(work);
-  gl::Pass pass(work.device, form.compute ? gl::PassDesc{.name = "shadow mask"} : pass_of("shadow mask", output));
-  const gl::Program& program = use(pass, work, work.programs.mask(work.technique, work.params(), form), output);
+  const gl::ProgramDesc mask = work.programs.mask(work.technique, work.params(), form);
   const Rect& viewport = work.frame.viewport;
   if (form.compute) {
-    bind_images(program, output);
+    gl::Pass pass(work.device, {.name = "shadow mask"});
+    bind_images(use(pass, work, mask, output), output);
     pass.dispatch(viewport.width, viewport.height);
-  } else {
+    return;
+  }
+  for (const std::optional<gl::TexelRect>& band : bands_of(work)) {
+    gl::Pass pass(work.device, pass_of(output, band));
+    use(pass, work, mask, output);
     set_viewport(pass, viewport);
     pass.draw_full_screen();
   }
@@ -105,9 +134,11 @@ const gl::Texture* run_mask_pass(const LightWork& work, const MaskOutput& output
     gl::Pass pass(work.device, {.name = "shadow mask"});
     compute_listed(work, output, tiles, pass);
   } else {
-    gl::Pass pass(work.device, pass_of("shadow mask", output));
-    fill_decided(work, output, tiles, pass);
-    compute_listed(work, output, tiles, pass);
+    for (const std::optional<gl::TexelRect>& band : bands_of(work)) {
+      gl::Pass pass(work.device, pass_of(output, band));
+      fill_decided(work, output, tiles, pass);
+      compute_listed(work, output, tiles, pass);
+    }
   }
   return &tiles.decisions;
 }
