@@ -15,6 +15,8 @@ struct Comparison {
   ParamSet params;    // of B
   float wipe = 0.5f;  // where B begins, 0..1 of the window's width
   float gain = 8.0f;  // of the difference
+
+  bool operator==(const Comparison&) const = default;
 };
 
 // The part of the picture that the window shows: the point in its middle, 0..1 from the picture's upper left, and how
@@ -22,6 +24,8 @@ struct Comparison {
 struct Zoom {
   float factor = 1;
   glm::vec2 center{0.5f};
+
+  bool operator==(const Zoom&) const = default;
 };
 
 }  // namespace penumbra::viewer

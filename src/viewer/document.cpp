@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "cli/lamp.h"
+#include "cli/text.h"
 #include "session/techniques.h"
 
 namespace penumbra::viewer {
@@ -115,6 +116,10 @@ std::vector<std::string> render_arguments(const Document& document, const std::s
   if (warmup > 0 && !range && document.frame > 0) arguments.emplace_back("--warmup-still");
   if (!glsl.empty()) add(arguments, "--glsl", glsl);
   return arguments;
+}
+
+std::string text_of(const Document& document) {
+  return cli::command_text("", render_arguments(document, "", /* warmup= */ 0, /* glsl= */ ""));
 }
 
 void use_light_indices(cli::SceneOptions& options, const std::vector<std::string>& names) {

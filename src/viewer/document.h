@@ -41,6 +41,9 @@ std::vector<std::string> scene_arguments(const cli::SceneOptions& options);
 std::vector<std::string> render_arguments(const Document& document, const std::string& output, int warmup,
                                           const std::string& glsl, std::optional<cli::FrameRange> range = {});
 
+// Two documents with the same text have the same picture.
+std::string text_of(const Document& document);
+
 // Lights that the options choose by name are chosen by index from then on, so that they can be compared. `names` are
 // those of render::light_names().
 void use_light_indices(cli::SceneOptions& options, const std::vector<std::string>& names);

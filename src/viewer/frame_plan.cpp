@@ -58,8 +58,9 @@ FramePlan plan_frame(FramePacing& pacing, const FrameState& state) {
 
   FramePlan plan{.detail = step.detail, .idle = missing == 0 && !state.truth_pending};
   plan.cancel_truth = state.truth_pending && !waits_for_truth(a) && !waits_for_truth(b);
-  const std::array<Side, 2> sides{{{a, plan.a, /* follows_motion= */ true, /* is_last= */ !state.last_is_b},
-                                   {b, plan.b, b_follows, state.last_is_b}}};
+  const std::array<Side, 2> sides{
+      {{a, plan.a, /* follows_motion= */ true, /* is_last= */ !state.unreadable && !state.last_is_b},
+       {b, plan.b, b_follows, !state.unreadable && state.last_is_b}}};
   for (const Side& side : sides) {
     if (&side.plan == &plan.b && !state.b) continue;
     side.plan.measure = needs_measuring(side.picture, state, step);
@@ -69,7 +70,8 @@ FramePlan plan_frame(FramePacing& pacing, const FrameState& state) {
       side.plan.draw = draws_on_gpu(side, state, step);
     }
   }
-  plan.inspect = state.values_wanted && !plan.a.draw && !state.last_is_b;
+  plan.at_rest = pacing.software() && step.idle && !moves && (plan.a.draw || plan.b.draw);
+  plan.inspect = state.values_wanted && !plan.a.draw && !state.last_is_b && !state.unreadable;
   return plan;
 }
 

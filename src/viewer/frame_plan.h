@@ -25,6 +25,7 @@ struct FrameState {
   bool truth_pending = false;     // the background is still tracing
   bool values_wanted = false;     // the interface shows numbers that were not read back yet
   bool last_is_b = false;         // the renderer's last frame is B's, so numbers read back would be B's
+  bool unreadable = false;        // the renderer has no complete frame
   bool ui_active = false;         // the user holds a widget
   bool travels = false;           // what changed since the last drawing are not the parameters
 };
@@ -41,6 +42,7 @@ struct FramePlan {
   PicturePlan a, b;
   Detail detail;
   bool inspect = false;       // read A's values back without drawing
+  bool at_rest = false;       // what is drawn may take long: the user is answered meanwhile
   bool cancel_truth = false;  // neither picture needs what the background traces
   bool idle = false;          // both pictures are finished
 };

@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
-#include "cli/text.h"
 #include "gl/api.h"
 #include "scene/animation.h"
 
 namespace penumbra::viewer {
 
 namespace {
-
-// Two documents with the same text have the same picture.
-std::string text_of(const Document& document) {
-  return cli::command_text("", render_arguments(document, "", /* warmup= */ 0, /* glsl= */ ""));
-}
 
 // Whether the time has moved as it does in a playing animation, and not jumped.
 bool continues(const session::PreparedScene& prepared, double last, double now) {
@@ -28,7 +23,7 @@ PictureRenderer::PictureRenderer(gl::Device& device, render::Renderer& renderer,
     : device_(device), renderer_(renderer), view_(view) {}
 
 bool PictureRenderer::shows(const Document& document) const {
-  return picture_ != nullptr && !cut_ && drawn_ == text_of(document);
+  return picture_ != nullptr && drawn_ == text_of(document);
 }
 
 bool PictureRenderer::has_params_of(const Document& document) const {
@@ -55,8 +50,14 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, const D
   if (detail.is_full() && frames_ >= warmup_of(document)) inputs.samples = document.options.samples;
   if (!still) inputs.last_camera = last_camera_;  // the user moves the camera too
   cut_ = true;                                    // until the frame is drawn: after one that throws there is no history
-  const render::Frame& frame = renderer_.draw(scene.gpu, inputs, reduced(document.params, detail));
-  keep(*frame.display);
+  const std::string before = std::exchange(drawn_, "");
+  try {
+    keep(*renderer_.draw(scene.gpu, inputs, reduced(document.params, detail)).display);
+  } catch (const GivenUp&) {
+    drawn_ = before;
+    frames_ = 0;
+    throw;
+  }
   cut_ = restart_ = false;
   drawn_ = std::move(text);
   params_ = document.params;

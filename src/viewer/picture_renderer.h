@@ -25,6 +25,9 @@ struct LoadedScene {
   std::vector<std::size_t> light_nodes = render::light_nodes(prepared.scene);
 };
 
+// Ends a drawing that is no longer wanted, from gl::Device::before_pass.
+struct GivenUp {};
+
 // Draws one of the two pictures, A or B, and keeps what it drew last.
 class PictureRenderer {
  public:
@@ -35,12 +38,14 @@ class PictureRenderer {
   bool shows(const Document& document) const;
   // Whether it has these parameters, whatever else has changed.
   bool has_params_of(const Document& document) const;
-  // Draws the document in that detail, with the motion since the last drawing. Throws Error.
+  // Draws the document in that detail, with the motion since the last drawing. Throws Error. Where it throws GivenUp,
+  // it still has the picture that it had, and the next drawing is the first of its own picture.
   void draw(LoadedScene& scene, const Document& document, const Detail& detail);
   // The next drawing has nothing to do with the last one: after another scene or other shaders.
   void cut() {
     cut_ = true;
     frames_ = 0;
+    drawn_.clear();
   }
   // The next drawing starts without history; shadow maps in which nothing moved are kept.
   void restart() {

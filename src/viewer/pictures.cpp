@@ -72,6 +72,7 @@ FrameState Viewer::frame_state(const Document& b, const PictureArea& area, doubl
                    .truth_pending = truth_.pending().has_value(),
                    .values_wanted = chosen || (last_is_b_ && probes(area)),
                    .last_is_b = last_is_b_,
+                   .unreadable = !readable_,
                    .ui_active = ImGui::IsAnyItemActive() && !area.dragging,
                    .travels = a_.renderer.has_params_of(state_.document)};
   // The background traces one picture at a time: two would stop each other in every frame.
@@ -93,30 +94,62 @@ void Viewer::take_traced(const Document& b) {
   status_.tracing = pending ? std::optional(pending->share_done) : std::nullopt;
 }
 
-void Viewer::draw_pictures(const PictureArea& area, double now) {
-  if (scene_ == nullptr) return;
+std::optional<Viewer::PictureWork> Viewer::plan_pictures(const PictureArea& area, double now) {
+  if (scene_ == nullptr) return {};
   if (!state_.comparison.on) forget_b();
-  const Document b = document_b();
-  take_traced(b);
-  const FrameState frame = frame_state(b, area, now);
-  const FramePlan plan = plan_frame(pacing_, frame);
-  if (plan.cancel_truth) truth_.cancel();
-  status_.idle = plan.idle && status_.loading.empty();
+  PictureWork work{.b = document_b(), .plan = {}};
+  take_traced(work.b);
+  const FrameState frame = frame_state(work.b, area, now);
+  work.b_shown = frame.b.has_value();
+  work.plan = plan_frame(pacing_, frame);
+  if (work.plan.cancel_truth) truth_.cancel();
+  status_.idle = work.plan.idle && status_.loading.empty();
+  if (work.plan.a.restart) a_.renderer.restart();
+  if (work.plan.b.restart) b_.renderer.restart();
+  if (work.plan.at_rest && unsettled_ > 0) {
+    work.plan.a = work.plan.b = {};
+    work.plan.at_rest = false;
+  }
+  return work;
+}
+
+void Viewer::draw_pictures(const PictureWork& work) {
+  const FramePlan& plan = work.plan;
   // B before A, so that what is read of the renderer afterwards is A's.
-  const std::array<SideWork, 2> work{{{b_, b, plan.b}, {a_, state_.document, plan.a}}};
-  for (const SideWork& each : work) {
+  const std::array<SideWork, 2> sides{{{b_, work.b, plan.b}, {a_, state_.document, plan.a}}};
+  for (const SideWork& each : sides) {
     if (each.plan.measure && !each.plan.draw) guarded([&] { measure(each.side); });
   }
   if (plan.inspect && a_.renderer.has_picture()) guarded([&] { inspect(a_); });
-  for (const SideWork& each : work) {
-    if (each.plan.restart) each.side.renderer.restart();
-  }
-  if (plan.a.draw || plan.b.draw) draw_sides(work, plan.detail, now);
-  if (frame.b && a_.measured && b_.measured && !status_.difference) measure_difference();
+  if (plan.a.draw || plan.b.draw) draw_sides(sides, plan.detail);
+  if (work.b_shown && a_.measured && b_.measured && !status_.difference) measure_difference();
 }
 
-void Viewer::draw_sides(std::span<const SideWork> work, const Detail& detail, double now) {
-  last_draw_ = now;
+Viewer::Wishes Viewer::wishes() const {
+  return {.picture = text_of(state_.document),
+          .comparison = state_.comparison,
+          .zoom = state_.zoom,
+          .requests = state_.requests,
+          .size = window_size_,
+          .playing = state_.playback.playing};
+}
+
+// Draws pictures in full on a software rasteriser, which takes long: before each pass the user is answered.
+void Viewer::draw_at_rest(const PictureWork& work) {
+  const Wishes begun = wishes();
+  device_.device.before_pass = [&] { attend(begun); };
+  try {
+    guarded([&] { draw_pictures(work); });
+  } catch (const GivenUp&) {
+    readable_ = false;
+    unsettled_ = settling;
+  }
+  device_.device.before_pass = nullptr;
+  attending_ = false;
+  last_draw_ = ImGui::GetTime();
+}
+
+void Viewer::draw_sides(std::span<const SideWork> work, const Detail& detail) {
   double milliseconds = 0;
   readable_ = true;
   for (const SideWork& each : work) {
@@ -125,6 +158,8 @@ void Viewer::draw_sides(std::span<const SideWork> work, const Detail& detail, do
     milliseconds += each.side.renderer.milliseconds();
     last_is_b_ = &each.side == &b_;
   }
+  last_draw_ = ImGui::GetTime();
+  probe_is_old_ = true;
   if (!readable_) return;
   pacing_.drew(detail, milliseconds);
   status_.detail = detail;

@@ -64,7 +64,8 @@ void Viewer::probe(const PictureArea& area) {
   if (probes(area) && readable_ && !last_is_b_ && a_.shown != nullptr && status_.drawn_size.x > 0)
     pixel = probed_pixel(area);
   status_.probed = pixel;
-  if (!pixel || (pixel == status_.last_probed && last_draw_ < ImGui::GetTime())) return;
+  if (!pixel || (pixel == status_.last_probed && !probe_is_old_)) return;
+  probe_is_old_ = false;
   status_.last_probed = pixel;
   // Pictures are smaller while the camera moves.
   const glm::ivec2 full(state_.document.options.size.width, state_.document.options.size.height);

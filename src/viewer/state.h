@@ -29,12 +29,12 @@ struct Message {
   double until = 0;  // seconds of the viewer's clock
 };
 
-// What becomes of changes that are not saved when the window closes.
+// What becomes of changes that are not saved when the window or its scene closes.
 enum class ClosingAnswer { save, discard };
 
 // What the user asked for with a widget or a key; done between two frames of the interface.
 struct Requests {
-  std::optional<std::string> open;  // a scene
+  std::optional<std::string> open;  // a scene; asks first where changes would be lost
   std::optional<std::string> open_preset, save_preset;
   std::optional<std::string> overwrite_preset;         // as save_preset, and the user agrees to lose what is there
   bool write_picture = false, write_sequence = false;  // to the state's file
@@ -44,12 +44,15 @@ struct Requests {
   bool save = false;
   bool quit = false;  // asks first where changes would be lost
   std::optional<ClosingAnswer> closing;
+
+  bool operator==(const Requests&) const = default;
 };
 
-// The window asks before it closes.
+// The window asks before it closes, or before another scene takes the place of the one that is shown.
 struct ClosingQuestion {
   bool wanted = false;  // ask in the next frame
   bool asks = false;
+  std::string scene;  // the other scene's file; empty: the window closes
 };
 
 // "Save preset" asks before it overwrites this file.

@@ -111,7 +111,6 @@ int Viewer::run() {
 }
 
 void Viewer::show_frames() {
-  double last = ImGui::GetTime();
   while (caught_signal == 0 && !ended_) {
     const bool still = device_.info.software && ImGui::GetTime() - last_draw_ > 0.5 && loader_.file().empty();
     window_.poll(still ? 0.1 : 0.0);
@@ -121,9 +120,7 @@ void Viewer::show_frames() {
       window_.poll(0.1);
       continue;
     }
-    const double now = ImGui::GetTime();
-    frame(static_cast<float>(now - last));
-    last = now;
+    frame();
     if (closes()) break;
     do_requests();
   }
@@ -137,27 +134,55 @@ void Viewer::guarded(const std::function<void()>& action) {
   }
 }
 
-void Viewer::frame(float seconds) {
+void Viewer::frame() {
   take_events();
-  window_.set_user_scale(state_.scale);
-  window_.begin();
-  widgets_.begin();
-  play(seconds);
-  const PictureArea area = build_interface(seconds);
-  note_edit();
+  unsettled_ = window_.has_presses() ? settling : std::max(unsettled_ - 1, 0);
+  begin_interface();
+  play(ImGui::GetIO().DeltaTime);
+  const PictureArea area = build_interface();
   guarded([&] { update_view(); });
-  guarded([&] { draw_pictures(area, ImGui::GetTime()); });
+  std::optional<PictureWork> work;
+  guarded([&] { work = plan_pictures(area, ImGui::GetTime()); });
+  if (work && !work->plan.at_rest) guarded([&] { draw_pictures(*work); });
   guarded([&] { probe(area); });
   guarded([&] { show_pictures(); });
-  gl::leave_initial_state();
   // Also the faults of programs that were unused when the shader was saved, and are compiled only now.
   if (device_.device.shaders.take_outdated() || !status_.shader_errors.empty())
     status_.shader_errors = session::shader_faults(device_.device.shaders);
   if (status_.idle) widgets_.mark_idle();
-  window_.show();
+  show_interface();
   cost_reader_.read(device_.device.timers, ImGui::GetTime());
-  if (!options_.layout.empty()) guarded([&] { widgets_.write_changes(options_.layout); });
   if (std::exchange(vsync_, state_.vsync) != state_.vsync) window_.set_vsync(state_.vsync);
+  if (work && work->plan.at_rest) draw_at_rest(*work);
+}
+
+void Viewer::begin_interface() {
+  window_.set_user_scale(state_.scale);
+  window_.begin();
+  widgets_.begin();
+}
+
+void Viewer::show_interface() {
+  gl::leave_initial_state();
+  window_.show();
+  if (!options_.layout.empty()) guarded([&] { widgets_.write_changes(options_.layout); });
+}
+
+// Gives the window's input to the interface, and draws that over the last picture. A picture that the user has changed
+// meanwhile is given up.
+void Viewer::attend(const Wishes& begun) {
+  window_.poll(0);
+  if (window_.has_news() || caught_signal != 0) throw GivenUp();
+  if (!window_.has_input()) return;
+  attending_ = true;
+  for (int left = settling; left > 0; left = window_.has_input() ? settling : left - 1) {
+    begin_interface();
+    build_interface();
+    widgets_.mark_drawing();
+    show_interface();
+    if (wishes() != begun) throw GivenUp();
+  }
+  attending_ = false;
 }
 
 void Viewer::take_events() {
@@ -249,9 +274,9 @@ void Viewer::play(float seconds) {
   state_.document.step(static_cast<int>(whole));
 }
 
-PictureArea Viewer::build_interface(float seconds) {
+PictureArea Viewer::build_interface() {
   const Panel panel{state_, status_, widgets_};
-  take_keys(panel, seconds);
+  take_keys(panel, ImGui::GetIO().DeltaTime);
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   const float width = std::min(state_.panel_width * window_.scale(), std::max(whole.x - least_picture, 0.0f));
   const bool beside = state_.panel;
@@ -274,6 +299,7 @@ PictureArea Viewer::build_interface(float seconds) {
   help_overlay(panel);
   closing_question(panel);
   state_.popup_open = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  note_edit();
   return area;
 }
 
@@ -307,11 +333,11 @@ PictureArea Viewer::picture_window(const Panel& panel, const ImVec2& corner, con
   const ImVec2 dots = ImGui::GetIO().DisplayFramebufferScale;
   const ImVec2 room = ImGui::GetContentRegionAvail();
   window_size_ = glm::max(glm::ivec2(room.x * dots.x, room.y * dots.y), 1);
-  const gl::Texture* shown =
-      a_.shown == nullptr
-          ? nullptr
-          : &device_.device.target("viewer/window", {.width = window_size_.x, .height = window_size_.y});
-  const PictureArea area = picture_area(panel, shown);
+  // What was presented last stays while a picture is drawn; else present() draws into this texture, after the
+  // interface.
+  if (a_.shown != nullptr && !attending_)
+    presented_ = &device_.device.target("viewer/window", {.width = window_size_.x, .height = window_size_.y});
+  const PictureArea area = picture_area(panel, presented_);
   ImGui::End();
   return area;
 }

@@ -57,6 +57,23 @@ class Viewer {
     const gl::Texture* colors = nullptr;  // its values in false colour, if any are inspected
     const gl::Texture* shown = nullptr;   // its picture, or these colours
   };
+  // What a frame does for both.
+  struct PictureWork {
+    Document b;
+    bool b_shown = false;
+    FramePlan plan;
+  };
+  // What a picture is drawn for.
+  struct Wishes {
+    std::string picture;  // the text of A's document
+    Comparison comparison;
+    Zoom zoom;
+    Requests requests;
+    glm::ivec2 size{0};  // of the picture's area, pixels
+    bool playing = false;
+
+    bool operator==(const Wishes&) const = default;
+  };
   // What a frame does for one of them.
   struct SideWork {
     Side& side;
@@ -65,20 +82,26 @@ class Viewer {
   };
 
   void show_frames();
-  void frame(float seconds);
+  void frame();
+  void begin_interface();
+  void show_interface();
   void take_events();
   void take_loaded();
   void take_saved();
   void take_shaders(std::span<const std::filesystem::path> changed);
   void play(float seconds);
-  PictureArea build_interface(float seconds);
+  PictureArea build_interface();
   void side_panel(const Panel& panel, float top, float width);
   void panel_edge(const Panel& panel, const ImVec2& upper, float height);
   PictureArea picture_window(const Panel& panel, const ImVec2& corner, const ImVec2& size);
-  void draw_pictures(const PictureArea& area, double now);
+  std::optional<PictureWork> plan_pictures(const PictureArea& area, double now);
+  void draw_pictures(const PictureWork& work);
+  void draw_at_rest(const PictureWork& work);
+  Wishes wishes() const;
+  void attend(const Wishes& begun);
   FrameState frame_state(const Document& b, const PictureArea& area, double now);
   void take_traced(const Document& b);
-  void draw_sides(std::span<const SideWork> work, const Detail& detail, double now);
+  void draw_sides(std::span<const SideWork> work, const Detail& detail);
   void measure(Side& side);
   void forget_b();
   bool draw_side(const SideWork& work, const Detail& detail);
@@ -93,7 +116,8 @@ class Viewer {
   void show_pictures();
   PresentInputs present_inputs(const glm::ivec2& window_size) const;
   void do_requests();
-  void open(const std::string& scene);
+  bool is_shown(const std::string& scene) const;
+  void open(const std::string& asked);
   void open_preset(const std::string& file);
   // Asks first where it would overwrite a preset, unless the user has agreed.
   void save_preset(const std::string& file, bool overwrite);
@@ -109,6 +133,7 @@ class Viewer {
   void save_view();
   void save();
   bool closes();
+  bool leaves_scene_for(const std::string& scene);
   void answer_closing(ClosingAnswer answer);
   Edit present_edit() const;
   void note_edit();
@@ -143,11 +168,17 @@ class Viewer {
   CostReader cost_reader_;
   WidgetMap widgets_;
   ViewerStatus status_;
-  std::string view_options_;         // the options that camera and sun were last chosen for
-  std::string inspected_, colored_;  // what values were last read back from, and coloured
-  bool readable_ = false;            // the renderer's last frame succeeded, so values can be read back
-  bool last_is_b_ = false;           // it drew B
-  glm::ivec2 window_size_{1};        // of the picture's area, pixels
+  std::string view_options_;                // the options that camera and sun were last chosen for
+  std::string inspected_, colored_;         // what values were last read back from, and coloured
+  bool readable_ = false;                   // the renderer's last frame succeeded, so values can be read back
+  bool last_is_b_ = false;                  // it drew B
+  bool probe_is_old_ = false;               // a picture was drawn since values were last probed
+  glm::ivec2 window_size_{1};               // of the picture's area, pixels
+  const gl::Texture* presented_ = nullptr;  // what the window shows of the pictures
+  // Frames of the interface after the last press: a list or a question that opens takes some to find its size.
+  static constexpr int settling = 4;
+  int unsettled_ = 0;       // those to come before a picture is begun that takes long
+  bool attending_ = false;  // a picture is being drawn, between two of its passes
   bool vsync_ = true;
   double last_draw_ = 0;
 };

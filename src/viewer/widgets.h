@@ -21,6 +21,8 @@ class WidgetMap {
   void mark(std::string_view name, const ImVec2& low, const ImVec2& high);
   // Adds the name "idle": all pictures are finished.
   void mark_idle() { mark(idle, {0, 0}, {0, 0}); }
+  // Adds the name "drawing": a picture was begun and is not finished yet.
+  void mark_drawing() { mark("drawing", {0, 0}, {0, 0}); }
   // Writes all of them as JSON if any changed since the last file and none since the last frame:
   // {"name": [left, top, right, bottom], …}.
   // Throws Error.

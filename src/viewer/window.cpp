@@ -79,7 +79,12 @@ void Window::record_input() {
     self.changes_.push_back({.of = Change::Of::key, .code = key, .down = action == GLFW_PRESS});
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
-    static_cast<Window*>(glfwGetWindowUserPointer(window))->pointer_ = {x, y};
+    auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+    self.pointer_ = {x, y};
+    self.touched_ = true;
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double) {
+    static_cast<Window*>(glfwGetWindowUserPointer(window))->touched_ = true;
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
     auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
@@ -148,6 +153,16 @@ bool Window::take_close() {
   return closed;
 }
 
+bool Window::has_news() const {
+  return !dropped_.empty() || glfwWindowShouldClose(window_) != GLFW_FALSE || pixels() != shown_;
+}
+
+// Whether a press has to wait for a frame with the pointer at its place: some widgets of ImGui, such as tabs, are
+// pressed only if they were hovered in the frame before.
+bool Window::must_hover(const Change& change) const {
+  return change.of == Change::Of::button && change.down && change.at != hovered_;
+}
+
 void Window::apply(const Change& change) {
   ImGuiIO& io = ImGui::GetIO();
   switch (change.of) {
@@ -174,6 +189,10 @@ void Window::play_keys() {
   for (bool clicked = false; !clicked && !changes_.empty();) {
     const Change change = changes_.front();
     if (changes_state(change) && change.down != down) break;
+    if (must_hover(change)) {
+      ImGui::GetIO().MousePos = {change.at.x, change.at.y};
+      break;
+    }
     changes_.pop_front();
     apply(change);
     clicked = change.of == Change::Of::button;
@@ -196,6 +215,10 @@ void Window::play_text() {
     const Change change = changes_.front();
     const bool letter = is_letter(change);
     if (any && !letter) break;
+    if (must_hover(change)) {
+      ImGui::GetIO().MousePos = {change.at.x, change.at.y};
+      break;
+    }
     changes_.pop_front();
     apply(change);
     if (!letter) break;
@@ -210,6 +233,7 @@ void Window::play_input() {
   } else {
     play_keys();
   }
+  hovered_ = {io.MousePos.x, io.MousePos.y};
   std::copy(buttons_.begin(), buttons_.end(), std::begin(io.MouseDown));
   std::copy(keys_.begin(), keys_.end(), std::begin(io.KeysDown));
   io.KeyCtrl = keys_[GLFW_KEY_LEFT_CONTROL] || keys_[GLFW_KEY_RIGHT_CONTROL];
@@ -239,13 +263,14 @@ void Window::begin() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   measure();
+  touched_ = false;
   play_input();
   ImGui::NewFrame();
 }
 
 void Window::show() {
   ImGui::Render();
-  const glm::ivec2 size = pixels();
+  const glm::ivec2 size = shown_ = pixels();
   gl::glBindFramebuffer(GL_FRAMEBUFFER, 0);
   gl::glViewport(0, 0, size.x, size.y);
   gl::glClearColor(0.07f, 0.07f, 0.07f, 1.0f);

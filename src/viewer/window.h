@@ -29,8 +29,14 @@ class Window {
 
   // Handles the pending events, and waits up to `seconds` for one if there are none.
   void poll(double seconds);
+  // Whether begin() has input to give to the interface.
+  bool has_input() const { return touched_ || has_presses(); }
+  // The same, without motion of the pointer and the wheel.
+  bool has_presses() const { return !changes_.empty(); }
   // Whether the user has closed the window since the last call; it stays open.
   bool take_close();
+  // Whether take_close() or dropped() have something to return, or the window has another size than its last frame.
+  bool has_news() const;
 
   // begin() starts a frame of the user interface; show() ends it and puts it on the screen.
   void begin();
@@ -67,6 +73,7 @@ class Window {
   void play_input();
   void play_text();
   void play_keys();
+  bool must_hover(const Change& change) const;
   void apply(const Change& change);
   void apply_scale(float scale);
   float wanted_scale() const;
@@ -78,6 +85,9 @@ class Window {
   std::vector<std::string> dropped_;
   glm::vec2 dots_{1};             // pixels of the framebuffer over units of the window
   glm::vec2 pointer_{0};          // at the last recorded event
+  glm::vec2 hovered_{0};          // in the interface's last frame
+  bool touched_ = false;          // the pointer or the wheel moved since begin()
+  glm::ivec2 shown_{0};           // size of the last frame, pixels
   std::deque<Change> changes_;    // recorded, not given to ImGui yet
   std::array<bool, 512> keys_{};  // the keys that ImGui considers pressed; it has 512
   std::array<bool, 5> buttons_{};

@@ -24,8 +24,19 @@ class Desk {
                      .b = b,
                      .truth_pending = tracing > 0,
                      .values_wanted = values_wanted,
-                     .last_is_b = last_is_b_};
+                     .last_is_b = last_is_b_,
+                     .unreadable = unreadable_};
     const FramePlan plan = plan_frame(pacing_, state);
+    EXPECT_FALSE(unreadable_ && plan.inspect);
+    EXPECT_FALSE(unreadable_ && (plan.a.measure && !plan.a.draw));
+    EXPECT_FALSE(unreadable_ && (plan.b.measure && !plan.b.draw));
+    if (gives_up) {
+      EXPECT_TRUE(plan.at_rest) << "only then the user can end what is drawn";
+      gives_up = false;
+      unreadable_ = true;
+      (plan.b.draw ? *b : a).frames = 0;
+      return plan;
+    }
     values_wanted = false;
     if (plan.cancel_truth) tracing = 0;
     if (tracing > 0 && --tracing == 0) {  // the traced picture is finished, so it is drawn once more
@@ -43,6 +54,7 @@ class Desk {
     if (b && plan.b.draw) draw(*b, plan.b.restart, plan.b.measure, plan.detail, drawn_b);
     if (plan.a.draw) draw(a, plan.a.restart, plan.a.measure, plan.detail, drawn_a);
     if (plan.a.draw || plan.b.draw) last_is_b_ = !plan.a.draw;
+    if (plan.a.draw || plan.b.draw) unreadable_ = false;
     if (plan.a.draw || plan.b.draw) pacing_.drew(plan.detail, 50);
     return plan;
   }
@@ -68,6 +80,7 @@ class Desk {
   PictureState a;
   std::optional<PictureState> b;
   bool values_wanted = false;
+  bool gives_up = false;         // the user ends the next drawing
   int tracing = 0;               // turns until the truth is traced
   int drawn_a = 0, drawn_b = 0;  // frames since the last cut
 
@@ -84,6 +97,7 @@ class Desk {
   viewer::FramePacing pacing_;
   double now_ = 10;
   bool last_is_b_ = false;
+  bool unreadable_ = true;
 };
 
 PictureState wanting(int frames) { return {.wanted = frames}; }
@@ -100,6 +114,42 @@ TEST(ViewerPlan, InSoftwareEachPictureAtRestHasItsFrames) {
     EXPECT_FALSE(last.a.draw || last.b.draw);
     EXPECT_EQ(desk.drawn_a, 32);
     EXPECT_EQ(desk.drawn_b, two ? 5 : 0);
+  }
+}
+
+TEST(ViewerPlan, OnlyPicturesAtRestInSoftwareMayBeInterrupted) {
+  for (const bool software : {true, false}) {
+    Desk desk(software);
+    desk.a = wanting(4);
+    for (int i = 0; i < 10; ++i) {
+      Desk::change(desk.a);
+      EXPECT_FALSE(desk.turn().at_rest) << "in motion";
+    }
+    int drawn = 0, at_rest = 0;
+    for (int i = 0; i < 60; ++i) {
+      const FramePlan plan = desk.turn();
+      drawn += plan.a.draw;
+      at_rest += plan.at_rest;
+    }
+    EXPECT_EQ(at_rest, software ? 4 : 0);
+    EXPECT_GE(drawn, 4);
+  }
+}
+
+TEST(ViewerPlan, APictureThatWasGivenUpIsBegunAgainAndMeasured) {
+  for (const bool two : {false, true}) {
+    Desk desk(/*software=*/true);
+    desk.a = wanting(3);
+    if (two) desk.b = wanting(1);
+    desk.move(5);
+    FramePlan plan = desk.turn();
+    while (!plan.a.draw) plan = desk.turn();
+    desk.gives_up = true;
+    desk.values_wanted = true;
+    desk.turn();
+    EXPECT_TRUE(desk.rest().idle);
+    EXPECT_EQ(desk.a.frames, 3);
+    EXPECT_EQ(desk.a.measured, two);
   }
 }
 
