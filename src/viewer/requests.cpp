@@ -37,7 +37,7 @@ void check_overwrites_preset(const std::string& file) {
 void Viewer::do_requests() {
   const Requests wanted = std::exchange(state_.requests, {});
   guarded([&] {
-    if (wanted.open) open(*wanted.open);
+    if (wanted.open && leaves_scene_for(*wanted.open)) open(*wanted.open);
     if (wanted.open_preset) open_preset(*wanted.open_preset);
     if (wanted.save_preset) save_preset(*wanted.save_preset, /* overwrite= */ false);
     if (wanted.overwrite_preset) save_preset(*wanted.overwrite_preset, /* overwrite= */ true);
@@ -51,7 +51,15 @@ void Viewer::do_requests() {
   });
 }
 
-void Viewer::open(const std::string& scene) {
+// Whether that file is the scene that is shown, by whichever path.
+bool Viewer::is_shown(const std::string& scene) const {
+  const std::string& shown = state_.document.options.scene;
+  std::error_code unread;
+  return scene == shown || std::filesystem::equivalent(scene, shown, unread);
+}
+
+void Viewer::open(const std::string& asked) {
+  const std::string scene = is_shown(asked) ? state_.document.options.scene : asked;
   // Watched before it is read: a file that fails is read again when it is saved.
   guarded([&] {
     std::vector<std::filesystem::path> files{scene};

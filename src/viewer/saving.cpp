@@ -1,4 +1,5 @@
-// What the user saves: the view beside the scene, and the open preset. Closing the window asks before it loses them.
+// What the user saves: the view beside the scene, and the open preset. Closing the window asks before it loses them,
+// and so does opening another scene.
 #include <imgui.h>
 
 #include <filesystem>
@@ -72,12 +73,25 @@ bool Viewer::closes() {
   if (!std::exchange(state_.requests.quit, false)) return false;
   update_unsaved();
   if (!status_.unsaved.any()) return true;
-  state_.closing.wanted = true;
+  state_.closing = {.wanted = true};
   window_.restore();
   return false;
 }
 
+// Whether that scene is opened now: nothing would be lost. Else the next frame asks. Parameters stay as they are.
+bool Viewer::leaves_scene_for(const std::string& scene) {
+  update_unsaved();
+  if (is_shown(scene) || !status_.unsaved.view) return true;
+  state_.closing = {.wanted = true, .scene = scene};
+  return false;
+}
+
 void Viewer::answer_closing(ClosingAnswer answer) {
+  if (!state_.closing.scene.empty()) {
+    if (answer == ClosingAnswer::save) save_view();
+    open(state_.closing.scene);
+    return;
+  }
   if (answer == ClosingAnswer::save) save();
   // The parameters that the next run begins with.
   if (answer == ClosingAnswer::discard && status_.unsaved.preset) state_.document.params = saved_.params;

@@ -1,10 +1,11 @@
-"""penumbra view asks before it closes with changes that are not saved, and begins with what was saved beside the scene."""
+"""penumbra view asks before it closes, or shows another scene, with changes that are not saved, and begins with what was
+saved beside the scene."""
 
 import json
 
 from desktop import LEFT, RIGHT
 from support import main
-from window import STEPS, WindowTest
+from window import KNIFE_EDGE, STEPS, WindowTest
 
 
 class Closing(WindowTest):
@@ -89,6 +90,47 @@ class Closing(WindowTest):
             self.drag(viewer, RIGHT, "--sun")
             viewer.tap("Escape")
             self.assertEqual(viewer.exit_code(), 0)
+
+    def test_another_scene_takes_its_place_only_after_the_question(self):
+        other = self.folder / "other.glb"
+        other.write_bytes(KNIFE_EDGE.read_bytes())
+        with self.view("mine.glb") as viewer:
+            sun = self.drag(viewer, RIGHT, "--sun")
+
+            def ask(way):
+                if way == "drop":
+                    self.desktop.client.drop(viewer.window, *viewer.middle("picture"), other)
+                else:
+                    viewer.press("ctrl+o", lambda: viewer.has("open=other.glb"), "the list of files")
+                    viewer.point_at("open=other.glb")
+                    self.desktop.xdotool("click", LEFT)
+                viewer.wait_for(lambda: viewer.has(self.QUESTION), "the question")
+
+            for way in ("drop", "list"):
+                for stay in (lambda: self.answer(viewer, "Cancel"), lambda: self.desktop.xdotool("key", "Escape")):
+                    ask(way)
+                    stay()
+                    viewer.wait_for(lambda: not viewer.has(self.QUESTION), "no question")
+                    self.assertEqual(self.place(viewer), sun)
+                    self.assertIn("mine.glb", viewer.copied())
+            ask("drop")
+            self.answer(viewer, "Discard")
+            viewer.wait_for(lambda: any(word.endswith("other.glb") for word in viewer.copied()), "the other scene")
+            self.assertFalse(self.saved.exists())
+            viewer.rest()
+            self.desktop.client.drop(viewer.window, *viewer.middle("picture"), self.scene)  # nothing to lose: no question
+            viewer.wait_for(lambda: any(word.endswith("mine.glb") for word in viewer.copied()), "the first scene")
+            self.assertEqual(self.place(viewer), [])
+            viewer.rest()
+            sun = self.drag(viewer, RIGHT, "--sun")
+            self.desktop.client.drop(viewer.window, *viewer.middle("picture"), self.scene)  # the same scene keeps them
+            viewer.follow()
+            viewer.rest()
+            self.assertFalse(viewer.has(self.QUESTION))
+            ask("drop")
+            self.answer(viewer, "Save")
+            viewer.wait_for(lambda: any(word.endswith("other.glb") for word in viewer.copied()), "the other scene")
+            self.assertIn(sun[0], json.loads(self.saved.read_text())["view"])
 
     def test_a_window_that_is_minimised_comes_back_to_ask(self):
         with self.view("mine.glb") as viewer:
