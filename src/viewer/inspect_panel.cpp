@@ -75,6 +75,9 @@ void choose_part(const Panel& panel) {
 
 void range(const Panel& panel) {
   Inspection& inspection = panel.state.inspection;
+  if (ImGui::Button("Fit to the view")) panel.state.zoom = {};
+  panel.widgets.mark("fit");
+  tooltip("Shows all of the texture (0). Ctrl + wheel magnifies it.");
   begin_rows("range");
   row("over the picture", "Tints the lit picture with the colours, instead of showing them alone (T for cascades).");
   ImGui::Checkbox("##over", &inspection.over);

@@ -57,6 +57,7 @@ void view_menu(const Panel& panel) {
   if (menu_item(panel, state.comparison.on ? "Stop comparing" : "Compare A with B", "C"))
     state.compare(!state.comparison.on);
   if (menu_item(panel, "Tint by cascade", "T", panel.status.scene != nullptr)) toggle_cascade_tint(state.inspection);
+  if (menu_item(panel, "Fit to the view", "0", state.zoom != Zoom{})) state.zoom = {};
   scale_menu(panel);
   if (menu_item(panel, "Mouse and keys", "F1")) state.help = !state.help;
 }

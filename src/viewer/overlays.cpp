@@ -50,6 +50,7 @@ constexpr std::array keys{
     Key{"middle drag, Shift + left", "pan"},
     Key{"wheel", "move nearer or farther"},
     Key{"Ctrl + wheel", "magnify pixels"},
+    Key{"0", "fit the picture, or the texture, into the view"},
     Key{"right drag", "move the sun"},
     Key{"W A S D Q E", "move; faster with Shift"},
     Key{"F", "fly mode"},
@@ -161,6 +162,20 @@ void label_list(const Panel& panel) {
   }
 }
 
+// The value under the cursor, in the terms of what is shown.
+void texel_line(const Panel& panel) {
+  const glm::ivec2& size = panel.status.shown_size;
+  if (size.x == 0) return;
+  if (!panel.status.texel) {
+    ImGui::TextDisabled("%d × %d", size.x, size.y);
+    return;
+  }
+  const std::string text = fmt::format("{}, {} of {} × {}:  {}", panel.status.texel->at.x, panel.status.texel->at.y,
+                                       size.x, size.y, panel.status.texel->value);
+  ImGui::TextUnformatted(text.c_str());
+  panel.widgets.mark("texel=" + text);
+}
+
 }  // namespace
 
 void legend_overlay(const Panel& panel, const ImVec2& corner) {
@@ -184,6 +199,7 @@ void legend_overlay(const Panel& panel, const ImVec2& corner) {
         break;
     }
   }
+  texel_line(panel);
   end_overlay(panel, "legend");
 }
 

@@ -43,13 +43,13 @@ void drag_sun(const Panel& panel, const glm::vec2& by) {
 }
 
 // Magnifies about the cursor: the point of the picture under it stays there. `halves`: the pictures are side by side,
-// and each half of the window has its own centre.
-void magnify(Zoom& zoom, float notches, const PictureArea& area, bool halves) {
+// and each half of the window has its own centre. `fitted`: the share of the area that the picture takes.
+void magnify(Zoom& zoom, float notches, const PictureArea& area, bool halves, const glm::vec2& fitted) {
   const float before = zoom.factor;
   glm::vec2 middle = area.size * 0.5f;
   if (halves) middle.x *= area.cursor->x >= middle.x ? 1.5f : 0.5f;
   zoom.factor = std::clamp(std::exp2(std::round(std::log2(before) + notches)), 0.25f, 32.0f);
-  const glm::vec2 from_middle = (*area.cursor - middle) / area.size;
+  const glm::vec2 from_middle = (*area.cursor - middle) / (area.size * fitted);
   zoom.center = glm::clamp(zoom.center + from_middle / before - from_middle / zoom.factor, 0.0f, 1.0f);
   if (zoom.factor <= 1) zoom.center = glm::vec2(0.5f);
 }
@@ -60,7 +60,7 @@ void take_wheel(const Panel& panel, const PictureArea& area) {
   if (ImGui::GetIO().KeyCtrl) {
     const Comparison& comparison = panel.state.comparison;
     const bool halves = comparison.on && comparison.how == CompareMode::side_by_side;
-    magnify(panel.state.zoom, notches > 0 ? 1.0f : -1.0f, area, halves);
+    magnify(panel.state.zoom, notches > 0 ? 1.0f : -1.0f, area, halves, panel.status.fitted);
   } else if (panel.status.scene != nullptr) {
     CameraRig rig = present_rig(panel.state.document, panel.status.scene->prepared);
     rig.dolly(std::pow(dolly_per_notch, notches));
@@ -242,6 +242,7 @@ void take_keys(const Panel& panel, float seconds) {
   if (pressed(GLFW_KEY_T)) toggle_cascade_tint(state.inspection);
   if (pressed(GLFW_KEY_P)) state.probe = !state.probe;
   if (pressed(GLFW_KEY_L)) toggle_lock(panel);
+  if (pressed(GLFW_KEY_0)) state.zoom = {};
   if (pressed(GLFW_KEY_HOME)) state.requests.frame_casters = true;
   if (pressed(GLFW_KEY_C)) {
     if (ImGui::GetIO().KeyCtrl) {

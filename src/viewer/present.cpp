@@ -1,5 +1,6 @@
 #include "viewer/present.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace penumbra::viewer {
@@ -63,12 +64,21 @@ const gl::Texture& present(gl::Device& device, const PresentInputs& inputs) {
 }
 
 std::optional<glm::ivec2> pixel_at(const PresentInputs& inputs, const glm::vec2& window) {
+  return texel_at(inputs, window, inputs.picture_size);
+}
+
+std::optional<glm::ivec2> texel_at(const PresentInputs& inputs, const glm::vec2& window, const glm::ivec2& size) {
   glm::vec2 middle = glm::vec2(inputs.window_size) * 0.5f;
   if (how_of(inputs) == CompareMode::side_by_side) middle.x *= window.x >= middle.x ? 1.5f : 0.5f;
-  const glm::ivec2 pixel(glm::floor(center_of(inputs) + (window - middle) / inputs.zoom.factor));
-  const bool inside =
-      glm::all(glm::greaterThanEqual(pixel, glm::ivec2(0))) && glm::all(glm::lessThan(pixel, inputs.picture_size));
-  return inside ? std::optional(pixel) : std::nullopt;
+  const glm::vec2 place = center_of(inputs) + (window - middle) / inputs.zoom.factor;
+  const glm::ivec2 texel(glm::floor(place * (glm::vec2(size) / glm::vec2(inputs.picture_size))));
+  const bool inside = glm::all(glm::greaterThanEqual(texel, glm::ivec2(0))) && glm::all(glm::lessThan(texel, size));
+  return inside ? std::optional(texel) : std::nullopt;
+}
+
+glm::ivec2 fitted(const glm::ivec2& texture, const glm::ivec2& window) {
+  const glm::vec2 room = glm::vec2(window) / glm::vec2(texture);
+  return glm::max(glm::ivec2(glm::round(glm::vec2(texture) * std::min(room.x, room.y))), 1);
 }
 
 glm::vec2 place_of(const PresentInputs& inputs, const glm::ivec2& pixel) {

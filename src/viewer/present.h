@@ -14,7 +14,7 @@ struct PresentInputs {
   const gl::Texture* b = nullptr;       // absent: there is only A
   const gl::Texture* tint_a = nullptr;  // colours to mix into it
   const gl::Texture* tint_b = nullptr;
-  glm::ivec2 picture_size{1};  // at full resolution; textures drawn in motion are smaller
+  glm::ivec2 picture_size{1};  // that all of them have where they are not magnified, whatever their own sizes are
   glm::ivec2 window_size{1};
   Comparison comparison;
   Zoom zoom;
@@ -29,6 +29,10 @@ gl::ProgramDesc present_program();
 
 // The picture's pixel that a pixel of the window shows; nothing outside of the picture.
 std::optional<glm::ivec2> pixel_at(const PresentInputs& inputs, const glm::vec2& window);
+// The texel of a texture of that size, shown as a picture, that a pixel of the window shows.
+std::optional<glm::ivec2> texel_at(const PresentInputs& inputs, const glm::vec2& window, const glm::ivec2& size);
+// The size at which a texture of its own shape fills the window as far as it can.
+glm::ivec2 fitted(const glm::ivec2& texture, const glm::ivec2& window);
 // The middle of a pixel of picture A in the window, which may lie outside of it.
 glm::vec2 place_of(const PresentInputs& inputs, const glm::ivec2& pixel);
 

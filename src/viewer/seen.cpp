@@ -63,6 +63,11 @@ void Viewer::probe(const PictureArea& area) {
   if (!state_.locked_pixel || !probes(area)) status_.locked_at.reset();
   if (probes(area) && readable_ && !last_is_b_ && a_.shown != nullptr && status_.drawn_size.x > 0)
     pixel = probed_pixel(area);
+  if (shows_texture_alone()) {
+    // Its texels are no pixels of the picture.
+    pixel.reset();
+    status_.locked_at.reset();
+  }
   status_.probed = pixel;
   if (!pixel || (pixel == status_.last_probed && !probe_is_old_)) return;
   probe_is_old_ = false;
@@ -79,6 +84,36 @@ void Viewer::probe(const PictureArea& area) {
   status_.probe.push_back({"shadow of B", number_text({b_.visibility[index]}, "")});
 }
 
+// Whether a texture of another size than the picture's takes its place.
+bool Viewer::shows_texture_alone() const {
+  const bool alone = is_target(state_.inspection.what) && !state_.inspection.over && !a_.values.numbers.empty();
+  return alone && glm::ivec2(a_.values.width, a_.values.height) != status_.drawn_size;
+}
+
+// The values that were read back to be shown, at the cursor: A's, and B's where it is shown too.
+void Viewer::read_texel(const PictureArea& area) {
+  status_.texel.reset();
+  const Values& values = a_.values;
+  const bool inspects = !state_.inspection.what.empty() && !values.numbers.empty();
+  status_.shown_size = inspects ? glm::ivec2(values.width, values.height) : glm::ivec2(0);
+  if (!inspects || !area.cursor) return;
+  const glm::vec2 window = *area.cursor * glm::vec2(window_size_) / area.size;
+  const std::optional<glm::ivec2> at = texel_at(present_inputs(window_size_), window, status_.shown_size);
+  if (!at) return;
+  const ColorMapping mapping = mapping_of(state_.inspection, device_.device);
+  const auto text = [&](const Values& of) {
+    const float* first = of.at(at->x, at->y);
+    const auto label = static_cast<std::size_t>(std::max(*first, 0.0f));
+    if (label < mapping.labels.size()) return mapping.labels[label];
+    return number_text({first, first + of.channels}, mapping.unit);
+  };
+  const bool texture = is_target(state_.inspection.what);
+  status_.texel = ShownTexel{.at = {at->x, texture ? values.height - 1 - at->y : at->y}, .value = text(values)};
+  const bool both = state_.comparison.on && b_.values.width == values.width && b_.values.height == values.height &&
+                    b_.values.channels == values.channels;
+  if (both) status_.texel->value = "A " + status_.texel->value + ", B " + text(b_.values);
+}
+
 void Viewer::show_pictures() {
   if (a_.shown == nullptr) return;
   const bool values = !state_.inspection.what.empty();
@@ -91,6 +126,7 @@ void Viewer::show_pictures() {
     side->shown = colored ? side->colors : &side->renderer.picture();
   }
   PresentInputs inputs = present_inputs(window_size_);
+  status_.fitted = glm::vec2(inputs.picture_size) / glm::vec2(window_size_);
   if (differ) inputs.b = nullptr;
   present(device_.device, inputs);
 }
@@ -126,12 +162,14 @@ void Viewer::color(Side& side, const Values& values, int number) {
 PresentInputs Viewer::present_inputs(const glm::ivec2& window_size) const {
   const cli::Size size = state_.document.options.size;
   const bool values = !state_.inspection.what.empty(), tints = values && state_.inspection.over;
+  const glm::ivec2 whole = shows_texture_alone() ? fitted({a_.values.width, a_.values.height}, window_size)
+                                                 : glm::ivec2(size.width, size.height);
   const auto tint_of = [&](const Side& side) { return tints && side.shown != side.colors ? side.colors : nullptr; };
   return {.a = a_.shown,
           .b = state_.comparison.on ? b_.shown : nullptr,
           .tint_a = tint_of(a_),
           .tint_b = state_.comparison.on ? tint_of(b_) : nullptr,
-          .picture_size = {size.width, size.height},
+          .picture_size = whole,
           .window_size = window_size,
           .comparison = state_.comparison,
           .zoom = state_.zoom,

@@ -19,6 +19,12 @@ struct ProbeRow {
   std::string name, value;
 };
 
+// What is shown instead of the picture, at the cursor.
+struct ShownTexel {
+  glm::ivec2 at{0};
+  std::string value;
+};
+
 // The figures of A against B, over the surfaces of the picture.
 struct PictureDifference {
   metrics::ErrorFigures figures;  // of visibility
@@ -54,6 +60,9 @@ struct ViewerStatus {
   std::vector<ProbeRow> probe;
   std::optional<glm::vec2> locked_at;  // the middle of the locked pixel, from the picture's upper left
   ColorMapping mapping;                // of the inspected values
+  glm::ivec2 shown_size{0};            // of what is shown instead of the picture, texels
+  std::optional<ShownTexel> texel;     // of it; of a texture as texelFetch() counts, from the lower left
+  glm::vec2 fitted{1};                 // share of the picture's area that it takes where it is not magnified
   Range range;                         // of the colours
   Range values;                        // of A's values; the same unless differences are shown
 };

@@ -145,6 +145,7 @@ void Viewer::frame() {
   guarded([&] { work = plan_pictures(area, ImGui::GetTime()); });
   if (work && !work->plan.at_rest) guarded([&] { draw_pictures(*work); });
   guarded([&] { probe(area); });
+  guarded([&] { read_texel(area); });
   guarded([&] { show_pictures(); });
   // Also the faults of programs that were unused when the shader was saved, and are compiled only now.
   if (device_.device.shaders.take_outdated() || !status_.shader_errors.empty())

@@ -113,6 +113,8 @@ class Viewer {
   bool probes(const PictureArea& area) const;
   std::optional<glm::ivec2> probed_pixel(const PictureArea& area);
   void probe(const PictureArea& area);
+  void read_texel(const PictureArea& area);
+  bool shows_texture_alone() const;
   void show_pictures();
   PresentInputs present_inputs(const glm::ivec2& window_size) const;
   void do_requests();

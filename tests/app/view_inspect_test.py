@@ -3,7 +3,7 @@
 import subprocess
 
 import pictures
-from desktop import LEFT, WHEEL_DOWN
+from desktop import LEFT, WHEEL_DOWN, WHEEL_UP
 from support import PROGRAM, main
 from window import STEPS, WindowTest, read
 
@@ -64,6 +64,45 @@ class Inspect(WindowTest):
             self.assertLessEqual(len(set(rows)), 64)
             self.assertGreater(len(set(rows)), 20)
             self.assertGreater((right - left) * (bottom - top), 64 * 64)
+
+
+    def texel(self, viewer):
+        """Coordinates, size and value that the legend has for the cursor."""
+        def text():
+            viewer.follow()
+            return next((name.removeprefix("texel=") for name in viewer.layout() if name.startswith("texel=")), None)
+
+        place, value = viewer.wait_for(text, "a value").split(":")
+        at, size = place.split(" of ")
+        return tuple(map(int, at.split(", "))), tuple(map(int, size.split(" × "))), value.strip()
+
+    def test_a_texture_fits_and_tells_its_own_texels(self):
+        with self.view(STEPS, *THESIS, size=(1100, 600)) as viewer:
+            viewer.open_tab("Inspect", "show=picture")
+            self.look_at(viewer, "target shadow 1/noise/blue")
+            left, top, right, bottom = viewer.box("picture")
+            viewer.rest()
+            whole = viewer.seen("picture")
+            side = min(right - left, bottom - top)  # of the square that the tile is fitted to
+            x0, y0 = left + (right - left - side) / 2, top + (bottom - top - side) / 2
+            bar = whole.crop(0, whole.height // 2, int(x0 - left) - 2, whole.height // 2 + 40)
+            self.assertEqual(len(bar.colors()), 1)
+            for x, y in ((0, 0), (5, 17), (40, 30), (63, 10)):
+                with self.subTest(x=x, y=y):
+                    place = int(x0 + (x + 0.5) * side / 64), int(y0 + (63 - y + 0.5) * side / 64)
+                    viewer.move(*place)
+                    viewer.wait_for(lambda at=(x, y): self.texel(viewer)[0] == at, f"texel {x}, {y}")
+                    _, size, value = self.texel(viewer)
+                    self.assertEqual(size, (64, 64))
+                    column, row = place[0] - left, place[1] - top
+                    grey = whole.rows[row][3 * column]
+                    self.assertAlmostEqual(float(value) * 255, grey, delta=0.6)
+            self.desktop.xdotool("keydown", "ctrl", "click", WHEEL_UP, "click", WHEEL_UP, "keyup", "ctrl")
+            viewer.leave()
+            viewer.wait_for(lambda: viewer.seen("picture") != whole, "a magnified texture")
+            viewer.press("0", lambda: True, "the key")
+            viewer.leave()
+            viewer.wait_for(lambda: viewer.seen("picture") == whole, "the whole texture")
 
 
 class Compare(WindowTest):
@@ -223,6 +262,14 @@ class Click(WindowTest):
             viewer.point_at("compare")
             self.desktop.xdotool("click", LEFT, "mousemove", *self.desktop.corner)
             viewer.wait_for(lambda: viewer.has("b"), "the choice of B")
+
+
+    def test_it_hits_where_the_pointer_was_not_seen_before(self):
+        with self.view(STEPS) as viewer:
+            viewer.leave()
+            viewer.follow()
+            self.desktop.xdotool("mousemove", "--window", viewer.window, *viewer.middle("tab Compare"), "click", LEFT)
+            viewer.wait_for(lambda: viewer.has("compare"), "the tab")
 
 
 class Key(WindowTest):
