@@ -78,10 +78,9 @@ class Page(TestCase):
     def choose_range(self, value):
         self.script("const select = document.getElementById('error-range'); select.value = arguments[0];"
                     "select.dispatchEvent(new Event('change'));", value)
-        shown = value or self.script("return document.querySelector('.error-map').dataset.range")
-        wait_for(lambda: self.script("return Array.from(document.querySelectorAll('.error-map'),"
-                                     "map => map.querySelector('.ends span').textContent)")
-                 == [f"−{shown} too dark"] * 10, "every legend")
+        texts = "map => [map.querySelector('.ends span').textContent, map.dataset.range]"
+        wait_for(lambda: all(text == f"−{value or own} too dark" for text, own in self.script(
+            f"return Array.from(document.querySelectorAll('.error-map'), {texts})")), "every legend")
         return self.errors()
 
     def test_the_reader_chooses_the_range_of_all_error_maps(self):
