@@ -106,7 +106,7 @@ std::optional<Viewer::PictureWork> Viewer::plan_pictures(const PictureArea& area
   status_.idle = work.plan.idle && status_.loading.empty();
   if (work.plan.a.restart) a_.renderer.restart();
   if (work.plan.b.restart) b_.renderer.restart();
-  if (work.plan.at_rest && unsettled_ > 0) {
+  if (work.plan.at_rest && (unsettled_ > 0 || state_.requests != Requests())) {
     work.plan.a = work.plan.b = {};
     work.plan.at_rest = false;
   }
