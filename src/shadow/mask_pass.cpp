@@ -46,7 +46,7 @@ std::vector<std::optional<gl::TexelRect>> bands_of(const LightWork& work) {
   const int height = std::max(pixels / all.width / Tiles::size, 1) * Tiles::size;
   std::vector<std::optional<gl::TexelRect>> bands;
   for (int y = 0; y < all.height; y += height) {
-    bands.push_back(
+    bands.emplace_back(
         gl::TexelRect{.x = all.x, .y = all.y + y, .width = all.width, .height = std::min(height, all.height - y)});
   }
   return bands;
