@@ -125,14 +125,12 @@ penumbra_caster_pass pass_of(const shadow::CasterPass& casters, penumbra_device&
 
 glm::vec3 camera_of(const glm::mat4& view) { return glm::vec3(glm::inverse(glm::dmat4(view))[3]); }
 
-// Of a light that brings some.
-shadow::FinishedMaps maps_of(const penumbra_light& light, const shadow::Inputs& inputs) {
-  if (light.kind != PENUMBRA_SUN) {
-    fail_with(PENUMBRA_ERROR_REFUSED, "light {} is a lamp, and penumbra_light.maps are those of a sun", light.id);
-  }
-  if (light.maps_count < 1 || light.maps_count > shadow::max_layers) {
-    fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_light.maps_count is {}; it is 1 to {}", light.maps_count,
-              shadow::max_layers);
+// Of the maps of a light that brings some.
+shadow::LightProjection map_projection_of(const penumbra_light& light, const shadow::Inputs& inputs) {
+  const int most = light.kind == PENUMBRA_LAMP ? 1 : shadow::max_layers;
+  if (light.maps_count < 1 || light.maps_count > most) {
+    fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_light.maps_count is {}; it is 1{}", light.maps_count,
+              most == 1 ? " for a lamp" : fmt::format(" to {}", most));
   }
   const auto count = static_cast<std::size_t>(light.maps_count);
   required(light.maps_world_to_clip, "penumbra_light.maps_world_to_clip");
@@ -142,15 +140,27 @@ shadow::FinishedMaps maps_of(const penumbra_light& light, const shadow::Inputs& 
     std::copy_n(light.maps_world_to_clip + 16 * i, 16, values);
     matrices.push_back(matrix_of(values, "penumbra_light.maps_world_to_clip"));
   }
-  shadow::FinishedMaps maps{
-      .depth = texture_of(light.maps, 0),
-      .projection = shadow::sun_projection({.world_to_clip = matrices,
-                                            .depth_zero_to_one = light.maps_depth_zero_to_one != 0,
-                                            .to_light = direction_of(light.to_light, "penumbra_light.to_light"),
-                                            .size = light.maps_size,
-                                            .camera = camera_of(inputs.view.view),
-                                            .casters = inputs.casters})};
+  if (light.kind == PENUMBRA_LAMP)
+    return shadow::spot_projection({.world_to_clip = matrices[0],
+                                    .depth_zero_to_one = light.maps_depth_zero_to_one != 0,
+                                    .reversed = light.maps_reversed != 0,
+                                    .lamp = std::get<shadow::Lamp>(source_of(light)),
+                                    .size = light.maps_size});
+  return shadow::sun_projection({.world_to_clip = matrices,
+                                 .depth_zero_to_one = light.maps_depth_zero_to_one != 0,
+                                 .reversed = light.maps_reversed != 0,
+                                 .to_light = direction_of(light.to_light, "penumbra_light.to_light"),
+                                 .size = light.maps_size,
+                                 .camera = camera_of(inputs.view.view),
+                                 .casters = inputs.casters});
+}
+
+shadow::FinishedMaps maps_of(const penumbra_light& light, const shadow::Inputs& inputs) {
+  shadow::FinishedMaps maps{.depth = texture_of(light.maps, 0),
+                            .projection = map_projection_of(light, inputs),
+                            .reversed = light.maps_reversed != 0};
   if (light.maps_atlas == nullptr) return maps;
+  const auto count = static_cast<std::size_t>(light.maps_count);
   for (std::size_t i = 0; i < count; ++i) maps.atlas.emplace_back(light.maps_atlas[2 * i], light.maps_atlas[2 * i + 1]);
   return maps;
 }
@@ -188,6 +198,7 @@ std::vector<shadow::Light> lights_of(const penumbra_light* lights, std::size_t c
                 light->struct_size, i, size);
     }
     const penumbra_light known = read_struct(light);
+    if (known.reserved != 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_light.reserved is not 0");
     made.push_back(light_of(known));
     if (inputs != nullptr && known.maps.id != 0) made.back().maps = maps_of(known, *inputs);
   }

@@ -238,21 +238,25 @@ typedef struct penumbra_light {
    * immutable or not, R8, RG8, RGBA8, R16F, RG16F or RGBA16F. All else in it stays as it is: other channels, layers and
    * levels, and texels outside of penumbra_frame.viewport. Lights may share a texture, but not a channel of the same
    * layer and level. penumbra_render() refuses what does not suit (PENUMBRA_ERROR_REFUSED); it looks at a texture
-   * that was no output in the view's last frame, so one that is defined anew needs another name or
+   * that was no output in the view's last three frames, so one that is defined anew needs another name or
    * penumbra_forget_view(). For penumbra_warm_up() any other value than 0 says that the light will have one. */
   uint32_t output_texture;
   int32_t output_level;   /**< its level, which is as large as penumbra_frame.depth; default 0 */
   int32_t output_layer;   /**< its layer, if it is an array; else and by default 0 */
   int32_t output_channel; /**< 0 (default) red, 1 green, 2 blue, 3 alpha */
 
-  /** Shadow maps of a sun that the engine has drawn; id 0 (default): none, penumbra_frame.draw draws them. Any depth
-   * format, or R32F (an array of it not with the techniques pcf_hardware and pcf_poisson, whose samplers compare); 0 is
-   * near the light, 1 far. A GL_TEXTURE_2D_ARRAY with a layer for each map, or an atlas: see maps_atlas. */
+  /** Shadow maps of a sun or a spot that the engine has drawn; id 0 (default): none, penumbra_frame.draw draws them.
+   * Any depth format, or R32F (an array of it is refused with the techniques pcf_hardware and pcf_poisson, whose
+   * samplers compare); 0 is near the light, 1 far, unless maps_reversed says otherwise. A GL_TEXTURE_2D_ARRAY with a
+   * layer for each map, or an atlas: see maps_atlas. */
   penumbra_texture maps;
   int32_t maps_size;               /**< width and height of each map, texels */
   int32_t maps_count;              /**< 1 to 8; default 0 */
   uint32_t maps_depth_zero_to_one; /**< 1 (default): clip space of maps_world_to_clip has z in 0..1; 0: in -1..1 */
-  /** maps_count matrices of 16 floats, from world to clip space: orthographic, along the sun's rays, the finest map
+  /** maps_count matrices of 16 floats, from world to clip space. Of a spot it is one: a perspective from its centre
+   * along its axis, of the same angle in x and y, at least that of its cone, with a near and a far plane (casters
+   * before the near plane or outside of the map cast no shadow). Lamps without an axis can't have maps given. Of a sun
+   * they are orthographic, along the sun's rays, the finest map
    * first; they may overlap or contain each other. The last one must hold all others, because receivers look there
    * first for how near to the light casters can be. PENUMBRA_ERROR_REFUSED says which map can't serve, and why:
    * perspective, warped, skewed or mirrored ones, depths that grow towards the light, a near plane behind casters
@@ -261,6 +265,9 @@ typedef struct penumbra_light {
   /** maps_count pairs of x and y: each map's lower left texel in an atlas, which is a GL_TEXTURE_2D. The maps are
    * copied to an array in each frame. Null (default): `maps` is an array. */
   const int32_t* maps_atlas;
+  uint32_t maps_reversed; /**< 1: `maps` are 1 near the light and 0 far (reversed Z), and copied in each frame; default
+                             0 */
+  uint32_t reserved;      /**< 0 */
 } penumbra_light;
 
 /** PENUMBRA_ERROR_ARGUMENT: `light` is null or `struct_size` is not that of a version of the struct. */

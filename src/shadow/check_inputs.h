@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <vector>
@@ -10,10 +9,12 @@
 
 namespace penumbra::shadow {
 
-// Remembers which of the caller's textures passed the checks in a view's last frame. OpenGL is queried about a texture
-// again only when its name, size or use changes.
+// Remembers which of the caller's textures passed the checks in a view's last frames. OpenGL is queried about a texture
+// again only when its name, size or use was in none of them.
 class TextureChecks {
  public:
+  static constexpr int remembered_frames = 3;  // of engines that take turns with two or three textures
+
   struct Key {
     unsigned id = 0;
     int width = 0, height = 0;
@@ -27,25 +28,27 @@ class TextureChecks {
     bool operator==(const Key&) const = default;
   };
 
-  // How a texture of receivers is read.
+  // How a texture is read.
   struct Source {
     unsigned target = 0;
-    int sample = 0;         // of those of a pixel
-    glm::vec2 place{0.5f};  // of that sample in the pixel, 0 to 1
+    int sample = 0;               // of receivers: of those of a pixel
+    glm::vec2 place{0.5f};        // of that sample in the pixel, 0 to 1
+    DepthRounding rounding = {};  // of receivers' depths
+    bool can_compare = false;     // of shadow maps: they have a depth format, which samplers can compare
 
     bool is_plain() const;  // a GL_TEXTURE_2D
     bool has_samples() const;
   };
 
-  void begin() { last_.swap(now_), now_.clear(); }
-  bool knows(const Key& key) const { return std::ranges::find(last_, key, &Entry::key) != last_.end(); }
-  void add(const Key& key) { now_.push_back({.key = key}); }
+  void begin();
 
-  // The same for a texture of receivers: null if it is not known.
+  // Null if it is not known.
   const Source* known_source(const Key& key) const;
   void add(const Key& key, const Source& source) { now_.push_back({.key = key, .source = source}); }
-  // Of one of this frame.
+  // Of a texture of receivers of this frame.
   const Source& source_of(const TextureView& view) const;
+  // Of shadow maps of this frame.
+  const Source& source_of(const FinishedMaps& maps) const;
 
   // The same for an output of this frame, with its description; `size`: of its level.
   bool takes_known_output(const OutputTexture& output, const glm::ivec2& size);
@@ -58,7 +61,8 @@ class TextureChecks {
   struct Entry {
     Key key;
     gl::TextureDesc desc = {};  // of an output
-    Source source = {};         // of receivers
+    Source source = {};         // of any other
+    int frames = 1;             // since it was used, and that one
   };
   std::vector<Entry> last_, now_;
 };

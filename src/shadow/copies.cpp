@@ -23,8 +23,11 @@ gl::ProgramDesc copy_program(const Source& source) {
           .defines = {{"ARRAY", array ? "1" : "0"}, {"SAMPLES", source.has_samples() ? "1" : "0"}}};
 }
 
-gl::ProgramDesc atlas_program() {
-  return {.name = "copy atlas", .vertex = "shared/full_screen.vert", .fragment = "shadow/drivers/copy_atlas.frag"};
+gl::ProgramDesc maps_program(bool atlas) {
+  return {.name = "copy maps",
+          .vertex = "shared/full_screen.vert",
+          .fragment = "shadow/drivers/copy_maps.frag",
+          .defines = {{"ATLAS", atlas ? "1" : "0"}}};
 }
 
 // One of the textures, and the format of its copy.
@@ -76,15 +79,21 @@ Inputs with_copies(gl::Device& device, ViewState& view, const Inputs& inputs) {
   return copies;
 }
 
-const gl::Texture& copy_atlas(gl::Device& device, std::string_view name, const FinishedMaps& maps) {
+const gl::Texture& copy_maps(gl::Device& device, std::string_view name, const FinishedMaps& maps) {
   const gl::Texture& target = shadow_map_target(device, name, maps.projection);
-  for (std::size_t i = 0; i < maps.atlas.size(); ++i) {
-    gl::Pass pass(device,
-                  {.name = "copy atlas",
-                   .depth = gl::Attachment{.texture = &target, .layer = static_cast<int>(i), .clear = glm::vec4(0)},
-                   .depth_test = gl::DepthTest::greater_equal,
-                   .depth_write = true});
-    pass.use(atlas_program()).set("corner", maps.atlas[i]);
+  const bool atlas = !maps.atlas.empty();
+  for (int layer = 0; layer < maps.projection.layers(); ++layer) {
+    gl::Pass pass(device, {.name = "copy maps",
+                           .depth = gl::Attachment{.texture = &target, .layer = layer, .clear = glm::vec4(0)},
+                           .depth_test = gl::DepthTest::greater_equal,
+                           .depth_write = true});
+    const gl::Program& program = pass.use(maps_program(atlas));
+    if (atlas) {
+      program.set("corner", maps.atlas[static_cast<std::size_t>(layer)]);
+    } else {
+      program.set("layer", layer);
+    }
+    program.set("reversed", maps.reversed ? 1 : 0);
     device.sampler({}).bind(first_pass_unit);
     gl::glBindTextureUnit(first_pass_unit, maps.depth.id);
     pass.draw_full_screen();
@@ -92,9 +101,9 @@ const gl::Texture& copy_atlas(gl::Device& device, std::string_view name, const F
   return target;
 }
 
-std::array<gl::ProgramDesc, 4> copy_programs() {
+std::array<gl::ProgramDesc, 5> copy_programs() {
   return {copy_program({.target = GL_TEXTURE_2D_ARRAY}), copy_program({.target = GL_TEXTURE_2D_MULTISAMPLE}),
-          copy_program({.target = GL_TEXTURE_2D_MULTISAMPLE_ARRAY}), atlas_program()};
+          copy_program({.target = GL_TEXTURE_2D_MULTISAMPLE_ARRAY}), maps_program(true), maps_program(false)};
 }
 
 }  // namespace penumbra::shadow

@@ -8,14 +8,14 @@
 namespace penumbra::shadow {
 
 // Textures of the caller of another kind than the other passes read: those of receivers that are layers of arrays or
-// have samples, and atlases of shadow maps. Their copies are targets of the device.
+// have samples, and shadow maps in an atlas or of reversed depth. Their copies are targets of the device.
 
 // The inputs with copies in place of such textures, and with the jitter of the samples that are copied.
 Inputs with_copies(gl::Device& device, ViewState& view, const Inputs& inputs);
 
-// The layers of an atlas, as the library's own maps are: see shadow_map_target().
-const gl::Texture& copy_atlas(gl::Device& device, std::string_view name, const FinishedMaps& maps);
+// The layers of an atlas, or of maps that are reversed, as the library's own maps are: see shadow_map_target().
+const gl::Texture& copy_maps(gl::Device& device, std::string_view name, const FinishedMaps& maps);
 
-std::array<gl::ProgramDesc, 4> copy_programs();
+std::array<gl::ProgramDesc, 5> copy_programs();
 
 }  // namespace penumbra::shadow

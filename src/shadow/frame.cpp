@@ -95,10 +95,10 @@ void draw_maps(const LightWork& work) {
   }
   if (!finished) {
     frame.depth = depth->id();
-  } else if (work.light.maps->atlas.empty()) {
-    frame.depth = work.light.maps->depth.id;
+  } else if (work.light.maps->is_copied()) {
+    frame.depth = copy_maps(work.device, work.prefix() + shadow_map_name, *work.light.maps).id();
   } else {
-    frame.depth = copy_atlas(work.device, work.prefix() + shadow_map_name, *work.light.maps).id();
+    frame.depth = work.light.maps->depth.id;
   }
   if (!frame.casters_moved) return;
   draw_movement(work.device, {.map = *frame.movement,
@@ -126,7 +126,8 @@ void upload_samples(const LightWork& work, const Technique& technique, const cha
 void upload_light(const LightWork& work, const char* name, const glm::vec2& last_jitter) {
   const LightTraits traits{.noise = noise_read(work.params(), static_cast<int>(work.state.age)),
                            .last_jitter = last_jitter,
-                           .depth_error = work.view.depth_error};
+                           .depth_error = work.view.depth_error,
+                           .made_normals = !work.view.brings_normals};
   work.state.shadow_block = &work.device.scratch(work.prefix() + name, sizeof(glsl::ShadowBlock));
   gl::write_value(*work.state.shadow_block, shadow_block(work.inputs, work.frame, traits));
 }
@@ -165,7 +166,7 @@ std::string scaled_prefix(const ViewState& view, int scale) { return fmt::format
 // Runs the technique and the denoiser for every scale-th pixel, and fills the light's layer of the mask from these.
 void draw_layer_at(int scale, const LightWork& work, ScaledViews& views) {
   const std::string prefix = scaled_prefix(work.view, scale);
-  if (!views.contains(scale)) views.emplace(scale, scaled_inputs(work.device, prefix, work.inputs, scale));
+  if (!views.contains(scale)) views.emplace(scale, scaled_inputs(work, prefix, scale));
   const ScaledInputs& scaled = views.at(scale);
   gl::TextureDesc desc = work.mask.desc();
   desc.width = scaled.inputs.depth.width;
@@ -239,6 +240,16 @@ ReadLight read_light(const MaskInputs& from, const Light& light, ViewState& view
           take_params(state, {.registry = from.registry, .defaults = from.defaults, .values = from.params}, light)};
 }
 
+// Samplers compare the depths of a depth format alone. Copies have one.
+void check_compared_maps(const Light& light, const TextureChecks& checked, const Technique& technique,
+                         const Wanted& wanted) {
+  const auto compares = [](const Recipe* recipe) { return recipe->sampler.compare; };
+  if (std::ranges::none_of(wanted.recipes, compares) || light.maps->is_copied()) return;
+  if (checked.source_of(*light.maps).can_compare) return;
+  fail("soft shadows: the maps of light {} are R32F, whose depths technique '{}' can't compare: use a depth format",
+       light.id, technique.name);
+}
+
 // Runs all steps for one light, from its projection to its layer of the mask.
 LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& view, LightFrame frame,
                       const gl::Texture& mask, ScaledViews& scaled) {
@@ -275,6 +286,7 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   if (frame.shape.square && light.maps && std::abs(std::sin(2 * frame.projection.cascades().turn)) > 1e-3) {
     fail("soft shadows: the maps of light {} are turned about its rays, which a square sun does not allow", light.id);
   }
+  if (light.maps) check_compared_maps(light, view.checked, technique, wanted);
   take_shape(state, frame.shape);
   begin_frame(state, light, frame.projection.layers(), same_params);
   if (visible) state.drawn_texels.reset();
@@ -286,13 +298,13 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   upload_blocks(work);
   if (from.inputs.normals.id == 0 && view.normals == nullptr) view.normals = &make_normals(work);
   build_products(work, wanted.recipes);
-  const int scale = mask_scale(from.inputs, technique, state.params);
+  const int scale = mask_scale(technique, state.params);
   if (scale == 1) {
     draw_layer(work);
   } else {
     draw_layer_at(scale, work, scaled);
   }
-  release_unused(work, has_shadow_map && (!light.maps || !light.maps->atlas.empty()));
+  release_unused(work, has_shadow_map && (!light.maps || light.maps->is_copied()));
   state.drawn = true;
   return frame;
 }

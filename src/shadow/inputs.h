@@ -103,13 +103,16 @@ struct CasterPass {
 };
 using DrawCasters = std::function<void(const CasterPass&, gl::Pass&)>;
 
-// A shadow map that the caller has already drawn: a depth texture array, or R32F except for the techniques pcf_hardware
-// and pcf_poisson, one layer for each layer of the projection; 0 is near, 1 far. Or an atlas, a GL_TEXTURE_2D whose
-// parts are copied to an array in each frame.
+// A shadow map that the caller has already drawn: a depth texture array, or R32F (which is refused with the techniques
+// pcf_hardware and pcf_poisson, whose samplers compare), one layer for each layer of the projection; 0 is near, 1 far.
+// Or an atlas, a GL_TEXTURE_2D whose parts are copied to an array in each frame.
 struct FinishedMaps {
   TextureView depth;
   LightProjection projection;
   std::vector<glm::ivec2> atlas = {};  // where each layer begins, texels: its lower left corner; empty: an array
+  bool reversed = false;               // 1 is near, 0 far; copied in each frame, too
+
+  bool is_copied() const { return reversed || !atlas.empty(); }
 };
 
 // A channel of a texture of the caller's, to which a light's visibility is written beside the mask: 1 is lit, 0 is in

@@ -40,13 +40,12 @@ glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, co
   block.noise_shift = traits.noise.shift;
   std::ranges::copy(traits.noise.place, block.noise_place);
   block.depth_to_ndc = zero_to_one ? glm::vec2(1, 0) : glm::vec2(2, -1);
-  const bool made_normals = inputs.normals.id == 0;
-  block.normals_from_depth = made_normals ? 1 : 0;
+  block.normals_from_depth = traits.made_normals ? 1 : 0;
   block.normal_decode = {conventions.normals_scale, conventions.normals_offset};
-  if (made_normals) block.normal_decode = {1, 0};
+  if (traits.made_normals) block.normal_decode = {1, 0};
   block.depth_error = {traits.depth_error.absolute, traits.depth_error.relative};
   block.sky_depth = conventions.reversed_z ? 0.0f : 1.0f;
-  block.octahedral_normals = made_normals || conventions.octahedral_normals ? 1 : 0;
+  block.octahedral_normals = traits.made_normals || conventions.octahedral_normals ? 1 : 0;
   block.light_extent = light.shape.extent;
   block.light_is_square = light.shape.square ? 1 : 0;
   block.history_valid = light.history ? 1 : 0;

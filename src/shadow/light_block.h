@@ -14,6 +14,7 @@ struct LightTraits {
   NoiseRead noise;
   glm::vec2 last_jitter{0};
   NdcError depth_error;
+  bool made_normals = false;  // from depths, since the caller brings none
 };
 
 // The contents of the uniform block that the shadow passes read for one view and one light.

@@ -39,28 +39,40 @@ struct Axes {
   Axis x, y, z;
 };
 
-// The clip space whose z is in 0..1, with w = 1.
-glm::dmat4 zero_to_one(glm::dmat4 world_to_clip, bool already) {
-  world_to_clip /= world_to_clip[3].w;
-  if (already) return world_to_clip;
-  for (glm::length_t column = 0; column < 4; ++column) world_to_clip[column].z *= 0.5;
-  world_to_clip[3].z += 0.5;
+// The clip space whose z is in 0..1, 0 near the light.
+glm::dmat4 zero_to_one(glm::dmat4 world_to_clip, bool already, bool reversed) {
+  for (glm::length_t column = 0; column < 4; ++column) {
+    glm::dvec4& values = world_to_clip[column];
+    if (!already) values.z = 0.5 * (values.z + values.w);
+    if (reversed) values.z = values.w - values.z;
+  }
   return world_to_clip;
+}
+
+// The same with w = 1.
+glm::dmat4 zero_to_one(const SunMatrices& maps, std::size_t layer) {
+  const glm::dmat4 world_to_clip(maps.world_to_clip[layer]);
+  return zero_to_one(world_to_clip / world_to_clip[3].w, maps.depth_zero_to_one, maps.reversed);
+}
+
+bool is_finite(const glm::dmat4& matrix) {
+  for (glm::length_t column = 0; column < 4; ++column) {
+    for (glm::length_t row = 0; row < 4; ++row) {
+      if (!std::isfinite(matrix[column][row])) return false;
+    }
+  }
+  return true;
 }
 
 Axes axes_of(const SunMatrices& maps, std::size_t layer) {
   glm::dmat4 matrix(maps.world_to_clip[layer]);
-  for (glm::length_t column = 0; column < 4; ++column) {
-    for (glm::length_t row = 0; row < 4; ++row) {
-      if (!std::isfinite(matrix[column][row])) refuse(layer, "has a matrix that is not finite");
-    }
-  }
+  if (!is_finite(matrix)) refuse(layer, "has a matrix that is not finite");
   const double w = matrix[3].w;
   const glm::dvec3 warp(matrix[0].w, matrix[1].w, matrix[2].w);
   if (w == 0 || glm::length(warp) > 1e-9 * std::abs(w)) {
     refuse(layer, "is warped (clip w is not constant): penumbrae need maps whose texels all have the same size");
   }
-  matrix = zero_to_one(matrix, maps.depth_zero_to_one);
+  matrix = zero_to_one(maps, layer);
   const glm::dvec3 anchor(maps.camera);
   const Axes axes{axis_of(matrix, 0, anchor), axis_of(matrix, 1, anchor), axis_of(matrix, 2, anchor)};
   for (const Axis* axis : {&axes.x, &axes.y, &axes.z}) {
@@ -73,7 +85,9 @@ void check_directions(const Axes& axes, const SunMatrices& maps, std::size_t lay
   const glm::dvec3 rays = -glm::normalize(glm::dvec3(maps.to_light));
   const double along = glm::dot(axes.z.direction, rays);
   if (along < -1 + same_direction * same_direction) {
-    refuse(layer, "has depths that grow towards the light: store 0 near the light and 1 far from it");
+    refuse(layer,
+           "has depths that grow towards the light: store 0 near the light and 1 far from it, or say that they "
+           "are reversed");
   }
   if (glm::length(axes.z.direction - rays) > same_direction) refuse(layer, "does not look along the sun's rays");
   const double skew =
@@ -117,7 +131,7 @@ double half_side_of(const Cascade& cascade) { return glm::max(cascade.half_exten
 // place points within a quarter of a texel of each other, also along the light.
 void check_places(const Cascades& cascades, const SunMatrices& maps, std::size_t layer) {
   const Cascade& cascade = cascades.items[layer];
-  const glm::dmat4 drawn = zero_to_one(glm::dmat4(maps.world_to_clip[layer]), maps.depth_zero_to_one);
+  const glm::dmat4 drawn = zero_to_one(maps, layer);
   const glm::dmat4 to_world = glm::inverse(cascade.world_to_clip);
   const double range = static_cast<double>(cascade.far_z) - cascade.near_z;
   const double depth_of_texel = 2 * half_side_of(cascade) / cascades.size / range;
@@ -163,6 +177,61 @@ void check_casters(const Cascades& cascades, std::size_t layer, const Box& caste
   }
 }
 
+template <typename... Args>
+[[noreturn]] void refuse_spot(fmt::format_string<Args...> text, Args&&... args) {
+  fail("shadow maps by the caller's matrices: the spot's map {}", fmt::format(text, std::forward<Args>(args)...));
+}
+
+glm::dvec4 row_of(const glm::dmat4& matrix, glm::length_t row) { return glm::transpose(matrix)[row]; }
+
+// Rows: unit vectors, exactly perpendicular, x and y across the map and z along its axis. `matrix`: of which w is the
+// depth in metres.
+glm::dmat3 spot_space_of(const glm::dmat4& matrix, const glm::dvec3& axis) {
+  const glm::dvec3 x(row_of(matrix, 0)), y(row_of(matrix, 1)), z(row_of(matrix, 3));
+  const double along_x = glm::length(x), along_y = glm::length(y);
+  if (!(along_x > 0) || !(along_y > 0)) refuse_spot("has a matrix that can't be inverted");
+  if (glm::length(z - axis) > same_direction) refuse_spot("does not look along the spot's axis");
+  const double skew = std::max({std::abs(glm::dot(x, y)) / along_y, std::abs(glm::dot(x, z)),
+                                std::abs(glm::dot(y, z)) * along_x / along_y}) /
+                      along_x;
+  if (skew > same_direction) refuse_spot("is skewed or off-centre: the spot's axis must be in its middle");
+  if (std::abs(along_x / along_y - 1) > same_direction) refuse_spot("spans different angles in x and y");
+  if (glm::dot(glm::cross(x, y), z) > 0)
+    refuse_spot("is mirrored: as seen from the lamp, x must grow to the right where y grows upwards");
+  const glm::dvec3 across = glm::normalize(x - glm::dot(x, z) * z);
+  return glm::transpose(glm::dmat3(across, glm::cross(across, z), z));
+}
+
+// Sets the planes at which the map stores 0 and 1. Depths of a perspective are a + b / z.
+void set_planes(LampMaps& maps, const glm::dmat4& matrix) {
+  const glm::dvec4 depth = row_of(matrix, 2), along = row_of(matrix, 3);
+  const double a = glm::dot(glm::dvec3(depth), glm::dvec3(along)), b = depth.w - a * along.w;
+  if (glm::length(glm::dvec3(depth) - a * glm::dvec3(along)) > same_direction) refuse_spot("has an oblique near plane");
+  if (!(b < 0)) refuse_spot("has depths that grow towards the lamp: say that they are reversed");
+  if (!(a > 1 + 1e-7)) refuse_spot("has no far plane");
+  maps.near = -b / a;
+  maps.far = b / (1 - a);
+}
+
+// As check_places(): between the far plane and a twentieth of its distance, where casters are far enough from the lamp
+// to need the map's resolution.
+void check_spot_places(const LampMaps& maps, const glm::dmat4& drawn) {
+  const glm::dmat4 read = maps.world_to_clip(0), to_world = glm::inverse(read);
+  for (const double distance : {maps.far, std::max(maps.near, maps.far / 20)}) {
+    const double depth = (1 / maps.near - 1 / distance) / (1 / maps.near - 1 / maps.far);
+    const double texel = 2 * maps.tangent * distance / maps.size;
+    const double texels_deep = distance * distance * (1 / maps.near - 1 / maps.far) / texel;
+    for (int i = 0; i < 4; ++i) {
+      const glm::dvec3 corner((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, depth);
+      const glm::dvec4 world = to_world * glm::dvec4(corner, 1);
+      const glm::dvec4 at = drawn * (world / world.w);
+      const glm::dvec3 apart = glm::abs(glm::dvec3(at) / at.w - corner);
+      if (!(std::max({apart.x * maps.size / 2, apart.y * maps.size / 2, apart.z * texels_deep}) <= 0.25))
+        refuse_spot("does not look from the lamp's centre: at its border that is more than a quarter of a texel");
+    }
+  }
+}
+
 }  // namespace
 
 LightProjection sun_projection(const SunMatrices& maps) {
@@ -202,6 +271,34 @@ LightProjection sun_projection(const SunMatrices& maps) {
   if (const std::string fault = projection.fault(); !fault.empty()) {
     fail("shadow maps by the caller's matrices: {}", fault);
   }
+  return projection;
+}
+
+LightProjection spot_projection(const SpotMatrix& map) {
+  const Lamp& lamp = map.lamp;
+  if (const std::string fault = fault_of(lamp); !fault.empty())
+    fail("shadow maps by the caller's matrices: the lamp {}", fault);
+  if (lamp.axis == glm::vec3(0))
+    fail("shadow maps by the caller's matrices: the lamp shines all round; maps can be given for suns and spots alone");
+  if (map.size < 1) fail("shadow maps by the caller's matrices: a size of {} texels", map.size);
+  const glm::dmat4 given(map.world_to_clip);
+  if (!is_finite(given)) refuse_spot("has a matrix that is not finite");
+  const double scale = glm::length(glm::dvec3(row_of(given, 3)));
+  if (!(scale > 1e-9)) refuse_spot("is orthographic: it must be a perspective from the lamp's centre");
+  const glm::dmat4 drawn = zero_to_one(given / scale, map.depth_zero_to_one, map.reversed);
+  LampMaps maps{.position = glm::dvec3(lamp.position),
+                .size = map.size,
+                .radius = lamp.radius,
+                .cone = std::cos(lamp.cone),
+                .range = lamp.range};
+  maps.world_to_lamp = spot_space_of(drawn, glm::normalize(glm::dvec3(lamp.axis)));
+  maps.tangent = 1 / glm::length(glm::dvec3(row_of(drawn, 0)));
+  set_planes(maps, drawn);
+  if (maps.tangent < std::tan(lamp.cone) * (1 - same_direction)) refuse_spot("spans less than the spot's cone");
+  check_spot_places(maps, drawn);
+  const LightProjection projection(maps);
+  if (const std::string fault = projection.fault(); !fault.empty())
+    fail("shadow maps by the caller's matrices: {}", fault);
   return projection;
 }
 

@@ -14,7 +14,8 @@ struct SunMatrices {
   // so layers may overlap or contain each other. The last one must hold all others: in it receivers look first for how
   // near to the light casters can be. What lies beyond a far plane casts and receives no shadow.
   std::span<const glm::mat4> world_to_clip;
-  bool depth_zero_to_one = true;  // clip-space z in 0..1; else -1..1. The map stores 0 near and 1 far in both cases.
+  bool depth_zero_to_one = true;  // clip-space z in 0..1; else -1..1. The map stores 0 near and 1 far in both cases,
+  bool reversed = false;          // or else 1 near and 0 far: see FinishedMaps::reversed
   glm::vec3 to_light{0, 1, 0};    // as in Sun
   int size = 0;                   // width and height of each layer, texels
   glm::vec3 camera{0};            // world: positions near it are kept most exact
@@ -28,11 +29,29 @@ struct SunMatrices {
 // they can't serve:
 //   - perspective or otherwise warped maps, such as trapezoidal or light-space perspective ones, and skewed ones;
 //   - maps that do not look along the sun's rays to a quarter of a texel, are mirrored, are turned against each other,
-//     or store 1 near the light;
+//     or store 1 near the light and are not said to be reversed;
 //   - maps whose near plane lies behind casters above them;
 //   - a last layer that does not hold the others, or that begins farther from the light than one of them;
 //   - a finer layer behind a coarser one, input that is not finite, a wrong number of layers or size.
 // With a square sun, render() refuses maps whose x axis is not horizontal: the square is that of light_axes().
 LightProjection sun_projection(const SunMatrices& maps);
+
+// A spot's shadow map that the caller draws with a matrix of its own.
+struct SpotMatrix {
+  // From world to clip space: a perspective from the lamp's centre along its axis, of the same angle in x and y, with
+  // a near and a far plane. What lies outside of it casts no shadow, so an angle that is wider than the cone serves
+  // the penumbrae at the cone's rim.
+  glm::mat4 world_to_clip{1};
+  bool depth_zero_to_one = true;  // clip-space z in 0..1; else -1..1
+  bool reversed = false;          // the map stores 1 near and 0 far: see FinishedMaps::reversed
+  Lamp lamp;                      // with an axis
+  int size = 0;                   // width and height, texels
+};
+
+// The projection of that map. Throws Error, in one line, where it can't serve: a lamp without an axis, whose light
+// reaches all six faces of a cube; an orthographic, skewed, off-centre or mirrored map, or one of unequal angles; one
+// that does not look along the spot's axis or from its centre to a quarter of a texel, or spans less than its cone; an
+// oblique near plane, no far plane, depths that grow towards the lamp and are not said to be reversed.
+LightProjection spot_projection(const SpotMatrix& map);
 
 }  // namespace penumbra::shadow

@@ -74,11 +74,15 @@ void bind_light(gl::Device& device, const LightFrame& frame, const LightState& s
   }
 }
 
+GLuint normals_of(const LightWork& work) {
+  if (work.inputs.normals.id != 0 || work.view.normals == nullptr) return work.inputs.normals.id;
+  return work.view.normals->id();
+}
+
 void bind_receivers(const LightWork& work) {
   for (const GLuint unit : {unit_receiver_depth, unit_receiver_normal}) work.device.sampler({}).bind(unit);
   gl::glBindTextureUnit(unit_receiver_depth, work.inputs.depth.id);
-  const GLuint normals = work.view.normals != nullptr ? work.view.normals->id() : work.inputs.normals.id;
-  gl::glBindTextureUnit(unit_receiver_normal, normals);
+  gl::glBindTextureUnit(unit_receiver_normal, normals_of(work));
 }
 
 void bind_inputs(const LightWork& work, const PassOwner& owner) {

@@ -40,6 +40,8 @@ const Product* find_product(const LightFrame& frame, std::string_view name);
 
 // Binds what every program of the owner reads, except the receivers: uniform blocks, maps, noise, products.
 void bind_light(gl::Device& device, const LightFrame& frame, const LightState& state, const PassOwner& owner);
+// The texture of the receivers' normals: the caller's, or those that were made from depths; 0: not made yet.
+GLuint normals_of(const LightWork& work);
 // Binds the receivers' depth and normals.
 void bind_receivers(const LightWork& work);
 // Both.

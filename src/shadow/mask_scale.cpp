@@ -40,8 +40,8 @@ glm::mat4 mapped(const glm::mat4& projection, const NdcMap& map) {
 
 }  // namespace
 
-int mask_scale(const Inputs& inputs, const Technique& technique, const ParamSet& params) {
-  return technique.resolve || inputs.normals.id == 0 ? 1 : params.get_int("mask.scale");
+int mask_scale(const Technique& technique, const ParamSet& params) {
+  return technique.resolve ? 1 : params.get_int("mask.scale");
 }
 
 gl::ProgramDesc scaled_receivers_program() {
@@ -50,19 +50,24 @@ gl::ProgramDesc scaled_receivers_program() {
           .fragment = "shadow/drivers/scaled_receivers.frag"};
 }
 
-ScaledInputs scaled_inputs(gl::Device& device, const std::string& prefix, const Inputs& inputs, int scale) {
+ScaledInputs scaled_inputs(const LightWork& work, const std::string& prefix, int scale) {
+  const Inputs& inputs = work.inputs;
+  gl::Device& device = work.device;
   const Rect viewport = viewport_of(inputs);
   const glm::ivec2 size = scaled_size(viewport, scale);
   const NdcMap map = ndc_map(viewport, scale);
+  // As large as the textures need at most: a view whose viewport varies from frame to frame then keeps them.
+  const glm::ivec2 of_all = scaled_size({0, 0, inputs.depth.width, inputs.depth.height}, scale);
   const auto target = [&](const char* name, GLenum format) -> const gl::Texture& {
-    return device.target(prefix + name, {.format = format, .width = size.x, .height = size.y});
+    return device.target(prefix + name, {.format = format, .width = of_all.x, .height = of_all.y});
   };
   const gl::Texture& depth = target("depth", GL_R32F);
-  const gl::Texture& normals = target("normals", inputs.conventions.octahedral_normals ? GL_RG32F : GL_RGBA32F);
+  const bool two_channels = inputs.normals.id != 0 && inputs.conventions.octahedral_normals;
+  const gl::Texture& normals = target("normals", two_channels ? GL_RG32F : GL_RGBA32F);
   ScaledInputs scaled{.inputs = inputs, .ndc = map.scale};
   scaled.inputs.depth = view_of(depth);
   scaled.inputs.normals = view_of(normals);
-  scaled.inputs.viewport = {};
+  scaled.inputs.viewport = {0, 0, size.x, size.y};
   View& view = scaled.inputs.view;
   view.projection = mapped(view.projection, map);
   view.last_projection = mapped(view.last_projection, map);
@@ -80,8 +85,9 @@ ScaledInputs scaled_inputs(gl::Device& device, const std::string& prefix, const 
   program.set("ndc_scale", scaled.ndc);
   for (const GLuint unit : {unit_receiver_depth, unit_receiver_normal, unit_motion}) device.sampler({}).bind(unit);
   gl::glBindTextureUnit(unit_receiver_depth, inputs.depth.id);
-  gl::glBindTextureUnit(unit_receiver_normal, inputs.normals.id);
+  gl::glBindTextureUnit(unit_receiver_normal, normals_of(work));
   gl::glBindTextureUnit(unit_motion, inputs.motion.id);
+  pass.set_viewport(0, 0, size.x, size.y);
   pass.draw_full_screen();
   return scaled;
 }
@@ -90,7 +96,7 @@ void upsample(const LightWork& work, const gl::Texture& scaled_mask, int scale) 
   const PassOwner owner = owner_of(work.technique);
   const PassContext context(work, owner);
   const Rect& viewport = work.frame.viewport;
-  const glm::ivec2 tiles = tile_count(viewport);
+  const glm::ivec2 tiles = tile_count({0, 0, work.mask.width(), work.mask.height()});
   const gl::Texture& missing =
       context.target("missing pixels", {.format = GL_RG32UI, .width = tiles.x, .height = tiles.y});
   const gl::Buffer& list = begin_tile_list(context, "missing tiles", tiles);

@@ -9,17 +9,17 @@ namespace penumbra::shadow {
 // Masks of fewer pixels than the view has (parameter mask.scale): the technique and the denoiser see every scale-th
 // pixel of each row and column, and the mask is interpolated between these. See docs/adr/0033-mask-scale.md.
 
-// What the light's technique and the inputs allow: techniques that fill the mask by passes of their own do so for all
-// pixels, and so do all where the caller brings no normals, which can't be made from the depths of so few pixels.
-int mask_scale(const Inputs& inputs, const Technique& technique, const ParamSet& params);
+// What the light's technique allows: those that fill the mask by passes of their own do so for all pixels.
+int mask_scale(const Technique& technique, const ParamSet& params);
 
 // The receivers at these pixels, as if they were the caller's: textures that are targets of the device and begin with
-// `prefix`, and the matrices of a view that has just these pixels.
+// `prefix`, and the matrices of a view that has just these pixels. Normals that are made from depths are those that
+// were made for the whole view.
 struct ScaledInputs {
   Inputs inputs;
   glm::vec2 ndc{1};  // extent of the whole view in it, over that of the caller's
 };
-ScaledInputs scaled_inputs(gl::Device& device, const std::string& prefix, const Inputs& inputs, int scale);
+ScaledInputs scaled_inputs(const LightWork& work, const std::string& prefix, int scale);
 
 // Fills the light's layer of the mask from that layer of a mask for every scale-th pixel. Pixels that none of the four
 // around them can stand for are left to the technique's visibility().

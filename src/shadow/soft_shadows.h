@@ -74,7 +74,7 @@ struct FrameKind {
 // Throws Error for bad input (see check()), for shaders that do not compile, when it is called from a callback of its
 // own, when a display list is recorded, in a view's first frame when no context is current or load_api() was not
 // called, and in the first call on another thread than before when the current context is not the device's. A caller's
-// texture is checked again only when its name, size or use differs from the last frame of the view.
+// texture is checked again only when its name, size or use was not in the last three frames of the view.
 class SoftShadows {
  public:
   explicit SoftShadows(gl::Device& device, Registry registry = built_in_registry());

@@ -6,8 +6,8 @@
 namespace penumbra::test {
 
 // Counts OpenGL calls during its lifetime: it replaces entry points of a kind, in the table that the thread uses, by
-// functions that count and then call the real ones. Only one may exist at a time, and the context that was current at its start must stay
-// current.
+// functions that count and then call the real ones. Only one may exist at a time, and the context that was current at
+// its start must stay current.
 class GlCalls {
  public:
   enum class Kind {

@@ -48,7 +48,8 @@ class ShadowMatrices : public TriangleTest {
     });
   }
 
-  gl::Texture draw_maps(const std::vector<glm::mat4>& matrices) {
+  // `matrices`: with clip-space z in 0..1, 0 near the light unless they are reversed.
+  gl::Texture draw_maps(const std::vector<glm::mat4>& matrices, bool reversed = false) {
     gl::Texture maps("engine's maps", {.target = GL_TEXTURE_2D_ARRAY,
                                        .format = GL_DEPTH_COMPONENT32F,
                                        .width = size,
@@ -56,11 +57,12 @@ class ShadowMatrices : public TriangleTest {
                                        .layers = static_cast<int>(matrices.size())});
     const Geometry casters(scene_);
     for (std::size_t i = 0; i < matrices.size(); ++i) {
-      gl::Pass pass(renderer_->device(),
-                    {.name = "engine's maps",
-                     .depth = gl::Attachment{.texture = &maps, .layer = static_cast<int>(i), .clear = glm::vec4(1)},
-                     .depth_test = gl::DepthTest::less,
-                     .depth_write = true});
+      gl::Pass pass(renderer_->device(), {.name = "engine's maps",
+                                          .depth = gl::Attachment{.texture = &maps,
+                                                                  .layer = static_cast<int>(i),
+                                                                  .clear = glm::vec4(reversed ? 0 : 1)},
+                                          .depth_test = reversed ? gl::DepthTest::greater : gl::DepthTest::less,
+                                          .depth_write = true});
       casters.casters()({.kind = shadow::CasterKind::depth,
                          .layer = static_cast<int>(i),
                          .world_to_clip = matrices[i],
@@ -142,6 +144,30 @@ TEST_F(ShadowMatrices, AnAtlasGivesTheShadowsOfAnArray) {
   EXPECT_NE(refusal([](auto& maps) { maps.atlas.clear(); }).find("is not a GL_TEXTURE_2D_ARRAY"), std::string::npos);
 }
 
+TEST_F(ShadowMatrices, DepthsOfAColourFormatAreRefusedWhereSamplersCompare) {
+  const std::vector<glm::mat4> matrices = slices(scene_.to_light);
+  gl::Texture colour("engine's maps", {.target = GL_TEXTURE_2D_ARRAY,
+                                       .format = GL_R32F,
+                                       .width = size,
+                                       .height = size,
+                                       .layers = static_cast<int>(matrices.size())});
+  const gl::Texture maps = draw_maps(matrices);
+  for (int i = 0; i < maps.desc().layers; ++i) {
+    const std::vector<float> depths = gl::read_floats(maps, 1, 0, i);
+    gl::glTextureSubImage3D(colour.id(), 0, 0, 0, i, size, size, 1, GL_RED, GL_FLOAT, depths.data());
+  }
+  const auto of_colour = [&](shadow::FinishedMaps& given) { given.depth.id = colour.id(); };
+  EXPECT_EQ(draw_with(matrices, "pcss", of_colour).mask, draw_with(matrices, "pcss").mask);
+  for (const std::string technique : {"pcf_hardware", "pcf_poisson"}) {
+    for (int frame = 0; frame < 2; ++frame) {
+      EXPECT_EQ(message_of([&] { draw_with(matrices, technique, of_colour); }),
+                "soft shadows: the maps of light 0 are R32F, whose depths technique '" + technique +
+                    "' can't compare: use a depth format");
+    }
+    EXPECT_NO_THROW(draw_with(matrices, technique));
+  }
+}
+
 // By the C interface, from an array and from an atlas, without a callback that draws casters.
 TEST_F(ShadowMatrices, AreTakenByTheCInterface) {
   const std::vector<glm::mat4> matrices = slices(scene_.to_light);
@@ -177,9 +203,14 @@ TEST_F(ShadowMatrices, AreTakenByTheCInterface) {
     refused = penumbra_last_error();
     light.maps_count = 9;
     EXPECT_EQ(penumbra_render(c.device, c.settings, &frame, &mask), PENUMBRA_ERROR_ARGUMENT);
-    light.maps_count = 3;
     light.kind = PENUMBRA_LAMP;
+    light.maps_count = 2;
+    EXPECT_EQ(penumbra_render(c.device, c.settings, &frame, &mask), PENUMBRA_ERROR_ARGUMENT);
+    light.maps_count = 1;
     EXPECT_EQ(penumbra_render(c.device, c.settings, &frame, &mask), PENUMBRA_ERROR_REFUSED);
+    EXPECT_STREQ(penumbra_last_error(),
+                 "shadow maps by the caller's matrices: the lamp shines all round; maps can be given for suns and "
+                 "spots alone");
     EXPECT_EQ(c.passes[PENUMBRA_PASS_DEPTH], 0);
   });
   EXPECT_NE(refused.find("layer"), std::string::npos) << refused;
@@ -189,6 +220,121 @@ TEST_F(ShadowMatrices, AreTakenByTheCInterface) {
     for (std::size_t i = 0; i < mask.size(); i += 4) most = std::max<double>(most, std::abs(mask[i] - expected[i]));
     EXPECT_LE(most, 0.02);
   }
+}
+
+// A spot's map in the conventions of engines, in which x y z w of clip space are those of `projection` and z is stored
+// as it is, or as 0.5 z + 0.5.
+struct SpotConvention {
+  const char* name;
+  glm::mat4 projection;
+  bool depth_zero_to_one, reversed, atlas;
+};
+
+TEST_F(ShadowMatrices, ASpotsMapGivesTheShadowsOfTheLibrarysOwn) {
+  const glm::vec3 at(3, 6, 2);
+  const shadow::Lamp lamp{.position = at, .radius = 0.25f, .axis = glm::normalize(-at), .cone = 0.5f};
+  const glm::mat4 to_zero_to_one(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f, 1);
+  const SpotConvention conventions[] = {
+      {"0..1", glm::perspectiveRH_ZO(1.2f, 1.0f, 0.5f, 20.0f), true, false, false},
+      {"-1..1", glm::perspectiveRH_NO(1.2f, 1.0f, 0.5f, 20.0f), false, false, false},
+      {"-1..1, atlas", glm::perspectiveRH_NO(1.2f, 1.0f, 0.5f, 20.0f), false, false, true},
+      {"reversed", glm::perspectiveRH_ZO(1.2f, 1.0f, 20.0f, 0.5f), true, true, false},
+      {"reversed, -1..1, atlas", glm::perspectiveRH_NO(1.2f, 1.0f, 20.0f, 0.5f), false, true, true}};
+  const auto under = [&](const shadow::Light& light) {
+    return [&light](shadow::Inputs& inputs) {
+      inputs.lights = {&light, 1};
+      if (light.maps) inputs.draw = {};
+    };
+  };
+  for (const SpotConvention& convention : conventions) {
+    const glm::mat4 matrix = convention.projection * glm::lookAt(at, glm::vec3(0), glm::vec3(0.3f, 1, 0));
+    const glm::mat4 drawn = convention.depth_zero_to_one ? matrix : to_zero_to_one * matrix;
+    const gl::Texture maps = draw_maps({drawn}, convention.reversed);
+    const gl::Texture atlas("atlas", {.format = GL_DEPTH_COMPONENT32F, .width = size + 40, .height = size + 7});
+    gl::glCopyImageSubData(maps.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, atlas.id(), GL_TEXTURE_2D, 0, 40, 7, 0, size,
+                           size, 1);
+    const shadow::LightProjection projection =
+        shadow::spot_projection({.world_to_clip = matrix,
+                                 .depth_zero_to_one = convention.depth_zero_to_one,
+                                 .reversed = convention.reversed,
+                                 .lamp = lamp,
+                                 .size = size});
+    shadow::FinishedMaps finished{{maps.id(), size, size}, projection, {}, convention.reversed};
+    if (convention.atlas) {
+      finished.depth = {atlas.id(), atlas.width(), atlas.height()};
+      finished.atlas = {{40, 7}};
+    }
+    const shadow::Light own_light{.source = lamp}, given_light{.source = lamp, .maps = finished};
+    for (const char* technique : {"pcss", "slices", "pcf_hardware", "evsm"}) {
+      const std::vector<float> own = render(technique, under(own_light)).visibilities();
+      const std::vector<float> given = render(technique, under(given_light)).visibilities();
+      double sum = 0;
+      int different = 0;
+      for (std::size_t i = 0; i < own.size(); ++i) {
+        sum += std::pow(static_cast<double>(own[i]) - given[i], 2);
+        different += std::abs(own[i] - given[i]) > 0.25f ? 1 : 0;
+      }
+      const auto lit_in_part = [](float value) { return value > 0.1f && value < 0.9f; };
+      EXPECT_LT(std::sqrt(sum / static_cast<double>(own.size())), 0.02) << technique << " " << convention.name;
+      EXPECT_LE(different, 20) << technique << " " << convention.name;
+      EXPECT_GT(std::ranges::count_if(given, lit_in_part), 20) << technique << " " << convention.name;
+      EXPECT_GT(std::ranges::count(given, 0.0f), 500) << technique << " " << convention.name;
+    }
+  }
+}
+
+TEST_F(ShadowMatrices, ASpotsMapIsTakenByTheCInterface) {
+  const glm::vec3 at(3, 6, 2);
+  const shadow::Lamp lamp{.position = at, .radius = 0.25f, .axis = glm::normalize(-at), .cone = 0.5f};
+  const glm::mat4 matrix =
+      glm::perspectiveRH_ZO(1.2f, 1.0f, 20.0f, 0.5f) * glm::lookAt(at, glm::vec3(0), glm::vec3(0.3f, 1, 0));
+  const gl::Texture maps = draw_maps({matrix}, true);
+  const shadow::FinishedMaps finished{
+      {maps.id(), size, size},
+      shadow::spot_projection({.world_to_clip = matrix, .reversed = true, .lamp = lamp, .size = size}),
+      {},
+      true};
+  const shadow::Light light{.source = lamp, .maps = finished};
+  CInterface c(test_context().get_proc_address());
+  const Geometry geometry(scene_);
+  ParamSet params = renderer_->params();
+  params.set("sun.angle", 6.0f);
+  c.set(params);
+  std::vector<float> of_c;
+  const std::vector<float> expected =
+      render("pcss", [&](shadow::Inputs& inputs) {
+        inputs.lights = {&light, 1};
+        penumbra_frame frame = c.frame_of(inputs, geometry);
+        inputs.draw = {};
+        penumbra_light of_engine = frame.lights[0];
+        frame.lights = &of_engine;
+        frame.draw = nullptr;
+        of_engine.maps = {maps.id(), size, size};
+        of_engine.maps_size = size;
+        of_engine.maps_count = 1;
+        of_engine.maps_world_to_clip = glm::value_ptr(matrix);
+        of_engine.maps_reversed = 1;
+        of_c = c.render(frame);
+        of_engine.reserved = 1;
+        penumbra_mask mask{};
+        mask.struct_size = sizeof mask;
+        EXPECT_EQ(penumbra_render(c.device, c.settings, &frame, &mask), PENUMBRA_ERROR_ARGUMENT);
+      }).mask;
+  EXPECT_EQ(of_c, expected);
+}
+
+TEST_F(ShadowMatrices, MapsOfAnotherKindOfLightAreRefused) {
+  const std::vector<glm::mat4> matrices = slices(scene_.to_light);
+  EXPECT_EQ(message_of([&] {
+              const gl::Texture maps = draw_maps(matrices);
+              const shadow::Light light{
+                  .source = shadow::Lamp{.position = {0, 5, 0}},
+                  .maps = shadow::FinishedMaps{
+                      {maps.id(), size, size},
+                      shadow::sun_projection({.world_to_clip = matrices, .to_light = scene_.to_light, .size = size})}};
+              render("pcss", [&](shadow::Inputs& inputs) { inputs.lights = {&light, 1}; });
+            }),
+            "soft shadows: light 0 is a lamp and its maps are those of a sun");
 }
 
 TEST_F(ShadowMatrices, TurnedOnesDoNotServeASquareSun) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "gpu/gl_calls.h"
 #include "gpu/triangle_scene.h"
 #include "lib/packed_texel.glsl"
 
@@ -167,10 +168,8 @@ TEST_F(ShadowScale, AnEdgeStaysSharp) {
   EXPECT_LT(rms(full.visibilities(), scaled.visibilities()), 0.05);
 }
 
-TEST_F(ShadowScale, WithoutNormalsAndForTechniquesWithPassesOfTheirOwnTheMaskIsThatOfAllPixels) {
+TEST_F(ShadowScale, ForTechniquesWithPassesOfTheirOwnTheMaskIsThatOfAllPixels) {
   const TriangleScene scene = box_on_ground(61, 47);
-  const auto without = [](shadow::Inputs& in) { in.normals = {}; };
-  EXPECT_EQ(render(scene, 1, without).mask, render(scene, 2, without).mask);
   for (const char* technique : {"shadow_volume", "ssss"}) {
     params.set("technique", std::string(technique));
     EXPECT_EQ(render(scene, 1).mask, render(scene, 2).mask) << technique;
@@ -236,7 +235,81 @@ TEST_F(ShadowScale, TheHistoryIsFoundWhereTheSurfaceWas) {
   }
 }
 
-// Without normals all pixels are computed, with textures of another size.
+// They are made from the depths of all pixels, so those of the pixels that are computed are the same.
+TEST_F(ShadowScale, WithoutNormalsThePixelsThatAreComputedAreThoseOfTheFullMask) {
+  const TriangleScene scene = box_on_ground(121, 83);
+  const auto without = [](shadow::Inputs& in) { in.normals = {}; };
+  const Shadowed full = render(scene, 1, without);
+  for (const int scale : {2, 3, 4}) {
+    SCOPED_TRACE(scale);
+    const Shadowed scaled = render(scene, scale, without);
+    EXPECT_EQ(renderer_->mask().lights[0].scale, scale);
+    int apart = 0, of = 0;
+    for (int y = 0; y < scene.height; y += scale) {
+      for (int x = 0; x < scene.width; x += scale, ++of)
+        apart += std::abs(full.visibility(x, y) - scaled.visibility(x, y)) > 0.01f ? 1 : 0;
+    }
+    EXPECT_LE(apart, of / 200);
+    EXPECT_LT(rms(full.visibilities(), scaled.visibilities()), 0.03);
+  }
+}
+
+// A quad above a ground, by a camera that sees the ground alone: depths give its normals exactly but for their
+// rounding.
+TEST_F(ShadowScale, OnFlatGroundNormalsFromDepthGiveTheMaskOfThoseThatAreBrought) {
+  TriangleScene scene;
+  scene.add_quad({-8, 0, -8}, {0, 0, 16}, {16, 0, 0});
+  scene.add_quad({-1, 4, -1}, {0, 0, 2}, {2, 0, 0});
+  scene.width = 121;
+  scene.height = 83;
+  scene.view = glm::lookAt(glm::vec3(2, 3, 4), glm::vec3(0, 0, 0), glm::vec3(0, 1, 0));
+  scene.projection = perspective(0.8f, 121.0f / 83.0f, 0.1f);
+  for (const int scale : {2, 4}) {
+    const Shadowed with = render(scene, scale);
+    const Shadowed without = render(scene, scale, [](shadow::Inputs& in) {
+      in.view.id = 20;
+      in.normals = {};
+    });
+    const std::vector<float> a = with.visibilities(), b = without.visibilities();
+    EXPECT_GT(std::ranges::count_if(a, [](float value) { return value > 0.1f && value < 0.9f; }), 100) << scale;
+    float most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+    EXPECT_LE(most, 0.01f) << scale;
+  }
+}
+
+// As with a size that follows the time that frames take.
+TEST(ShadowScaleSteady, AViewportThatVariesMakesNothing) {
+  const auto context = gl::make_context(backend_name(), {.debug = false});
+  TriangleRenderer renderer;
+  const TriangleScene scene = box_on_ground(160, 120);
+  for (const char* technique : {"pcss", "slices_denoised"}) {
+    ParamSet params = renderer.params();
+    renderer.shadows().registry().select(params, technique);
+    params.set("cascades.size", 64);
+    params.set("mask.scale", 2);
+    std::map<std::string, int> counts;
+    for (int frame = 0; frame < 8; ++frame) {
+      std::optional<GlCalls> calls;
+      renderer.render(
+          scene, params,
+          [&](shadow::Inputs& in) {
+            in.view.last_view = in.view.view;
+            in.view.last_projection = in.view.projection;
+            if (frame > 1) in.viewport = {0, 0, 160 - 9 * frame, 120 - 7 * frame};
+            calls.emplace(GlCalls::Kind::creations);
+          },
+          [&] {
+            counts = calls->counts();
+            calls.reset();
+          });
+      if (frame > 1) {
+        EXPECT_EQ(counts, (std::map<std::string, int>())) << technique << " frame " << frame;
+      }
+    }
+  }
+}
+
 TEST_F(ShadowScale, AFrameThatBeginsOrCeasesToBringNormalsHasNoHistory) {
   renderer_->shadows().registry().select(params, "thesis");
   params.set("history.reuse", true);

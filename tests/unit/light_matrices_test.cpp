@@ -71,6 +71,99 @@ TEST(LightMatrices, DepthsFromMinusOneAreThoseThatTheMapStores) {
   EXPECT_LT(glm::length(a - b), 1e-5);
 }
 
+TEST(LightMatrices, ReversedDepthsAreThoseOfAMapThatIsNot) {
+  const glm::mat4 reversal(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 1, 1);
+  const std::vector<glm::mat4> plain{map_matrix({1, 0, 2}, 5)}, reversed{reversal * plain[0]};
+  SunMatrices maps = maps_of(reversed);
+  maps.reversed = true;
+  const glm::dvec3 at(3, 2, -4);
+  const glm::dvec3 a = clip(sun_projection(maps).world_to_clip(0), at);
+  const glm::dvec3 b = clip(sun_projection(maps_of(plain)).world_to_clip(0), at);
+  EXPECT_LT(glm::length(a - b), 1e-5);
+}
+
+const glm::vec3 spot_at(3, 6, 2);
+
+// Of a spot at spot_at that shines at the origin.
+glm::mat4 spot_matrix(float angle, const glm::mat4& projection) {
+  return projection * glm::lookAt(spot_at, glm::vec3(0), glm::vec3(std::sin(angle), std::cos(angle), 0.1f));
+}
+glm::mat4 spot_perspective() { return glm::perspectiveRH_ZO(1.2f, 1.0f, 0.5f, 30.0f); }
+
+SpotMatrix spot_map(const glm::mat4& world_to_clip) {
+  return {.world_to_clip = world_to_clip,
+          .lamp = {.position = spot_at, .radius = 0.1f, .axis = glm::normalize(-spot_at), .cone = 0.55f},
+          .size = 1024};
+}
+
+std::string spot_refusal(const SpotMatrix& map) {
+  try {
+    spot_projection(map);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(SpotMatrices, PlaceTheSameTexelsAndDepths) {
+  const glm::mat4 to_minus_one(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2, 0, 0, 0, -1, 1);
+  const glm::mat4 reversal(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 1, 1);
+  const glm::mat4 matrix = spot_matrix(0.3f, spot_perspective());
+  SpotMatrix minus_one = spot_map(to_minus_one * matrix), reversed = spot_map(reversal * matrix);
+  minus_one.depth_zero_to_one = false;
+  reversed.reversed = true;
+  for (const SpotMatrix& map : {spot_map(matrix), minus_one, reversed, spot_map(7.0f * matrix)}) {
+    const LightProjection projection = spot_projection(map);
+    ASSERT_EQ(projection.layers(), 1);
+    EXPECT_EQ(projection.size(), 1024);
+    EXPECT_EQ(projection.fault(), "");
+    for (const glm::dvec3 at : {glm::dvec3(0), {1, 2, 1}, {-1, 0, 1}, {2.5, 5, 1.5}}) {
+      const glm::dvec3 expected = clip(glm::dmat4(matrix), at), made = clip(projection.world_to_clip(0), at);
+      EXPECT_LT(glm::length(expected - made), 1e-4);
+    }
+  }
+}
+
+TEST(SpotMatrices, MatricesThatCannotServeAreRefusedWithTheReason) {
+  const std::string begin = "shadow maps by the caller's matrices: ", map = begin + "the spot's map ";
+  const glm::mat4 perspective = spot_perspective(), good = spot_matrix(0, perspective);
+  ASSERT_EQ(spot_refusal(spot_map(good)), "accepted");
+  const auto of_projection = [&](const glm::mat4& projection) {
+    return spot_refusal(spot_map(spot_matrix(0, projection)));
+  };
+  EXPECT_EQ(of_projection(glm::orthoRH_ZO(-5.0f, 5.0f, -5.0f, 5.0f, 1.0f, 60.0f)),
+            map + "is orthographic: it must be a perspective from the lamp's centre");
+  EXPECT_EQ(of_projection(glm::perspectiveRH_ZO(1.2f, 1.5f, 0.5f, 30.0f)), map + "spans different angles in x and y");
+  EXPECT_EQ(of_projection(glm::perspectiveRH_ZO(1.0f, 1.0f, 0.5f, 30.0f)), map + "spans less than the spot's cone");
+  EXPECT_EQ(of_projection(glm::frustumRH_ZO(-0.4f, 0.5f, -0.4f, 0.5f, 0.5f, 30.0f)),
+            map + "is skewed or off-centre: the spot's axis must be in its middle");
+  EXPECT_EQ(of_projection(glm::scale(glm::mat4(1), glm::vec3(-1, 1, 1)) * perspective),
+            map + "is mirrored: as seen from the lamp, x must grow to the right where y grows upwards");
+  glm::mat4 oblique = perspective;
+  oblique[0][2] = 0.1f;
+  EXPECT_EQ(of_projection(oblique), map + "has an oblique near plane");
+  EXPECT_EQ(of_projection(glm::perspectiveRH_ZO(1.2f, 1.0f, 30.0f, 0.5f)),
+            map + "has depths that grow towards the lamp: say that they are reversed");
+  glm::mat4 endless = perspective;
+  endless[2][2] = -1;
+  EXPECT_EQ(of_projection(endless), map + "has no far plane");
+  EXPECT_EQ(spot_refusal(spot_map(perspective * glm::lookAt(spot_at, {0, 0, 0.1f}, {0, 1, 0}))),
+            map + "does not look along the spot's axis");
+  EXPECT_EQ(spot_refusal(spot_map(good * glm::translate(glm::mat4(1), {0, 0, 0.01f}))),
+            map + "does not look from the lamp's centre: at its border that is more than a quarter of a texel");
+  EXPECT_EQ(spot_refusal(spot_map(glm::mat4(0))),
+            map + "is orthographic: it must be a perspective from the lamp's centre");
+  EXPECT_EQ(spot_refusal(spot_map(good * std::numeric_limits<float>::quiet_NaN())),
+            map + "has a matrix that is not finite");
+  SpotMatrix all_round = spot_map(good), no_size = spot_map(good), no_cone = spot_map(good);
+  all_round.lamp.axis = glm::vec3(0);
+  no_size.size = 0;
+  no_cone.lamp.cone = 0;
+  EXPECT_EQ(spot_refusal(all_round), begin + "the lamp shines all round; maps can be given for suns and spots alone");
+  EXPECT_EQ(spot_refusal(no_size), begin + "a size of 0 texels");
+  EXPECT_EQ(spot_refusal(no_cone), begin + "the lamp has a cone that is not between 0 and π/2");
+}
+
 TEST(LightMatrices, MatricesThatCannotServeAreRefusedWithTheReason) {
   const std::string begin = "shadow maps by the caller's matrices: layer ";
   const glm::mat4 good = map_matrix({1, 0, 2}, 5);
@@ -85,7 +178,9 @@ TEST(LightMatrices, MatricesThatCannotServeAreRefusedWithTheReason) {
   EXPECT_EQ(refusal({elsewhere}), begin + "0 does not look along the sun's rays");
   const glm::mat4 reversed(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 1, 1);
   EXPECT_EQ(refusal({reversed * good}),
-            begin + "0 has depths that grow towards the light: store 0 near the light and 1 far from it");
+            begin +
+                "0 has depths that grow towards the light: store 0 near the light and 1 far from it, or say that "
+                "they are reversed");
   const glm::mat4 mirror = glm::scale(glm::mat4(1), glm::vec3(1, -1, 1));
   EXPECT_EQ(refusal({mirror * good}),
             begin + "0 is mirrored: as seen from the light, x must grow to the right where y grows upwards");
