@@ -1,7 +1,8 @@
 // Computes one level of the depth pyramid, from 4 × 4 texels of the shadow map or from 2 × 2 texels of the finer level.
 #include "shared/language.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+// Long rows: a group reads the map's texels in the order in which a linear texture has them in memory.
+layout(local_size_x = 32, local_size_y = 2) in;
 layout(binding = 1, rg32f) uniform writeonly restrict image2DArray level;
 
 uniform vec4 drawn[8];    // by layer, the lowest and the highest texel that casters were drawn to

@@ -13,9 +13,8 @@ struct DepthBounds {
   float edge;  // beside an edge of the map
 };
 
-// Bounds over a rectangle of these half widths and a little beyond: at most 5 × 5 texels of a level.
-DepthBounds depth_bounds(vec3 position, vec2 radius, Light light) {
-  int level = pyramid_level(position, 0.25 * radius, light, pyramid_base, textureQueryLevels(shadow_pyramid));
+// Bounds over a rectangle of these half widths and a little beyond, in the texels of a level.
+DepthBounds rectangle_bounds(vec3 position, vec2 radius, int level, Light light) {
   ivec2 last = max(last_texel(), 0) >> (level + 2);
   TexelRange range = pyramid_range(position, radius, light, pyramid_base, level, last);
   vec2 stored = vec2(1.0);
@@ -25,6 +24,12 @@ DepthBounds depth_bounds(vec3 position, vec2 radius, Light light) {
     }
   }
   return DepthBounds(stored_depth(stored.x, light), stored_depth(stored.y, light));
+}
+
+// The same in at most 5 × 5 texels.
+DepthBounds depth_bounds(vec3 position, vec2 radius, Light light) {
+  int level = pyramid_level(position, 0.25 * radius, light, pyramid_base, textureQueryLevels(shadow_pyramid));
+  return rectangle_bounds(position, radius, level, light);
 }
 
 // The finest level at which a disc touches at most 2 × 2 texels.
@@ -82,11 +87,6 @@ float edge_radius(Receiver receiver, Light light) {
 // the same radii from bounds over finer texels of the pyramid. A large texel also holds high casters that are far from
 // the disc.
 
-// Bounds over a disc of that radius about a receiver and a little beyond.
-DepthBounds fine_bounds(Receiver receiver, float radius, Light light) {
-  return depth_bounds(receiver.position, vec2(radius + 1.5 * texel_size(receiver, light)), light);
-}
-
 // Radius, metres, of the disc that contains what blocks light from a receiver, if nothing in a disc of radius `limit`
 // is nearer to the light than that depth.
 float narrowed_radius(Receiver receiver, float limit, float least, Light light) {
@@ -97,14 +97,20 @@ float fine_search_radius(Receiver receiver, Light light) {
   float radius = search_radius(receiver, light);
   if (radius == 0.0) return 0.0;
   Light widest = with_widest_layer(receiver, light);
-  return narrowed_radius(receiver, radius, fine_bounds(receiver, radius, widest).least, widest);
+  float with_margin = radius + 1.5 * texel_size(receiver, widest);
+  float nearest = depth_bounds(receiver.position, vec2(with_margin), widest).least;
+  return narrowed_radius(receiver, radius, nearest, widest);
 }
 
-// edge_radius(), narrowed where it is above `wide` metres.
+// edge_radius() in up to three steps, of which the last two follow where it is above `wide` metres: bounds over at most
+// 3 × 3 texels of a level, and then over at most 5 × 5.
 float fine_edge_radius(Receiver receiver, float wide, Light light) {
-  float radius = edge_radius(receiver, light);
-  for (int i = 0; i < 2 && radius > wide; ++i) {
-    radius = narrowed_radius(receiver, radius, fine_bounds(receiver, radius, light).edge, light);
+  float radius = light.read_radius;
+  for (int i = 0; i < 3 && (i == 0 || radius > wide); ++i) {
+    float with_margin = radius + 1.5 * texel_size(receiver, light);
+    int level = disc_level(receiver.position, (i == 0 ? 0.5 : 0.25) * with_margin, light);
+    float edge = rectangle_bounds(receiver.position, vec2(with_margin), level, light).edge;
+    radius = narrowed_radius(receiver, radius, edge, light);
   }
   return radius;
 }
