@@ -98,6 +98,7 @@ penumbra_result penumbra_device_create(const penumbra_device_desc* desc, penumbr
     const ThreadCall call(*made);
     const LoadedApi api(given.get_proc, given.get_proc_user);
     made->objects = std::make_unique<DeviceObjects>();
+    penumbra::gl::DeviceScope(made->objects->device).mark_context();
     *device = made.release();
   });
 }

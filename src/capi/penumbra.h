@@ -61,7 +61,7 @@ PENUMBRA_API uint32_t penumbra_version(void);
 typedef enum penumbra_result {
   PENUMBRA_OK = 0,             /**< it has done what it says */
   PENUMBRA_ERROR_ARGUMENT = 1, /**< the call itself: a null pointer, a struct's size, a value that is not finite, a call
-                                  from within a callback of a device */
+                                  from within a callback of a device or while another thread is in a call with it */
   PENUMBRA_ERROR_REFUSED = 2,  /**< what it was given does not suit: textures, matrices, lights, names or values of
                                   parameters; or the driver can't: a shader does not compile, its memory is full */
   PENUMBRA_ERROR_CONTEXT = 3,  /**< no OpenGL context is current, it is not the device's, it can't be drawn with now, it
@@ -114,12 +114,14 @@ PENUMBRA_API penumbra_result penumbra_device_create(const penumbra_device_desc* 
 
 /** Deletes the device and all its OpenGL objects. Its context must be current. If it is not, the objects are left
  * to their context, and the result is PENUMBRA_ERROR_CONTEXT; the device is gone nevertheless. Null: nothing happens.
- * PENUMBRA_ERROR_ARGUMENT: called from within a callback of a device; this one stays then. */
+ * PENUMBRA_ERROR_ARGUMENT: called from within a callback of a device, or while another thread is in a call with this
+ * one, which stays then. */
 PENUMBRA_API penumbra_result penumbra_device_destroy(penumbra_device* device);
 
 /** For a context that is lost or destroyed: forgets all OpenGL objects without an OpenGL call, so that objects of the
  * same names in a new context stay. Needs no context. Only penumbra_device_destroy() can follow: it then needs none
- * either. PENUMBRA_ERROR_ARGUMENT: null, or called from within a callback of a device. */
+ * either. PENUMBRA_ERROR_ARGUMENT: null, called from within a callback of a device, or while another thread is in a
+ * call with this one. */
 PENUMBRA_API penumbra_result penumbra_device_abandon(penumbra_device* device);
 
 /* --------------------------------------------------------------------------------------------------------- Settings */
@@ -212,7 +214,9 @@ enum {
 };
 
 /** A texture of the engine's. Filters, wrap and compare modes do not matter; swizzle, base and maximum level and
- * GL_DEPTH_STENCIL_TEXTURE_MODE must have OpenGL's initial values. */
+ * GL_DEPTH_STENCIL_TEXTURE_MODE must have OpenGL's initial values. A view looks at a texture that it was not given in
+ * its last three frames: one that is deleted or defined anew and comes back within these needs another name or size, or
+ * penumbra_forget_view(). */
 typedef struct penumbra_texture {
   uint32_t id;    /**< OpenGL's name; 0: none */
   int32_t width;  /**< of level 0, texels */
@@ -253,14 +257,17 @@ typedef struct penumbra_light {
   int32_t maps_size;               /**< width and height of each map, texels */
   int32_t maps_count;              /**< 1 to 8; default 0 */
   uint32_t maps_depth_zero_to_one; /**< 1 (default): clip space of maps_world_to_clip has z in 0..1; 0: in -1..1 */
-  /** maps_count matrices of 16 floats, from world to clip space. Of a spot it is one: a perspective from its centre
-   * along its axis, of the same angle in x and y, at least that of its cone, with a near and a far plane (casters
-   * before the near plane or outside of the map cast no shadow). Lamps without an axis can't have maps given. Of a sun
-   * they are orthographic, along the sun's rays, the finest map
-   * first; they may overlap or contain each other. The last one must hold all others, because receivers look there
-   * first for how near to the light casters can be. PENUMBRA_ERROR_REFUSED says which map can't serve, and why:
+  /** maps_count matrices of 16 floats, from world to clip space.
+   *
+   * Of a sun they are orthographic, along the sun's rays, the finest map first; they may overlap or contain each other.
+   * The last one must hold all others, because receivers look there first for how near to the light casters can be.
+   * With a square sun their x axis must be horizontal. PENUMBRA_ERROR_REFUSED says which map can't serve, and why:
    * perspective, warped, skewed or mirrored ones, depths that grow towards the light, a near plane behind casters
-   * (penumbra_frame.casters), whose depths were clamped. With a square sun their x axis must be horizontal. */
+   * (penumbra_frame.casters), whose depths were clamped.
+   *
+   * Of a spot it is one: a perspective from its centre along its axis, of the same angle in x and y, at least that of
+   * its cone, with a near and a far plane, the far one at most 2000 times as far away, and depths of at least 24 bits.
+   * Casters before the near plane or outside of the map cast no shadow. Lamps without an axis can't have maps given. */
   const float* maps_world_to_clip;
   /** maps_count pairs of x and y: each map's lower left texel in an atlas, which is a GL_TEXTURE_2D. The maps are
    * copied to an array in each frame. Null (default): `maps` is an array. */

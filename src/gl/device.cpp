@@ -261,6 +261,8 @@ DeviceScope::DeviceScope(Device& device) : device_(device), outer_(current_api) 
 
 DeviceScope::~DeviceScope() { current_api = outer_; }
 
+void DeviceScope::mark_context() { device_.empty_vertex_array(); }
+
 bool DeviceScope::has_context() {
   Device::Impl& impl = *device_.impl_;
   const std::thread::id here = std::this_thread::get_id();

@@ -75,6 +75,9 @@ class DeviceScope {
   DeviceScope(const DeviceScope&) = delete;
   DeviceScope& operator=(const DeviceScope&) = delete;
 
+  // Makes the object by which has_context() knows the device's context: the one that is current. The device's first
+  // pass makes it, too.
+  void mark_context();
   // Whether the context that is current on this thread may be the device's. OpenGL is asked only where the device was
   // last used on another thread, since drivers would have to wait.
   bool has_context();

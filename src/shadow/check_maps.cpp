@@ -58,7 +58,11 @@ void check_maps(const Light& given, TextureChecks& checks) {
     }
     check_size(name, depth);
     if (!holds_depth(depth.id)) fail("soft shadows: the maps of light {} hold no depth", light);
-    source.can_compare = level_parameter(depth.id, GL_TEXTURE_DEPTH_SIZE) > 0;
+    const GLint bits = level_parameter(depth.id, GL_TEXTURE_DEPTH_SIZE);
+    source.can_compare = bits > 0;
+    // Depths of a perspective need more than those of a sun, and the bias of lamps covers no coarser rounding.
+    if (projection.texels_vary() && bits > 0 && bits < 24)
+      fail("soft shadows: the map of light {} has depths of {} bits; a lamp's needs at least 24", light, bits);
   }
   if (atlas) {
     check_atlas(maps, light);

@@ -1,5 +1,7 @@
 #include "lamp_maps.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -85,6 +87,9 @@ std::string LampMaps::fault() const {
   if (!finite) return "the lamp's maps are not finite";
   if ((count != 1 && count != cube_faces) || size < 1) return "the lamp has no maps";
   if (!(near > 0) || !(far > near) || !(tangent > 0)) return "the lamp's maps have no extent";
+  if (near < far / most_far_over_near * (1 - 1e-6))
+    return fmt::format("the lamp's maps have a near plane at {:.3g} m, less than 1/{} of the far plane's {:.3g} m",
+                       near, most_far_over_near, far);
   return {};
 }
 

@@ -14,8 +14,8 @@ struct SunMatrices {
   // so layers may overlap or contain each other. The last one must hold all others: in it receivers look first for how
   // near to the light casters can be. What lies beyond a far plane casts and receives no shadow.
   std::span<const glm::mat4> world_to_clip;
-  bool depth_zero_to_one = true;  // clip-space z in 0..1; else -1..1. The map stores 0 near and 1 far in both cases,
-  bool reversed = false;          // or else 1 near and 0 far: see FinishedMaps::reversed
+  bool depth_zero_to_one = true;  // clip-space z in 0..1; else -1..1
+  bool reversed = false;          // the map stores 1 near and 0 far; else 0 near and 1 far: see FinishedMaps::reversed
   glm::vec3 to_light{0, 1, 0};    // as in Sun
   int size = 0;                   // width and height of each layer, texels
   glm::vec3 camera{0};            // world: positions near it are kept most exact

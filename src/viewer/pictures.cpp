@@ -141,6 +141,8 @@ void Viewer::draw_at_rest(const PictureWork& work) {
   try {
     guarded([&] { draw_pictures(work); });
   } catch (const GivenUp&) {
+    // Values are read from the renderer's last frame, which is to be A's again.
+    a_.renderer.restart();
     readable_ = false;
     unsettled_ = settling;
   }

@@ -61,12 +61,11 @@ std::optional<glm::ivec2> Viewer::probed_pixel(const PictureArea& area) {
 void Viewer::probe(const PictureArea& area) {
   std::optional<glm::ivec2> pixel;
   if (!state_.locked_pixel || !probes(area)) status_.locked_at.reset();
-  if (probes(area) && readable_ && !last_is_b_ && a_.shown != nullptr && status_.drawn_size.x > 0)
-    pixel = probed_pixel(area);
   if (shows_texture_alone()) {
     // Its texels are no pixels of the picture.
-    pixel.reset();
     status_.locked_at.reset();
+  } else if (probes(area) && readable_ && !last_is_b_ && a_.shown != nullptr && status_.drawn_size.x > 0) {
+    pixel = probed_pixel(area);
   }
   status_.probed = pixel;
   if (!pixel || (pixel == status_.last_probed && !probe_is_old_)) return;
@@ -103,8 +102,9 @@ void Viewer::read_texel(const PictureArea& area) {
   const ColorMapping mapping = mapping_of(state_.inspection, device_.device);
   const auto text = [&](const Values& of) {
     const float* first = of.at(at->x, at->y);
-    const auto label = static_cast<std::size_t>(std::max(*first, 0.0f));
-    if (label < mapping.labels.size()) return mapping.labels[label];
+    // Of values below 0, such as the sky's, there are none; nor of NaN.
+    if (*first >= 0 && *first < static_cast<float>(mapping.labels.size()))
+      return mapping.labels[static_cast<std::size_t>(*first)];
     return number_text({first, first + of.channels}, mapping.unit);
   };
   const bool texture = is_target(state_.inspection.what);

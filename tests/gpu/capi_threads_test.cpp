@@ -122,6 +122,18 @@ TEST(CapiThreads, ADeviceWithoutItsContextIsOneClearError) {
   EXPECT_EQ(penumbra_warm_up(c.device, c.settings, &made.frame), PENUMBRA_OK) << penumbra_last_error();
 }
 
+TEST(CapiThreads, ADeviceThatHasDrawnNothingKnowsItsContext) {
+  const auto context = gl::make_context(backend_name(), {});
+  const CInterface c(context->get_proc_address());
+  const Made made;
+  elsewhere([&] {
+    const auto another = gl::make_context(backend_name(), {});
+    EXPECT_EQ(penumbra_warm_up(c.device, c.settings, &made.frame), PENUMBRA_ERROR_CONTEXT);
+    EXPECT_STREQ(penumbra_last_error(), not_current);
+  });
+  EXPECT_EQ(penumbra_warm_up(c.device, c.settings, &made.frame), PENUMBRA_OK) << penumbra_last_error();
+}
+
 TEST(CapiThreads, ADeviceFollowsItsContextToAnotherThread) {
   auto context = gl::make_context(backend_name(), {});
   auto c = std::make_unique<CInterface>(context->get_proc_address());

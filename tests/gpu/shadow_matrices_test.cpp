@@ -283,6 +283,26 @@ TEST_F(ShadowMatrices, ASpotsMapGivesTheShadowsOfTheLibrarysOwn) {
   }
 }
 
+TEST_F(ShadowMatrices, ASpotsMapNeedsDepthsOf24Bits) {
+  const glm::vec3 at(3, 6, 2);
+  const shadow::Lamp lamp{.position = at, .radius = 0.25f, .axis = glm::normalize(-at), .cone = 0.5f};
+  const glm::mat4 matrix =
+      glm::perspectiveRH_ZO(1.2f, 1.0f, 0.5f, 20.0f) * glm::lookAt(at, glm::vec3(0), glm::vec3(0.3f, 1, 0));
+  const auto draw_with_maps = [&](GLenum format) {
+    const gl::Texture maps(
+        "maps", {.target = GL_TEXTURE_2D_ARRAY, .format = format, .width = size, .height = size, .layers = 1});
+    const shadow::Light light{
+        .source = lamp,
+        .maps = shadow::FinishedMaps{{maps.id(), size, size},
+                                     shadow::spot_projection({.world_to_clip = matrix, .lamp = lamp, .size = size})}};
+    render("pcss", [&](shadow::Inputs& inputs) { inputs.lights = {&light, 1}; });
+  };
+  const std::string refused = message_of([&] { draw_with_maps(GL_DEPTH_COMPONENT16); });
+  EXPECT_NE(refused.find("has depths of 16 bits; a lamp's needs at least 24"), std::string::npos) << refused;
+  for (const GLenum format : {GL_DEPTH_COMPONENT24, GL_DEPTH24_STENCIL8, GL_DEPTH_COMPONENT32F, GL_R32F})
+    EXPECT_NO_THROW(draw_with_maps(format)) << format;
+}
+
 TEST_F(ShadowMatrices, ASpotsMapIsTakenByTheCInterface) {
   const glm::vec3 at(3, 6, 2);
   const shadow::Lamp lamp{.position = at, .radius = 0.25f, .axis = glm::normalize(-at), .cone = 0.5f};

@@ -310,6 +310,7 @@ TEST(ShadowScaleSteady, AViewportThatVariesMakesNothing) {
   }
 }
 
+// What was stored for a history was made with other normals.
 TEST_F(ShadowScale, AFrameThatBeginsOrCeasesToBringNormalsHasNoHistory) {
   renderer_->shadows().registry().select(params, "thesis");
   params.set("history.reuse", true);

@@ -147,6 +147,8 @@ TEST(SpotMatrices, MatricesThatCannotServeAreRefusedWithTheReason) {
   glm::mat4 endless = perspective;
   endless[2][2] = -1;
   EXPECT_EQ(of_projection(endless), map + "has no far plane");
+  EXPECT_EQ(of_projection(glm::perspectiveRH_ZO(1.2f, 1.0f, 0.01f, 30.0f)),
+            begin + "the lamp's maps have a near plane at 0.01 m, less than 1/2000 of the far plane's 30 m");
   EXPECT_EQ(spot_refusal(spot_map(perspective * glm::lookAt(spot_at, {0, 0, 0.1f}, {0, 1, 0}))),
             map + "does not look along the spot's axis");
   EXPECT_EQ(spot_refusal(spot_map(good * glm::translate(glm::mat4(1), {0, 0, 0.01f}))),

@@ -163,7 +163,9 @@ async function drawnErrors(map, range) {
 async function showErrors(map, range) {
   const image = map.querySelector(".pane img");
   image.dataset.drawn ??= image.src;
-  image.src = range === "" ? image.dataset.drawn : await drawnErrors(map, Number(range));
+  const drawn = range === "" ? image.dataset.drawn : await drawnErrors(map, Number(range));
+  if (range !== errorRange.value) return;  // another one was chosen meanwhile
+  image.src = drawn;
   for (const label of map.querySelectorAll("[data-label]")) {
     label.textContent = label.dataset.label.replace("{}", range || map.dataset.range);
   }
