@@ -296,7 +296,7 @@ LightProjection spot_projection(const SpotMatrix& map) {
   set_planes(maps, drawn);
   if (maps.tangent < std::tan(lamp.cone) * (1 - same_direction)) refuse_spot("spans less than the spot's cone");
   check_spot_places(maps, drawn);
-  const LightProjection projection(maps);
+  LightProjection projection(maps);
   if (const std::string fault = projection.fault(); !fault.empty())
     fail("shadow maps by the caller's matrices: {}", fault);
   return projection;
