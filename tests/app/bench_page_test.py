@@ -1,44 +1,36 @@
 """The page of penumbra bench in a browser: bars of each technique's passes, on wide and narrow screens."""
 
 import json
+import pathlib
 
 import browser
-from support import ROOT, TestCase, main, run, temporary_folder
+from support import ROOT, main, run, temporary_folder
 
 TECHNIQUES = ["hard", "pcss", "slices_denoised"]
 
 
-class Page(TestCase):
+class Page(browser.PageTest):
     @classmethod
-    def setUpClass(cls):
+    def make_page(cls):
         folder = temporary_folder()
         cls.addClassCleanup(folder.cleanup)
         cls.page, cls.data = f"{folder.name}/bench.html", f"{folder.name}/bench.json"
         result = run("bench", ROOT / "scenes" / "steps.glb", "--technique", ",".join(TECHNIQUES), "--size", "64x36",
                      "--set", "cascades.size=64", "--frames", "3", "-o", cls.page, "-o", cls.data)
         assert result.returncode == 0, result.stderr
-        cls.browser = browser.Browser()
-        cls.browser.__enter__()
-        cls.addClassCleanup(cls.browser.__exit__)
-
-    def setUp(self):
-        self.browser.resize(1280, 800)
-        self.browser.open(self.page)
-
-    def tearDown(self):
-        self.assertEqual(self.browser.log(), [])
 
     def test_each_bar_is_as_long_as_its_passes_take(self):
         widths = self.browser.script(
             "const bars = {}; for (const part of document.querySelectorAll('.plot rect')) {"
             "const bar = part.querySelector('title').textContent.split(':')[0];"
             "bars[bar] = (bars[bar] || 0) + part.getBoundingClientRect().width; } return bars;")
-        costs = json.load(open(self.data, encoding="utf-8"))["points"][0]["costs"]
+        costs = json.loads(pathlib.Path(self.data).read_text(encoding="utf-8"))["points"][0]["costs"]
         sums = {cost["label"]: sum(each["median_ms"] for each in cost["passes"] if "/" not in each["name"])
                 for cost in costs}
         self.assertEqual(sorted(widths), sorted(TECHNIQUES))
         for name in TECHNIQUES:
-            self.assertAlmostEqual(widths[name] / widths["hard"], sums[name] / sums["hard"], delta=0.03 * sums[name] / sums["hard"])
+            ratio = sums[name] / sums["hard"]
+            self.assertAlmostEqual(widths[name] / widths["hard"], ratio, delta=0.03 * ratio)
         colours = self.browser.script("return Array.from(document.querySelectorAll('.plot .key span'),"
                                       "spot => getComputedStyle(spot).backgroundColor)")
         self.assertEqual(len(set(colours)), len(colours))

@@ -3,19 +3,20 @@
 import browser
 from desktop import wait_for
 from pictures import scene
-from support import TestCase, main, temporary_folder, run
+from support import main, temporary_folder, run
 
 EQUAL = "brute_force:sampling.seed=32768"  # as the reference, so that nothing differs
 TECHNIQUES = f"none,hard,pcf,pcss,{EQUAL}"
 HOSTILE = "<script>alert('a&b')</script>"
 
 
-class Page(TestCase):
+class Page(browser.PageTest):
     @classmethod
-    def setUpClass(cls):
+    def make_page(cls):
         folder = temporary_folder()
         cls.addClassCleanup(folder.cleanup)
         cls.report = f"{folder.name}/report"
+        cls.page = f"{cls.report}/index.html"
         # A scene may be called anything that a file can be.
         cls.scene = f"{folder.name}/{HOSTILE.replace('/', '_')}.glb"
         with open(cls.scene, "wb") as file:
@@ -23,16 +24,6 @@ class Page(TestCase):
         result = run("compare", cls.scene, scene("steps"), "-o", cls.report, "--technique", TECHNIQUES, "--reference",
                      "brute_force", "--set", "sun.angle=4", "--size", "320x180", "--no-cache")
         assert result.returncode == 0, result.stderr
-        cls.browser = browser.Browser()
-        cls.browser.__enter__()
-        cls.addClassCleanup(cls.browser.__exit__)
-
-    def setUp(self):
-        self.browser.resize(1280, 800)
-        self.browser.open(f"{self.report}/index.html")
-
-    def tearDown(self):
-        self.assertEqual(self.browser.log(), [])
 
     def script(self, text, *arguments):
         return self.browser.script(text, *arguments)

@@ -11,6 +11,8 @@ import unittest
 import urllib.error
 import urllib.request
 
+from support import TestCase
+
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # the protocol's key of an element
 FLAGS = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--hide-scrollbars",
          "--disable-background-networking", "--disable-component-update", "--disable-sync")
@@ -145,6 +147,27 @@ class Browser:
     def _page_size(self):
         size = self._chrome("Page.getLayoutMetrics")["cssContentSize"]
         return {"width": size["width"], "height": size["height"]}
+
+
+class PageTest(TestCase):
+    """Tests of one page in a browser, in which it must log nothing. A class makes its file, `page`, in make_page()."""
+
+    page = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser()
+        cls.browser.__enter__()
+        cls.addClassCleanup(cls.browser.__exit__)
+        cls.make_page()
+
+    def setUp(self):
+        super().setUp()
+        self.browser.resize(1280, 800)
+        self.browser.open(self.page)
+
+    def tearDown(self):
+        self.assertEqual(self.browser.log(), [])
 
 
 def results_folder():
