@@ -51,7 +51,8 @@ struct ShadowBlock {
   int light_is_lamp;       // 1: a lamp; 0: a sun
   float lamp_range;        // of a lamp: distance to which it shines, metres
   int normals_from_depth;  // 1: the caller brings no normals: they were made from depths
-  vec2 unused;
+  float vertex_rounding;   // pixels along each axis by which the rasteriser may have moved the receivers' vertices
+  float unused;
   vec4 lamp;               // xyz: its centre, view space, metres; w: the cosine of its cone's half angle
   // The layer that contains every caster; apart from `layers`, because a load at an index costs more.
   LayerBlock widest;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <compare>
 #include <cstdint>
 #include <map>
@@ -114,6 +115,7 @@ struct Device::Impl {
   std::uint64_t framebuffer_uses = 0;
   Handle<delete_vertex_array> empty_vertex_array;
   std::optional<bool> debugged;
+  std::optional<float> vertex_rounding;
 
   // A framebuffer keeps its textures' memory. So framebuffers of a target are deleted with it, those of other textures
   // when they have not been used for long.
@@ -241,6 +243,15 @@ GLuint Device::framebuffer(std::string_view name, std::span<const Attachment> co
 bool Device::is_debugged() {
   if (!impl_->debugged) impl_->debugged = debug_enabled();
   return *impl_->debugged;
+}
+
+float Device::vertex_rounding() {
+  if (!impl_->vertex_rounding) {
+    GLint bits = 0;
+    glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
+    impl_->vertex_rounding = std::exp2(static_cast<float>(-bits - 1));
+  }
+  return *impl_->vertex_rounding;
 }
 
 GLuint Device::empty_vertex_array() {

@@ -127,6 +127,7 @@ void upload_light(const LightWork& work, const char* name, const glm::vec2& last
   const LightTraits traits{.noise = noise_read(work.params(), static_cast<int>(work.state.age)),
                            .last_jitter = last_jitter,
                            .depth_error = work.view.depth_error,
+                           .vertex_rounding = work.device.vertex_rounding(),
                            .made_normals = !work.view.brings_normals};
   work.state.shadow_block = &work.device.scratch(work.prefix() + name, sizeof(glsl::ShadowBlock));
   gl::write_value(*work.state.shadow_block, shadow_block(work.inputs, work.frame, traits));

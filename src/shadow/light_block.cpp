@@ -44,6 +44,7 @@ glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, co
   block.normal_decode = {conventions.normals_scale, conventions.normals_offset};
   if (traits.made_normals) block.normal_decode = {1, 0};
   block.depth_error = {traits.depth_error.absolute, traits.depth_error.relative};
+  block.vertex_rounding = traits.vertex_rounding;
   block.sky_depth = conventions.reversed_z ? 0.0f : 1.0f;
   block.octahedral_normals = traits.made_normals || conventions.octahedral_normals ? 1 : 0;
   block.light_extent = light.shape.extent;

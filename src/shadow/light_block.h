@@ -14,6 +14,7 @@ struct LightTraits {
   NoiseRead noise;
   glm::vec2 last_jitter{0};
   NdcError depth_error;
+  float vertex_rounding = 0;  // see ShadowBlock
   bool made_normals = false;  // from depths, since the caller brings none
 };
 

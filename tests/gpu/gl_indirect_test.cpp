@@ -17,7 +17,7 @@ struct Commands {
 // Each vertex leaves a mark of its index and instance; nothing is drawn.
 constexpr const char* mark_text =
     "layout(std430, binding = 0) buffer Marks { uint marks[]; };\n"
-    "void main() { marks[gl_VertexID] += 1u + 100u * uint(gl_InstanceID); gl_Position = vec4(2, 2, 2, 1); }\n";
+    "void main() { atomicAdd(marks[gl_VertexID], 1u + 100u * uint(gl_InstanceID)); gl_Position = vec4(2, 2, 2, 1); }\n";
 
 // A command for the next dispatch or draw, as a culling pass would write it.
 constexpr const char* write_text =

@@ -110,9 +110,26 @@ TEST_F(GlTexture, OneTooLargeForTheDeviceIsNamedWithTheLimit) {
   EXPECT_NE(message.find("texture 'shadow map': 1048576 x 1 is over"), std::string::npos) << message;
 }
 
+const gl::TextureDesc huge{
+    .target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA32F, .width = 16384, .height = 16384, .layers = 2048};
+
+// Some drivers take memory only when a texture is first used.
+bool driver_refuses_huge() {
+  GLuint id = 0;
+  gl::glCreateTextures(huge.target, 1, &id);
+  gl::glTextureStorage3D(id, 1, huge.format, huge.width, huge.height, huge.layers);
+  bool refused = false;
+  try {
+    gl::check_errors("storage");
+  } catch (const Error&) {
+    refused = true;
+  }
+  gl::glDeleteTextures(1, &id);
+  return refused;
+}
+
 TEST_F(GlTexture, OneThatDoesNotFitIntoMemoryIsNamedOnce) {
-  const gl::TextureDesc huge{
-      .target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA32F, .width = 16384, .height = 16384, .layers = 2048};
+  if (!driver_refuses_huge()) GTEST_SKIP() << "skipped: this driver takes memory when a texture is first used";
   const std::string message = message_of([&] { gl::Texture("mask", huge); });
   EXPECT_NE(message.find("texture 'mask': out of memory"), std::string::npos) << message;
   EXPECT_NO_THROW(gl::check_errors("afterwards"));
@@ -120,8 +137,7 @@ TEST_F(GlTexture, OneThatDoesNotFitIntoMemoryIsNamedOnce) {
 
 // An earlier call has set the error flag, and nobody has read it yet.
 TEST_F(GlTexture, AnEarlierErrorNeitherHidesRunningOutOfMemoryNorIsLost) {
-  const gl::TextureDesc huge{
-      .target = GL_TEXTURE_2D_ARRAY, .format = GL_RGBA32F, .width = 16384, .height = 16384, .layers = 2048};
+  if (!driver_refuses_huge()) GTEST_SKIP() << "skipped: this driver takes memory when a texture is first used";
   const auto make_an_error = [] { gl::glEnable(GL_TEXTURE_2D_ARRAY); };
   make_an_error();
   EXPECT_NE(message_of([&] { gl::Texture("mask", huge); }).find("texture 'mask': out of memory"), std::string::npos);

@@ -61,6 +61,12 @@ TEST_F(LightsTest, TwoSunsGiveTheSumOfEach) {
   }
 }
 
+// But for one step of half floats: a GPU's compiler may order the operations of two programs differently.
+void expect_same(const std::vector<float>& a, const std::vector<float>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], std::max(std::abs(b[i]) / 1024, 1e-7f)) << i;
+}
+
 TEST_F(LightsTest, AHiddenSunAddsNothingToWhatOtherLightsShow) {
   params.set("render.sky_light", 0.5f);
   inputs.on_ground = true;
@@ -69,8 +75,8 @@ TEST_F(LightsTest, AHiddenSunAddsNothingToWhatOtherLightsShow) {
     SCOPED_TRACE(automatic);
     params.set("exposure.auto", automatic);
     const Drawn alone = draw_with({warm_});
-    EXPECT_EQ(draw_with({warm_, hidden}).color, alone.color);
-    EXPECT_EQ(draw_with({hidden, warm_}).color, alone.color);
+    expect_same(draw_with({warm_, hidden}).color, alone.color);
+    expect_same(draw_with({hidden, warm_}).color, alone.color);
     inputs.on_ground = false;
     EXPECT_NE(draw_with({warm_, hidden}).color, alone.color) << "there, nothing hides it";
     inputs.on_ground = true;

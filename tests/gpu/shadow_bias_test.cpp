@@ -65,6 +65,36 @@ TEST_F(ShadowBias, LitPlanesDoNotShadowThemselves) {
   }
 }
 
+// Rasterisers round vertices to a grid, and some interpolate depth between the rounded ones: what they draw at a
+// pixel's centre is what lies up to half a step of the grid beside it. The renderer of this test may be another kind.
+TEST_F(ShadowBias, RoundedVerticesDoNotShadowThePlane) {
+  const float half_step = renderer_->device().vertex_rounding();
+  ASSERT_GT(half_step, 0);
+  for (const std::string technique :
+       {"hard", "pcf_hardware", "pcss", "slices", "backprojection", "ssss", "vssm", "brute_force", "shadow_volume"}) {
+    for (const float elevation : {1.0f, 30.0f}) {
+      for (const glm::vec2& way : {glm::vec2(1, -1), {-1, 1}}) {
+        TriangleScene scene = lone_plane(/*tilted=*/false);
+        scene.to_light = sun_direction(35, elevation);
+        scene.drawn_beside = half_step * way;
+        ParamSet params = renderer_->params();
+        params.set("technique", technique);
+        params.set("sun.angle", 0.53f);
+        const Shadowed shadowed = renderer_->render(scene, params);
+        int lit = 0, dark = 0;
+        for (int y = 0; y < scene.height; ++y) {
+          for (int x = 0; x < scene.width; ++x) {
+            lit += shadowed.sky(x, y) ? 0 : 1;
+            dark += !shadowed.sky(x, y) && shadowed.visibility(x, y) < 0.99f ? 1 : 0;
+          }
+        }
+        ASSERT_GT(lit, 5000);
+        EXPECT_LE(dark, lit / 1000) << technique << ", sun at " << elevation << " degrees, " << way.x << ", " << way.y;
+      }
+    }
+  }
+}
+
 // The gap between a wall and its shadow: how far from the wall's foot the ground is lit on the side away from the sun,
 // in texels of the map as the light projects them onto the ground.
 double gap_in_texels(TriangleRenderer& renderer, const std::string& technique, float elevation, float height) {

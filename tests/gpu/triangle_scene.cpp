@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <utility>
 
 namespace penumbra::test {
 
@@ -83,10 +84,11 @@ shadow::Box bounds_of(const TriangleScene& scene) {
 
 // For passes, whose clip-space z is in 0..1.
 glm::mat4 drawn_projection(const TriangleScene& scene) {
-  if (scene.conventions.depth_zero_to_one) return scene.projection;
-  glm::mat4 halved(1);
-  halved[2][2] = halved[3][2] = 0.5f;
-  return halved * scene.projection;
+  glm::mat4 drawn(1);
+  if (!scene.conventions.depth_zero_to_one) drawn[2][2] = drawn[3][2] = 0.5f;
+  drawn[3][0] = 2 * scene.drawn_beside.x / static_cast<float>(scene.width);
+  drawn[3][1] = 2 * scene.drawn_beside.y / static_cast<float>(scene.height);
+  return drawn * scene.projection;
 }
 
 // Of clip space.
@@ -238,6 +240,8 @@ TriangleRenderer::TriangleRenderer(shadow::Registry registry)
 Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& params, const Adjust& adjust,
                                   const std::function<void()>& after) {
   const Geometry geometry(scene);
+  // A texture of another format can get the last one's name.
+  if (std::exchange(depth_format_, scene.depth_format) != scene.depth_format) shadows_.forget_view(0);
   const gl::Texture& depth =
       device_.target("test depth", {.format = scene.depth_format, .width = scene.width, .height = scene.height});
   const gl::Texture& normals =

@@ -28,6 +28,8 @@ struct TriangleScene {
   // Of the depth buffer. Depths are those of reversed Z unless the projection and the conventions say otherwise.
   GLenum depth_format = GL_DEPTH_COMPONENT32F;
   shadow::Conventions conventions;
+  // How far beside its place the receivers' depth is drawn, pixels: what a rasteriser may do that rounds vertices.
+  glm::vec2 drawn_beside{0};
 
   void add_quad(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v);
   void add_box(const glm::vec3& min, const glm::vec3& max);
@@ -106,6 +108,7 @@ class TriangleRenderer {
   gl::Device device_;
   shadow::SoftShadows shadows_;
   shadow::Mask mask_;
+  GLenum depth_format_ = 0;
 };
 
 // A test fixture with its own renderer.

@@ -47,7 +47,7 @@ Receiver receiver_at(ivec2 pixel) {
   vec3 position = unproject(vec2(pixel) + 0.5, depth);
   StoredNormal stored = stored_normal_at(pixel);
   Receiver receiver = make_receiver(position, stored.normal, vec2(pixel));
-  receiver.depth_error = plane_moves(receiver, position_error(position, depth));
+  receiver.depth_error = plane_moves(receiver, position_error(position, depth)) + vertex_error(receiver, position);
   if (shadow.normals_from_depth != 0) {
     // Both ends may be off, and a metre across the light is more on a plane that is steep along it.
     float longer = sqrt(1.0 + dot(receiver.gradient, receiver.gradient));

@@ -22,7 +22,7 @@ struct Receiver {
   vec2 gradient;  // of its plane: change of depth per metre in x and y
   Surroundings surroundings;
   vec2 pixel;     // seeds the noise
-  float depth_error;  // the most by which its plane may be off along the light because depths were rounded, metres
+  float depth_error;  // the most by which its plane may be off along the light because of rounding, metres
   float depth_tilt;   // the most by which it may also be tilted, metres along the light per metre across
   bool history_refused;  // there is a history, but it is invalid here: techniques take more taps
   int layer;             // of a lamp: the face that sees it so
@@ -153,6 +153,19 @@ float plane_moves(Receiver receiver, vec3 view_vector) {
 // Width of a pixel at a position in view space, metres.
 float pixel_width(vec3 position) {
   return max(shadow.pixel_size.x, shadow.pixel_size.y) * abs(shadow.pixel_size.z * position.z + shadow.pixel_size.w);
+}
+
+// Rasterisers round vertices to a grid, so what they draw at a pixel's centre may be the surface beside it: so far
+// beside it in x and y of view space at most, metres.
+vec2 rounding_of_vertices(vec3 position) {
+  float clip_w = shadow.pixel_size.z * position.z + shadow.pixel_size.w;
+  return abs(shadow.vertex_rounding * clip_w * shadow.pixel_size.xy);
+}
+
+// The most by which a receiver's plane may be off along the light for that reason, metres.
+float vertex_error(Receiver receiver, vec3 position) {
+  vec2 beside = rounding_of_vertices(position);
+  return plane_moves(receiver, vec3(beside.x, 0.0, 0.0)) + plane_moves(receiver, vec3(0.0, beside.y, 0.0));
 }
 
 // How many pixels a metre on a plane through a position takes along x and along y; view space.

@@ -26,10 +26,12 @@ vec3 position_per_depth(ivec2 pixel, vec3 position, float depth) {
 // A receiver is on its own triangle, behind which it must not be. On the side of a surface that the light shines on and
 // the camera sees, nearer to the camera is nearer to the light than the surface. So its depth is changed by as much as
 // rounding may have moved the receiver and the triangle apart: across the surface, which is more along the ray where
-// the view grazes it, and in the stored depth.
+// the view grazes it, in the stored depth, and by the rasteriser's grid.
 float change_to_clear_surface(Receiver receiver, vec3 position, vec3 per_depth, float depth) {
+  vec3 normal = view_normal_of(receiver);
   float apart = position_rounding_share * (camera_distance + length(position));
-  float across = abs(dot(per_depth, view_normal_of(receiver)));
+  apart += dot(rounding_of_vertices(position), abs(normal.xy));
+  float across = abs(dot(per_depth, normal));
   float size = depth + abs(shadow.depth_to_ndc.y / shadow.depth_to_ndc.x);
   return stored_spacing + depth_rounding_share * size + apart / across;
 }
