@@ -62,7 +62,7 @@ void DenoiseContext::bind_history(const gl::Texture& last_surfaces) const {
 }
 
 const gl::Texture& DenoiseContext::run(const Filter& filter, const PackedMask& source, bool to_mask) const {
-  const bool spares = source.decisions != nullptr && filter.keeps_unblocked && !filters_in_compute(work_, filter);
+  const bool spares = source.decisions != nullptr && !filters_all_pixels(work_, filter);
   if (spares && filter_tiles_ == nullptr) filter_tiles_ = &list_filter_tiles(work_, *source.decisions);
   return run_filter(work_, {.filter = filter,
                             .texels = source.texels,

@@ -15,10 +15,13 @@ constexpr std::string_view unpack_name = "unpack";
 // What a pass covers: the viewport, the tiles that the filter can change, or those that it leaves as they are.
 enum class Over { all, changing, kept };
 
+// How a pass is computed. `shared`: work groups load what they read into shared memory, for all pixels.
+enum class Form { fragment, compute, shared };
+
 struct Step {
   const Filter& filter;
   int pass = 0;
-  bool compute = false;
+  Form form = Form::fragment;
   bool to_mask = false;  // else to packed texels
   Over over = Over::all;
 };
@@ -42,12 +45,17 @@ Group group_for(const glm::ivec2& border) {
 }
 
 // OpenGL 4.5 guarantees 32 KiB of shared memory for a work group.
-bool has_compute_form(const Filter& filter) {
+bool has_shared_form(const Filter& filter) {
   if (filter.border.size() != static_cast<size_t>(filter.passes)) return false;
   for (const glm::ivec2& border : filter.border) {
     if (group_for(border).tile_bytes > 32768) return false;
   }
   return true;
+}
+
+Form form_of(const LightWork& work, const Filter& filter) {
+  if (work.params().get_word("driver") != "compute") return Form::fragment;
+  return has_shared_form(filter) ? Form::shared : Form::compute;
 }
 
 LibraryProgram program_of(const Step& step) {
@@ -57,16 +65,19 @@ LibraryProgram program_of(const Step& step) {
   };
   define("FILTER_PASS", step.pass);
   define("TO_MASK", step.to_mask ? 1 : 0);
-  if (step.compute) {
+  const bool tiles = step.over != Over::all;
+  if (step.form == Form::shared) {
     const glm::ivec2 border = step.filter.border.at(static_cast<size_t>(step.pass));
     const Group group = group_for(border);
     define("GROUP_X", group.size.x);
     define("GROUP_Y", group.size.y);
     define("BORDER_X", border.x);
     define("BORDER_Y", border.y);
+    program.desc.compute = "shadow/drivers/filter_shared.comp";
+  } else if (step.form == Form::compute) {
+    define("TILES", tiles ? 1 : 0);
     program.desc.compute = "shadow/drivers/filter.comp";
   } else {
-    const bool tiles = step.over != Over::all;
     define("TILES", tiles ? 1 : 0);
     if (tiles) define("DECIDED", step.over == Over::kept ? 1 : 0);
     program.desc.vertex = tiles ? "shadow/drivers/tile.vert" : "shared/full_screen.vert";
@@ -101,7 +112,21 @@ void run_in_compute(gl::Pass& pass, const LightWork& work, const Step& step, con
   const gl::Program& program = use(pass, work, step, inputs);
   if (step.to_mask) program.set("mask_layer", work.frame.layer);
   inputs.target.bind_image(0, GL_WRITE_ONLY);
-  pass.dispatch(work.frame.viewport.width, work.frame.viewport.height);
+  if (step.over == Over::all) {
+    pass.dispatch(work.frame.viewport.width, work.frame.viewport.height);
+  } else {
+    inputs.source.tiles->bind_storage(tile_list_binding);
+    pass.dispatch_indirect(*inputs.source.tiles, listed_dispatch_offset);
+  }
+}
+
+void run_in_fragments(gl::Pass& pass, const LightWork& work, const Step& step, const PassInputs& inputs) {
+  use(pass, work, step, inputs);
+  if (step.over == Over::all) {
+    pass.draw_full_screen();
+  } else {
+    draw_tiles(pass, *inputs.source.tiles, listed_draw_offset);
+  }
 }
 
 // Fills the tiles that the filter leaves as they are, with the texels or what they are in the mask.
@@ -119,20 +144,20 @@ void keep_tiles(gl::Pass& pass, const LightWork& work, const Step& step, const P
 
 void run_pass(const LightWork& work, Step step, const PassInputs& inputs) {
   const Rect& viewport = work.frame.viewport;
+  const bool tiles = inputs.source.tiles != nullptr, fragments = step.form == Form::fragment;
   gl::PassDesc desc{.name = pass_name(step.filter)};
-  if (!step.compute) desc.colors = {{.texture = &inputs.target, .layer = step.to_mask ? work.frame.layer : 0}};
+  if (fragments || tiles) desc.colors = {{.texture = &inputs.target, .layer = step.to_mask ? work.frame.layer : 0}};
   gl::Pass pass(work.device, desc);
-  if (step.compute) return run_in_compute(pass, work, step, inputs);
-  pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
-  if (inputs.source.tiles == nullptr) {
-    use(pass, work, step, inputs);
-    pass.draw_full_screen();
-    return;
+  if (fragments || tiles) pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  if (tiles) {
+    keep_tiles(pass, work, step, inputs);
+    step.over = Over::changing;
   }
-  keep_tiles(pass, work, step, inputs);
-  step.over = Over::changing;
-  use(pass, work, step, inputs);
-  draw_tiles(pass, *inputs.source.tiles, listed_draw_offset);
+  if (fragments) {
+    run_in_fragments(pass, work, step, inputs);
+  } else {
+    run_in_compute(pass, work, step, inputs);
+  }
 }
 
 }  // namespace
@@ -146,13 +171,13 @@ const Filter& unfiltered() {
   return filter;
 }
 
-bool filters_in_compute(const LightWork& work, const Filter& filter) {
-  return work.params().get_word("driver") == "compute" && has_compute_form(filter);
+bool filters_all_pixels(const LightWork& work, const Filter& filter) {
+  return form_of(work, filter) == Form::shared || !filter.keeps_unblocked;
 }
 
 const gl::Texture& run_filter(const LightWork& work, const FilterInputs& inputs) {
   const Filter& filter = inputs.filter;
-  const bool compute = filters_in_compute(work, filter);
+  const Form form = form_of(work, filter);
   const gl::TextureDesc packed{.format = GL_R32UI, .width = work.mask.width(), .height = work.mask.height()};
   const gl::Texture* texels = &inputs.texels;
   for (int i = 0; i < filter.passes; ++i) {
@@ -160,7 +185,7 @@ const gl::Texture& run_filter(const LightWork& work, const FilterInputs& inputs)
     const gl::Texture& target =
         to_mask ? work.mask
                 : inputs.context.target(fmt::format("filter {} {} {}", inputs.number, filter.name, i), packed);
-    run_pass(work, {.filter = filter, .pass = i, .compute = compute, .to_mask = to_mask}, {inputs, *texels, target});
+    run_pass(work, {.filter = filter, .pass = i, .form = form, .to_mask = to_mask}, {inputs, *texels, target});
     texels = &target;
   }
   return *texels;
@@ -168,14 +193,15 @@ const gl::Texture& run_filter(const LightWork& work, const FilterInputs& inputs)
 
 std::vector<LibraryProgram> filter_programs(std::span<const Filter> filters) {
   std::vector<LibraryProgram> programs;
-  const auto add = [&](const Step& step) {
-    programs.push_back(program_of(step));
-    Step compute = step;
-    compute.compute = true;
-    if (has_compute_form(step.filter)) programs.push_back(program_of(compute));
-    Step tiles = step;
-    tiles.over = Over::changing;
-    if (step.filter.keeps_unblocked) programs.push_back(program_of(tiles));
+  const auto add = [&](Step step) {
+    const bool tiles = step.filter.keeps_unblocked, shared = has_shared_form(step.filter);
+    for (const Form form : {Form::fragment, shared ? Form::shared : Form::compute}) {
+      step.form = form;
+      step.over = Over::all;
+      programs.push_back(program_of(step));
+      step.over = Over::changing;
+      if (tiles && form != Form::shared) programs.push_back(program_of(step));
+    }
   };
   add({.filter = unfiltered(), .to_mask = true});
   programs.push_back(program_of({.filter = unfiltered(), .to_mask = true, .over = Over::kept}));

@@ -21,8 +21,8 @@ struct FilterInputs {
   bool to_mask = false;               // the last pass fills the mask's layer; else packed texels
 };
 
-// Whether the filter runs in compute shaders, for all pixels.
-bool filters_in_compute(const LightWork& work, const Filter& filter);
+// Whether the filter runs for all pixels, whatever it can change.
+bool filters_all_pixels(const LightWork& work, const Filter& filter);
 // Runs all passes of a filter; returns the texture that the last one filled.
 const gl::Texture& run_filter(const LightWork& work, const FilterInputs& inputs);
 

@@ -36,11 +36,15 @@ TEST_F(Tiles, AreTheSameInBothDrivers) {
     for (const char* scene : {"foliage", "posts", "courtyard"}) {
       SCOPED_TRACE(fmt::format("{} {} x {}", scene, width, height));
       load(scene, width, height);
-      for (const char* aov : {"shadow", "penumbra", "blocker", "cascade", "under_texel"}) {
-        mask(renderer_, "pcss", 2.0f, true);
-        const std::vector<float> fragment = renderer_.read_aov(aov);
-        mask(renderer_, "pcss_compute", 2.0f, true);
-        EXPECT_EQ(fragment, renderer_.read_aov(aov)) << aov;
+      for (const char* technique : {"pcss", "slices_denoised"}) {
+        for (const char* aov : {"shadow", "penumbra", "blocker", "cascade", "under_texel"}) {
+          settings_ = {"driver=fragment"};
+          mask(renderer_, technique, 2.0f, true);
+          const std::vector<float> fragment = renderer_.read_aov(aov);
+          settings_ = {"driver=compute"};
+          mask(renderer_, technique, 2.0f, true);
+          EXPECT_EQ(fragment, renderer_.read_aov(aov)) << technique << ", " << aov;
+        }
       }
     }
   }

@@ -1,0 +1,25 @@
+// The pixels of the compute driver's work groups: of all pixels, or with TILES 1 of the listed tiles.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#ifndef RIM_LIST
+#define RIM_LIST 0  // 1: the tiles at the rim of a cube's face
+#endif
+
+#if TILES
+#include "shadow/drivers/tiles.glsl"
+
+// An invocation's pixel; beyond the viewport where the group has no tile.
+ivec2 pixel_in_viewport() {
+  uint index = gl_WorkGroupID.y * list_row + gl_WorkGroupID.x;
+#if RIM_LIST
+  if (index >= tile_list.rim.count) return ivec2(shadow.viewport.zw);
+  ivec2 tile = rim_tile(index);
+#else
+  if (index >= tile_list.listed.count) return ivec2(shadow.viewport.zw);
+  ivec2 tile = listed_tile(index);
+#endif
+  return tile * tile_size + ivec2(gl_LocalInvocationID.xy);
+}
+#else
+ivec2 pixel_in_viewport() { return ivec2(gl_GlobalInvocationID.xy); }
+#endif
