@@ -21,9 +21,10 @@ const FLAGS = ['--headless', '--remote-debugging-pipe', '--use-gl=angle', '--use
   '--ignore-gpu-blocklist', '--disable-gpu-watchdog', '--disable-background-networking', '--disable-component-update',
   '--disable-default-apps', '--disable-quic', '--disable-sync', '--force-device-scale-factor=1', '--no-first-run'];
 
-// A software rasteriser is asked for by name where penumbra has one, as the browser might find another driver.
-const environment = (software) => ({ ...process.env, EGL_PLATFORM: 'surfaceless',
-  ...(software ? { LIBGL_ALWAYS_SOFTWARE: '1' } : {}) });
+// A software rasteriser is asked for by name where penumbra has one, as the browser might find another driver. The
+// drivers of GPUs find their own platform.
+const environment = (software) => ({ ...process.env,
+  ...(software ? { EGL_PLATFORM: 'surfaceless', LIBGL_ALWAYS_SOFTWARE: '1' } : {}) });
 
 // Messages of the DevTools protocol over two pipes: a zero byte ends each. The browser ends itself when they are
 // closed.
@@ -102,8 +103,8 @@ export class Peer {
     return this.step(what, this.page.evaluate((name, values) => window.peer[name](...values), method, args));
   }
 
-  times(count, shadows) {
-    return this.call('drawing', 'times', count, shadows);
+  times(count, inRow, shadows) {
+    return this.call('drawing', 'times', count, inRow, shadows);
   }
 
   async picture() {
