@@ -42,6 +42,11 @@ void Buffer::write(std::span<const std::byte> bytes, std::size_t offset) const {
 
 void Buffer::bind_uniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, id()); }
 
+void Buffer::bind_uniform(GLuint binding, std::size_t offset, std::size_t bytes) const {
+  assert(offset + bytes <= size_);
+  glBindBufferRange(GL_UNIFORM_BUFFER, binding, id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
+}
+
 void Buffer::bind_storage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id()); }
 
 void Buffer::bind_storage(GLuint binding, std::size_t offset, std::size_t bytes) const {

@@ -25,6 +25,7 @@ class Buffer {
 
   void write(std::span<const std::byte> bytes, std::size_t offset = 0) const;
   void bind_uniform(GLuint binding) const;
+  void bind_uniform(GLuint binding, std::size_t offset, std::size_t bytes) const;
   void bind_storage(GLuint binding) const;
   void bind_storage(GLuint binding, std::size_t offset, std::size_t bytes) const;
 

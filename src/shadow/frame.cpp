@@ -111,15 +111,34 @@ void draw_maps(const LightWork& work) {
                               .present_is_drawn = in_one_pass});
 }
 
+// The tables of one set after those of another, each at a place where OpenGL can bind them.
+void write_samples(const LightWork& work, const Technique& technique, const char* name,
+                   LightState::SampleTables& tables) {
+  constexpr std::size_t alignment = 256;  // the most that OpenGL may ask for, bytes
+  std::vector<glm::vec4> all;
+  for (int set = 0; set < tables.sets; ++set) {
+    const std::vector<glm::vec4> points =
+        work.samples.tables(technique, work.params(), {.set = set, .scramble = tables.scramble});
+    tables.bytes = sizeof(glm::vec4) * points.size();
+    tables.stride = (tables.bytes + alignment - 1) / alignment * alignment;
+    all.insert(all.end(), points.begin(), points.end());
+    all.resize(static_cast<std::size_t>(set + 1) * tables.stride / sizeof(glm::vec4));
+  }
+  tables.buffer = &work.device.scratch(work.prefix() + name, sizeof(glm::vec4) * all.size());
+  tables.buffer->write(std::as_bytes(std::span(all)));
+}
+
 void upload_samples(const LightWork& work, const Technique& technique, const char* name) {
   if (technique.samples.empty()) return;
-  const Samples::Tables wanted{.set = set_number(work.params(), static_cast<int>(work.state.age)),
-                               .scramble = scramble_of(technique, work.params(), work.frame.shape)};
+  const int sets = set_count(work.params());
+  const Scramble scramble = scramble_of(technique, work.params(), work.frame.shape);
   LightState::SampleTables& tables = work.state.samples[technique.name];
-  if (tables.buffer != nullptr && tables.holds == wanted && work.state.uploaded) return;
-  const std::vector<glm::vec4> points = work.samples.tables(technique, work.params(), wanted);
-  tables = {.buffer = &work.device.scratch(work.prefix() + name, sizeof(glm::vec4) * points.size()), .holds = wanted};
-  tables.buffer->write(std::as_bytes(std::span(points)));
+  if (!work.state.uploaded || tables.sets != sets || tables.scramble != scramble) {
+    tables = {.sets = sets, .scramble = scramble};
+    write_samples(work, technique, name, tables);
+  }
+  const int set = set_number(work.params(), static_cast<int>(work.state.age));
+  tables.offset = static_cast<std::size_t>(set) * tables.stride;
 }
 
 // Uploads the uniforms of the view and the light.

@@ -30,10 +30,14 @@ struct LightState {
   // The programs of techniques, recipes and denoisers under these parameters, by owner.
   std::map<std::string, std::vector<gl::ProgramDesc>, std::less<>> programs;
 
-  // The sample points that a technique's programs read.
+  // The sample points that a technique's programs read: of all sets that its frames take turns with, so that nothing
+  // is written that the GPU may still read for the last frame.
   struct SampleTables {
     const gl::Buffer* buffer = nullptr;
-    Samples::Tables holds;
+    int sets = 0;
+    Scramble scramble = Scramble::shift;
+    std::size_t bytes = 0, stride = 0;  // of one set, and from one to the next
+    std::size_t offset = 0;             // of the present frame's
   };
   std::map<std::string, SampleTables, std::less<>> samples;  // by technique: the light's technique and its stand-in
   bool uploaded = false;  // `params_block` and `samples` are up to date with `params`

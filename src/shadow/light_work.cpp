@@ -57,7 +57,8 @@ void bind_light(gl::Device& device, const LightFrame& frame, const LightState& s
   state.params_block->bind_uniform(block_params);
   state.shadow_block->bind_uniform(block_shadow);
   if (owner.technique != nullptr && !owner.technique->samples.empty()) {
-    state.samples.at(owner.technique->name).buffer->bind_uniform(block_samples);
+    const LightState::SampleTables& tables = state.samples.at(owner.technique->name);
+    tables.buffer->bind_uniform(block_samples, tables.offset, tables.bytes);
   }
   // Outside of the map there are no casters: depth 1.
   device.sampler({.wrap_s = GL_CLAMP_TO_BORDER, .wrap_t = GL_CLAMP_TO_BORDER}).bind(unit_shadow_map);

@@ -15,7 +15,7 @@ namespace penumbra::shadow {
 namespace {
 
 // Number of point sets through which a step cycles.
-constexpr int set_count = 16;
+constexpr int most_sets = 16;
 
 // The name of a SampleSet::Step in parameter names and in GLSL.
 const char* name_of(SampleSet::Step step) { return step == SampleSet::Step::blocker ? "blocker" : "filter"; }
@@ -121,10 +121,12 @@ NoiseRead noise_read(const ParamSet& params, int frame) {
   return {.shift = {blocker.shift, filter.shift}, .place = {blocker.place, filter.place}};
 }
 
-int set_number(const ParamSet& params, int frame) {
+int set_count(const ParamSet& params) {
   const bool any = changes(params, SampleSet::Step::blocker, "set") || changes(params, SampleSet::Step::filter, "set");
-  return any ? frame % set_count : 0;
+  return any ? most_sets : 1;
 }
+
+int set_number(const ParamSet& params, int frame) { return frame % set_count(params); }
 
 std::size_t table_size(const SampleSet& set, const ParamSet& params) {
   return static_cast<std::size_t>(params.row(set.count_parameter).max);

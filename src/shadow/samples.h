@@ -37,7 +37,9 @@ struct NoiseRead {
 // 256, and seeds move their tile.
 NoiseRead noise_read(const ParamSet& params, int frame);
 
-// The number of the point set that a frame uses: steps that change from frame to frame cycle through several sets.
+// How many point sets frames take turns with: several where a step changes its set from frame to frame.
+int set_count(const ParamSet& params);
+// The number of a frame's set, below that.
 int set_number(const ParamSet& params, int frame);
 
 // Number of vec4 elements in a set's table: one for each point, up to the maximum of its count parameter. Only xy is
@@ -58,8 +60,6 @@ class Samples {
   struct Tables {
     int set = 0;  // see set_number()
     Scramble scramble = Scramble::shift;
-
-    bool operator==(const Tables&) const = default;
   };
   std::vector<glm::vec4> tables(const Technique& technique, const ParamSet& params, const Tables& of);
   // The noise texture of that kind: RGBA16, 64 × 64, tileable; spatiotemporal: one frame above another; "none": one

@@ -218,17 +218,32 @@ constexpr Entry creations[] = {
     COUNTED(glCreateQueries),
 };
 
+constexpr Entry writes[] = {
+    COUNTED(glBufferSubData),           COUNTED(glNamedBufferSubData), COUNTED(glCopyBufferSubData),
+    COUNTED(glCopyNamedBufferSubData),  COUNTED(glClearBufferSubData), COUNTED(glClearNamedBufferSubData),
+    COUNTED(glInvalidateBufferSubData),
+};
+
 #undef COUNTED
 
 bool is_of(GlCalls::Kind kind, std::string_view name) {
   if (kind == GlCalls::Kind::queries) {
     return name.starts_with("glGet") || name.starts_with("glIs") || name.starts_with("glCheck");
   }
+  if (kind == GlCalls::Kind::writes) return name.ends_with("BufferSubData") && !name.starts_with("glGet");
   return name.starts_with("glCreate") || (name.starts_with("glGen") && !name.starts_with("glGenerate"));
 }
 
 std::span<const Entry> entries_of(GlCalls::Kind kind) {
-  return kind == GlCalls::Kind::queries ? std::span<const Entry>(queries) : std::span<const Entry>(creations);
+  switch (kind) {
+    case GlCalls::Kind::queries:
+      return queries;
+    case GlCalls::Kind::creations:
+      return creations;
+    case GlCalls::Kind::writes:
+      return writes;
+  }
+  return {};
 }
 
 // Every loaded entry point of the kind is counted, so functions that Penumbra starts to use later are counted too.

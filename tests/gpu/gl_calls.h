@@ -13,6 +13,7 @@ class GlCalls {
   enum class Kind {
     queries,    // functions that query OpenGL: glGet…, glIs…, glCheck…
     creations,  // functions that create objects: glCreate…, glGen… (one per call, however many objects)
+    writes,     // functions that write to buffers: gl…BufferSubData
   };
   explicit GlCalls(Kind kind);
   ~GlCalls();

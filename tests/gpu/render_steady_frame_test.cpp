@@ -82,6 +82,15 @@ TEST_F(RenderSteadyFrame, MakesNothingAndAsksNothingUnderAnyTechnique) {
   }
 }
 
+// A driver may have to wait for the GPU before it changes a buffer that the last frame reads.
+TEST_F(RenderSteadyFrame, WritesNoSamplesWhereFramesTakeTurnsWithSets) {
+  renderer->registry().select(params, "thesis");
+  const Counts with_sets = steady(GlCalls::Kind::writes);
+  params.set("sampling.filter_sequence", "shift");
+  EXPECT_EQ(with_sets, steady(GlCalls::Kind::writes));
+  EXPECT_FALSE(with_sets.empty()) << "the uniforms of the frame";
+}
+
 TEST_F(RenderSteadyFrame, MakesNothingAndAsksNothingWithAMaskOfFewerPixels) {
   for (const char* name : {"pcss", "slices_denoised", "thesis"}) {
     renderer->registry().select(params, name);
