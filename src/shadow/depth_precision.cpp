@@ -5,19 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../gl/texture.h"
+#include "check_parts.h"
 
 namespace penumbra::shadow {
 
 namespace {
 
 constexpr double half_ulp = 1.0 / (1 << 24);  // of a 32-bit float, relative
-
-GLint level_parameter(unsigned texture, GLenum name) {
-  GLint value = 0;
-  gl::glGetTextureLevelParameteriv(texture, 0, name, &value);
-  return value;
-}
 
 }  // namespace
 
