@@ -6,16 +6,15 @@ layout(binding = 8) uniform sampler2D lit;
 layout(binding = 9) uniform sampler2D gbuffer_albedo;
 layout(std430, binding = 1) writeonly restrict buffer Sums { vec2 sums[]; };
 
-const int stride = 4;            // pixels between samples
-const int group_samples = 2048;  // that a work group sums up
+// STRIDE: pixels between samples; GROUP_SAMPLES: how many of them a work group sums up.
 const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
 
 void main() {
-  ivec2 size = (textureSize(lit, 0) + stride - 1) / stride;
-  int first = int(gl_WorkGroupID.x) * group_samples, end = min(first + group_samples, size.x * size.y);
+  ivec2 size = (textureSize(lit, 0) + STRIDE - 1) / STRIDE;
+  int first = int(gl_WorkGroupID.x) * GROUP_SAMPLES, end = min(first + GROUP_SAMPLES, size.x * size.y);
   vec2 sum = vec2(0.0);
   for (int i = first + int(gl_LocalInvocationIndex); i < end; i += group_size) {
-    ivec2 pixel = ivec2(i % size.x, i / size.x) * stride;
+    ivec2 pixel = ivec2(i % size.x, i / size.x) * STRIDE;
     vec4 root = texelFetch(gbuffer_albedo, pixel, 0);
     if (root.a == 0.0) continue;  // sky
     float albedo = max(dot(root.rgb * root.rgb, luminance), 0.05);

@@ -40,7 +40,8 @@ class Device {
   // A buffer of at least `bytes` of that name, kept in the same way (grows, never shrinks). Throws Error as Buffer.
   const Buffer& scratch(std::string_view name, std::size_t bytes);
   const Sampler& sampler(const SamplerDesc& desc);
-  // The most by which the rasteriser moves a vertex along x and along y, pixels: half a step of its grid.
+  // The most by which the rasteriser moves a vertex along x and along y, pixels: half a step of its grid, if it rounds
+  // to the nearest one.
   float vertex_rounding();
   // Deletes the targets and buffers whose names start with `prefix`, except `kept`; references to them become invalid.
   void drop(std::string_view prefix, const std::set<std::string, std::less<>>& kept = {});

@@ -20,7 +20,7 @@ constexpr std::array limit_names{
     LimitName{"texture units (all stages)", GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS},
     LimitName{"image units", GL_MAX_IMAGE_UNITS},
     LimitName{"colour attachments", GL_MAX_COLOR_ATTACHMENTS},
-    LimitName{"bits of a vertex below the pixel", GL_SUBPIXEL_BITS},
+    LimitName{"sub-pixel bits of vertex positions", GL_SUBPIXEL_BITS},
     LimitName{"framebuffer width", GL_MAX_FRAMEBUFFER_WIDTH},
     LimitName{"framebuffer height", GL_MAX_FRAMEBUFFER_HEIGHT},
     LimitName{"uniform block bytes", GL_MAX_UNIFORM_BLOCK_SIZE},

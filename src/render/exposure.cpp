@@ -1,4 +1,5 @@
 #include <cmath>
+#include <string>
 
 #include "render/passes.h"
 
@@ -14,10 +15,14 @@ constexpr GLuint exposure_binding = 0, sums_binding = 1;
 constexpr float white = 1.0f;
 constexpr float least = 0.7f, most = 6.0f;
 
-// Pixels between samples, samples of a work group, and its invocations, as the shaders have them.
-constexpr int stride = 4, group_samples = 2048, group_size = 256;
+constexpr int stride = 4;            // pixels between samples
+constexpr int group_samples = 2048;  // that a work group sums up
 
-gl::ProgramDesc sums_program() { return {.name = "exposure sums", .compute = "render/exposure_sums.comp"}; }
+gl::ProgramDesc sums_program() {
+  return {.name = "exposure sums",
+          .compute = "render/exposure_sums.comp",
+          .defines = {{"STRIDE", std::to_string(stride)}, {"GROUP_SAMPLES", std::to_string(group_samples)}}};
+}
 gl::ProgramDesc program() { return {.name = "exposure", .compute = "render/exposure.comp"}; }
 
 int rounded_up(int count, int step) { return (count + step - 1) / step; }
@@ -35,12 +40,12 @@ const gl::Buffer& measure_exposure(gl::Device& device, const ExposureInputs& inp
   const int groups = rounded_up(samples, group_samples);
   const gl::Buffer& sums = device.scratch("exposure sums", static_cast<std::size_t>(groups) * sizeof(glm::vec2));
   gl::Pass pass(device, {.name = "exposure"});
-  pass.use(sums_program());
+  const gl::Program& sum = pass.use(sums_program());
   inputs.lit.bind(first_unit);
   inputs.gbuffer.albedo->bind(first_unit + 1);
   for (const GLuint offset : {0u, 1u}) device.sampler({}).bind(first_unit + offset);
   sums.bind_storage(sums_binding);
-  pass.dispatch(groups * group_size, 1);
+  pass.dispatch(groups * sum.group_size().x, 1);
   const gl::Program& measure = pass.use(program());
   measure.set("limits", glm::vec2(least, most));
   measure.set("white", white);

@@ -129,35 +129,44 @@ void run_in_fragments(gl::Pass& pass, const LightWork& work, const Step& step, c
   }
 }
 
+gl::PassDesc pass_of(const LightWork& work, const Step& step, const PassInputs& inputs, bool draws) {
+  gl::PassDesc desc{.name = pass_name(step.filter)};
+  if (draws) desc.colors = {{.texture = &inputs.target, .layer = step.to_mask ? work.frame.layer : 0}};
+  return desc;
+}
+
+void set_viewport(gl::Pass& pass, const LightWork& work) {
+  const Rect& viewport = work.frame.viewport;
+  pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
+}
+
 // Fills the tiles that the filter leaves as they are, with the texels or what they are in the mask.
-void keep_tiles(gl::Pass& pass, const LightWork& work, const Step& step, const PassInputs& inputs) {
+void keep_tiles(const LightWork& work, const Step& step, const PassInputs& inputs) {
+  gl::Pass pass(work.device, pass_of(work, step, inputs, /*draws=*/step.to_mask));
   if (step.to_mask) {
+    set_viewport(pass, work);
     use(pass, work, {.filter = unfiltered(), .to_mask = true, .over = Over::kept}, inputs);
     draw_tiles(pass, *inputs.source.tiles, decided_draw_offset);
+    pass.barrier();  // compute shaders write the same texture as an image
     return;
   }
   // Copying all texels costs less than a draw of the tiles.
   const Rect& part = work.frame.viewport;
   gl::glCopyImageSubData(inputs.texels.id(), GL_TEXTURE_2D, 0, part.x, part.y, 0, inputs.target.id(), GL_TEXTURE_2D, 0,
                          part.x, part.y, 0, part.width, part.height, 1);
+  pass.barrier();
 }
 
 void run_pass(const LightWork& work, Step step, const PassInputs& inputs) {
-  const Rect& viewport = work.frame.viewport;
-  const bool tiles = inputs.source.tiles != nullptr, fragments = step.form == Form::fragment;
-  gl::PassDesc desc{.name = pass_name(step.filter)};
-  if (fragments || tiles) desc.colors = {{.texture = &inputs.target, .layer = step.to_mask ? work.frame.layer : 0}};
-  gl::Pass pass(work.device, desc);
-  if (fragments || tiles) pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
-  if (tiles) {
-    keep_tiles(pass, work, step, inputs);
+  if (inputs.source.tiles != nullptr) {
+    keep_tiles(work, step, inputs);
     step.over = Over::changing;
   }
-  if (fragments) {
-    run_in_fragments(pass, work, step, inputs);
-  } else {
-    run_in_compute(pass, work, step, inputs);
-  }
+  const bool fragments = step.form == Form::fragment;
+  gl::Pass pass(work.device, pass_of(work, step, inputs, /*draws=*/fragments));
+  if (!fragments) return run_in_compute(pass, work, step, inputs);
+  set_viewport(pass, work);
+  run_in_fragments(pass, work, step, inputs);
 }
 
 }  // namespace

@@ -111,42 +111,41 @@ void draw_maps(const LightWork& work) {
                               .present_is_drawn = in_one_pass});
 }
 
-// The tables of one set after those of another, each at a place where OpenGL can bind them.
-void write_samples(const LightWork& work, const Technique& technique, const char* name,
+// Writes a set's tables to its place.
+void write_samples(const LightWork& work, const Technique& technique, const char* name, int set,
                    LightState::SampleTables& tables) {
   constexpr std::size_t alignment = 256;  // the most that OpenGL may ask for, bytes
-  std::vector<glm::vec4> all;
-  for (int set = 0; set < tables.sets; ++set) {
-    const std::vector<glm::vec4> points =
-        work.samples.tables(technique, work.params(), {.set = set, .scramble = tables.scramble});
+  const std::vector<glm::vec4> points =
+      work.samples.tables(technique, work.params(), {.set = set, .scramble = tables.scramble});
+  if (tables.written == 0) {
     tables.bytes = sizeof(glm::vec4) * points.size();
     tables.stride = (tables.bytes + alignment - 1) / alignment * alignment;
-    all.insert(all.end(), points.begin(), points.end());
-    all.resize(static_cast<std::size_t>(set + 1) * tables.stride / sizeof(glm::vec4));
+    tables.buffer = &work.device.scratch(work.prefix() + name, static_cast<std::size_t>(tables.sets) * tables.stride);
   }
-  tables.buffer = &work.device.scratch(work.prefix() + name, sizeof(glm::vec4) * all.size());
-  tables.buffer->write(std::as_bytes(std::span(all)));
+  tables.buffer->write(std::as_bytes(std::span(points)), static_cast<std::size_t>(set) * tables.stride);
+  tables.written |= 1u << set;
 }
 
 void upload_samples(const LightWork& work, const Technique& technique, const char* name) {
   if (technique.samples.empty()) return;
-  const int sets = set_count(work.params());
   const Scramble scramble = scramble_of(technique, work.params(), work.frame.shape);
+  const int sets = scramble == Scramble::keys ? 1 : set_count(work.params());
   LightState::SampleTables& tables = work.state.samples[technique.name];
   if (!work.state.uploaded || tables.sets != sets || tables.scramble != scramble) {
     tables = {.sets = sets, .scramble = scramble};
-    write_samples(work, technique, name, tables);
   }
-  const int set = set_number(work.params(), static_cast<int>(work.state.age));
+  const int set = static_cast<int>(work.state.age % static_cast<std::uint64_t>(sets));
+  if ((tables.written >> set & 1u) == 0) write_samples(work, technique, name, set, tables);
   tables.offset = static_cast<std::size_t>(set) * tables.stride;
 }
 
 // Uploads the uniforms of the view and the light.
-void upload_light(const LightWork& work, const char* name, const glm::vec2& last_jitter) {
+// `scale`: pixels of the caller's depths from one receiver to the next.
+void upload_light(const LightWork& work, const char* name, const glm::vec2& last_jitter, int scale = 1) {
   const LightTraits traits{.noise = noise_read(work.params(), static_cast<int>(work.state.age)),
                            .last_jitter = last_jitter,
                            .depth_error = work.view.depth_error,
-                           .vertex_rounding = work.device.vertex_rounding(),
+                           .vertex_rounding = work.device.vertex_rounding() / static_cast<float>(scale),
                            .made_normals = !work.view.brings_normals};
   work.state.shadow_block = &work.device.scratch(work.prefix() + name, sizeof(glsl::ShadowBlock));
   gl::write_value(*work.state.shadow_block, shadow_block(work.inputs, work.frame, traits));
@@ -208,7 +207,7 @@ void draw_layer_at(int scale, const LightWork& work, ScaledViews& views) {
                         .denoiser = work.denoiser,
                         .remembered = work.remembered};
   const gl::Buffer* of_view = work.state.shadow_block;
-  upload_light(small, "scaled light", scaled.ndc * work.view.last_jitter);
+  upload_light(small, "scaled light", scaled.ndc * work.view.last_jitter, scale);
   draw_layer(small);
   work.state.shadow_block = of_view;
   work.frame.notes = frame.notes;

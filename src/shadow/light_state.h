@@ -30,11 +30,12 @@ struct LightState {
   // The programs of techniques, recipes and denoisers under these parameters, by owner.
   std::map<std::string, std::vector<gl::ProgramDesc>, std::less<>> programs;
 
-  // The sample points that a technique's programs read: of all sets that its frames take turns with, so that nothing
-  // is written that the GPU may still read for the last frame.
+  // The sample points that a technique's programs read. Each set that its frames take turns with has a place of its
+  // own, and is written when it is first used, so that nothing changes that the GPU may still read for the last frame.
   struct SampleTables {
     const gl::Buffer* buffer = nullptr;
     int sets = 0;
+    std::uint32_t written = 0;  // bit i: set i
     Scramble scramble = Scramble::shift;
     std::size_t bytes = 0, stride = 0;  // of one set, and from one to the next
     std::size_t offset = 0;             // of the present frame's

@@ -223,7 +223,7 @@ TEST_F(ShadowFilter, AConstantMaskStaysConstant) {
 TEST_F(ShadowFilter, TheWidestKernelsAreTheSameInComputeShaders) {
   params.set("pattern.distance", 100.0f);
   params.set("pattern.marked_distance", 100.0f);
-  for (const std::string filter : {"box", "gaussian", "bilateral_separable", "isophote"}) {
+  for (const std::string filter : {"box", "gaussian", "bilateral", "bilateral_separable", "isophote"}) {
     for (const int taps : {1, 3, 6, 48}) {
       params.set("filter.taps", taps);
       params.set("driver", std::string("fragment"));

@@ -157,7 +157,7 @@ TEST_F(Tiles, KeepTheHistoryAsItIs) {
   }
 }
 
-// Filters are fragment shaders that leave decided tiles out, or compute shaders that run for all pixels.
+// Filters leave decided tiles out, except compute shaders that share what they read: these run for all pixels.
 TEST_F(Tiles, AreLeftOutByFiltersThatWouldNotChangeThem) {
   load("posts", 317, 179);
   for (const char* filter : {"none", "box", "gaussian", "bilateral_separable"}) {

@@ -22,6 +22,7 @@ Neighbour neighbour(ivec2 pixel, ivec2 next, vec3 at, float depth) {
   float first = texelFetch(receiver_depth, pixel + next, 0).x;
   float second = holds_receiver(pixel + 2 * next) ? texelFetch(receiver_depth, pixel + 2 * next, 0).x : first;
   float error = (shadow.depth_error.x + shadow.depth_error.y * abs(ndc_depth(depth))) / shadow.depth_to_ndc.x;
+  error += shadow.vertex_rounding * abs(first - depth);
   return Neighbour(unproject(vec2(pixel + next) + 0.5, first) - at, abs(2.0 * first - second - depth) / error);
 }
 
