@@ -13,10 +13,14 @@ namespace penumbra::viewer {
 namespace {
 
 void list_changes(const ViewerStatus& status, bool closes_window) {
+  const auto item = [](const std::string& text) {
+    ImGui::Bullet();
+    ImGui::TextUnformatted(text.c_str());
+  };
+  ImGui::PushTextWrapPos(wrap_width(30.0f, ImGui::GetIO().DisplaySize.x));
   ImGui::TextUnformatted("There are changes that are not saved:");
-  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30.0f);
-  if (status.unsaved.view) ImGui::BulletText("sun, lights, lamps or bookmarks, in %s", status.saved_to.c_str());
-  if (status.unsaved.preset && closes_window) ImGui::BulletText("parameters, in the preset %s", status.preset.c_str());
+  if (status.unsaved.view) item("sun, lights, lamps or bookmarks, in " + status.saved_to);
+  if (status.unsaved.preset && closes_window) item("parameters, in the preset " + status.preset);
   ImGui::PopTextWrapPos();
 }
 
@@ -27,7 +31,8 @@ void closing_question(const Panel& panel) {
   const bool closes_window = state.closing.scene.empty();
   const std::string scene = std::filesystem::path(state.closing.scene).filename().string();
   // ImGui tells popups apart by what follows "###".
-  const std::string title = (closes_window ? "Close Penumbra" : "Open " + scene) + "###closing";
+  const float room = wrap_width(16.0f, ImGui::GetIO().DisplaySize.x);  // as wide as the text below it
+  const std::string title = shortened(closes_window ? "Close Penumbra" : "Open " + scene, room) + "###closing";
   if (std::exchange(state.closing.wanted, false)) ImGui::OpenPopup(title.c_str());
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({size.x * 0.5f, size.y * 0.5f}, ImGuiCond_Always, {0.5f, 0.5f});

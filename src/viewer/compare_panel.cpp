@@ -33,8 +33,7 @@ void choose_b(const Panel& panel) {
       "The technique of picture B. Choosing one copies A's values; after that only sun, exposure and render options "
       "follow "
       "A. Truth and brute force are drawn without history and filters.");
-  const bool open =
-      ImGui::BeginCombo("##b", session::technique_label(comparison.params).c_str(), ImGuiComboFlags_HeightLargest);
+  const bool open = begin_combo("##b", session::technique_label(comparison.params), ImGuiComboFlags_HeightLargest);
   panel.widgets.mark("b");
   if (!open) return;
   for (const std::string& name : registry.names()) {
@@ -119,7 +118,7 @@ void compare_panel(const Panel& panel) {
   end_rows();
   if (ImGui::Button("Copy A to B")) state.comparison.params = state.document.params;
   panel.widgets.mark("b takes a");
-  ImGui::SameLine();
+  same_line_for("Swap A and B");
   if (ImGui::Button("Swap A and B")) std::swap(state.comparison.params, state.document.params);
   panel.widgets.mark("swap");
   ImGui::Separator();

@@ -31,8 +31,9 @@ void bars(const Costs& costs) {
   const double frame = costs.frame();
   ImGui::BeginTable("passes", 3, ImGuiTableFlags_SizingStretchProp);
   ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch, 0.34f);
-  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch, 0.4f);
-  ImGui::TableSetupColumn("commands", ImGuiTableColumnFlags_WidthStretch, 0.26f);
+  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch, 0.38f);
+  ImGui::TableSetupColumn("commands", ImGuiTableColumnFlags_WidthStretch, 0.28f);
+  ImGui::PushTextWrapPos(0);
   for (const Costs::Pass& pass : costs.passes()) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -46,10 +47,11 @@ void bars(const Costs& costs) {
     ImGui::TextDisabled("%s", commands_text(work).c_str());
     if (work.triangles > 0) tooltip(count_text(work.triangles) + " triangles");
   }
+  ImGui::PopTextWrapPos();
   ImGui::EndTable();
   const gl::Timers::Work all = costs.work("frame");
-  ImGui::Text("frame %.2f ms (median of the last second)", frame);
-  ImGui::Text("%s, %s triangles", commands_text(all).c_str(), count_text(all.triangles).c_str());
+  ImGui::TextWrapped("frame %.2f ms (median of the last second)", frame);
+  ImGui::TextWrapped("%s, %s triangles", commands_text(all).c_str(), count_text(all.triangles).c_str());
 }
 
 void plot(const Costs& costs) {
@@ -82,11 +84,8 @@ void machine(const Panel& panel) {
         "drawn at a fraction of its size.");
 }
 
-}  // namespace
-
-void cost_panel(const Panel& panel) {
+void costs(const Panel& panel) {
   UiState& state = panel.state;
-  ImGui::BeginChild("cost");
   machine(panel);
   ImGui::Checkbox("Wait for the screen (vsync)", &state.vsync);
   panel.widgets.mark("vsync");
@@ -101,6 +100,12 @@ void cost_panel(const Panel& panel) {
     ImGui::PopID();
   }
   if (ImGui::CollapsingHeader("Memory", ImGuiTreeNodeFlags_DefaultOpen)) memory(panel);
+}
+
+}  // namespace
+
+void cost_panel(const Panel& panel) {
+  if (ImGui::BeginChild("cost", {0, rest_of_panel()})) costs(panel);
   ImGui::EndChild();
 }
 

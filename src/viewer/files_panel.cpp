@@ -30,7 +30,7 @@ void files_panel(const Panel& panel) {
     if (ImGui::Button("Write picture")) state.requests.write_picture = true;
     panel.widgets.mark("write picture");
     tooltip("Writes what penumbra render writes for the command line below (F12)");
-    ImGui::SameLine();
+    same_line_for("Write sequence");
     if (ImGui::Button("Write sequence")) state.requests.write_sequence = true;
     panel.widgets.mark("write sequence");
   }

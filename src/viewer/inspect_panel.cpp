@@ -14,15 +14,17 @@ namespace {
 void choose(const Panel& panel, const std::string& what, const std::string& label, const std::string& help) {
   Inspection& inspection = panel.state.inspection;
   ImGui::PushID(what.c_str());  // a texture and an AOV may have the same name
-  if (ImGui::Selectable(label.c_str(), inspection.what == what))
+  const std::string shown = shortened(label, ImGui::GetContentRegionAvail().x);
+  if (ImGui::Selectable(shown.c_str(), inspection.what == what))
     inspection = Inspection{.what = what, .over = inspection.over};
   ImGui::PopID();
   panel.widgets.mark("show=" + (what.empty() ? "picture" : what));
-  if (!help.empty()) tooltip(help);
+  if (!help.empty()) tooltip(shown == label ? help : label + "\n" + help);
 }
 
 void list(const Panel& panel) {
-  ImGui::BeginChild("list", {0, ImGui::GetContentRegionAvail().y * 0.42f}, /* border= */ true);
+  const float height = std::max(ImGui::GetContentRegionAvail().y * 0.42f, 5 * ImGui::GetTextLineHeightWithSpacing());
+  ImGui::BeginChild("list", {0, height}, /* border= */ true);
   choose(panel, "", "picture", "The lit picture.");
   for (const render::Aov& aov : render::aovs()) choose(panel, aov.name, aov.name, aov.help);
   ImGui::Separator();
@@ -50,7 +52,7 @@ void choose_part(const Panel& panel) {
   if (parts.size() > 1) {
     row("part", "Which value of a packed texel, or which channel.");
     const std::size_t current = part_index(parts, inspection);
-    const bool open = ImGui::BeginCombo("##part", parts[current].name.c_str());
+    const bool open = begin_combo("##part", parts[current].name);
     panel.widgets.mark("part");
     if (open) {
       for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -109,18 +111,27 @@ void probe(const Panel& panel) {
   ImGui::Checkbox("Values under the cursor", &panel.state.probe);
   panel.widgets.mark("probe");
   if (!panel.state.probe) return;
+  if (panel.status.texture_alone) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextWrapped("The picture is not shown. The legend has the texture's value.");
+    ImGui::PopStyleColor();
+    panel.widgets.mark("values of a texture");
+    return;
+  }
   bool locked = panel.state.locked_pixel.has_value();
-  ImGui::SameLine();
+  same_line_for("locked", /* has_box= */ true);
   if (ImGui::Checkbox("locked", &locked)) toggle_lock(panel);
   panel.widgets.mark("lock");
   tooltip("Keeps the pixel, which a cross marks, while the mouse moves (L). Its values follow the picture.");
   if (!panel.status.probed) {
     ImGui::TextDisabled("Point at the picture.");
+    panel.widgets.mark("point at the picture");
     return;
   }
   ImGui::Text("pixel %d, %d%s", panel.status.probed->x, panel.status.probed->y,
               panel.state.comparison.on ? " of A" : "");
   ImGui::BeginTable("probe", 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg);
+  ImGui::PushTextWrapPos(0);
   for (const ProbeRow& each : panel.status.probe) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -128,6 +139,7 @@ void probe(const Panel& panel) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(each.value.c_str());
   }
+  ImGui::PopTextWrapPos();
   ImGui::EndTable();
   panel.widgets.mark("probe values");
 }
@@ -147,8 +159,7 @@ void inspect_panel(const Panel& panel) {
   list(panel);
   if (!panel.state.inspection.what.empty()) range(panel);
   ImGui::Separator();
-  ImGui::BeginChild("values");
-  probe(panel);
+  if (ImGui::BeginChild("values", {0, rest_of_panel()})) probe(panel);
   ImGui::EndChild();
 }
 

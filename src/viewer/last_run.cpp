@@ -21,6 +21,7 @@ void Viewer::take_settings() {
   state_.panel = settings_.panel;
   state_.vsync = settings_.vsync;
   state_.panel_width = settings_.panel_width;
+  state_.panel_share = settings_.panel_share;
   state_.scale = settings_.scale;
   state_.tab = settings_.tab;
   if (!settings_.params.rows().empty() && has_no_shadow_options(options_)) state_.document.params = settings_.params;
@@ -35,6 +36,7 @@ void Viewer::keep_settings() {
                     .panel = state_.panel,
                     .vsync = state_.vsync,
                     .panel_width = state_.panel_width,
+                    .panel_share = state_.panel_share,
                     .scale = state_.scale,
                     .tab = state_.open_tab.empty() ? state_.tab : state_.open_tab,
                     .params = state_.document.params});

@@ -107,8 +107,10 @@ void lamp_rows(const Panel& panel, render::LampLight& lamp) {
 void entry(const Panel& panel, const LampName& name, const std::string& label) {
   std::optional<LampName>& open = panel.state.lamp;
   const bool is_open = open && *open == name;
-  if (ImGui::Selectable(fmt::format("{}##{}", label, text_of(name)).c_str(), is_open))
+  const std::string shown = shortened(label, ImGui::GetContentRegionAvail().x);
+  if (ImGui::Selectable(fmt::format("{}##{}", shown, text_of(name)).c_str(), is_open))
     open = is_open ? std::nullopt : std::optional(name);
+  if (shown != label) tooltip(label);
   panel.widgets.mark("entry of " + text_of(name));
 }
 
@@ -120,13 +122,15 @@ void lights_of_the_file(const Panel& panel, const std::vector<ShownLamp>& lamps)
     const bool is_lamp = std::ranges::find(lamps, name, &ShownLamp::name) != lamps.end();
     bool on = is_chosen(options, i);
     // A lamp's name opens its properties, beside the box that turns it off.
-    const std::string label = is_lamp ? std::string() : names[i];
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeightWithSpacing();
+    const std::string label = is_lamp ? std::string() : shortened(names[i], room);
     if (ImGui::Checkbox(fmt::format("{}##light{}", label, i).c_str(), &on)) {
       cli::SceneOptions wanted = options;
       choose_light(wanted, i, on, names.size());
       take_lights(panel, std::move(wanted));
     }
     panel.widgets.mark(fmt::format("light={}", i));
+    if (!is_lamp && label != names[i]) tooltip(names[i]);
     if (!is_lamp) continue;
     ImGui::SameLine();
     entry(panel, name, names[i]);

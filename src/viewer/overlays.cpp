@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <vector>
 
 #include "session/techniques.h"
 #include "viewer/detail.h"
@@ -17,10 +19,10 @@ constexpr ImGuiWindowFlags overlay_flags = ImGuiWindowFlags_NoDecoration | ImGui
                                            ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
                                            ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 
-bool begin_overlay(const char* name, const ImVec2& place, const ImVec2& pivot) {
+bool begin_overlay(const char* name, const ImVec2& place, const ImVec2& pivot, ImGuiWindowFlags flags = overlay_flags) {
   ImGui::SetNextWindowPos(place, ImGuiCond_Always, pivot);
   ImGui::SetNextWindowBgAlpha(0.92f);
-  return ImGui::Begin(name, nullptr, overlay_flags);
+  return ImGui::Begin(name, nullptr, flags);
 }
 
 void end_overlay(const Panel& panel, const char* name) {
@@ -32,13 +34,6 @@ void end_overlay(const Panel& panel, const char* name) {
 ImVec2 inner(const ImVec2& corner, float x, float y) {
   const float gap = ImGui::GetStyle().WindowPadding.x;
   return {corner.x + x * gap, corner.y + y * gap};
-}
-
-// The width at which text wraps: `most` times the font's size, but no more than there is room from `corner` to the
-// window's right edge.
-float wrap_width(const ImVec2& corner, float most) {
-  const float gaps = 4 * ImGui::GetStyle().WindowPadding.x;
-  return std::clamp(ImGui::GetIO().DisplaySize.x - corner.x - gaps, 1.0f, ImGui::GetFontSize() * most);
 }
 
 struct Key {
@@ -78,14 +73,30 @@ constexpr std::array keys{
 
 void help_overlay(const Panel& panel) {
   if (!panel.state.help) return;
+  const ImGuiStyle& style = ImGui::GetStyle();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  if (begin_overlay("keys", {size.x * 0.5f, size.y * 0.5f}, {0.5f, 0.5f})) {
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {size.x, std::max(size.y - 2 * style.WindowPadding.y, 1.0f)});
+  if (begin_overlay("keys", {size.x * 0.5f, size.y * 0.5f}, {0.5f, 0.5f},
+                    overlay_flags & ~ImGuiWindowFlags_NoScrollbar)) {
     ImGui::TextUnformatted("Mouse and keys");
     ImGui::Separator();
-    // In two columns where one would be higher than the window.
+    float left = 0, right = 0;
+    for (const Key& key : keys) {
+      left = std::max(left, ImGui::CalcTextSize(key.keys).x);
+      right = std::max(right, ImGui::CalcTextSize(key.what).x);
+    }
+    // Two columns where one would be higher than the window, if there is room. What is too wide wraps, and what is too
+    // high scrolls.
+    const float room = wrap_width(1000.0f, size.x) - style.ScrollbarSize, gap = 2 * style.CellPadding.x;
     const bool fits = static_cast<float>(keys.size() + 3) * ImGui::GetTextLineHeightWithSpacing() < size.y;
-    const std::size_t columns = fits ? 1 : 2, rows = (keys.size() + columns - 1) / columns;
+    const std::size_t columns = fits || 2 * (left + right) + 3 * gap > room ? 1 : 2;
+    const std::size_t rows = (keys.size() + columns - 1) / columns;
     ImGui::BeginTable("keys", static_cast<int>(2 * columns), ImGuiTableFlags_SizingFixedFit);
+    for (std::size_t i = 0; i < columns; ++i) {
+      ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, left);
+      ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, std::clamp(room - left - gap, 1.0f, right));
+    }
+    ImGui::PushTextWrapPos(0);
     for (std::size_t i = 0; i < rows * columns; ++i) {
       const std::size_t place = i % columns * rows + i / columns;
       ImGui::TableNextColumn();
@@ -94,6 +105,7 @@ void help_overlay(const Panel& panel) {
       ImGui::TableNextColumn();
       if (place < keys.size()) ImGui::TextUnformatted(keys.at(place).what);
     }
+    ImGui::PopTextWrapPos();
     ImGui::EndTable();
   }
   end_overlay(panel, "keys");
@@ -104,7 +116,7 @@ void messages_overlay(const Panel& panel, const ImVec2& corner, double now) {
   std::erase_if(messages, [now](const Message& message) { return message.until < now; });
   if (messages.empty()) return;
   if (begin_overlay("messages", inner(corner, 1, -1), {0, 1})) {
-    ImGui::PushTextWrapPos(wrap_width(corner, 40.0f));
+    ImGui::PushTextWrapPos(wrap_width(40.0f, ImGui::GetIO().DisplaySize.x - corner.x));
     for (const Message& message : messages) {
       const ImVec4 color = message.is_error ? ImVec4(1.0f, 0.45f, 0.38f, 1) : ImGui::GetStyleColorVec4(ImGuiCol_Text);
       ImGui::TextColored(color, "%s", message.text.c_str());
@@ -117,8 +129,8 @@ void messages_overlay(const Panel& panel, const ImVec2& corner, double now) {
 void shader_errors_overlay(const Panel& panel, const ImVec2& corner) {
   if (panel.status.shader_errors.empty()) return;
   if (begin_overlay("shader errors", inner(corner, 1, 1), {0, 0})) {
+    ImGui::PushTextWrapPos(wrap_width(44.0f, ImGui::GetIO().DisplaySize.x - corner.x));
     ImGui::TextColored({1.0f, 0.45f, 0.38f, 1}, "A shader does not compile. Its last good version is used.");
-    ImGui::PushTextWrapPos(wrap_width(corner, 44.0f));
     for (const std::string& error : panel.status.shader_errors) ImGui::TextUnformatted(error.c_str());
     ImGui::PopTextWrapPos();
   }
@@ -178,9 +190,10 @@ void texel_line(const Panel& panel) {
 
 }  // namespace
 
-void legend_overlay(const Panel& panel, const ImVec2& corner) {
+void legend_overlay(const Panel& panel, const ImVec2& corner, float room) {
   if (panel.state.inspection.what.empty()) return;
   if (begin_overlay("legend", inner(corner, -1, 1), {1, 0})) {
+    ImGui::PushTextWrapPos(wrap_width(44.0f, room));
     ImGui::TextUnformatted(title_of(panel.state.inspection, panel.status.gl).c_str());
     switch (panel.status.mapping.scale) {
       case ColorScale::labels:
@@ -198,8 +211,9 @@ void legend_overlay(const Panel& panel, const ImVec2& corner) {
         ImGui::Text("linear, %.4g to %.4g", panel.status.range.low, panel.status.range.high);
         break;
     }
+    texel_line(panel);
+    ImGui::PopTextWrapPos();
   }
-  texel_line(panel);
   end_overlay(panel, "legend");
 }
 
@@ -213,38 +227,74 @@ std::string progress(const ViewerStatus& status) {
 
 }  // namespace
 
-void status_bar(const Panel& panel) {
-  const ViewerStatus& status = panel.status;
+namespace {
+
+// A part of the status line. Where there is no room for all, those of the lowest ranks are left out.
+struct StatusPart {
+  int rank = 0;
   std::string text;
-  if (!status.loading.empty()) text += fmt::format("loading {}   ", status.loading);
-  if (status.tracing) text += fmt::format("tracing {:.0f} %   ", *status.tracing * 100);
+};
+
+std::vector<StatusPart> status_parts(const Panel& panel) {
+  const ViewerStatus& status = panel.status;
+  std::vector<StatusPart> parts;
+  if (!status.loading.empty()) parts.push_back({7, "loading " + status.loading});
+  if (status.tracing) parts.push_back({6, fmt::format("tracing {:.0f} %", *status.tracing * 100)});
   if (status.scene != nullptr) {
     const glm::ivec2 full(panel.state.document.options.size.width, panel.state.document.options.size.height);
-    text += fmt::format("{} × {}", status.drawn_size.x, status.drawn_size.y);
-    if (status.drawn_size != full) text += fmt::format(" of {} × {}", full.x, full.y);
+    std::string size = fmt::format("{} × {}", status.drawn_size.x, status.drawn_size.y);
+    if (status.drawn_size != full) size += fmt::format(" of {} × {}", full.x, full.y);
+    parts.push_back({3, size});
     const Detail detail = effective(panel.state.document.params, status.detail);
-    if (detail.maps > 1) text += fmt::format("   maps 1/{}", detail.maps);
-    if (detail.reads > 1) text += fmt::format("   taps 1/{}", detail.reads);
-    text +=
-        fmt::format("   {:.1f} ms   {}", status.costs_a.frame(), session::technique_label(panel.state.document.params));
-    text += status.idle ? "   idle" : "   " + progress(status);
+    if (detail.maps > 1) parts.push_back({2, fmt::format("maps 1/{}", detail.maps)});
+    if (detail.reads > 1) parts.push_back({2, fmt::format("taps 1/{}", detail.reads)});
+    parts.push_back({4, fmt::format("{:.1f} ms", status.costs_a.frame())});
+    parts.push_back({1, session::technique_label(panel.state.document.params)});
+    parts.push_back({5, status.idle ? "idle" : progress(status)});
   }
-  if (status.device.software) text += "   software rasteriser";
+  if (status.device.software) parts.push_back({0, "software rasteriser"});
+  return parts;
+}
+
+std::string joined(const std::vector<StatusPart>& parts) {
+  std::string text;
+  for (const StatusPart& part : parts) text += (text.empty() ? "" : "   ") + part.text;
+  return text;
+}
+
+}  // namespace
+
+void status_bar(const Panel& panel) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const char* name = "Panel";
+  const float button = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(name).x - 2 * style.FramePadding.x;
+  const float room = button - style.WindowPadding.x - 2 * style.ItemSpacing.x;
+  std::vector<StatusPart> parts = status_parts(panel);
+  const std::string whole = joined(parts);
+  while (parts.size() > 1 && ImGui::CalcTextSize(joined(parts).c_str()).x > room)
+    parts.erase(std::ranges::min_element(parts, {}, &StatusPart::rank));
+  const std::string text = shortened(joined(parts), room);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text.c_str());
   panel.widgets.mark("status");
+  if (text != whole) tooltip(whole);
 
   const char* help = "F1 keys";
-  const float place = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(help).x;
-  if (place < ImGui::GetStyle().WindowPadding.x + ImGui::CalcTextSize((text + "  ").c_str()).x) return;
-  ImGui::SameLine(place);
-  ImGui::TextDisabled("%s", help);
+  const float width = ImGui::CalcTextSize(help).x + 2 * style.ItemSpacing.x;
+  if (ImGui::CalcTextSize(text.c_str()).x + 2 * style.ItemSpacing.x + width <= room) {
+    ImGui::SameLine(button - width);
+    ImGui::TextDisabled("%s", help);
+  }
+  ImGui::SameLine(button);
+  if (ImGui::Button(name)) panel.state.panel = !panel.state.panel;
+  panel.widgets.mark("show panel");
+  tooltip("Shows or hides panel and menus (Tab)");
 }
 
 namespace {
 
 // A text that would cover the picture, without its middle.
-std::string shortened(const std::string& text) {
+std::string without_middle(const std::string& text) {
   constexpr std::size_t most = 600;
   if (text.size() <= most) return text;
   return text.substr(0, most / 2) + " ... " + text.substr(text.size() - most / 2);
@@ -260,8 +310,10 @@ void add(UiState& state, Message message) {
 
 }  // namespace
 
-void tell(UiState& state, const std::string& text, double now) { add(state, {shortened(text), false, now + 6}); }
+void tell(UiState& state, const std::string& text, double now) { add(state, {without_middle(text), false, now + 6}); }
 
-void tell_error(UiState& state, const std::string& text, double now) { add(state, {shortened(text), true, now + 20}); }
+void tell_error(UiState& state, const std::string& text, double now) {
+  add(state, {without_middle(text), true, now + 20});
+}
 
 }  // namespace penumbra::viewer

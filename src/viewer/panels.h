@@ -52,7 +52,7 @@ void closing_question(const Panel& panel);
 void help_overlay(const Panel& panel);
 void messages_overlay(const Panel& panel, const ImVec2& lower_left, double now);
 void shader_errors_overlay(const Panel& panel, const ImVec2& upper_left);
-void legend_overlay(const Panel& panel, const ImVec2& upper_right);
+void legend_overlay(const Panel& panel, const ImVec2& upper_right, float picture_width);
 // At the window's lower edge.
 void status_bar(const Panel& panel);
 

@@ -84,20 +84,26 @@ bool drag_line(const Panel& panel, const PictureArea& area, bool active) {
   return dragging;
 }
 
-// A label on a dark backdrop, so that it can be read over bright and dark pictures.
-void label(const glm::vec2& at, const char* text) {
+// A label on a dark backdrop, so that it can be read over bright and dark pictures: from `left` to `right`, at one of
+// these ends. If it has to be shortened, all of it is in a tooltip.
+void label(const Panel& panel, const std::string& text, float left, float right, float top, bool at_right = false) {
+  const std::string shown = shortened(text, right - left);
+  if (shown.empty()) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImVec2 size = ImGui::CalcTextSize(text);
-  const float gap = ImGui::GetStyle().FramePadding.y;
-  list.AddRectFilled({at.x - gap, at.y - gap}, {at.x + size.x + gap, at.y + size.y + gap}, IM_COL32(20, 20, 20, 190),
-                     gap);
-  list.AddText({at.x, at.y}, IM_COL32(255, 255, 255, 255), text);
+  const ImVec2 size = ImGui::CalcTextSize(shown.c_str());
+  const float gap = ImGui::GetStyle().FramePadding.y, x = at_right ? right - size.x : left;
+  const ImVec2 low(x - gap, top - gap), high(x + size.x + gap, top + size.y + gap);
+  list.AddRectFilled(low, high, IM_COL32(20, 20, 20, 190), gap);
+  list.AddText({x, top}, IM_COL32(255, 255, 255, 255), shown.c_str());
+  panel.widgets.mark("label " + text, low, high);
+  if (shown != text && ImGui::IsItemHovered() && ImGui::IsMouseHoveringRect(low, high)) show_tooltip(text);
 }
 
 void draw_line(const Panel& panel, const PictureArea& area) {
   const Comparison& comparison = panel.state.comparison;
   if (!comparison.on) return;
   const float top = area.corner.y, bottom = area.corner.y + area.size.y, gap = ImGui::GetFontSize();
+  const float left = area.corner.x + gap, right = area.corner.x + area.size.x - gap;
   const std::string a = "A: " + session::technique_label(panel.state.document.params);
   const std::string b =
       "B: " + session::technique_label(comparison.params) + (panel.status.b_is_old ? " (not drawn again yet)" : "");
@@ -107,12 +113,12 @@ void draw_line(const Panel& panel, const PictureArea& area) {
   if (line >= 0) {
     ImGui::GetWindowDrawList()->AddLine({line, top}, {line, bottom}, IM_COL32(255, 255, 255, 200), 1.0f);
     panel.widgets.mark("line", {line - grip, top}, {line + grip, bottom});
-    label({line - gap - ImGui::CalcTextSize(a.c_str()).x, bottom - 2 * gap}, a.c_str());
-    label({line + gap, bottom - 2 * gap}, b.c_str());
+    label(panel, a, left, line - gap, bottom - 2 * gap, /* at_right= */ true);
+    label(panel, b, line + gap, right, bottom - 2 * gap);
   } else {
     const std::string difference = fmt::format("|A - B| × {:.0f}", comparison.gain);
     const std::string& name = comparison.how == CompareMode::a ? a : comparison.how == CompareMode::b ? b : difference;
-    label({area.corner.x + gap, bottom - 2 * gap}, name.c_str());
+    label(panel, name, left, right, bottom - 2 * gap);
   }
 }
 

@@ -42,7 +42,7 @@ void choose_camera(const Panel& panel) {
   cli::SceneOptions& options = panel.state.document.options;
   row("look through", "A camera of the file, the one that penumbra render chooses by default, or a free one.");
   const std::string current = options.eye ? "free" : options.camera ? *options.camera : "automatic";
-  const bool open = ImGui::BeginCombo("##camera", current.c_str());
+  const bool open = begin_combo("##camera", current);
   panel.widgets.mark("camera");
   if (!open) return;
   const auto look_through = [&](std::optional<std::string> camera) {
@@ -85,11 +85,11 @@ void camera(const Panel& panel) {
   if (ImGui::Button("Frame casters")) state.requests.frame_casters = true;
   panel.widgets.mark("frame casters");
   tooltip("Shows all that casts shadows, without the ground (Home)");
-  ImGui::SameLine();
+  same_line_for("Copy camera");
   if (ImGui::Button("Copy camera")) state.requests.copy_camera = true;
   panel.widgets.mark("copy camera");
   tooltip("As arguments of penumbra render");
-  ImGui::SameLine();
+  same_line_for("Fly", /* has_box= */ true);
   ImGui::Checkbox("Fly", &state.fly);
   panel.widgets.mark("fly");
   tooltip("The left button looks around from the eye; W A S D Q E move (F)");
@@ -159,11 +159,12 @@ bool section(const char* title) { return ImGui::CollapsingHeader(title, ImGuiTre
 void scene_panel(const Panel& panel) {
   file(panel);
   if (panel.status.scene == nullptr) return;
-  ImGui::BeginChild("scene");
-  if (section("Camera")) camera(panel);
-  if (section("Sun")) sun(panel);
-  if (section("Lights")) lights_panel(panel);
-  if (section("Time")) time(panel);
+  if (ImGui::BeginChild("scene", {0, rest_of_panel()})) {
+    if (section("Camera")) camera(panel);
+    if (section("Sun")) sun(panel);
+    if (section("Lights")) lights_panel(panel);
+    if (section("Time")) time(panel);
+  }
   ImGui::EndChild();
 }
 

@@ -61,7 +61,8 @@ std::optional<glm::ivec2> Viewer::probed_pixel(const PictureArea& area) {
 void Viewer::probe(const PictureArea& area) {
   std::optional<glm::ivec2> pixel;
   if (!state_.locked_pixel || !probes(area)) status_.locked_at.reset();
-  if (shows_texture_alone()) {
+  status_.texture_alone = shows_texture_alone();
+  if (status_.texture_alone) {
     // Its texels are no pixels of the picture.
     status_.locked_at.reset();
   } else if (probes(area) && readable_ && !last_is_b_ && a_.shown != nullptr && status_.drawn_size.x > 0) {

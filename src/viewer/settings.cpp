@@ -119,6 +119,7 @@ Settings settings_of(const Json& file) {
   take(file, "panel", settings.panel);
   take(file, "vsync", settings.vsync);
   take(file, "panel_width", least_panel_width, most_panel_width, settings.panel_width);
+  take(file, "panel_share", least_panel_share, most_panel_share, settings.panel_share);
   take(file, "scale", least_scale, most_scale, settings.scale);
   take_tab(file, settings);
   take_params(file, settings);
@@ -161,6 +162,7 @@ Json to_json(const Settings& settings) {
   json["panel"] = settings.panel;
   json["vsync"] = settings.vsync;
   json["panel_width"] = std::clamp(settings.panel_width, least_panel_width, most_panel_width);
+  json["panel_share"] = std::clamp(settings.panel_share, least_panel_share, most_panel_share);
   json["scale"] = std::clamp(settings.scale, least_scale, most_scale);
   if (settings.tab.size() <= longest_tab) json["tab"] = settings.tab;
   json["params"] = params_of(settings);

@@ -10,7 +10,9 @@
 
 namespace penumbra::viewer {
 
-constexpr float usual_panel_width = 390, least_panel_width = 240, most_panel_width = 1600;  // pixels
+// Pixels. The window shows the panel no narrower than its contents need.
+constexpr float usual_panel_width = 390, least_panel_width = 240, most_panel_width = 1600;
+constexpr float usual_panel_share = 0.55f, least_panel_share = 0.2f, most_panel_share = 0.8f;
 constexpr float least_scale = 0.75f, most_scale = 3;
 
 // What the viewer keeps from one run to the next.
@@ -19,6 +21,7 @@ struct Settings {
   std::optional<cli::Size> window;  // its last size; absent if it was never saved
   bool panel = true, vsync = true;
   float panel_width = usual_panel_width;  // at an interface scale of 1
+  float panel_share = usual_panel_share;  // of the window's height, where the panel lies below the picture
   float scale = 1;                        // of the interface, beside the desktop's own
   std::string tab;                        // the open one of the side panel; empty: the first
   ParamSet params;  // all parameters; those that the file lacks are as session::usual_technique has them

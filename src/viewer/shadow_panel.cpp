@@ -39,8 +39,7 @@ void choose_technique(const Panel& panel, ParamSet& params) {
   row(panel.state.comparison.on ? "technique of A" : "technique",
       panel.state.comparison.on ? "How the shadows of picture A are computed. This tab edits A."
                                 : "How shadows are computed.");
-  const bool open =
-      ImGui::BeginCombo("##technique", session::technique_label(params).c_str(), ImGuiComboFlags_HeightLargest);
+  const bool open = begin_combo("##technique", session::technique_label(params), ImGuiComboFlags_HeightLargest);
   panel.widgets.mark("technique");
   if (!open) return;
   for (const shadow::Technique& technique : registry.techniques()) item(technique.name, technique.summary);
@@ -103,12 +102,23 @@ std::vector<std::string> groups_of(const ParamSet& params) {
   return names;
 }
 
+void groups(const Panel& panel, ParamSet& params, std::string& fault) {
+  bool any = false;
+  const ParamSet base = session::unmodified(params);
+  for (const std::string& name : groups_of(params)) any = group(panel, params, base, name, fault) || any;
+  if (any) return;
+  ImGui::TextWrapped("No parameter has these words in its name or help.");
+  panel.widgets.mark("nothing found");
+}
+
 void ask_to_overwrite(const Panel& panel) {
   constexpr const char* title = "overwrite a preset";
   UiState& state = panel.state;
   if (std::exchange(state.overwrite.wanted, false)) ImGui::OpenPopup(title);
   if (!ImGui::BeginPopup(title)) return;
+  ImGui::PushTextWrapPos(wrap_width(30.0f, ImGui::GetIO().DisplaySize.x));
   ImGui::Text("%s is there already.", state.overwrite.file.c_str());
+  ImGui::PopTextWrapPos();
   if (ImGui::Button("Overwrite")) {
     state.requests.overwrite_preset = state.overwrite.file;
     ImGui::CloseCurrentPopup();
@@ -127,7 +137,7 @@ void presets(const Panel& panel) {
   panel.widgets.mark("preset file");
   if (ImGui::Button("Load preset")) state.requests.open_preset = state.preset_file;
   panel.widgets.mark("load preset");
-  ImGui::SameLine();
+  same_line_for("Save preset");
   if (ImGui::Button("Save preset")) state.requests.save_preset = state.preset_file;
   panel.widgets.mark("save preset");
   ask_to_overwrite(panel);
@@ -150,15 +160,8 @@ void shadow_panel(const Panel& panel) {
   panel.widgets.mark("reset all");
   tooltip("Reset every parameter but the technique to its default");
   const float footer = 2 * ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().ItemSpacing.y;
-  ImGui::BeginChild("parameters", {0, -footer});
   std::string fault;
-  bool any = false;
-  const ParamSet base = session::unmodified(params);
-  for (const std::string& name : groups_of(params)) any = group(panel, params, base, name, fault) || any;
-  if (!any) {
-    ImGui::TextWrapped("No parameter has these words in its name or help.");
-    panel.widgets.mark("nothing found");
-  }
+  if (ImGui::BeginChild("parameters", {0, rest_of_panel(footer)})) groups(panel, params, fault);
   ImGui::EndChild();
   if (!fault.empty()) tell_error(state, fault, ImGui::GetTime());
   ImGui::Separator();

@@ -87,11 +87,11 @@ struct UiState {
   std::optional<glm::ivec2> locked_pixel;  // whose values stay, wherever the cursor is
   bool popup_open = false;                 // a list was open in the last frame: Escape closes it
   bool panel = true, help = false, probe = true, vsync = true;
-  float panel_width = usual_panel_width, scale = 1;  // as Settings has them
-  std::string search;                                // filters the parameters
-  std::string tab, open_tab;                         // the one to open in the next frame; the one that is open
-  bool focus_search = false;                         // put the keyboard focus into the search field in the next frame
-  FileList files;                                    // of the file browser
+  float panel_width = usual_panel_width, panel_share = usual_panel_share, scale = 1;  // as Settings has them
+  std::string search;                                                                 // filters the parameters
+  std::string tab, open_tab;  // the one to open in the next frame; the one that is open
+  bool focus_search = false;  // put the keyboard focus into the search field in the next frame
+  FileList files;             // of the file browser
   OverwriteQuestion overwrite;
   ClosingQuestion closing;
   std::string preset_file = "preset.toml", picture_file = "penumbra.png", scene_file;

@@ -58,6 +58,7 @@ struct ViewerStatus {
   std::optional<glm::ivec2> probed;             // the picture's pixel under the cursor, or the locked one
   std::optional<glm::ivec2> last_probed;        // the last one, also once the cursor has left the picture
   std::vector<ProbeRow> probe;
+  bool texture_alone = false;          // a texture of another size than the picture's takes its place
   std::optional<glm::vec2> locked_at;  // the middle of the locked pixel, from the picture's upper left
   ColorMapping mapping;                // of the inspected values
   glm::ivec2 shown_size{0};            // of what is shown instead of the picture, texels

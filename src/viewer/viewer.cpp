@@ -13,12 +13,14 @@
 #include "session/render_session.h"
 #include "session/shader_reload.h"
 #include "session/techniques.h"
+#include "viewer/clipped.h"
 
 namespace penumbra::viewer {
 
 namespace {
 
-constexpr float least_picture = 240;
+// Pixels at an interface scale of 1. A panel that is wider than `enough_for_panel` cuts nothing off.
+constexpr float least_picture = 240, enough_for_panel = 380;
 constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                           ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
@@ -166,7 +168,9 @@ void Viewer::begin_interface() {
 void Viewer::show_interface() {
   gl::leave_initial_state();
   window_.show();
-  if (!options_.layout.empty()) guarded([&] { widgets_.write_changes(options_.layout); });
+  if (options_.layout.empty()) return;
+  mark_clipped(widgets_);
+  guarded([&] { widgets_.write_changes(options_.layout); });
 }
 
 // Gives the window's input to the interface, and draws that over the last picture. A picture that the user has changed
@@ -275,27 +279,42 @@ void Viewer::play(float seconds) {
   state_.document.step(static_cast<int>(whole));
 }
 
+// The panel is beside the picture where the window is wide enough for both, else between picture and status line.
+// `menus`: the menus' height.
+Viewer::Places Viewer::places(bool with_panel, float menus) const {
+  const ImVec2 whole = ImGui::GetIO().DisplaySize;
+  const float scale = window_.scale(), bar = ImGui::GetFrameHeight() + 4 * scale;
+  const float height = std::max(whole.y - menus - bar, 1.0f);  // without menus and status line
+  Places places;
+  places.beside = whole.x >= (enough_for_panel + least_picture) * scale;
+  float left = 0, low = 0;  // what the panel takes from the picture
+  if (places.beside) {
+    const float width =
+        std::clamp(state_.panel_width * scale, enough_for_panel * scale, whole.x - least_picture * scale);
+    places.panel = {{0, menus}, {width, std::max(whole.y - menus, 1.0f)}};
+    if (with_panel) left = width;
+  } else {
+    const float part = std::max(std::round(height * state_.panel_share), 1.0f);
+    places.panel = {{0, menus + height - part}, {whole.x, part}};
+    if (with_panel) low = part;
+  }
+  places.picture = {{left, menus}, {whole.x - left, std::max(height - low, 1.0f)}};
+  places.status = {{left, whole.y - bar}, {whole.x - left, bar}};
+  return places;
+}
+
 PictureArea Viewer::build_interface() {
   const Panel panel{state_, status_, widgets_};
   take_keys(panel, ImGui::GetIO().DeltaTime);
-  const ImVec2 whole = ImGui::GetIO().DisplaySize;
-  const float width = std::min(state_.panel_width * window_.scale(), std::max(whole.x - least_picture, 0.0f));
-  const bool beside = state_.panel;
-  const float top = beside ? menu_bar(panel) : 0.0f, left = beside ? width : 0.0f;
-  const float bar = ImGui::GetFrameHeight() + 4 * window_.scale();
-  if (beside) side_panel(panel, top, width);
-  const PictureArea area = picture_window(panel, {left, top}, {whole.x - left, std::max(whole.y - top - bar, 1.0f)});
-  if (beside) panel_edge(panel, {left, top}, whole.y - top);
-  ImGui::SetNextWindowPos({left, whole.y - bar});
-  ImGui::SetNextWindowSize({whole.x - left, bar});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10 * window_.scale(), 2 * window_.scale()});
-  ImGui::Begin("status", nullptr, fixed_window | ImGuiWindowFlags_NoNav);
-  ImGui::PopStyleVar();
-  status_bar(panel);
-  ImGui::End();
+  const bool with_panel = state_.panel;
+  const Places at = places(with_panel, with_panel ? menu_bar(panel) : 0.0f);
+  if (with_panel) side_panel(panel, at.panel);
+  const PictureArea area = picture_window(panel, at.picture);
+  if (with_panel) panel_edge(panel, at.panel, at.beside);
+  status_window(panel, at.status);
   const ImVec2 corner(area.corner.x, area.corner.y);
   shader_errors_overlay(panel, corner);
-  legend_overlay(panel, {corner.x + area.size.x, corner.y});
+  legend_overlay(panel, {corner.x + area.size.x, corner.y}, area.size.x);
   messages_overlay(panel, {corner.x, corner.y + area.size.y}, ImGui::GetTime());
   help_overlay(panel);
   closing_question(panel);
@@ -305,10 +324,13 @@ PictureArea Viewer::build_interface() {
 }
 
 // The edge between panel and picture, which the mouse drags.
-void Viewer::panel_edge(const Panel& panel, const ImVec2& upper, float height) {
+void Viewer::panel_edge(const Panel& panel, const Box& box, bool upright) {
   const float grip = 3 * window_.scale();
-  ImGui::SetNextWindowPos({upper.x - grip, upper.y});
-  ImGui::SetNextWindowSize({2 * grip, std::max(height, 1.0f)});
+  const ImVec2 corner =
+      upright ? ImVec2(box.corner.x + box.size.x - grip, box.corner.y) : ImVec2(box.corner.x, box.corner.y - grip);
+  const ImVec2 size = upright ? ImVec2(2 * grip, box.size.y) : ImVec2(box.size.x, 2 * grip);
+  ImGui::SetNextWindowPos(corner);
+  ImGui::SetNextWindowSize(size);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
   // Windows that are never brought to the front lie behind those before them, and this one lies over both.
@@ -317,17 +339,36 @@ void Viewer::panel_edge(const Panel& panel, const ImVec2& upper, float height) {
                                      ImGuiWindowFlags_NoFocusOnAppearing;
   ImGui::Begin("panel edge", nullptr, flags);
   ImGui::PopStyleVar(2);
-  ImGui::InvisibleButton("edge", {2 * grip, std::max(height, 1.0f)});
+  ImGui::InvisibleButton("edge", size);
   panel.widgets.mark("panel edge");
-  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  if (ImGui::IsItemActive() && ImGui::IsMousePosValid())
-    state_.panel_width = std::clamp(ImGui::GetIO().MousePos.x / window_.scale(), least_panel_width, most_panel_width);
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive())
+    ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+  if (ImGui::IsItemActive() && ImGui::IsMousePosValid()) {
+    const ImVec2 pointer = ImGui::GetIO().MousePos;
+    if (upright) {
+      state_.panel_width = std::clamp(pointer.x / window_.scale(), enough_for_panel, most_panel_width);
+    } else {
+      const float end = box.corner.y + box.size.y, whole = box.size.y / state_.panel_share;
+      state_.panel_share = std::clamp((end - pointer.y) / whole, least_panel_share, most_panel_share);
+    }
+  }
   ImGui::End();
 }
 
-PictureArea Viewer::picture_window(const Panel& panel, const ImVec2& corner, const ImVec2& size) {
-  ImGui::SetNextWindowPos(corner);
-  ImGui::SetNextWindowSize(size);
+void Viewer::status_window(const Panel& panel, const Box& box) {
+  ImGui::SetNextWindowPos(box.corner);
+  ImGui::SetNextWindowSize(box.size);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10 * window_.scale(), 2 * window_.scale()});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+  ImGui::Begin("status", nullptr, fixed_window | ImGuiWindowFlags_NoNav);
+  ImGui::PopStyleVar(2);
+  status_bar(panel);
+  ImGui::End();
+}
+
+PictureArea Viewer::picture_window(const Panel& panel, const Box& box) {
+  ImGui::SetNextWindowPos(box.corner);
+  ImGui::SetNextWindowSize(box.size);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::Begin("picture", nullptr, fixed_window | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
   ImGui::PopStyleVar();
@@ -343,7 +384,7 @@ PictureArea Viewer::picture_window(const Panel& panel, const ImVec2& corner, con
   return area;
 }
 
-void Viewer::side_panel(const Panel& panel, float top, float width) {
+void Viewer::side_panel(const Panel& panel, const Box& box) {
   struct Tab {
     const char* name;
     void (*draw)(const Panel&);
@@ -351,9 +392,15 @@ void Viewer::side_panel(const Panel& panel, float top, float width) {
   static constexpr std::array tabs{Tab{"Shadow", shadow_panel},   Tab{"Scene", scene_panel},
                                    Tab{"Inspect", inspect_panel}, Tab{"Compare", compare_panel},
                                    Tab{"Cost", cost_panel},       Tab{"Files", files_panel}};
-  ImGui::SetNextWindowPos({0, top});
-  ImGui::SetNextWindowSize({width, std::max(ImGui::GetIO().DisplaySize.y - top, 1.0f)});
-  if (ImGui::Begin("panel", nullptr, fixed_window) && ImGui::BeginTabBar("tabs")) {
+  ImGui::SetNextWindowPos(box.corner);
+  ImGui::SetNextWindowSize(box.size);
+  // It scrolls where a tab is higher than the panel, and where the whole window is narrower than a panel has to be.
+  ImGuiWindowFlags flags = fixed_window & ~ImGuiWindowFlags_NoScrollbar;
+  if (const float enough = enough_for_panel * window_.scale(); box.size.x < enough) {
+    flags |= ImGuiWindowFlags_HorizontalScrollbar;
+    ImGui::SetNextWindowContentSize({enough - 2 * ImGui::GetStyle().WindowPadding.x, 0});
+  }
+  if (ImGui::Begin("panel", nullptr, flags) && ImGui::BeginTabBar("tabs")) {
     for (const Tab& tab : tabs) {
       const bool wanted = state_.focus_search ? tab.draw == shadow_panel : state_.tab == tab.name;
       const bool open = ImGui::BeginTabItem(tab.name, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0);

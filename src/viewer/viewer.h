@@ -57,6 +57,15 @@ class Viewer {
     const gl::Texture* colors = nullptr;  // its values in false colour, if any are inspected
     const gl::Texture* shown = nullptr;   // its picture, or these colours
   };
+  // A rectangle of the window, its pixels.
+  struct Box {
+    ImVec2 corner, size;
+  };
+  // Where the parts of the window are.
+  struct Places {
+    Box panel, picture, status;
+    bool beside = true;  // the panel is at the picture's left, not below it
+  };
   // What a frame does for both.
   struct PictureWork {
     Document b;
@@ -90,10 +99,12 @@ class Viewer {
   void take_saved();
   void take_shaders(std::span<const std::filesystem::path> changed);
   void play(float seconds);
+  Places places(bool with_panel, float menus) const;
   PictureArea build_interface();
-  void side_panel(const Panel& panel, float top, float width);
-  void panel_edge(const Panel& panel, const ImVec2& upper, float height);
-  PictureArea picture_window(const Panel& panel, const ImVec2& corner, const ImVec2& size);
+  void side_panel(const Panel& panel, const Box& box);
+  void panel_edge(const Panel& panel, const Box& box, bool upright);
+  void status_window(const Panel& panel, const Box& box);
+  PictureArea picture_window(const Panel& panel, const Box& box);
   std::optional<PictureWork> plan_pictures(const PictureArea& area, double now);
   void draw_pictures(const PictureWork& work);
   void draw_at_rest(const PictureWork& work);

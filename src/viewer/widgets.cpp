@@ -54,7 +54,7 @@ ImGuiSliderFlags flags_of(const Param& param) {
 
 bool choose_word(const Param& param, std::string& word, WidgetMap& widgets) {
   bool changed = false;
-  const bool open = ImGui::BeginCombo("##value", word.c_str());
+  const bool open = begin_combo("##value", word);
   widgets.mark(param.name);
   if (!open) return false;
   for (const std::string& choice : param.choices) {
@@ -111,6 +111,10 @@ void WidgetMap::write_changes(const std::filesystem::path& file) {
   written_ = boxes_;
 }
 
+float rest_of_panel(float below) {
+  return std::max(ImGui::GetContentRegionAvail().y - below, 4 * ImGui::GetFrameHeightWithSpacing());
+}
+
 void begin_rows(const char* id) {
   ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp);
   ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthStretch, 0.42f);
@@ -121,11 +125,13 @@ void row(const std::string& label, const std::string& text, bool changed) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
+  ImGui::PushTextWrapPos(0);
   if (changed) {
     ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", label.c_str());
   } else {
     ImGui::TextUnformatted(label.c_str());
   }
+  ImGui::PopTextWrapPos();
   if (!text.empty()) tooltip(text);
   ImGui::TableNextColumn();
   ImGui::SetNextItemWidth(-1);
@@ -167,20 +173,60 @@ bool param_row(ParamSet& params, const Param& param, WidgetMap& widgets, std::st
 bool choice(const std::string& text, bool chosen, ImGuiSelectableFlags flags) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::PushID(text.c_str());
-  const float width = std::max(ImGui::CalcTextSize(text.c_str()).x, ImGui::GetContentRegionAvail().x);
+  const std::string shown = shortened(text, wrap_width(1000.0f, ImGui::GetIO().DisplaySize.x));
+  const float width = std::max(ImGui::CalcTextSize(shown.c_str()).x, ImGui::GetContentRegionAvail().x);
   const bool taken = ImGui::Selectable("##choice", chosen, flags, {width, 0});
   ImGui::PopID();
-  ImGui::GetWindowDrawList()->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  ImGui::GetWindowDrawList()->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), shown.c_str());
+  if (shown != text) tooltip(text);
   return taken;
 }
 
-void tooltip(const std::string& text) {
-  if (!ImGui::IsItemHovered()) return;
+void show_tooltip(const std::string& text) {
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0f);
+  ImGui::PushTextWrapPos(wrap_width(26.0f, ImGui::GetIO().DisplaySize.x));
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+}
+
+void tooltip(const std::string& text) {
+  if (ImGui::IsItemHovered()) show_tooltip(text);
+}
+
+float wrap_width(float most, float room) {
+  const float gaps = 4 * ImGui::GetStyle().WindowPadding.x;
+  return std::clamp(room - gaps, 1.0f, ImGui::GetFontSize() * most);
+}
+
+std::string shortened(const std::string& text, float room) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
+  const auto continues = [&](std::size_t at) { return at < text.size() && (text[at] & 0xC0) == 0x80; };  // UTF-8
+  std::string shown;
+  for (std::size_t end = 1; end < text.size(); ++end) {
+    if (continues(end)) continue;
+    const std::string longer = text.substr(0, end) + "…";
+    if (ImGui::CalcTextSize(longer.c_str()).x > room) break;
+    shown = longer;
+  }
+  return shown;
+}
+
+bool begin_combo(const char* id, const std::string& chosen, ImGuiComboFlags flags) {
+  const float room = ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - ImGui::GetStyle().FramePadding.x;
+  const std::string shown = shortened(chosen, room);
+  const bool open = ImGui::BeginCombo(id, shown.c_str(), flags);
+  if (!open && shown != chosen) tooltip(chosen);
+  return open;
+}
+
+void same_line_for(const char* label, bool has_box) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float text = ImGui::CalcTextSize(label).x;
+  const float width =
+      has_box ? ImGui::GetFrameHeight() + style.ItemInnerSpacing.x + text : text + 2 * style.FramePadding.x;
+  const float right = ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x;
+  if (ImGui::GetItemRectMax().x + style.ItemSpacing.x + width <= right) ImGui::SameLine();
 }
 
 }  // namespace penumbra::viewer

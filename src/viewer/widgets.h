@@ -37,6 +37,10 @@ class WidgetMap {
   std::map<std::string, Box, std::less<>> boxes_, last_, written_;
 };
 
+// Height for a part of a panel that scrolls: what is left of it but `below`, and never less than some lines. Where the
+// panel scrolls, such a part can be out of sight: then ImGui::BeginChild() returns false, and it must have no tables.
+float rest_of_panel(float below = 0);
+
 // A table of rows until end_rows(): each has a label in the left column and a widget in the right one.
 void begin_rows(const char* id);
 void row(const std::string& label, const std::string& tooltip, bool changed = false);
@@ -48,8 +52,24 @@ bool param_row(ParamSet& params, const Param& param, WidgetMap& widgets, std::st
 
 // Text shown while the pointer is over the last widget.
 void tooltip(const std::string& text);
+// The same, wherever the pointer is.
+void show_tooltip(const std::string& text);
 
-// A selectable line of a list with any text: ImGui's own would end it at "##". Returns whether it was clicked.
+// The width at which text of a window that fits its contents is wrapped: `most` times the font's size, if the whole
+// window, of `room` pixels, has space for that.
+float wrap_width(float most, float room);
+
+// The text, or as much of its beginning as has room, and "…". Empty if not even one letter has.
+std::string shortened(const std::string& text, float room);
+
+// As ImGui::BeginCombo(). A chosen word that is too long for the widget is shortened, with all of it in a tooltip.
+bool begin_combo(const char* id, const std::string& chosen, ImGuiComboFlags flags = 0);
+
+// Puts the next button or box into the same line, if there is room for it.
+void same_line_for(const char* label, bool has_box = false);
+
+// A selectable line of a list with any text: ImGui's own would end it at "##". A text that is too long for the window
+// is shortened, with all of it in a tooltip. Returns whether it was clicked.
 bool choice(const std::string& text, bool chosen = false, ImGuiSelectableFlags flags = 0);
 
 }  // namespace penumbra::viewer

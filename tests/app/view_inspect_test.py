@@ -79,7 +79,10 @@ class Inspect(WindowTest):
     def test_a_texture_fits_and_tells_its_own_texels(self):
         with self.view(STEPS, *THESIS, size=(1100, 600)) as viewer:
             viewer.open_tab("Inspect", "show=picture")
+            self.assertTrue(viewer.has("point at the picture"))
             self.look_at(viewer, "target shadow 1/noise/blue")
+            self.assertTrue(viewer.has("values of a texture"))  # in the legend: the picture is not there to point at
+            self.assertFalse(viewer.has("point at the picture"))
             left, top, right, bottom = viewer.box("picture")
             viewer.rest()
             whole = viewer.seen("picture")

@@ -2,7 +2,7 @@
 
 import signal
 
-from desktop import Desktop
+from desktop import LEFT, Desktop
 from support import TestCase, main
 from viewer import Viewer
 from window import STEPS, WindowTest
@@ -96,6 +96,103 @@ class Panel(WindowTest):
             self.assertEqual(viewer.exit_code(), 0)
         with self.view(STEPS, home=home, size=(1000, 600)) as viewer:
             self.assertEqual((viewer.box("panel edge"), viewer.box("technique")), wanted)
+
+
+def clipped(viewer):
+    """What the window cuts off, as the layout names it, once nothing moves any more."""
+    viewer.leave()
+    viewer.follow()
+    return [name for name in viewer.layout() if name.startswith("clipped ")]
+
+
+class Narrow(WindowTest):
+    """Nothing is cut off, from a width of 420 pixels."""
+
+    SIZES = (420, 600), (560, 420), (620, 500), (1280, 720)
+    TABS = {"Shadow": "search", "Scene": "eye", "Inspect": "shown list", "Compare": "compare", "Cost": "vsync",
+            "Files": "with aovs"}
+    LOOK = "--technique", "pcf", "--set", "sun.angle=2"
+
+    def each_size(self, viewer, sizes=SIZES):
+        for size in sizes:
+            self.desktop.xdotool("windowsize", viewer.window, *size)
+            viewer.wait_for(lambda size=size: self.desktop.client.size(viewer.window) == size, "the new size")
+            yield size
+
+    def test_every_tab_shows_all_that_is_in_it(self):
+        with self.view(STEPS, "--technique", "slices_denoised") as viewer:
+            for size in self.each_size(viewer):
+                for tab, widget in self.TABS.items():
+                    with self.subTest(size=size, tab=tab):
+                        viewer.open_tab(tab, widget)
+                        self.assertEqual(clipped(viewer), [])
+
+    def test_a_search_that_finds_every_parameter(self):
+        with self.view(STEPS, *self.LOOK) as viewer:
+            viewer.point_at("search")
+            self.desktop.xdotool("click", LEFT)
+            viewer.follow()
+            viewer.type("e")
+            viewer.wait_for(lambda: viewer.has("cascades.count"), "the parameters of closed groups")
+            for size in self.each_size(viewer):
+                with self.subTest(size=size):
+                    self.assertEqual(clipped(viewer), [])
+
+    def test_a_panel_that_is_too_low_for_its_contents_scrolls(self):
+        with self.view(STEPS, *self.LOOK, size=(420, 600)) as viewer:
+            viewer.open_tab("Inspect", "shown list")
+            viewer.press("t", lambda: viewer.has("legend"), "the legend")
+            for size in self.each_size(viewer, [(420, 300), (420, 220)]):
+                self.assertEqual(clipped(viewer), [])
+
+    def test_labels_stay_within_the_picture(self):
+        with self.view(STEPS, *self.LOOK) as viewer:
+            viewer.press("c", lambda: viewer.has("line"), "the line")
+            viewer.open_tab("Compare", "b")
+            viewer.choose("b", "slices_denoised")
+            for size in self.each_size(viewer):
+                with self.subTest(size=size):
+                    self.assertEqual(clipped(viewer), [])
+                    left, top, right, bottom = viewer.box("picture")
+                    self.assertGreaterEqual(right - left, 240)
+                    labels = [box for name, box in viewer.layout().items() if name.startswith("label ")]
+                    self.assertEqual(len(labels), 2)
+                    for box in labels:
+                        self.assertTrue(left <= box[0] < box[2] <= right and top <= box[1] < box[3] <= bottom, box)
+
+    def test_lists_and_questions(self):
+        with self.view(STEPS, *self.LOOK) as viewer:
+            for size in self.each_size(viewer):
+                for key, widget in (("F1", "keys"), ("ctrl+o", "open up")):
+                    with self.subTest(size=size, key=key):
+                        viewer.press(key, lambda widget=widget: viewer.has(widget), widget)
+                        self.assertEqual(clipped(viewer), [])
+                        viewer.press("Escape", lambda widget=widget: not viewer.has(widget), f"no {widget}")
+            viewer.click("tab Shadow", lambda: viewer.has("save preset"), "the tab")
+            (self.folder / "preset.toml").write_text("technique = \"pcf\"\n")
+            for size in self.each_size(viewer, [(420, 600), (1280, 720)]):  # the button is in sight
+                with self.subTest(size=size):
+                    viewer.click("save preset", lambda: viewer.has("keep preset"), "the question")
+                    self.assertEqual(clipped(viewer), [])
+                    viewer.click("keep preset", lambda: not viewer.has("keep preset"), "no question")
+
+    def test_the_panel_is_below_the_picture_and_its_edge_is_dragged(self):
+        with self.view(STEPS, *self.LOOK, size=(420, 600)) as viewer:
+            picture, edge = viewer.box("picture"), viewer.box("panel edge")
+            self.assertEqual((picture[0], picture[2]), (0, 420))
+            self.assertLess(abs(picture[3] - viewer.middle("panel edge")[1]), 2)
+            self.assertGreater(viewer.box("technique")[1], picture[3])
+            x, y = viewer.middle("panel edge")
+            self.desktop.xdotool("mousemove", "--window", viewer.window, x, y, "mousedown", LEFT)
+            viewer.follow()
+            viewer.move(x, y - 60)
+            viewer.follow()
+            self.desktop.xdotool("mouseup", LEFT)
+            viewer.wait_for(lambda: abs(viewer.box("picture")[3] - (y - 60)) < 3, "a higher panel")
+            self.assertNotEqual(viewer.box("panel edge"), edge)
+            viewer.click("show panel", lambda: not viewer.has("technique"), "the panel to go")
+            self.assertGreater(height(viewer.box("picture")), 500)
+            viewer.click("show panel", lambda: viewer.has("technique"), "the panel to come back")
 
 
 class Scale(TestCase):

@@ -79,6 +79,7 @@ TEST_F(ViewerSettings, WhatWasWrittenIsReadBack) {
   settings.panel = settings.vsync = false;
   settings.tab = "Cost";
   settings.panel_width = 512.5f;
+  settings.panel_share = 0.25f;
   settings.scale = 1.75f;
   for (const Param& row : settings.params.rows()) {
     if (const bool* flag = std::get_if<bool>(&row.default_value)) settings.params.set(row.name, !*flag);
@@ -96,6 +97,7 @@ TEST_F(ViewerSettings, WhatWasWrittenIsReadBack) {
   EXPECT_FALSE(again.vsync);
   EXPECT_EQ(again.tab, "Cost");
   EXPECT_EQ(again.panel_width, 512.5f);
+  EXPECT_EQ(again.panel_share, 0.25f);
   EXPECT_EQ(again.scale, 1.75f);
   for (const Param& row : settings.params.rows())
     EXPECT_EQ(again.params.value(row.name), settings.params.value(row.name)) << row.name;
@@ -141,6 +143,8 @@ TEST_F(ViewerSettings, AWrongPartSpoilsTheWhole) {
     expect_fault(good + "\"scale\": " + value + "}", "'scale' takes a number from 0.75 to 3");
     expect_fault(good + "\"panel_width\": " + value + "}", "'panel_width' takes a number from 240 to 1600");
   }
+  for (const char* value : {"0.1", "1", "-1", "\"1\"", "null"})
+    expect_fault(good + "\"panel_share\": " + value + "}", "'panel_share' takes a number from 0.2 to 0.8");
   expect_fault(good + R"("tab": 3})", "'tab'");
   expect_fault(good + R"("tab": ")" + std::string(1000, 'x') + "\"}", "'tab'");
   for (const char* part : {R"(["a.glb"])", R"([""])", R"([3])", R"({"0": "/a.glb"})", R"("/a.glb")"})
