@@ -21,8 +21,8 @@ struct Filter {
   Of of = Of::visibility;
   int passes = 1;
   // For each pass, how many pixels it reads to each side of the filtered one, along x and y. In the compute driver a
-  // work group loads its pixels with this border into shared memory; if they do not fit into 32 KiB, its invocations read
-  // textures instead.
+  // work group loads its pixels with this border into shared memory; if they do not fit into 32 KiB, its invocations
+  // read textures instead.
   std::vector<glm::ivec2> border = {};
   // Whether it leaves a texel as it is if neither that one nor any within 3 pixels of it has a blocker distance. Such
   // parts of the picture, where they are decided (see tiles.h), need not be filtered then.

@@ -15,8 +15,8 @@ namespace penumbra::test {
 namespace {
 
 // Distances along a ray below this, metres, are those of the surface that the ray starts on: points come from depths. A
-// rasteriser that rounds vertices to 1/256 of a pixel moves points of these scenes, whose pixels are at most 0.15 m wide,
-// by up to 0.3 mm across the surface.
+// rasteriser that rounds vertices to 1/256 of a pixel moves points of these scenes, whose pixels are at most 0.15 m
+// wide, by up to 0.3 mm across the surface.
 constexpr double on_surface = 5e-4;
 
 // Where the line from a point towards the light meets the triangle: metres from the point, not a number if it does not.

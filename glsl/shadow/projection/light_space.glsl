@@ -155,8 +155,8 @@ float pixel_width(vec3 position) {
   return max(shadow.pixel_size.x, shadow.pixel_size.y) * abs(shadow.pixel_size.z * position.z + shadow.pixel_size.w);
 }
 
-// Rasterisers round vertices to a grid, so what they draw at a pixel's centre may be a point of the surface up to half a
-// step of the grid beside it. Returns that distance along x and y of view space, metres.
+// Rasterisers round vertices to a grid, so what they draw at a pixel's centre may be a point of the surface up to half
+// a step of the grid beside it. Returns that distance along x and y of view space, metres.
 vec2 rounding_of_vertices(vec3 position) {
   float clip_w = shadow.pixel_size.z * position.z + shadow.pixel_size.w;
   return abs(shadow.vertex_rounding * clip_w * shadow.pixel_size.xy);
