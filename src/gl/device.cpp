@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "../core/error.h"
+#include "context.h"
 #include "debug.h"
 #include "pass_state.h"
 
@@ -249,10 +250,13 @@ float Device::vertex_rounding() {
   if (!impl_->vertex_rounding) {
     GLint bits = 0;
     glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
-    impl_->vertex_rounding = std::exp2(static_cast<float>(-bits - 1));
+    const bool exact = device_info().renderer.starts_with("llvmpipe");
+    impl_->vertex_rounding = exact ? 0 : std::exp2(static_cast<float>(-bits - 1));
   }
   return *impl_->vertex_rounding;
 }
+
+void Device::assume_vertex_rounding(float pixels) { impl_->vertex_rounding = pixels; }
 
 GLuint Device::empty_vertex_array() {
   if (!impl_->empty_vertex_array) {

@@ -40,9 +40,12 @@ class Device {
   // A buffer of at least `bytes` of that name, kept in the same way (grows, never shrinks). Throws Error as Buffer.
   const Buffer& scratch(std::string_view name, std::size_t bytes);
   const Sampler& sampler(const SamplerDesc& desc);
-  // The most by which the rasteriser moves a vertex along x and along y, pixels: half a step of its grid, if it rounds
-  // to the nearest one.
+  // How far beside its place the rasteriser may draw the depths of a surface, along x and along y, pixels: half a step
+  // of the grid to which it rounds vertices, if it rounds to the nearest one. 0 for llvmpipe, which computes depths
+  // from vertices that are not rounded.
   float vertex_rounding();
+  // Replaces that value, for depths that come from elsewhere.
+  void assume_vertex_rounding(float pixels);
   // Deletes the targets and buffers whose names start with `prefix`, except `kept`; references to them become invalid.
   void drop(std::string_view prefix, const std::set<std::string, std::less<>>& kept = {});
   // All textures, in the order of their names; the pointers are valid as long as references from target() are.
