@@ -37,6 +37,7 @@ LIBRARIES = {
     "EGL/": {"gl"},
     "GLFW/": {"gl", "viewer"},
     "imgui.h": {"viewer"},
+    "imgui_internal.h": {"viewer"},
     "imgui_stdlib.h": {"viewer"},
     "backends/imgui": {"viewer"},
     "tiny_gltf.h": {"scene"},
