@@ -5,7 +5,7 @@
 layout(std430, binding = 0) writeonly restrict buffer Exposure { float exposure; };
 layout(std430, binding = 1) readonly restrict buffer Sums { vec2 sums[]; };
 
-uniform int groups;     // that have written sums
+uniform int groups;    // that have written sums
 uniform vec2 limits;   // of the exposure, lowest and highest
 uniform float white;   // value of a white surface in the mean light
 uniform float factor;  // exposure compensation

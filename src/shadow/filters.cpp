@@ -143,18 +143,21 @@ void set_viewport(gl::Pass& pass, const LightWork& work) {
 // Fills the tiles that the filter leaves as they are, with the texels or what they are in the mask.
 void keep_tiles(const LightWork& work, const Step& step, const PassInputs& inputs) {
   gl::Pass pass(work.device, pass_of(work, step, inputs, /*draws=*/step.to_mask));
+  // Compute shaders write the same texture as an image.
+  const auto barrier = [&] {
+    if (step.form != Form::fragment) pass.barrier();
+  };
   if (step.to_mask) {
     set_viewport(pass, work);
     use(pass, work, {.filter = unfiltered(), .to_mask = true, .over = Over::kept}, inputs);
     draw_tiles(pass, *inputs.source.tiles, decided_draw_offset);
-    pass.barrier();  // compute shaders write the same texture as an image
-    return;
+    return barrier();
   }
   // Copying all texels costs less than a draw of the tiles.
   const Rect& part = work.frame.viewport;
   gl::glCopyImageSubData(inputs.texels.id(), GL_TEXTURE_2D, 0, part.x, part.y, 0, inputs.target.id(), GL_TEXTURE_2D, 0,
                          part.x, part.y, 0, part.width, part.height, 1);
-  pass.barrier();
+  barrier();
 }
 
 void run_pass(const LightWork& work, Step step, const PassInputs& inputs) {

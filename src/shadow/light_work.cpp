@@ -53,6 +53,38 @@ PassOwner owner_of(const Denoiser& denoiser) {
           .programs = denoiser.programs};
 }
 
+namespace {
+
+// Writes a set's tables to its place.
+void write_samples(const LightWork& work, const Technique& technique, const char* name, int set,
+                   LightState::SampleTables& tables) {
+  constexpr std::size_t alignment = 256;  // the most that OpenGL may ask for, bytes
+  const std::vector<glm::vec4> points =
+      work.samples.tables(technique, work.params(), {.set = set, .scramble = tables.scramble});
+  if (tables.written == 0) {
+    tables.bytes = sizeof(glm::vec4) * points.size();
+    tables.stride = (tables.bytes + alignment - 1) / alignment * alignment;
+    tables.buffer = &work.device.scratch(work.prefix() + name, static_cast<std::size_t>(tables.sets) * tables.stride);
+  }
+  tables.buffer->write(std::as_bytes(std::span(points)), static_cast<std::size_t>(set) * tables.stride);
+  tables.written |= 1u << set;
+}
+
+}  // namespace
+
+void upload_samples(const LightWork& work, const Technique& technique, const char* name) {
+  if (technique.samples.empty()) return;
+  const Scramble scramble = scramble_of(technique, work.params(), work.frame.shape);
+  const int sets = scramble == Scramble::keys ? 1 : set_count(work.params());
+  LightState::SampleTables& tables = work.state.samples[technique.name];
+  if (!work.state.uploaded || tables.sets != sets || tables.scramble != scramble) {
+    tables = {.sets = sets, .scramble = scramble};
+  }
+  const int set = static_cast<int>(work.state.age % static_cast<std::uint64_t>(sets));
+  if ((tables.written >> set & 1u) == 0) write_samples(work, technique, name, set, tables);
+  tables.offset = static_cast<std::size_t>(set) * tables.stride;
+}
+
 void bind_light(gl::Device& device, const LightFrame& frame, const LightState& state, const PassOwner& owner) {
   state.params_block->bind_uniform(block_params);
   state.shadow_block->bind_uniform(block_shadow);

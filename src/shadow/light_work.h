@@ -38,6 +38,9 @@ std::vector<Denoiser::Remembered> remembered_by(const Denoiser* denoiser, const 
 // Null if this frame made no product of that name.
 const Product* find_product(const LightFrame& frame, std::string_view name);
 
+// Writes the sample points of a technique that this frame reads, unless its buffer has them. `name`: of that buffer.
+void upload_samples(const LightWork& work, const Technique& technique, const char* name);
+
 // Binds what every program of the owner reads, except the receivers: uniform blocks, maps, noise, products.
 void bind_light(gl::Device& device, const LightFrame& frame, const LightState& state, const PassOwner& owner);
 // The texture of the receivers' normals: the caller's, or those that were made from depths; 0: not made yet.

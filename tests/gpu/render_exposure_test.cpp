@@ -1,0 +1,76 @@
+// Automatic exposure against its closed form: the geometric mean of what a white surface would show at each pixel.
+#include <algorithm>
+#include <cmath>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "gpu/gpu_test.h"
+#include "render/passes.h"
+
+namespace penumbra::test {
+namespace {
+
+struct Pixel {
+  float radiance = 0, root_of_albedo = 1, alpha = 1;  // alpha 0: sky
+};
+
+class Exposure : public GpuTest {
+ protected:
+  // The exposure of a picture of that size.
+  template <class PixelAt>
+  float measured(int width, int height, PixelAt pixel_at) {
+    std::vector<glm::vec4> lit, albedo;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const Pixel pixel = pixel_at(x, y);
+        lit.emplace_back(glm::vec3(pixel.radiance), 1);
+        albedo.emplace_back(glm::vec3(pixel.root_of_albedo), pixel.alpha);
+      }
+    }
+    gl::Device device({}, gl::Timers::Mode::off);
+    const auto texture_of = [&](const char* name, const std::vector<glm::vec4>& texels) {
+      gl::Texture texture(name, {.format = GL_RGBA32F, .width = width, .height = height});
+      texture.upload(GL_RGBA, GL_FLOAT, std::as_bytes(std::span(texels)));
+      return texture;
+    };
+    const gl::Texture light = texture_of("lit", lit), roots = texture_of("albedo", albedo);
+    render::GBuffer gbuffer;
+    gbuffer.albedo = &roots;
+    const ParamSet params(render::render_params());
+    const gl::Buffer& buffer = render::measure_exposure(device, {.gbuffer = gbuffer, .lit = light, .params = params});
+    float exposure = 0;
+    gl::glGetNamedBufferSubData(buffer.id(), 0, sizeof(exposure), &exposure);
+    return exposure;
+  }
+};
+
+// Sizes of one work group, of a part of one, and of many whose last one is not full.
+TEST_F(Exposure, IsThatOfTheGeometricMeanWhateverTheSize) {
+  for (const auto& [width, height] : {std::pair(8, 8), {180, 180}, {400, 300}, {1283, 717}}) {
+    // White is to have the value 1: samples of 1/4 and of 1 have the mean 1/2.
+    std::size_t samples = 0, bright = 0;
+    const float exposure = measured(width, height, [&](int x, int y) {
+      const bool is_bright = y >= height / 3;
+      if (x % 4 == 0 && y % 4 == 0) {
+        ++samples;
+        bright += is_bright ? 1 : 0;
+      }
+      return Pixel{.radiance = is_bright ? 1.0f : 0.25f};
+    });
+    const double share = static_cast<double>(bright) / static_cast<double>(samples);
+    EXPECT_NEAR(exposure, std::pow(4.0, 1 - share), 1e-4) << width << " x " << height;
+  }
+}
+
+TEST_F(Exposure, LeavesOutTheSkyAndWhatAlbedoDoes) {
+  const float exposure = measured(400, 300, [](int x, int y) {
+    if (y > 200) return Pixel{.radiance = 50, .alpha = 0};
+    return x < 200 ? Pixel{.radiance = 0.25f, .root_of_albedo = 0.5f} : Pixel{.radiance = 0.5f, .root_of_albedo = 1};
+  });
+  // 1/4 over an albedo of 1/4, and 1/2 over 1.
+  EXPECT_NEAR(exposure, std::sqrt(2.0f), 1e-4);
+}
+
+}  // namespace
+}  // namespace penumbra::test
