@@ -49,6 +49,8 @@ struct TruthTechnique::State {
   Last none;
   std::vector<const Last*> last;  // of each layer of the mask
   long long turn = 0;             // counts the lights drawn
+  int last_layer = -1;            // of the mask that was filled last
+  bool unfinished = false;        // a light of the present frame was filled without its picture
 
   // For background tracing. Only the frame's thread uses the cache, because creating files briefly changes the umask,
   // which belongs to the whole process.
@@ -185,6 +187,7 @@ void TruthTechnique::State::resolve_later(const shadow::PassContext& frame, Ligh
     tracing = Tracing{id, key};
   }
   light.awaited = key;
+  unfinished = true;
 }
 
 // Of a light that the ground hides from everything: no ray is traced.
@@ -207,8 +210,11 @@ void TruthTechnique::State::resolve(const shadow::PassContext& frame) {
   const render::FrameScene& user = frame_scene(frame, "truth");
   PictureRequest wanted = request(frame, user);
   const LightId id{.view = frame.inputs().view.id, .light = frame.light().id};
+  const int layer = frame.frame().layer;
+  const bool first_of_frame = layer <= std::exchange(last_layer, layer);
+  if (first_of_frame) unfinished = false;
   const gl::Pass pass(frame.device(), {.name = "ray trace"});
-  if (user.hidden[static_cast<std::size_t>(frame.frame().layer)]) {
+  if (user.hidden[static_cast<std::size_t>(layer)]) {
     resolve_hidden(frame, id, wanted);
   } else if (options.background) {
     resolve_later(frame, id, std::move(wanted));
@@ -268,6 +274,8 @@ std::optional<TruthTechnique::Pending> TruthTechnique::pending() const {
   const std::optional<double> share = state_->worker.share_done();
   return share ? std::optional(Pending{*share}) : std::nullopt;
 }
+
+bool TruthTechnique::unfinished() const { return state_->unfinished; }
 
 void TruthTechnique::cancel() {
   state_->cancel();

@@ -45,6 +45,9 @@ class TruthTechnique {
   // With background tracing: set while a picture that the last frame requested is being traced. When it is empty
   // again, the next frame shows the picture, and starts tracing that of the next light that has none.
   std::optional<Pending> pending() const;
+  // With background tracing: whether the last frame showed a light without its picture, and a later one will show it.
+  // That one may have to be drawn although pending() was never seen set: few rays can be traced before it is called.
+  bool unfinished() const;
 
   // Cancels background tracing. Returns at once; the scene may still be read for a moment.
   void cancel();

@@ -69,7 +69,7 @@ FrameState Viewer::frame_state(const Document& b, const PictureArea& area, doubl
   const bool chosen = std::exchange(inspected_, inspected) != inspected;
   FrameState frame{.now = now,
                    .a = state_of(a_, state_.document),
-                   .truth_pending = truth_.pending().has_value(),
+                   .truth_pending = status_.tracing.has_value(),
                    .values_wanted = chosen || (last_is_b_ && probes(area)),
                    .last_is_b = last_is_b_,
                    .unreadable = !readable_,
@@ -87,9 +87,9 @@ FrameState Viewer::frame_state(const Document& b, const PictureArea& area, doubl
 // Once the background has traced a picture, it is drawn again from the result.
 void Viewer::take_traced(const Document& b) {
   const std::optional<truth::TruthTechnique::Pending> pending = truth_.pending();
-  if (status_.tracing && !pending) {
-    if (is_traced(state_.document)) a_.renderer.again();
-    if (is_traced(b)) b_.renderer.again();
+  if (!pending) {
+    if (is_traced(state_.document) && a_.untraced) a_.renderer.again();
+    if (is_traced(b) && b_.untraced) b_.renderer.again();
   }
   status_.tracing = pending ? std::optional(pending->share_done) : std::nullopt;
 }
@@ -178,9 +178,9 @@ bool Viewer::draw_side(const SideWork& work, const Detail& detail) {
     if (std::exchange(side.detail, detail) != detail) side.costs.clear();
     cost_reader_.start(device_.device.timers, side.costs);
     side.renderer.draw(*scene_, work.document, detail);
+    side.untraced = is_traced(work.document) && truth_.unfinished();
     side.costs.set_work(device_.device.timers.work());
-    const bool finished = !is_traced(work.document) || !truth_.pending();
-    if (work.plan.measure && finished) measure(side);
+    if (work.plan.measure && !side.untraced) measure(side);
     inspect(side);
     drawn = true;
   });
@@ -198,7 +198,7 @@ void Viewer::forget_b() {
   if (!b_.renderer.has_picture()) return;
   b_.renderer.forget();
   b_.shown = b_.colors = nullptr;
-  b_.measured = false;
+  b_.measured = b_.untraced = false;
   renderer_.forget_view(1);
 }
 

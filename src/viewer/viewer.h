@@ -54,6 +54,7 @@ class Viewer {
     int reads = 0;                        // how often they were read back
     std::vector<float> visibility;        // if measured
     bool measured = false;                // the visibility is that of the finished picture
+    bool untraced = false;                // it was drawn before the rays of all its lights were traced
     const gl::Texture* colors = nullptr;  // its values in false colour, if any are inspected
     const gl::Texture* shown = nullptr;   // its picture, or these colours
   };

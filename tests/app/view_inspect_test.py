@@ -109,6 +109,22 @@ class Inspect(WindowTest):
 
 
 class Compare(WindowTest):
+    def test_rays_that_are_traced_before_their_frame_ends_are_shown(self):
+        # Few rays of few pixels, and triangles that take long to draw again for smooth edges.
+        look = (pictures.scene("courtyard"), "--set", "truth.samples=8")
+        with self.view(*look, "--technique", "none", size=(640, 300)) as viewer:
+            viewer.open_tab("Compare", "compare")
+            viewer.click("compare", lambda: viewer.has("b"), "the choice of B")
+            viewer.wait_for(lambda: viewer.has("distance"), "the figures")
+            viewer.click("compare=B", lambda: not viewer.has("line"), "B alone")
+            shown = viewer.rest()
+            left, top, right, bottom = viewer.box("picture")
+        self.succeed("render", *look, "--technique", "truth", "--size", f"{right - left}x{bottom - top}", "-o",
+                     self.folder / "written.png", "--quiet")
+        written = read(self.folder / "written.png")
+        part = written.crop(0, written.height // 3, written.width, written.height * 3 // 4)
+        self.assertEqual(part.differing(shown, by=1), 0)
+
     def test_two_truths_are_not_traced_against_each_other(self):
         small = {"size": (640, 300)}
         with self.view(STEPS, "--technique", "truth", "--set", "truth.samples=8", **small) as viewer:

@@ -223,6 +223,24 @@ TEST_F(TruthInTheBackground, TracesTheLightsOfAFrameOneAfterTheOther) {
   EXPECT_EQ(renderer.read_aov("color"), reference.read_aov("color"));
 }
 
+TEST_F(TruthInTheBackground, IsUnfinishedUntilAFrameShowsAllLights) {
+  Stage stage;
+  stage.add_sun();
+  Gate gate(/*open=*/false);
+  const truth::TruthTechnique truth(in_background(gate));
+  render::Renderer renderer = stage.renderer(truth);
+  EXPECT_FALSE(truth.unfinished());
+  for (int traced = 0; traced < 2; ++traced) {
+    stage.draw(renderer, few);
+    EXPECT_TRUE(truth.unfinished());
+    gate.open();
+    Stage::wait(truth);  // all rays are traced, but no frame has shown them
+    EXPECT_TRUE(truth.unfinished());
+  }
+  stage.draw(renderer, few);
+  EXPECT_FALSE(truth.unfinished());
+}
+
 TEST_F(TruthInTheBackground, FinishesViewsThatAreDrawnInTurn) {
   Stage stage;
   Gate gate(/*open=*/true);
