@@ -14,9 +14,8 @@
 namespace penumbra::test {
 namespace {
 
-// Distances along a ray below this, metres, are those of the surface that the ray starts on: points come from depths. A
-// rasteriser that rounds vertices to 1/256 of a pixel moves points of these scenes, whose pixels are at most 0.15 m
-// wide, by up to 0.3 mm across the surface.
+// Points nearer to a surface than this, metres across it, lie on it: points come from depths. A rasteriser that rounds
+// vertices to 1/256 of a pixel moves points of these scenes, whose pixels are at most 0.15 m wide, by up to 0.3 mm.
 constexpr double on_surface = 5e-4;
 
 // Where the line from a point towards the light meets the triangle: metres from the point, not a number if it does not.
@@ -38,8 +37,8 @@ bool lit(const TriangleScene& scene, const glm::dvec3& from) {
   const glm::dvec3 to_eye = glm::dvec3(glm::inverse(glm::dmat4(scene.view))[3]) - from;
   return std::ranges::none_of(scene.triangles, [&](const Triangle& triangle) {
     const double distance = distance_to(triangle, from, to_light);
-    if (!(std::abs(distance) <= on_surface)) return distance > 0;
-    const glm::dvec3 normal(glm::cross(triangle.b - triangle.a, triangle.c - triangle.a));
+    const glm::dvec3 normal(glm::normalize(glm::cross(triangle.b - triangle.a, triangle.c - triangle.a)));
+    if (!(std::abs(distance * glm::dot(normal, to_light)) <= on_surface)) return distance > 0;
     return glm::dot(normal, to_light) * glm::dot(normal, to_eye) < 0;
   });
 }

@@ -162,7 +162,9 @@ void ShadowVolumeImage::expect_rays(const fs::path& path, const std::string& nam
   print(name + (shown.masked ? " (mask)" : "") + (shown.blended ? " (blend)" : ""), shown.whole);
   ++summary.scenes;
   summary.without_receivers += shown.whole.receivers == 0 ? 1 : 0;
-  EXPECT_LE(shown.whole.share(), 0.001);
+  // Where the rasteriser rounds vertices, receivers lie beside their surfaces, and the technique's bias is as wide.
+  const bool exact = device_.vertex_rounding() == 0;
+  EXPECT_LE(shown.whole.share(), exact ? 0.001 : 0.002);
   if (!shown.blended) {
     EXPECT_LE(shown.brighter, 0.001 * shown.whole.receivers) << "brighter than what alpha leaves";
   }
@@ -170,7 +172,7 @@ void ShadowVolumeImage::expect_rays(const fs::path& path, const std::string& nam
     std::printf("  of %zu triangles: not counted below\n", shown.triangles);
     return;
   }
-  EXPECT_EQ(shown.whole.off_edges, 0);
+  EXPECT_LE(shown.whole.off_edges, exact ? 0 : 1);
   summary.sum += shown.whole;
 }
 
