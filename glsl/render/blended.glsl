@@ -16,6 +16,7 @@ void main() {
   s.position = surface.world;
   s.albedo = clamp(color.rgb, 0.0, 1.0);
   s.normal = shading_normal(geometric);
+  s.smooth_lean = smooth_lean();
   s.to_eye = -normalize(view_ray());
   s.emission = emission(surface_uv());
   s.metallic = properties.x;

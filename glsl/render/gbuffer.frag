@@ -21,7 +21,7 @@ void main() {
   out_albedo = vec4(sqrt(clamp(color.rgb, 0.0, 1.0)), is_unlit() ? 1.0 / 3.0 : 1.0);
   out_normal = octahedral_encode(shading_normal(geometric)) * 0.5 + 0.5;
   out_geometric_normal = octahedral_encode(geometric);
-  out_material = vec4(properties, 0.0);
+  out_material = vec4(properties, smooth_lean());
 #if EMISSION
   out_emission = min(emission(surface_uv()), vec3(64000.0));
 #endif

@@ -52,6 +52,7 @@ void main() {
 #endif
   s.albedo = albedo.rgb * albedo.rgb;
   s.normal = octahedral_decode(texelFetch(gbuffer_normal, pixel, 0).xy * 2.0 - 1.0);
+  s.smooth_lean = material.a;
   s.to_eye = -normalize(view_ray);
   s.metallic = material.r;
   s.roughness = material.g;

@@ -7,6 +7,7 @@ struct Shading {
   vec3 position;  // world, metres; read only where there are lamps
   vec3 albedo;
   vec3 normal;  // unit, world
+  float smooth_lean;  // sine of the largest angle between the triangle's own normal and its smooth ones
   vec3 to_eye;  // unit, world
   vec3 emission;
   float metallic;
@@ -47,6 +48,16 @@ Incident incident_at(vec3 position, DirectLightBlock light) {
 Incident incident_at(vec3 position, DirectLightBlock light) { return Incident(light.place, light.illuminance); }
 #endif
 
+// The share of a light that is left where the smooth normal turns towards it by that cosine. Up to a cosine of
+// smooth_lean a triangle may lie in its own shadow, so light fades in from there on: nowhere does a triangle that is
+// bright adjoin one that is dark. Normals that lean by more than 15 to 30 degrees smooth over an edge of flat faces
+// instead of following a round body; there light stays.
+float terminator_share(Shading s, float n_dot_l) {
+  float round_body = 1.0 - smoothstep(0.25, 0.5, s.smooth_lean);
+  float lean = lighting.soft_terminator * round_body * s.smooth_lean;
+  return smoothstep(lean, 2.0 * lean + 1e-6, n_dot_l);
+}
+
 // Reflected radiance of an unshadowed light. Without branches, which would hardly ever skip work for a whole group of
 // pixels.
 vec3 direct_light(Shading s, Reflection r, Incident light) {
@@ -63,7 +74,7 @@ vec3 direct_light(Shading s, Reflection r, Incident light) {
   vec3 fresnel = mix(r.at_normal, vec3(1.0), schlick_weight(v_dot_h));
   float lobe = ggx_distribution(n_dot_h, alpha) * smith_visibility(n_dot_l, n_dot_v, alpha);
   vec3 brdf = (1.0 - fresnel) * r.diffuse * (1.0 / brdf_pi) + fresnel * lobe;
-  return light.illuminance * n_dot_l * brdf;
+  return light.illuminance * (n_dot_l * terminator_share(s, n_dot_l)) * brdf;
 }
 
 vec3 skylight(Shading s, Reflection r, AmbientLight ambient) {

@@ -47,6 +47,7 @@ void main() {
 #endif
     s.albedo = lighting.ground_albedo;
     s.normal = vec3(0.0, 1.0, 0.0);
+    s.smooth_lean = 0.0;
     s.to_eye = -ray;
     s.emission = vec3(0.0);
     s.metallic = 0.0;

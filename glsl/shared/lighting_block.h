@@ -52,7 +52,8 @@ struct LightingBlock {
   float room;           // radiance of the surroundings by the light of lamps
   float emission;       // luminance of a material's emission of 1
   int light_count;
-  int pad_a, pad_b, pad_c;
+  float soft_terminator;  // 1: light fades out on smooth bodies before their triangles turn away; else 0
+  int pad_a, pad_b;
   DirectLightBlock lights[LIGHTING_MAX_LIGHTS];
 };
 

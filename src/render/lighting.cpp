@@ -120,6 +120,7 @@ glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
   block.room = ambience * direct.lamps;
   block.ground_albedo = inputs.ground_color;
   block.emission = inputs.emission_in_nits ? exposure : exposure * white;
+  block.soft_terminator = inputs.params.get_bool("render.soft_terminator") ? 1.0f : 0.0f;
   glm::vec3 ground = block.sky * (level[0] + level[1] + level[3]) + block.room;
   for (const FrameLight& light : inputs.lights) {
     std::visit(

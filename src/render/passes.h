@@ -26,10 +26,10 @@ struct GBuffer {
   const gl::Texture* albedo = nullptr;  // RGB10_A2: square root of the linear colour; A: 0 sky, 1/3 unlit, 1 lit
   const gl::Texture* normal = nullptr;  // RG16: shading normal, world space, octahedral, 0 to 1
   const gl::Texture* geometric_normal = nullptr;  // RG32F: world space, octahedral, -1 to 1
-  const gl::Texture* material = nullptr;          // RGBA8: metallic, roughness, ambient occlusion, unused
-  const gl::Texture* emission = nullptr;          // R11F_G11F_B10F: in the file's units; null where nothing emits light
-  const gl::Texture* motion = nullptr;            // RG32F: present minus last position, NDC; null if not asked for
-  const gl::Texture* depth = nullptr;             // 32F, reversed-Z: 0 is the sky
+  const gl::Texture* material = nullptr;  // RGBA8: metallic, roughness, ambient occlusion, lean of smooth normals
+  const gl::Texture* emission = nullptr;  // R11F_G11F_B10F: in the file's units; null where nothing emits light
+  const gl::Texture* motion = nullptr;    // RG32F: present minus last position, NDC; null if not asked for
+  const gl::Texture* depth = nullptr;     // 32F, reversed-Z: 0 is the sky
 };
 
 struct GBufferInputs {

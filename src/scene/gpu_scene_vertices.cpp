@@ -91,13 +91,16 @@ std::uint32_t VertexStreams::append(const Primitive& primitive) {
   return static_cast<std::uint32_t>(first);
 }
 
-std::vector<glm::vec3> triangle_normals(const Primitive& primitive) {
-  std::vector<glm::vec3> normals;
+std::vector<glm::vec4> triangle_normals(const Primitive& primitive) {
+  std::vector<glm::vec4> normals;
   if (primitive.topology != Topology::triangles) return normals;
   const auto corner = [&](std::size_t index) { return primitive.positions[primitive.indices[index]]; };
+  const auto smooth = [&](std::size_t index) { return unit(primitive.normals[primitive.indices[index]]); };
   normals.reserve(primitive.indices.size() / 3);
-  for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3)
-    normals.push_back(glsl::triangle_normal(corner(i), corner(i + 1), corner(i + 2)));
+  for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+    const glm::vec3 normal = glsl::triangle_normal(corner(i), corner(i + 1), corner(i + 2));
+    normals.emplace_back(normal, glsl::smooth_lean(normal, smooth(i), smooth(i + 1), smooth(i + 2)));
+  }
   return normals;
 }
 
