@@ -6,6 +6,7 @@
 
 #include "session/techniques.h"
 #include "truth/reference.h"
+#include "viewer/fields.h"
 #include "viewer/panels.h"
 
 namespace penumbra::viewer {
@@ -58,9 +59,7 @@ void choose_way(const Panel& panel) {
   }
   if (comparison.how != CompareMode::difference) return;
   row("gain", "What a difference is multiplied by.");
-  ImGui::SliderFloat("##gain", &comparison.gain, 1, 64, "%.0f ×",
-                     ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
-  panel.widgets.mark("gain");
+  slider(panel.widgets, "gain", comparison.gain, 1, 64, "%.0f ×", ImGuiSliderFlags_Logarithmic);
 }
 
 void figure(const char* name, const std::string& value, const char* help) {
@@ -79,8 +78,8 @@ void difference(const Panel& panel) {
     return;
   }
   if (panel.status.tracing) {
-    ImGui::ProgressBar(static_cast<float>(*panel.status.tracing), {-1, 0},
-                       fmt::format("tracing, {:.0f} %", *panel.status.tracing * 100).c_str());
+    progress(panel.widgets, "tracing", static_cast<float>(*panel.status.tracing),
+             fmt::format("tracing, {:.0f} %", *panel.status.tracing * 100));
     return;
   }
   if (!panel.status.difference) {

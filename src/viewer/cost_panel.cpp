@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cli/text.h"
+#include "viewer/fields.h"
 #include "viewer/panels.h"
 
 namespace penumbra::viewer {
@@ -27,7 +28,7 @@ std::string count_text(std::size_t count) {
   return number >= 1e4 ? fmt::format("{:.1f} k", number / 1e3) : fmt::format("{}", count);
 }
 
-void bars(const Costs& costs) {
+void bars(const Costs& costs, WidgetMap& widgets) {
   const double frame = costs.frame();
   ImGui::BeginTable("passes", 3, ImGuiTableFlags_SizingStretchProp);
   ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch, 0.34f);
@@ -41,7 +42,7 @@ void bars(const Costs& costs) {
     ImGui::TextUnformatted(pass.name.c_str());
     ImGui::TableNextColumn();
     const auto share = static_cast<float>(frame > 0 ? pass.median / frame : 0);
-    ImGui::ProgressBar(share, {-1, 0}, fmt::format("{:.2f} ms", pass.median).c_str());
+    progress(widgets, "cost of " + pass.name, share, fmt::format("{:.2f} ms", pass.median));
     ImGui::TableNextColumn();
     const gl::Timers::Work work = costs.work(pass.name);
     ImGui::TextDisabled("%s", commands_text(work).c_str());
@@ -91,12 +92,12 @@ void costs(const Panel& panel) {
   panel.widgets.mark("vsync");
   const bool both = state.comparison.on;
   if (ImGui::CollapsingHeader(both ? "Picture A" : "Passes", ImGuiTreeNodeFlags_DefaultOpen)) {
-    bars(panel.status.costs_a);
+    bars(panel.status.costs_a, panel.widgets);
     plot(panel.status.costs_a);
   }
   if (both && ImGui::CollapsingHeader("Picture B", ImGuiTreeNodeFlags_DefaultOpen)) {
     ImGui::PushID("b");
-    bars(panel.status.costs_b);
+    bars(panel.status.costs_b, panel.widgets);
     ImGui::PopID();
   }
   if (ImGui::CollapsingHeader("Memory", ImGuiTreeNodeFlags_DefaultOpen)) memory(panel);

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 
+#include "viewer/fields.h"
 #include "viewer/panels.h"
 
 namespace penumbra::viewer {
@@ -12,11 +12,9 @@ void files_panel(const Panel& panel) {
   UiState& state = panel.state;
   begin_rows("picture");
   row("file", "A .png, or an .exr with all AOVs as layers. A sequence numbers its files.");
-  ImGui::InputText("##picture", &state.picture_file);
-  panel.widgets.mark("picture file");
+  text_field(panel.widgets, "picture file", state.picture_file);
   row("frames", "The first and the last frame of a sequence.");
-  ImGui::InputInt2("##frames", &state.sequence.first);
-  panel.widgets.mark("frames");
+  type_range(panel.widgets, "frames", state.sequence.first, state.sequence.last);
   end_rows();
   state.sequence.first = std::clamp(state.sequence.first, 0, last_frame);
   state.sequence.last = std::clamp(state.sequence.last, state.sequence.first, last_frame);
@@ -24,8 +22,7 @@ void files_panel(const Panel& panel) {
   panel.widgets.mark("with aovs");
   tooltip("As layers of an EXR, or as a PNG each");
   if (panel.status.writing) {
-    ImGui::ProgressBar(static_cast<float>(*panel.status.writing), {-1, 0}, "writing");
-    panel.widgets.mark("writing");
+    progress(panel.widgets, "writing", static_cast<float>(*panel.status.writing), "writing");
   } else {
     if (ImGui::Button("Write picture")) state.requests.write_picture = true;
     panel.widgets.mark("write picture");

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cli/text.h"
+#include "viewer/fields.h"
 #include "viewer/panels.h"
 #include "viewer/targets.h"
 
@@ -65,13 +66,11 @@ void choose_part(const Panel& panel) {
   const gl::TextureDesc& desc = target->texture->desc();
   if (desc.layers > 1) {
     row("layer", "Of the texture array.");
-    ImGui::SliderInt("##layer", &inspection.layer, 0, desc.layers - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
-    panel.widgets.mark("layer");
+    slider(panel.widgets, "layer", inspection.layer, 0, desc.layers - 1);
   }
   if (desc.levels > 1) {
     row("level", "Mip level; 0 is the finest.");
-    ImGui::SliderInt("##level", &inspection.level, 0, desc.levels - 1, "%d", ImGuiSliderFlags_AlwaysClamp);
-    panel.widgets.mark("level");
+    slider(panel.widgets, "level", inspection.level, 0, desc.levels - 1);
   }
 }
 
@@ -98,11 +97,9 @@ void range(const Panel& panel) {
   if (!inspection.automatic) {
     const float span = std::max(panel.status.values.high - panel.status.values.low, 1e-4f);
     row("from", "The value with the first colour.");
-    ImGui::DragFloat("##low", &inspection.low, span * 0.005f, 0, 0, "%.4g");
-    panel.widgets.mark("range low");
+    drag(panel.widgets, "range low", inspection.low, span * 0.005f, "%.4g");
     row("to", "The value with the last colour.");
-    ImGui::DragFloat("##high", &inspection.high, span * 0.005f, 0, 0, "%.4g");
-    panel.widgets.mark("range high");
+    drag(panel.widgets, "range high", inspection.high, span * 0.005f, "%.4g");
   }
   end_rows();
 }

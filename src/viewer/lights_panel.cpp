@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "scene/pose.h"
+#include "viewer/fields.h"
 #include "viewer/lamps.h"
 
 namespace penumbra::viewer {
@@ -47,21 +48,15 @@ void take_lights(const Panel& panel, cli::SceneOptions wanted) {
   }
 }
 
-bool slider(const char* id, float& value, float least, float most, const char* format) {
-  return ImGui::SliderFloat(id, &value, least, most, format,
-                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
-}
-
 // Brightness and hue apart: intensity is their product.
 void emission(const Panel& panel, render::LampLight& lamp) {
   float candela = std::max({lamp.intensity.r, lamp.intensity.g, lamp.intensity.b, 1e-3f});
   glm::vec3 color = lamp.intensity / candela;
   row("intensity", "Candela, of the strongest of red, green and blue.");
-  const bool brighter = slider("##intensity", candela, 0.1f, 1e8f, "%.4g cd");
-  panel.widgets.mark("lamp intensity");
+  const bool brighter =
+      slider(panel.widgets, "lamp intensity", candela, 0.1f, 1e8f, "%.4g cd", ImGuiSliderFlags_Logarithmic);
   row("colour", "Linear.");
-  const bool other = ImGui::ColorEdit3("##colour", &color.x, ImGuiColorEditFlags_Float);
-  panel.widgets.mark("lamp colour");
+  const bool other = color_field(panel.widgets, "lamp colour", color);
   if (brighter || other) lamp.intensity = candela * color;
 }
 
@@ -77,27 +72,23 @@ void spot(const Panel& panel, render::LampLight& lamp) {
   if (!is_spot) return;
   row("axis", "Where it shines.");
   glm::vec3 axis = lamp.axis;
-  if (ImGui::DragFloat3("##axis", &axis.x, 0.01f, -1, 1, "%.2f") && glm::length(axis) > 1e-3f)
+  if (drag_vector(panel.widgets, "lamp axis", axis, 1, 2) && glm::length(axis) > 1e-3f)
     lamp.axis = glm::normalize(axis);
-  panel.widgets.mark("lamp axis");
   row("cone", "From its axis to its rim.");
   float degrees = glm::degrees(lamp.outer_cone);
-  if (ImGui::SliderFloat("##cone", &degrees, 1, 90, "%.1f°", ImGuiSliderFlags_AlwaysClamp)) {
+  if (slider(panel.widgets, "lamp cone", degrees, 1, 90, "%.1f°")) {
     const float inner = lamp.inner_cone / lamp.outer_cone;
     lamp.outer_cone = std::min(glm::radians(degrees), 1.5707f);
     lamp.inner_cone = inner * lamp.outer_cone;
   }
-  panel.widgets.mark("lamp cone");
 }
 
 void lamp_rows(const Panel& panel, render::LampLight& lamp) {
   begin_rows("lamp");
   row("place", "Metres. The left mouse button drags the lamp's ring in the picture.");
-  ImGui::DragFloat3("##place", &lamp.position.x, 0.01f, -1e6f, 1e6f, "%.2f");
-  panel.widgets.mark("lamp place");
+  drag_vector(panel.widgets, "lamp place", lamp.position, 1e6f, 2);
   row("radius", "Of the sphere that emits light: the larger, the softer its shadows.");
-  slider("##radius", lamp.radius, 0.001f, 2, "%.3g m");
-  panel.widgets.mark("lamp radius");
+  slider(panel.widgets, "lamp radius", lamp.radius, 0.001f, 2, "%.3g m", ImGuiSliderFlags_Logarithmic);
   emission(panel, lamp);
   spot(panel, lamp);
   end_rows();

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "viewer/edit.h"
+#include "viewer/fields.h"
 #include "viewer/panels.h"
 
 namespace penumbra::viewer {
@@ -18,9 +18,8 @@ void file(const Panel& panel) {
   UiState& state = panel.state;
   begin_rows("file");
   row("file", "A .gltf or .glb file: type its name and press Enter, choose it from a list, or drop it on the window.");
-  if (ImGui::InputText("##scene", &state.scene_file, ImGuiInputTextFlags_EnterReturnsTrue))
+  if (text_field(panel.widgets, "scene file", state.scene_file, "", ImGuiInputTextFlags_EnterReturnsTrue))
     state.requests.open = state.scene_file;
-  panel.widgets.mark("scene file");
   row("recent", "Scenes that were opened before.");
   if (ImGui::BeginCombo("##recent", state.recent.empty() ? "none" : "…")) {
     for (const std::string& path : state.recent) {
@@ -68,18 +67,15 @@ void camera(const Panel& panel) {
   choose_camera(panel);
   bool moved = false;
   row("eye", "Where the camera is, metres.");
-  moved |= ImGui::InputFloat3("##eye", &rig.eye.x, "%.3f");
-  panel.widgets.mark("eye");
+  moved |= type_vector(panel.widgets, "eye", rig.eye, 3);
   row("target", "What it looks at, metres.");
-  moved |= ImGui::InputFloat3("##target", &rig.target.x, "%.3f");
-  panel.widgets.mark("target");
+  moved |= type_vector(panel.widgets, "target", rig.target, 3);
   row("field of view", "Of the picture's height.");
   float degrees = glm::degrees(rig.fov_y);
-  if (ImGui::SliderFloat("##fov", &degrees, 5, 120, "%.1f°", ImGuiSliderFlags_AlwaysClamp)) {
+  if (slider(panel.widgets, "fov", degrees, 5, 120, "%.1f°")) {
     rig.fov_y = glm::radians(degrees);
     moved = true;
   }
-  panel.widgets.mark("fov");
   end_rows();
   if (moved && rig.eye != rig.target) place(state.document, prepared, rig);
   if (ImGui::Button("Frame casters")) state.requests.frame_casters = true;
@@ -101,11 +97,9 @@ void sun(const Panel& panel) {
   float azimuth = glm::degrees(sun.azimuth), elevation = glm::degrees(sun.elevation);
   begin_rows("sun");
   row("azimuth", "From +Z towards +X. The right mouse button drags the sun.");
-  bool moved = ImGui::SliderFloat("##azimuth", &azimuth, -180, 180, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
-  panel.widgets.mark("azimuth");
+  bool moved = slider(panel.widgets, "azimuth", azimuth, -180, 180, "%.1f°");
   row("elevation", "Over the horizon.");
-  moved |= ImGui::SliderFloat("##elevation", &elevation, 0, 90, "%.1f°", ImGuiSliderFlags_AlwaysClamp);
-  panel.widgets.mark("elevation");
+  moved |= slider(panel.widgets, "elevation", elevation, 0, 90, "%.1f°");
   std::string fault;
   param_row(state.document.params, state.document.params.row("sun.angle"), panel.widgets, fault);
   end_rows();
@@ -143,12 +137,9 @@ void time(const Panel& panel) {
   begin_rows("time");
   row("frame", "Of the animation, counted at --fps frames a second.");
   const int last = static_cast<int>(std::clamp(std::ceil(duration * document.options.fps), 1.0, double{last_frame}));
-  ImGui::SliderInt("##frame", &document.frame, 0, std::max(last, document.frame), "%d", ImGuiSliderFlags_AlwaysClamp);
-  panel.widgets.mark("frame");
+  slider(panel.widgets, "frame", document.frame, 0, std::max(last, document.frame));
   row("speed", "Of the playback.");
-  ImGui::SliderFloat("##speed", &state.playback.speed, 0.05f, 4, "%.2f ×",
-                     ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
-  panel.widgets.mark("speed");
+  slider(panel.widgets, "speed", state.playback.speed, 0.05f, 4, "%.2f ×", ImGuiSliderFlags_Logarithmic);
   end_rows();
 }
 

@@ -1,11 +1,11 @@
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "core/names.h"
 #include "session/techniques.h"
+#include "viewer/fields.h"
 #include "viewer/panels.h"
 
 namespace penumbra::viewer {
@@ -133,8 +133,7 @@ void ask_to_overwrite(const Panel& panel) {
 void presets(const Panel& panel) {
   UiState& state = panel.state;
   ImGui::SetNextItemWidth(-1);
-  ImGui::InputTextWithHint("##preset", "preset.toml", &state.preset_file);
-  panel.widgets.mark("preset file");
+  text_field(panel.widgets, "preset file", state.preset_file, "preset.toml");
   if (ImGui::Button("Load preset")) state.requests.open_preset = state.preset_file;
   panel.widgets.mark("load preset");
   same_line_for("Save preset");
@@ -153,8 +152,7 @@ void shadow_panel(const Panel& panel) {
   end_rows();
   ImGui::SetNextItemWidth(-ImGui::CalcTextSize("Reset all").x - 4 * ImGui::GetStyle().FramePadding.x);
   if (std::exchange(state.focus_search, false)) ImGui::SetKeyboardFocusHere();
-  ImGui::InputTextWithHint("##search", "Search parameters", &state.search);
-  panel.widgets.mark("search");
+  text_field(panel.widgets, "search", state.search, "Search parameters");
   ImGui::SameLine();
   if (ImGui::Button("Reset all")) reset_all(params);
   panel.widgets.mark("reset all");

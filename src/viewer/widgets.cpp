@@ -11,6 +11,7 @@
 #include "cli/options.h"
 #include "io/output_file.h"
 #include "io/report.h"
+#include "viewer/fields.h"
 
 namespace penumbra::viewer {
 
@@ -48,9 +49,7 @@ std::string unit_after(const Param& param) {
   return param.unit == "deg" ? "°" : " " + param.unit;
 }
 
-ImGuiSliderFlags flags_of(const Param& param) {
-  return ImGuiSliderFlags_AlwaysClamp | (is_wide(param) ? ImGuiSliderFlags_Logarithmic : 0);
-}
+ImGuiSliderFlags flags_of(const Param& param) { return is_wide(param) ? ImGuiSliderFlags_Logarithmic : 0; }
 
 bool choose_word(const Param& param, std::string& word, WidgetMap& widgets) {
   bool changed = false;
@@ -70,23 +69,23 @@ bool choose_word(const Param& param, std::string& word, WidgetMap& widgets) {
 
 // The widget of a value. Returns whether the user changed it.
 bool edit(const Param& param, ParamValue& value, WidgetMap& widgets) {
-  bool changed = false;
   if (bool* on = std::get_if<bool>(&value)) {
-    changed = ImGui::Checkbox("##value", on);
-  } else if (int* count = std::get_if<int>(&value)) {
+    const bool changed = ImGui::Checkbox("##value", on);
+    widgets.mark(param.name);
+    return changed;
+  }
+  if (int* count = std::get_if<int>(&value)) {
     const std::string format = "%d" + unit_after(param);
     // Sliders end at half of what an int holds.
     const int most = static_cast<int>(std::min(param.max, 1073741822.0));
-    changed = ImGui::SliderInt("##value", count, static_cast<int>(param.min), most, format.c_str(), flags_of(param));
-  } else if (float* quantity = std::get_if<float>(&value)) {
-    const std::string format = "%.3g" + unit_after(param);
-    changed = ImGui::SliderFloat("##value", quantity, static_cast<float>(param.min), static_cast<float>(param.max),
-                                 format.c_str(), flags_of(param) | ImGuiSliderFlags_NoRoundToFormat);
-  } else {
-    return choose_word(param, std::get<std::string>(value), widgets);
+    return slider(widgets, param.name, *count, static_cast<int>(param.min), most, format.c_str(), flags_of(param));
   }
-  widgets.mark(param.name);
-  return changed;
+  if (float* quantity = std::get_if<float>(&value)) {
+    const std::string format = "%.3g" + unit_after(param);
+    return slider(widgets, param.name, *quantity, static_cast<float>(param.min), static_cast<float>(param.max),
+                  format.c_str(), flags_of(param) | ImGuiSliderFlags_NoRoundToFormat);
+  }
+  return choose_word(param, std::get<std::string>(value), widgets);
 }
 
 }  // namespace

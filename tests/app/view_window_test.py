@@ -1,5 +1,6 @@
 """penumbra view and its window: sizes, minimising, screens with twice the dots."""
 
+import shutil
 import signal
 
 from desktop import LEFT, Desktop
@@ -126,6 +127,26 @@ class Narrow(WindowTest):
                     with self.subTest(size=size, tab=tab):
                         viewer.open_tab(tab, widget)
                         self.assertEqual(clipped(viewer), [])
+
+    def test_long_values_have_room_in_their_fields_or_a_tooltip(self):
+        far = ("--eye=-12345.678,-1234.567,1234.5678", "--target=-1234567.8,1234567.8,-1234567.8")
+        lamp = "--lamp=-1234.567,-1234.567,1234.567:radius=0.123456:cd=12345678:to=0,0,0"
+        folder = self.folder / "a folder whose name is longer than any field of a narrow window has room for"
+        folder.mkdir()
+        scene = shutil.copy(STEPS, folder)
+        with self.view(scene, *self.LOOK, *far, lamp, "--set", "pcf.filter_taps=256", "--set", "sun.angle=0.0123",
+                       rests=False) as viewer:
+            viewer.open_tab("Scene", "eye")
+            viewer.click("entry of lamp 0", lambda: viewer.has("lamp place"), "the lamp's properties")
+            for size in self.each_size(viewer):
+                with self.subTest(size=size):
+                    for tab in ("Shadow", "Files", "Scene"):
+                        viewer.open_tab(tab, self.TABS[tab])
+                        self.assertEqual(clipped(viewer), [])
+                    self.assertTrue(viewer.has("lamp place"))
+            for field in ("scene file", "target"):
+                viewer.point_at(field)
+                viewer.wait_for(lambda field=field: viewer.has(f"all of {field}"), "the whole value")
 
     def test_a_search_that_finds_every_parameter(self):
         with self.view(STEPS, *self.LOOK) as viewer:

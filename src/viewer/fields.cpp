@@ -1,0 +1,150 @@
+#include "viewer/fields.h"
+
+#include <fmt/format.h>
+#include <fmt/printf.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace penumbra::viewer {
+
+namespace {
+
+constexpr int vector_parts = 3;
+
+float width_of(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
+
+float item_width() { return ImGui::GetItemRectSize().x; }
+
+// Of each of several fields beside each other that together are so wide.
+float part_width(float width, int parts) {
+  const auto count = static_cast<float>(parts);
+  return (width - (count - 1) * ImGui::GetStyle().ItemInnerSpacing.x) / count;
+}
+
+// What is left for the text of a field that is typed into.
+float typed_room(float width) { return width - 2 * ImGui::GetStyle().FramePadding.x; }
+
+std::string id_of(const std::string& name) { return "##" + name; }
+
+std::string with_decimals(float value, int decimals) { return fmt::format("{:.{}f}", value, decimals); }
+
+std::string longest_text(const glm::vec3& value, int decimals) {
+  const std::array texts{with_decimals(value.x, decimals), with_decimals(value.y, decimals),
+                         with_decimals(value.z, decimals)};
+  return *std::ranges::max_element(texts, {}, width_of);
+}
+
+int fitting_decimals(const glm::vec3& value, int most, float room) {
+  int decimals = most;
+  while (decimals > 0 && width_of(longest_text(value, decimals)) > room) --decimals;
+  return decimals;
+}
+
+// All that a field shows only a part of, while the pointer is over it.
+void tell_all(WidgetMap& widgets, const std::string& name, const std::string& text) {
+  if (!ImGui::IsItemHovered() || ImGui::IsItemActive()) return;
+  widgets.mark("all of " + name);
+  show_tooltip(text);
+}
+
+// `shown` of `decimals` fit into `room` for each number, unless it is 0.
+void finish_vector(WidgetMap& widgets, const std::string& name, const glm::vec3& value, int shown, int decimals,
+                   float room) {
+  const std::string longest = longest_text(value, shown);
+  const bool cut = width_of(longest) > room;
+  const bool told = cut && shown == 0;
+  mark_field(widgets, name, told ? "" : longest, room);
+  if (shown == decimals && !cut) return;
+  tell_all(widgets, name,
+           fmt::format("{}, {}, {}", with_decimals(value.x, decimals), with_decimals(value.y, decimals),
+                       with_decimals(value.z, decimals)));
+}
+
+}  // namespace
+
+void mark_field(WidgetMap& widgets, std::string_view name, const std::string& text, float room) {
+  widgets.mark(name);
+  if (width_of(text) > room) widgets.mark(fmt::format("clipped text of {}", name));
+}
+
+bool slider(WidgetMap& widgets, const std::string& name, float& value, float least, float most, const char* format,
+            ImGuiSliderFlags flags) {
+  const bool changed =
+      ImGui::SliderFloat(id_of(name).c_str(), &value, least, most, format, flags | ImGuiSliderFlags_AlwaysClamp);
+  mark_field(widgets, name, fmt::sprintf(format, value), item_width());
+  return changed;
+}
+
+bool slider(WidgetMap& widgets, const std::string& name, int& value, int least, int most, const char* format,
+            ImGuiSliderFlags flags) {
+  const bool changed =
+      ImGui::SliderInt(id_of(name).c_str(), &value, least, most, format, flags | ImGuiSliderFlags_AlwaysClamp);
+  mark_field(widgets, name, fmt::sprintf(format, value), item_width());
+  return changed;
+}
+
+bool drag(WidgetMap& widgets, const std::string& name, float& value, float speed, const char* format) {
+  const bool changed = ImGui::DragFloat(id_of(name).c_str(), &value, speed, 0, 0, format);
+  mark_field(widgets, name, fmt::sprintf(format, value), item_width());
+  return changed;
+}
+
+bool color_field(WidgetMap& widgets, const std::string& name, glm::vec3& color) {
+  const bool changed = ImGui::ColorEdit3(id_of(name).c_str(), &color.x, ImGuiColorEditFlags_Float);
+  const float numbers = item_width() - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemInnerSpacing.x;
+  mark_field(widgets, name, longest_text(color, 3), part_width(numbers, vector_parts));
+  return changed;
+}
+
+void progress(WidgetMap& widgets, const std::string& name, float share, const std::string& text) {
+  ImGui::ProgressBar(share, {-1, 0}, text.c_str());
+  mark_field(widgets, name, text, item_width());
+}
+
+bool type_vector(WidgetMap& widgets, const std::string& name, glm::vec3& value, int decimals) {
+  const float room = typed_room(part_width(ImGui::CalcItemWidth(), vector_parts));
+  const int shown = fitting_decimals(value, decimals, room);
+  const std::string format = fmt::format("%.{}f", shown);
+  const bool changed = ImGui::InputFloat3(id_of(name).c_str(), &value.x, format.c_str());
+  finish_vector(widgets, name, value, shown, decimals, room);
+  return changed;
+}
+
+bool drag_vector(WidgetMap& widgets, const std::string& name, glm::vec3& value, float limit, int decimals) {
+  const float room = part_width(ImGui::CalcItemWidth(), vector_parts);
+  const int shown = fitting_decimals(value, decimals, room);
+  const std::string format = fmt::format("%.{}f", shown);
+  // Dragging rounds to what `decimals` show, however many have room.
+  const bool changed = ImGui::DragFloat3(id_of(name).c_str(), &value.x, 0.01f, -limit, limit, format.c_str(),
+                                         ImGuiSliderFlags_NoRoundToFormat);
+  if (changed) {
+    const float scale = std::pow(10.0f, static_cast<float>(decimals));
+    value = glm::round(value * scale) / scale;
+  }
+  finish_vector(widgets, name, value, shown, decimals, room);
+  return changed;
+}
+
+bool type_range(WidgetMap& widgets, const std::string& name, int& first, int& last) {
+  std::array values{first, last};
+  const bool changed = ImGui::InputInt2(id_of(name).c_str(), values.data());
+  first = values[0];
+  last = values[1];
+  const std::string longest = std::to_string(std::max(first, last));
+  mark_field(widgets, name, longest, typed_room(part_width(item_width(), 2)));
+  return changed;
+}
+
+bool text_field(WidgetMap& widgets, const std::string& name, std::string& text, const char* hint,
+                ImGuiInputTextFlags flags) {
+  const bool entered = ImGui::InputTextWithHint(id_of(name).c_str(), hint, &text, flags);
+  const float room = typed_room(item_width());
+  mark_field(widgets, name, text.empty() ? hint : "", room);
+  if (width_of(text) > room) tell_all(widgets, name, text);
+  return entered;
+}
+
+}  // namespace penumbra::viewer
