@@ -136,8 +136,20 @@ Viewer::Wishes Viewer::wishes() const {
 
 // Draws pictures in full on a software rasteriser, which takes long: before each pass the user is answered.
 void Viewer::draw_at_rest(const PictureWork& work) {
-  const Wishes begun = wishes();
-  device_.device.before_pass = [&] { attend(begun); };
+  struct Attendance {
+    explicit Attendance(Viewer& of) : viewer(of), begun(of.wishes()) {
+      viewer.device_.device.before_pass = [this] { viewer.attend(begun); };
+    }
+    ~Attendance() {
+      viewer.device_.device.before_pass = nullptr;
+      viewer.attending_ = false;
+    }
+    Attendance(const Attendance&) = delete;
+    Attendance& operator=(const Attendance&) = delete;
+    Viewer& viewer;
+    Wishes begun;
+  };
+  const Attendance attendance(*this);
   try {
     guarded([&] { draw_pictures(work); });
   } catch (const GivenUp&) {
@@ -146,8 +158,6 @@ void Viewer::draw_at_rest(const PictureWork& work) {
     readable_ = false;
     unsettled_ = settling;
   }
-  device_.device.before_pass = nullptr;
-  attending_ = false;
   last_draw_ = ImGui::GetTime();
 }
 
