@@ -13,56 +13,71 @@ void bind_view(gl::Device& device, const glsl::ViewBlock& view) {
 }
 
 // What all samples of a frame have in common.
-struct SamplesInputs {
+struct Shading {
   shadow::SoftShadows& soft_shadows;
   scene::GpuScene& scene;
   const FrameInputs& frame;
-  const glsl::ViewBlock& view;  // of the first sample, as all that follows
-  const GBuffer& gbuffer;
   const shadow::Mask& mask;
-  const gl::Texture& lit;
-  const gl::Buffer& exposure;
   const Sky& sky;
   const scene::Bounds& bounds;
   std::span<const shadow::Light> lights;
   const ParamSet& params;
 };
 
-// Draws the further samples of each pixel with the first one's shadows and exposure, and returns the mean of all.
-SampleMean average_samples(gl::Device& device, const SamplesInputs& in) {
+// The colours of one sample of each pixel. `first`: the pixels' first sample, if this is a further one.
+const gl::Texture& shade(gl::Device& device, const Shading& in, const glsl::ViewBlock& view, const GBuffer& gbuffer,
+                         const FirstSample* first = nullptr) {
   const FrameInputs& frame = in.frame;
+  const gl::Texture& lit = light_surfaces(device, {.gbuffer = gbuffer,
+                                                   .mask = in.mask,
+                                                   .first = first,
+                                                   .sky = in.sky,
+                                                   .bounds = in.bounds,
+                                                   .ground_color = frame.ground_color,
+                                                   .lights = frame.lights,
+                                                   .on_ground = frame.on_ground,
+                                                   .view = view,
+                                                   .emission_in_nits = in.scene.lit_by_file(),
+                                                   .params = in.params});
+  draw_blended(device, {.soft_shadows = in.soft_shadows,
+                        .scene = in.scene,
+                        .camera = frame.camera,
+                        .view = view,
+                        .gbuffer = gbuffer,
+                        .mask = in.mask,
+                        .params = in.params,
+                        .lit = lit,
+                        .first = in.lights.front(),
+                        .lamps = has_lamps(frame.lights),
+                        .sample = first == nullptr ? Sample::first : Sample::further});
+  return lit;
+}
+
+// The first sample of each pixel.
+struct FirstColors {
+  const glsl::ViewBlock& view;
+  const GBuffer& gbuffer;
+  const gl::Texture& lit;
+  const gl::Buffer& exposure;
+};
+
+// Draws the further samples of each pixel with the first one's shadows and exposure, and returns the mean of all.
+SampleMean average_samples(gl::Device& device, const Shading& shading, const FirstColors& first) {
+  const FrameInputs& frame = shading.frame;
   const std::vector<glm::vec2> offsets = sample_offsets(frame.samples);
-  SampleMean mean = add_sample(device, {.lit = in.lit, .exposure = in.exposure, .index = 0, .count = frame.samples});
+  SampleMean mean =
+      add_sample(device, {.lit = first.lit, .exposure = first.exposure, .index = 0, .count = frame.samples});
   for (int i = 1; i < frame.samples; ++i) {
     const glm::vec2 offset = offsets[static_cast<std::size_t>(i)];
     const glsl::ViewBlock view = view_block(frame.camera, frame.last_camera, frame.width, frame.height, offset);
     bind_view(device, view);
-    const GBuffer gbuffer = draw_gbuffer(device, {.scene = in.scene, .view = view, .sample = Sample::further});
-    const FirstSample first{
-        .gbuffer = in.gbuffer, .view = in.view, .offset = offset, .pixel_size = pixel_size(frame.camera, frame.height)};
-    const gl::Texture& lit = light_surfaces(device, {.gbuffer = gbuffer,
-                                                     .mask = in.mask,
-                                                     .first = &first,
-                                                     .sky = in.sky,
-                                                     .bounds = in.bounds,
-                                                     .ground_color = frame.ground_color,
-                                                     .lights = frame.lights,
-                                                     .on_ground = frame.on_ground,
-                                                     .view = view,
-                                                     .emission_in_nits = in.scene.lit_by_file(),
-                                                     .params = in.params});
-    draw_blended(device, {.soft_shadows = in.soft_shadows,
-                          .scene = in.scene,
-                          .camera = frame.camera,
-                          .view = view,
-                          .gbuffer = gbuffer,
-                          .mask = in.mask,
-                          .params = in.params,
-                          .lit = lit,
-                          .first = in.lights.front(),
-                          .lamps = has_lamps(frame.lights),
-                          .sample = Sample::further});
-    mean = add_sample(device, {.lit = lit, .exposure = in.exposure, .index = i, .count = frame.samples});
+    const GBuffer gbuffer = draw_gbuffer(device, {.scene = shading.scene, .view = view, .sample = Sample::further});
+    const FirstSample of_first{.gbuffer = first.gbuffer,
+                               .view = first.view,
+                               .offset = offset,
+                               .pixel_size = pixel_size(frame.camera, frame.height)};
+    const gl::Texture& lit = shade(device, shading, view, gbuffer, &of_first);
+    mean = add_sample(device, {.lit = lit, .exposure = first.exposure, .index = i, .count = frame.samples});
   }
   return mean;
 }
@@ -103,27 +118,15 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                                                       .params = params});
 
   const scene::Bounds bounds = scene.receivers();
-  const gl::Texture& lit = light_surfaces(device, {.gbuffer = gbuffer,
-                                                   .mask = mask,
-                                                   .sky = sky,
-                                                   .bounds = bounds,
-                                                   .ground_color = inputs.ground_color,
-                                                   .lights = inputs.lights,
-                                                   .on_ground = inputs.on_ground,
-                                                   .view = view,
-                                                   .emission_in_nits = scene.lit_by_file(),
-                                                   .params = params});
-
-  draw_blended(device, {.soft_shadows = soft_shadows,
+  const Shading shading{.soft_shadows = soft_shadows,
                         .scene = scene,
-                        .camera = camera,
-                        .view = view,
-                        .gbuffer = gbuffer,
+                        .frame = inputs,
                         .mask = mask,
-                        .params = params,
-                        .lit = lit,
-                        .first = lights.front(),
-                        .lamps = has_lamps(inputs.lights)});
+                        .sky = sky,
+                        .bounds = bounds,
+                        .lights = lights,
+                        .params = params};
+  const gl::Texture& lit = shade(device, shading, view, gbuffer);
 
   const gl::Buffer& exposure = measure_exposure(device, {.gbuffer = gbuffer, .lit = lit, .params = params});
 
@@ -139,18 +142,8 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
   if (inputs.samples == 1) {
     parts.display = &tone_map(device, {.lit = lit, .exposure = exposure, .noise = noise, .params = params});
   } else {
-    const SampleMean mean = average_samples(device, {.soft_shadows = soft_shadows,
-                                                     .scene = scene,
-                                                     .frame = inputs,
-                                                     .view = view,
-                                                     .gbuffer = gbuffer,
-                                                     .mask = mask,
-                                                     .lit = lit,
-                                                     .exposure = exposure,
-                                                     .sky = sky,
-                                                     .bounds = bounds,
-                                                     .lights = lights,
-                                                     .params = params});
+    const SampleMean mean =
+        average_samples(device, shading, {.view = view, .gbuffer = gbuffer, .lit = lit, .exposure = exposure});
     parts.color = mean.color;
     parts.display = &encode_mean(device, {.display = *mean.display, .noise = noise, .params = params});
   }
