@@ -185,6 +185,16 @@ class HeatMap(Diff):
         self.assertGreater(len(set(colors)), 50)
         self.assertEqual(legend[0][0], (32, 32, 32))
 
+    def test_its_range_is_the_largest_error_or_the_one_that_is_asked_for(self):
+        def error_color(*arguments):
+            return self.heat(self.lighter, self.grey, *arguments)[0][0]
+        self.assertEqual(error_color(), error_color("--heatmap-range", "0.2"), "0.2 is the largest error")
+        halves = [sum(error_color("--heatmap-range", f"{0.2 * 2 ** n}")) for n in range(5)]
+        self.assertEqual(halves, sorted(set(halves), reverse=True), "the wider the range, the darker an error")
+        self.assertEqual(error_color("--heatmap-range", "0.1"), error_color("--heatmap-range", "0.2"), "the last colour")
+        self.assertEqual(error_color("--metric", "flip"), error_color("--metric", "flip", "--heatmap-range", "1"))
+        self.assertIn("--heatmap", self.refuse("diff", self.lighter, self.grey, "--heatmap-range", "1", code=2))
+
     def test_a_narrow_picture_has_one_too(self):
         thin = png(self.folder / "thin.png", flat(100, 1, 1))
         self.assertEqual(len(self.heat(thin, thin)), 17)

@@ -27,7 +27,7 @@ namespace {
 struct DiffOptions {
   std::string test, reference, layer, mask, heatmap, json;
   std::string metric = "rmse";
-  std::optional<double> max, min;
+  std::optional<double> max, min, heatmap_range;
   std::optional<int> max_pixels;
   bool quiet = false;
 };
@@ -61,6 +61,10 @@ void add_options(CLI::App& app, DiffOptions& options) {
       options.mask);
   add("--heatmap", "FILE", "PNG that shows where the pictures differ: FLIP for that metric, else |error|",
       options.heatmap);
+  cli::add_value(
+      app, "--heatmap-range", "V",
+      "The error with the last colour of --heatmap (1 for FLIP; else the largest error, rounded up)",
+      [&](const std::string& text) { options.heatmap_range = cli::parse_number("--heatmap-range", text, 1e-6, 1e5); });
   cli::add_value(app, "--json", "FILE", "Write the figures as JSON; -: to standard output, instead of the line",
                  [&](const std::string& text) { options.json = cli::text_output(text); });
   cli::add_value(app, "--max-pixels", "N", "Refuse larger pictures before they are decoded (as many as memory holds)",
@@ -75,6 +79,8 @@ void check_together(const DiffOptions& options, const Metric& metric) {
     cli::fail_usage("--max can't limit {}, which is better when greater: use --min", metric.name);
   if (options.min && !metric.higher_is_better)
     cli::fail_usage("--min can't limit {}, which is better when less: use --max", metric.name);
+  if (options.heatmap_range && options.heatmap.empty())
+    cli::fail_usage("--heatmap-range is the range of --heatmap's colours, and there is no --heatmap");
   if (!options.heatmap.empty() && std::filesystem::path(options.heatmap).extension() != ".png")
     cli::fail_usage("--heatmap {}: the name does not end in .png", io::quoted(options.heatmap));
 }
@@ -119,7 +125,8 @@ void write_heatmap(const DiffOptions& options, const Metric& metric, const Diffe
                    const image::Picture& reference) {
   const bool flip = std::string_view(metric.name) == "flip";
   const std::vector<float>& errors = flip ? difference.flip_map : difference.errors;
-  const float scale = flip ? 1.0f : metrics::heat_scale(*std::max_element(errors.begin(), errors.end()));
+  const float usual = flip ? 1.0f : metrics::heat_scale(*std::max_element(errors.begin(), errors.end()));
+  const auto scale = static_cast<float>(options.heatmap_range.value_or(usual));
   image::write_png(options.heatmap, reference.width, reference.height + metrics::heat_legend_rows, 3,
                    metrics::heat_map(errors, reference.width, reference.height, scale),
                    {{"Software", cli::version()}, {"penumbra:full_scale", fmt::format("{:g}", scale)}});
