@@ -151,6 +151,21 @@ TEST(TruthGeometry, ContactShadowsReachTheMillimetre) {
   }
 }
 
+// A box of 5 cm on a ground 20 km wide, whose rounding errors are a millimetre: its shadow begins at its foot, and ends
+// a centimetre early at most.
+TEST(TruthGeometry, ContactShadowsOnAHugeGround) {
+  constexpr float half = 10'000, high = 0.05f;
+  TruthScene scene;
+  scene.add_quad({-half, 0, -half}, {0, 0, 2 * half}, {2 * half, 0, 0});
+  scene.add_box({0, 0, -high}, {high, high, high});
+  const double reach = std::numbers::sqrt2 * half;
+  const auto beside = [&](double x) { return receiver_at({x, 0, 0}, {0, 1, 0}, reach); };
+  const std::vector<Receiver> row{beside(high + 0.001), beside(-0.0001), beside(-0.02), beside(0.01 - high),
+                                  beside(-high - 0.001)};
+  const TracedSun sun{.to_light = {1, 1, 0}, .angle = glm::radians(0.01)};
+  EXPECT_EQ(trace_row(scene.tracer(), row, sun, {.samples = 64}).visibility, (std::vector<float>{1, 0, 0, 0, 1}));
+}
+
 // A sheet of hills over `at`, 0.25 m a step.
 scene::Primitive& add_hills(TruthScene& scene, const glm::vec3& at, std::uint32_t side) {
   scene::Primitive& hills = scene.add_primitive();
