@@ -225,12 +225,13 @@ gl::ProgramDesc Programs::decide_tiles(const Technique& technique, bool lamp) co
 }
 
 gl::ProgramDesc Programs::decided(const MaskForm& form) const {
-  return ready(
-      {.desc = {
-           .name = "decided tiles",
-           .vertex = "shadow/drivers/tile.vert",
-           .fragment = "shadow/drivers/decided.frag",
-           .defines = {{"DECIDED", "1"}, {"PACKED", form.packed ? "1" : "0"}, {"HISTORY", form.history ? "1" : "0"}}}});
+  return ready({.desc = {.name = "decided tiles",
+                         .vertex = "shadow/drivers/tile.vert",
+                         .fragment = "shadow/drivers/decided.frag",
+                         .defines = {{"DECIDED", "1"},
+                                     {"PACKED", form.packed ? "1" : "0"},
+                                     {"HISTORY", form.history ? "1" : "0"},
+                                     {"DETAILS", form.details ? "1" : "0"}}}});
 }
 
 gl::ProgramDesc Programs::filter_tiles() const {
@@ -311,7 +312,7 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
                                         ready(depth_normals_program())};
   for (gl::ProgramDesc& program : copy_programs()) programs.push_back(std::move(program));
   for (gl::ProgramDesc& program : visible_receivers_programs()) programs.push_back(std::move(program));
-  for (const MaskForm& form : {MaskForm{}, {.packed = true}, {.packed = true, .history = true}}) {
+  for (const MaskForm& form : {MaskForm{}, {.details = true}, {.packed = true}, {.packed = true, .history = true}}) {
     programs.push_back(decided(form));
   }
   for (const MovementForm form : {MovementForm::average, MovementForm::maximum}) {

@@ -15,10 +15,14 @@ layout(location = 0) flat in ivec2 tile;
 
 layout(binding = 14) uniform usampler2D decisions;
 
-Shadowed decided_shadow(Decision decision, ivec2 pixel, Receiver receiver) {
+bool is_lit(Decision decision, ivec2 pixel) {
   int bit = tile_size * (pixel.y % tile_size) + pixel.x % tile_size;
+  return ((decision.lit[bit >> 5] >> (bit & 31)) & 1u) != 0u;
+}
+
+Shadowed decided_shadow(Decision decision, ivec2 pixel, Receiver receiver) {
   int layer = layer_seen_through(receiver, decision.layer);
-  if (((decision.lit[bit >> 5] >> (bit & 31)) & 1u) != 0u) return Shadowed(fully_lit(), layer);
+  if (is_lit(decision, pixel)) return Shadowed(fully_lit(), layer);
   float radius = packed_radius(receiver.position, decision.blocker_distance);
   Light light = with_layer(light_at(receiver), layer);
   bool under_texel = decision.blocker_distance > 0.0 && radius < texel_size(receiver, light);
@@ -46,9 +50,11 @@ void main() {
   PackedPixel packed_values = packed_pixel(decided_shadow(decision, in_viewport, receiver), receiver, refusal);
   texel = packed_values.texel;
   notes = packed_values.notes;
-#else
+#elif DETAILS
   // Neither its normal nor its error matters here.
   Receiver receiver = make_receiver(view_position_at(pixel), vec3(0.0, 0.0, -1.0), vec2(pixel));
   mask = mask_texel(decided_shadow(decision, in_viewport, receiver));
+#else
+  mask = vec4(is_lit(decision, in_viewport), 0.0, 0.0, 0.0);
 #endif
 }
