@@ -16,18 +16,6 @@ GLSL_FUNCTION vec3 triangle_normal(vec3 a, vec3 b, vec3 c) {
   return cross(edge / size, other / size);
 }
 
-// How far a triangle's smooth normals, of unit length, lean away from its own, which may have any length: the sine of
-// the largest angle; 0 for triangles without area.
-GLSL_FUNCTION float smooth_lean(vec3 normal, vec3 at_a, vec3 at_b, vec3 at_c) {
-  vec3 parts = abs(normal);
-  float size = max(max(parts.x, parts.y), parts.z);
-  if (!(size > 0.0f)) return 0.0f;
-  vec3 unit = normal / size;
-  unit = unit / sqrt(dot(unit, unit));
-  vec3 a = cross(unit, at_a), b = cross(unit, at_b), c = cross(unit, at_c);
-  return sqrt(max(max(dot(a, a), dot(b, b)), dot(c, c)));
-}
-
 GLSL_END
 
 #endif

@@ -7,7 +7,7 @@ struct Shading {
   vec3 position;  // world, metres; read only where there are lamps
   vec3 albedo;
   vec3 normal;  // unit, world
-  float smooth_lean;  // sine of the largest angle between the triangle's own normal and its smooth ones
+  float smooth_lean;  // see src/scene/smooth_lean.h
   vec3 to_eye;  // unit, world
   vec3 emission;
   float metallic;
@@ -49,13 +49,11 @@ Incident incident_at(vec3 position, DirectLightBlock light) { return Incident(li
 #endif
 
 // The share of a light that is left where the smooth normal turns towards it by that cosine. Up to a cosine of
-// smooth_lean a triangle may lie in its own shadow, so light fades in from there on: nowhere does a triangle that is
-// bright adjoin one that is dark. Normals that lean by more than 15 to 30 degrees smooth over an edge of flat faces
-// instead of following a round body; there light stays.
+// smooth_lean a triangle may face away from the light and lie in its own shadow, so light fades in from there on, and
+// the edge of that shadow is dark on both sides.
 float terminator_share(Shading s, float n_dot_l) {
-  float round_body = 1.0 - smoothstep(0.25, 0.5, s.smooth_lean);
-  float lean = lighting.soft_terminator * round_body * s.smooth_lean;
-  return smoothstep(lean, 2.0 * lean + 1e-6, n_dot_l);
+  float lean = lighting.soft_terminator * s.smooth_lean;
+  return smoothstep(lean, 1.5 * lean + 1e-6, n_dot_l);
 }
 
 // Reflected radiance of an unshadowed light. Without branches, which would hardly ever skip work for a whole group of

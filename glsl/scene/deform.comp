@@ -3,7 +3,8 @@
 
 layout(local_size_x = 64) in;
 
-// Layouts. Undeformed vertex: position, normal, tangent. Morph delta: the same, without the tangent's handedness.
+// Layouts. Undeformed vertex: position, normal, tangent, lean of smooth normals. Morph delta: the first three, without
+// the tangent's handedness.
 // Influences: four joints and their weights. Deformed frame: VertexFrame in C++, normal and tangent as signed 16-bit.
 layout(std430, binding = 0) readonly restrict buffer Rest { float rest[]; };
 layout(std430, binding = 1) readonly restrict buffer Influences { uint influences[]; };
@@ -39,9 +40,9 @@ void main() {
   DeformBlock block = jobs[job];
   uint vertex = gl_GlobalInvocationID.x;
   if (vertex >= block.count) return;
-  uint at = (block.source + vertex) * 10u;
+  uint at = (block.source + vertex) * 11u;
   vec3 position = rest_vector(at), normal = rest_vector(at + 3u), tangent = rest_vector(at + 6u);
-  float handedness = rest[at + 9u];
+  float handedness = rest[at + 9u], lean = rest[at + 10u];
   for (uint i = 0u; i < block.target_count; ++i) {
     float weight = weights[block.weights + i];
     if (weight == 0.0) continue;
@@ -65,7 +66,7 @@ void main() {
   posed_positions[3u * target + 1u] = position.y;
   posed_positions[3u * target + 2u] = position.z;
   posed_frames[4u * target] = packSnorm2x16(normal.xy);
-  posed_frames[4u * target + 1u] = packSnorm2x16(vec2(normal.z, 0.0));
+  posed_frames[4u * target + 1u] = packSnorm2x16(vec2(normal.z, lean));
   posed_frames[4u * target + 2u] = packSnorm2x16(tangent.xy);
   posed_frames[4u * target + 3u] = packSnorm2x16(vec2(tangent.z, handedness));
 }

@@ -7,7 +7,7 @@
 #include "scene/surface_interface.glsl"
 
 layout(std140, binding = 4) uniform ViewData { ViewBlock view; };
-layout(std430, binding = 2) readonly restrict buffer TriangleNormals { vec4 triangle_normals[]; };
+layout(std430, binding = 2) readonly restrict buffer TriangleNormals { float triangle_normals[]; };
 
 vec4 surface_uv() {
 #if TEXTURES
@@ -40,16 +40,11 @@ vec3 view_ray() { return view.camera.w != 0.0 ? view.forward.xyz : surface.world
 #endif
 
 #if NORMALS
-#if TRIANGLES
-// In the space of the primitive: xyz: see triangle_normal(); w: see smooth_lean().
-vec4 triangle_normal() { return triangle_normals[surface.first_triangle + uint(gl_PrimitiveID)]; }
-#endif
-
-// The sine of the largest angle between the triangle's normal and its smooth ones; 0 where it is not part of a round
-// body, as leaves are not that an alpha test cuts out of sheets.
+// How far smooth normals lean away from the triangles' own, as src/scene/smooth_lean.h says; 0 where the surface is not
+// part of a round body, as leaves are not that an alpha test cuts out of sheets.
 float smooth_lean() {
 #if TRIANGLES && !MASKED
-  return triangle_normal().w;
+  return surface.lean;
 #else
   return 0.0;
 #endif
@@ -60,7 +55,9 @@ float smooth_lean() {
 // Lines and points take their shading normal.
 vec3 geometric_normal() {
 #if TRIANGLES
-  vec3 n = mat3(surface.area_x, surface.area_y, surface.area_z) * triangle_normal().xyz;
+  uint at = 3u * (surface.first_triangle + uint(gl_PrimitiveID));
+  vec3 n = mat3(surface.area_x, surface.area_y, surface.area_z) *
+           vec3(triangle_normals[at], triangle_normals[at + 1u], triangle_normals[at + 2u]);
   float size = max(abs(n.x), max(abs(n.y), abs(n.z)));
   if (!(size > 0.0)) return gl_FrontFacing ? surface.normal : -surface.normal;
   return n * ((gl_FrontFacing ? 1.0 : -1.0) / size);

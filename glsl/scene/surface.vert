@@ -9,7 +9,7 @@ layout(std140, binding = 4) uniform ViewData { ViewBlock view; };
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 last_position;
-layout(location = 2) in vec3 normal;
+layout(location = 2) in vec4 normal;  // w: the lean of smooth normals
 layout(location = 3) in vec4 tangent;
 layout(location = 4) in vec4 uv;
 layout(location = 5) in vec4 color;
@@ -28,12 +28,15 @@ void main() {
   vec4 place = world * vec4(position, 1.0);
   gl_Position = view.world_to_clip * place;
 #if NORMALS
-  surface.normal = area * normal * winding;
+  surface.normal = area * normal.xyz * winding;
 #if TRIANGLES
   surface.first_triangle = first_triangle;
   surface.area_x = area[0] * winding;
   surface.area_y = area[1] * winding;
   surface.area_z = area[2] * winding;
+#if !MASKED
+  surface.lean = normal.w;
+#endif
 #endif
 #if TEXTURES & (1 << TEXTURE_NORMAL)
   surface.tangent = vec4(mat3(world) * tangent.xyz, tangent.w * winding);

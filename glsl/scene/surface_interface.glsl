@@ -13,6 +13,9 @@ SURFACE Surface {
 #if TRIANGLES
   flat uint first_triangle;  // of the primitive, in the triangle normals
   flat vec3 area_x, area_y, area_z;  // columns of the matrix from triangle normals to world space
+#if !MASKED
+  float lean;  // see smooth_lean()
+#endif
 #endif
 #else
   flat uint instance;

@@ -20,9 +20,8 @@ std::vector<Param> render_params() {
       {"render.ground_light", 0.5f, 0, 1, "",
        "Fraction of the light from the ground around a scene that reaches its surfaces.", host},
       {"render.soft_terminator", true, 0, 1, "",
-       "Light fades out on smooth bodies before their triangles turn away from it, so that those which lie in their "
-       "own "
-       "shadow don't show as teeth.",
+       "Light fades out on round bodies before their triangles turn away from it, so that those in their own shadow "
+       "don't show as teeth.",
        host},
       {"render.dither", true, 0, 1, "",
        "Rounds the picture to 8 bits by blue noise, so that bright surfaces show no bands; off: to the nearest value.",

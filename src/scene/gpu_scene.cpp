@@ -58,7 +58,7 @@ class Builder {
 
   VertexStreams rigid, deformed;
   std::vector<std::uint32_t> indices;
-  std::vector<glm::vec4> triangle_normals;  // of what does not deform
+  std::vector<glm::vec3> triangle_normals;  // of what does not deform
   std::uint32_t deformed_triangles = 0;
   std::vector<Instance> instances;
   std::map<const Primitive*, std::vector<MeshPart>> parts;  // of large ones that do not deform
@@ -133,7 +133,7 @@ class Builder {
   void place_rigid(const Primitive& primitive, Placed& placed) {
     placed.base_vertex = rigid.append(primitive);
     placed.first_triangle = static_cast<std::uint32_t>(triangle_normals.size());
-    const std::vector<glm::vec4> normals = scene::triangle_normals(primitive);
+    const std::vector<glm::vec3> normals = scene::triangle_normals(primitive);
     triangle_normals.insert(triangle_normals.end(), normals.begin(), normals.end());
     if (std::vector<MeshPart> divided = parts_of(primitive); !divided.empty())
       parts.emplace(&primitive, std::move(divided));
@@ -181,7 +181,7 @@ GpuScene::State::State(gl::Device& device, const Scene& described)
   for (PosedVertices& vertices : posed) {
     vertices.positions = upload("deformed positions", builder.deformed.positions);
     vertices.frames = upload("deformed normals and tangents", builder.deformed.frames);
-    vertices.triangle_normals = upload("deformed triangle normals", std::vector<glm::vec4>(builder.deformed_triangles));
+    vertices.triangle_normals = upload("deformed triangle normals", std::vector<glm::vec3>(builder.deformed_triangles));
   }
   std::vector<std::uint32_t> numbers(instances.size());
   std::iota(numbers.begin(), numbers.end(), 0u);

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "scene/gpu_scene_boxes.h"
+#include "scene/smooth_lean.h"
 
 namespace penumbra::scene {
 
@@ -31,12 +32,14 @@ gl::ProgramDesc triangle_program() { return {.name = "triangle normals", .comput
 void append(std::vector<float>& to, const glm::vec3& v) { to.insert(to.end(), {v.x, v.y, v.z}); }
 
 void append_rest(std::vector<float>& rest, const Primitive& primitive) {
+  const std::vector<float> leans = smooth_leans(primitive);
   for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
     append(rest, primitive.positions[i]);
     append(rest, primitive.normals[i]);
     const glm::vec4 tangent = primitive.tangents.empty() ? glm::vec4(0.0f) : primitive.tangents[i];
     append(rest, glm::vec3(tangent));
     rest.push_back(tangent.w < 0.0f ? -1.0f : 1.0f);
+    rest.push_back(leans[i]);
   }
 }
 

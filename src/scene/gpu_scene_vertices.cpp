@@ -6,6 +6,7 @@
 
 #include "gl/debug.h"
 #include "lib/triangle_normal.glsl"
+#include "scene/smooth_lean.h"
 #include "shared/scene_blocks.h"
 
 namespace penumbra::scene {
@@ -38,7 +39,7 @@ constexpr std::size_t column = sizeof(glm::vec4);  // of a matrix in a storage b
 constexpr std::array attributes{
     Attribute{0, stream_position, 3, GL_FLOAT, false, 0},
     Attribute{1, stream_last_position, 3, GL_FLOAT, false, 0},
-    Attribute{2, stream_frame, 3, GL_SHORT, true, offsetof(VertexFrame, normal_xy)},
+    Attribute{2, stream_frame, 4, GL_SHORT, true, offsetof(VertexFrame, normal_xy)},
     Attribute{3, stream_frame, 4, GL_SHORT, true, offsetof(VertexFrame, tangent_xy)},
     Attribute{4, stream_surface, 4, GL_FLOAT, false, offsetof(VertexSurface, uv)},
     Attribute{5, stream_surface, 4, GL_UNSIGNED_SHORT, true, offsetof(VertexSurface, color)},
@@ -53,9 +54,9 @@ constexpr std::array attributes{
 };
 constexpr GLuint instance_location = 6, first_triangle_location = 14;
 
-VertexFrame pack_frame(const glm::vec3& normal, const glm::vec4& tangent) {
+VertexFrame pack_frame(const glm::vec3& normal, float lean, const glm::vec4& tangent) {
   return {.normal_xy = glm::packSnorm2x16(glm::vec2(normal)),
-          .normal_z = glm::packSnorm2x16({normal.z, 0.0f}),
+          .normal_z_lean = glm::packSnorm2x16({normal.z, lean}),
           .tangent_xy = glm::packSnorm2x16(glm::vec2(tangent)),
           .tangent_zw = glm::packSnorm2x16({tangent.z, tangent.w})};
 }
@@ -75,12 +76,13 @@ glm::vec3 unit(const glm::vec3& v) {
 std::uint32_t VertexStreams::append(const Primitive& primitive) {
   const std::size_t first = positions.size();
   const std::size_t count = primitive.positions.size();
+  const std::vector<float> leans = smooth_leans(primitive);
   positions.insert(positions.end(), primitive.positions.begin(), primitive.positions.end());
   for (std::size_t i = 0; i < count; ++i) {
     const glm::vec4 tangent = primitive.tangents.empty() ? glm::vec4(0.0f)
                                                          : glm::vec4(unit(glm::vec3(primitive.tangents[i])),
                                                                      primitive.tangents[i].w < 0.0f ? -1.0f : 1.0f);
-    frames.push_back(pack_frame(unit(primitive.normals[i]), tangent));
+    frames.push_back(pack_frame(unit(primitive.normals[i]), leans[i], tangent));
     VertexSurface surface;
     for (std::size_t set = 0; set < primitive.uvs.size(); ++set) {
       if (!primitive.uvs[set].empty()) surface.uv[set] = primitive.uvs[set][i];
@@ -91,16 +93,13 @@ std::uint32_t VertexStreams::append(const Primitive& primitive) {
   return static_cast<std::uint32_t>(first);
 }
 
-std::vector<glm::vec4> triangle_normals(const Primitive& primitive) {
-  std::vector<glm::vec4> normals;
+std::vector<glm::vec3> triangle_normals(const Primitive& primitive) {
+  std::vector<glm::vec3> normals;
   if (primitive.topology != Topology::triangles) return normals;
   const auto corner = [&](std::size_t index) { return primitive.positions[primitive.indices[index]]; };
-  const auto smooth = [&](std::size_t index) { return unit(primitive.normals[primitive.indices[index]]); };
   normals.reserve(primitive.indices.size() / 3);
-  for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-    const glm::vec3 normal = glsl::triangle_normal(corner(i), corner(i + 1), corner(i + 2));
-    normals.emplace_back(normal, glsl::smooth_lean(normal, smooth(i), smooth(i + 1), smooth(i + 2)));
-  }
+  for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3)
+    normals.push_back(glsl::triangle_normal(corner(i), corner(i + 1), corner(i + 2)));
   return normals;
 }
 

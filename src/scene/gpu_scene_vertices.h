@@ -11,7 +11,7 @@ namespace penumbra::scene {
 
 // Normal and tangent, signed 16-bit: accurate to 3e-5 radians.
 struct VertexFrame {
-  std::uint32_t normal_xy = 0, normal_z = 0, tangent_xy = 0, tangent_zw = 0;
+  std::uint32_t normal_xy = 0, normal_z_lean = 0, tangent_xy = 0, tangent_zw = 0;
 };
 
 // Vertex attributes that do not depend on the pose.
@@ -30,9 +30,9 @@ struct VertexStreams {
   std::uint32_t append(const Primitive& primitive);
 };
 
-// For each triangle of a primitive its normal, not of unit length, and how far its smooth normals lean away from it:
-// see glsl/lib/triangle_normal.glsl. Empty for lines and points.
-std::vector<glm::vec4> triangle_normals(const Primitive& primitive);
+// A normal for each triangle of a primitive, not of unit length: see glsl/lib/triangle_normal.glsl. Empty for lines and
+// points.
+std::vector<glm::vec3> triangle_normals(const Primitive& primitive);
 
 // The buffers that a draw reads its vertices from. Without deformation `last_positions` is `positions`.
 struct VertexSource {

@@ -11,7 +11,7 @@ namespace {
 
 enum class Normals { smooth, flat };
 
-// A ball of radius 1 with 12 rings of 24 segments, whose smooth normals lean up to 10 degrees away from its triangles.
+// A ball of radius 1 with 12 rings of 24 segments, whose smooth normals lean by 10.6 degrees away from its triangles.
 scene::Primitive ball(Normals normals) {
   constexpr int rings = 12, segments = 24;
   const auto on_ball = [](int ring, int segment) {
@@ -58,7 +58,7 @@ class TerminatorTest : public RenderTest {
     return renderer.read_aov("color");
   }
 
-  // The brightest pixel of the triangles that the sun only just lights, or not any more if it sank by a degree.
+  // The brightest pixel of the triangles that the sun would not light if it sank by a degree.
   float brightest_at_the_edge(const scene::Scene& scene, bool soft) {
     const std::vector<float> color = color_of(scene, "none", soft), normals = renderer.read_aov("geometric_normal");
     float most = 0;
@@ -83,7 +83,7 @@ scene::Scene scene_of(scene::Primitive primitive) {
 // Beside them are triangles that face away from the sun, and so are dark, though their smooth normals face it.
 TEST_F(TerminatorTest, TrianglesOfASmoothBallAreDarkBeforeTheyTurnAway) {
   const scene::Scene scene = scene_of(ball(Normals::smooth));
-  EXPECT_LE(brightest_at_the_edge(scene, /*soft=*/true), 0.005f);
+  EXPECT_LE(brightest_at_the_edge(scene, /*soft=*/true), 0.02f);
   EXPECT_GE(brightest_at_the_edge(scene, /*soft=*/false), 0.1f);
 }
 
@@ -97,15 +97,19 @@ TEST_F(TerminatorTest, ADeformedBallIsLitAsOneThatKeepsItsShape) {
   for (std::size_t i = 0; i < rigid.size(); ++i) ASSERT_NEAR(rigid[i], deformed[i], 0.005f) << i;
 }
 
-TEST_F(TerminatorTest, FlatSurfacesAndSmoothOnesThatFaceTheLightStayAsTheyAre) {
+TEST_F(TerminatorTest, FlatSurfacesLeavesAndWhatFacesTheLightStayAsTheyAre) {
   const scene::Scene flat = scene_of(ball(Normals::flat));
   EXPECT_EQ(color_of(flat, "none", true), color_of(flat, "none", false));
+  scene::Scene leaves = scene_of(ball(Normals::smooth));
+  leaves.materials[0].alpha_mode = scene::AlphaMode::mask;
+  EXPECT_EQ(color_of(leaves, "none", true), color_of(leaves, "none", false));
   const scene::Scene smooth = scene_of(ball(Normals::smooth));
   const std::vector<float> soft = color_of(smooth, "none", true), usual = color_of(smooth, "none", false);
   ASSERT_NE(soft, usual);
   int bright = 0;
   for (std::size_t i = 0; i < usual.size(); ++i) {
-    if (usual[i] < 0.7f) continue;  // in the sun's direction 3 / pi
+    // Light comes in at more than one and a half times the lean, as a cosine; straight down it gives 3 / pi.
+    if (usual[i] < 1.1f * 1.5f * 0.184f * 3 * glm::one_over_pi<float>()) continue;
     ++bright;
     ASSERT_EQ(soft[i], usual[i]) << i;
   }
