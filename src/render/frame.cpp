@@ -12,8 +12,8 @@ void bind_view(gl::Device& device, const glsl::ViewBlock& view) {
   block.bind_uniform(view_binding);
 }
 
-// What all samples of a frame have in common.
-struct Shading {
+// What every sample of a frame is drawn and shaded with.
+struct ShadingInputs {
   shadow::SoftShadows& soft_shadows;
   scene::GpuScene& scene;
   const FrameInputs& frame;
@@ -25,8 +25,8 @@ struct Shading {
 };
 
 // The colours of one sample of each pixel. `first`: the pixels' first sample, if this is a further one.
-const gl::Texture& shade(gl::Device& device, const Shading& in, const glsl::ViewBlock& view, const GBuffer& gbuffer,
-                         const FirstSample* first = nullptr) {
+const gl::Texture& shade(gl::Device& device, const ShadingInputs& in, const glsl::ViewBlock& view,
+                         const GBuffer& gbuffer, const FirstSample* first = nullptr) {
   const FrameInputs& frame = in.frame;
   const gl::Texture& lit = light_surfaces(device, {.gbuffer = gbuffer,
                                                    .mask = in.mask,
@@ -62,7 +62,7 @@ struct FirstColors {
 };
 
 // Draws the further samples of each pixel with the first one's shadows and exposure, and returns the mean of all.
-SampleMean average_samples(gl::Device& device, const Shading& shading, const FirstColors& first) {
+SampleMean average_samples(gl::Device& device, const ShadingInputs& shading, const FirstColors& first) {
   const FrameInputs& frame = shading.frame;
   const std::vector<glm::vec2> offsets = sample_offsets(frame.samples);
   SampleMean mean =
@@ -118,14 +118,14 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                                                       .params = params});
 
   const scene::Bounds bounds = scene.receivers();
-  const Shading shading{.soft_shadows = soft_shadows,
-                        .scene = scene,
-                        .frame = inputs,
-                        .mask = mask,
-                        .sky = sky,
-                        .bounds = bounds,
-                        .lights = lights,
-                        .params = params};
+  const ShadingInputs shading{.soft_shadows = soft_shadows,
+                              .scene = scene,
+                              .frame = inputs,
+                              .mask = mask,
+                              .sky = sky,
+                              .bounds = bounds,
+                              .lights = lights,
+                              .params = params};
   const gl::Texture& lit = shade(device, shading, view, gbuffer);
 
   const gl::Buffer& exposure = measure_exposure(device, {.gbuffer = gbuffer, .lit = lit, .params = params});
