@@ -211,6 +211,8 @@ void TruthTechnique::State::resolve(const shadow::PassContext& frame) {
   PictureRequest wanted = request(frame, user);
   const LightId id{.view = frame.inputs().view.id, .light = frame.light().id};
   const int layer = frame.frame().layer;
+  // Nothing tells that a frame begins. If the last one was given up, or its lights were others, and this one's first
+  // light has a higher layer, `unfinished` stays as it was: at worst one more frame is drawn.
   const bool first_of_frame = layer <= std::exchange(last_layer, layer);
   if (first_of_frame) unfinished = false;
   const gl::Pass pass(frame.device(), {.name = "ray trace"});
