@@ -97,7 +97,7 @@ std::vector<std::uint8_t> legend(int width, float scale) {
 }  // namespace
 
 float heat_scale(float largest) {
-  constexpr float most = 100'000;
+  constexpr auto most = static_cast<float>(most_heat_scale);
   for (float decade = 0.001f; decade < most; decade *= 10) {
     for (const float step : {1.0f, 2.0f, 5.0f}) {
       if (largest <= step * decade) return step * decade;

@@ -195,6 +195,20 @@ class HeatMap(Diff):
         self.assertEqual(error_color("--metric", "flip"), error_color("--metric", "flip", "--heatmap-range", "1"))
         self.assertIn("--heatmap", self.refuse("diff", self.lighter, self.grey, "--heatmap-range", "1", code=2))
 
+    def test_the_legend_has_every_figure_of_the_range(self):
+        black, grey = png(self.folder / "a.png", flat(0, 200)), png(self.folder / "b.png", flat(100, 200))
+        figure, ink = 8, (224, 224, 224)  # pixels from one figure to the next
+        for value in ("0.0001", "0.000123", "100000"):
+            legend = self.heat(black, grey, "--heatmap-range", value)[30:]
+            inked = {x for row in legend for x in range(200) if row[x] == ink}
+            left = 200 - 4 - figure * len(value)
+            for place, character in enumerate(value):
+                with self.subTest(value=value, place=place):
+                    self.assertTrue(inked & set(range(left + figure * place, left + figure * (place + 1))), character)
+        for value in ("0.00009", "100001"):
+            told = self.refuse("diff", black, grey, "--heatmap", self.folder / "x.png", "--heatmap-range", value, code=2)
+            self.assertIn("a number from 0.0001 to 100000", told)
+
     def test_a_narrow_picture_has_one_too(self):
         thin = png(self.folder / "thin.png", flat(100, 1, 1))
         self.assertEqual(len(self.heat(thin, thin)), 17)

@@ -63,8 +63,11 @@ void add_options(CLI::App& app, DiffOptions& options) {
       options.heatmap);
   cli::add_value(
       app, "--heatmap-range", "V",
-      "The error with the last colour of --heatmap (1 for FLIP; else the largest error, rounded up)",
-      [&](const std::string& text) { options.heatmap_range = cli::parse_number("--heatmap-range", text, 1e-6, 1e5); });
+      "The error with the last colour of --heatmap, 0.0001 to 100000 (1 for FLIP; else the largest error, rounded up)",
+      [&](const std::string& text) {
+        options.heatmap_range =
+            cli::parse_number("--heatmap-range", text, metrics::least_heat_scale, metrics::most_heat_scale);
+      });
   cli::add_value(app, "--json", "FILE", "Write the figures as JSON; -: to standard output, instead of the line",
                  [&](const std::string& text) { options.json = cli::text_output(text); });
   cli::add_value(app, "--max-pixels", "N", "Refuse larger pictures before they are decoded (as many as memory holds)",
