@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace penumbra::viewer {
 
@@ -37,6 +36,7 @@ std::string longest_text(const glm::vec3& value, int decimals) {
   return *std::ranges::max_element(texts, {}, width_of);
 }
 
+// How many of `most` have room; 0 also where not even whole numbers have.
 int fitting_decimals(const glm::vec3& value, int most, float room) {
   int decimals = most;
   while (decimals > 0 && width_of(longest_text(value, decimals)) > room) --decimals;
@@ -50,14 +50,10 @@ void tell_all(WidgetMap& widgets, const std::string& name, const std::string& te
   show_tooltip(text);
 }
 
-// `shown` of `decimals` fit into `room` for each number, unless it is 0.
-void finish_vector(WidgetMap& widgets, const std::string& name, const glm::vec3& value, int shown, int decimals,
-                   float room) {
-  const std::string longest = longest_text(value, shown);
-  const bool cut = width_of(longest) > room;
-  const bool told = cut && shown == 0;
-  mark_field(widgets, name, told ? "" : longest, room);
-  if (shown == decimals && !cut) return;
+// Names the widget that was drawn last, which shows `shown` of `decimals`.
+void finish_vector(WidgetMap& widgets, const std::string& name, const glm::vec3& value, int shown, int decimals) {
+  widgets.mark(name);
+  if (shown == decimals) return;
   tell_all(widgets, name,
            fmt::format("{}, {}, {}", with_decimals(value.x, decimals), with_decimals(value.y, decimals),
                        with_decimals(value.z, decimals)));
@@ -109,7 +105,7 @@ bool type_vector(WidgetMap& widgets, const std::string& name, glm::vec3& value, 
   const int shown = fitting_decimals(value, decimals, room);
   const std::string format = fmt::format("%.{}f", shown);
   const bool changed = ImGui::InputFloat3(id_of(name).c_str(), &value.x, format.c_str());
-  finish_vector(widgets, name, value, shown, decimals, room);
+  finish_vector(widgets, name, value, shown, decimals);
   return changed;
 }
 
@@ -117,14 +113,10 @@ bool drag_vector(WidgetMap& widgets, const std::string& name, glm::vec3& value, 
   const float room = part_width(ImGui::CalcItemWidth(), vector_parts);
   const int shown = fitting_decimals(value, decimals, room);
   const std::string format = fmt::format("%.{}f", shown);
-  // Dragging rounds to what `decimals` show, however many have room.
-  const bool changed = ImGui::DragFloat3(id_of(name).c_str(), &value.x, 0.01f, -limit, limit, format.c_str(),
-                                         ImGuiSliderFlags_NoRoundToFormat);
-  if (changed) {
-    const float scale = std::pow(10.0f, static_cast<float>(decimals));
-    value = glm::round(value * scale) / scale;
-  }
-  finish_vector(widgets, name, value, shown, decimals, room);
+  // Dragging rounds to what is shown, unless that leaves out decimals: a lamp 1,000 m away moves by less than a metre.
+  const ImGuiSliderFlags rounding = shown == decimals ? 0 : ImGuiSliderFlags_NoRoundToFormat;
+  const bool changed = ImGui::DragFloat3(id_of(name).c_str(), &value.x, 0.01f, -limit, limit, format.c_str(), rounding);
+  finish_vector(widgets, name, value, shown, decimals);
   return changed;
 }
 
@@ -142,8 +134,12 @@ bool text_field(WidgetMap& widgets, const std::string& name, std::string& text, 
                 ImGuiInputTextFlags flags) {
   const bool entered = ImGui::InputTextWithHint(id_of(name).c_str(), hint, &text, flags);
   const float room = typed_room(item_width());
-  mark_field(widgets, name, text.empty() ? hint : "", room);
-  if (width_of(text) > room) tell_all(widgets, name, text);
+  if (text.empty()) {
+    mark_field(widgets, name, hint, room);
+  } else {
+    widgets.mark(name);
+    if (width_of(text) > room) tell_all(widgets, name, text);
+  }
   return entered;
 }
 

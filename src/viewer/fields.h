@@ -26,8 +26,8 @@ bool drag(WidgetMap& widgets, const std::string& name, float& value, float speed
 bool color_field(WidgetMap& widgets, const std::string& name, glm::vec3& color);
 void progress(WidgetMap& widgets, const std::string& name, float share, const std::string& text);
 
-// Three numbers to type, or to drag within limits. They show as many decimals, up to `decimals`, as have room; a
-// tooltip has all.
+// Three numbers to type, or to drag within limits. They show as many of `decimals`, which is 1 or more, as have room; a
+// tooltip has all. Dragging rounds to `decimals` where these have room.
 bool type_vector(WidgetMap& widgets, const std::string& name, glm::vec3& value, int decimals);
 bool drag_vector(WidgetMap& widgets, const std::string& name, glm::vec3& value, float limit, int decimals);
 bool type_range(WidgetMap& widgets, const std::string& name, int& first, int& last);

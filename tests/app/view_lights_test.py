@@ -75,6 +75,40 @@ class Lights(WindowTest):
             self.assertIn("radius=0.08", lamp)
             self.assertIn("range=50", lamp)
 
+    def point_at_x(self, viewer, field):
+        """Points at the first of the three numbers of a field."""
+        left, top, right, bottom = viewer.box(field)
+        viewer.move(left + (right - left) // 6, (top + bottom) // 2)
+        viewer.follow()
+
+    def test_a_place_is_dragged_slowly_and_typed_exactly(self):
+        with self.view(STEPS, "--technique", "none", "--lamp=1,2.34567,0.5", size=(800, 700)) as viewer:
+            viewer.open_tab("Scene", "eye")
+            viewer.click("entry of lamp 0", lambda: viewer.has("lamp place"), "the lamp's properties")
+            left, top, right, bottom = viewer.box("lamp place")
+            x, y = left + (right - left) // 6, (top + bottom) // 2
+            self.point_at_x(viewer, "lamp place")
+            self.desktop.xdotool("mousedown", LEFT)
+            viewer.follow()
+            self.desktop.xdotool("keydown", "alt")  # 0.0001 m each pixel
+            for way in range(10, 401, 10):
+                viewer.move(x + way, y)
+                viewer.follow()
+            self.desktop.xdotool("keyup", "alt", "mouseup", LEFT)
+            viewer.follow()
+            ((moved, *others),) = self.lamps(viewer)
+            self.assertTrue(1.02 <= moved <= 1.04, moved)
+            self.assertEqual(moved, round(moved, 2))
+            self.assertEqual(others, [2.34567, 0.5])
+            self.point_at_x(viewer, "lamp place")
+            self.desktop.xdotool("keydown", "ctrl", "click", LEFT)
+            viewer.follow()
+            self.desktop.xdotool("keyup", "ctrl")
+            viewer.type("0.005")
+            viewer.tap("Return")
+            viewer.follow()
+            self.assertEqual(self.lamps(viewer), [(0.005, 2.34567, 0.5)])
+
     def test_lights_of_the_file_are_turned_off_and_on(self):
         with self.view(scene("gallery"), "--technique", "hard") as viewer:
             viewer.open_tab("Scene", "eye")
