@@ -99,6 +99,10 @@ class Panel(WindowTest):
             self.assertEqual((viewer.box("panel edge"), viewer.box("technique")), wanted)
 
 
+FAR = "--eye=-123456.789,-1234.567,1234.5678", "--target=-1234567.8,1234567.8,-1234567.8"
+FAR_LAMP = "--lamp=-12345678,-1234.567,1234.567:radius=0.123456:cd=12345678:to=0,0,0"
+
+
 def clipped(viewer):
     """What the window cuts off, as the layout names it, once nothing moves any more."""
     viewer.leave()
@@ -128,13 +132,8 @@ class Narrow(WindowTest):
                         viewer.open_tab(tab, widget)
                         self.assertEqual(clipped(viewer), [])
 
-    def test_long_values_have_room_in_their_fields_or_a_tooltip(self):
-        far = ("--eye=-12345.678,-1234.567,1234.5678", "--target=-1234567.8,1234567.8,-1234567.8")
-        lamp = "--lamp=-1234.567,-1234.567,1234.567:radius=0.123456:cd=12345678:to=0,0,0"
-        folder = self.folder / "a folder whose name is longer than any field of a narrow window has room for"
-        folder.mkdir()
-        scene = shutil.copy(STEPS, folder)
-        with self.view(scene, *self.LOOK, *far, lamp, "--set", "pcf.filter_taps=256", "--set", "sun.angle=0.0123",
+    def test_long_values_have_room_in_their_fields(self):
+        with self.view(STEPS, *self.LOOK, *FAR, FAR_LAMP, "--set", "pcf.filter_taps=256", "--set", "sun.angle=0.0123",
                        rests=False) as viewer:
             viewer.open_tab("Scene", "eye")
             viewer.click("entry of lamp 0", lambda: viewer.has("lamp place"), "the lamp's properties")
@@ -144,9 +143,6 @@ class Narrow(WindowTest):
                         viewer.open_tab(tab, self.TABS[tab])
                         self.assertEqual(clipped(viewer), [])
                     self.assertTrue(viewer.has("lamp place"))
-            for field in ("scene file", "target"):
-                viewer.point_at(field)
-                viewer.wait_for(lambda field=field: viewer.has(f"all of {field}"), "the whole value")
 
     def test_a_search_that_finds_every_parameter(self):
         with self.view(STEPS, *self.LOOK) as viewer:
@@ -214,6 +210,58 @@ class Narrow(WindowTest):
             viewer.click("show panel", lambda: not viewer.has("technique"), "the panel to go")
             self.assertGreater(height(viewer.box("picture")), 500)
             viewer.click("show panel", lambda: viewer.has("technique"), "the panel to come back")
+
+
+class Tooltips(TestCase):
+    """Texts and coordinates that are longer than their fields have a tooltip; others have none."""
+
+    FIELDS = {"Shadow": ["preset file"], "Files": ["picture file"],
+              "Scene": ["scene file", "eye", "target", "lamp place", "lamp axis"]}
+
+    def look_at_each(self, *arguments, entered="", check):
+        """Calls check() with each field under the pointer, with the panel below the picture and beside it, in
+        windows that are high enough for all of a tab. `entered`: typed into the files of presets and pictures."""
+        with Desktop(1300, 1450) as desktop, \
+                Viewer(desktop, *arguments, "--technique", "none", size=(1280, 1400), rests=False,
+                       folder=self.folder) as viewer:
+            viewer.open_tab("Scene", "eye")
+            viewer.click("entry of lamp 0", lambda: viewer.has("lamp axis"), "the lamp's properties")
+            for tab, fields in self.FIELDS.items():
+                viewer.open_tab(tab, fields[0])
+                if tab != "Scene":
+                    viewer.point_at(fields[0])
+                    desktop.xdotool("click", LEFT, "key", "ctrl+a")
+                    viewer.type(entered)
+                    viewer.tap("Return")
+            for size in (420, 1400), (620, 1400), (1280, 1400):
+                desktop.xdotool("windowsize", viewer.window, *size)
+                viewer.wait_for(lambda size=size: desktop.client.size(viewer.window) == size, "the new size")
+                for tab, fields in self.FIELDS.items():
+                    viewer.open_tab(tab, fields[0])
+                    for field in fields:
+                        with self.subTest(size=size, field=field):
+                            viewer.point_at(field)
+                            check(viewer, field)
+
+    def expect_one(self, viewer, field):
+        if field == "lamp axis":  # of length 1, so that it has room everywhere
+            self.expect_none(viewer, field)
+        else:
+            viewer.wait_for(lambda: viewer.has(f"all of {field}"), f"all of {field}")
+
+    def expect_none(self, viewer, field):
+        self.assertFalse(viewer.has(f"all of {field}"))
+
+    def test_long_values_have_one(self):
+        folder = self.folder / "a folder whose name is longer than any field of a narrow window has room for"
+        folder.mkdir()
+        self.look_at_each(shutil.copy(STEPS, folder), *FAR, FAR_LAMP, entered=f"{folder}/file.png",
+                          check=self.expect_one)
+
+    def test_short_values_have_none(self):
+        shutil.copy(STEPS, self.folder / "a.glb")
+        self.look_at_each("a.glb", "--eye=9,8,7", "--target=0,1,0", "--lamp=1,2,3:to=0,0,0", entered="a.png",
+                          check=self.expect_none)
 
 
 class Scale(TestCase):
