@@ -93,6 +93,21 @@ TEST_F(Slices, SeeWhatIsBelowACasterInTheSecondLayer) {
   EXPECT_LE(std::abs(two.bias), 0.002);
 }
 
+// The objects' shadows are narrow and the high caster's penumbra is wide: the kernel that removes noise from the second
+// must not blur the first.
+TEST_F(Slices, DenoisedKeepNarrowPenumbraeWithinAWideOne) {
+  SceneRun run("thesis", 640, 360);
+  run.params().set("sun.angle", 2.0f);
+  const Visibility truth = run.draw_truth(256);
+  const Figures one = figures_of(run, truth, "slices_denoised", 1, "visible"),
+                two = figures_of(run, truth, "slices_denoised", 2, "visible");
+  std::printf("thesis, 2 degrees, denoised: one layer %.1f / %.1f dB; two layers %.1f / %.1f dB, bias %.4f\n", one.all,
+              one.penumbra, two.all, two.penumbra, two.bias);
+  EXPECT_GE(two.all, one.all + 6);
+  EXPECT_GE(two.penumbra, one.penumbra - 1);
+  EXPECT_LE(std::abs(two.bias), 0.002);
+}
+
 // A software rasteriser ends loops after a limit. At a seam the most slices and samples run twice in a pixel.
 TEST_F(Slices, OfTheMostSamplesAreComplete) {
   SceneRun run("posts", 48, 32);

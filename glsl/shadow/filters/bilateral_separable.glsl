@@ -9,5 +9,5 @@ uint filtered(ivec2 pixel) {
   Surface surface = surface_at(pixel);
   float sigma = distance_to > 0.0 ? kernel_sigma(surface, distance_to)[filter_pass] : 0.0;
   if (sigma < least_sigma) return texel;
-  return with_visibility(texel, mean_on_axis(filter_pass, pixel, surface, sigma));
+  return with_visibility(texel, mean_on_axis(filter_pass, pixel, surface, sigma, 0.0));
 }

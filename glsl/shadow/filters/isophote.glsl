@@ -1,5 +1,6 @@
-// bilateral_separable with a narrower kernel, and then a mean along the line of equal visibility through the pixel. The
-// first blurs the penumbra's profile half as much; the second averages noise where the profile has none to lose.
+// bilateral_separable with a narrower kernel, which does not reach from a wide penumbra into a narrow one, and then a
+// mean along the line of equal visibility through the pixel. The first blurs the penumbra's profile half as much; the
+// second averages noise where the profile has none to lose.
 #include "shadow/drivers/filter.glsl"
 
 // Standard deviations of the kernels, as shares of that of filter.width: of the first two passes, and of the last one.
@@ -62,5 +63,5 @@ uint filtered(ivec2 pixel) {
   }
   int axis = min(filter_pass, 1);
   float width = max(across * sigma[axis], min(sigma[axis], least_across));
-  return width < least_sigma ? texel : with_visibility(texel, mean_on_axis(axis, pixel, surface, width));
+  return width < least_sigma ? texel : with_visibility(texel, mean_on_axis(axis, pixel, surface, width, distance_to));
 }

@@ -34,8 +34,8 @@ uint rings_between(float low, float high, float dither) {
 }
 
 // Samples are denser near the receiver, where penumbrae are narrow: the share of a slice's length at which one begins
-// that lies at that share of their number.
-float spread(float share) { return share * sqrt(share); }
+// that lies at that share of their number. With two layers still denser: below a far caster near ones are seen, too.
+float spread(float share) { return maps_layers == 2 ? share * share : share * sqrt(share); }
 
 // A pixel's random numbers, 0..1.
 struct PixelNoise {
@@ -59,9 +59,16 @@ float rim_radius(Receiver receiver, float height, Light light) {
 
 struct Slice {
   uint hidden;       // rings
-  float height_sum;  // of the blockers, metres along the light
+  float height_sum;  // see height_term()
   float blockers;
 };
+
+// The mean height of blockers, metres along the light, is that of their heights; with two layers their harmonic mean,
+// because of a near and a far caster at one place the near one makes the narrower penumbra, which must not be blurred.
+float height_term(float height) { return maps_layers == 2 ? 1.0 / max(height, 1e-4) : height; }
+float mean_height(float height_sum, float blockers) {
+  return maps_layers == 2 ? blockers / height_sum : max(height_sum / blockers, 0.0);
+}
 
 #if maps_layers == 2
 layout(binding = UNIT_second_layer) uniform sampler2DArray second_layer;
@@ -103,7 +110,7 @@ Blocker add_texel(inout Slice slice, Receiver receiver, float depth, float block
   float high = stretch.last ? beyond_rim : stretch.end * per_metre;
   uint rings = rings_between(low, high, dither);
   slice.hidden |= rings;
-  slice.height_sum += rings != 0u ? height : 0.0;
+  slice.height_sum += rings != 0u ? height_term(height) : 0.0;
   slice.blockers += rings != 0u ? 1.0 : 0.0;
   return Blocker(high, height, stretch.at);
 }
@@ -144,7 +151,7 @@ Slice walk(Receiver receiver, float share, int index, float radius, PixelNoise n
 // penumbra is narrow on the screen, since there no filter finds neighbours that it could average.
 int rounds_for(Receiver receiver, float height, Light light) {
   const int most = clamp(32767 / (slices_azimuths * slices_samples), 1, 4);
-  float width = 2.0 * penumbra_radius(receiver, max(height, 0.0), light) / pixel_width(view_position_of(receiver));
+  float width = 2.0 * penumbra_radius(receiver, height, light) / pixel_width(view_position_of(receiver));
   return min(1 + int(float(slices_narrow) / max(width, 0.01)), most);
 }
 
@@ -168,10 +175,10 @@ Visibility visibility(Receiver receiver, Light light) {
       blockers += slice.blockers;
     }
     if (turn == 0 && hidden > 0 && hidden < ring_count * slices_azimuths)
-      rounds = rounds_for(receiver, height_sum / blockers, light);
+      rounds = rounds_for(receiver, mean_height(height_sum, blockers), light);
   }
   if (hidden == 0) return fully_lit();
-  float mean = max(height_sum / blockers, 0.0);
+  float mean = mean_height(height_sum, blockers);
   float penumbra = penumbra_radius(receiver, mean, light);
   return Visibility(1.0 - float(hidden) / float(ring_count * slices_azimuths * rounds), penumbra, mean,
                     penumbra < texel_size(receiver, light));
