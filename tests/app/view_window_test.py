@@ -100,7 +100,6 @@ class Panel(WindowTest):
 
 
 FAR = "--eye=-123456.789,-1234.567,1234.5678", "--target=-1234567.8,1234567.8,-1234567.8"
-FAR_LAMP = "--lamp=-12345678,-1234.567,1234.567:radius=0.123456:cd=12345678:to=0,0,0"
 
 
 def clipped(viewer):
@@ -133,7 +132,8 @@ class Narrow(WindowTest):
                         self.assertEqual(clipped(viewer), [])
 
     def test_long_values_have_room_in_their_fields(self):
-        with self.view(STEPS, *self.LOOK, *FAR, FAR_LAMP, "--set", "pcf.filter_taps=256", "--set", "sun.angle=0.0123",
+        lamp = "--lamp=-1234.567,-1234.567,1234.567:radius=0.123456:cd=12345678:to=0,0,0"
+        with self.view(STEPS, *self.LOOK, *FAR, lamp, "--set", "pcf.filter_taps=256", "--set", "sun.angle=0.0123",
                        rests=False) as viewer:
             viewer.open_tab("Scene", "eye")
             viewer.click("entry of lamp 0", lambda: viewer.has("lamp place"), "the lamp's properties")
@@ -255,7 +255,7 @@ class Tooltips(TestCase):
     def test_long_values_have_one(self):
         folder = self.folder / "a folder whose name is longer than any field of a narrow window has room for"
         folder.mkdir()
-        self.look_at_each(shutil.copy(STEPS, folder), *FAR, FAR_LAMP, entered=f"{folder}/file.png",
+        self.look_at_each(shutil.copy(STEPS, folder), *FAR, "--lamp=-12345678,1,1:to=0,0,0", entered=f"{folder}/file.png",
                           check=self.expect_one)
 
     def test_short_values_have_none(self):
