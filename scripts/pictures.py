@@ -1,4 +1,4 @@
-"""The pictures of docs/techniques.md, drawn by the program.
+"""The pictures of docs/techniques.md and docs/command-line.md, drawn by the program.
 
   pictures.py PROGRAM            draws all into docs/pictures
   pictures.py PROGRAM NAME...    draws these
@@ -89,8 +89,15 @@ def histories():
     return rows
 
 
+def terminator():
+    ball = ["scenes/moving.glb", "--size", "320x200", "--sun", "90,25", "--eye=-2.1,0.7,3.6", "--target=-2.05,0.5,2.4",
+            "--fov", "32"]
+    return {f"terminator_{soft}": (ball + ["--set", f"render.soft_terminator={soft}"], "color")
+            for soft in ("false", "true")}
+
+
 PICTURES = {**techniques(), **volumes(), **layers(), **screen_space(), **patterns(), **noises(), **filters(), **failures(),
-            **histories()}
+            **histories(), **terminator()}
 
 
 def draw(program, name):
@@ -99,8 +106,9 @@ def draw(program, name):
     frames = "--frames" in arguments
     with tempfile.TemporaryDirectory() as folder:
         picture = pathlib.Path(folder) / ("p_#.png" if frames else "p.png")
-        subprocess.run([program, "render", *arguments, "-o", picture, "--aov", aov, "--quiet"], cwd=ROOT, check=True)
-        made = sorted(pathlib.Path(folder).glob(f"*.{aov}.png"))[-1]
+        shown = [] if aov == "color" else ["--aov", aov]
+        subprocess.run([program, "render", *arguments, "-o", picture, *shown, "--quiet"], cwd=ROOT, check=True)
+        made = sorted(pathlib.Path(folder).glob(f"*.{aov}.png" if shown else "*.png"))[-1]
         (FOLDER / f"{name}.png").write_bytes(made.read_bytes())
 
 
