@@ -31,6 +31,9 @@ gl::ProgramDesc triangle_program() { return {.name = "triangle normals", .comput
 
 void append(std::vector<float>& to, const glm::vec3& v) { to.insert(to.end(), {v.x, v.y, v.z}); }
 
+// Of an undeformed vertex; must match glsl/scene/deform.comp.
+constexpr std::size_t rest_floats = 11;
+
 void append_rest(std::vector<float>& rest, const Primitive& primitive) {
   const std::vector<float> leans = smooth_leans(primitive);
   for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
@@ -40,6 +43,7 @@ void append_rest(std::vector<float>& rest, const Primitive& primitive) {
     append(rest, glm::vec3(tangent));
     rest.push_back(tangent.w < 0.0f ? -1.0f : 1.0f);
     rest.push_back(leans[i]);
+    assert(rest.size() % rest_floats == 0);
   }
 }
 
@@ -101,7 +105,7 @@ const Deformer::Source& Deformer::source_of(const Primitive& primitive, std::siz
   const auto [entry, added] = sources_.try_emplace({&primitive, joints});
   Source& source = entry->second;
   if (!added) return source;
-  source = {.vertices = static_cast<std::uint32_t>(rest_.size() / 10),
+  source = {.vertices = static_cast<std::uint32_t>(rest_.size() / rest_floats),
             .influences = static_cast<std::uint32_t>(influences_.size() / 6),
             .deltas = static_cast<std::uint32_t>(deltas_.size() / 9),
             .parts = bounds_by_joint(primitive, joints),

@@ -49,8 +49,9 @@ struct CornerHash {
 Corner corner_of(const Primitive& primitive, std::size_t vertex) {
   Corner corner{};
   for (glm::length_t i = 0; i < 3; ++i) {
-    corner[static_cast<std::size_t>(i)] = std::bit_cast<std::uint32_t>(primitive.positions[vertex][i]);
-    corner[static_cast<std::size_t>(i) + 3] = std::bit_cast<std::uint32_t>(primitive.normals[vertex][i]);
+    // Adding 0 makes -0 the same as 0.
+    corner[static_cast<std::size_t>(i)] = std::bit_cast<std::uint32_t>(primitive.positions[vertex][i] + 0.0f);
+    corner[static_cast<std::size_t>(i) + 3] = std::bit_cast<std::uint32_t>(primitive.normals[vertex][i] + 0.0f);
   }
   return corner;
 }

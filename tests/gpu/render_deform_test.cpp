@@ -9,9 +9,9 @@ namespace {
 
 constexpr int vertices = 200;
 
-// A strip of random triangles with two targets and three joints, animated.
-scene::Scene deforming_scene(bool skinned, bool morphed) {
-  std::mt19937 random(7);
+// A strip of random triangles with two targets and three joints, animated. `seed`: other vertices.
+scene::Scene deforming_scene(bool skinned, bool morphed, unsigned seed = 7) {
+  std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(-1, 1);
   const auto vector = [&] { return glm::vec3(unit(random), unit(random), unit(random)); };
   scene::Primitive primitive;
@@ -93,6 +93,25 @@ TEST_F(DeformTest, PositionsEqualTheSumsOnTheCpu) {
       for (std::size_t i = 0; i < cpu.size(); ++i)
         ASSERT_LT(glm::distance(gpu[i], cpu[i]), 1e-5f) << i << " at " << time;
     }
+  }
+}
+
+TEST_F(DeformTest, EachOfTwoPrimitivesKeepsItsOwnVertices) {
+  scene::Scene first = deforming_scene(false, true), second = deforming_scene(false, true, 8);
+  const std::vector<glm::vec3> of_first = deformed_on_cpu(first, scene::pose_at(first, 0.4));
+  const std::vector<glm::vec3> of_second = deformed_on_cpu(second, scene::pose_at(second, 0.4));
+  scene::Scene both = first;
+  add_node(both, second.meshes[0].primitives[0], glm::mat4(1));
+  both.meshes[1].default_weights = {0, 0};
+  both.animations.push_back(second.animations[0]);
+  both.animations[1].channels[0].node = 1;
+  scene::GpuScene on_gpu(device, both);
+  on_gpu.pose(device, 0.4, 0.4);
+  const std::vector<glm::vec3> gpu = on_gpu.read_deformed();
+  ASSERT_EQ(gpu.size(), of_first.size() + of_second.size());
+  for (std::size_t i = 0; i < of_first.size(); ++i) {
+    ASSERT_LT(glm::distance(gpu[i], of_first[i]), 1e-5f) << i;
+    ASSERT_LT(glm::distance(gpu[of_first.size() + i], of_second[i]), 1e-5f) << i;
   }
 }
 

@@ -130,7 +130,7 @@ ivec2 along(int axis, int offset) { return axis == 0 ? ivec2(offset, 0) : ivec2(
 
 // Gaussian mean over the pixels of a row (axis 0) or column (1) that lie on the receiver's plane. `distance_to`: the
 // blocker distance that belongs to sigma. Neighbours with a shorter one weigh as in the narrower kernel of their own,
-// so that no penumbra is spread farther than its width allows. 0: all weigh as in the pixel's kernel.
+// so that narrow penumbrae are not spread over wide ones. 0: all weigh as in the pixel's kernel.
 float mean_on_axis(int axis, ivec2 pixel, Surface surface, float sigma, float distance_to) {
   TapLine taps = taps_along(axis, pixel, 2.0 * sigma);
   float falloff = -0.5 / (sigma * sigma);
@@ -142,7 +142,7 @@ float mean_on_axis(int axis, ivec2 pixel, Surface surface, float sigma, float di
     float depth = stored_depth_at(pixel + to);
     float off_plane = plane_distance(surface, to, depth);
     uint texel = texel_at(pixel + to);
-    float own_distance = blended_distance(texel);
+    float own_distance = blended_distance(texel) * narrowing(texel);
     float narrower = own_distance > 0.0 ? max(distance_to / own_distance, 1.0) : 1.0;
     float apart = narrower * float(offset);
     float weight = exp(falloff * apart * apart - 0.5 * off_plane * off_plane);

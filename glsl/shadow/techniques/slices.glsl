@@ -65,7 +65,8 @@ struct Slice {
 
 // The mean height of blockers, metres along the light, is that of their heights; with two layers their harmonic mean,
 // because of a near and a far caster at one place the near one makes the narrower penumbra, which must not be blurred.
-float height_term(float height) { return maps_layers == 2 ? 1.0 / max(height, 1e-4) : height; }
+// Heights below the bias are not known.
+float height_term(float height, float bias) { return maps_layers == 2 ? 1.0 / max(height, max(bias, 1e-4)) : height; }
 float mean_height(float height_sum, float blockers) {
   return maps_layers == 2 ? blockers / height_sum : max(height_sum / blockers, 0.0);
 }
@@ -100,8 +101,8 @@ bool goes_on(Blocker before, float height, float at, Receiver receiver, Light li
 
 // Adds the rays that a texel of that depth hides, if it is nearer to the light than `blocking`; `before`: the sample
 // before it on the line.
-Blocker add_texel(inout Slice slice, Receiver receiver, float depth, float blocking, Stretch stretch, Blocker before,
-                  float dither, Light light) {
+Blocker add_texel(inout Slice slice, Receiver receiver, float depth, float blocking, float bias, Stretch stretch,
+                  Blocker before, float dither, Light light) {
   if (depth >= blocking) return no_blocker;
   float height = receiver.position.z - depth;
   float per_metre = 1.0 / rim_radius(receiver, height, light);
@@ -110,7 +111,7 @@ Blocker add_texel(inout Slice slice, Receiver receiver, float depth, float block
   float high = stretch.last ? beyond_rim : stretch.end * per_metre;
   uint rings = rings_between(low, high, dither);
   slice.hidden |= rings;
-  slice.height_sum += rings != 0u ? height_term(height) : 0.0;
+  slice.height_sum += rings != 0u ? height_term(height, bias) : 0.0;
   slice.blockers += rings != 0u ? 1.0 : 0.0;
   return Blocker(high, height, stretch.at);
 }
@@ -137,10 +138,10 @@ Slice walk(Receiver receiver, float share, int index, float radius, PixelNoise n
     vec2 offset = texel_offset(receiver, cell, light);
     float blocking = blocking_depths_at(receiver, Offsets(vec4(offset.x), vec4(offset.y)), bias).x;
     Stretch stretch = Stretch(begin, at, end, i + 1 == samples);
-    before = add_texel(slice, receiver, depth_at(cell, light), blocking, stretch, before, dither, light);
+    before = add_texel(slice, receiver, depth_at(cell, light), blocking, bias, stretch, before, dither, light);
 #if maps_layers == 2
     float behind = depth_in(second_layer, cell, light);
-    second_before = add_texel(slice, receiver, behind, blocking, stretch, second_before, dither, light);
+    second_before = add_texel(slice, receiver, behind, blocking, bias, stretch, second_before, dither, light);
 #endif
     begin = end;
   }
