@@ -21,10 +21,10 @@ Primitive ridge(float angle, float shared_angle_of_last = -1) {
   if (shared_angle_of_last < 0) return ridge;
   // A third triangle at vertex 1 alone, that leans in another way.
   const float t = std::sin(shared_angle_of_last), u = std::cos(shared_angle_of_last);
-  ridge.positions.push_back({0.5f, 1 + u, t});
-  ridge.positions.push_back({-0.5f, 1 + u, t});
-  ridge.normals.push_back({0, 0, 1});
-  ridge.normals.push_back({0, 0, 1});
+  ridge.positions.emplace_back(0.5f, 1 + u, t);
+  ridge.positions.emplace_back(-0.5f, 1 + u, t);
+  ridge.normals.emplace_back(0, 0, 1);
+  ridge.normals.emplace_back(0, 0, 1);
   ridge.indices.insert(ridge.indices.end(), {1, 4, 5});
   return ridge;
 }
