@@ -59,11 +59,14 @@ Corner corner_of(const Primitive& primitive, std::size_t vertex) {
 void share_between_seams(const Primitive& primitive, std::vector<float>& leans) {
   std::unordered_map<Corner, float, CornerHash> most;
   most.reserve(leans.size());
+  std::vector<const float*> of_vertices;
+  of_vertices.reserve(leans.size());
   for (std::size_t i = 0; i < leans.size(); ++i) {
     float& shared = most[corner_of(primitive, i)];
     shared = std::max(shared, leans[i]);
+    of_vertices.push_back(&shared);
   }
-  for (std::size_t i = 0; i < leans.size(); ++i) leans[i] = most[corner_of(primitive, i)];
+  for (std::size_t i = 0; i < leans.size(); ++i) leans[i] = *of_vertices[i];
 }
 
 }  // namespace
