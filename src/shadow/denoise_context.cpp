@@ -39,8 +39,9 @@ PackedMask DenoiseContext::evaluate_packed(const gl::Texture* last_surfaces) con
     technique.resolve(PassContext(work_, owner_of(technique)));
     pack(packed, last_surfaces);
   } else {
-    packed.decisions = run_mask_pass(work_, {.packed = &packed, .last_surfaces = last_surfaces});
+    packed.distances.decisions = run_mask_pass(work_, {.packed = &packed, .last_surfaces = last_surfaces});
   }
+  packed.distances.texels = &packed.texels;
   work_.frame.notes = &packed.notes;
   return packed;
 }
@@ -62,8 +63,8 @@ void DenoiseContext::bind_history(const gl::Texture& last_surfaces) const {
 }
 
 const gl::Texture& DenoiseContext::run(const Filter& filter, const PackedMask& source, bool to_mask) const {
-  const bool spares = source.decisions != nullptr && !filters_all_pixels(work_, filter);
-  if (spares && filter_tiles_ == nullptr) filter_tiles_ = &list_filter_tiles(work_, *source.decisions);
+  const bool spares = source.distances.texels != nullptr && !filters_all_pixels(work_, filter);
+  if (spares && filter_tiles_ == nullptr) filter_tiles_ = &list_filter_tiles(work_, source.distances);
   return run_filter(work_, {.filter = filter,
                             .texels = source.texels,
                             .notes = source.notes,

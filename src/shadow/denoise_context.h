@@ -5,14 +5,20 @@
 
 namespace penumbra::shadow {
 
+// Which parts of a mask have blockers: filters leave the others as they are (see list_filter_tiles).
+struct BlockerDistances {
+  const gl::Texture* texels = nullptr;     // packed, from the technique
+  const gl::Texture* decisions = nullptr;  // Tiles::decisions; null where no tiles were decided
+};
+
 // The intermediate form of a mask between a denoiser's steps: R32UI packed texels (see glsl/lib/packed_texel.glsl), and
 // R8UI notes (see LightFrame::notes), both of the mask's size.
 struct PackedMask {
   const gl::Texture& texels;
   const gl::Texture& notes;
-  // By which filters are spared the tiles that they would leave as they are (Tiles::decisions). To be handed on with
-  // texels whose blocker distances nothing but filters has changed since; null: filters run for all pixels.
-  const gl::Texture* decisions = nullptr;
+  // To be handed on with texels that filters and blends have changed since, which add no distance where there is none
+  // near. Without: filters run for all pixels.
+  BlockerDistances distances = {};
 };
 
 // PassContext with the additional steps that only denoisers use.

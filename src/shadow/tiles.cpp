@@ -47,15 +47,17 @@ Tiles decide_tiles(const LightWork& work) {
   return tiles;
 }
 
-const gl::Buffer& list_filter_tiles(const LightWork& work, const gl::Texture& decisions) {
+const gl::Buffer& list_filter_tiles(const LightWork& work, const BlockerDistances& distances) {
   const PassOwner owner = owner_of(*work.denoiser);
   const glm::ivec2 size = tile_count(work.frame.viewport);
   const gl::Buffer& list = begin_tile_list(PassContext(work, owner), "filter tiles", size);
   gl::Pass pass(work.device, {.name = "filter tiles"});
-  pass.use(work.programs.filter_tiles());
+  const gl::Program& program = pass.use(work.programs.filter_tiles());
   bind_inputs(work, owner);
-  work.device.sampler({}).bind(unit_decisions);
-  decisions.bind(unit_decisions);
+  for (const GLuint unit : {unit_texels, unit_decisions}) work.device.sampler({}).bind(unit);
+  distances.texels->bind(unit_texels);
+  if (distances.decisions != nullptr) distances.decisions->bind(unit_decisions);
+  program.set("has_decisions", distances.decisions != nullptr ? 1 : 0);
   list.bind_storage(tile_list_binding);
   pass.dispatch(size.x, size.y);
   return list;

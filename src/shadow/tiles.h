@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 
+#include "denoise_context.h"
 #include "light_work.h"
 #include "pass_context.h"
 
@@ -55,7 +56,7 @@ Tiles decide_tiles(const LightWork& work);
 
 // In a pass of its own, the list of the tiles whose packed texels a filter with Filter::keeps_unblocked can change; its
 // "decided" ones are those that such filters leave as they are.
-const gl::Buffer& list_filter_tiles(const LightWork& work, const gl::Texture& decisions);
+const gl::Buffer& list_filter_tiles(const LightWork& work, const BlockerDistances& distances);
 
 // Draws the tiles of one of a list's two commands, as points: the current program's vertex shader is tile.vert.
 void draw_tiles(gl::Pass& pass, const gl::Buffer& list, std::size_t command);

@@ -238,7 +238,7 @@ shadow::Denoiser filtering_twice() {
           .denoise = [](const shadow::DenoiseContext& context) {
             const shadow::PackedMask seen = context.evaluate_packed();
             const gl::Texture& once = context.filter("box", seen);
-            const gl::Texture& twice = context.filter("box", {once, seen.notes, seen.decisions});
+            const gl::Texture& twice = context.filter("box", {once, seen.notes, seen.distances});
             recorded.filtered = {&seen.texels, &once, &twice};
             context.filter_to_mask("none", {twice, seen.notes});
           }};

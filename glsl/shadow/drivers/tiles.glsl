@@ -17,8 +17,10 @@ uvec4 packed_decision(Decision decision) {
 
 const uvec4 no_decision = uvec4(0u, 0u, 0u, ~0u);  // of a tile in the list of those to compute
 
+bool is_decided(uvec4 texel) { return texel.w != no_decision.w; }
+
 // Whether no pixel of a decided tile has a blocker distance.
-bool is_unblocked(uvec4 texel) { return texel.w != no_decision.w && (texel.z & 0xffffu) == 0u; }
+bool is_unblocked(uvec4 texel) { return (texel.z & 0xffffu) == 0u; }
 
 Decision unpacked_decision(uvec4 texel) {
   vec2 lengths = unpackHalf2x16(texel.z);

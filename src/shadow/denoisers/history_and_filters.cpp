@@ -52,14 +52,14 @@ void denoise(const DenoiseContext& context) {
   if (!context.params().get_bool("history.reuse")) {
     const PackedMask raw = context.evaluate_packed();
     const gl::Texture& penumbrae = context.filter(penumbra_filter, raw);
-    context.filter_to_mask(visibility_filter, {penumbrae, raw.notes, raw.decisions});
+    context.filter_to_mask(visibility_filter, {penumbrae, raw.notes, raw.distances});
     return;
   }
   const Memory memory{context.remembered("surfaces"), context.remembered("texels")};
   const PackedMask raw = context.evaluate_packed(&memory.surfaces.last);
   const gl::Texture& penumbrae = context.filter(penumbra_filter, raw);
   const gl::Texture& blended = blend(context, memory, penumbrae);
-  context.filter_to_mask(visibility_filter, {blended, raw.notes, raw.decisions});
+  context.filter_to_mask(visibility_filter, {blended, raw.notes, raw.distances});
 }
 
 }  // namespace
