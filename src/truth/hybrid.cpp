@@ -61,7 +61,7 @@ class HybridFrame {
     const gl::Texture& ids =
         render::draw_surface_ids(context_.device(), {.scene = user_.scene, .view = user_.view, .depth = user_.depth});
     const gl::Buffer& tiles = decide_tiles(masked);
-    decide_pixels(tiles, ids, masked);
+    list_pixels(tiles, ids);
     const std::vector<DrawnPixel> left = read_left();
     if (!left.empty()) trace(left);
   }
@@ -100,12 +100,6 @@ class HybridFrame {
     return &texture;
   }
 
-  void use_decision(gl::Pass& pass, const char* program, const gl::Texture* masked) const {
-    use(pass, program).set("has_masked_casters", masked != nullptr ? 1 : 0);
-    context_.device().sampler({}).bind(unit_masked);
-    if (masked != nullptr) masked->bind(unit_masked);
-  }
-
   // Returns the list of the tiles that are not decided.
   const gl::Buffer& decide_tiles(const gl::Texture* masked) const {
     const glm::ivec2 tiles = shadow::tile_count(context_.frame().viewport);
@@ -114,16 +108,18 @@ class HybridFrame {
     const gl::Buffer& list = context_.scratch("tile list", sizeof(head) + sizeof(std::uint32_t) * capacity);
     list.write(std::as_bytes(std::span(&head, 1)));
     gl::Pass pass(context_.device(), {.name = "tile decisions"});
-    use_decision(pass, "tiles", masked);
+    use(pass, "tiles").set("has_masked_casters", masked != nullptr ? 1 : 0);
+    context_.device().sampler({}).bind(unit_masked);
+    if (masked != nullptr) masked->bind(unit_masked);
     list.bind_storage(shadow::tile_list_binding);
     pass.dispatch(tiles.x, tiles.y);
     return list;
   }
 
-  void decide_pixels(const gl::Buffer& tiles, const gl::Texture& ids, const gl::Texture* masked) const {
+  void list_pixels(const gl::Buffer& tiles, const gl::Texture& ids) const {
     gl::write_value(left_, std::uint32_t{0});
-    gl::Pass pass(context_.device(), {.name = "pixel decisions"});
-    use_decision(pass, "pixels", masked);
+    gl::Pass pass(context_.device(), {.name = "pixels for rays"});
+    use(pass, "pixels");
     tiles.bind_storage(shadow::tile_list_binding);
     left_.bind_storage(left_binding);
     context_.device().sampler({}).bind(unit_surface_ids);
@@ -155,6 +151,7 @@ class HybridFrame {
                          .pixels = left,
                          .sun = std::get<TracedSun>(traced_light(context_)),
                          .rays = (static_cast<std::uint32_t>(context_.params().get_int("hybrid.rays")) + 7) / 8 * 8,
+                         .narrow = static_cast<float>(context_.params().get_int("hybrid.narrow")),
                          .seed = static_cast<std::uint32_t>(shadow::set_number(context_.params(), context_.age())),
                          .threads = threads_});
     std::vector<std::uint32_t> packed;
@@ -182,29 +179,42 @@ class HybridFrame {
 shadow::Technique hybrid(int threads) {
   using enum ParamBinding;
   const auto casters = std::make_shared<KeptCasters>();
-  return {.name = "hybrid",
-          .summary =
-              "The shadow map decides the pixels that no penumbra reaches; rays to the light decide the others. "
-              "For renderers without a GPU.",
-          .source = "edges of the map as in ADR 18; Owen-scrambled Sobol points, Embree",
-          .needs = {"shadow_map", "least_depth_pyramid"},
-          .params = {{"hybrid.rays", 16, 8, 4096, "rays",
-                      "Rays of each pixel in penumbra, rounded up to a multiple of eight.", host},
-                     {"hybrid.masked_casters", true, 0, 1, "",
-                      "Leaves all pixels that casters with an alpha mask may shadow to rays, because the map can miss "
-                      "small parts of such casters.",
-                      host}},
-          .resolve = [=](const shadow::PassContext& context) { HybridFrame(context, *casters, threads).resolve(); },
-          .resolve_reads_motion = false,
-          .programs =
-              [](const ParamSet&) {
-                return std::vector<gl::ProgramDesc>{{.name = "tiles", .compute = "shadow/techniques/hybrid_tiles.comp"},
-                                                    {.name = "pixels", .compute = "shadow/techniques/hybrid.comp"},
-                                                    {.name = "rays", .compute = "shadow/techniques/hybrid_rays.comp"}};
-              },
-          .suns_only = true,
-          .stand_in = "pcss",
-          .reads_light_discs = true};
+  return {
+      .name = "hybrid",
+      .summary =
+          "The shadow map decides the tiles of pixels that no penumbra reaches; rays to the light decide the others. "
+          "For renderers without a GPU.",
+      .source = "edges of the map as in ADR 18; Owen-scrambled Sobol points, Embree",
+      .needs = {"shadow_map", "least_depth_pyramid"},
+      .params = {{"hybrid.rays", 16, 8, 4096, "rays",
+                  "Rays of each pixel in penumbra, rounded up to a multiple of eight.", host},
+                 {"hybrid.narrow", 0, 0, 64, "px",
+                  "Where a penumbra is narrower than this in the picture, twice as many rays are traced, since no "
+                  "filter can smooth it there.",
+                  host},
+                 {"hybrid.masked_casters", true, 0, 1, "",
+                  "Leaves all pixels that casters with an alpha mask may shadow to rays, because the map can miss "
+                  "small parts of such casters.",
+                  host}},
+      .resolve = [=](const shadow::PassContext& context) { HybridFrame(context, *casters, threads).resolve(); },
+      .resolve_reads_motion = false,
+      .programs =
+          [](const ParamSet&) {
+            return std::vector<gl::ProgramDesc>{{.name = "tiles", .compute = "shadow/techniques/hybrid_tiles.comp"},
+                                                {.name = "pixels", .compute = "shadow/techniques/hybrid.comp"},
+                                                {.name = "rays", .compute = "shadow/techniques/hybrid_rays.comp"}};
+          },
+      .suns_only = true,
+      .stand_in = "pcss",
+      .reads_light_discs = true};
+}
+
+shadow::Preset hybrid_denoised() {
+  return {"hybrid_denoised",
+          "hybrid",
+          "The technique hybrid with more rays in narrow penumbrae, and a filter that removes their noise.",
+          {"hybrid.rays=16", "hybrid.narrow=16", "denoiser=history_and_filters", "filter.penumbra=none",
+           "filter.visibility=isophote", "filter.taps=8", "filter.width=0.14"}};
 }
 
 }  // namespace penumbra::truth

@@ -1,11 +1,13 @@
 #pragma once
 
-#include "shadow/technique.h"
+#include "shadow/registry.h"
 
 namespace penumbra::truth {
 
-// The technique `hybrid`: the shadow map decides the pixels that no penumbra reaches, and rays the others. It works
-// only in frames of a render::Renderer, whose scene it reads. `threads`: of the tracer; 0: one for each core.
+// The technique `hybrid`: the shadow map decides the tiles of pixels that no penumbra reaches, and rays the others. It
+// works only in frames of a render::Renderer, whose scene it reads. `threads`: of the tracer; 0: one for each core.
 shadow::Technique hybrid(int threads);
+// The same with a filter.
+shadow::Preset hybrid_denoised();
 
 }  // namespace penumbra::truth

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <glm/gtc/matrix_access.hpp>
 #include <numeric>
 
 #include "truth/parallel.h"
@@ -14,12 +15,15 @@ namespace penumbra::truth {
 namespace {
 
 constexpr std::uint32_t no_slot = ~0u;
+// Metres: blockers nearer than this count as so far away.
+constexpr float least_distance = 1e-3f;
 
 // Where a pixel's rays start, and the cosines of the angles between its surface's normal and the light's centre and
 // sides: see SeenLight.
 struct Start {
   glm::vec3 origin{0};
   float cosine = 0, cosine_x = 0, cosine_y = 0;
+  float pixel = 0;  // metres, the width of a pixel as far from the eye
   bool there = false;
 };
 
@@ -27,7 +31,7 @@ struct Start {
 struct Count {
   std::uint32_t lit = 0;
   std::uint32_t hits = 0;  // whose distance is known
-  float distance = 0;      // metres, their sum
+  float nearness = 0;      // sum of the reciprocals of their distances, 1 / metres
 };
 
 // Gathers rays of several pixels into packets. Each thread has its own.
@@ -94,8 +98,9 @@ class Packets {
       Count& count = counts_[slots_[i]];
       if (measures_ && rays_.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
         ++count.hits;
-        count.distance += rays_.ray.tfar[i];  // directions advance by a metre along the light
-      } else if (rays_.ray.tfar[i] >= 0) {    // Embree sets it to −∞ for an occluded ray
+        // Directions advance by a metre along the light.
+        count.nearness += 1 / std::max(rays_.ray.tfar[i], least_distance);
+      } else if (rays_.ray.tfar[i] >= 0) {  // Embree sets it to −∞ for an occluded ray
         ++count.lit;
       }
     }
@@ -122,6 +127,7 @@ class PenumbraTrace {
       : scene_(scene),
         request_(request),
         light_(seen_from(request.sun, glm::dvec3(0))),
+        world_to_clip_(glm::inverse(request.eye.clip_to_world)),
         points_(request.seed, request.rays),
         probes_(request.rays / 4),
         threads_(thread_count(request.threads)),
@@ -143,11 +149,29 @@ class PenumbraTrace {
     for_ranges(threads_, starts_.size(), work);
   }
 
-  // Pixels of a block of 2 × 2 probe different quarters of their points, which together cover the light evenly.
-  std::uint32_t point(std::size_t slot, std::uint32_t ray) const {
+  // Traces the rays `begin` to `end` (exclusive) of a pixel. Pixels of a block of 2 × 2 begin with different quarters
+  // of their points, which together cover the light evenly. After its own points a pixel takes those of the one beside
+  // it in the block, which are spread evenly among its own.
+  void add_rays(Packets& packets, std::size_t slot, std::uint32_t begin, std::uint32_t end) const {
     const glm::uvec2 pixel(request_.pixels[slot].pixel);
+    const std::uint32_t own = points_.first(pixel.x, pixel.y), beside = points_.first(pixel.x ^ 1U, pixel.y);
     const std::uint32_t quarter = (pixel.x & 1U) + 2 * (pixel.y & 1U);
-    return points_.first(pixel.x, pixel.y) + (quarter * probes_ + ray) % request_.rays;
+    for (std::uint32_t ray = begin; ray < end; ++ray) {
+      const std::uint32_t first = ray < request_.rays ? own : beside;
+      packets.add(slot, starts_[slot], first + (quarter * probes_ + ray) % request_.rays);
+    }
+  }
+
+  std::uint32_t rays_of(std::size_t slot, float blocker_distance) const {
+    const float width = 2 * static_cast<float>(glm::length(light_.side_x)) * blocker_distance;
+    return width < request_.narrow * starts_[slot].pixel ? 2 * request_.rays : request_.rays;
+  }
+
+  // Metres.
+  float pixel_at(const glm::dvec3& position) const {
+    const double clip_w = glm::dot(glm::row(world_to_clip_, 3), glm::dvec4(position, 1));
+    const double clip_y_a_metre = glm::length(glm::dvec3(glm::row(world_to_clip_, 1)));
+    return static_cast<float>(2 * clip_w / (clip_y_a_metre * request_.eye.height));
   }
 
   Start start_at(const Receiver& receiver) const {
@@ -156,6 +180,7 @@ class PenumbraTrace {
             .cosine = static_cast<float>(glm::dot(receiver.normal, light_.center)),
             .cosine_x = static_cast<float>(glm::dot(receiver.normal, light_.side_x)),
             .cosine_y = static_cast<float>(glm::dot(receiver.normal, light_.side_y)),
+            .pixel = pixel_at(receiver.position),
             .there = true};
   }
 
@@ -168,7 +193,7 @@ class PenumbraTrace {
       if (!starts_[slot].there) continue;
       const glm::ivec2 pixel = request_.pixels[slot].pixel;
       slots_[place(pixel)] = static_cast<std::uint32_t>(slot);
-      for (std::uint32_t ray = 0; ray < probes_; ++ray) packets.add(slot, starts_[slot], point(slot, ray));
+      add_rays(packets, slot, 0, probes_);
     }
     packets.finish();
   }
@@ -190,7 +215,7 @@ class PenumbraTrace {
         if (at == no_slot) continue;
         sum.lit += probed[at].lit;
         sum.hits += probed[at].hits;
-        sum.distance += probed[at].distance;
+        sum.nearness += probed[at].nearness;
         traced += probes_;
       }
     }
@@ -208,19 +233,22 @@ class PenumbraTrace {
       const Count& measured = own.hits > 0 ? own : around;
       out[slot] = {
           .visibility = own.lit > 0 ? 1.0f : 0.0f,
-          .blocker_distance = measured.hits > 0 ? measured.distance / static_cast<float>(measured.hits) : 0.0f};
+          .blocker_distance = measured.hits > 0 ? static_cast<float>(measured.hits) / measured.nearness : 0.0f};
       if (around.lit == 0 || around.lit == traced) continue;
       doubtful.push_back(slot);
-      for (std::uint32_t ray = probes_; ray < request_.rays; ++ray) packets.add(slot, starts_[slot], point(slot, ray));
+      add_rays(packets, slot, probes_, rays_of(slot, out[slot].blocker_distance));
     }
     packets.finish();
-    for (const std::size_t slot : doubtful)
-      out[slot].visibility = static_cast<float>(counts_[slot].lit) / static_cast<float>(request_.rays);
+    for (const std::size_t slot : doubtful) {
+      const std::uint32_t rays = rays_of(slot, out[slot].blocker_distance);
+      out[slot].visibility = static_cast<float>(counts_[slot].lit) / static_cast<float>(rays);
+    }
   }
 
   const EmbreeScene& scene_;
   const PenumbraRequest& request_;
   SeenLight light_;
+  glm::dmat4 world_to_clip_;
   PicturePoints points_;
   std::uint32_t probes_;  // rays of each pixel that are traced first
   int threads_;

@@ -17,13 +17,14 @@ struct PenumbraRequest {
   std::span<const DrawnPixel> pixels;  // each at most once
   TracedSun sun;
   std::uint32_t rays = 16;  // of a pixel in penumbra; a multiple of 8
+  float narrow = 0;         // pixels: where a penumbra is narrower in the picture, twice as many rays are traced
   std::uint32_t seed = 0;
   int threads = 0;  // 0: one for each core
 };
 
 struct PenumbraPixel {
   float visibility = 1;        // 1 where there is no surface
-  float blocker_distance = 0;  // metres along the light, mean of what blocks; 0: nothing
+  float blocker_distance = 0;  // metres along the light, harmonic mean of what blocks; 0: nothing
 };
 
 // Most pixels that a shadow map can't decide are fully lit or in full shadow nevertheless. So a quarter of the rays is

@@ -267,6 +267,7 @@ shadow::Registry TruthTechnique::registry(const shadow::Registry& base) const {
       .stand_in = "brute_force",
   });
   contents.techniques.push_back(hybrid(state_->options.threads));
+  contents.presets.push_back(hybrid_denoised());
   return shadow::Registry(std::move(contents));
 }
 

@@ -54,7 +54,7 @@ class Bench(TestCase):
     def test_measures_rays_that_techniques_trace_as_shadow_passes(self):
         data = self.bench(SCENE, "--technique", "pcss,hybrid", "--floor")
         passes = {each["name"]: each for each in data["points"][0]["costs"][1]["passes"]}
-        for name in ("shadow map", "surface ids", "tile decisions", "pixel decisions", "rays"):
+        for name in ("shadow map", "surface ids", "tile decisions", "pixels for rays", "rays"):
             self.assertTrue(passes[name]["shadow"], name)
 
     def test_whole_frames_have_no_passes_on_a_software_rasteriser(self):

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -72,16 +73,20 @@ TEST_F(Hybrid, LeavesToRaysWhatTheMapDoesNotShow) {
 
 // What a mask leaves of a leaf is often narrower than a texel, so that the map shows no edge there.
 TEST_F(Hybrid, LosesNoMaskedCasterBetweenTexels) {
-  SceneRun run("foliage", 320, 180);
+  SceneRun run("foliage", 640, 360);
   run.params().set("sun.angle", 0.53f);
+  run.params().set("cascades.size", 256);
   const Visibility truth = run.draw_truth(512);
   const std::vector<std::size_t> receivers = receivers_of(run);
-  const double with = decibels(rmse(draw(run, "hybrid", 256), truth, receivers));
-  run.params().set("hybrid.masked_casters", false);
-  const double without = decibels(rmse(draw(run, "hybrid", 256), truth, receivers));
-  std::printf("hybrid with masked casters %.1f dB, without %.1f dB\n", with, without);
-  EXPECT_GE(with, 45);
-  EXPECT_LE(without, 42) << "the scene no longer shows the fault";
+  const auto lost = [&](bool masked_casters) {
+    run.params().set("hybrid.masked_casters", masked_casters);
+    const Visibility picture = draw(run, "hybrid", 256);
+    return std::ranges::count_if(receivers, [&](std::size_t i) { return std::abs(picture[i] - truth[i]) > 0.2f; });
+  };
+  const auto with = lost(true), without = lost(false);
+  std::printf("pixels that are wrong by more than 0.2: with masked casters %td, without %td\n", with, without);
+  EXPECT_EQ(with, 0);
+  EXPECT_GE(without, 20) << "the scene no longer shows the fault";
 }
 
 // Denoisers need the blocker distances that the first rays find.
@@ -97,6 +102,60 @@ TEST_F(Hybrid, CanBeDenoised) {
   std::printf("hybrid raw %.1f dB, denoised %.1f dB\n", raw, denoised);
   EXPECT_GE(denoised, raw + 5);
   EXPECT_LE(std::abs(bias_of(picture, truth, receivers)), 0.002);
+}
+
+// Narrow penumbrae beside wide ones too: a far caster shades all of `thesis` as well.
+TEST_F(Hybrid, WithItsFilterIsFarNearerToTheTruth) {
+  // dB over all receivers: at least this much more than without the filter, and at least this.
+  struct Case {
+    const char* scene;
+    float angle;
+    double gain, least;
+  };
+  for (const auto& [scene, angle, gain, least] : {Case{"fence", 0.53f, 4, 36.5}, Case{"thesis", 8, 13.5, 37}}) {
+    SceneRun run(scene, 640, 360);
+    run.params().set("sun.angle", angle);
+    const Visibility truth = run.draw_truth(512);
+    const std::vector<std::size_t> receivers = receivers_of(run);
+    const double raw = decibels(rmse(draw(run, "hybrid"), truth, receivers));
+    run.choose("hybrid_denoised");
+    run.params().set("sun.angle", angle);
+    const double denoised = decibels(rmse(run.draw(/*cut=*/true), truth, receivers));
+    std::printf("%s, %g degrees: hybrid %.1f dB, hybrid_denoised %.1f dB\n", scene, static_cast<double>(angle), raw,
+                denoised);
+    EXPECT_GE(denoised, raw + gain) << scene;
+    EXPECT_GE(denoised, least) << scene;
+  }
+}
+
+TEST_F(Hybrid, TracesTwiceAsManyRaysWherePenumbraeAreNarrow) {
+  SceneRun run("fence", 320, 180);
+  run.params().set("sun.angle", 2.0f);
+  const Visibility truth = run.draw_truth(1024);
+  const std::vector<std::size_t> receivers = receivers_of(run);
+  const auto error = [&](int rays, int narrow) {
+    run.params().set("hybrid.narrow", narrow);
+    return rmse(draw(run, "hybrid", rays), truth, receivers);
+  };
+  const double once = error(16, 0), some = error(16, 8), all = error(16, 64), twice = error(32, 0);
+  std::printf("errors: 16 rays %.4f, 32 under 8 px %.4f, 32 under 64 px %.4f, 32 %.4f\n", once, some, all, twice);
+  EXPECT_NEAR(all, twice, 0.05 * twice);
+  EXPECT_LT(all, 0.9 * some);
+  EXPECT_LT(some, 0.95 * once);
+}
+
+// The fragment shaders leave out parts of the picture that have no blockers; the compute shaders run for all pixels.
+TEST_F(Hybrid, IsFilteredAlikeByBothDrivers) {
+  SceneRun run("posts", 317, 179);
+  run.params().set("sun.angle", 4.0f);
+  run.params().set("filter.penumbra", std::string("median"));
+  for (const char* filter : {"none", "box", "gaussian", "bilateral_separable"}) {
+    run.params().set("filter.visibility", std::string(filter));
+    run.params().set("driver", std::string("fragment"));
+    const Visibility fragment = draw(run, "hybrid");
+    run.params().set("driver", std::string("compute"));
+    EXPECT_EQ(fragment, draw(run, "hybrid")) << filter;
+  }
 }
 
 TEST_F(Hybrid, DrawsTheSameEachTime) {

@@ -1,21 +1,15 @@
-// Writes the mask of those pixels of the listed tiles that the map decides; the others are left to rays.
+// Leaves the pixels of the listed tiles to rays. The map decides no single pixels: that would take about as long as the
+// rays that it saves.
 #define LEAVES_TO_RAYS 1
-#include "shadow/decide_tile.glsl"
+#include "shadow/decide.glsl"
+#include "shadow/drivers/tiles.glsl"
 #include "shadow/techniques/hybrid_mask.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 8) uniform usampler2D surface_ids;
 
-PixelState state_of(ivec2 pixel, inout Light light) {
-  if (is_sky(pixel)) return PixelState(lit, 0.0);
-  Receiver receiver = receiver_at(pixel);
-  int facing = facing_of(receiver, light);
-  if (facing != lit) return PixelState(facing, 0.0);
-  float radius = search_radius(receiver, light);
-  LayerChoice choice = choose_layer(receiver, radius, light);
-  light = with_layer(light, choice.layer);
-  if (choice.outside || !edges_are_clear(receiver, radius, vec2(0.0), light)) return PixelState(undecided, 0.0);
-  return decide_receiver(receiver, light);
+bool is_left(ivec2 pixel, Light light) {
+  return !is_sky(pixel) && facing_of(receiver_at(pixel), light) != faces_away;
 }
 
 void main() {
@@ -25,11 +19,10 @@ void main() {
   if (any(greaterThanEqual(at, ivec2(shadow.viewport.zw)))) return;
   ivec2 pixel = at + ivec2(shadow.viewport.xy);
   Light light = frame_light();
-  PixelState state = state_of(pixel, light);
-  if (state.kind == undecided) {
+  if (is_left(pixel, light)) {
     uvec2 shown = texelFetch(surface_ids, pixel, 0).xy;
     left.pixels[atomicAdd(left.count, 1u)] = LeftPixel(uint(pixel.x) | uint(pixel.y) << 16, shown.x, shown.y);
   } else {
-    store_decided(pixel, state.kind == lit, state.blocker_distance, light);
+    store_decided(pixel, is_sky(pixel), 0.0, light);
   }
 }
