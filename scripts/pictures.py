@@ -26,7 +26,7 @@ def techniques():
     return {f"technique_{name}": SOFT + ["--technique", name]
             for name in ("none", "hard", "shadow_volume", "pcf", "pcf_hardware", "pcf_tent", "pcf_poisson", "vsm", "evsm",
                          "msm", "esm", "csm_fourier", "cssm", "pcss", "slices", "backprojection", "ssss", "vssm",
-                         "brute_force", "hybrid", "thesis", "thesis_8x8")}
+                         "brute_force", "hybrid", "hybrid_denoised", "thesis", "thesis_8x8")}
 
 
 def volumes():

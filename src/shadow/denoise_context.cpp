@@ -63,8 +63,12 @@ void DenoiseContext::bind_history(const gl::Texture& last_surfaces) const {
 }
 
 const gl::Texture& DenoiseContext::run(const Filter& filter, const PackedMask& source, bool to_mask) const {
-  const bool spares = source.distances.texels != nullptr && !filters_all_pixels(work_, filter);
-  if (spares && filter_tiles_ == nullptr) filter_tiles_ = &list_filter_tiles(work_, source.distances);
+  const gl::Texture* distances = source.distances.texels;
+  const bool spares = distances != nullptr && fits_tiles(work_) && !filters_all_pixels(work_, filter);
+  if (spares && listed_distances_ != distances) {
+    filter_tiles_ = &list_filter_tiles(work_, source.distances);
+    listed_distances_ = distances;
+  }
   return run_filter(work_, {.filter = filter,
                             .texels = source.texels,
                             .notes = source.notes,

@@ -16,8 +16,8 @@ struct BlockerDistances {
 struct PackedMask {
   const gl::Texture& texels;
   const gl::Texture& notes;
-  // To be handed on with texels that filters and blends have changed since, which add no distance where there is none
-  // near. Without: filters run for all pixels.
+  // The technique's own texels. Whoever changes them hands this on with the result, if distances spread to pixels at
+  // most 5 pixels away; else filters have to run for all pixels, as they do where there are none.
   BlockerDistances distances = {};
 };
 
@@ -46,8 +46,10 @@ class DenoiseContext : public PassContext {
   void pack(const PackedMask& target, const gl::Texture* last_surfaces) const;
   const gl::Texture& run(const Filter& filter, const PackedMask& source, bool to_mask) const;
 
-  mutable int filters_run_ = 0;                       // in this frame
-  mutable const gl::Buffer* filter_tiles_ = nullptr;  // of this frame, once a filter has asked for them
+  mutable int filters_run_ = 0;  // in this frame
+  // Of this frame, once a filter has asked for them: the tiles that filters change, and by what they were found.
+  mutable const gl::Buffer* filter_tiles_ = nullptr;
+  mutable const gl::Texture* listed_distances_ = nullptr;
 };
 
 }  // namespace penumbra::shadow

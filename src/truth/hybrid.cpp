@@ -28,6 +28,7 @@ struct LeftPixel {
   std::uint32_t at, surface, triangle;
 };
 constexpr std::size_t count_bytes = sizeof(std::uint32_t);
+constexpr int results_row = 4096;  // OpenGL guarantees only 65,535 groups in a row
 
 // The casters of the last frame, as rays see them.
 struct KeptCasters {
@@ -163,7 +164,8 @@ class HybridFrame {
     use(pass, "rays");
     left_.bind_storage(left_binding);
     results.bind_storage(results_binding);
-    pass.dispatch(static_cast<int>(packed.size()), 1);
+    const int count = static_cast<int>(packed.size());
+    pass.dispatch(results_row, (count + results_row - 1) / results_row);
   }
 
   const shadow::PassContext& context_;
@@ -186,16 +188,17 @@ shadow::Technique hybrid(int threads) {
           "For renderers without a GPU.",
       .source = "edges of the map as in ADR 18; Owen-scrambled Sobol points, Embree",
       .needs = {"shadow_map", "least_depth_pyramid"},
-      .params = {{"hybrid.rays", 16, 8, 4096, "rays",
-                  "Rays of each pixel in penumbra, rounded up to a multiple of eight.", host},
-                 {"hybrid.narrow", 0, 0, 64, "px",
-                  "Where a penumbra is narrower than this in the picture, twice as many rays are traced, since no "
-                  "filter can smooth it there.",
-                  host},
-                 {"hybrid.masked_casters", true, 0, 1, "",
-                  "Leaves all pixels that casters with an alpha mask may shadow to rays, because the map can miss "
-                  "small parts of such casters.",
-                  host}},
+      .params =
+          {{"hybrid.rays", 16, 8, 4096, "rays", "Rays of each pixel in penumbra, rounded up to a multiple of eight.",
+            host},
+           {"hybrid.narrow", 0, 0, 64, "px",
+            "Where a penumbra is narrower than this in the picture, twice as many rays are traced, since filters find "
+            "few pixels to average there.",
+            host},
+           {"hybrid.masked_casters", true, 0, 1, "",
+            "Leaves all pixels that casters with an alpha mask may shadow to rays, because the map can miss "
+            "small parts of such casters.",
+            host}},
       .resolve = [=](const shadow::PassContext& context) { HybridFrame(context, *casters, threads).resolve(); },
       .resolve_reads_motion = false,
       .programs =

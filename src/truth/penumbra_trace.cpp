@@ -23,7 +23,7 @@ constexpr float least_distance = 1e-3f;
 struct Start {
   glm::vec3 origin{0};
   float cosine = 0, cosine_x = 0, cosine_y = 0;
-  float pixel = 0;  // metres, the width of a pixel as far from the eye
+  float pixel = 0;  // metres, the height of a pixel as far from the eye
   bool there = false;
 };
 
@@ -162,16 +162,21 @@ class PenumbraTrace {
     }
   }
 
+  // Where some rays leave below the surface's horizon and the others are lit, the distance is 0: no filter smooths that
+  // pixel, so it counts as narrow.
   std::uint32_t rays_of(std::size_t slot, float blocker_distance) const {
     const float width = 2 * static_cast<float>(glm::length(light_.side_x)) * blocker_distance;
     return width < request_.narrow * starts_[slot].pixel ? 2 * request_.rays : request_.rays;
   }
 
-  // Metres.
+  // Height of a pixel at that distance from the eye, metres.
   float pixel_at(const glm::dvec3& position) const {
-    const double clip_w = glm::dot(glm::row(world_to_clip_, 3), glm::dvec4(position, 1));
-    const double clip_y_a_metre = glm::length(glm::dvec3(glm::row(world_to_clip_, 1)));
-    return static_cast<float>(2 * clip_w / (clip_y_a_metre * request_.eye.height));
+    const glm::dvec4 clip_w = glm::row(world_to_clip_, 3);
+    const glm::dvec3 along(clip_w), up(glm::row(world_to_clip_, 1));
+    // Without what a lens shift adds: it is the same for all points at a distance.
+    const double shift = glm::dot(up, along) / std::max(glm::dot(along, along), 1e-30);
+    const double clip_y_a_metre = glm::length(up - shift * along);
+    return static_cast<float>(2 * glm::dot(clip_w, glm::dvec4(position, 1)) / (clip_y_a_metre * request_.eye.height));
   }
 
   Start start_at(const Receiver& receiver) const {

@@ -17,7 +17,8 @@ struct PenumbraRequest {
   std::span<const DrawnPixel> pixels;  // each at most once
   TracedSun sun;
   std::uint32_t rays = 16;  // of a pixel in penumbra; a multiple of 8
-  float narrow = 0;         // pixels: where a penumbra is narrower in the picture, twice as many rays are traced
+  // Pixels: where a penumbra is narrower, on a surface that faces the eye, twice as many rays are traced.
+  float narrow = 0;
   std::uint32_t seed = 0;
   int threads = 0;  // 0: one for each core
 };

@@ -129,7 +129,7 @@ TEST_F(Hybrid, WithItsFilterIsFarNearerToTheTruth) {
 }
 
 TEST_F(Hybrid, TracesTwiceAsManyRaysWherePenumbraeAreNarrow) {
-  SceneRun run("fence", 320, 180);
+  SceneRun run("fence", 321, 180);
   run.params().set("sun.angle", 2.0f);
   const Visibility truth = run.draw_truth(1024);
   const std::vector<std::size_t> receivers = receivers_of(run);
@@ -140,21 +140,48 @@ TEST_F(Hybrid, TracesTwiceAsManyRaysWherePenumbraeAreNarrow) {
   const double once = error(16, 0), some = error(16, 8), all = error(16, 64), twice = error(32, 0);
   std::printf("errors: 16 rays %.4f, 32 under 8 px %.4f, 32 under 64 px %.4f, 32 %.4f\n", once, some, all, twice);
   EXPECT_NEAR(all, twice, 0.05 * twice);
+  EXPECT_NEAR(error(24, 64), error(48, 0), 0.1 * error(48, 0));  // no powers of two
   EXPECT_LT(all, 0.9 * some);
   EXPECT_LT(some, 0.95 * once);
 }
 
-// The fragment shaders leave out parts of the picture that have no blockers; the compute shaders run for all pixels.
-TEST_F(Hybrid, IsFilteredAlikeByBothDrivers) {
-  SceneRun run("posts", 317, 179);
-  run.params().set("sun.angle", 4.0f);
-  run.params().set("filter.penumbra", std::string("median"));
-  for (const char* filter : {"none", "box", "gaussian", "bilateral_separable"}) {
-    run.params().set("filter.visibility", std::string(filter));
-    run.params().set("driver", std::string("fragment"));
-    const Visibility fragment = draw(run, "hybrid");
-    run.params().set("driver", std::string("compute"));
-    EXPECT_EQ(fragment, draw(run, "hybrid")) << filter;
+// A list of tiles that holds all of them.
+constexpr const char* lists_all = R"(
+#include "shared/shadow_block.h"
+#include "shadow/drivers/tiles.glsl"
+#include "shadow/drivers/tile_lists.glsl"
+layout(std140, binding = 1) uniform ShadowData { ShadowBlock shadow; };
+layout(local_size_x = 8, local_size_y = 8) in;
+void main() {
+  ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
+  if (all(lessThan(tile * tile_size, ivec2(shadow.viewport.zw)))) list_tile(tile);
+}
+)";
+
+// Filters leave out tiles that hold no blocker, which changes no bit of the result.
+TEST_F(Hybrid, IsFilteredAsIfNoTileWereLeftOut) {
+  struct Case {
+    const char *technique, *scene;
+    std::vector<std::string> settings;
+  };
+  for (const auto& [technique, scene, settings] :
+       {Case{"hybrid_denoised", "posts", {}}, Case{"hybrid_denoised", "posts", {"driver=compute"}},
+        Case{"hybrid", "posts", {"filter.penumbra=median", "filter.visibility=bilateral"}},
+        Case{"slices_denoised", "moving", {"filter.penumbra=median", "history.reuse=true", "history.mean=true"}},
+        Case{"slices_denoised", "foliage", {"mask.scale=3"}}, Case{"thesis", "moving", {}},
+        Case{"ssss", "posts", {"filter.visibility=gaussian"}},
+        Case{"vssm", "posts", {"filter.penumbra=median", "filter.visibility=box", "mask.tiles=false"}}}) {
+    SceneRun run(scene, 203, 117), reference(scene, 203, 117);
+    reference.device().shaders.files().put("shadow/drivers/filter_tiles.comp", lists_all);
+    for (SceneRun* each : {&run, &reference}) {
+      each->choose(technique);
+      each->params().set("sun.angle", 4.0f);
+      for (const std::string& setting : settings) each->params().assign(setting);
+    }
+    for (int frame = 0; frame < 3; ++frame) {
+      EXPECT_EQ(run.draw(), reference.draw()) << technique << " " << scene << ", frame " << frame;
+      for (SceneRun* each : {&run, &reference}) each->time() += 1 / 30.0;
+    }
   }
 }
 

@@ -157,7 +157,8 @@ TEST_F(Tiles, KeepTheHistoryAsItIs) {
   }
 }
 
-// Filters leave decided tiles out, except compute shaders that share what they read: these run for all pixels.
+// Filters leave out tiles without a blocker near, except compute shaders that share what they read: these run for all
+// pixels, as all filters do in pictures smaller than a tile.
 TEST_F(Tiles, AreLeftOutByFiltersThatWouldNotChangeThem) {
   load("posts", 317, 179);
   for (const char* filter : {"none", "box", "gaussian", "bilateral_separable"}) {
@@ -166,6 +167,15 @@ TEST_F(Tiles, AreLeftOutByFiltersThatWouldNotChangeThem) {
     mask(renderer_, "thesis_8x8", 4.0f, true);
     const std::vector<std::vector<float>> fragment = layers();
     mask(renderer_, "thesis_8x8_compute", 4.0f, true);
+    EXPECT_EQ(fragment, layers());
+  }
+  for (const auto& [width, height] : {std::pair(3, 3), {2, 16}, {1, 1}}) {
+    SCOPED_TRACE(fmt::format("{} x {}", width, height));
+    load("thesis", width, height);
+    settings_ = {"filter.visibility=gaussian"};
+    mask(renderer_, "thesis_8x8", 8.0f, true);
+    const std::vector<std::vector<float>> fragment = layers();
+    mask(renderer_, "thesis_8x8_compute", 8.0f, true);
     EXPECT_EQ(fragment, layers());
   }
 }

@@ -22,7 +22,7 @@ bool has_blocker(ivec2 tile) {
   }
   ivec2 low = tile * tile_size, high = min(low + tile_size, ivec2(shadow.viewport.zw));
   uint distances = 0u;
-  for (int y = low.y; y < high.y; ++y) {
+  for (int y = low.y; y < high.y && distances == 0u; ++y) {
     for (int x = low.x; x < high.x; ++x) {
       distances |= texelFetch(texels, ivec2(shadow.viewport.xy) + ivec2(x, y), 0).x & 0xffffu;
     }

@@ -9,7 +9,7 @@ void store(ivec2 pixel, Visibility seen, int layer) {
   imageStore(mask, ivec3(pixel, mask_layer), mask_texel(Shadowed(seen, layer)));
 }
 
-// A pixel that the map decides.
+// A pixel for which no rays are traced.
 void store_decided(ivec2 pixel, bool is_lit, float blocker_distance, Light light) {
   Visibility seen = fully_lit();
   if (!is_lit) {
