@@ -19,7 +19,7 @@ PICTURES = ROOT / "docs" / "pictures"
 SCENES = ("courtyard", "foliage", "fence", "steps", "thesis")
 TECHNIQUES = ("none", "hard", "shadow_volume", "pcf_hardware", "pcf_tent", "pcf", "pcf_poisson", "vsm", "evsm", "msm", "esm",
               "csm_fourier", "cssm", "vssm", "ssss", "pcss", "thesis_8x8", "slices", "slices_denoised", "backprojection",
-              "brute_force", "hybrid")
+              "brute_force", "hybrid", "hybrid_denoised")
 OPTIONS = ("--sun-angle", "1", "--size", "1280x720", "--warmup", "0", "--cost-frames", "3", "--set", "maps.keep=off")
 
 # Settings of each technique, from cheap to dear, of which the tables at equal cost show the one whose cost is nearest to
@@ -52,6 +52,7 @@ LADDERS = {
                     "brute_force.blocker_taps=24,brute_force.filter_taps=32",
                     "brute_force.blocker_taps=32,brute_force.filter_taps=64"),
     "hybrid": ("hybrid.rays=8", ""),
+    "hybrid_denoised": ("hybrid.rays=8,hybrid.narrow=0", "hybrid.rays=8", ""),
 }
 EQUAL = 1.25  # a cost is equal to another if neither is more than this times the other
 
