@@ -111,7 +111,8 @@ TRUTH_WIDE_VECTORS void square_to_disc(PacketPoints& points) {
     const bool wide = std::abs(px) > std::abs(py);
     const float radius = wide ? px : py;
     const float other = wide ? py : px;
-    const float angle = 0.78539816f * (other / (radius != 0 ? radius : 1));
+    const float one_at_center = radius == 0 ? 1.0f : 0.0f;  // a choice of divisors would be compiled to a branch
+    const float angle = 0.78539816f * (other / (radius + one_at_center));
     const float x = angle * angle;
     const float c = radius * (1 + x * (-0.5f + x * (4.1666667e-2f + x * (-1.3888889e-3f + x * 2.4801587e-5f))));
     const float s = radius * angle * (1 + x * (-0.16666667f + x * (8.3333333e-3f - x * 1.9841270e-4f)));

@@ -90,6 +90,8 @@ std::span<const Golden> goldens() {
       // Traced where the map can't decide: rays are the same with every rasteriser.
       {"hybrid_posts", "posts", "hybrid", {"sun.angle=2"}, &rounding, {"technique=hard"}},
       {"hybrid_foliage", "foliage", "hybrid", {"sun.angle=4"}, &rounding, {"technique=hard"}},
+      {"hybrid_denoised_posts", "posts", "hybrid_denoised", {"sun.angle=2"}, &rounding, {"technique=hard"}},
+      {"hybrid_denoised_foliage", "foliage", "hybrid_denoised", {"sun.angle=4"}, &rounding, {"technique=hard"}},
       // Maps fitted to what the view shows.
       {"visible_posts", "posts", "pcss", {"cascades.fit=visible", "cascades.size=256"}, &rounding, {"cascades.fit=stable"}},
       // Every filter.
