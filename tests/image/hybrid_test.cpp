@@ -145,46 +145,6 @@ TEST_F(Hybrid, TracesTwiceAsManyRaysWherePenumbraeAreNarrow) {
   EXPECT_LT(some, 0.95 * once);
 }
 
-// A list of tiles that holds all of them.
-constexpr const char* lists_all = R"(
-#include "shared/shadow_block.h"
-#include "shadow/drivers/tiles.glsl"
-#include "shadow/drivers/tile_lists.glsl"
-layout(std140, binding = 1) uniform ShadowData { ShadowBlock shadow; };
-layout(local_size_x = 8, local_size_y = 8) in;
-void main() {
-  ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
-  if (all(lessThan(tile * tile_size, ivec2(shadow.viewport.zw)))) list_tile(tile);
-}
-)";
-
-// Filters leave out tiles that hold no blocker, which changes no bit of the result.
-TEST_F(Hybrid, IsFilteredAsIfNoTileWereLeftOut) {
-  struct Case {
-    const char *technique, *scene;
-    std::vector<std::string> settings;
-  };
-  for (const auto& [technique, scene, settings] :
-       {Case{"hybrid_denoised", "posts", {}}, Case{"hybrid_denoised", "posts", {"driver=compute"}},
-        Case{"hybrid", "posts", {"filter.penumbra=median", "filter.visibility=bilateral"}},
-        Case{"slices_denoised", "moving", {"filter.penumbra=median", "history.reuse=true", "history.mean=true"}},
-        Case{"slices_denoised", "foliage", {"mask.scale=3"}}, Case{"thesis", "moving", {}},
-        Case{"ssss", "posts", {"filter.visibility=gaussian"}},
-        Case{"vssm", "posts", {"filter.penumbra=median", "filter.visibility=box", "mask.tiles=false"}}}) {
-    SceneRun run(scene, 203, 117), reference(scene, 203, 117);
-    reference.device().shaders.files().put("shadow/drivers/filter_tiles.comp", lists_all);
-    for (SceneRun* each : {&run, &reference}) {
-      each->choose(technique);
-      each->params().set("sun.angle", 4.0f);
-      for (const std::string& setting : settings) each->params().assign(setting);
-    }
-    for (int frame = 0; frame < 3; ++frame) {
-      EXPECT_EQ(run.draw(), reference.draw()) << technique << " " << scene << ", frame " << frame;
-      for (SceneRun* each : {&run, &reference}) each->time() += 1 / 30.0;
-    }
-  }
-}
-
 TEST_F(Hybrid, DrawsTheSameEachTime) {
   SceneRun first("posts", 160, 90), second("posts", 160, 90);
   const Visibility once = draw(first, "hybrid");

@@ -3,13 +3,11 @@
 
 layout(local_size_x = 64) in;
 
-const uint results_row = 4096u;  // as in truth/hybrid.cpp
-
 // Visibility and blocker distance of each, two halves.
 layout(std430, binding = 7) restrict readonly buffer Results { uint results[]; };
 
 void main() {
-  uint index = gl_GlobalInvocationID.y * results_row + gl_GlobalInvocationID.x;
+  uint index = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
   if (index >= left.count) return;
   ivec2 pixel = ivec2(left.pixels[index].at & 0xffffu, left.pixels[index].at >> 16);
   vec2 result = unpackHalf2x16(results[index]);
