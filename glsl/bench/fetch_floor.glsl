@@ -20,16 +20,18 @@ Visibility visibility(Receiver receiver, Light light) {
 #if fetch_floor_blocker_taps > 0
   float search = narrow_search(receiver, light, light.read_radius).radius;
   Scramble searching = blocker_scramble(receiver);
-  for (int i = 0; i < fetch_floor_blocker_taps; ++i) {
-    sum += fetch(receiver, search * blocker_point(i, searching, light), light);
-  }
+  int tap = 0;
+  do {
+    sum += fetch(receiver, search * blocker_point(tap, searching, light), light);
+  } while (++tap < fetch_floor_blocker_taps);
 #endif
   float radius = fetch_floor_radius > 0.0 ? fetch_floor_radius : texelFetch(kernels, ivec3(receiver.pixel, 0), 0).y;
   if (radius > 0.0) {
     Scramble scramble = filter_scramble(receiver);
-    for (int i = 0; i < fetch_floor_filter_taps; ++i) {
+    int i = 0;
+    do {
       sum += fetch(receiver, radius * filter_point(i, scramble, light), light);
-    }
+    } while (++i < fetch_floor_filter_taps);
   }
   return Visibility(dot(sum, vec4(1e-3)), radius, 0.0, false);
 }

@@ -44,22 +44,24 @@ void add_blockers(inout Blockers blockers, Receiver receiver, vec2 offset, float
 }
 
 // The mean over the points of the set, each with its texel or with the four texels around it; or, where the disc is
-// smaller than the four texels around the receiver, over these alone.
+// smaller than the four texels around the receiver, or all points miss what blocks, over these alone. Near the receiver
+// the cone is narrow, so that all taps of a wide disc can miss a blocker that touches the receiver. The tap at the
+// receiver itself can't.
 Blockers find_blockers(Receiver receiver, float radius, int taps, bool footprints, float bias, Light light) {
   Scramble scramble = blocker_scramble(receiver);
   Blockers blockers = Blockers(0.0, 0.0);
   int count = radius < 0.5 * texel_size(receiver, light) ? 0 : taps;
-  for (int i = 0; i < count; ++i) {
-    vec2 offset = radius * blocker_point(i, scramble, light);
+  int i = 0;
+  do {
+    bool at_receiver = i == count;
+    vec2 offset = at_receiver ? vec2(0.0) : radius * blocker_point(i, scramble, light);
     if (footprints) {
       add_blockers(blockers, receiver, offset, bias, light);
-    } else {
+    } else if (!at_receiver) {
       add_blocker(blockers, receiver, offset, bias, light);
     }
-  }
-  // Also because near the receiver the cone is narrow, so that all taps of a wide disc can miss a blocker that touches
-  // the receiver. This tap at the receiver itself can't.
-  if (blockers.weight == 0.0) add_blockers(blockers, receiver, vec2(0.0), bias, light);
+  } while (++i < count || (footprints && i == count && blockers.weight == 0.0));
+  if (!footprints && blockers.weight == 0.0) add_blockers(blockers, receiver, vec2(0.0), bias, light);
   return blockers;
 }
 
@@ -79,9 +81,10 @@ vec2 point_of(FilterPoints points, int index, Scramble scramble, Light light) {
 float filtered_share(Receiver receiver, float radius, FilterPoints points, float bias, Light light) {
   Scramble scramble = filter_scramble(receiver);
   float lit = 0.0;
-  for (int i = 0; i < points.count; ++i) {
+  int i = 0;
+  do {
     lit += lit_share(receiver, radius * point_of(points, i, scramble, light), bias, light);
-  }
+  } while (++i < points.count);
   return lit / float(points.count);
 }
 

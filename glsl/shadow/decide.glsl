@@ -16,7 +16,9 @@
 // farthest from the light. `radius`: bounds their discs.
 bool edges_are_clear(Receiver deepest, float radius, vec2 half_widths, Light light) {
   float margin = (2.0 + bias_normal_offset) * texel_size(deepest, light);
-  for (int i = 0; i < 4; ++i) {
+  bool narrower = true;
+  int i = 0;
+  do {
     float nearest = depth_bounds(deepest.position, half_widths + radius + margin, light).edge;
     if (nearest >= deepest.position.z) {
 #if LEAVES_TO_RAYS
@@ -26,9 +28,9 @@ bool edges_are_clear(Receiver deepest, float radius, vec2 half_widths, Light lig
 #endif
     }
     float needed = penumbra_radius(deepest, deepest.position.z - nearest, light);
-    if (needed >= radius) return false;
+    narrower = needed < radius;
     radius = needed;
-  }
+  } while (narrower && ++i < 4);
   return false;
 }
 

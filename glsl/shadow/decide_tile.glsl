@@ -10,14 +10,19 @@ struct Pixels {
   ivec2 low, high;
 };
 
+// The pixel after one of them, row by row; above them after the last one.
+ivec2 next_pixel(ivec2 at, Pixels pixels) {
+  return at.x + 1 < pixels.high.x ? ivec2(at.x + 1, at.y) : ivec2(pixels.low.x, at.y + 1);
+}
+
 vec2 depth_range(Pixels pixels) {
   vec2 range = vec2(2.0, -1.0);
-  for (int y = pixels.low.y; y < pixels.high.y; ++y) {
-    for (int x = pixels.low.x; x < pixels.high.x; ++x) {
-      float depth = texelFetch(receiver_depth, ivec2(x, y), 0).x;
-      if (depth != shadow.sky_depth) range = vec2(min(range.x, depth), max(range.y, depth));
-    }
-  }
+  ivec2 at = pixels.low;
+  do {
+    float depth = texelFetch(receiver_depth, at, 0).x;
+    if (depth != shadow.sky_depth) range = vec2(min(range.x, depth), max(range.y, depth));
+    at = next_pixel(at, pixels);
+  } while (at.y < pixels.high.y);
   return range;
 }
 
@@ -106,30 +111,35 @@ bool add(inout TileState tile, int bit, PixelState state) {
   return true;
 }
 
-int bit_of(Pixels pixels, int x, int y) { return tile_size * (y - pixels.low.y) + x - pixels.low.x; }
+int bit_of(Pixels pixels, ivec2 at) { return tile_size * (at.y - pixels.low.y) + at.x - pixels.low.x; }
 
 // Adds what the light's layer shows. False if it leaves a pixel undecided, or differs from another layer.
 bool decide(Pixels pixels, Light light, inout TileState tile) {
-  for (int y = pixels.low.y; y < pixels.high.y; ++y) {
-    for (int x = pixels.low.x; x < pixels.high.x; ++x) {
-      PixelState state = decide_pixel(ivec2(x, y), light);
-      if (state.kind == undecided) return false;
-      if (state.kind != unseen && !add(tile, bit_of(pixels, x, y), state)) return false;
+  bool decided = true;
+  ivec2 at = pixels.low;
+  do {
+    PixelState state = decide_pixel(at, light);
+    if (state.kind == undecided) {
+      decided = false;
+    } else if (state.kind != unseen) {
+      decided = add(tile, bit_of(pixels, at), state);
     }
-  }
-  return tile.covered == 0 || tile.away == 0;
+    at = next_pixel(at, pixels);
+  } while (decided && at.y < pixels.high.y);
+  return decided && (tile.covered == 0 || tile.away == 0);
 }
 
 // The same if the light shines on none of the pixels.
 bool decide_out_of_reach(Pixels pixels, inout TileState tile) {
-  for (int y = pixels.low.y; y < pixels.high.y; ++y) {
-    for (int x = pixels.low.x; x < pixels.high.x; ++x) {
-      bool sky = is_sky(ivec2(x, y));
-      if (!sky && faces_light(receiver_at(ivec2(x, y)))) return false;
-      add(tile, bit_of(pixels, x, y), PixelState(sky ? lit : faces_away, 0.0));
-    }
-  }
-  return true;
+  bool out_of_reach = true;
+  ivec2 at = pixels.low;
+  do {
+    bool sky = is_sky(at);
+    out_of_reach = sky || !faces_light(receiver_at(at));
+    if (out_of_reach) add(tile, bit_of(pixels, at), PixelState(sky ? lit : faces_away, 0.0));
+    at = next_pixel(at, pixels);
+  } while (out_of_reach && at.y < pixels.high.y);
+  return out_of_reach;
 }
 
 // The same for all layers in which receivers of a box are read.
@@ -145,13 +155,15 @@ bool decide_box(Pixels pixels, Box box, Light light, inout TileState tile) {
   if (layers.outside) return false;
   tile.decision.radius = max(tile.decision.radius, radius);
   light.read_radius = radius;
-  for (int layer = layers.first; layer <= layers.last; ++layer) {
+  bool decided = true;
+  int layer = layers.first;
+  do {
     light = with_layer(light, layer);
-    if (!edges_are_clear(deepest, radius, half_widths, light) || !decide(pixels, light, tile)) return false;
-    // The decision names the finest layer.
-    if (layer == layers.first) tile.decision.layer = layer;
-  }
-  return true;
+    decided = edges_are_clear(deepest, radius, half_widths, light) && decide(pixels, light, tile);
+  } while (decided && ++layer <= layers.last);
+  // The decision names the finest layer.
+  if (decided) tile.decision.layer = layers.first;
+  return decided;
 }
 
 // Texels beyond the disc of search_radius() that techniques read: must match src/shadow/light_projection.h.

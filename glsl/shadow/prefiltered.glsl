@@ -92,11 +92,12 @@ vec4 filtered_texel(sampler2DArray map, FilteredPlace place, int slice, int slic
   float coarser = place.level - float(level);
   vec2 share = vec2(1.0 - coarser, coarser) / float(place.points);
   vec4 mean = vec4(0.0);
-  for (int i = 0; i < place.points; ++i) {
+  int i = 0;
+  do {
     vec2 at = place.first + float(i) * place.next;
     mean += share.x * level_texel(map, at, slice, level);
     if (coarser > 0.0) mean += share.y * level_texel(map, at, slice, level + 1);
-  }
+  } while (++i < place.points);
   return mean;
 }
 

@@ -35,7 +35,8 @@ Shadowed shadow_of(Receiver receiver, Light light) {
   }
   Visibility mixed = Visibility(0.0, 0.0, 0.0, false);
   int readings = fades.y > 0.0 ? 3 : fades.x > 0.0 ? 2 : 1;
-  for (int i = 0; i < readings; ++i) {
+  int i = 0;
+  do {
     int layer = i == 0 ? first : i == 1 ? choice.others.x : choice.others.y;
     Receiver seen = seen_by_layer(receiver, layer);
     light = light_for_layer(seen, light, layer);
@@ -45,7 +46,7 @@ Shadowed shadow_of(Receiver receiver, Light light) {
     mixed.penumbra_radius += weight * one.penumbra_radius;
     mixed.blocker_distance += weight * metres_to_blocker(seen, one.blocker_distance);
     mixed.under_texel = mixed.under_texel || one.under_texel;
-  }
+  } while (++i < readings);
   return Shadowed(mixed, first);
 #else
   return Shadowed(visibility(receiver, light), 0);

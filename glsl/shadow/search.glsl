@@ -18,11 +18,11 @@ DepthBounds rectangle_bounds(vec3 position, vec2 radius, int level, Light light)
   ivec2 last = max(last_texel(), 0) >> (level + 2);
   TexelRange range = pyramid_range(position, radius, light, pyramid_base, level, last);
   vec2 stored = vec2(1.0);
-  for (int y = range.low.y; y <= range.high.y; ++y) {
-    for (int x = range.low.x; x <= range.high.x; ++x) {
-      stored = min(stored, texelFetch(shadow_pyramid, ivec3(x, y, light.layer), level).xy);
-    }
-  }
+  ivec2 at = range.low;
+  do {
+    stored = min(stored, texelFetch(shadow_pyramid, ivec3(at, light.layer), level).xy);
+    at = next_texel(at, range);
+  } while (at.y <= range.high.y);
   return DepthBounds(stored_depth(stored.x, light), stored_depth(stored.y, light));
 }
 
@@ -106,12 +106,13 @@ float fine_search_radius(Receiver receiver, Light light) {
 // 3 × 3 texels of a level, and then over at most 5 × 5.
 float fine_edge_radius(Receiver receiver, float wide, Light light) {
   float radius = light.read_radius;
-  for (int i = 0; i < 3 && (i == 0 || radius > wide); ++i) {
+  int i = 0;
+  do {
     float with_margin = radius + 1.5 * texel_size(receiver, light);
     int level = disc_level(receiver.position, (i == 0 ? 0.5 : 0.25) * with_margin, light);
     float edge = rectangle_bounds(receiver.position, vec2(with_margin), level, light).edge;
     radius = narrowed_radius(receiver, radius, edge, light);
-  }
+  } while (++i < 3 && radius > wide);
   return radius;
 }
 

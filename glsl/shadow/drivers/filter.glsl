@@ -136,7 +136,8 @@ float mean_on_axis(int axis, ivec2 pixel, Surface surface, float sigma, float di
   float falloff = -0.5 / (sigma * sigma);
   float sum = 0.0;
   float weights = 0.0;
-  for (int i = taps.first; i <= taps.last; ++i) {
+  int i = taps.first;
+  do {
     int offset = tap_offset(taps, i);
     ivec2 to = along(axis, offset);
     float depth = stored_depth_at(pixel + to);
@@ -149,6 +150,6 @@ float mean_on_axis(int axis, ivec2 pixel, Surface surface, float sigma, float di
     weight = is_sky_depth(depth) ? 0.0 : weight;
     sum += weight * texel_visibility(texel);
     weights += weight;
-  }
+  } while (++i <= taps.last);
   return sum / weights;
 }

@@ -22,11 +22,11 @@ bool has_blocker(ivec2 tile) {
   }
   ivec2 low = tile * tile_size, high = min(low + tile_size, ivec2(shadow.viewport.zw));
   uint distances = 0u;
-  for (int y = low.y; y < high.y && distances == 0u; ++y) {
-    for (int x = low.x; x < high.x; ++x) {
-      distances |= texelFetch(texels, ivec2(shadow.viewport.xy) + ivec2(x, y), 0).x & 0xffffu;
-    }
-  }
+  ivec2 at = low;
+  do {
+    distances |= texelFetch(texels, ivec2(shadow.viewport.xy) + at, 0).x & 0xffffu;
+    at = at.x + 1 < high.x ? ivec2(at.x + 1, at.y) : ivec2(low.x, at.y + 1);
+  } while (distances == 0u && at.y < high.y);
   return distances != 0u;
 }
 

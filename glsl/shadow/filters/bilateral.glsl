@@ -15,8 +15,10 @@ uint filtered(ivec2 pixel) {
   vec2 falloff = -0.5 / (sigma * sigma);
   float sum = 0.0;
   float weights = 0.0;
-  for (int j = rows.first; j <= rows.last; ++j) {
-    for (int i = columns.first; i <= columns.last; ++i) {
+  int j = rows.first;
+  do {
+    int i = columns.first;
+    do {
       ivec2 to = ivec2(tap_offset(columns, i), tap_offset(rows, j));
       float depth = stored_depth_at(pixel + to);
       float off_plane = plane_distance(surface, to, depth);
@@ -24,7 +26,7 @@ uint filtered(ivec2 pixel) {
       weight = is_sky_depth(depth) ? 0.0 : weight;
       sum += weight * texel_visibility(texel_at(pixel + to));
       weights += weight;
-    }
-  }
+    } while (++i <= columns.last);
+  } while (++j <= rows.last);
   return with_visibility(texel, sum / weights);
 }

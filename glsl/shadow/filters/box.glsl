@@ -11,11 +11,12 @@ uint filtered(ivec2 pixel) {
   TapLine taps = taps_along(filter_pass, pixel, half_width + 0.5);
   float sum = 0.0;
   float weights = 0.0;
-  for (int i = taps.first; i <= taps.last; ++i) {
+  int i = taps.first;
+  do {
     int offset = tap_offset(taps, i);
     float weight = clamp((half_width - abs(float(offset))) / taps.spacing + 0.5, 0.0, 1.0);
     sum += weight * texel_visibility(texel_at(pixel + along(filter_pass, offset)));
     weights += weight;
-  }
+  } while (++i <= taps.last);
   return with_visibility(texel, sum / weights);
 }

@@ -10,11 +10,12 @@ uint filtered(ivec2 pixel) {
   float falloff = -0.5 / (sigma * sigma);
   float sum = 0.0;
   float weights = 0.0;
-  for (int i = taps.first; i <= taps.last; ++i) {
+  int i = taps.first;
+  do {
     int offset = tap_offset(taps, i);
     float weight = exp(falloff * float(offset * offset));
     sum += weight * texel_visibility(texel_at(pixel + along(filter_pass, offset)));
     weights += weight;
-  }
+  } while (++i <= taps.last);
   return with_visibility(texel, sum / weights);
 }

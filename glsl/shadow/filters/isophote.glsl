@@ -37,7 +37,8 @@ float mean_on_isophote(ivec2 pixel, Surface surface, vec2 sigma, float own) {
   float shift = (tap_noise(pixel, 0) - 0.5) * (spacing - 1.0 / pixels);
   int side = int(2.0 / spacing + 0.5);
   float sum = own, weights = 1.0;
-  for (int i = -side; i <= side; ++i) {
+  int i = -side;
+  do {
     float at = float(i) * spacing + shift;
     ivec2 to = ivec2(roundEven(at * line));
     ivec2 neighbour = pixel + to;
@@ -48,7 +49,7 @@ float mean_on_isophote(ivec2 pixel, Surface surface, vec2 sigma, float own) {
     float weight = is_sky_depth(depth) ? 0.0 : exp(-0.5 * dot(off, off));
     sum += weight * visibility;
     weights += weight;
-  }
+  } while (++i <= side);
   return sum / weights;
 }
 

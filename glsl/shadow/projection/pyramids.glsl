@@ -16,6 +16,11 @@ struct TexelRange {
   ivec2 low, high;
 };
 
+// The texel after one of a range, row by row; above the range after the last one.
+ivec2 next_texel(ivec2 at, TexelRange range) {
+  return at.x < range.high.x ? ivec2(at.x + 1, at.y) : ivec2(range.low.x, at.y + 1);
+}
+
 TexelRange pyramid_range(vec3 position, vec2 radius, Light light, float base, int level, ivec2 last) {
   vec2 texel = base * texel_extent_at(position, light) * exp2(float(level));
   radius *= outline_reach(light);

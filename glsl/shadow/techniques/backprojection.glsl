@@ -228,9 +228,11 @@ void add_cells(inout Cover cover, Grid grid, Receiver receiver, float bias, vec2
   vec2 jitter = pixel_noise(receiver, blocker_step);
   vec2 below[reads_across];
   for (int x = 0; x < grid.cells.x; ++x) below[x] = vec2(0.0);
-  for (int y = 0; y < grid.cells.y; ++y) {
+  int y = 0;
+  do {
     vec2 left = vec2(0.0);
-    for (int x = 0; x < grid.cells.x; ++x) {
+    int x = 0;
+    do {
       vec2 begin = corner_of(grid, ivec2(x, y)), end = corner_of(grid, ivec2(x + 1, y + 1));
       if (is_beyond(grid, nearest_of(begin, end), light)) {
         left = below[x] = vec2(0.0);
@@ -239,8 +241,8 @@ void add_cells(inout Cover cover, Grid grid, Receiver receiver, float bias, vec2
       ivec2 first = block_of(grid, ivec2(x, y), begin, end, receiver, jitter, light);
       add_block(cover, left, below[x], begin, end, depths_from(first, light), texel_offset(receiver, first, light),
                 grid, receiver, bias, noise, light);
-    }
-  }
+    } while (++x < grid.cells.x);
+  } while (++y < grid.cells.y);
 }
 
 // The disc to read, of which `wide` metres can be read without gaps. A caster that is narrower than a texel of the

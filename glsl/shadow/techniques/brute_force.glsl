@@ -10,6 +10,11 @@ struct Region {
   ivec2 low, high;
 };
 
+// The texel after one of a region, row by row; above the region after the last one.
+ivec2 next_texel(ivec2 at, Region region) {
+  return at.x < region.high.x ? ivec2(at.x + 1, at.y) : ivec2(region.low.x, at.y + 1);
+}
+
 Region texels_within(Receiver receiver, float radius, Light light) {
   vec2 center = map_place(receiver.position, light);
   vec2 texels = radius * outline_reach(light) / texel_extent(receiver, light);
@@ -56,16 +61,16 @@ Visibility visibility(Receiver receiver, Light light) {
       narrow_search(receiver, light, light.read_radius).radius + footprint_margin(receiver, light);
   Region region = texels_within(receiver, search, light);
   float sum = 0.0, count = 0.0;
-  for (int y = region.low.y; y <= region.high.y; ++y) {
-    for (int x = region.low.x; x <= region.high.x; ++x) {
-      Texel texel = read_texel(receiver, ivec2(x, y), search, light);
-      float distance_to = receiver.position.z - texel.depth;
-      if (texel.within && in_cone(receiver, texel, distance_to, light) && blocks(receiver, texel, bias)) {
-        sum += distance_to;
-        count += 1.0;
-      }
+  ivec2 at = region.low;
+  do {
+    Texel texel = read_texel(receiver, at, search, light);
+    float distance_to = receiver.position.z - texel.depth;
+    if (texel.within && in_cone(receiver, texel, distance_to, light) && blocks(receiver, texel, bias)) {
+      sum += distance_to;
+      count += 1.0;
     }
-  }
+    at = next_texel(at, region);
+  } while (at.y <= region.high.y);
   if (count == 0.0) return fully_lit();
   float mean = max(sum / count, 0.0);
   float radius = penumbra_radius(receiver, mean, light);
@@ -74,14 +79,15 @@ Visibility visibility(Receiver receiver, Light light) {
   }
   region = texels_within(receiver, radius, light);
   float lit = 0.0, all = 0.0;
-  for (int y = region.low.y; y <= region.high.y; ++y) {
-    for (int x = region.low.x; x <= region.high.x; ++x) {
-      Texel texel = read_texel(receiver, ivec2(x, y), radius, light);
-      if (!texel.within) continue;
+  at = region.low;
+  do {
+    Texel texel = read_texel(receiver, at, radius, light);
+    if (texel.within) {
       all += 1.0;
       lit += blocks(receiver, texel, bias) ? 0.0 : 1.0;
     }
-  }
+    at = next_texel(at, region);
+  } while (at.y <= region.high.y);
   return Visibility(lit / max(all, 1.0), radius, mean, false);
 }
 

@@ -28,11 +28,12 @@ float filtered_exponential(FilteredPlace place, float depth, Light light) {
   int level = int(at);
   float coarser = at - float(level);
   float sum = 0.0;
-  for (int i = 0; i < place.points; ++i) {
+  int i = 0;
+  do {
     vec2 point = place.first + float(i) * place.next;
     sum += (1.0 - coarser) * exponential_at(point, level, depth, light);
     if (coarser > 0.0) sum += coarser * exponential_at(point, level + 1, depth, light);
-  }
+  } while (++i < place.points);
   return sum / float(place.points);
 }
 
@@ -40,9 +41,10 @@ float compared_share(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
   Scramble scramble = filter_scramble(receiver);
   float lit = 0.0;
-  for (int i = 0; i < esm_fallback_taps; ++i) {
+  int i = 0;
+  do {
     lit += lit_share(receiver, esm_radius * filter_point(i, scramble, light), bias, light);
-  }
+  } while (++i < esm_fallback_taps);
   return lit / float(esm_fallback_taps);
 }
 

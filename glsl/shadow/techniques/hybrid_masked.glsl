@@ -9,11 +9,11 @@ float masked_depth(vec3 position, vec2 radius, Light light) {
   ivec2 last = max(last_texel(), 0) >> (level + 2);
   TexelRange range = pyramid_range(position, radius, light, pyramid_base, level, last);
   float stored = 1.0;
-  for (int y = range.low.y; y <= range.high.y; ++y) {
-    for (int x = range.low.x; x <= range.high.x; ++x) {
-      stored = min(stored, texelFetch(masked_casters, ivec3(x, y, light.layer), level).x);
-    }
-  }
+  ivec2 at = range.low;
+  do {
+    stored = min(stored, texelFetch(masked_casters, ivec3(at, light.layer), level).x);
+    at = next_texel(at, range);
+  } while (at.y <= range.high.y);
   return stored_depth(stored, light);
 }
 

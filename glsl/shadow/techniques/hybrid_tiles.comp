@@ -7,13 +7,13 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 void store_tile(Pixels pixels, Decision decision) {
   Light light = with_layer(frame_light(), decision.layer);
-  for (int y = pixels.low.y; y < pixels.high.y; ++y) {
-    for (int x = pixels.low.x; x < pixels.high.x; ++x) {
-      int bit = tile_size * (y - pixels.low.y) + x - pixels.low.x;
-      bool is_lit = ((decision.lit[bit >> 5] >> (bit & 31)) & 1u) != 0u;
-      store_decided(ivec2(x, y), is_lit, decision.blocker_distance, light);
-    }
-  }
+  ivec2 at = pixels.low;
+  do {
+    int bit = bit_of(pixels, at);
+    bool is_lit = ((decision.lit[bit >> 5] >> (bit & 31)) & 1u) != 0u;
+    store_decided(at, is_lit, decision.blocker_distance, light);
+    at = next_pixel(at, pixels);
+  } while (at.y < pixels.high.y);
 }
 
 void main() {

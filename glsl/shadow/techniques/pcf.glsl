@@ -8,9 +8,10 @@ Visibility visibility(Receiver receiver, Light light) {
   receiver = with_surroundings(receiver, bias, max_plane_slope, light);
   Scramble scramble = filter_scramble(receiver);
   float lit = 0.0;
-  for (int i = 0; i < pcf_filter_taps; ++i) {
+  int i = 0;
+  do {
     lit += lit_share(receiver, pcf_radius * filter_point(i, scramble, light), bias, light);
-  }
+  } while (++i < pcf_filter_taps);
   lit /= float(pcf_filter_taps);
   return Visibility(lit, lit < 1.0 ? pcf_radius : 0.0, 0.0, pcf_radius < texel_size(receiver, light));
 }

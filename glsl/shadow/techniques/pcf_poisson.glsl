@@ -9,10 +9,11 @@ Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
   Scramble scramble = filter_scramble(receiver);
   float lit = 0.0;
-  for (int i = 0; i < pcf_poisson_taps; ++i) {
+  int i = 0;
+  do {
     vec2 offset = pcf_poisson_radius * filter_point(i, scramble, light);
     lit += compared_share(compared_depth, receiver, offset, bias, light);
-  }
+  } while (++i < pcf_poisson_taps);
   lit /= float(pcf_poisson_taps);
   return Visibility(lit, lit < 1.0 ? pcf_poisson_radius : 0.0, 0.0, pcf_poisson_radius < texel_size(receiver, light));
 }

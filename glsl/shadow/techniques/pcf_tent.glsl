@@ -28,15 +28,14 @@ float blocked_share(Receiver receiver, float bias, Light light) {
   vec2 middle = map_place(receiver.position, light);
   ivec2 first = ivec2(floor(middle - tent_radius));
   float blocked = 0.0;
-  for (int y = 0; y < gathers_across; ++y) {
-    for (int x = 0; x < gathers_across; ++x) {
-      ivec2 texel = first + 2 * ivec2(x, y);
-      vec2 begin = vec2(texel) - middle;
-      Footprint texels = footprint_from(receiver, texel, vec2(0.0), -(begin + 0.5), light);
-      vec4 blocks = blocking_texels(receiver, texels, bias);
-      blocked += dot(blocks, parts(begin.x).xyyx * parts(begin.y).yyxx);
-    }
-  }
+  int i = 0;
+  do {
+    ivec2 texel = first + 2 * ivec2(i % gathers_across, i / gathers_across);
+    vec2 begin = vec2(texel) - middle;
+    Footprint texels = footprint_from(receiver, texel, vec2(0.0), -(begin + 0.5), light);
+    vec4 blocks = blocking_texels(receiver, texels, bias);
+    blocked += dot(blocks, parts(begin.x).xyyx * parts(begin.y).yyxx);
+  } while (++i < gathers_across * gathers_across);
   return blocked;
 }
 

@@ -129,7 +129,8 @@ Slice walk(Receiver receiver, float share, int index, float radius, PixelNoise n
   Blocker before = no_blocker, second_before = no_blocker;
   // More than two samples a texel would read the same texels again.
   int samples = min(int(2.0 * radius / rim_texel) + 3, slices_samples);
-  for (int i = 0; i < samples; ++i) {
+  int i = 0;
+  do {
     float end = (radius + rim_texel) * spread(float(i + 1) / float(samples));
     float at = mix(begin, end, jitter);
     // Moved by up to half a texel: the mean over many samples then weights texels as bilinear filters do.
@@ -144,7 +145,7 @@ Slice walk(Receiver receiver, float share, int index, float radius, PixelNoise n
     second_before = add_texel(slice, receiver, behind, blocking, bias, stretch, second_before, dither, light);
 #endif
     begin = end;
-  }
+  } while (++i < samples);
   return slice;
 }
 
@@ -165,19 +166,21 @@ Visibility visibility(Receiver receiver, Light light) {
   PixelNoise noise = noise_of(receiver);
   int hidden = 0, rounds = 1;
   float height_sum = 0.0, blockers = 0.0;
-  for (int turn = 0; turn < rounds; ++turn) {
+  int turn = 0;
+  do {
     // Each round's slices lie between those of the others.
     float first = noise.azimuth + float(turn) / float(rounds);
-    for (int azimuth = 0; azimuth < slices_azimuths; ++azimuth) {
+    int azimuth = 0;
+    do {
       float share = (float(azimuth) + first) / float(slices_azimuths);
       Slice slice = walk(receiver, share, turn * slices_azimuths + azimuth, radius, noise, bias, light);
       hidden += bitCount(slice.hidden);
       height_sum += slice.height_sum;
       blockers += slice.blockers;
-    }
+    } while (++azimuth < slices_azimuths);
     if (turn == 0 && hidden > 0 && hidden < ring_count * slices_azimuths)
       rounds = rounds_for(receiver, mean_height(height_sum, blockers), light);
-  }
+  } while (++turn < rounds);
   if (hidden == 0) return fully_lit();
   float mean = mean_height(height_sum, blockers);
   float penumbra = penumbra_radius(receiver, mean, light);

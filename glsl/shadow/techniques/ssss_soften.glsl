@@ -100,10 +100,11 @@ float mean_blocker_distance(Surface surface, ivec2 pixel, float radius, Light li
   float shorter = shortening(surface, radius);
   Blockers blockers = Blockers(0.0, 0.0);
   add_blocker(blockers, surface, pixel, bias, slack, light);
-  for (int i = 0; i < ssss_search_taps; ++i) {
+  int i = 0;
+  do {
     ivec2 at = pixel_at(surface, radius * blocker_point(i, scramble, light), shorter);
     add_blocker(blockers, surface, at, bias, slack, light);
-  }
+  } while (++i < ssss_search_taps);
   return blockers.weight > 0.0 ? blockers.height_sum / blockers.weight : 0.0;
 }
 
@@ -138,7 +139,8 @@ float softened(Surface surface, float own, float radius, Light light) {
   Scramble scramble = filter_scramble(surface.receiver);
   float shorter = shortening(surface, radius);
   Sum sum = Sum(0.0, 0.0);
-  for (int i = 0; i < ssss_taps; ++i) {
+  int i = 0;
+  do {
     ivec2 at = pixel_at(surface, radius * filter_point(i, scramble, light), shorter);
     if (!in_viewport(at) || is_sky(at)) continue;
     vec4 hard = texelFetch(hard_shadow, ivec3(at, 0), 0);
@@ -147,7 +149,7 @@ float softened(Surface surface, float own, float radius, Light light) {
     sum.lit += weight * hard.x;
     sum.weight += weight;
     if (weight < 1.0) add_other_surface(sum, surface, at, hard, radius, 1.0 - weight, light);
-  }
+  } while (++i < ssss_taps);
   return sum.weight > 0.0 ? sum.lit / sum.weight : own;
 }
 

@@ -20,18 +20,18 @@ Share compared_texels(Receiver receiver, vec2 half_width, float bias, Light ligh
   vec2 place = map_place(receiver.position, light);
   ivec2 first = ivec2(floor(place - half_width / texel)), last = ivec2(floor(place + half_width / texel));
   Share share = Share(0.0, 0.0);
-  for (int y = first.y; y <= last.y; y += 2) {
-    for (int x = first.x; x <= last.x; x += 2) {
-      vec4 depths = depths_from(ivec2(x, y), light);
-      vec2 low = texel_offset(receiver, ivec2(x, y), light);
-      Offsets at = Offsets(low.x + texel.x * vec4(0.0, 1.0, 1.0, 0.0), low.y + texel.y * vec4(1.0, 1.0, 0.0, 0.0));
-      vec4 width = max(min(at.x + 0.5 * texel.x, half_width.x) - max(at.x - 0.5 * texel.x, -half_width.x), 0.0);
-      vec4 height = max(min(at.y + 0.5 * texel.y, half_width.y) - max(at.y - 0.5 * texel.y, -half_width.y), 0.0);
-      vec4 blocks = width * height * vec4(lessThan(depths, blocking_depths_at(receiver, at, bias)));
-      share.hidden += dot(blocks, vec4(1.0));
-      share.height_sum += dot(blocks, receiver.position.z - depths);
-    }
-  }
+  ivec2 block = first;
+  do {
+    vec4 depths = depths_from(block, light);
+    vec2 low = texel_offset(receiver, block, light);
+    Offsets at = Offsets(low.x + texel.x * vec4(0.0, 1.0, 1.0, 0.0), low.y + texel.y * vec4(1.0, 1.0, 0.0, 0.0));
+    vec4 width = max(min(at.x + 0.5 * texel.x, half_width.x) - max(at.x - 0.5 * texel.x, -half_width.x), 0.0);
+    vec4 height = max(min(at.y + 0.5 * texel.y, half_width.y) - max(at.y - 0.5 * texel.y, -half_width.y), 0.0);
+    vec4 blocks = width * height * vec4(lessThan(depths, blocking_depths_at(receiver, at, bias)));
+    share.hidden += dot(blocks, vec4(1.0));
+    share.height_sum += dot(blocks, receiver.position.z - depths);
+    block = block.x + 2 <= last.x ? ivec2(block.x + 2, block.y) : ivec2(first.x, block.y + 2);
+  } while (block.y <= last.y);
   float area = 4.0 * half_width.x * half_width.y;
   return Share(share.hidden / area, share.height_sum / area);
 }
@@ -47,7 +47,8 @@ vec4 counting(Receiver receiver, Offsets at, vec4 heights, float margin, bool in
 Share compared_points(Receiver receiver, vec2 offset, vec2 half_width, vec2 noise, float bias, bool in_cone,
                       Light light) {
   Share share = Share(0.0, 0.0);
-  for (int i = 0; i < vssm_taps * vssm_taps; ++i) {
+  int i = 0;
+  do {
     vec2 cell = vec2(i % vssm_taps, i / vssm_taps);
     vec2 at = offset + half_width * (2.0 * (cell + noise) / float(vssm_taps) - 1.0);
     Footprint footprint = fetch_footprint(receiver, at, light);
@@ -56,7 +57,7 @@ Share compared_points(Receiver receiver, vec2 offset, vec2 half_width, vec2 nois
     blocks *= counting(receiver, footprint.offsets, heights, 1.5 * texel_size(receiver, light), in_cone, light);
     share.hidden += bilinear(blocks, footprint.weight);
     share.height_sum += bilinear(blocks * heights, footprint.weight);
-  }
+  } while (++i < vssm_taps * vssm_taps);
   float points = float(vssm_taps * vssm_taps);
   return Share(share.hidden / points, share.height_sum / points);
 }
@@ -119,12 +120,13 @@ Share kernel_share(Receiver receiver, float radius, int step, float bias, Light 
   vec2 noise = pixel_noise(receiver, step);
   vec2 part = half_width / float(vssm_cells);
   Share sum = Share(0.0, 0.0);
-  for (int i = 0; i < vssm_cells * vssm_cells; ++i) {
+  int i = 0;
+  do {
     vec2 offset = part * (2.0 * vec2(i % vssm_cells, i / vssm_cells) + 1.0) - half_width;
     share = part_share(receiver, offset, part, noise, bias, search, light);
     sum.hidden += share.hidden;
     sum.height_sum += share.height_sum;
-  }
+  } while (++i < vssm_cells * vssm_cells);
   float parts = float(vssm_cells * vssm_cells);
   return Share(sum.hidden / parts, sum.height_sum / parts);
 }
