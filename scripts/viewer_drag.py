@@ -64,7 +64,7 @@ def main():
     options = parser.parse_args()
     size = tuple(map(int, options.size.split("x")))
     print(f"{'program':40} {'picture':>10} {'updates/s':>9} {'interval, ms':>12} {'CPU/update, ms':>14} {'load':>5}")
-    with Desktop(1280, 800) as desktop:
+    with Desktop(max(1280, size[0] + 2), max(800, size[1] + 100)) as desktop:  # a frame and a title surround the window
         for _ in range(options.rounds):
             for program in options.programs:
                 viewer_module.PROGRAM = program

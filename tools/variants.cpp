@@ -71,7 +71,8 @@ std::vector<Variant> variants_of(gl::Device& device, const Part& part) {
   const ParamSet defaults(render::Renderer::params(renderer.registry()));
   std::vector<gl::ProgramDesc> programs = renderer.all_programs(defaults);
 #ifdef PENUMBRA_VIEWER
-  programs.push_back(viewer::present_program());
+  for (const bool two : {false, true})
+    for (const bool tinted : {false, true}) programs.push_back(viewer::present_program(two, tinted));
 #endif
   std::sort(programs.begin(), programs.end());
   programs.erase(std::unique(programs.begin(), programs.end()), programs.end());

@@ -34,7 +34,11 @@ ParamSet reduced(const ParamSet& params, const Detail& detail) {
   const std::string& technique = params.get_word("technique");
   ParamSet result = params;
   if (technique == "truth") return result;
-  if (detail.maps > 1) divide(result, "cascades.size", detail.maps, least_maps);
+  if (detail.maps > 1) {
+    const bool fewer = params.get_int("cascades.count") >= detail.maps;
+    if (fewer) divide(result, "cascades.count", detail.maps, 1);
+    divide(result, "cascades.size", fewer ? 2 : detail.maps, least_maps);
+  }
   if (detail.reads == 1) return result;
   const std::vector<Param> rows = counts_of(params, technique);
   const bool in_slices = std::ranges::any_of(rows, [](const Param& row) { return row.unit == "slices"; });

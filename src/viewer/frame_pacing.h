@@ -31,20 +31,25 @@ class FramePacing {
 
   bool software() const { return software_; }
 
-  // Reports how long the frame of the last step took, which chooses the detail of the next ones.
-  void drew(const Detail& detail, double milliseconds);
+  // Reports how long the pictures of the last step took, and how long all else takes until the window shows them: the
+  // panels, the copy to the screen. Both choose the detail of the next ones.
+  void drew(const Detail& detail, double milliseconds, double beside = 0);
 
  private:
-  static constexpr double idle_seconds = 0.25;         // without a change
-  static constexpr double slow_ms = 90, fast_ms = 20;  // limits for a frame in motion
+  static constexpr double idle_seconds = 0.25;  // without a change
+  // Limits in motion: of an update of the window, and of its pictures alone.
+  static constexpr double slow_ms = 100, fast_ms = 20;
 
-  void drew_travelling(double milliseconds);
+  void drew_travelling(double milliseconds, double beside);
   void go_to(std::size_t level);
   void forget_travel();
   bool is_level_useless() const;
+  bool suits_again(std::size_t level, double beside) const;
 
   static constexpr std::size_t whole_picture = 3;  // the last level at which the picture has its full size
-  static constexpr int tried = 2;                  // frames at a level before it is judged
+  static constexpr int tried = 2;                  // frames at a level before it is judged, and slow ones in turn
+  static constexpr int settled = 20;               // frames at a level before the one before it is tried again
+  static constexpr double with_room = 0.9;         // of the limit: no more than that is tried again
   static constexpr double worth = 0.75;            // of the time before: a smaller picture has to save that much
 
   bool software_;
@@ -52,7 +57,7 @@ class FramePacing {
   // Of the details while the view travels, from full on: the present one, and the last that is worth it.
   std::size_t level_ = whole_picture, most_ = level_count - 1;
   std::array<double, level_count> best_{};  // the shortest time of each, milliseconds; 0: not known
-  int drawn_at_level_ = 0;
+  int drawn_at_level_ = 0, slow_in_turn_ = 0;
   bool travelling_ = false;  // the last step was drawn at that level
   double last_change_ = -1e9;
   bool restarted_ = false;  // since the last change

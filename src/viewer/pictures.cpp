@@ -173,7 +173,8 @@ void Viewer::draw_sides(std::span<const SideWork> work, const Detail& detail) {
   last_draw_ = ImGui::GetTime();
   probe_is_old_ = true;
   if (!readable_) return;
-  pacing_.drew(detail, milliseconds);
+  pacing_.drew(detail, milliseconds, beside_pictures_);
+  drawn_milliseconds_ = milliseconds;
   status_.detail = detail;
   status_.drawn_size = {a_.renderer.picture().width(), a_.renderer.picture().height()};
   status_.frames = a_.renderer.frames();

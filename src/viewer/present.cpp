@@ -32,26 +32,40 @@ void bind(gl::Device& device, const PresentInputs& inputs, const gl::Texture& te
 
 }  // namespace
 
-gl::ProgramDesc present_program() {
-  return {.name = "present", .vertex = "shared/full_screen.vert", .fragment = "viewer/present.frag"};
+gl::ProgramDesc present_program(bool two, bool tinted) {
+  return {.name = "present",
+          .vertex = "shared/full_screen.vert",
+          .fragment = "viewer/present.frag",
+          .defines = {{"PICTURES", two ? "2" : "1"}, {"TINTED", tinted ? "1" : "0"}}};
 }
 
 const gl::Texture& present(gl::Device& device, const PresentInputs& inputs) {
   const gl::Texture& target =
       device.target("viewer/window", {.width = inputs.window_size.x, .height = inputs.window_size.y});
   const glm::vec2 center = center_of(inputs);
+  const CompareMode how = how_of(inputs);
+  const bool two = how != CompareMode::a && how != CompareMode::b;
+  const gl::Texture* first = how == CompareMode::b ? inputs.b : inputs.a;
+  // A picture without a tint shows itself.
+  const auto tint_or = [](const gl::Texture* tint, const gl::Texture* picture) {
+    return tint != nullptr ? tint : picture;
+  };
+  const gl::Texture* first_tint = tint_or(how == CompareMode::b ? inputs.tint_b : inputs.tint_a, first);
+  const bool tinted = inputs.tint_a != nullptr || inputs.tint_b != nullptr;
+  const gl::SamplerDesc of_tints{.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST};
   {
     gl::Pass pass(device, {.name = "present", .colors = {{.texture = &target}}});
-    const gl::Program& program = pass.use(present_program());
-    bind(device, inputs, *inputs.a, 0);
-    bind(device, inputs, inputs.b != nullptr ? *inputs.b : *inputs.a, 1);
-    // A picture without a tint shows itself.
-    (inputs.tint_a != nullptr ? inputs.tint_a : inputs.a)->bind(2);
-    (inputs.tint_b != nullptr ? inputs.tint_b : inputs.b != nullptr ? inputs.b : inputs.a)->bind(3);
-    for (const GLuint unit : {2U, 3U}) device.sampler({.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST}).bind(unit);
-    const bool tinted = inputs.tint_a != nullptr || inputs.tint_b != nullptr;
-    program.set("tint", tinted ? tint_share : 0.0f);
-    program.set("comparison", static_cast<int>(how_of(inputs)));
+    const gl::Program& program = pass.use(present_program(two, tinted));
+    bind(device, inputs, *first, 0);
+    first_tint->bind(2);
+    device.sampler(of_tints).bind(2);
+    if (two) {
+      bind(device, inputs, *inputs.b, 1);
+      tint_or(inputs.tint_b, inputs.b)->bind(3);
+      device.sampler(of_tints).bind(3);
+    }
+    program.set("tint", tint_share);
+    program.set("comparison", static_cast<int>(how));
     program.set("wipe", inputs.comparison.wipe);
     program.set("gain", inputs.comparison.gain);
     program.set("zoom", inputs.zoom.factor);

@@ -24,8 +24,8 @@ struct PresentInputs {
 // Draws them into a texture of the window's size, RGBA8.
 const gl::Texture& present(gl::Device& device, const PresentInputs& inputs);
 
-// The program that present() uses, for the check that compiles all shaders.
-gl::ProgramDesc present_program();
+// The program that present() uses to show one picture, or two, for the check that compiles all shaders.
+gl::ProgramDesc present_program(bool two, bool tinted);
 
 // The picture's pixel that a pixel of the window shows; nothing outside of the picture.
 std::optional<glm::ivec2> pixel_at(const PresentInputs& inputs, const glm::vec2& window);

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
@@ -137,6 +138,8 @@ void Viewer::guarded(const std::function<void()>& action) {
 }
 
 void Viewer::frame() {
+  const auto start = std::chrono::steady_clock::now();
+  drawn_milliseconds_ = 0;
   take_events();
   unsettled_ = window_.has_presses() ? settling : std::max(unsettled_ - 1, 0);
   begin_interface();
@@ -156,6 +159,10 @@ void Viewer::frame() {
   show_interface();
   cost_reader_.read(device_.device.timers, ImGui::GetTime());
   if (std::exchange(vsync_, state_.vsync) != state_.vsync) window_.set_vsync(state_.vsync);
+  if (drawn_milliseconds_ > 0) {
+    const std::chrono::duration<double, std::milli> all = std::chrono::steady_clock::now() - start;
+    beside_pictures_ = all.count() - drawn_milliseconds_;
+  }
   if (work && work->plan.at_rest) draw_at_rest(*work);
 }
 

@@ -195,6 +195,8 @@ class Viewer {
   bool attending_ = false;  // a picture is being drawn, between two of its passes
   bool vsync_ = true;
   double last_draw_ = 0;
+  // Milliseconds: of the pictures that this turn of the loop drew in motion, and of all else in the last such turn.
+  double drawn_milliseconds_ = 0, beside_pictures_ = 0;
 };
 
 }  // namespace penumbra::viewer

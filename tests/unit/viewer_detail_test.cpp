@@ -25,13 +25,24 @@ TEST(ViewerDetail, TheFullOneIsWhatTheDocumentAsksFor) {
   EXPECT_EQ(reduced(of("pcss"), {.picture = 8}), of("pcss"));
 }
 
-TEST(ViewerDetail, MapsAreSmallerAndNothingElseIs) {
+TEST(ViewerDetail, MapsAreFewerAndSmallerAndNothingElseIs) {
   const ParamSet params = of("slices_denoised");
-  const ParamSet fewer = reduced(params, {.maps = 4});
-  for (const Param& row : params.rows()) {
-    const bool same = fewer.value(row.name) == params.value(row.name);
-    EXPECT_EQ(same, row.name != "cascades.size") << row.name;
+  for (const int divisor : {2, 4}) {
+    const ParamSet fewer = reduced(params, {.maps = divisor});
+    for (const Param& row : params.rows()) {
+      const bool same = fewer.value(row.name) == params.value(row.name);
+      EXPECT_EQ(same, row.name != "cascades.size" && row.name != "cascades.count") << row.name;
+    }
+    EXPECT_EQ(fewer.get_int("cascades.count"), params.get_int("cascades.count") / divisor);
+    EXPECT_EQ(fewer.get_int("cascades.size"), params.get_int("cascades.size") / 2);
   }
+}
+
+TEST(ViewerDetail, MapsAreSmallerWhereThereAreTooFewToLeaveOut) {
+  ParamSet params = of("slices_denoised");
+  params.set("cascades.count", 3);
+  const ParamSet fewer = reduced(params, {.maps = 4});
+  EXPECT_EQ(fewer.get_int("cascades.count"), 3);
   EXPECT_EQ(fewer.get_int("cascades.size"), params.get_int("cascades.size") / 4);
 }
 
@@ -79,6 +90,7 @@ TEST(ViewerDetail, OnlyWhatShrinksIsShown) {
   EXPECT_EQ(effective(of("truth"), least), (Detail{.picture = 8}));
   ParamSet small = of("pcss");
   small.set("cascades.size", 256);
+  small.set("cascades.count", 1);
   EXPECT_EQ(effective(small, least), (Detail{.picture = 8, .reads = 4}));
   EXPECT_EQ(effective(of("pcss"), {}), Detail{});
 }

@@ -162,13 +162,14 @@ TEST(ViewerPace, AnotherSceneOrTechniqueIsAnotherPace) {
 // rest of a picture, all in full.
 class Orbit {
  public:
-  Orbit(double maps, double reads, double rest) : maps_(maps), reads_(reads), rest_(rest) {}
+  Orbit(double maps, double reads, double rest, double beside = 0)
+      : maps_(maps), reads_(reads), rest_(rest), beside_(beside) {}
 
   FramePacing::Step turn(bool changed) {
     now_ += 0.02;
     const FramePacing::Step step = pacing_.next(now_, changed, /*ui_active=*/false, frames_, 1, /*travels=*/true);
     frames_ = changed ? 0 : frames_ + (step.draw ? 1 : 0);
-    if (step.draw) pacing_.drew(step.detail, took(step.detail));
+    if (step.draw) pacing_.drew(step.detail, took(step.detail), beside_);
     return step;
   }
   double took(const Detail& detail) const {
@@ -187,7 +188,7 @@ class Orbit {
   }
 
  private:
-  double maps_, reads_, rest_, now_ = 10;
+  double maps_, reads_, rest_, beside_, now_ = 10;
   int frames_ = 0;
   FramePacing pacing_{/*software=*/true};
 };
@@ -199,6 +200,35 @@ TEST(ViewerTravel, MapsShrinkBeforeReadsAndReadsBeforeThePicture) {
   EXPECT_EQ(Orbit(400, 150, 10).in_motion(), (Detail{.maps = 4, .reads = 4}));
   EXPECT_EQ(Orbit(400, 150, 100).in_motion(), (Detail{.picture = 2, .maps = 4, .reads = 4}));
   EXPECT_EQ(Orbit(0, 0, 1000).in_motion(), (Detail{.picture = 4, .maps = 4, .reads = 4}));
+}
+
+// As where other work runs on the machine for a moment.
+TEST(ViewerTravel, ASlowFrameNowAndThenChangesNothing) {
+  Orbit orbit(400, 150, 25);
+  const Detail settled = orbit.in_motion();
+  EXPECT_EQ(settled, (Detail{.maps = 4, .reads = 4}));
+  for (int i = 0; i < 50; ++i) {
+    i % 5 == 0 ? orbit.becomes(800, 300, 50) : orbit.becomes(400, 150, 25);
+    EXPECT_EQ(orbit.turn(/*changed=*/true).detail, settled) << i;
+  }
+}
+
+TEST(ViewerTravel, TheLargerPictureComesBackAfterASlowWhile) {
+  Orbit orbit(400, 150, 15);
+  const Detail settled = orbit.in_motion();
+  orbit.becomes(800, 300, 30);
+  EXPECT_GT(orbit.in_motion().picture, settled.picture);
+  orbit.becomes(400, 150, 15);
+  EXPECT_EQ(orbit.in_motion(), settled);
+}
+
+// What the user waits for is the window.
+TEST(ViewerTravel, WhatTheWindowTakesBesideThePictureCounts) {
+  const Detail whole{.maps = 4, .reads = 4};
+  EXPECT_EQ(Orbit(400, 100, 30, /*beside=*/5).in_motion(), whole);
+  EXPECT_EQ(Orbit(400, 100, 30, /*beside=*/40).in_motion(), (Detail{.picture = 2, .maps = 4, .reads = 4}));
+  // Panels that take a while are no reason to draw the picture smaller than helps.
+  EXPECT_EQ(Orbit(1200, 2, 2, /*beside=*/200).in_motion(), whole);
 }
 
 TEST(ViewerTravel, NothingShrinksFurtherThanItsLimit) {
