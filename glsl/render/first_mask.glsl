@@ -40,18 +40,19 @@ float difference(ivec2 texel, SampleSurface s) {
   return depth == 0.0 ? no_surface : min(different, no_surface);
 }
 
-// Where no texel around the sample shows its surface, the nearest surface of the nine around its pixel stands in.
-MaskTexels nearest_surface(ivec2 pixel, SampleSurface s) {
+// Of the first `count` of the nine texels around a pixel, the one that shows the nearest surface. Not always all nine:
+// a software rasteriser would look at them for every pixel, wanted or not.
+ivec2 nearest_surface(ivec2 pixel, int count, SampleSurface s) {
   ivec2 nearest = pixel;
   float least = 2.0 * no_surface;
-  for (int i = 0; i < 9; ++i) {
+  int i = 0;
+  do {
     ivec2 texel = in_picture(pixel + ivec2(i % 3, i / 3) - 1);
     float found = difference(texel, s);
-    if (found >= least) continue;
-    least = found;
-    nearest = texel;
-  }
-  return MaskTexels(nearest, vec4(1.0, 0.0, 0.0, 0.0));
+    nearest = found < least ? texel : nearest;
+    least = min(found, least);
+  } while (++i < count);
+  return nearest;
 }
 
 MaskTexels mask_texels(ivec2 pixel, SampleSurface s) {
@@ -62,8 +63,10 @@ MaskTexels mask_texels(ivec2 pixel, SampleSurface s) {
   weights *= exp2(-vec4(difference(in_picture(first), s), difference(in_picture(first + ivec2(1, 0)), s),
                         difference(in_picture(first + ivec2(0, 1)), s), difference(in_picture(first + 1), s)));
   float sum = dot(weights, vec4(1.0));
-  if (sum < 1e-3) return nearest_surface(pixel, s);
-  return MaskTexels(first, weights / sum);
+  // Where no texel around the sample shows its surface, the nearest one stands in.
+  bool alone = sum < 1e-3;
+  ivec2 nearest = nearest_surface(pixel, alone ? 9 : 1, s);
+  return alone ? MaskTexels(nearest, vec4(1.0, 0.0, 0.0, 0.0)) : MaskTexels(first, weights / sum);
 }
 
 float mask_of_first(ivec2 texel, int light) { return texelFetch(shadow_mask, ivec3(in_picture(texel), light), 0).r; }
