@@ -1,5 +1,5 @@
-// Lists the tiles whose texels a filter can change. Neither the others nor the tiles around them have a pixel with a
-// blocker distance (see Filter::keeps_unblocked).
+// Lists the tiles whose texels a filter can change. The others have no pixel within `reach` of one with a blocker
+// distance (see Filter::keeps_unblocked).
 #include "shared/shadow_block.h"
 #include "shadow/drivers/tiles.glsl"
 #include "shadow/drivers/tile_lists.glsl"
@@ -13,21 +13,33 @@ layout(binding = 12) uniform usampler2D texels;
 layout(binding = 14) uniform usampler2D decisions;
 uniform int has_decisions;
 
-shared bool blocked[around * around];
+// Bits as in Decision::lit: pixels that have a blocker distance, of decided tiles also those that face away.
+shared uvec2 blocked[around * around];
 
-bool has_blocker(ivec2 tile) {
+uvec2 blocked_pixels(ivec2 tile) {
   if (has_decisions != 0) {
     uvec4 decision = texelFetch(decisions, tile, 0);
-    if (is_decided(decision)) return !is_unblocked(decision);
+    if (is_decided(decision)) return is_unblocked(decision) ? uvec2(0u) : ~decision.xy;
   }
-  ivec2 low = tile * tile_size, high = min(low + tile_size, ivec2(shadow.viewport.zw));
-  uint distances = 0u;
-  ivec2 at = low;
+  ivec2 low = tile * tile_size, size = min(ivec2(shadow.viewport.zw) - low, tile_size);
+  uvec2 found = uvec2(0u);
+  ivec2 at = ivec2(0);
   do {
-    distances |= texelFetch(texels, ivec2(shadow.viewport.xy) + at, 0).x & 0xffffu;
-    at = at.x + 1 < high.x ? ivec2(at.x + 1, at.y) : ivec2(low.x, at.y + 1);
-  } while (distances == 0u && at.y < high.y);
-  return distances != 0u;
+    bool is_blocked = (texelFetch(texels, ivec2(shadow.viewport.xy) + low + at, 0).x & 0xffffu) != 0u;
+    int bit = tile_size * at.y + at.x;
+    found[bit >> 5] |= uint(is_blocked) << (bit & 31);
+    at = at.x + 1 < size.x ? ivec2(at.x + 1, at.y) : ivec2(0, at.y + 1);
+  } while (at.y < size.y);
+  return found;
+}
+
+// The pixels of a tile on that side, -1, 0 or 1 along each axis, that are within reach of the tile in the middle.
+uvec2 pixels_in_reach(ivec2 side) {
+  const uint reach = 3u;
+  const uint low = (1u << reach) - 1u, high = low << (uint(tile_size) - reach);
+  uint row = 0x01010101u * (side.x == 0 ? 0xffu : side.x < 0 ? high : low);
+  const uint low_rows = (1u << (reach * uint(tile_size))) - 1u, high_rows = ~0u << (32u - reach * uint(tile_size));
+  return row * uvec2(1u) & (side.y == 0 ? uvec2(~0u) : side.y < 0 ? uvec2(0u, high_rows) : uvec2(low_rows, 0u));
 }
 
 void main() {
@@ -36,18 +48,19 @@ void main() {
   for (uint i = gl_LocalInvocationIndex; i < blocked.length(); i += group * group) {
     ivec2 tile = first + ivec2(i % around, i / around);
     bool exists = all(greaterThanEqual(tile, ivec2(0))) && all(lessThanEqual(tile, last));
-    blocked[i] = exists && has_blocker(tile);
+    blocked[i] = exists ? blocked_pixels(tile) : uvec2(0u);
   }
   barrier();
   ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThan(tile, last))) return;
-  bool changes = false;
-  for (int y = 0; y < 3; ++y) {
-    for (int x = 0; x < 3; ++x) {
-      changes = changes || blocked[(int(gl_LocalInvocationID.y) + y) * around + int(gl_LocalInvocationID.x) + x];
+  uvec2 near = uvec2(0u);
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      ivec2 place = ivec2(gl_LocalInvocationID.xy) + 1 + ivec2(x, y);
+      near |= blocked[place.y * around + place.x] & pixels_in_reach(ivec2(x, y));
     }
   }
-  if (changes) {
+  if (near != uvec2(0u)) {
     list_tile(tile);
   } else {
     list_decided(tile);
