@@ -26,6 +26,7 @@ Visibility visibility(Receiver receiver, Light light) {
   } while (++tap < fetch_floor_blocker_taps);
 #endif
   float radius = fetch_floor_radius > 0.0 ? fetch_floor_radius : texelFetch(kernels, ivec3(receiver.pixel, 0), 0).y;
+#if fetch_floor_filter_taps > 0
   if (radius > 0.0) {
     Scramble scramble = filter_scramble(receiver);
     int i = 0;
@@ -33,5 +34,6 @@ Visibility visibility(Receiver receiver, Light light) {
       sum += fetch(receiver, radius * filter_point(i, scramble, light), light);
     } while (++i < fetch_floor_filter_taps);
   }
+#endif
   return Visibility(dot(sum, vec4(1e-3)), radius, 0.0, false);
 }

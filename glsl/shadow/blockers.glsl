@@ -43,10 +43,9 @@ void add_blockers(inout Blockers blockers, Receiver receiver, vec2 offset, float
   blockers.depth_sum += bilinear(blocks * distance_to, footprint.weight);
 }
 
-// The mean over the points of the set, each with its texel or with the four texels around it; or, where the disc is
-// smaller than the four texels around the receiver, or all points miss what blocks, over these alone. Near the receiver
-// the cone is narrow, so that all taps of a wide disc can miss a blocker that touches the receiver. The tap at the
-// receiver itself can't.
+// The mean over the points of the set, each with its texel or with the four texels around it. Where the disc is smaller
+// than the four texels around the receiver, or no point finds a blocker, these four are read instead: near the receiver
+// the cone is narrow, so that all taps of a wide disc can miss a blocker that touches it.
 Blockers find_blockers(Receiver receiver, float radius, int taps, bool footprints, float bias, Light light) {
   Scramble scramble = blocker_scramble(receiver);
   Blockers blockers = Blockers(0.0, 0.0);

@@ -16,8 +16,8 @@ struct BlockerDistances {
 struct PackedMask {
   const gl::Texture& texels;
   const gl::Texture& notes;
-  // The technique's own texels. Whoever changes them hands this on with the result, if distances spread to pixels at
-  // most 5 pixels away; else filters have to run for all pixels, as they do where there are none.
+  // The technique's own texels. Whoever changes them hands this on with the result, if distances spread at most to the
+  // neighbours of pixels that have one; else filters have to run for all pixels, as they do where there are none.
   BlockerDistances distances = {};
 };
 

@@ -24,8 +24,9 @@ struct Filter {
   // work group loads its pixels with this border into shared memory; if they do not fit into 32 KiB, its invocations
   // read textures instead.
   std::vector<glm::ivec2> border = {};
-  // Whether it leaves a texel as it is if neither that one nor any within 3 pixels of it has a blocker distance. Tiles
-  // of the picture that hold such texels alone (see list_filter_tiles) need not be filtered then.
+  // Whether it leaves a texel as it is if neither that one nor any within 2 pixels of it has a blocker distance. Tiles
+  // of the picture that hold such texels alone (see list_filter_tiles) need not be filtered then. A filter of blocker
+  // distances spreads them at most to neighbouring pixels.
   bool keeps_unblocked = false;
 };
 

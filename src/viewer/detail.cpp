@@ -35,7 +35,7 @@ ParamSet reduced(const ParamSet& params, const Detail& detail) {
   ParamSet result = params;
   if (technique == "truth") return result;
   if (detail.maps > 1) {
-    const bool fewer = params.get_int("cascades.count") >= detail.maps;
+    const bool fewer = params.get_int("cascades.count") > 1;
     if (fewer) divide(result, "cascades.count", detail.maps, 1);
     divide(result, "cascades.size", fewer ? 2 : detail.maps, least_maps);
   }

@@ -16,7 +16,7 @@ struct Detail {
 
 // The parameters with fewer and smaller maps and fewer reads of their technique; never below what still looks like its
 // shadows, nor above what they ask for. Each cascade costs a pass over all casters, whatever its size is, so there are
-// fewer of them, of half the size; where there are too few, they are smaller. The technique `truth` stays as it is.
+// fewer of them, of half the size; a single one is smaller. The technique `truth` stays as it is.
 ParamSet reduced(const ParamSet& params, const Detail& detail);
 // The detail without what leaves these parameters as they are.
 Detail effective(const ParamSet& params, const Detail& detail);

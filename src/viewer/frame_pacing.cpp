@@ -8,7 +8,7 @@ namespace penumbra::viewer {
 
 namespace {
 
-// Each costs at least a quarter of the one before, so that one of them suits.
+// From full detail on.
 constexpr std::array<Detail, FramePacing::level_count> levels{{{},
                                                                {.maps = 2},
                                                                {.maps = 4},
@@ -36,46 +36,48 @@ FramePacing::Step FramePacing::next(double now, bool changed, bool ui_active, in
 }
 
 void FramePacing::go_to(std::size_t level) {
+  left_ms_ = level == level_ + 1 ? std::min(last_ms_, before_last_ms_) : 0;
   level_ = level;
   drawn_at_level_ = slow_in_turn_ = 0;
 }
 
 void FramePacing::forget_travel() {
   most_ = levels.size() - 1;
-  best_.fill(0);
+  ratios_.fill(0);
 }
 
 // Where a smaller picture takes almost as long, such as where casters cost most, the larger one is kept.
 bool FramePacing::is_level_useless() const {
-  const double before = level_ > whole_picture ? best_.at(level_ - 1) : 0;
-  return drawn_at_level_ >= tried && before > 0 && best_.at(level_) > worth * before;
+  return level_ > whole_picture && ratios_.at(level_) > 0 && ratios_.at(level_) < 1 / worth;
 }
 
-// Whether the level before this one was left for what may have been chance.
-bool FramePacing::suits_again(std::size_t level, double beside) const {
-  const double before = level > 0 ? best_.at(level - 1) : 0;
-  return before > 0 && before + beside <= with_room * slow_ms;
+// Whether the level before this one would be quick enough: as far as is known, since what it costs changes with the
+// view, and other work may have slowed it down for a moment.
+bool FramePacing::suits_before(double milliseconds, double beside) const {
+  if (level_ == 0) return false;
+  const double ratio = ratios_.at(level_);
+  if (ratio == 0) return milliseconds < fast_ms;
+  return drawn_at_level_ >= settled && milliseconds * ratio + beside <= with_room * slow_ms;
 }
 
 void FramePacing::drew_travelling(double milliseconds, double beside) {
-  double& best = best_.at(level_);
-  const bool other_view = level_ == most_ && best > 0 && milliseconds > 3 * best;
-  best = best > 0 ? std::min(best, milliseconds) : milliseconds;
+  before_last_ms_ = std::exchange(last_ms_, milliseconds);
   ++drawn_at_level_;
-  if (milliseconds < fast_ms && level_ > 0) return go_to(level_ - 1);
-  const bool slow = milliseconds + beside > slow_ms;
-  slow_in_turn_ = slow ? slow_in_turn_ + 1 : 0;
-  if (drawn_at_level_ >= settled && suits_again(level_, beside)) return go_to(level_ - 1);
-  if (!slow) return;
+  least_ms_ = drawn_at_level_ == 1 ? milliseconds : std::min(least_ms_, milliseconds);
+  slow_in_turn_ = milliseconds + beside > slow_ms ? slow_in_turn_ + 1 : 0;
+  if (drawn_at_level_ == tried && left_ms_ > 0) ratios_.at(level_) = left_ms_ / std::max(least_ms_, 1e-3);
+  if (drawn_at_level_ < tried) return;
+  if (suits_before(milliseconds, beside)) return go_to(level_ - 1);
+  if (slow_in_turn_ < tried) return;
   if (is_level_useless()) {
     most_ = level_ - 1;
     go_to(most_);
-  } else if (other_view) {
+  } else if (level_ == most_ && milliseconds > 3 * least_ms_) {  // another view, in which other levels may help
     forget_travel();
     go_to(whole_picture);
   } else if (level_ < whole_picture) {
     go_to(milliseconds > 4 * slow_ms ? whole_picture : level_ + 1);
-  } else if (level_ < most_ && drawn_at_level_ >= tried && slow_in_turn_ >= tried) {
+  } else if (level_ < most_) {
     go_to(level_ + 1);
   }
 }
@@ -84,10 +86,14 @@ void FramePacing::drew(const Detail& detail, double milliseconds, double beside)
   if (travelling_) return drew_travelling(milliseconds, beside);
   const int divisor = detail.picture;
   if (divisor == 1 && milliseconds < fast_ms) go_to(0);
-  // Cost is about proportional to the number of pixels, so a frame of another size predicts this one's.
+  // Cost is about proportional to the number of pixels, so a frame of another size predicts this one's, and the next
+  // larger one's.
   const double expected = divisor == divisor_ ? milliseconds : milliseconds * divisor * divisor / divisor_ / divisor_;
-  if (expected + beside > slow_ms) divisor_ = std::min(divisor_ * 2, 8);
-  if (expected < fast_ms) divisor_ = std::max(divisor_ / 2, 1);
+  if (expected + beside > slow_ms) {
+    divisor_ = std::min(divisor_ * 2, 8);
+  } else if (expected < fast_ms && 4 * expected + beside <= slow_ms) {
+    divisor_ = std::max(divisor_ / 2, 1);
+  }
 }
 
 }  // namespace penumbra::viewer

@@ -44,20 +44,23 @@ class FramePacing {
   void go_to(std::size_t level);
   void forget_travel();
   bool is_level_useless() const;
-  bool suits_again(std::size_t level, double beside) const;
+  bool suits_before(double milliseconds, double beside) const;
 
   static constexpr std::size_t whole_picture = 3;  // the last level at which the picture has its full size
-  static constexpr int tried = 2;                  // frames at a level before it is judged, and slow ones in turn
-  static constexpr int settled = 20;               // frames at a level before the one before it is tried again
-  static constexpr double with_room = 0.9;         // of the limit: no more than that is tried again
-  static constexpr double worth = 0.75;            // of the time before: a smaller picture has to save that much
+  static constexpr int tried = 2;           // frames at a level before it is judged, and slow ones in turn to leave it
+  static constexpr int settled = 20;        // frames at a level before the one before it is tried again
+  static constexpr double with_room = 0.9;  // of the limit: what is tried again must be expected to take no more
+  static constexpr double worth = 0.75;     // of the time before: a smaller picture has to take no more
 
   bool software_;
   int divisor_ = 4;  // while a parameter changes
   // Of the details while the view travels, from full on: the present one, and the last that is worth it.
   std::size_t level_ = whole_picture, most_ = level_count - 1;
-  std::array<double, level_count> best_{};  // the shortest time of each, milliseconds; 0: not known
+  // How many times longer a picture took at the level before each, when that was left for it; 0: not known.
+  std::array<double, level_count> ratios_{};
   int drawn_at_level_ = 0, slow_in_turn_ = 0;
+  // Milliseconds: of the last two pictures in motion, the least at this level, and at the level that was left for it.
+  double last_ms_ = 0, before_last_ms_ = 0, least_ms_ = 0, left_ms_ = 0;
   bool travelling_ = false;  // the last step was drawn at that level
   double last_change_ = -1e9;
   bool restarted_ = false;  // since the last change

@@ -246,7 +246,11 @@ std::vector<StatusPart> status_parts(const Panel& panel) {
     if (status.drawn_size != full) size += fmt::format(" of {} × {}", full.x, full.y);
     parts.push_back({3, size});
     const Detail detail = effective(panel.state.document.params, status.detail);
-    if (detail.maps > 1) parts.push_back({2, fmt::format("maps 1/{}", detail.maps)});
+    if (detail.maps > 1) {
+      const ParamSet drawn = reduced(panel.state.document.params, {.maps = detail.maps});
+      parts.push_back(
+          {2, fmt::format("maps {} × {}²", drawn.get_int("cascades.count"), drawn.get_int("cascades.size"))});
+    }
     if (detail.reads > 1) parts.push_back({2, fmt::format("taps 1/{}", detail.reads)});
     parts.push_back({4, fmt::format("{:.1f} ms", status.costs_a.frame())});
     parts.push_back({1, session::technique_label(panel.state.document.params)});

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "render/renderer.h"
 #include "session/techniques.h"
 
@@ -38,12 +40,21 @@ TEST(ViewerDetail, MapsAreFewerAndSmallerAndNothingElseIs) {
   }
 }
 
-TEST(ViewerDetail, MapsAreSmallerWhereThereAreTooFewToLeaveOut) {
-  ParamSet params = of("slices_denoised");
-  params.set("cascades.count", 3);
-  const ParamSet fewer = reduced(params, {.maps = 4});
-  EXPECT_EQ(fewer.get_int("cascades.count"), 3);
-  EXPECT_EQ(fewer.get_int("cascades.size"), params.get_int("cascades.size") / 4);
+TEST(ViewerDetail, MapsCostLessFromLevelToLevel) {
+  for (int count = 1; count <= 8; ++count) {
+    ParamSet params = of("slices_denoised");
+    params.set("cascades.count", count);
+    int last_count = count, last_size = params.get_int("cascades.size");
+    for (const int divisor : {2, 4}) {
+      const ParamSet fewer = reduced(params, {.maps = divisor});
+      EXPECT_LE(fewer.get_int("cascades.count"), last_count) << count;
+      EXPECT_LE(fewer.get_int("cascades.size"), last_size) << count;
+      last_count = fewer.get_int("cascades.count");
+      last_size = fewer.get_int("cascades.size");
+    }
+    EXPECT_EQ(last_count, std::max(count / 4, 1));
+    EXPECT_LT(last_size, params.get_int("cascades.size"));
+  }
 }
 
 TEST(ViewerDetail, ReadsAreFewerForTheTechniqueThatIsShownAlone) {

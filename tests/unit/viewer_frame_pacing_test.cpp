@@ -16,13 +16,14 @@ using viewer::FramePacing;
 // Simulates a viewer on a machine that draws the full-size picture in `full_ms` milliseconds.
 class Machine {
  public:
-  explicit Machine(double full_ms, bool software = true) : pacing(software), full_ms_(full_ms) {}
+  explicit Machine(double full_ms, bool software = true, double beside = 0)
+      : pacing(software), full_ms_(full_ms), beside_(beside) {}
 
   // One turn of the viewer's loop, a fraction of a second after the last.
   FramePacing::Step turn(bool changed, int frames = 0, int wanted = 32, bool ui_active = false) {
     now_ += 0.02;
     const FramePacing::Step step = pacing.next(now_, changed, ui_active, frames, wanted);
-    if (step.draw) pacing.drew(step.detail, took(step.detail.picture));
+    if (step.draw) pacing.drew(step.detail, took(step.detail.picture), beside_);
     return step;
   }
   double took(int divisor) const { return full_ms_ / divisor / divisor; }
@@ -38,7 +39,7 @@ class Machine {
   FramePacing pacing;
 
  private:
-  double full_ms_, now_ = 10;
+  double full_ms_, beside_, now_ = 10;
 };
 
 TEST(ViewerPace, AGpuDrawsEveryFrameInFull) {
@@ -139,13 +140,15 @@ TEST(ViewerPace, SlowMachinesDrawSmallerAndFastOnesLarger) {
 }
 
 TEST(ViewerPace, TheSizeSettles) {
-  for (double full = 1; full < 20000; full *= 1.1) {
-    Machine machine(full);
-    const int settled = machine.in_motion();
-    for (int i = 0; i < 10; ++i) EXPECT_EQ(machine.turn(true).detail.picture, settled) << full;
-    // Full-size pictures show the machine's speed as well.
-    for (int i = 0; i < 40; ++i) machine.turn(false);
-    EXPECT_EQ(machine.turn(true).detail.picture, settled) << full;
+  for (const double beside : {0.0, 30.0, 70.0}) {
+    for (double full = 1; full < 20000; full *= 1.1) {
+      Machine machine(full, /*software=*/true, beside);
+      const int settled = machine.in_motion();
+      for (int i = 0; i < 10; ++i) EXPECT_EQ(machine.turn(true).detail.picture, settled) << full;
+      // Full-size pictures show the machine's speed as well.
+      for (int i = 0; i < 40; ++i) machine.turn(false);
+      EXPECT_EQ(machine.turn(true).detail.picture, settled) << full << " beside " << beside;
+    }
   }
 }
 
@@ -174,7 +177,9 @@ class Orbit {
   }
   double took(const Detail& detail) const {
     const double pixels = 1.0 / (detail.picture * detail.picture);
-    return maps_ / (detail.maps * detail.maps) + pixels * (reads_ / detail.reads + rest_);
+    // Fewer cascades, of half the size.
+    const double texels = detail.maps == 1 ? 1.0 : 0.25 / detail.maps;
+    return maps_ * texels + pixels * (reads_ / detail.reads + rest_);
   }
   void becomes(double maps, double reads, double rest) {
     maps_ = maps;
@@ -229,6 +234,28 @@ TEST(ViewerTravel, WhatTheWindowTakesBesideThePictureCounts) {
   EXPECT_EQ(Orbit(400, 100, 30, /*beside=*/40).in_motion(), (Detail{.picture = 2, .maps = 4, .reads = 4}));
   // Panels that take a while are no reason to draw the picture smaller than helps.
   EXPECT_EQ(Orbit(1200, 2, 2, /*beside=*/200).in_motion(), whole);
+}
+
+TEST(ViewerTravel, NothingAlternatesWhateverTheWindowTakes) {
+  for (const double beside : {0.0, 20.0, 40.0, 60.0, 80.0}) {
+    for (double full = 1; full < 20000; full *= 1.1) {
+      Orbit maps(0.95 * full, 0.02 * full, 0.03 * full, beside), pixels(0.1 * full, 0.2 * full, 0.7 * full, beside);
+      for (Orbit* orbit : {&maps, &pixels}) {
+        const Detail settled = orbit->in_motion();
+        for (int i = 0; i < 60; ++i) ASSERT_EQ(orbit->turn(true).detail, settled) << full << " beside " << beside;
+      }
+    }
+  }
+}
+
+// A level that was quick in another view is not tried over and over.
+TEST(ViewerTravel, WhatIsTooSlowInThisViewIsLeftAlone) {
+  Orbit orbit(400, 100, 20);
+  EXPECT_EQ(orbit.in_motion().picture, 1);
+  orbit.becomes(400, 300, 80);
+  const Detail settled = orbit.in_motion();
+  EXPECT_EQ(settled.picture, 2);
+  for (int i = 0; i < 200; ++i) EXPECT_EQ(orbit.turn(true).detail, settled) << i;
 }
 
 TEST(ViewerTravel, NothingShrinksFurtherThanItsLimit) {

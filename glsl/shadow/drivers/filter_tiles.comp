@@ -1,5 +1,6 @@
 // Lists the tiles whose texels a filter can change. The others have no pixel within `reach` of one with a blocker
-// distance (see Filter::keeps_unblocked).
+// distance: a filter of distances spreads them by one pixel, and visibility filters look two pixels far for one (see
+// Filter::keeps_unblocked).
 #include "shared/shadow_block.h"
 #include "shadow/drivers/tiles.glsl"
 #include "shadow/drivers/tile_lists.glsl"
@@ -13,7 +14,8 @@ layout(binding = 12) uniform usampler2D texels;
 layout(binding = 14) uniform usampler2D decisions;
 uniform int has_decisions;
 
-// Bits as in Decision::lit: pixels that have a blocker distance, of decided tiles also those that face away.
+// Bits as in Decision::lit: pixels that have a blocker distance, of decided tiles also those that face away or lie
+// beyond the viewport.
 shared uvec2 blocked[around * around];
 
 uvec2 blocked_pixels(ivec2 tile) {
@@ -39,7 +41,7 @@ uvec2 pixels_in_reach(ivec2 side) {
   const uint low = (1u << reach) - 1u, high = low << (uint(tile_size) - reach);
   uint row = 0x01010101u * (side.x == 0 ? 0xffu : side.x < 0 ? high : low);
   const uint low_rows = (1u << (reach * uint(tile_size))) - 1u, high_rows = ~0u << (32u - reach * uint(tile_size));
-  return row * uvec2(1u) & (side.y == 0 ? uvec2(~0u) : side.y < 0 ? uvec2(0u, high_rows) : uvec2(low_rows, 0u));
+  return uvec2(row) & (side.y == 0 ? uvec2(~0u) : side.y < 0 ? uvec2(0u, high_rows) : uvec2(low_rows, 0u));
 }
 
 void main() {

@@ -11,7 +11,6 @@ int pyramid_level(vec3 position, float radius, Light light, float base, int leve
   return pyramid_level(position, vec2(radius), light, base, levels);
 }
 
-// The texels of a level that a rectangle of these half widths touches; `last` is the level's last texel.
 struct TexelRange {
   ivec2 low, high;
 };
@@ -21,6 +20,7 @@ ivec2 next_texel(ivec2 at, TexelRange range) {
   return at.x < range.high.x ? ivec2(at.x + 1, at.y) : ivec2(range.low.x, at.y + 1);
 }
 
+// The texels of a level that a rectangle of these half widths touches; `last` is the level's last texel.
 TexelRange pyramid_range(vec3 position, vec2 radius, Light light, float base, int level, ivec2 last) {
   vec2 texel = base * texel_extent_at(position, light) * exp2(float(level));
   radius *= outline_reach(light);

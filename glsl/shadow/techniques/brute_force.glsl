@@ -6,20 +6,11 @@ float read_radius(Receiver receiver, Light light) { return search_radius(receive
 #if brute_force_every_texel
 
 // The texels of the square around the receiver that extends `radius` to each side.
-struct Region {
-  ivec2 low, high;
-};
-
-// The texel after one of a region, row by row; above the region after the last one.
-ivec2 next_texel(ivec2 at, Region region) {
-  return at.x < region.high.x ? ivec2(at.x + 1, at.y) : ivec2(region.low.x, at.y + 1);
-}
-
-Region texels_within(Receiver receiver, float radius, Light light) {
+TexelRange texels_within(Receiver receiver, float radius, Light light) {
   vec2 center = map_place(receiver.position, light);
   vec2 texels = radius * outline_reach(light) / texel_extent(receiver, light);
-  return Region(clamp(ivec2(floor(center - texels)), ivec2(0), last_texel()),
-                clamp(ivec2(floor(center + texels)), ivec2(0), last_texel()));
+  return TexelRange(clamp(ivec2(floor(center - texels)), ivec2(0), last_texel()),
+                    clamp(ivec2(floor(center + texels)), ivec2(0), last_texel()));
 }
 
 bool in_shape(vec2 offset, float radius, Light light) {
@@ -59,7 +50,7 @@ Visibility visibility(Receiver receiver, Light light) {
   // The map's own footprint belongs to both discs, as in add_blockers().
   float search =
       narrow_search(receiver, light, light.read_radius).radius + footprint_margin(receiver, light);
-  Region region = texels_within(receiver, search, light);
+  TexelRange region = texels_within(receiver, search, light);
   float sum = 0.0, count = 0.0;
   ivec2 at = region.low;
   do {
