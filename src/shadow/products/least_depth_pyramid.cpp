@@ -1,5 +1,4 @@
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <bit>
 
 #include "../pass_context.h"
@@ -9,56 +8,47 @@ namespace penumbra::shadow {
 
 namespace {
 
-constexpr int base_shift = 2;  // 4 texels of the map along a side
+constexpr int invocation_side = 8;  // texels of the map along a side that an invocation reads
 
-// Everything empty.
-void clear(const gl::Texture& pyramid) {
+// The two finest levels, of what casters were drawn to; all else is empty. Layers are dispatched one by one, since a
+// software rasteriser runs the whole program in groups that have nothing to do.
+void build_finest(const PassContext& context, gl::Pass& pass, const gl::Texture& pyramid) {
   constexpr glm::vec2 empty(1);
-  for (int level = 0; level < pyramid.desc().levels; ++level)
-    gl::glClearTexImage(pyramid.id(), level, GL_RG, GL_FLOAT, &empty);
-}
-
-// Limits a level to what casters were drawn to: the program begins at its first texel in each layer. Returns its
-// largest size.
-glm::ivec2 set_region(const gl::Program& program, const LightProjection& projection, int shift) {
-  glm::ivec2 largest(0);
-  for (int i = 0; i < projection.layers(); ++i) {
-    const TexelRange drawn = projection.drawn_texels(i);
-    program.set(fmt::format("drawn[{}]", i), glm::vec4(drawn.first, drawn.last));
-    largest = glm::max(largest, (drawn.last >> shift) - (drawn.first >> shift) + 1);
+  for (int level = 0; level < 2; ++level) gl::glClearTexImage(pyramid.id(), level, GL_RG, GL_FLOAT, &empty);
+  const gl::Program& program = context.use(pass, "base");
+  for (int level = 0; level < 2; ++level) pyramid.bind_image(static_cast<GLuint>(level), GL_WRITE_ONLY, level);
+  const LightProjection& projection = context.frame().projection;
+  for (int layer = 0; layer < projection.layers(); ++layer) {
+    const TexelRange drawn = projection.drawn_texels(layer);
+    program.set("layer", layer);
+    program.set("drawn", glm::ivec4(drawn.first, drawn.last));
+    const glm::ivec2 size = drawn.last / invocation_side - drawn.first / invocation_side + 1;
+    pass.dispatch(size.x, size.y, 1);
   }
-  program.set("level_shift", shift);
-  return largest;
 }
 
 // RG32F; texel (x, y) of level l holds the least depth of the 4·2^l texels squared from (x, y)·4·2^l on, and the least
 // depth beside an edge among them (1 if they have none).
 const gl::Texture& build(const PassContext& context) {
   const LightProjection& projection = context.frame().projection;
-  const int layers = projection.layers();
   // A power of two, so that a texel of every level covers whole texels of the map.
-  const int side = static_cast<int>(std::bit_ceil(static_cast<unsigned>((projection.size() + 3) / 4)));
+  const int side = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max((projection.size() + 3) / 4, 2))));
   const int levels = std::bit_width(static_cast<unsigned>(side));
   const gl::Texture& pyramid = context.target("levels", {.target = GL_TEXTURE_2D_ARRAY,
                                                          .format = GL_RG32F,
                                                          .width = side,
                                                          .height = side,
-                                                         .layers = layers,
+                                                         .layers = projection.layers(),
                                                          .levels = levels});
   gl::Pass pass(context.device(), {.name = "depth pyramid"});
-  clear(pyramid);
-  for (int level = 0; level < levels; ++level) {
-    const gl::Program& program = context.use(pass, level == 0 ? "base" : "level");
-    const glm::ivec2 size = set_region(program, projection, level + base_shift);
-    if (level > 0) pyramid.bind_image(0, GL_READ_ONLY, level - 1);
+  build_finest(context, pass, pyramid);
+  for (int level = 2; level < levels; ++level) {
+    context.use(pass, "level");
+    pyramid.bind_image(0, GL_READ_ONLY, level - 1);
     pyramid.bind_image(1, GL_WRITE_ONLY, level);
-    pass.dispatch(size.x, size.y, layers);
+    pass.dispatch(side >> level, side >> level, projection.layers());
   }
   return pyramid;
-}
-
-gl::ProgramDesc program(const char* name, const char* from_depth) {
-  return {.name = name, .compute = "shadow/depth_pyramid.comp", .defines = {{"FROM_DEPTH", from_depth}}};
 }
 
 }  // namespace
@@ -73,7 +63,8 @@ Recipe least_depth_pyramid() {
           .reads_light_discs = true,
           .build = build,
           .programs = [](const ParamSet&) {
-            return std::vector<gl::ProgramDesc>{program("base", "1"), program("level", "0")};
+            return std::vector<gl::ProgramDesc>{{.name = "base", .compute = "shadow/depth_blocks.comp"},
+                                                {.name = "level", .compute = "shadow/depth_pyramid.comp"}};
           }};
 }
 
