@@ -5,6 +5,10 @@
 #include "shadow/drivers/tiles.glsl"
 #include "shadow/drivers/tile_lists.glsl"
 
+layout(local_size_x = 8, local_size_y = 8) in;
+
+uniform int row_step;  // see tile_of_invocation()
+
 // The pixels of a tile, low to high exclusive.
 struct Pixels {
   ivec2 low, high;
@@ -215,6 +219,14 @@ int decide_tile(Pixels pixels, out Decision decision) {
 Pixels pixels_of(ivec2 tile) {
   ivec2 origin = ivec2(shadow.viewport.xy), low = tile * tile_size;
   return Pixels(origin + low, origin + min(low + tile_size, ivec2(shadow.viewport.zw)));
+}
+
+
+// Rows of groups that are far apart follow each other: a software rasteriser gives each of its threads one run of
+// groups, and the tiles below a sky take longer than the sky.
+ivec2 tile_of_invocation() {
+  uvec2 group = uvec2(gl_WorkGroupID.x, gl_WorkGroupID.y * uint(row_step) % gl_NumWorkGroups.y);
+  return ivec2(group * gl_WorkGroupSize.xy + gl_LocalInvocationID.xy);
 }
 
 bool in_viewport(ivec2 tile) { return all(lessThan(tile * tile_size, ivec2(shadow.viewport.zw))); }

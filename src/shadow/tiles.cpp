@@ -1,6 +1,8 @@
 #include "tiles.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <span>
 
 namespace penumbra::shadow {
@@ -30,6 +32,15 @@ bool decides_tiles(const LightWork& work) {
   return work.technique.decides_tiles && fits_tiles(work) && work.params().get_bool("mask.tiles");
 }
 
+void dispatch_decisions(gl::Pass& pass, const gl::Program& program, const glm::ivec2& tiles) {
+  const int group = program.group_size().y, rows = (tiles.y + group - 1) / group;
+  // About the golden ratio of the rows, with no factor in common with them: each row comes once.
+  int step = std::max(rows * 5 / 8, 1);
+  while (std::gcd(step, rows) != 1) ++step;
+  program.set("row_step", step);
+  pass.dispatch(tiles.x, tiles.y);
+}
+
 Tiles decide_tiles(const LightWork& work) {
   const PassOwner owner = owner_of(work.technique);
   const PassContext context(work, owner);
@@ -39,11 +50,11 @@ Tiles decide_tiles(const LightWork& work) {
       .format = GL_RGBA32UI, .width = tiles_across(work.mask.width()), .height = tiles_across(work.mask.height())};
   const Tiles tiles{context.target("tile decisions", of_mask), begin_tile_list(context, "tile list", size)};
   gl::Pass pass(work.device, {.name = "tile decisions"});
-  pass.use(work.programs.decide_tiles(work.technique, work.frame.shape.lamp));
+  const gl::Program& program = pass.use(work.programs.decide_tiles(work.technique, work.frame.shape.lamp));
   bind_inputs(work, owner);
   tiles.decisions.bind_image(0, GL_WRITE_ONLY);
   tiles.list.bind_storage(tile_list_binding);
-  pass.dispatch(size.x, size.y);
+  dispatch_decisions(pass, program, size);
   return tiles;
 }
 

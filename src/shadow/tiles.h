@@ -51,6 +51,9 @@ bool fits_tiles(const LightWork& work);
 // Whether, moreover, the technique and the parameters allow to decide them.
 bool decides_tiles(const LightWork& work);
 
+// Runs a program that decides tiles: its main function asks tile_of_invocation() (glsl/shadow/decide_tile.glsl).
+void dispatch_decisions(gl::Pass& pass, const gl::Program& program, const glm::ivec2& tiles);
+
 // In a pass of its own.
 Tiles decide_tiles(const LightWork& work);
 

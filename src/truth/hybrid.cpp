@@ -109,11 +109,12 @@ class HybridFrame {
     const gl::Buffer& list = context_.scratch("tile list", sizeof(head) + sizeof(std::uint32_t) * capacity);
     list.write(std::as_bytes(std::span(&head, 1)));
     gl::Pass pass(context_.device(), {.name = "tile decisions"});
-    use(pass, "tiles").set("has_masked_casters", masked != nullptr ? 1 : 0);
+    const gl::Program& program = use(pass, "tiles");
+    program.set("has_masked_casters", masked != nullptr ? 1 : 0);
     context_.device().sampler({}).bind(unit_masked);
     if (masked != nullptr) masked->bind(unit_masked);
     list.bind_storage(shadow::tile_list_binding);
-    pass.dispatch(tiles.x, tiles.y);
+    shadow::dispatch_decisions(pass, program, tiles);
     return list;
   }
 

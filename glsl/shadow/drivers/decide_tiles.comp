@@ -1,11 +1,10 @@
 // Decides the tiles that no penumbra reaches. All others are listed: the technique computes their pixels.
 #include "shadow/decide_tile.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0, rgba32ui) uniform writeonly restrict uimage2D decisions;
 
 void main() {
-  ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 tile = tile_of_invocation();
   if (!in_viewport(tile)) return;
   Decision decision;
   int outcome = decide_tile(pixels_of(tile), decision);

@@ -3,8 +3,6 @@
 #include "shadow/decide_tile.glsl"
 #include "shadow/techniques/hybrid_mask.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-
 void store_tile(Pixels pixels, Decision decision) {
   Light light = with_layer(frame_light(), decision.layer);
   ivec2 at = pixels.low;
@@ -17,7 +15,7 @@ void store_tile(Pixels pixels, Decision decision) {
 }
 
 void main() {
-  ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 tile = tile_of_invocation();
   if (!in_viewport(tile)) return;
   Pixels pixels = pixels_of(tile);
   Decision decision;
