@@ -1,6 +1,7 @@
 // What the vertices of a surface pass on to its fragments: only what its program, which is compiled for what the
 // surface has, reads. The including file defines SURFACE as `in` or `out`. Its constants:
 //   TEXTURES   bit i: its materials may have texture i (shared/scene_blocks.h)
+//   TRANSFORMS bit i: one of them may read texture i otherwise than at the first texture coordinates as they are
 //   COLORS     the vertices have colours
 //   MASKED     whether an alpha test cuts parts out of it
 //   TRIANGLES  0: lines or points

@@ -25,8 +25,7 @@ struct InstanceBlock {
 #define TEXTURE_EMISSIVE 4
 #define TEXTURE_COUNT 5
 
-// MaterialBlock::flags: bit i: texture i exists; bit 8 + i: it uses the second UV set.
-#define MATERIAL_SECOND_UV 8
+// MaterialBlock::flags: bit i: texture i uses the second UV set.
 #define MATERIAL_UNLIT 0x10000u
 
 struct MaterialBlock {
@@ -36,11 +35,12 @@ struct MaterialBlock {
   float metallic;
   float roughness;
   float normal_scale;
-  float occlusion_strength;
+  float occlusion_strength;  // 0 without that texture
+  // 1 if the material has the texture, else 0: its program may serve materials with more of them.
+  float has_base_color;
+  float has_metallic_roughness;
+  float has_emissive;
   uint flags;
-  uint pad_a;
-  uint pad_b;
-  uint pad_c;
   vec4 uv_rows[TEXTURE_COUNT * 2];  // two rows a texture: u' and v' as factors of u, v, 1
   vec4 pad_d[2];                    // to 256 bytes, where every driver lets a uniform block begin
 };

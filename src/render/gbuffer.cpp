@@ -14,6 +14,7 @@ struct Optional {
 
 gl::ProgramDesc program(scene::SurfaceTraits traits, const Optional& writes) {
   if (!writes.emission) traits.textures &= ~(1u << TEXTURE_EMISSIVE);
+  traits.transforms &= traits.textures;
   gl::ProgramDesc desc{.name = "surfaces",
                        .vertex = "scene/surface.vert",
                        .fragment = "render/gbuffer.frag",

@@ -5,11 +5,14 @@ namespace penumbra::render {
 
 namespace {
 
+constexpr unsigned base_color = 1u << TEXTURE_BASE_COLOR;
+
 // Colours matter only to the alpha test.
 gl::ProgramDesc program(const scene::SurfaceTraits& traits) {
   scene::SurfaceTraits read{.masked = traits.masked, .triangles = traits.triangles};
   if (traits.masked) {
-    read.textures = traits.textures & (1u << TEXTURE_BASE_COLOR);
+    read.textures = traits.textures & base_color;
+    read.transforms = traits.transforms & base_color;
     read.colors = traits.colors;
   }
   return {.name = "surface ids",
@@ -36,9 +39,8 @@ const gl::Texture& draw_surface_ids(gl::Device& device, const SurfaceIdInputs& i
 }
 
 std::vector<gl::ProgramDesc> surface_id_programs() {
-  constexpr unsigned textures = 1u << TEXTURE_BASE_COLOR;
   return {program({}), program({.triangles = false}), program({.masked = true}),
-          program({.textures = textures, .colors = true, .masked = true})};
+          program({.textures = base_color, .transforms = base_color, .colors = true, .masked = true})};
 }
 
 }  // namespace penumbra::render

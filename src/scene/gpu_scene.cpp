@@ -82,6 +82,7 @@ class Builder {
                       .casts = casts_of(primitive, material),
                       .material = materials_.index_of(primitive.material),
                       .traits = {.textures = materials_.textures_of(primitive.material),
+                                 .transforms = materials_.transforms_of(primitive.material),
                                  .colors = !primitive.colors.empty(),
                                  .masked = material.alpha_mode == AlphaMode::mask,
                                  .triangles = primitive.topology == Topology::triangles},

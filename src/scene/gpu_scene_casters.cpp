@@ -1,5 +1,6 @@
 // Draws the depth of shadow casters.
 #include <glm/glm.hpp>
+#include <string>
 
 #include "gl/api.h"
 #include "scene/gpu_scene.h"
@@ -28,7 +29,8 @@ Batch caster_batch(const Instance& instance, CasterFaces faces, bool masked, boo
   Batch batch{.deformed = instance.job >= 0,
               .double_sided = true,
               .material = masked ? instance.material : -1,
-              .alpha_only = masked};
+              .alpha_only = masked,
+              .traits = depth_traits(instance, masked)};
   if (faces == CasterFaces::both) return batch;
   batch.double_sided = false;
   batch.mirrored = (instance.mirrored != flips) != (faces == CasterFaces::back);
@@ -46,15 +48,21 @@ void bind_first_layer(gl::Device& device, const gl::Program& program, const Firs
 
 }  // namespace
 
-gl::ProgramDesc caster_program(const CasterDraw& which, bool masked) {
+SurfaceTraits depth_traits(const Instance& instance, bool masked) {
+  if (!masked) return {};
+  return {.transforms = instance.traits.transforms & (1u << TEXTURE_BASE_COLOR), .masked = true};
+}
+
+gl::ProgramDesc caster_program(const CasterDraw& which, const SurfaceTraits& traits) {
   const bool behind = which.behind != nullptr;
-  gl::ProgramDesc program{.name = masked ? "alpha caster" : "caster",
+  gl::ProgramDesc program{.name = traits.masked ? "alpha caster" : "caster",
                           .vertex = "scene/caster.vert",
                           .defines = {{"LAST_POSE", which.last_pose ? "1" : "0"},
-                                      {"MASKED", masked ? "1" : "0"},
+                                      {"MASKED", traits.masked ? "1" : "0"},
+                                      {"TRANSFORMS", std::to_string(traits.transforms)},
                                       {"MARKS_MOVED", which.marks ? "1" : "0"},
                                       {"BEHIND", behind ? "1" : "0"}}};
-  if (masked || which.marks || behind) program.fragment = "scene/caster.frag";
+  if (traits.masked || which.marks || behind) program.fragment = "scene/caster.frag";
   return program;
 }
 
@@ -78,11 +86,12 @@ void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const Cas
         if (reaches(transformed(part.box, instance.world)) != Overlap::none) list.add_part(instance, i, batch, part);
       }
     }
-    if (list.commands.empty()) continue;
-    const gl::Program& program = pass.use(caster_program(which, masked));
-    program.set("world_to_clip", world_to_clip);
-    if (which.behind != nullptr) bind_first_layer(device, program, *which.behind);
-    draw(device, pass, list);
+    const auto use = [&](const SurfaceTraits& traits) {
+      const gl::Program& program = pass.use(caster_program(which, traits));
+      program.set("world_to_clip", world_to_clip);
+      if (which.behind != nullptr) bind_first_layer(device, program, *which.behind);
+    };
+    draw(device, pass, list, use);
   }
 }
 

@@ -40,7 +40,7 @@ Batch shaded_batch(const Instance& instance) {
 // The same, as far as only depth is drawn.
 Batch depth_batch(const Instance& instance, bool masked) {
   Batch batch = shaded_batch(instance);
-  batch.traits = {};
+  batch.traits = depth_traits(instance, masked);
   if (!masked) batch.material = -1;
   return batch;
 }
@@ -184,8 +184,10 @@ void GpuScene::draw_depth(gl::Device& device, gl::Pass& pass, const glm::mat4& w
         list.add(state_->instances[i], i, depth_batch(state_->instances[i], masked));
     }
     if (list.commands.empty()) continue;
-    pass.use(caster_program({}, masked)).set("world_to_clip", world_to_clip);
-    state_->draw(device, pass, list);
+    const auto use = [&](const SurfaceTraits& traits) {
+      pass.use(caster_program({}, traits)).set("world_to_clip", world_to_clip);
+    };
+    state_->draw(device, pass, list, use);
   }
 }
 
@@ -245,7 +247,7 @@ void GpuScene::draw_caster_geometry(gl::Device& device, gl::Pass& pass, const gl
 }
 
 std::array<gl::ProgramDesc, 2> GpuScene::caster_geometry_programs(const gl::ProgramDesc& stages) {
-  const gl::ProgramDesc caster = caster_program({}, /*masked=*/false);
+  const gl::ProgramDesc caster = caster_program({}, {});
   gl::ProgramDesc both_faces = stages;
   both_faces.vertex = caster.vertex;
   both_faces.defines.insert(both_faces.defines.end(), caster.defines.begin(), caster.defines.end());
@@ -256,11 +258,12 @@ std::array<gl::ProgramDesc, 2> GpuScene::caster_geometry_programs(const gl::Prog
 
 std::vector<gl::ProgramDesc> GpuScene::programs() {
   std::vector<gl::ProgramDesc> programs = Deformer::programs();
-  for (const bool masked : {false, true}) {
+  for (const SurfaceTraits& traits :
+       {SurfaceTraits{}, {.masked = true}, {.transforms = 1u << TEXTURE_BASE_COLOR, .masked = true}}) {
     const FirstLayer first;
     for (const CasterDraw& which :
          {CasterDraw{}, {.marks = true}, {.marks = true, .last_pose = true}, {.behind = &first}})
-      programs.push_back(caster_program(which, masked));
+      programs.push_back(caster_program(which, traits));
   }
   return programs;
 }

@@ -40,13 +40,32 @@ glsl::MaterialBlock block_of(const Material& material) {
   const auto refs = references(material);
   for (std::size_t i = 0; i < refs.size(); ++i) {
     const TextureRef& ref = *refs[i];
-    if (ref.uv_set == 1) block.flags |= 1u << (MATERIAL_SECOND_UV + i);
+    if (ref.uv_set == 1) block.flags |= 1u << i;
     const glm::mat3x2& m = ref.uv_transform;
     for (glm::length_t row = 0; row < 2; ++row) {
       block.uv_rows[2 * i + static_cast<std::size_t>(row)] = glm::vec4(m[0][row], m[1][row], m[2][row], 0.0f);
     }
   }
   return block;
+}
+
+// `textures`: bits as of Materials::textures_of().
+void note_textures(unsigned textures, glsl::MaterialBlock& block) {
+  const auto has = [textures](int which) { return (textures >> which & 1u) != 0 ? 1.0f : 0.0f; };
+  block.has_base_color = has(TEXTURE_BASE_COLOR);
+  block.has_metallic_roughness = has(TEXTURE_METALLIC_ROUGHNESS);
+  block.has_emissive = has(TEXTURE_EMISSIVE);
+  block.occlusion_strength *= has(TEXTURE_OCCLUSION);
+}
+
+// Bit i: texture i is read otherwise than at the first texture coordinates as they are.
+unsigned transforms_in(const Material& material) {
+  unsigned transforms = 0;
+  const auto refs = references(material);
+  for (std::size_t i = 0; i < refs.size(); ++i) {
+    if (refs[i]->uv_set == 1 || refs[i]->uv_transform != TextureRef{}.uv_transform) transforms |= 1u << i;
+  }
+  return transforms;
 }
 
 gl::Texture upload(const Image& image, bool srgb) {
@@ -110,17 +129,23 @@ Materials::Materials(gl::Device& device, const Scene& scene) {
     for (std::size_t i = 0; i < TEXTURE_COUNT; ++i) {
       if (textures_.back()[i].texture != nullptr) present |= 1u << i;
     }
-    blocks.back().flags |= present;
+    note_textures(present, blocks.back());
+    transforms_.push_back(present & transforms_in(material));
   }
   blocks.push_back(block_of(of(scene, -1)));
   textures_.emplace_back();
   present_.push_back(0);
+  transforms_.push_back(0);
   fill_empty_slots();
   make_alpha_slots();
   blocks_ = gl::Buffer::of("materials", std::span<const glsl::MaterialBlock>(blocks));
 }
 
 unsigned Materials::textures_of(int material) const { return present_[static_cast<std::size_t>(index_of(material))]; }
+
+unsigned Materials::transforms_of(int material) const {
+  return transforms_[static_cast<std::size_t>(index_of(material))];
+}
 
 const Material& Materials::of(const Scene& scene, int material) {
   static const Material unspecified;
@@ -143,8 +168,8 @@ Materials::Slot Materials::slot(gl::Device& device, const Scene& scene, const Te
   return {&entry->second, &device.sampler(sampler_of(texture)), &device.sampler(caster_sampler(sampler_of(texture)))};
 }
 
-// Flags keep shaders from using textures that a material lacks, but they may sample them: another material's texture
-// is bound there. A software driver also recompiles a shader for each combination of texture states that it is drawn
+// Shaders do not use textures that a material lacks, but they may sample them: another material's texture is bound
+// there. A software driver also recompiles a shader for each combination of texture states that it is drawn
 // with.
 void Materials::fill_empty_slots() {
   for (std::size_t i = 0; i < TEXTURE_COUNT; ++i) {

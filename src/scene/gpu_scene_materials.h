@@ -21,6 +21,9 @@ class Materials {
   // Bit i: the material has texture i of glsl/shared/scene_blocks.h.
   unsigned textures_of(int material) const;
 
+  // Those of them that it reads with a transform, or at the second texture coordinates.
+  unsigned transforms_of(int material) const;
+
   void bind(int material) const;  // binds its uniform block and textures
 
   // For shadow casters: binds its uniform block, and its base colour as a texture of which the shader may use nothing
@@ -50,6 +53,7 @@ class Materials {
   std::map<const gl::Texture*, gl::Texture> alpha_views_;  // of base colours, without sRGB
   std::vector<Slot> alpha_;                                // by material: what bind_alpha() binds
   std::vector<unsigned> present_;                          // by material: textures_of()
+  std::vector<unsigned> transforms_;                       // by material
   gl::Buffer blocks_;
 };
 

@@ -78,8 +78,10 @@ struct CasterDraw {
   const FirstLayer* behind = nullptr;  // draws only what lies behind these depths
 };
 
-// The program that draws the depth of casters as `which` says; `masked`: where their alpha passes.
-gl::ProgramDesc caster_program(const CasterDraw& which, bool masked);
+// What the program that draws a surface's depth depends on. Nothing unless an alpha test cuts parts out of it.
+SurfaceTraits depth_traits(const Instance& instance, bool masked);
+// The program that draws the depth of casters as `which` says, where their alpha passes if they are masked.
+gl::ProgramDesc caster_program(const CasterDraw& which, const SurfaceTraits& traits);
 
 // A pose on the GPU: the deformed vertices at one time.
 struct PosedVertices {

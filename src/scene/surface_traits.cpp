@@ -12,6 +12,7 @@ namespace penumbra::scene {
 std::vector<gl::Define> surface_defines(const SurfaceTraits& traits, const SurfaceReads& reads) {
   const auto flag = [](bool on) { return on ? "1" : "0"; };
   return {{"TEXTURES", std::to_string(traits.textures)},
+          {"TRANSFORMS", std::to_string(traits.transforms)},
           {"COLORS", flag(traits.colors)},
           {"MASKED", flag(traits.masked)},
           {"TRIANGLES", flag(traits.triangles)},
@@ -21,16 +22,21 @@ std::vector<gl::Define> surface_defines(const SurfaceTraits& traits, const Surfa
 }
 
 SharedTraits share_programs(const std::set<SurfaceTraits>& all) {
-  // The largest sets of textures first, so that what serves a set has found its own program before.
+  // What serves others first, so that it has found its own program before.
   std::vector<SurfaceTraits> ordered(all.begin(), all.end());
-  std::ranges::stable_sort(ordered, std::greater{}, [](const SurfaceTraits& t) { return std::popcount(t.textures); });
+  std::ranges::stable_sort(ordered, std::greater{}, [](const SurfaceTraits& t) {
+    return std::popcount(t.textures) + std::popcount(t.transforms);
+  });
   SharedTraits shared;
   for (const SurfaceTraits& traits : ordered) {
     SurfaceTraits program = traits;
-    for (unsigned texture = 0; texture < TEXTURE_COUNT && program == traits; ++texture) {
+    for (unsigned i = 0; i < 2 * TEXTURE_COUNT && program == traits; ++i) {
+      const unsigned texture = i / 2, bit = 1u << texture;
+      const bool transform = i % 2 != 0, has = (traits.textures & bit) != 0;
+      if (texture == TEXTURE_NORMAL && !has) continue;
       SurfaceTraits more = traits;
-      more.textures |= 1u << texture;
-      if (texture == TEXTURE_NORMAL || more == traits) continue;
+      more.textures |= bit;
+      if (transform) more.transforms |= bit;
       if (const auto found = shared.find(more); found != shared.end()) program = found->second;
     }
     shared.emplace(traits, program);
@@ -40,8 +46,10 @@ SharedTraits share_programs(const std::set<SurfaceTraits>& all) {
 
 std::vector<SurfaceTraits> sample_traits() {
   constexpr unsigned all = (1u << TEXTURE_COUNT) - 1;
-  std::vector<SurfaceTraits> samples{
-      {.textures = all, .colors = true}, {}, {.triangles = false}, {.textures = all, .colors = true, .masked = true}};
+  std::vector<SurfaceTraits> samples{{.textures = all, .transforms = all, .colors = true},
+                                     {},
+                                     {.triangles = false},
+                                     {.textures = all, .transforms = all, .colors = true, .masked = true}};
   for (unsigned texture = 0; texture < TEXTURE_COUNT; ++texture) samples.push_back({.textures = 1u << texture});
   return samples;
 }

@@ -11,10 +11,11 @@ namespace penumbra::scene {
 
 // What a surface has that a shader would spend time on: the programs of surfaces are compiled for these.
 struct SurfaceTraits {
-  unsigned textures = 0;  // bit i: the material may have texture i of glsl/shared/scene_blocks.h
-  bool colors = false;    // colours at its vertices
-  bool masked = false;    // an alpha test cuts parts out of it
-  bool triangles = true;  // false: lines or points
+  unsigned textures = 0;    // bit i: the material may have texture i of glsl/shared/scene_blocks.h
+  unsigned transforms = 0;  // bit i: texture i may be read with a transform, or at the second texture coordinates
+  bool colors = false;      // colours at its vertices
+  bool masked = false;      // an alpha test cuts parts out of it
+  bool triangles = true;    // false: lines or points
 
   auto operator<=>(const SurfaceTraits&) const = default;
 };
@@ -30,8 +31,9 @@ struct SurfaceReads {
 std::vector<gl::Define> surface_defines(const SurfaceTraits& traits, const SurfaceReads& reads);
 
 // Which traits the program of each of these is made for, so that a scene needs fewer programs: a set of textures is
-// served by one of the same scene that has one texture more, or by what serves that one in turn. Its materials then
-// sample up to four textures in vain. The normal map is not added so: it costs more than a texture.
+// served by one of the same scene that has one texture or one transform more, or by what serves that one in turn. Its
+// materials then sample up to four textures in vain. The normal map is not
+// added so: it costs more than a texture.
 using SharedTraits = std::map<SurfaceTraits, SurfaceTraits>;
 SharedTraits share_programs(const std::set<SurfaceTraits>& all);
 

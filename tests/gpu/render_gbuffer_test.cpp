@@ -226,6 +226,38 @@ TEST_F(GBufferTest, EachSurfaceHasWhatItsOwnMaterialHas) {
   }
 }
 
+TEST_F(GBufferTest, TexturesAreReadWhereTheirMaterialsPlaceThem) {
+  // Squares that all lie at the red half of a texture by their first coordinates; by the second ones, or moved by half
+  // of it, they lie at the green half, whose alpha is less. The first three are opaque, the others masked: of these
+  // only the first is left.
+  scene::Scene scene;
+  scene.images.push_back({.name = "halves", .width = 2, .height = 1, .rgba = {255, 0, 0, 255, 0, 255, 0, 0}});
+  scene.textures.push_back(
+      {.image = 0, .mag = scene::Filter::nearest, .min = scene::Filter::nearest, .mipmapped = false});
+  const std::array<scene::TextureRef, 3> placed{
+      {{.texture = 0}, {.texture = 0, .uv_set = 1}, {.texture = 0, .uv_transform = {1, 0, 0, 1, 0.5f, 0}}}};
+  for (int i = 0; i < 6; ++i) {
+    const bool masked = i >= 3;
+    scene.materials.push_back({.base_color_texture = placed.at(static_cast<std::size_t>(i % 3)),
+                               .alpha_mode = masked ? scene::AlphaMode::mask : scene::AlphaMode::opaque});
+    scene::Primitive quad = square();
+    quad.uvs[0].assign(4, {0.25f, 0.5f});
+    quad.uvs[1].assign(4, {0.75f, 0.5f});
+    quad.material = i;
+    const glm::vec3 place(static_cast<float>(i % 3) - 1.0f, masked ? -0.5f : 0.5f, 0);
+    add_node(scene, quad, glm::scale(glm::translate(glm::mat4(1), place), glm::vec3(0.4f)));
+  }
+  draw(scene);
+  const std::array<glm::vec3, 6> albedo{{{1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}, glm::vec3(0), glm::vec3(0)}};
+  const float pixels_per_metre = 0.5f * height / (4 * std::tan(0.5f));
+  for (int i = 0; i < 6; ++i) {
+    const float x = static_cast<float>(i % 3) - 1.0f, y = i >= 3 ? -0.5f : 0.5f;
+    const glm::vec3 seen = pixel3("albedo", width / 2 + static_cast<int>(x * pixels_per_metre),
+                                  height / 2 - static_cast<int>(y * pixels_per_metre));
+    EXPECT_LT(glm::distance(seen, albedo.at(static_cast<std::size_t>(i))), 1e-3f) << i;
+  }
+}
+
 // Four materials: plain, and with one, two and three of the textures base colour, occlusion and normal map. The normal
 // map has a program of its own.
 TEST_F(GBufferTest, SurfacesShareTheProgramOfThoseWithOneTextureMore) {

@@ -63,6 +63,7 @@ TEST_F(LayoutTest, SurfacePrograms) {
   expect_offset(found, "material.emissive", offsetof(MaterialBlock, emissive));
   expect_offset(found, "material.alpha_cutoff", offsetof(MaterialBlock, alpha_cutoff));
   expect_offset(found, "material.occlusion_strength", offsetof(MaterialBlock, occlusion_strength));
+  expect_offset(found, "material.has_base_color", offsetof(MaterialBlock, has_base_color));
   expect_offset(found, "material.flags", offsetof(MaterialBlock, flags));
   expect_offset(found, "material.uv_rows[0]", offsetof(MaterialBlock, uv_rows));
 }
