@@ -11,12 +11,8 @@ layout(binding = 10) uniform sampler2D normal_texture;
 layout(binding = 11) uniform sampler2D occlusion_texture;
 layout(binding = 12) uniform sampler2D emissive_texture;
 
-// Whether a material of this program may have it: known when a program of surfaces is compiled.
-#ifdef TEXTURES
+// Whether a material of this program may have a texture. TEXTURES: bit i: one of them has texture i.
 bool may_have_texture(int which) { return (TEXTURES & (1 << which)) != 0; }
-#else
-bool may_have_texture(int which) { return true; }
-#endif
 
 // Where to read a texture, given both UV sets. TRANSFORMS: bit i: materials of this program may read texture i
 // otherwise than at the first set as it is.

@@ -221,7 +221,6 @@ Pixels pixels_of(ivec2 tile) {
   return Pixels(origin + low, origin + min(low + tile_size, ivec2(shadow.viewport.zw)));
 }
 
-
 // Rows of groups that are far apart follow each other: a software rasteriser gives each of its threads one run of
 // groups, and the tiles below a sky take longer than the sky.
 ivec2 tile_of_invocation() {

@@ -40,9 +40,9 @@ void add_row(Row row, float height, inout Blocks two) {
   vec4 up_to_left = depths_at_edges(vec4(row.ends.x, row.left.xyz), row.left, height);
   vec4 up_to_right = depths_at_edges(vec4(row.left.w, row.right.xyz), row.right, height);
   // Both blocks have the edge between them.
-  vec2 last = depths_at_edges(row.right, vec4(row.ends.y), height).ww;
+  float last = depths_at_edges(row.right, vec4(row.ends.y), height).w;
   two.edges_left = min(min(two.edges_left, up_to_left), up_to_right.xxxx);
-  two.edges_right = min(min(two.edges_right, up_to_right), last.xxyy);
+  two.edges_right = min(min(two.edges_right, up_to_right), vec4(last));
 }
 
 // Two rows, from a corner four texels of the map meet in. Texels outside of the map are empty: their depth is 1.

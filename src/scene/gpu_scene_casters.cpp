@@ -50,7 +50,10 @@ void bind_first_layer(gl::Device& device, const gl::Program& program, const Firs
 
 SurfaceTraits depth_traits(const Instance& instance, bool masked) {
   if (!masked) return {};
-  return {.transforms = instance.traits.transforms & (1u << TEXTURE_BASE_COLOR), .masked = true};
+  constexpr unsigned base_color = 1u << TEXTURE_BASE_COLOR;
+  return {.textures = instance.traits.textures & base_color,
+          .transforms = instance.traits.transforms & base_color,
+          .masked = true};
 }
 
 gl::ProgramDesc caster_program(const CasterDraw& which, const SurfaceTraits& traits) {
@@ -59,6 +62,7 @@ gl::ProgramDesc caster_program(const CasterDraw& which, const SurfaceTraits& tra
                           .vertex = "scene/caster.vert",
                           .defines = {{"LAST_POSE", which.last_pose ? "1" : "0"},
                                       {"MASKED", traits.masked ? "1" : "0"},
+                                      {"TEXTURES", std::to_string(traits.textures)},
                                       {"TRANSFORMS", std::to_string(traits.transforms)},
                                       {"MARKS_MOVED", which.marks ? "1" : "0"},
                                       {"BEHIND", behind ? "1" : "0"}}};

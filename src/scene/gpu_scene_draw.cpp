@@ -258,8 +258,11 @@ std::array<gl::ProgramDesc, 2> GpuScene::caster_geometry_programs(const gl::Prog
 
 std::vector<gl::ProgramDesc> GpuScene::programs() {
   std::vector<gl::ProgramDesc> programs = Deformer::programs();
-  for (const SurfaceTraits& traits :
-       {SurfaceTraits{}, {.masked = true}, {.transforms = 1u << TEXTURE_BASE_COLOR, .masked = true}}) {
+  constexpr unsigned base_color = 1u << TEXTURE_BASE_COLOR;
+  for (const SurfaceTraits& traits : {SurfaceTraits{},
+                                      {.masked = true},
+                                      {.textures = base_color, .masked = true},
+                                      {.textures = base_color, .transforms = base_color, .masked = true}}) {
     const FirstLayer first;
     for (const CasterDraw& which :
          {CasterDraw{}, {.marks = true}, {.marks = true, .last_pose = true}, {.behind = &first}})

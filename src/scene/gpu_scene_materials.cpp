@@ -28,14 +28,19 @@ float cutoff_of(const Material& material) {
   return material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : -1.0f;
 }
 
-glsl::MaterialBlock block_of(const Material& material) {
+// `textures`: bit i: it has texture i.
+glsl::MaterialBlock block_of(const Material& material, unsigned textures) {
+  const auto has = [textures](int which) { return (textures >> which & 1u) != 0 ? 1.0f : 0.0f; };
   glsl::MaterialBlock block{.base_color = material.base_color,
                             .emissive = material.emissive,
                             .alpha_cutoff = cutoff_of(material),
                             .metallic = material.metallic,
                             .roughness = material.roughness,
                             .normal_scale = material.normal_scale,
-                            .occlusion_strength = material.occlusion_strength};
+                            .occlusion_strength = material.occlusion_strength * has(TEXTURE_OCCLUSION),
+                            .has_base_color = has(TEXTURE_BASE_COLOR),
+                            .has_metallic_roughness = has(TEXTURE_METALLIC_ROUGHNESS),
+                            .has_emissive = has(TEXTURE_EMISSIVE)};
   if (material.unlit) block.flags |= MATERIAL_UNLIT;
   const auto refs = references(material);
   for (std::size_t i = 0; i < refs.size(); ++i) {
@@ -47,15 +52,6 @@ glsl::MaterialBlock block_of(const Material& material) {
     }
   }
   return block;
-}
-
-// `textures`: bits as of Materials::textures_of().
-void note_textures(unsigned textures, glsl::MaterialBlock& block) {
-  const auto has = [textures](int which) { return (textures >> which & 1u) != 0 ? 1.0f : 0.0f; };
-  block.has_base_color = has(TEXTURE_BASE_COLOR);
-  block.has_metallic_roughness = has(TEXTURE_METALLIC_ROUGHNESS);
-  block.has_emissive = has(TEXTURE_EMISSIVE);
-  block.occlusion_strength *= has(TEXTURE_OCCLUSION);
 }
 
 // Bit i: texture i is read otherwise than at the first texture coordinates as they are.
@@ -123,16 +119,15 @@ gl::SamplerDesc caster_sampler(gl::SamplerDesc sampler) {
 Materials::Materials(gl::Device& device, const Scene& scene) {
   std::vector<glsl::MaterialBlock> blocks;
   for (const Material& material : scene.materials) {
-    blocks.push_back(block_of(material));
     textures_.push_back(slots(device, scene, material));
     unsigned& present = present_.emplace_back(0u);
     for (std::size_t i = 0; i < TEXTURE_COUNT; ++i) {
       if (textures_.back()[i].texture != nullptr) present |= 1u << i;
     }
-    note_textures(present, blocks.back());
     transforms_.push_back(present & transforms_in(material));
+    blocks.push_back(block_of(material, present));
   }
-  blocks.push_back(block_of(of(scene, -1)));
+  blocks.push_back(block_of(of(scene, -1), 0));
   textures_.emplace_back();
   present_.push_back(0);
   transforms_.push_back(0);
@@ -168,9 +163,9 @@ Materials::Slot Materials::slot(gl::Device& device, const Scene& scene, const Te
   return {&entry->second, &device.sampler(sampler_of(texture)), &device.sampler(caster_sampler(sampler_of(texture)))};
 }
 
-// Shaders do not use textures that a material lacks, but they may sample them: another material's texture is bound
-// there. A software driver also recompiles a shader for each combination of texture states that it is drawn
-// with.
+// Shaders may sample textures that a material lacks, and cancel them by a factor of 0. So that what they read is
+// finite, another material's texture is bound there. A software driver also recompiles a shader for each combination of
+// texture states that it is drawn with.
 void Materials::fill_empty_slots() {
   for (std::size_t i = 0; i < TEXTURE_COUNT; ++i) {
     const auto filled =

@@ -31,9 +31,9 @@ struct SurfaceReads {
 std::vector<gl::Define> surface_defines(const SurfaceTraits& traits, const SurfaceReads& reads);
 
 // Which traits the program of each of these is made for, so that a scene needs fewer programs: a set of textures is
-// served by one of the same scene that has one texture or one transform more, or by what serves that one in turn. Its
-// materials then sample up to four textures in vain. The normal map is not
-// added so: it costs more than a texture.
+// served by one of the same scene that has one texture more, with or without a transform, or one transform more, or by
+// what serves that one in turn. Its materials then sample up to four textures in vain. The normal map is not added so,
+// as it costs more than a texture; its transform is.
 using SharedTraits = std::map<SurfaceTraits, SurfaceTraits>;
 SharedTraits share_programs(const std::set<SurfaceTraits>& all);
 

@@ -302,6 +302,23 @@ TEST_F(GBufferTest, SurfacesShareTheProgramOfThoseWithOneTextureMore) {
   EXPECT_EQ(seen(0, "albedo"), albedo[0]);
 }
 
+TEST_F(GBufferTest, ASurfaceWithoutAMaterialIsNotOccludedByTheTextureOfAnother) {
+  scene::Scene scene;
+  scene.images = {{.name = "dark", .rgba = {0, 0, 0, 255}}};
+  scene.textures.push_back({.image = 0, .mipmapped = false});
+  scene.materials = {{.occlusion_texture = {.texture = 0}}};
+  for (const int material : {0, -1}) {
+    scene::Primitive quad = square();
+    quad.uvs[0].assign(4, {0.5f, 0.5f});
+    quad.material = material;
+    const glm::vec3 place(material == 0 ? -1 : 1, 0, 0);
+    add_node(scene, quad, glm::scale(glm::translate(glm::mat4(1), place), glm::vec3(0.5f)));
+  }
+  draw(scene);
+  EXPECT_EQ(pixel3("material", width / 2 - 11, height / 2).z, 0);
+  EXPECT_EQ(pixel3("material", width / 2 + 11, height / 2).z, 1);
+}
+
 TEST_F(GBufferTest, HasTwentyBytesAPixelBesidesDepthUntilMoreIsRead) {
   const auto bytes = [&] {
     std::size_t sum = 0;

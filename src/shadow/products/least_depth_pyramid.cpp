@@ -8,7 +8,7 @@ namespace penumbra::shadow {
 
 namespace {
 
-constexpr int invocation_side = 8;  // texels of the map along a side that an invocation reads
+constexpr int invocation_side = 8;  // texels of the map along a side for each invocation: must match depth_blocks.comp
 
 // The two finest levels, of what casters were drawn to; all else is empty. Layers are dispatched one by one, since a
 // software rasteriser runs the whole program in groups that have nothing to do.
