@@ -1,6 +1,7 @@
 // Decides tiles of 8 × 8 pixels that no penumbra reaches: where the shadow map has no edge within the disc that can
 // block light from a tile's receivers, it shows one surface there, and each receiver lies either on that surface and is
 // lit, or below it and is in shadow.
+#include "lib/rows.glsl"
 #include "shadow/decide.glsl"
 #include "shadow/drivers/tiles.glsl"
 #include "shadow/drivers/tile_lists.glsl"
@@ -15,9 +16,7 @@ struct Pixels {
 };
 
 // The pixel after one of them, row by row; above them after the last one.
-ivec2 next_pixel(ivec2 at, Pixels pixels) {
-  return at.x + 1 < pixels.high.x ? ivec2(at.x + 1, at.y) : ivec2(pixels.low.x, at.y + 1);
-}
+ivec2 next_pixel(ivec2 at, Pixels pixels) { return next_in_rows(at, pixels.low.x, pixels.high.x - 1, 1); }
 
 vec2 depth_range(Pixels pixels) {
   vec2 range = vec2(2.0, -1.0);

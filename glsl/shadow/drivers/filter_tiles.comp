@@ -2,6 +2,7 @@
 // distance: a filter of distances spreads them by one pixel, and visibility filters look two pixels far for one (see
 // Filter::keeps_unblocked).
 #include "shared/shadow_block.h"
+#include "lib/rows.glsl"
 #include "shadow/drivers/tiles.glsl"
 #include "shadow/drivers/tile_lists.glsl"
 
@@ -30,7 +31,7 @@ uvec2 blocked_pixels(ivec2 tile) {
     bool is_blocked = (texelFetch(texels, ivec2(shadow.viewport.xy) + low + at, 0).x & 0xffffu) != 0u;
     int bit = tile_size * at.y + at.x;
     found[bit >> 5] |= uint(is_blocked) << (bit & 31);
-    at = at.x + 1 < size.x ? ivec2(at.x + 1, at.y) : ivec2(0, at.y + 1);
+    at = next_in_rows(at, 0, size.x - 1, 1);
   } while (at.y < size.y);
   return found;
 }

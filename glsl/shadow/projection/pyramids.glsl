@@ -1,5 +1,6 @@
 // Pyramids over the light's layer of the map, whose level 0 has one texel for `base` texels of the map along each axis.
 #include "shadow/projection/map.glsl"
+#include "lib/rows.glsl"
 
 // The finest level of so many at which a rectangle of these half widths touches at most 2 × 2 texels.
 int pyramid_level(vec3 position, vec2 radius, Light light, float base, int levels) {
@@ -16,9 +17,7 @@ struct TexelRange {
 };
 
 // The texel after one of a range, row by row; above the range after the last one.
-ivec2 next_texel(ivec2 at, TexelRange range) {
-  return at.x < range.high.x ? ivec2(at.x + 1, at.y) : ivec2(range.low.x, at.y + 1);
-}
+ivec2 next_texel(ivec2 at, TexelRange range) { return next_in_rows(at, range.low.x, range.high.x, 1); }
 
 // The texels of a level that a rectangle of these half widths touches; `last` is the level's last texel.
 TexelRange pyramid_range(vec3 position, vec2 radius, Light light, float base, int level, ivec2 last) {

@@ -1,5 +1,6 @@
 // Variance soft shadow maps: both steps of percentage-closer soft shadows read the mean and the variance of depth in a
 // kernel from a summed-area table. See docs/techniques.md.
+#include "lib/rows.glsl"
 #include "shadow/search.glsl"
 #include "shadow/sampling.glsl"
 #include "shadow/depth_moments.glsl"
@@ -30,7 +31,7 @@ Share compared_texels(Receiver receiver, vec2 half_width, float bias, Light ligh
     vec4 blocks = width * height * vec4(lessThan(depths, blocking_depths_at(receiver, at, bias)));
     share.hidden += dot(blocks, vec4(1.0));
     share.height_sum += dot(blocks, receiver.position.z - depths);
-    block = block.x + 2 <= last.x ? ivec2(block.x + 2, block.y) : ivec2(first.x, block.y + 2);
+    block = next_in_rows(block, first.x, last.x, 2);
   } while (block.y <= last.y);
   float area = 4.0 * half_width.x * half_width.y;
   return Share(share.hidden / area, share.height_sum / area);
