@@ -39,13 +39,14 @@ void add_row(Row row, float height, inout Blocks two) {
   two.least_right = min(two.least_right, row.right);
   vec4 up_to_left = depths_at_edges(vec4(row.ends.x, row.left.xyz), row.left, height);
   vec4 up_to_right = depths_at_edges(vec4(row.left.w, row.right.xyz), row.right, height);
-  // Both blocks have the edge between them.
   float last = depths_at_edges(row.right, vec4(row.ends.y), height).w;
+  // The edge between both blocks, up_to_right.x, counts for each of them.
   two.edges_left = min(min(two.edges_left, up_to_left), up_to_right.xxxx);
   two.edges_right = min(min(two.edges_right, up_to_right), vec4(last));
 }
 
-// Two rows, from a corner four texels of the map meet in. Texels outside of the map are empty: their depth is 1.
+// The two rows that meet at a corner of texels, from the texel before the corner on. Texels outside of the map are
+// empty: their depth is 1.
 void read_rows(ivec2 corner, Light light, out Row row, out Row next) {
   vec4 cells[5];
   for (int i = 0; i < 5; ++i) cells[i] = gather_stored(vec2(corner + ivec2(2 * i, 0)), light);
