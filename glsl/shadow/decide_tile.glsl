@@ -79,7 +79,7 @@ Layers layers_of(Receiver shallowest, Receiver deepest, SearchRadii radii, float
   if (layers.last == light.layers - 1) {
     layers.outside = edge > 1.0;
   } else if (cascades_seam != cascades_seam_none && edge > 1.0 - cascades_blend) {
-    ++layers.last;
+    layers.last = next_layer(layers.last, deepest.position, radii.most + box_radius, light);
   }
   return layers;
 }

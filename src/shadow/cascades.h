@@ -82,6 +82,7 @@ struct Cascades {
   glm::dvec3 anchor{0};
   int size = 0;  // texels along a side
   std::vector<Cascade> items;
+  bool composed = false;  // an engine's: the map of the last one is made from the others' (see sun_projection())
   CutOff cut_off;
 
   // Width and height of a texel, metres.

@@ -8,7 +8,7 @@ namespace {
 
 // Whether each layer lies in the atlas.
 void check_atlas(const FinishedMaps& maps, int light) {
-  const int layers = maps.projection.layers(), size = maps.projection.size();
+  const int layers = maps.projection.given_layers(), size = maps.projection.size();
   if (maps.atlas.size() != static_cast<std::size_t>(layers)) {
     fail("soft shadows: light {} has an atlas of {} maps for {} layers", light, maps.atlas.size(), layers);
   }
@@ -45,7 +45,7 @@ void check_maps(const Light& given, TextureChecks& checks) {
   const TextureChecks::Key key{.id = depth.id,
                                .width = depth.width,
                                .height = depth.height,
-                               .layers = projection.layers(),
+                               .layers = projection.given_layers(),
                                .atlas = !maps.atlas.empty()};
   const TextureChecks::Source* found = checks.known_source(key);
   const bool known = found != nullptr, atlas = !maps.atlas.empty();
@@ -70,7 +70,7 @@ void check_maps(const Light& given, TextureChecks& checks) {
     fail("soft shadows: light {} has maps of {}×{} and a projection for {}", light, depth.width, depth.height,
          projection.size());
   }
-  if (!known && !atlas) check_map_texture(depth, projection.layers(), light);
+  if (!known && !atlas) check_map_texture(depth, projection.given_layers(), light);
   checks.add(key, source);
 }
 

@@ -1,5 +1,6 @@
 #include "copies.h"
 
+#include <algorithm>
 #include <string>
 
 #include "light_frame.h"
@@ -23,11 +24,56 @@ gl::ProgramDesc copy_program(const Source& source) {
           .defines = {{"ARRAY", array ? "1" : "0"}, {"SAMPLES", source.has_samples() ? "1" : "0"}}};
 }
 
-gl::ProgramDesc maps_program(bool atlas) {
-  return {.name = "copy maps",
+gl::ProgramDesc maps_program(bool atlas, bool compose) {
+  return {.name = compose ? "compose map" : "copy maps",
           .vertex = "shared/full_screen.vert",
           .fragment = "shadow/drivers/copy_maps.frag",
-          .defines = {{"ATLAS", atlas ? "1" : "0"}}};
+          .defines = {{"ATLAS", atlas ? "1" : "0"}, {"COMPOSE", compose ? "1" : "0"}}};
+}
+
+const gl::Program& use_maps(gl::Device& device, gl::Pass& pass, const FinishedMaps& maps, int layer, bool compose) {
+  const bool atlas = !maps.atlas.empty();
+  const gl::Program& program = pass.use(maps_program(atlas, compose));
+  if (atlas) {
+    program.set("corner", maps.atlas[static_cast<std::size_t>(layer)]);
+  } else {
+    program.set("layer", layer);
+  }
+  program.set("reversed", maps.reversed ? 1 : 0);
+  device.sampler({}).bind(first_pass_unit);
+  gl::glBindTextureUnit(first_pass_unit, maps.depth.id);
+  return program;
+}
+
+// Into the last layer of a projection, which holds all others, the coarsest first: a finer one replaces what it shows.
+void compose_map(gl::Device& device, const gl::Texture& target, const FinishedMaps& maps) {
+  const Cascades& cascades = maps.projection.cascades();
+  const int count = maps.projection.given_layers();
+  const Cascade& all = cascades.items.back();
+  const glm::dvec2 texel(cascades.texel(count));
+  for (int layer = count - 1; layer >= 0; --layer) {
+    const Cascade& given = cascades.items[static_cast<std::size_t>(layer)];
+    gl::Attachment depth{.texture = &target, .layer = count};
+    if (layer == count - 1) depth.clear = glm::vec4(1);
+    gl::Pass pass(device, {.name = "compose map", .depth = depth, .depth_write = true});
+    const gl::Program& program = use_maps(device, pass, maps, layer, true);
+    const glm::dvec2 low(given.center - given.half_extent), origin(all.center - all.half_extent);
+    const glm::dvec2 scale = texel / glm::dvec2(cascades.texel(layer));
+    const double range = static_cast<double>(given.far_z) - given.near_z;
+    const double all_range = static_cast<double>(all.far_z) - all.near_z;
+    const float most_slope = 4;  // metres along the light for each across
+    program.set("place", glm::vec4(scale, (origin - low) / glm::dvec2(cascades.texel(layer))));
+    program.set("last", glm::ivec2(cascades.size - 1));
+    program.set("depths", glm::vec2(range / all_range, (given.near_z - all.near_z) / all_range));
+    const glm::vec2 size = cascades.texel(layer);
+    program.set("spread", static_cast<float>(most_slope * std::max(size.x, size.y) / range));
+    const glm::dvec2 high(given.center + given.half_extent);
+    const glm::ivec2 first(glm::ceil((low - origin) / texel - 0.5)), last(glm::floor((high - origin) / texel - 0.5));
+    const glm::ivec2 from = glm::max(first, glm::ivec2(0)), to = glm::min(last, glm::ivec2(cascades.size - 1));
+    if (glm::any(glm::greaterThan(from, to))) continue;
+    pass.set_viewport(from.x, from.y, to.x - from.x + 1, to.y - from.y + 1);
+    pass.draw_full_screen();
+  }
 }
 
 // One of the textures, and the format of its copy.
@@ -81,29 +127,25 @@ Inputs with_copies(gl::Device& device, ViewState& view, const Inputs& inputs) {
 
 const gl::Texture& copy_maps(gl::Device& device, std::string_view name, const FinishedMaps& maps) {
   const gl::Texture& target = shadow_map_target(device, name, maps.projection);
-  const bool atlas = !maps.atlas.empty();
-  for (int layer = 0; layer < maps.projection.layers(); ++layer) {
+  for (int layer = 0; layer < maps.projection.given_layers(); ++layer) {
     gl::Pass pass(device, {.name = "copy maps",
-                           .depth = gl::Attachment{.texture = &target, .layer = layer, .clear = glm::vec4(0)},
-                           .depth_test = gl::DepthTest::greater_equal,
+                           .depth = gl::Attachment{.texture = &target, .layer = layer, .dont_care = true},
                            .depth_write = true});
-    const gl::Program& program = pass.use(maps_program(atlas));
-    if (atlas) {
-      program.set("corner", maps.atlas[static_cast<std::size_t>(layer)]);
-    } else {
-      program.set("layer", layer);
-    }
-    program.set("reversed", maps.reversed ? 1 : 0);
-    device.sampler({}).bind(first_pass_unit);
-    gl::glBindTextureUnit(first_pass_unit, maps.depth.id);
+    use_maps(device, pass, maps, layer, false);
     pass.draw_full_screen();
   }
+  if (maps.projection.given_layers() < maps.projection.layers()) compose_map(device, target, maps);
   return target;
 }
 
-std::array<gl::ProgramDesc, 5> copy_programs() {
-  return {copy_program({.target = GL_TEXTURE_2D_ARRAY}), copy_program({.target = GL_TEXTURE_2D_MULTISAMPLE}),
-          copy_program({.target = GL_TEXTURE_2D_MULTISAMPLE_ARRAY}), maps_program(true), maps_program(false)};
+std::array<gl::ProgramDesc, 7> copy_programs() {
+  return {copy_program({.target = GL_TEXTURE_2D_ARRAY}),
+          copy_program({.target = GL_TEXTURE_2D_MULTISAMPLE}),
+          copy_program({.target = GL_TEXTURE_2D_MULTISAMPLE_ARRAY}),
+          maps_program(true, false),
+          maps_program(false, false),
+          maps_program(true, true),
+          maps_program(false, true)};
 }
 
 }  // namespace penumbra::shadow

@@ -16,6 +16,6 @@ Inputs with_copies(gl::Device& device, ViewState& view, const Inputs& inputs);
 // The layers of an atlas, or of maps that are reversed, as the library's own maps are: see shadow_map_target().
 const gl::Texture& copy_maps(gl::Device& device, std::string_view name, const FinishedMaps& maps);
 
-std::array<gl::ProgramDesc, 5> copy_programs();
+std::array<gl::ProgramDesc, 7> copy_programs();
 
 }  // namespace penumbra::shadow

@@ -145,21 +145,36 @@ void check_places(const Cascades& cascades, const SunMatrices& maps, std::size_t
   }
 }
 
-// A receiver's search begins in the last layer, which shows how near to the light its casters can be.
-void check_last(const Cascades& cascades) {
+// Whether the last layer holds all others. A receiver's search begins there: it shows how near to the light casters
+// are.
+bool last_holds_all(const Cascades& cascades) {
   const Cascade& last = cascades.items.back();
   const glm::dvec2 low = last.center - last.half_extent, high = last.center + last.half_extent;
   const double rounding = 0.5 * half_side_of(last) / cascades.size;
-  for (std::size_t layer = 0; layer + 1 < cascades.items.size(); ++layer) {
-    const Cascade& cascade = cascades.items[layer];
+  return std::ranges::all_of(cascades.items, [&](const Cascade& cascade) {
     const glm::dvec2 from = cascade.center - cascade.half_extent, to = cascade.center + cascade.half_extent;
-    if (glm::any(glm::lessThan(from, low - rounding)) || glm::any(glm::greaterThan(to, high + rounding))) {
-      refuse(layer, "reaches beyond the last one, which must hold all others: receivers look for casters there first");
-    }
-    if (cascade.near_z < last.near_z - rounding) {
-      refuse(layer, "begins nearer to the sun than the last one, which must hold all casters of the others");
-    }
+    return glm::all(glm::greaterThanEqual(from, low - rounding)) && glm::all(glm::lessThanEqual(to, high + rounding)) &&
+           cascade.near_z >= last.near_z - rounding;
+  });
+}
+
+// Adds a layer that holds all others, whose map copy_maps() makes from theirs.
+void add_composed(Cascades& cascades) {
+  if (cascades.items.size() == max_cascades)
+    fail("shadow maps by the caller's matrices: the last of {} layers must hold all others", max_cascades);
+  glm::dvec2 low(1e30), high(-1e30);
+  Cascade all{.near_z = 1e30f, .far_z = -1e30f};
+  for (const Cascade& cascade : cascades.items) {
+    low = glm::min(low, glm::dvec2(cascade.center - cascade.half_extent));
+    high = glm::max(high, glm::dvec2(cascade.center + cascade.half_extent));
+    all.near_z = std::min(all.near_z, cascade.near_z);
+    all.far_z = std::max(all.far_z, cascade.far_z);
   }
+  all.center = glm::vec2(0.5 * (low + high));
+  all.half_extent = glm::vec2(0.5 * (high - low));
+  all.world_to_clip = clip_from_world(cascades, all);
+  cascades.items.push_back(all);
+  cascades.composed = true;
 }
 
 void check_casters(const Cascades& cascades, std::size_t layer, const Box& casters) {
@@ -266,7 +281,7 @@ LightProjection sun_projection(const SunMatrices& maps) {
     check_places(cascades, maps, layer);
     check_casters(cascades, layer, maps.casters);
   }
-  check_last(cascades);
+  if (!last_holds_all(cascades)) add_composed(cascades);
   LightProjection projection(std::move(cascades));
   if (const std::string fault = projection.fault(); !fault.empty()) {
     fail("shadow maps by the caller's matrices: {}", fault);

@@ -11,8 +11,9 @@ namespace penumbra::shadow {
 struct SunMatrices {
   // From world space to each layer's clip space, finest layer first; 1 to max_layers of them. Orthographic: x, y in
   // -1..1 within the map, z growing away from the light. A receiver reads the first layer that holds its search disc,
-  // so layers may overlap or contain each other. The last one must hold all others: in it receivers look first for how
-  // near to the light casters can be. What lies beyond a far plane casts and receives no shadow.
+  // so layers may overlap or contain each other. In the last one receivers look first for how near to the light casters
+  // can be: if it does not hold all others, the projection gets one more that does, whose map is made from the given
+  // ones in each frame. What lies beyond a far plane casts and receives no shadow.
   std::span<const glm::mat4> world_to_clip;
   bool depth_zero_to_one = true;  // clip-space z in 0..1; else -1..1
   bool reversed = false;          // the map stores 1 near and 0 far; else 0 near and 1 far: see FinishedMaps::reversed
@@ -31,7 +32,8 @@ struct SunMatrices {
 //   - maps that do not look along the sun's rays to a quarter of a texel, are mirrored, are turned against each other,
 //     or store 1 near the light and are not said to be reversed;
 //   - maps whose near plane lies behind casters above them;
-//   - a last layer that does not hold the others, or that begins farther from the light than one of them;
+//   - max_layers of them, of which the last does not hold the others, or begins farther from the light than one of
+//   them;
 //   - a finer layer behind a coarser one, input that is not finite, a wrong number of layers or size.
 // With a square sun, render() refuses maps whose x axis is not horizontal: the square is that of light_axes().
 LightProjection sun_projection(const SunMatrices& maps);

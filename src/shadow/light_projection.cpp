@@ -182,6 +182,11 @@ int LightProjection::layers() const {
   return std::visit([](const auto& maps) { return layers_of(maps); }, maps_);
 }
 
+int LightProjection::given_layers() const {
+  const auto* sun = std::get_if<Cascades>(&maps_);
+  return layers() - (sun != nullptr && sun->composed ? 1 : 0);
+}
+
 int LightProjection::size() const {
   return std::visit([](const auto& maps) { return maps.size; }, maps_);
 }

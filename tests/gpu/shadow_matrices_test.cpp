@@ -22,12 +22,19 @@ constexpr int size = 1024;
 
 // Slices of the view as engines fit them, neither of which holds the other, and a map that holds both; rolled about the
 // sun's rays.
+glm::mat4 slice(const glm::vec3& to_light, const glm::vec3& target, float half, float away) {
+  return glm::orthoRH_ZO(-half, half, -half, half, 1.0f, 2 * away) *
+         glm::lookAt(target + away * to_light, target, glm::vec3(0.4f, 1, 0.2f));
+}
+
 std::vector<glm::mat4> slices(const glm::vec3& to_light) {
-  const auto slice = [&](const glm::vec3& target, float half, float away) {
-    return glm::orthoRH_ZO(-half, half, -half, half, 1.0f, 2 * away) *
-           glm::lookAt(target + away * to_light, target, glm::vec3(0.4f, 1, 0.2f));
-  };
-  return {slice({0, 0, 3}, 3, 30), slice({0, 0, -1}, 3.5f, 30), slice({0, 0, 0}, 9, 40)};
+  return {slice(to_light, {0, 0, 3}, 3, 30), slice(to_light, {0, 0, -1}, 3.5f, 30), slice(to_light, {0, 0, 0}, 9, 40)};
+}
+
+// One for each slice of the view, as engines have them: none holds another.
+std::vector<glm::mat4> disjoint_slices(const glm::vec3& to_light) {
+  const std::vector<glm::mat4> all = slices(to_light);
+  return {all[0], all[1]};
 }
 
 class ShadowMatrices : public TriangleTest {
@@ -80,6 +87,7 @@ class ShadowMatrices : public TriangleTest {
     std::vector<glm::ivec2> corners{{size + 40, size}, {0, 0}, {size + 7, 0}};
 
     explicit Atlas(const gl::Texture& maps) {
+      corners.resize(static_cast<std::size_t>(maps.desc().layers));
       for (int i = 0; i < maps.desc().layers; ++i) {
         const glm::ivec2 corner = corners[static_cast<std::size_t>(i)];
         gl::glCopyImageSubData(maps.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, i, texture.id(), GL_TEXTURE_2D, 0, corner.x,
@@ -95,6 +103,35 @@ class ShadowMatrices : public TriangleTest {
     params.set("cascades.size", size);
     params.set("sun.shape", shape_);
     return renderer_->render(scene_, params, adjust);
+  }
+
+  // Where the maps hold what the view shows.
+  void expect_own_shadows(const std::vector<glm::mat4>& matrices) {
+    const auto is_held = [&](const glm::vec3& at) {
+      return std::ranges::any_of(matrices, [&](const glm::mat4& matrix) {
+        const glm::vec4 clip = matrix * glm::vec4(at, 1);
+        return std::max(std::abs(clip.x), std::abs(clip.y)) < 1;
+      });
+    };
+    for (const char* technique : {"hard", "pcss", "slices", "pcf_hardware"}) {
+      const Shadowed own = render(technique), given = draw_with(matrices, technique);
+      int held = 0, different = 0, dark = 0, penumbra = 0;
+      for (int y = 0; y < own.height; ++y) {
+        for (int x = 0; x < own.width; ++x) {
+          if (own.sky(x, y) || !is_held(own.point(x, y))) continue;
+          ++held;
+          const float a = own.visibility(x, y), b = given.visibility(x, y);
+          different += std::abs(a - b) > 0.25f ? 1 : 0;
+          dark += b < 0.01f ? 1 : 0;
+          penumbra += b > 0.1f && b < 0.9f ? 1 : 0;
+        }
+      }
+      EXPECT_GT(held, 10000) << technique;
+      EXPECT_LE(different, 16) << technique;
+      EXPECT_GT(dark, 500) << technique;
+      const bool narrow = std::string_view(technique) == "hard" || std::string_view(technique) == "pcf_hardware";
+      EXPECT_TRUE(narrow || penumbra > 200) << technique;
+    }
   }
 
   TriangleScene scene_ = box_on_ground(192);
@@ -117,7 +154,27 @@ TEST_F(ShadowMatrices, OfTheEnginesOwnGiveTheSameShadows) {
   }
 }
 
+// Where the search of a receiver between two slices leaves both, it reads the map that is made from them. What lies
+// beyond all slices is lit.
+TEST_F(ShadowMatrices, SlicesOfTheViewNeedNoMapThatHoldsAll) { expect_own_shadows(disjoint_slices(scene_.to_light)); }
+
+// Across the first one's border, where shadow lies, receivers blend with the third: the second is elsewhere.
+TEST_F(ShadowMatrices, BlendWithTheNextThatHoldsTheReceiver) {
+  const glm::vec3& sun = scene_.to_light;
+  expect_own_shadows(
+      {slice(sun, {0, 0, 0}, 2, 30), slice(sun, {7, 0, 7}, 2.5f, 30), slice(sun, {-2, 0, -2}, 4.5f, 30)});
+}
+
 TEST_F(ShadowMatrices, AnAtlasGivesTheShadowsOfAnArray) {
+  const std::vector<glm::mat4> disjoint = disjoint_slices(scene_.to_light);
+  const Atlas of_disjoint(draw_maps(disjoint));
+  for (const char* technique : {"pcss", "slices"}) {
+    const auto from_atlas = [&](shadow::FinishedMaps& maps) {
+      maps.depth = {of_disjoint.texture.id(), of_disjoint.texture.width(), of_disjoint.texture.height()};
+      maps.atlas = of_disjoint.corners;
+    };
+    EXPECT_EQ(draw_with(disjoint, technique, from_atlas).mask, draw_with(disjoint, technique).mask) << technique;
+  }
   const std::vector<glm::mat4> matrices = slices(scene_.to_light);
   const Atlas atlas(draw_maps(matrices));
   const auto from_atlas = [&](shadow::FinishedMaps& maps) {
@@ -198,9 +255,12 @@ TEST_F(ShadowMatrices, AreTakenByTheCInterface) {
     of_c.push_back(c.render(frame));
     penumbra_mask mask{};
     mask.struct_size = sizeof mask;
-    light.maps_count = 2;  // of which the second does not hold the first
+    std::vector<glm::mat4> backwards = matrices;
+    std::swap(backwards[0], backwards[2]);
+    light.maps_world_to_clip = glm::value_ptr(backwards[0]);
     EXPECT_EQ(penumbra_render(c.device, c.settings, &frame, &mask), PENUMBRA_ERROR_REFUSED);
     refused = penumbra_last_error();
+    light.maps_world_to_clip = glm::value_ptr(matrices[0]);
     light.maps_count = 9;
     EXPECT_EQ(penumbra_render(c.device, c.settings, &frame, &mask), PENUMBRA_ERROR_ARGUMENT);
     light.kind = PENUMBRA_LAMP;

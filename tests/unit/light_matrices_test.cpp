@@ -204,14 +204,30 @@ TEST(LightMatrices, MatricesThatCannotServeAreRefusedWithTheReason) {
   EXPECT_EQ(refusal({endless}), begin + "0 has a matrix that is not finite");
 }
 
-TEST(LightMatrices, TheLastLayerMustHoldAllOthers) {
-  const std::string begin = "shadow maps by the caller's matrices: layer 0 ";
+TEST(LightMatrices, OneThatHoldsAllOthersIsAddedWhereTheLastDoesNot) {
   const glm::mat4 good = map_matrix({1, 0, 2}, 5);
-  EXPECT_EQ(refusal({good, map_matrix({1, 0, 2}, 20)}), "accepted");
-  EXPECT_EQ(refusal({good, map_matrix({30, 0, 0}, 20, 0.3f, -40, 80)}),
-            begin + "reaches beyond the last one, which must hold all others: receivers look for casters there first");
-  EXPECT_EQ(refusal({good, map_matrix({1, 0, 2}, 20, 0.3f, 5, 60)}),
-            begin + "begins nearer to the sun than the last one, which must hold all casters of the others");
+  const auto made_of = [](const std::vector<glm::mat4>& matrices) { return sun_projection(maps_of(matrices)); };
+  const LightProjection nested = made_of({good, map_matrix({1, 0, 2}, 20)});
+  EXPECT_EQ(nested.layers(), 2);
+  EXPECT_EQ(nested.given_layers(), 2);
+  for (const glm::mat4& other : {map_matrix({30, 0, 0}, 20, 0.3f, -40, 80), map_matrix({1, 0, 2}, 20, 0.3f, 5, 60)}) {
+    const LightProjection made = made_of({good, other});
+    ASSERT_EQ(made.layers(), 3);
+    EXPECT_EQ(made.given_layers(), 2);
+    EXPECT_EQ(made.fault(), "");
+    for (const glm::mat4& given : {good, other}) {
+      for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 corner((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : 0);
+        const glm::dvec3 at = clip(made.world_to_clip(2), clip(glm::inverse(glm::dmat4(given)), corner));
+        EXPECT_LE(std::max(std::abs(at.x), std::abs(at.y)), 1.0001);
+        EXPECT_GE(at.z, -1e-4);
+        EXPECT_LE(at.z, 1.0001);
+      }
+    }
+  }
+  std::vector<glm::mat4> eight(7, good);
+  eight.push_back(map_matrix({30, 0, 0}, 20));
+  EXPECT_EQ(refusal(eight), "shadow maps by the caller's matrices: the last of 8 layers must hold all others");
 }
 
 // Half a thousandth of a radian is a few texels at the border of the map.

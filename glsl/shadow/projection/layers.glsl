@@ -19,6 +19,14 @@ int finest_layer(Receiver receiver, float radius, Light light) {
   return layer;
 }
 
+// Of the layers after that one, the finest that contains the whole disc, or the last layer if none does.
+int next_layer(int layer, vec3 position, float radius, Light light) {
+  do {
+    ++layer;
+  } while (layer < light.layers - 1 && layer_edge(layer, position, radius, light) > 1.0);
+  return layer;
+}
+
 struct LayerChoice {
   int layer;
   bool outside;  // no layer contains the position: it counts as lit
@@ -62,7 +70,7 @@ LayerChoice choose_layer(Receiver receiver, float radius, Light light) {
     fade = clamp((layer_edge(layer, receiver.position, radius, light) - 1.0) / cascades_blend + 1.0, 0.0, 1.0);
   }
   bool outside = last && layer_edge(layer, receiver.position, 0.0, light) > 1.0;
-  return LayerChoice(layer, outside, ivec2(layer + 1), vec2(fade, 0.0));
+  return LayerChoice(layer, outside, ivec2(next_layer(layer, receiver.position, radius, light)), vec2(fade, 0.0));
 }
 
 // The layer through which a receiver of a tile is seen, of which that one was named for all of them.
