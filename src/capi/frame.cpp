@@ -68,7 +68,8 @@ shadow::Conventions conventions_of(const penumbra_frame& frame) {
           .depth_zero_to_one = frame.depth_zero_to_one != 0,
           .octahedral_normals = frame.normals_encoding == PENUMBRA_NORMALS_OCTAHEDRAL,
           .normals_scale = frame.normals_scale,
-          .normals_offset = frame.normals_offset};
+          .normals_offset = frame.normals_offset,
+          .shading_normals = frame.normals_are_shading != 0};
 }
 
 int32_t kind_of(shadow::CasterKind kind) {
@@ -208,7 +209,6 @@ std::vector<shadow::Light> lights_of(const penumbra_light* lights, std::size_t c
 shadow::Inputs inputs_of(const penumbra_frame& frame) {
   if (frame.reserved != 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_frame.reserved is not 0");
   if (frame.reserved_2 != 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_frame.reserved_2 is not 0");
-  if (frame.reserved_3 != 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_frame.reserved_3 is not 0");
   require_finite(frame.jitter, "penumbra_frame.jitter");
   shadow::Inputs inputs;
   inputs.view = {.view = matrix_of(frame.view, "penumbra_frame.view"),

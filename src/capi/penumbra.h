@@ -260,10 +260,11 @@ typedef struct penumbra_light {
   /** maps_count matrices of 16 floats, from world to clip space.
    *
    * Of a sun they are orthographic, along the sun's rays, the finest map first; they may overlap or contain each other.
-   * The last one must hold all others, because receivers look there first for how near to the light casters can be.
-   * With a square sun their x axis must be horizontal. PENUMBRA_ERROR_REFUSED says which map can't serve, and why:
-   * perspective, warped, skewed or mirrored ones, depths that grow towards the light, a near plane behind casters
-   * (penumbra_frame.casters), whose depths were clamped.
+   * Receivers look in the last one first, for how near to the light casters can be: where it does not hold all others,
+   * as with a map for each slice of the view, all are copied in each frame, and a further one that does is made from
+   * them (not of 8). With a square sun their x axis must be horizontal. PENUMBRA_ERROR_REFUSED says which map can't
+   * serve, and why: perspective, warped, skewed or mirrored ones, depths that grow towards the light, a near plane
+   * behind casters (penumbra_frame.casters), whose depths were clamped.
    *
    * Of a spot it is one: a perspective from its centre along its axis, of the same angle in x and y, at least that of
    * its cone, with a near and a far plane, the far one at most 2000 times as far away, and depths of at least 24 bits.
@@ -375,11 +376,11 @@ typedef struct penumbra_frame {
    * GL_TEXTURE_2D_ARRAY (see depth_layer), or one of both with samples, of which the one nearest to the centre of each
    * pixel is read. All but a GL_TEXTURE_2D are copied in each frame. */
   penumbra_texture depth;
-  /** Geometric normals (of the triangle, not of shading), world space, unit length: SNORM or float formats, with
-   * normals_scale or normals_offset UNORM ones too (RGBA8, RGB10_A2, RG16), as many channels as normals_encoding needs;
-   * the size of `depth`. R11F_G11F_B10F and RGB9_E5 are refused. Or none (id 0): normals are then made from depth,
-   * which costs precision: at outlines, on surfaces of less than 3 pixels, and near contacts where depth is coarse.
-   * Depth of half floats (R16F) is refused then. */
+  /** Geometric normals (of the triangle; for those of shading see normals_are_shading), world space, unit length: SNORM
+   * or float formats, with normals_scale or normals_offset UNORM ones too (RGBA8, RGB10_A2, RG16), as many channels as
+   * normals_encoding needs; the size of `depth`. R11F_G11F_B10F and RGB9_E5 are refused. Or none (id 0): normals are
+   * then made from depth, which costs precision: at outlines, on surfaces of less than 3 pixels, and near contacts
+   * where depth is coarse. Depth of half floats (R16F) is refused then. */
   penumbra_texture normals;
   /** Motion vectors, or none (id 0): RG, SNORM or float: place of the surface after division by w (-1..1) minus that in
    * the last frame; the size of `depth`. Read only where penumbra_reads_motion() says so. */
@@ -425,7 +426,10 @@ typedef struct penumbra_frame {
   int32_t depth_layer;
   int32_t normals_layer; /**< see depth_layer */
   int32_t motion_layer;  /**< see depth_layer */
-  uint32_t reserved_3;   /**< 0 */
+  /** 1: `normals` are those of shading, interpolated between vertices; default 0. Shadows need those of the triangles,
+   * which are then made from depth, as without normals; the given ones say which pixels belong to one surface, and
+   * stand in where too few do. */
+  uint32_t normals_are_shading;
 } penumbra_frame;
 
 /** PENUMBRA_ERROR_ARGUMENT: `frame` is null or `struct_size` is not that of a version of the struct. */
@@ -461,10 +465,10 @@ PENUMBRA_API penumbra_result penumbra_reads_motion(penumbra_device* device, cons
 PENUMBRA_API penumbra_result penumbra_forget_view(penumbra_device* device, int32_t view_id);
 
 /** Compiles the programs and makes the tables that penumbra_render() needs with these settings and the frame's
- * conventions, lights and mask_details, so that no later frame of that kind has to. Draws three frames of 64 x 64
- * pixels without casters, with maps of the settings' size, which are released afterwards: textures, boxes, matrices and
- * callbacks of `frame` are not used and need not be set. Programs that only an engine's own callback compiles are not
- * among them. Errors as for penumbra_render(). */
+ * conventions, lights and mask_details, so that no later frame of that kind has to. Draws three frames of 60 x 60
+ * pixels with one caster of its own and maps of the settings' size, which are released afterwards: textures, boxes,
+ * matrices and callbacks of `frame` are not used and need not be set. Programs that only an engine's own callback
+ * compiles are not among them. Errors as for penumbra_render(). */
 PENUMBRA_API penumbra_result penumbra_warm_up(penumbra_device* device, const penumbra_settings* settings,
                                               const penumbra_frame* frame);
 

@@ -142,8 +142,10 @@ void check_normals(const Inputs& inputs, TextureChecks& checks) {
                      .channels = inputs.conventions.octahedral_normals ? 2 : 3,
                      .may_be_unsigned = decodes_normals(inputs.conventions)},
                     inputs.depth, checks);
-  } else if (checks.depth.relative >= 0x1p-11f) {
-    fail("soft shadows: no normals texture, and depths of half floats are too coarse to make normals from");
+  }
+  if (inputs.makes_normals() && checks.depth.relative >= 0x1p-11f) {
+    fail("soft shadows: {}, and depths of half floats are too coarse to make normals from",
+         inputs.normals.id == 0 ? "no normals texture" : "the normals are those of shading");
   }
 }
 

@@ -10,10 +10,11 @@ std::string target_name(const ViewState& view) { return view.prefix + "normals f
 
 void drop_normals(gl::Device& device, const ViewState& view) { device.drop(target_name(view)); }
 
-LibraryProgram depth_normals_program() {
+LibraryProgram depth_normals_program(bool guided) {
   return {.desc = {.name = "normals from depth",
                    .vertex = "shared/full_screen.vert",
-                   .fragment = "shadow/drivers/normals_from_depth.frag"}};
+                   .fragment = "shadow/drivers/normals_from_depth.frag",
+                   .defines = {{"GUIDED", guided ? "1" : "0"}}}};
 }
 
 const gl::Texture& make_normals(const LightWork& work) {
@@ -21,7 +22,13 @@ const gl::Texture& make_normals(const LightWork& work) {
       work.device.target(target_name(work.view),
                          {.format = GL_RGBA32F, .width = work.inputs.depth.width, .height = work.inputs.depth.height});
   gl::Pass pass(work.device, {.name = "normals from depth", .colors = {{.texture = &normals}}});
-  pass.use(work.programs.ready(depth_normals_program()));
+  const bool guided = work.inputs.normals.id != 0;
+  const gl::Program& program = pass.use(work.programs.ready(depth_normals_program(guided)));
+  if (guided) {
+    const Conventions& conventions = work.inputs.conventions;
+    program.set("decode", glm::vec2(conventions.normals_scale, conventions.normals_offset));
+    program.set("octahedral", conventions.octahedral_normals ? 1 : 0);
+  }
   work.state.params_block->bind_uniform(block_params);
   work.state.shadow_block->bind_uniform(block_shadow);
   bind_receivers(work);

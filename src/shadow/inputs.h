@@ -22,6 +22,10 @@ struct Conventions {
   // What the normals texture holds, times that scale and plus that offset, is in -1..1: 2 and -1 for normals that were
   // stored as 0.5 + 0.5 n. Finite, the scale not 0.
   float normals_scale = 1, normals_offset = 0;
+  // The normals texture holds shading normals, interpolated between vertices, not those of the triangles. Geometric
+  // ones are then made from depth, as without a texture (see Inputs::normals), and the given ones say which neighbours
+  // of a pixel belong to its surface, and stand in where none does.
+  bool shading_normals = false;
 };
 
 // A camera in this frame and in the last one. Projections are without jitter; `jitter` is the subpixel offset that was
@@ -104,15 +108,16 @@ struct CasterPass {
 using DrawCasters = std::function<void(const CasterPass&, gl::Pass&)>;
 
 // A shadow map that the caller has already drawn: a depth texture array, or R32F (which is refused with the techniques
-// pcf_hardware and pcf_poisson, whose samplers compare), one layer for each layer of the projection; 0 is near, 1 far.
-// Or an atlas, a GL_TEXTURE_2D whose parts are copied to an array in each frame.
+// pcf_hardware and pcf_poisson, whose samplers compare), with LightProjection::given_layers() layers; 0 is near, 1 far.
+// Or an atlas, a GL_TEXTURE_2D whose parts are copied to an array in each frame. Copied as well are maps of which none
+// holds all others: a further one that does is made from them.
 struct FinishedMaps {
   TextureView depth;
   LightProjection projection;
   std::vector<glm::ivec2> atlas = {};  // where each layer begins, texels: its lower left corner; empty: an array
   bool reversed = false;               // 1 is near, 0 far; copied in each frame, too
 
-  bool is_copied() const { return reversed || !atlas.empty(); }
+  bool is_copied() const { return reversed || !atlas.empty() || projection.given_layers() < projection.layers(); }
 };
 
 // A channel of a texture of the caller's, to which a light's visibility is written beside the mask: 1 is lit, 0 is in
@@ -189,6 +194,9 @@ struct Inputs {
   bool mask_details = false;
   DrawCasters draw;            // optional when every light brings its maps
   const void* user = nullptr;  // passed on to the caller's own techniques; the library never reads it
+
+  // Whether geometric normals are made from depth.
+  bool makes_normals() const { return normals.id == 0 || conventions.shading_normals; }
 };
 
 // Throws Error, in one line that names the input and the fault, for: textures that don't exist, have the wrong size or

@@ -31,7 +31,7 @@ bool same_values(const Registry& registry, const ParamSet& a, const ParamSet& b)
 bool same_conventions(const Conventions& a, const Conventions& b) {
   return a.reversed_z == b.reversed_z && a.depth_zero_to_one == b.depth_zero_to_one &&
          a.octahedral_normals == b.octahedral_normals && a.normals_scale == b.normals_scale &&
-         a.normals_offset == b.normals_offset;
+         a.normals_offset == b.normals_offset && a.shading_normals == b.shading_normals;
 }
 
 // Whether this is the next frame of the same scene, so that the caller's account of what moved starts at the last one.
@@ -43,7 +43,7 @@ bool follows(const ViewState& last, const Inputs& inputs) {
 // Whether the pixels of the last frame can be found in this one.
 bool same_pixels(const ViewState& last, const Inputs& inputs) {
   return last.width == inputs.depth.width && last.height == inputs.depth.height &&
-         last.viewport == viewport_of(inputs) && last.brings_normals == (inputs.normals.id != 0) &&
+         last.viewport == viewport_of(inputs) && last.brings_normals == !inputs.makes_normals() &&
          same_conventions(last.conventions, inputs.conventions);
 }
 
@@ -65,7 +65,7 @@ void begin_frame(ViewState& view, const Inputs& inputs, bool last_completed) {
   view.width = inputs.depth.width;
   view.height = inputs.depth.height;
   view.viewport = viewport_of(inputs);
-  view.brings_normals = inputs.normals.id != 0;
+  view.brings_normals = !inputs.makes_normals();
 }
 
 bool take_params(LightState& state, const GivenParams& given, const Light& light) {

@@ -108,7 +108,7 @@ void bind_light(gl::Device& device, const LightFrame& frame, const LightState& s
 }
 
 GLuint normals_of(const LightWork& work) {
-  if (work.inputs.normals.id != 0 || work.view.normals == nullptr) return work.inputs.normals.id;
+  if (!work.inputs.makes_normals() || work.view.normals == nullptr) return work.inputs.normals.id;
   return work.view.normals->id();
 }
 

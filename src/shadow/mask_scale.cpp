@@ -62,11 +62,12 @@ ScaledInputs scaled_inputs(const LightWork& work, const std::string& prefix, int
     return device.target(prefix + name, {.format = format, .width = of_all.x, .height = of_all.y});
   };
   const gl::Texture& depth = target("depth", GL_R32F);
-  const bool two_channels = inputs.normals.id != 0 && inputs.conventions.octahedral_normals;
+  const bool two_channels = !inputs.makes_normals() && inputs.conventions.octahedral_normals;
   const gl::Texture& normals = target("normals", two_channels ? GL_RG32F : GL_RGBA32F);
   ScaledInputs scaled{.inputs = inputs, .ndc = map.scale};
   scaled.inputs.depth = view_of(depth);
   scaled.inputs.normals = view_of(normals);
+  scaled.inputs.conventions.shading_normals = false;  // what is copied are the normals that were made
   scaled.inputs.viewport = {0, 0, size.x, size.y};
   View& view = scaled.inputs.view;
   view.projection = mapped(view.projection, map);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <span>
 #include <string>
@@ -120,12 +121,83 @@ TEST_F(ShadowNormals, AreMadeFromDepth) {
         params.set("technique", technique);
         const Shadowed exact = renderer_->render(scene, params);
         const Shadowed made = renderer_->render(scene, params, [](shadow::Inputs& inputs) { inputs.normals = {}; });
+        // Where interpolated normals are those of the triangles, they show which neighbours belong to a pixel's
+        // surface.
+        const Shadowed guided =
+            renderer_->render(scene, params, [](shadow::Inputs& inputs) { inputs.conventions.shading_normals = true; });
+        EXPECT_LE(between(exact, guided).wrong, 1) << technique << ", " << buffer.name << ", sun at " << elevation;
         const Differences found = between(exact, made);
         ASSERT_GT(found.all, 15000);
         const std::string of = technique + ", " + buffer.name + ", sun at " + std::to_string(elevation);
         EXPECT_LE(found.darker, found.all / 1000) << of;
         EXPECT_LE(found.wrong, found.all / 200) << of;
       }
+    }
+  }
+}
+
+// A ball of radius 1 with few facets on a ground at y = -1.
+TriangleScene ball_on_ground() {
+  TriangleScene scene;
+  scene.add_quad({-20, -1, 20}, {40, 0, 0}, {0, 0, -40});
+  constexpr int rings = 12, sectors = 24;
+  const auto on_ball = [](int ring, int sector) {
+    const float down = glm::pi<float>() * static_cast<float>(ring) / rings;
+    const float around = glm::two_pi<float>() * static_cast<float>(sector) / sectors;
+    return glm::vec3(std::sin(down) * std::cos(around), std::cos(down), -std::sin(down) * std::sin(around));
+  };
+  for (int ring = 0; ring < rings; ++ring) {
+    for (int sector = 0; sector < sectors; ++sector) {
+      const glm::vec3 a = on_ball(ring, sector), b = on_ball(ring + 1, sector), c = on_ball(ring + 1, sector + 1),
+                      d = on_ball(ring, sector + 1);
+      if (ring < rings - 1) scene.triangles.push_back({a, b, c});
+      if (ring > 0) scene.triangles.push_back({a, c, d});
+    }
+  }
+  scene.width = 400;
+  scene.height = 250;
+  scene.view = glm::lookAt(glm::vec3(1, 1.5f, 4), glm::vec3(0), glm::vec3(0, 1, 0));
+  scene.projection = perspective(0.87f, 1.6f, 0.1f);
+  return scene;
+}
+
+// Of each pixel of the ball the smooth normal, of others what is given; in the octahedral map.
+std::vector<float> smooth_normals(const Shadowed& shadowed, std::vector<float> normals) {
+  for (std::size_t i = 0; i < shadowed.points.size(); ++i) {
+    const float length = glm::length(shadowed.points[i]);
+    if (length > 1.02f || shadowed.points[i].y < -0.97f) continue;
+    const glm::vec2 encoded = glsl::octahedral_encode(shadowed.points[i] / length);
+    normals[2 * i] = encoded.x;
+    normals[2 * i + 1] = encoded.y;
+  }
+  return normals;
+}
+
+// Only facets at the outline that are narrower than 3 pixels are left.
+TEST_F(ShadowNormals, ThoseOfShadingLeaveNoSpeckle) {
+  TriangleScene scene = ball_on_ground();
+  gl::Device& device = renderer_->device();
+  for (const float elevation : {20.0f, 50.0f}) {
+    scene.to_light = sun_direction(35, elevation);
+    for (const std::string technique : {"hard", "pcss", "slices"}) {
+      ParamSet params = renderer_->params();
+      params.set("technique", technique);
+      const Shadowed exact = renderer_->render(scene, params);
+      const gl::Texture& given =
+          device.target("test normals", {.format = GL_RG32F, .width = scene.width, .height = scene.height});
+      const std::vector<float> smooth = smooth_normals(exact, gl::read_floats(given, 2));
+      const auto render_with = [&](bool said) {
+        return renderer_->render(scene, params, [&](shadow::Inputs& inputs) {
+          const gl::Texture& texture =
+              device.target("smooth normals", {.format = GL_RG32F, .width = scene.width, .height = scene.height});
+          texture.upload(GL_RG, GL_FLOAT, std::as_bytes(std::span(smooth)));
+          inputs.normals.id = texture.id();
+          inputs.conventions.shading_normals = said;
+        });
+      };
+      const Differences unsaid = between(exact, render_with(false)), said = between(exact, render_with(true));
+      EXPECT_LE(said.wrong, said.all / 1000) << technique << ", sun at " << elevation;
+      EXPECT_GE(unsaid.wrong, 3 * said.wrong) << technique << ", sun at " << elevation;
     }
   }
 }

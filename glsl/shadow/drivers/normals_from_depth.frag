@@ -1,4 +1,5 @@
-// Normals for callers that bring none: of the plane through each pixel and its neighbours, from their depths.
+// Normals for callers that bring none: of the plane through each pixel and its neighbours, from their depths. With
+// GUIDED the caller brings normals of shading, which say which neighbours belong to a pixel's surface.
 #include "shadow/drivers/gbuffer.glsl"
 
 layout(location = 0) out vec4 stored;  // see StoredNormal
@@ -26,13 +27,46 @@ Neighbour neighbour(ivec2 pixel, ivec2 next, vec3 at, float depth) {
   return Neighbour(unproject(vec2(pixel + next) + 0.5, first) - at, abs(2.0 * first - second - depth) / error);
 }
 
+#if GUIDED
+uniform vec2 decode;      // scale and offset to -1..1
+uniform bool octahedral;  // else xyz
+
+// The caller's normal, view space.
+vec3 shading_normal_at(ivec2 pixel) {
+  vec3 stored = texelFetch(receiver_normal, pixel, 0).xyz * decode.x + decode.y;
+  vec3 normal = octahedral ? octahedral_decode(stored.xy) : normalize(stored);
+  return view_direction(light_direction(normal));
+}
+
+// How steeply a way leaves the plane across the shading normal: the sine of the angle.
+float steepness(Neighbour to, vec3 normal) {
+  return to.bend == no_neighbour ? no_neighbour : abs(dot(normalize(to.way), normal));
+}
+
+// To the next pixel, on the plane across the shading normal.
+vec3 way_across(ivec2 pixel, ivec2 next, vec3 at, float depth, vec3 normal) {
+  vec3 beside = unproject(vec2(pixel + next) + 0.5, depth), ray = view_ray(beside);
+  float along = dot(normal, ray);
+  return beside - at + ray * (abs(along) > 1e-3 ? dot(normal, at - beside) / along : 0.0);
+}
+#endif
+
 // From the neighbour on one side to that on the other if both are on the receiver's plane, else on the side that is
-// more even; over the picture's plane if there is none. View space, metres.
+// more even, or nearer to the plane across the shading normal; over the picture's plane if there is none. View space,
+// metres.
 vec3 way_along(ivec2 pixel, ivec2 next, vec3 at, float depth) {
   const float even = 4.0;  // the roundings of three depths, one of them doubled
   Neighbour after = neighbour(pixel, next, at, depth), before = neighbour(pixel, -next, at, depth);
   if (max(after.bend, before.bend) <= even) return after.way - before.way;
+#if GUIDED
+  const float steepest = 0.87;  // of facets: 60 degrees from their shading normals
+  vec3 normal = shading_normal_at(pixel);
+  float to_after = steepness(after, normal), to_before = steepness(before, normal);
+  if (min(to_after, to_before) > steepest) return way_across(pixel, next, at, depth, normal);
+  if (min(after.bend, before.bend) > even) return to_after < to_before ? after.way : -before.way;
+#else
   if (min(after.bend, before.bend) == no_neighbour) return unproject(vec2(pixel + next) + 0.5, depth) - at;
+#endif
   return after.bend < before.bend ? after.way : -before.way;
 }
 
