@@ -298,7 +298,10 @@ penumbra_result penumbra_warm_up(penumbra_device* device, const penumbra_setting
     const penumbra_frame given = read_struct(&required(frame, "frame"));
     call.shadows().warm_up({.conventions = conventions_of(given),
                             .lights = lights_of(given.lights, given.light_count),
-                            .mask_details = given.mask_details != 0},
+                            .mask_details = given.mask_details != 0,
+                            .depth = {.id = given.depth.id},
+                            .normals = {.id = given.normals.id},
+                            .motion = {.id = given.motion.id}},
                            params);
   });
 }

@@ -466,8 +466,9 @@ PENUMBRA_API penumbra_result penumbra_forget_view(penumbra_device* device, int32
 
 /** Compiles the programs and makes the tables that penumbra_render() needs with these settings and the frame's
  * conventions, lights and mask_details, so that no later frame of that kind has to. Draws three frames of 60 x 60
- * pixels with one caster of its own and maps of the settings' size, which are released afterwards: textures, boxes,
- * matrices and callbacks of `frame` are not used and need not be set. Programs that only an engine's own callback
+ * pixels with one caster of its own and maps of the settings' size, which are released afterwards: boxes,
+ * matrices and callbacks of `frame` are not used and need not be set. Of its textures the formats are used, if they are
+ * set: drivers may compile a program anew for another format. Programs that only an engine's own callback
  * compiles are not among them. Errors as for penumbra_render(). */
 PENUMBRA_API penumbra_result penumbra_warm_up(penumbra_device* device, const penumbra_settings* settings,
                                               const penumbra_frame* frame);

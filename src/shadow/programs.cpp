@@ -13,6 +13,7 @@
 #include "outputs.h"
 #include "tiles.h"
 #include "visible_receivers.h"
+#include "warm_up.h"
 
 namespace penumbra::shadow {
 
@@ -309,7 +310,9 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
                                         output_program(),
                                         upsample(),
                                         scaled_receivers_program(),
-                                        ready(depth_normals_program())};
+                                        ready(depth_normals_program(false)),
+                                        ready(depth_normals_program(true)),
+                                        warm_up_caster_program()};
   for (gl::ProgramDesc& program : copy_programs()) programs.push_back(std::move(program));
   for (gl::ProgramDesc& program : visible_receivers_programs()) programs.push_back(std::move(program));
   for (const MaskForm& form : {MaskForm{}, {.details = true}, {.packed = true}, {.packed = true, .history = true}}) {

@@ -27,6 +27,8 @@ struct FrameKind {
   Conventions conventions;
   std::span<const Light> lights;
   bool mask_details = false;
+  // The frame's textures, if there are some yet: drivers may compile a program for the format that it reads.
+  TextureView depth, normals, motion;
 };
 
 // Soft shadows for a deferred renderer: depth and normals in, a visibility mask out.

@@ -202,5 +202,26 @@ TEST_F(ShadowNormals, ThoseOfShadingLeaveNoSpeckle) {
   }
 }
 
+// The warm-up reads textures of the frame's formats.
+TEST_F(ShadowNormals, AreWarmedUpInTheirFormat) {
+  const shadow::Light light{.source = shadow::Sun{sun_direction(35, 40)}};
+  for (const GLenum depth : {GL_DEPTH_COMPONENT24, GL_DEPTH24_STENCIL8, GL_DEPTH_COMPONENT32F, GL_R32F}) {
+    for (const Storage& as : storages) {
+      const gl::Texture depths("depth", {.format = depth, .width = 8, .height = 8});
+      const gl::Texture normals("normals", {.format = as.format, .width = 8, .height = 8});
+      shadow::FrameKind kind{.lights = {&light, 1}, .depth = {.id = depths.id()}, .normals = {.id = normals.id()}};
+      kind.conventions.octahedral_normals = as.octahedral;
+      kind.conventions.normals_scale = 2;
+      kind.conventions.normals_offset = -1;
+      EXPECT_NO_THROW(renderer_->shadows().warm_up(kind, renderer_->params())) << as.name;
+      kind.conventions.normals_scale = 1;
+      kind.conventions.normals_offset = 0;
+      EXPECT_NE(message_of([&] { renderer_->shadows().warm_up(kind, renderer_->params()); }).find("normals"),
+                std::string::npos)
+          << as.name;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace penumbra::test
