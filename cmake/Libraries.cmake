@@ -27,10 +27,10 @@ set_target_properties(penumbra_static PROPERTIES EXPORT_NAME static)
 # What a program needs that uses the C++ of the layers, with the same #include lines as the installed package.
 add_library(penumbra_extending INTERFACE)
 target_link_libraries(penumbra_extending INTERFACE penumbra_static fmt::fmt glm::glm)
-target_compile_features(penumbra_extending INTERFACE cxx_std_20)
 set_target_properties(penumbra_extending PROPERTIES EXPORT_NAME shadow)
 
 foreach(library penumbra_shared penumbra_static)
+  target_compile_features(${library} INTERFACE cxx_std_20) # for penumbra.hpp; it changes nothing for sources in C
   add_dependencies(${library} penumbra_settings_header)
   set_target_properties(${library} PROPERTIES OUTPUT_NAME penumbra LINKER_LANGUAGE CXX)
   target_include_directories(${library} INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>)

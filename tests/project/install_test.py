@@ -1,5 +1,6 @@
 """`cmake --install` gives a program that runs where it lies and a library that another project builds against."""
 
+import itertools
 import json
 import os
 import pathlib
@@ -40,20 +41,27 @@ class Installed(support.TestCase):
         command("cmake", "--install", support.BUILD, "--prefix", cls.prefix)
 
     def test_consumer_project_gets_a_mask(self):
-        """An engine with its own context, depth buffer and shadow maps; the mask's values are checked in its main()."""
-        build = self.folder / "consumer"
-        command("cmake", "-S", support.ROOT / "tests" / "consumer", "-B", build, "-G", "Ninja",
-                f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_BUILD_TYPE=Release")
-        command("cmake", "--build", build)
-        for program in ("consumer", "wrapper_penumbra", "wrapper_static"):
-            command(build / program, cwd=self.folder)
+        """An engine with its own context, depth buffer and shadow maps; the mask's values are checked in its main(). With
+        each compiler, as the standard that Penumbra's targets ask for and as C++23, without a warning."""
+        for compiler, standard in itertools.product(("g++", "clang++-16"), (20, 23)):
+            with self.subTest(f"{compiler} C++{standard}"):
+                build = self.folder / f"{compiler}_{standard}"
+                # Both compilers' own default is C++17.
+                chosen = [] if standard == 20 else [f"-DCMAKE_CXX_STANDARD={standard}"]
+                command("cmake", "-S", support.ROOT / "tests" / "consumer", "-B", build, "-G", "Ninja",
+                        f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_BUILD_TYPE=Release",
+                        f"-DCMAKE_CXX_COMPILER={compiler}", "-DCMAKE_COMPILE_WARNING_AS_ERROR=ON", *chosen)
+                command("cmake", "--build", build)
+                for program in ("consumer", "wrapper_penumbra", "wrapper_static"):
+                    command(build / program, cwd=self.folder)
 
     def test_c_example_draws_its_shadow(self):
-        """As it is installed, from C11, without fmt and GLM; and by pkg-config, with either library."""
+        """As it is installed, from C11, without fmt, GLM and a compiler of C++; and by pkg-config, with either library."""
         sources = self.prefix / "share" / "penumbra" / "examples" / "c_minimal"
         build = self.folder / "c_minimal"
         command("cmake", "-S", sources, "-B", build, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={self.prefix}",
-                "-DCMAKE_DISABLE_FIND_PACKAGE_fmt=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_glm=ON")
+                "-DCMAKE_DISABLE_FIND_PACKAGE_fmt=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_glm=ON",
+                env={**os.environ, "CXX": "there-is-no-compiler-of-this-name"})
         command("cmake", "--build", build)
         expected = command(build / "c_minimal", cwd=self.folder)
         self.assertIn("1.00 0.00", expected)
