@@ -52,8 +52,14 @@ else:
     matplotlib.use("Agg")  # a file, without a display
     from matplotlib import pyplot
 
-    pyplot.loglog([row["taps"] for row in rows], [row["rmse"] for row in rows], marker="o")
-    pyplot.xlabel(options.param)
-    pyplot.ylabel("rms error")
-    pyplot.savefig(options.output.with_suffix(".png"))
+    figure, axes = pyplot.subplots(layout="constrained")
+    axes.loglog(options.taps, [row["rmse"] for row in rows], marker="o")
+    axes.set_title(f"{options.technique}, {options.spp} rays a pixel for the truth")
+    axes.set_xlabel(options.param)
+    axes.set_xticks(options.taps, options.taps)
+    axes.set_xticks([], minor=True)
+    axes.set_ylabel("rms error")
+    axes.yaxis.set_major_formatter("{x:g}")
+    axes.yaxis.set_minor_formatter("{x:g}")
+    figure.savefig(options.output.with_suffix(".png"))
     print(f"wrote {options.output} and {options.output.with_suffix('.png')}")

@@ -155,6 +155,7 @@ except KeyboardInterrupt:
         self.assertRegex(self.python("".join(blocks)), r"^rms error 0\.0\d+, \d\d\.\d dB in penumbrae\n$")
 
     def test_example_shows_that_more_taps_err_less(self):
+        """As a table, and as a plot with its axes and a curve that falls."""
         table = self.folder / "out" / "taps.csv"
         result = subprocess.run([PYTHON, "-B", support.ROOT / "examples" / "python" / "error_over_taps.py",
                                  support.ROOT / "scenes" / "steps.glb", "-o", table, "--taps", "2", "8", "32", "--size",
@@ -165,6 +166,17 @@ except KeyboardInterrupt:
         errors = [float(line.split(",")[1]) for line in lines[1:]]
         self.assertEqual(errors, sorted(errors, reverse=True))
         self.assertLess(errors[-1], 0.6 * errors[0])
+        plot = table.with_suffix(".png")
+        self.assertTrue(plot.exists(), result.stdout)
+        rows = support.read_png(plot)
+        self.assertEqual((len(rows[0]), len(rows)), (640, 480))
+        drawn = [(x, y, pixel[:3]) for y, row in enumerate(rows) for x, pixel in enumerate(row)]
+        self.assertGreater(sum(color == (0, 0, 0) for _, _, color in drawn), 1000)  # the frame, its ticks and the words
+        curve = [(x, y) for x, y, color in drawn if color == (31, 119, 180)]  # Matplotlib's first colour
+        self.assertGreater(len(curve), 300)
+        left, right = min(curve), max(curve)
+        self.assertGreater(right[0] - left[0], 400)
+        self.assertGreater(right[1] - left[1], 100)  # rows count from the top
 
 
 if __name__ == "__main__":
