@@ -49,8 +49,8 @@ penumbra_package(development libpenumbra-dev
   SUMMARY "soft shadows for OpenGL engines - development files"
   DESCRIPTION "Penumbra draws masks of soft shadows with an engine's own OpenGL 4.5"
     "context, depth buffer and draw calls. This package has the headers for C and"
-    "C++, the static library, files for CMake and pkg-config, shaders and"
-    "examples."
+    "C++, their reference, the static library, files for CMake and pkg-config,"
+    "shaders and examples."
   DEPENDS "${runtime_package} (= ${PROJECT_VERSION}-1)" libfmt-dev libglm-dev)
 if(PENUMBRA_APP)
   penumbra_package(program penumbra
@@ -91,6 +91,11 @@ Files: *
 Copyright: @copyright@
 License: Expat
  @license@
+
+Files: html/*.js
+Copyright: 1997-2020 Dimitri van Heesch
+ OpenJS Foundation and other contributors
+License: Expat
 " @ONLY)
 
 # What the runtime package tells the system: that it has a library, and which package provides it.

@@ -52,6 +52,11 @@ class Packages(support.TestCase):
         version = self.field("libpenumbra0", "Version")
         self.assertIn(f"libpenumbra0 (= {version})", self.field("libpenumbra-dev", "Depends"))
 
+    def test_development_has_the_reference(self):
+        files = command("dpkg-deb", "--contents", self.packages["libpenumbra-dev"])
+        for page in ("index", "penumbra_8h", "penumbra_8hpp", "penumbra__glm_8hpp", "penumbra__settings_8hpp"):
+            self.assertIn(f" ./usr/share/doc/libpenumbra-dev/html/{page}.html\n", files)
+
     def test_lintian_finds_no_error(self):
         skip_without("lintian")
         user = ["--allow-root"] if os.geteuid() == 0 else []

@@ -18,11 +18,14 @@
 namespace {
 
 std::string file_head() {
-  return R"(// Penumbra's parameters as fields, generated from their rows: a wrong name or word does not compile. Over penumbra.hpp:
-//   penumbra::api::TypedSettings typed;  // the defaults
-//   typed.sun.angle = 1.5f;
-//   typed.technique = penumbra::api::TypedSettings::Technique::pcss;
-//   typed.write(settings);
+  return R"(/** @file
+ * Penumbra's parameters as fields, generated from their rows: a wrong name or word does not compile. Over penumbra.hpp:
+ *
+ *     penumbra::api::TypedSettings typed;  // the defaults
+ *     typed.sun.angle = 1.5f;
+ *     typed.technique = penumbra::api::TypedSettings::Technique::pcss;
+ *     typed.write(settings);
+ */
 #ifndef PENUMBRA_SETTINGS_HPP
 #define PENUMBRA_SETTINGS_HPP
 
@@ -102,12 +105,12 @@ void add(Parts& parts, const penumbra_param& param) {
   const std::string place = group.empty() ? field : fmt::format("{}.{}", identifier(group), field);
   const std::string scope = group.empty() ? "" : type_name(group) + "::";
 
-  fields += fmt::format("{}// {}", indent, param.help);
-  if (*param.unit != '\0') fields += fmt::format(" Unit: {}.", param.unit);
+  std::string help = fmt::format("{}/// {}", indent, param.help);
+  if (*param.unit != '\0') help += fmt::format(" Unit: {}.", param.unit);
   if (param.type == PENUMBRA_TYPE_INTEGER || param.type == PENUMBRA_TYPE_REAL) {
-    fields += fmt::format(" Range: {} to {}.", param.least, param.greatest);
+    help += fmt::format(" Range: {} to {}.", param.least, param.greatest);
   }
-  fields += '\n';
+  help += '\n';
   if (param.type == PENUMBRA_TYPE_WORD) {
     const std::string type = type_name(own);
     std::string values, words;
@@ -116,8 +119,10 @@ void add(Parts& parts, const penumbra_param& param) {
       words += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", param.choices[i]);
     }
     fields += fmt::format(
-        "{0}enum class {1} {{ {2} }};\n{0}static constexpr std::array<const char*, {3}> {4}_words{{{5}}};\n", indent,
-        type, values, param.choice_count, field, words);
+        "{0}/// What `{4}` can be.\n{0}enum class {1} {{ {2} }};\n"
+        "{0}/// The same as text.\n{0}static constexpr std::array<const char*, {3}> {4}_words{{{5}}};\n",
+        indent, type, values, param.choice_count, field, words);
+    fields += help;
     fields += fmt::format("{0}{1} {2} = {1}::{3};\n", indent, type, field, identifier(param.default_value));
     parts.write += fmt::format("    settings.set(\"{}\", {}{}_words.at(static_cast<std::size_t>({})));\n", name, scope,
                                field, place);
@@ -129,6 +134,7 @@ void add(Parts& parts, const penumbra_param& param) {
   std::string value = param.default_value;
   if (real && value.find_first_of(".e") == std::string::npos) value += ".0";
   const char* type = real ? "float" : param.type == PENUMBRA_TYPE_INTEGER ? "int" : "bool";
+  fields += help;
   fields += fmt::format("{}{} {} = {}{};\n", indent, type, field, value, real ? "f" : "");
   parts.write += fmt::format("    settings.set(\"{}\", {});\n", name, place);
   parts.read += param.type == PENUMBRA_TYPE_SWITCH
@@ -144,17 +150,19 @@ std::string header() {
     if (penumbra_param_info(i, &param) != PENUMBRA_OK) throw std::runtime_error(penumbra_last_error());
     add(parts, param);
   }
-  std::string text = file_head() + "struct TypedSettings {\n";
+  std::string text = file_head() + "/// All parameters, at their defaults.\nstruct TypedSettings {\n";
   for (const std::string& group : parts.groups) {
     if (group.empty()) {
       text += parts.fields[group];
     } else {
-      text += fmt::format("  struct {} {{\n{}  }} {};\n", type_name(group), parts.fields[group], identifier(group));
+      text += fmt::format(
+          "  /// Parameters whose names begin with \"{0}.\".\n  struct {1} {{\n{2}  }} {3};  ///< \"{0}.\"\n", group,
+          type_name(group), parts.fields[group], identifier(group));
     }
   }
   text += fmt::format(
-      "\n  // Sets every parameter.\n  void write(Settings& settings) const {{\n{}  }}\n"
-      "  // The values of every parameter, such as those of a preset that was read or a technique that was selected.\n"
+      "\n  /// Sets every parameter.\n  void write(Settings& settings) const {{\n{}  }}\n"
+      "  /// The values of every parameter, such as those of a preset that was read or a technique that was selected.\n"
       "  static TypedSettings read(const Settings& settings) {{\n    TypedSettings typed;\n{}    return typed;\n  "
       "}}\n}};\n\n"
       "}}  // namespace penumbra::api\n\n#endif\n",
