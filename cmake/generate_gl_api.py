@@ -6,12 +6,12 @@ import re
 
 LAST_VERSION = (4, 5)
 
-HEADER = """#pragma once
-
-// Generated from GL/glcorearb.h by cmake/generate_gl_api.py: the functions of OpenGL {version} core, in a namespace of
-// their own so that they do not clash with another loader in the same program.
+HEADER = """#pragma once  // generated from GL/glcorearb.h by cmake/generate_gl_api.py
+#if (defined(__gl_glext_h_) || defined(__glew_h__)) && !defined(__gl_glcorearb_h_)
+#error "include Penumbra's headers before GL/gl.h and GLFW/glfw3.h, and not beside GL/glew.h; or penumbra.h alone, anywhere"
+#endif
 #include <GL/glcorearb.h>
-
+// The functions of OpenGL {version} core, in a namespace of their own, beside those of another loader in the same program.
 namespace penumbra::gl {{
 
 // The entry points of one driver.

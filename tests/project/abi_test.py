@@ -130,6 +130,35 @@ class Headers(support.TestCase):
         for compiler, standard in CXX:
             self.compile(compiler, standard, text)
 
+    def test_the_snippets_of_the_page_about_the_library(self):
+        """Maps that an engine has, in C and in C++."""
+        page = (support.ROOT / "docs" / "library.md").read_text()
+        c, = re.findall(r"^```c\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+        cxx, = re.findall(r"^```cpp\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+        own = "int use(uint32_t depth_array, int32_t size, const float* {0});\nint use(uint32_t depth_array, int32_t size, " \
+              "const float* {0}) {{\n"
+        for compiler, standard in C:
+            self.compile(compiler, standard, "#include <penumbra.h>\n" + own.format("matrices")
+                         + "penumbra_light light;\npenumbra_light_init(&light, sizeof light);\n" + c
+                         + "return light.maps_count;\n}\n")
+        for compiler, standard in CXX:
+            self.compile(compiler, standard, "#include <array>\n#include <penumbra.hpp>\n#include <penumbra_glm.hpp>\n"
+                         + own.format("to_light") + cxx + "return light.maps_count;\n}\n")
+
+    def test_headers_for_extending_say_what_must_not_come_before_them(self):
+        text, include = "#include <{}>\n#include <{}>\n", f"-I{support.BUILD / 'include'}"
+        own = "penumbra/gl/api.h"  # which all of them include
+        for compiler in ("g++", "clang++-16"):
+            for other in ("GL/gl.h", "GLFW/glfw3.h", "GL/glew.h"):
+                with self.subTest(f"{compiler} {other} {own}"), self.assertRaises(AssertionError) as failed:
+                    self.compile(compiler, "c++20", text.format(other, own), include, "-Wfatal-errors")
+                self.assertIn("include Penumbra's headers before GL/gl.h", str(failed.exception))
+            for first, second in (("epoxy/gl.h", own), ("GL/glcorearb.h", own), (own, "GL/gl.h"), (own, "GLFW/glfw3.h"),
+                                  (own, "GL/glcorearb.h")):
+                with self.subTest(f"{compiler} {first} {second}"):
+                    self.compile(compiler, "c++20", text.format(first, second), include)
+            self.compile(compiler, "c++20", "#define GLFW_INCLUDE_NONE\n" + text.format("GLFW/glfw3.h", own), include)
+
     def test_a_wrong_name_of_a_parameter_does_not_compile(self):
         text = ("#include <penumbra/penumbra_settings.hpp>\nint main() {{\n  penumbra::api::TypedSettings typed;\n"
                 "  typed.sun.{} = 2;\n  return typed.{} == penumbra::api::TypedSettings::Technique::{};\n}}\n")
