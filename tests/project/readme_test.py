@@ -151,6 +151,26 @@ class Links(unittest.TestCase):
                     if anchor:
                         self.assertIn(anchor, anchors(target))
 
+    def test_costs_for_engines_are_those_that_were_measured(self):
+        """docs/engines.md repeats figures of docs/performance.md."""
+        def table(page, header):
+            tables = re.findall(r"(?:^\|.*\n)+", (support.ROOT / "docs" / page).read_text(), re.MULTILINE)
+            lines, = [one.splitlines()[2:] for one in tables if one.startswith(header)]
+            return {cells[0]: cells[1:] for cells in ([cell.strip() for cell in line.split("|")[1:-1]] for line in lines)}
+
+        in_software = table("performance.md", "| pass | `courtyard` | `thesis` |")
+        on_a_gpu = table("performance.md", "| pass | `courtyard`, 1280 × 720 | `thesis`, 1280 × 720 |")
+        repeated = table("engines.md", "| pass |")
+        self.assertGreater(len(repeated), 3)
+        for name, figures in repeated.items():
+            measured = in_software.get(name, ["", ""])[:2] + on_a_gpu[name][:2]
+            self.assertEqual(figures, [figure.split(" → ")[-1] for figure in measured], name)
+        techniques = table("performance.md", "| technique | `courtyard`: mask |")
+        masks = next(row for name, row in techniques.items() if name.startswith("`slices_denoised`, `driver=compute`"))
+        page = " ".join((support.ROOT / "docs" / "engines.md").read_text().split())
+        self.assertIn("its mask takes {} ms and its filters {} ms in `courtyard` on that GPU, {} and {} ms in `thesis`".format(
+            *masks[:2], *masks[3:5]), page)
+
     def test_the_readme_stays_short(self):
         self.assertLess(len((support.ROOT / "README.md").read_text().splitlines()), 150, "docs/ has pages for more")
 
