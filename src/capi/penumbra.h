@@ -358,8 +358,8 @@ typedef struct penumbra_frame {
   uint32_t cut;     /**< 1: discards history and kept maps: a camera cut, another scene, a jump in time; default 0 */
   uint32_t restart; /**< 1: discards the history alone; default 0 */
 
-  /** Conventions. A perspective that contradicts reversed_z is refused, and one of reversed depth in -1..1 too. A
-   * projection of 0..1 that is said to be of -1..1 without reversed_z can't be told from another near plane. */
+  /** Conventions. A projection that contradicts reversed_z is refused, and so is a perspective of reversed depth that
+   * never reaches -1 if depth_zero_to_one is 0. */
   uint32_t reversed_z; /**< 1 (default): the far plane has depth 0; 0: it has depth 1. Such pixels are sky: lit */
   uint32_t depth_zero_to_one; /**< 1 (default): clip space has z in 0..1 (glClipControl); 0: in -1..1 */
   int32_t normals_encoding;   /**< PENUMBRA_NORMALS_...; default octahedral */

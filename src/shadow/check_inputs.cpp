@@ -23,24 +23,6 @@ void check_matrix(std::string_view name, const glm::mat4& matrix) {
   if (glm::determinant(glm::dmat4(matrix)) == 0) fail("soft shadows: {} has no inverse", name);
 }
 
-// At a distance d before the camera, a perspective projection's depth in NDC is at_infinity + change / d.
-void check_conventions(const glm::dmat4& projection, const Conventions& conventions) {
-  const bool perspective = projection[0][3] == 0 && projection[1][3] == 0 && projection[3][3] == 0;
-  const bool oblique = projection[0][2] != 0 || projection[1][2] != 0;
-  if (!perspective || oblique || projection[2][3] == 0 || projection[3][2] == 0) return;
-  const double at_infinity = projection[2][2] / projection[2][3], change = projection[3][2];
-  const bool reversed = change > 0;
-  if (reversed != conventions.reversed_z) {
-    fail("soft shadows: the projection's depth {} with the distance, but Conventions::reversed_z is {}",
-         reversed ? "falls" : "grows", conventions.reversed_z);
-  }
-  constexpr double rounding = 1e-3;
-  if (reversed && !conventions.depth_zero_to_one && at_infinity > -1 + rounding) {
-    fail("soft shadows: the projection's depth is above {:.3g} everywhere, but Conventions::depth_zero_to_one is false",
-         at_infinity + 0.0);  // not "-0"
-  }
-}
-
 void check_finite(std::string_view name, const Box& box) {
   if (!all_finite(glm::value_ptr(box.min), 3) || !all_finite(glm::value_ptr(box.max), 3)) {
     fail("soft shadows: the bounding box of the {} is not finite", name);

@@ -10,6 +10,7 @@ namespace penumbra::shadow {
 
 // The parts of check(). Each throws Error in one line; `checks` knows what need not be looked at again.
 
+void check_conventions(const glm::mat4& projection, const Conventions& conventions);
 void check_depth(const TextureView& view, TextureChecks& checks);
 void check_normals(const Inputs& inputs, TextureChecks& checks);
 void check_motion(const Inputs& inputs, TextureChecks& checks);

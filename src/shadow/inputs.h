@@ -12,9 +12,9 @@
 
 namespace penumbra::shadow {
 
-// How to interpret the caller's depth buffer, matrices and normals. A perspective projection that contradicts
-// `reversed_z` is refused, and one of reversed Z whose depths never reach -1 if they are said to. Other ranges can't be
-// told from a projection with another near or far plane, and those with an oblique near plane are not examined.
+// How to interpret the caller's depth buffer, matrices and normals. A projection that contradicts `reversed_z` is
+// refused, and a perspective of reversed Z whose depths never reach -1 if they are said to. Other ranges can't be told
+// from a projection with another near or far plane.
 struct Conventions {
   bool reversed_z = true;          // the far plane has depth 0 (else 1); pixels with exactly that depth are sky and lit
   bool depth_zero_to_one = true;   // clip-space z in 0..1 (else -1..1)

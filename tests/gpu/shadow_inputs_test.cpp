@@ -57,13 +57,35 @@ TEST_F(ShadowInputs, MatricesAndBoxesAreChecked) {
   })) << "none moved";
 }
 
+glm::mat4 finite_perspective(bool reversed, bool zero_to_one, float near, float far) {
+  const float first = reversed ? far : near, last = reversed ? near : far;
+  return zero_to_one ? glm::perspectiveRH_ZO(0.8f, 1.0f, first, last) : glm::perspectiveRH_NO(0.8f, 1.0f, first, last);
+}
+
+glm::mat4 finite_orthographic(bool reversed, bool zero_to_one, float near, float far) {
+  const float first = reversed ? far : near, last = reversed ? near : far;
+  return zero_to_one ? glm::orthoRH_ZO(-5.0f, 5.0f, -5.0f, 5.0f, first, last)
+                     : glm::orthoRH_NO(-5.0f, 5.0f, -5.0f, 5.0f, first, last);
+}
+
+// A perspective whose near plane is `plane`, in view space, and which has its greatest distance at a corner of the far
+// plane (Lengyel, Oblique View Frustum Depth Projection and Clipping, 2005).
+glm::mat4 oblique_perspective(bool reversed, bool zero_to_one, const glm::vec4& plane) {
+  glm::mat4 projection = finite_perspective(false, zero_to_one, 0.1f, 100);
+  const glm::vec4 corner = glm::inverse(projection) * glm::vec4(glm::sign(plane.x), glm::sign(plane.y), 1, 1);
+  const float w = -corner.z;
+  const glm::vec4 of_plane = plane * (w / glm::dot(plane, corner));
+  const glm::vec4 last(0, 0, -1, 0);
+  glm::vec4 third = zero_to_one ? of_plane : 2.0f * of_plane - last;
+  if (reversed) third = zero_to_one ? last - third : -third;
+  for (int column = 0; column < 4; ++column) projection[column][2] = third[column];
+  return projection;
+}
+
+const glm::vec4 slanted_plane(0.3f, -0.4f, -1, -0.5f);
+
 // Whatever the planes are, only a projection that contradicts the conventions is refused.
 TEST_F(ShadowInputs, ProjectionsThatContradictTheConventionsAreRefused) {
-  const auto finite = [](bool reversed, bool zero_to_one, float near, float far) {
-    const float first = reversed ? far : near, last = reversed ? near : far;
-    return zero_to_one ? glm::perspectiveRH_ZO(0.8f, 1.0f, first, last)
-                       : glm::perspectiveRH_NO(0.8f, 1.0f, first, last);
-  };
   const auto refused = [&](const glm::mat4& projection, bool reversed, bool zero_to_one) -> std::string {
     try {
       renderer.render(box_on_ground(48), params, [&](shadow::Inputs& in) {
@@ -76,30 +98,55 @@ TEST_F(ShadowInputs, ProjectionsThatContradictTheConventionsAreRefused) {
     }
     return "";
   };
+  const auto expect_direction = [&](const glm::mat4& projection, bool reversed, bool zero_to_one) {
+    EXPECT_EQ(refused(projection, reversed, zero_to_one), "");
+    EXPECT_EQ(
+        refused(projection, !reversed, zero_to_one),
+        reversed ? "soft shadows: the projection's depth falls with the distance, but Conventions::reversed_z is false"
+                 : "soft shadows: the projection's depth grows with the distance, but Conventions::reversed_z is true");
+  };
   for (const bool reversed : {false, true}) {
     for (const bool zero_to_one : {false, true}) {
       for (const glm::vec2 planes :
            {glm::vec2(0.1f, 100), glm::vec2(5, 10), glm::vec2(8, 10), glm::vec2(1e-3f, 1e5f)}) {
-        const glm::mat4 projection = finite(reversed, zero_to_one, planes.x, planes.y);
-        EXPECT_EQ(refused(projection, reversed, zero_to_one), "") << planes.x << " to " << planes.y;
-        EXPECT_EQ(
-            refused(projection, !reversed, zero_to_one),
-            reversed
-                ? "soft shadows: the projection's depth falls with the distance, but Conventions::reversed_z is false"
-                : "soft shadows: the projection's depth grows with the distance, but Conventions::reversed_z is true");
+        SCOPED_TRACE(testing::Message() << planes.x << " to " << planes.y);
+        expect_direction(finite_perspective(reversed, zero_to_one, planes.x, planes.y), reversed, zero_to_one);
+        expect_direction(finite_orthographic(reversed, zero_to_one, planes.x, planes.y), reversed, zero_to_one);
+        expect_direction(finite_orthographic(reversed, zero_to_one, -planes.y, planes.y), reversed, zero_to_one);
       }
+      SCOPED_TRACE("an oblique near plane");
+      expect_direction(oblique_perspective(reversed, zero_to_one, slanted_plane), reversed, zero_to_one);
     }
   }
   const glm::mat4 infinite_far = perspective(0.8f, 1, 0.1f);
   EXPECT_EQ(refused(infinite_far, true, true), "");
   EXPECT_EQ(refused(infinite_far, true, false),
             "soft shadows: the projection's depth is above 0 everywhere, but Conventions::depth_zero_to_one is false");
-  EXPECT_NE(refused(finite(true, true, 0.1f, 100), true, false).find("above -0.001 everywhere"), std::string::npos);
-  EXPECT_EQ(refused(orthographic(2, 2, 0.1f, 10), false, false), "") << "orthographic: not examined";
-  glm::mat4 oblique = finite(true, true, 0.1f, 100);
-  oblique[0][2] = 0.3f;
-  oblique[3][2] = -1;
-  EXPECT_EQ(refused(oblique, true, true), "") << "an oblique near plane: not examined";
+  EXPECT_NE(refused(finite_perspective(true, true, 0.1f, 100), true, false).find("above -0.001 everywhere"),
+            std::string::npos);
+  EXPECT_NE(refused(oblique_perspective(true, true, slanted_plane), true, false).find("everywhere"), std::string::npos);
+}
+
+TEST_F(ShadowInputs, ObliqueNearPlanesChangeNoShadow) {
+  const Shadowed plain = renderer.render(box_on_ground(), params);
+  for (const bool reversed : {false, true}) {
+    for (const bool zero_to_one : {false, true}) {
+      TriangleScene scene = box_on_ground();
+      scene.conventions.reversed_z = reversed;
+      scene.conventions.depth_zero_to_one = zero_to_one;
+      scene.projection = oblique_perspective(reversed, zero_to_one, slanted_plane);
+      const Shadowed oblique = renderer.render(scene, params);
+      int wrong = 0, shadowed = 0;
+      for (int y = 0; y < plain.height; ++y) {
+        for (int x = 0; x < plain.width; ++x) {
+          wrong += std::abs(oblique.visibility(x, y) - plain.visibility(x, y)) > 0.1f ? 1 : 0;
+          shadowed += plain.visibility(x, y) < 0.1f ? 1 : 0;
+        }
+      }
+      EXPECT_GT(shadowed, 50);
+      EXPECT_LE(wrong, 4) << (reversed ? "reversed, " : "") << (zero_to_one ? "0..1" : "-1..1");
+    }
+  }
 }
 
 TEST_F(ShadowInputs, TexturesAreChecked) {
