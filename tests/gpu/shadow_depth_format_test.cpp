@@ -33,6 +33,7 @@ constexpr DepthBuffer buffers[] = {
     {"24 bits and stencil, near 0.01", GL_DEPTH24_STENCIL8, 0.01f, false},
     {"16 bits, near 1", GL_DEPTH_COMPONENT16, 1, false},
     {"32-bit float, reversed, near 0.001", GL_DEPTH_COMPONENT32F, 0.001f, true},
+    {"half floats, reversed, near 0.1", GL_R16F, 0.1f, true},
 };
 
 TriangleScene seen_through(TriangleScene scene, const DepthBuffer& buffer) {

@@ -310,6 +310,44 @@ TEST(ShadowScaleSteady, AViewportThatVariesMakesNothing) {
   }
 }
 
+// Nothing of a larger or smaller part of the textures, which earlier frames covered, is left in a later one.
+TEST(ShadowScaleSteady, AViewportThatVariesGivesTheMaskOfAFreshRenderer) {
+  const auto context = gl::make_context(backend_name(), {.debug = false});
+  const TriangleScene scene = box_on_ground(160, 160);
+  constexpr shadow::Rect parts[] = {{0, 0, 160, 160}, {0, 0, 141, 143}, {0, 0, 160, 126}, {9, 4, 103, 109},
+                                    {0, 0, 103, 92},  {0, 0, 160, 160}, {0, 0, 84, 75}};
+  for (const char* technique : {"pcss", "slices_denoised"}) {
+    TriangleRenderer renderer;
+    ParamSet params = renderer.params();
+    renderer.shadows().registry().select(params, technique);
+    params.set("mask.scale", 2);
+    for (const shadow::Rect& part : parts) {
+      const auto visibilities = [&](TriangleRenderer& with) {
+        return with
+            .render(scene, params,
+                    [&](shadow::Inputs& in) {
+                      in.view.last_view = in.view.view;
+                      in.view.last_projection = in.view.projection;
+                      in.viewport = part;
+                    })
+            .visibilities();
+      };
+      TriangleRenderer fresh;
+      const std::vector<float> found = visibilities(renderer), expected = visibilities(fresh);
+      int different = 0, shadowed = 0;
+      for (int y = part.y; y < part.y + part.height; ++y) {
+        for (int x = part.x; x < part.x + part.width; ++x) {
+          const auto i = static_cast<std::size_t>(y * scene.width + x);
+          different += found[i] != expected[i] ? 1 : 0;
+          shadowed += expected[i] < 0.5f ? 1 : 0;
+        }
+      }
+      EXPECT_EQ(different, 0) << technique << ", " << part.width << "×" << part.height;
+      EXPECT_GT(shadowed, 200);
+    }
+  }
+}
+
 // What was stored for a history was made with other normals.
 TEST_F(ShadowScale, AFrameThatBeginsOrCeasesToBringNormalsHasNoHistory) {
   renderer_->shadows().registry().select(params, "thesis");

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <span>
 #include <utility>
 
 namespace penumbra::test {
@@ -89,6 +90,14 @@ glm::mat4 drawn_projection(const TriangleScene& scene) {
   drawn[3][0] = 2 * scene.drawn_beside.x / static_cast<float>(scene.width);
   drawn[3][1] = 2 * scene.drawn_beside.y / static_cast<float>(scene.height);
   return drawn * scene.projection;
+}
+
+const gl::Texture& in_half_floats(gl::Device& device, const gl::Texture& depth) {
+  const gl::Texture& half =
+      device.target("test depth in half floats", {.format = GL_R16F, .width = depth.width(), .height = depth.height()});
+  const std::vector<float> values = gl::read_floats(depth, 1);
+  half.upload(GL_RED, GL_FLOAT, std::as_bytes(std::span(values)));
+  return half;
 }
 
 // Of clip space.
@@ -242,8 +251,11 @@ Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& pa
   const Geometry geometry(scene);
   // A texture of another format can get the last one's name.
   if (std::exchange(depth_format_, scene.depth_format) != scene.depth_format) shadows_.forget_view(0);
-  const gl::Texture& depth =
-      device_.target("test depth", {.format = scene.depth_format, .width = scene.width, .height = scene.height});
+  const bool half = scene.depth_format == GL_R16F;
+  const gl::Texture& drawn_depth =
+      device_.target("test depth", {.format = half ? GLenum{GL_DEPTH_COMPONENT32F} : scene.depth_format,
+                                    .width = scene.width,
+                                    .height = scene.height});
   const gl::Texture& normals =
       device_.target("test normals", {.format = GL_RG32F, .width = scene.width, .height = scene.height});
   const bool reversed = scene.conventions.reversed_z;
@@ -251,12 +263,13 @@ Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& pa
   {
     gl::Pass pass(device_, {.name = "receivers",
                             .colors = {{.texture = &normals, .clear = glm::vec4(0)}},
-                            .depth = gl::Attachment{.texture = &depth, .clear = glm::vec4(sky_depth)},
+                            .depth = gl::Attachment{.texture = &drawn_depth, .clear = glm::vec4(sky_depth)},
                             .depth_test = reversed ? gl::DepthTest::greater_equal : gl::DepthTest::less_equal,
                             .depth_write = true});
     pass.use(receiver_program).set("world_to_clip", drawn_projection(scene) * scene.view);
     geometry.draw();
   }
+  const gl::Texture& depth = half ? in_half_floats(device_, drawn_depth) : drawn_depth;
   const shadow::Light light{.source = shadow::Sun{scene.to_light}};
   shadow::Inputs inputs{.view = {.view = scene.view, .projection = scene.projection},
                         .conventions = scene.conventions,

@@ -25,7 +25,8 @@ struct TriangleScene {
   int width = 64, height = 64;
   glm::vec3 to_light{0, 1, 0};
   std::optional<shadow::Box> casters, receivers;  // bounds; else those of all triangles
-  // Of the depth buffer. Depths are those of reversed Z unless the projection and the conventions say otherwise.
+  // Of the depth buffer, or GL_R16F: depths of 32-bit floats that are then copied to half floats. Depths are those of
+  // reversed Z unless the projection and the conventions say otherwise.
   GLenum depth_format = GL_DEPTH_COMPONENT32F;
   shadow::Conventions conventions;
   // How far beside its place the receivers' depth is drawn, pixels: what a rasteriser may do that rounds vertices.
