@@ -361,8 +361,15 @@ typedef struct penumbra_frame {
   /** Conventions. A projection that contradicts reversed_z is refused, and so is a perspective of reversed depth that
    * never reaches -1 if depth_zero_to_one is 0. */
   uint32_t reversed_z; /**< 1 (default): the far plane has depth 0; 0: it has depth 1. Such pixels are sky: lit */
-  uint32_t depth_zero_to_one; /**< 1 (default): clip space has z in 0..1 (glClipControl); 0: in -1..1 */
-  int32_t normals_encoding;   /**< PENUMBRA_NORMALS_...; default octahedral */
+  /** 1 (default): clip space has z in 0..1 (glClipControl); 0: in -1..1, OpenGL's initial state. A wrong value is an
+   * error only in the case above, since other matrices of one range are right ones of the other range with other
+   * planes. With 1 for a perspective that was drawn with -1..1, positions are about twice as far from the camera as
+   * they are, and nearly all shadows are wrong; with 0 for one that was drawn with 0..1, they are about half as far
+   * away. So a view's first frame compares the value with glClipControl, and warns once if that says otherwise. Not
+   * seen are a 1 for an orthographic projection of reversed depth, and a 1 in a view before whose first frame the
+   * device has drawn another view, which sets glClipControl to -1..1. */
+  uint32_t depth_zero_to_one;
+  int32_t normals_encoding; /**< PENUMBRA_NORMALS_...; default octahedral */
 
   float view[16];       /**< from world to view space: right-handed, the camera looks along -z; default: identity */
   float projection[16]; /**< from view to clip space, without jitter; perspective or orthographic; default: identity */

@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "../core/error.h"
 #include "check_parts.h"
@@ -12,20 +15,19 @@ namespace {
 // one, also with an oblique near plane.
 class DepthOfDistance {
  public:
-  explicit DepthOfDistance(const glm::dmat4& projection) : clip_to_view_(glm::inverse(projection)) {}
+  explicit DepthOfDistance(const glm::mat4& projection) : clip_to_view_(glm::inverse(glm::dmat4(projection))) {}
 
-  // Positive where the distance grows with the depth along the ray through the middle of the picture, negative where it
-  // falls.
-  double direction() const {
+  // Whether the distance falls where the depth grows, along the ray through the middle of the picture.
+  bool reversed() const {
     const glm::dvec4 &by_depth = clip_to_view_[2], &middle = clip_to_view_[3];
-    return middle.z * by_depth.w - by_depth.z * middle.w;
+    return middle.z * by_depth.w - by_depth.z * middle.w < 0;
   }
 
-  // The least depth in NDC that a perspective has infinitely far away, which is where w of view space is 0. -infinity
-  // if the projection is orthographic.
-  double least_at_infinity() const {
+  // The least depth in NDC that a perspective has infinitely far away, which is where w of view space is 0. None for an
+  // orthographic projection, whose depths have no bounds.
+  std::optional<double> least_at_infinity() const {
     const double by_depth = clip_to_view_[2].w;
-    if (by_depth == 0) return -std::numeric_limits<double>::infinity();
+    if (by_depth == 0) return {};
     double least = std::numeric_limits<double>::infinity();
     for (const double x : {-1.0, 1.0}) {
       for (const double y : {-1.0, 1.0}) {
@@ -40,21 +42,33 @@ class DepthOfDistance {
   glm::dmat4 clip_to_view_;
 };
 
+constexpr double least_far_depth = -1 + 1e-3;  // of reversed Z in -1..1, with what matrices round away
+
 }  // namespace
 
 void check_conventions(const glm::mat4& projection, const Conventions& conventions) {
-  const DepthOfDistance depth{glm::dmat4(projection)};
-  const bool reversed = depth.direction() < 0;
-  if (reversed != conventions.reversed_z) {
+  const DepthOfDistance depth(projection);
+  if (depth.reversed() != conventions.reversed_z) {
     fail("soft shadows: the projection's depth {} with the distance, but Conventions::reversed_z is {}",
-         reversed ? "falls" : "grows", conventions.reversed_z);
+         depth.reversed() ? "falls" : "grows", conventions.reversed_z);
   }
-  constexpr double rounding = 1e-3;
-  const double least = depth.least_at_infinity();
-  if (reversed && !conventions.depth_zero_to_one && least > -1 + rounding) {
+  const std::optional<double> least = depth.least_at_infinity();
+  if (conventions.reversed_z && !conventions.depth_zero_to_one && least && *least > least_far_depth) {
     fail("soft shadows: the projection's depth is above {:.3g} everywhere, but Conventions::depth_zero_to_one is false",
-         least + 0.0);  // not "-0"
+         *least + 0.0);  // not "-0"
   }
+}
+
+std::string clip_control_warning(const glm::mat4& projection, const Conventions& conventions, bool zero_to_one) {
+  if (zero_to_one == conventions.depth_zero_to_one) return "";
+  // Programs that draw with reversed Z in 0..1 know of glClipControl, and may have set it back since they drew depth.
+  const std::optional<double> least = DepthOfDistance(projection).least_at_infinity();
+  const bool sure = conventions.reversed_z && !(least && *least <= least_far_depth);
+  if (conventions.depth_zero_to_one && sure) return "";
+  return fmt::format(
+      "soft shadows: depth is said to be drawn with z in {} (Conventions::depth_zero_to_one), but glClipControl is at "
+      "{}. If depth was drawn so, shadows are wrong; if it was not, set glClipControl as it was before the first frame",
+      conventions.depth_zero_to_one ? "0..1" : "-1..1", zero_to_one ? "0..1" : "-1..1");
 }
 
 }  // namespace penumbra::shadow

@@ -2,6 +2,7 @@
 
 #include <glm/vec2.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "depth_precision.h"
@@ -69,5 +70,9 @@ class TextureChecks {
 
 // Like check(Inputs), but skips the textures that `checks` knows from the last frame.
 void check(const Inputs& inputs, TextureChecks& checks);
+
+// A line for the log if `zero_to_one`, to which the caller has set clip space by glClipControl, contradicts the
+// conventions, and the projection does not show that these are right; else "".
+std::string clip_control_warning(const glm::mat4& projection, const Conventions& conventions, bool zero_to_one);
 
 }  // namespace penumbra::shadow

@@ -14,7 +14,7 @@ namespace penumbra::shadow {
 
 // How to interpret the caller's depth buffer, matrices and normals. A projection that contradicts `reversed_z` is
 // refused, and a perspective of reversed Z whose depths never reach -1 if they are said to. Other ranges can't be told
-// from a projection with another near or far plane.
+// from a projection with another near or far plane: a view's first frame warns if glClipControl contradicts them.
 struct Conventions {
   bool reversed_z = true;          // the far plane has depth 0 (else 1); pixels with exactly that depth are sky and lit
   bool depth_zero_to_one = true;   // clip-space z in 0..1 (else -1..1)

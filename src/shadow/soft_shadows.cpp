@@ -7,8 +7,10 @@
 #include <map>
 
 #include "../core/error.h"
+#include "../core/log.h"
 #include "../gl/compatibility.h"
 #include "../gl/debug.h"
+#include "check_inputs.h"
 #include "copies.h"
 #include "forward_source.h"
 #include "frame.h"
@@ -23,6 +25,16 @@ constexpr const char* subject = "soft shadows";
 void check_nothing_is_left_out() {
   if (gl::conditional_rendering_is_active(subject))
     throw gl::ContextError(fmt::format("{}: conditional rendering is active; end it before", subject));
+}
+
+// For a view's first frame: a warning, or "".
+std::string clip_control_warning_for(const Inputs& inputs, bool first_view) {
+  GLint mode = 0;
+  gl::glGetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
+  const bool zero_to_one = mode == GL_ZERO_TO_ONE;
+  // After another view's frame, -1..1 may be what that frame left.
+  if (!zero_to_one && !first_view) return "";
+  return clip_control_warning(inputs.view.projection, inputs.conventions, zero_to_one);
 }
 
 // The scope of a call: OpenGL's entry points are those of the device's driver.
@@ -112,10 +124,13 @@ Mask SoftShadows::render(const Inputs& inputs, const ParamSet& params) {
   const bool first = !state_->views.contains(inputs.view.id);
   if (first || gl::has_legacy_state()) gl::check_context_is_ready(subject);
   if (first) check_nothing_is_left_out();
+  const std::string warning = first ? clip_control_warning_for(inputs, state_->views.empty()) : "";
   const gl::InitialLegacyState legacy;
   ViewState& view = state_->views[inputs.view.id];
   if (view.prefix.empty()) view.prefix = view_prefix(inputs.view.id);
-  return draw(inputs, params, view);
+  const Mask mask = draw(inputs, params, view);
+  if (!warning.empty()) log(LogLevel::warning, warning);
+  return mask;
 }
 
 Mask SoftShadows::draw(const Inputs& inputs, const ParamSet& params, ViewState& view) {

@@ -4,6 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
+#include "core/log.h"
 #include "gpu/gpu_test.h"
 #include "gpu/triangle_scene.h"
 
@@ -125,6 +126,65 @@ TEST_F(ShadowInputs, ProjectionsThatContradictTheConventionsAreRefused) {
   EXPECT_NE(refused(finite_perspective(true, true, 0.1f, 100), true, false).find("above -0.001 everywhere"),
             std::string::npos);
   EXPECT_NE(refused(oblique_perspective(true, true, slanted_plane), true, false).find("everywhere"), std::string::npos);
+}
+
+// What a view's first frame warns of with this projection and these conventions, called with clip space set like that.
+class ClipControl : public ShadowInputs {
+ protected:
+  int warnings(const glm::mat4& projection, const shadow::Conventions& conventions, GLenum clip_depth, int view = 0,
+               int frames = 1) {
+    int count = 0;
+    set_log_sink([&](LogLevel level, std::string_view line) {
+      if (level == LogLevel::warning && line.find("glClipControl") != std::string_view::npos) ++count;
+    });
+    for (int frame = 0; frame < frames; ++frame) {
+      renderer.render(box_on_ground(48), params, [&](shadow::Inputs& in) {
+        in.view.id = view;
+        in.view.projection = projection;
+        in.conventions = conventions;
+        gl::glClipControl(GL_LOWER_LEFT, clip_depth);
+      });
+    }
+    set_log_sink({});
+    return count;
+  }
+  int first_warnings(const glm::mat4& projection, const shadow::Conventions& conventions, GLenum clip_depth) {
+    renderer.shadows().forget_view(0);
+    return warnings(projection, conventions, clip_depth);
+  }
+};
+
+TEST_F(ClipControl, AContradictionIsAWarning) {
+  constexpr shadow::Conventions from_zero{.reversed_z = false, .depth_zero_to_one = true};
+  constexpr shadow::Conventions from_minus_one{.reversed_z = false, .depth_zero_to_one = false};
+  for (const bool drawn_from_zero : {false, true}) {
+    for (const auto& projection :
+         {finite_perspective(false, drawn_from_zero, 0.1f, 100), finite_orthographic(false, drawn_from_zero, 0.1f, 100),
+          oblique_perspective(false, drawn_from_zero, slanted_plane)}) {
+      EXPECT_EQ(first_warnings(projection, from_zero, GL_ZERO_TO_ONE), 0);
+      EXPECT_EQ(first_warnings(projection, from_minus_one, GL_NEGATIVE_ONE_TO_ONE), 0);
+      EXPECT_EQ(first_warnings(projection, from_zero, GL_NEGATIVE_ONE_TO_ONE), 1);
+      EXPECT_EQ(first_warnings(projection, from_minus_one, GL_ZERO_TO_ONE), 1);
+    }
+  }
+}
+
+// Reversed Z is drawn with z in 0..1, except by mistake; engines set glClipControl for it and may set it back.
+TEST_F(ClipControl, ReversedDepthsThatCanOnlyBeFromZeroAreNoContradiction) {
+  EXPECT_EQ(first_warnings(perspective(0.8f, 1, 0.1f), {}, GL_NEGATIVE_ONE_TO_ONE), 0);
+  EXPECT_EQ(first_warnings(finite_perspective(true, true, 0.1f, 100), {}, GL_NEGATIVE_ONE_TO_ONE), 0);
+  EXPECT_EQ(first_warnings(oblique_perspective(true, true, slanted_plane), {}, GL_NEGATIVE_ONE_TO_ONE), 0);
+  EXPECT_EQ(first_warnings(orthographic(5, 5, 0.1f, 100), {}, GL_NEGATIVE_ONE_TO_ONE), 0);
+  EXPECT_EQ(first_warnings(finite_perspective(true, false, 0.1f, 100), {}, GL_NEGATIVE_ONE_TO_ONE), 1);
+}
+
+TEST_F(ClipControl, IsLookedAtInTheFirstFrameOfAView) {
+  constexpr shadow::Conventions from_zero{.reversed_z = false},
+      from_minus_one{.reversed_z = false, .depth_zero_to_one = false};
+  const glm::mat4 projection = finite_perspective(false, true, 0.1f, 100);
+  EXPECT_EQ(warnings(projection, from_zero, GL_NEGATIVE_ONE_TO_ONE, 0, 3), 1);
+  EXPECT_EQ(warnings(projection, from_zero, GL_NEGATIVE_ONE_TO_ONE, 1), 0) << "the library may have set it";
+  EXPECT_EQ(warnings(projection, from_minus_one, GL_ZERO_TO_ONE, 2, 3), 1);
 }
 
 TEST_F(ShadowInputs, ObliqueNearPlanesChangeNoShadow) {
