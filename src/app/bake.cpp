@@ -210,8 +210,8 @@ int run_bake(const Arguments& arguments) {
   if (arguments.front() == "points") return bake_points(rest);
   if (arguments.front() == "--help" || arguments.front() == "-h") {
     fmt::print(
-        "usage: penumbra bake noise|keys|points [OPTIONS] -o FILE; see penumbra bake noise --help, penumbra bake keys "
-        "--help and penumbra bake points --help\n");
+        "usage: penumbra bake noise|keys|points [OPTIONS] -o FILE\n\n"
+        "The options: penumbra bake noise --help, penumbra bake keys --help, penumbra bake points --help\n");
     return 0;
   }
   cli::fail_unknown_usage("thing to bake", arguments.front(), bake_kinds());

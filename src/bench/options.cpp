@@ -41,6 +41,7 @@ void add_bench_options(CLI::App& app, Options& o) {
             [&o](const auto& text) { o.frame_count = cli::parse_count("--frames", text, 1, 100000); });
   add_value(app, "--warmup", "N", "Frames before them that are not measured (20; in software 2)",
             [&o](const auto& text) { o.warmup = cli::parse_count("--warmup", text, 1, 100000); });
+  for (const char* name : {"--frames", "--warmup"}) app.get_option(name)->group("Measurement");
   add_value(app, "--time", "S", "Time of the scene's animation, seconds",
             [&o](const auto& text) { o.time = cli::parse_number("--time", text, 0, 1e6); });
   app.add_flag("--play", o.play, "Play the animation, 60 frames per second, instead of one time of it")

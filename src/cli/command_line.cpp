@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "cli/help_groups.h"
 #include "cli/help_reader.h"
 #include "cli/resources.h"
 #include "cli/signals.h"
@@ -35,9 +36,15 @@ const std::map<std::string, int>& log_levels() {
   return levels;
 }
 
+// CLI11 puts two empty lines between headings.
+std::string without_double_gaps(std::string text) {
+  for (std::size_t at = text.find("\n\n\n"); at != std::string::npos; at = text.find("\n\n\n", at)) text.erase(at, 1);
+  return text;
+}
+
 std::function<void(const CLI::App&)>& help_reader() {
   static std::function<void(const CLI::App&)> reader = [](const CLI::App& options) {
-    fmt::print("{}", wrapped(options.help()));
+    fmt::print("{}", wrapped(without_double_gaps(options.help())));
   };
   return reader;
 }
@@ -168,6 +175,7 @@ bool parse(CLI::App& options, const Arguments& arguments) {
   options.add_option("--log-level", level, "Least severe message to show; quiet: none (warning)")
       ->type_name("debug|info|warning|error|quiet");
   options.allow_extras();
+  group_options(options);
   refuse_equals_after_short_name(options, arguments);
   try {
     options.parse(Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first

@@ -1,6 +1,7 @@
 """Wrong usage: one line on stderr, exit code 2, near names, nothing drawn."""
 
 import json
+import re
 import struct
 import subprocess
 
@@ -246,9 +247,34 @@ class Usage(TestCase):
     def test_help_of_every_command_fits_a_terminal(self):
         commands = [line.split()[0] for line in self.succeed("--help").stdout.splitlines() if line.startswith("  ")]
         self.assertIn("compare", commands)
-        for command in ("", *(name for name in commands if name not in ("help", "bake")), "bake noise"):
+        for command in ("", *(name for name in commands if name != "help"), "bake noise", "bake keys", "bake points"):
             for line in self.succeed(*command.split(), "--help").stdout.splitlines():
                 self.assertLessEqual(len(line), 100, f"{command}: {line}")
+
+    def test_help_of_many_options_has_headings(self):
+        expected = {
+            "render": {"Output": "aov", "Picture": "samples", "Camera": "eye", "Light": "lamp", "Scene": "ground",
+                       "Time": "fps", "Parameters": "set", "Context": "threads", "General": "log-level"},
+            "watch": {"Output": "stats", "Camera": "fov", "Parameters": "preset", "General": "help"},
+            "view": {"Output": "layout", "Picture": "size", "Light": "sun-angle", "Parameters": "technique"},
+            "bench": {"Measurement": "frames", "Time": "play", "Output": "output", "Context": "debug"},
+            "compare": {"Measurement": "spp", "Camera": "orbit", "Cache of ray-traced shadows": "cache-size"},
+            "truth": {"Measurement": "seed", "Output": "quiet", "Scene": "casters", "Time": "time"},
+            "reproduce": {"Picture": "quick", "Camera": "target", "General": "help"},
+            "plan render": {"Plan": "lead-in", "Output": "aov", "General": "log-level"},
+        }
+        for command, options in expected.items():
+            of, heading = {}, None
+            for line in self.succeed(*command.split(), "--help").stdout.splitlines():
+                if re.fullmatch(r"[A-Z][\w -]*:", line):
+                    heading = line[:-1]
+                elif found := re.match(r"  (?:-\w,)?--([\w-]+)", line):
+                    of[found[1]] = heading
+            for wanted, option in options.items():
+                self.assertEqual(of[option], wanted, f"{command} --{option}")
+            self.assertNotIn("Options", of.values(), command)
+            self.assertEqual(list(of.values())[-1], "General", command)
+        self.assertIn("\nOptions:\n", self.succeed("work", "--help").stdout)
 
     def test_every_choice_of_a_denoiser_is_listed(self):
         listed = {row["name"] for row in self.listed("denoisers")}
