@@ -151,8 +151,9 @@ PENUMBRA_API penumbra_result penumbra_settings_reset(penumbra_settings* settings
 
 /** Writes a parameter's value as text, with a terminating 0, to `text`, which has `capacity` bytes. `length`, unless it
  * is null, receives the number of bytes that the text takes, its terminating 0 among them. If `text` is null and
- * `capacity` 0, only `length` is written. PENUMBRA_ERROR_BUFFER: capacity < *length; `text` then holds "" if it has any
- * room. All functions with these three arguments work so. PENUMBRA_ERROR_REFUSED: unknown name. */
+ * `capacity` 0, only `length` is written. PENUMBRA_ERROR_BUFFER: capacity < *length; nothing of the value is written
+ * then, and `text` becomes "", unless `capacity` is 0. All functions with these three arguments work so.
+ * PENUMBRA_ERROR_REFUSED: unknown name. */
 PENUMBRA_API penumbra_result penumbra_settings_get(const penumbra_settings* settings, const char* name, char* text,
                                                    size_t capacity, size_t* length);
 /** A number or a switch (0 or 1). PENUMBRA_ERROR_REFUSED: unknown name, or the value is a word. */
