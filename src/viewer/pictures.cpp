@@ -17,6 +17,9 @@ namespace penumbra::viewer {
 
 namespace {
 
+// A field that takes text stays active until the user clicks elsewhere, so it does not count.
+bool holds_widget() { return ImGui::IsAnyItemActive() && !ImGui::GetIO().WantTextInput; }
+
 bool is_traced(const Document& document) {
   return !document.params.rows().empty() && document.params.get_word("technique") == "truth";
 }
@@ -73,7 +76,7 @@ FrameState Viewer::frame_state(const Document& b, const PictureArea& area, doubl
                    .values_wanted = chosen || (last_is_b_ && probes(area)),
                    .last_is_b = last_is_b_,
                    .unreadable = !readable_,
-                   .ui_active = ImGui::IsAnyItemActive() && !area.dragging,
+                   .ui_active = holds_widget() && !area.dragging,
                    .travels = a_.renderer.has_params_of(state_.document)};
   // The background traces one picture at a time: two would stop each other in every frame.
   status_.both_traced = state_.comparison.on && frame.a.traced && is_traced(b);

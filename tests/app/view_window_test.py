@@ -33,6 +33,19 @@ class Size(WindowTest):
                 self.assertGreater(len(picture.colors()), 30)
             self.assertEqual(picture, before)
 
+    def test_the_picture_is_finished_while_a_field_takes_text(self):
+        with self.view(STEPS) as viewer:
+            viewer.point_at("search")
+            before = viewer.seen("search")
+            self.desktop.xdotool("click", LEFT)
+            viewer.wait_for(lambda: viewer.seen("search") != before, "a field that takes text")
+            room = 800 - width(viewer.box("picture"))
+            self.resize(viewer, 1000, 600)
+            viewer.wait_for(lambda: width(viewer.box("picture")) == 1000 - room, "the new width")
+            self.assertGreater(len(viewer.rest().colors()), 30)
+            viewer.type("cascades.count")
+            viewer.wait_for(lambda: viewer.has("cascades.count"), "the parameter that was searched for")
+
     def test_windows_too_small_for_anything(self):
         with self.view(STEPS) as viewer:
             before = viewer.rest()
