@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/printf.h>
 #include <imgui_stdlib.h>
+// Dear ImGui has no other way to ask whether a slider takes text.
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -59,6 +61,33 @@ void finish_vector(WidgetMap& widgets, const std::string& name, const glm::vec3&
                        with_decimals(value.z, decimals)));
 }
 
+// The slider that `draw` draws, with its value at its right, where the grab never covers it: Dear ImGui's own is in the
+// middle of the slider.
+template <typename Value, typename Draw>
+bool slider_with_value(WidgetMap& widgets, const std::string& name, const Value& value, Value least, Value most,
+                       const char* format, const Draw& draw) {
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x, whole = ImGui::CalcItemWidth();
+  const auto text_width = [&](Value each) { return width_of(fmt::sprintf(format, each)); };
+  // So much that the slider keeps its length while its value changes, but no more than a half, unless the value needs
+  // it.
+  const float usual = std::max({text_width(least), text_width(most), 4.5f * ImGui::GetFontSize()});
+  const float room = std::max(std::min(usual, whole / 2), text_width(value));
+  const std::string id = id_of(name);
+  ImGui::BeginGroup();
+  ImGui::SetNextItemWidth(std::max(whole - room - gap, 1.0f));
+  const bool typed = ImGui::TempInputIsActive(ImGui::GetID(id.c_str()));
+  if (!typed) ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0, 0, 0, 0));
+  const bool changed = draw(id.c_str());
+  if (!typed) ImGui::PopStyleColor();
+  widgets.mark(name);
+  const std::string text = fmt::sprintf(format, value);
+  ImGui::SameLine(0, gap + std::max(room - width_of(text), 0.0f));
+  ImGui::TextUnformatted(text.c_str());
+  mark_field(widgets, name + " value", text, room);
+  ImGui::EndGroup();
+  return changed;
+}
+
 }  // namespace
 
 void mark_field(WidgetMap& widgets, std::string_view name, const std::string& text, float room) {
@@ -68,18 +97,16 @@ void mark_field(WidgetMap& widgets, std::string_view name, const std::string& te
 
 bool slider(WidgetMap& widgets, const std::string& name, float& value, float least, float most, const char* format,
             ImGuiSliderFlags flags) {
-  const bool changed =
-      ImGui::SliderFloat(id_of(name).c_str(), &value, least, most, format, flags | ImGuiSliderFlags_AlwaysClamp);
-  mark_field(widgets, name, fmt::sprintf(format, value), item_width());
-  return changed;
+  return slider_with_value(widgets, name, value, least, most, format, [&](const char* id) {
+    return ImGui::SliderFloat(id, &value, least, most, format, flags | ImGuiSliderFlags_AlwaysClamp);
+  });
 }
 
 bool slider(WidgetMap& widgets, const std::string& name, int& value, int least, int most, const char* format,
             ImGuiSliderFlags flags) {
-  const bool changed =
-      ImGui::SliderInt(id_of(name).c_str(), &value, least, most, format, flags | ImGuiSliderFlags_AlwaysClamp);
-  mark_field(widgets, name, fmt::sprintf(format, value), item_width());
-  return changed;
+  return slider_with_value(widgets, name, value, least, most, format, [&](const char* id) {
+    return ImGui::SliderInt(id, &value, least, most, format, flags | ImGuiSliderFlags_AlwaysClamp);
+  });
 }
 
 bool drag(WidgetMap& widgets, const std::string& name, float& value, float speed, const char* format) {

@@ -10,14 +10,15 @@
 
 namespace penumbra::viewer {
 
-// Widgets that show a value within themselves. Each takes the width that is set for the next item, and its name is that
+// Widgets that show a value. Each takes the width that is set for the next item, and its name is that
 // of the layout. Where a value has no room, Dear ImGui cuts it off: the layout then has "clipped text of NAME" too, or,
 // where a tooltip has all of the value, "all of NAME" while that is shown.
 
 // Names the widget that was drawn last, which shows `text` where there is `room`, pixels.
 void mark_field(WidgetMap& widgets, std::string_view name, const std::string& text, float room);
 
-// As ImGui::SliderFloat() and so on. They return whether the user changed the value.
+// As ImGui::SliderFloat() and so on, but that a slider's value stands beside it, as "NAME value" of the layout. They
+// return whether the user changed the value.
 bool slider(WidgetMap& widgets, const std::string& name, float& value, float least, float most, const char* format,
             ImGuiSliderFlags flags = 0);
 bool slider(WidgetMap& widgets, const std::string& name, int& value, int least, int most, const char* format = "%d",

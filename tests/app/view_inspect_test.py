@@ -1,5 +1,6 @@
 """penumbra view: AOVs and textures to look at, A against B, files from a list, an animation that stands still."""
 
+import math
 import subprocess
 
 import pictures
@@ -178,8 +179,28 @@ class Search(WindowTest):
             viewer.changed(resting)
             command = viewer.copied()
             angle = next(float(word.split("=")[2]) for word in command if word.startswith("--set=sun.angle="))
-        self.assertLess(angle, 5)
-        self.assertGreater(angle, 0.1)
+        # From 0 to 20°: Dear ImGui takes 0 for 0.001, so a quarter of the slider is a factor of 20000 ** 0.25 = 11.9.
+        self.assertAlmostEqual(math.log(angle), math.log(20 / 11.9), delta=0.25)
+
+
+class Status(WindowTest):
+    def test_it_says_that_a_history_begins_anew(self):
+        for size in ((900, 500), (420, 600)):
+            with self.subTest(size=size), self.view(STEPS, *THESIS, size=size) as viewer:
+                self.assertFalse(viewer.has("history reset"))
+                viewer.drag(*viewer.middle("picture"), LEFT, lambda: viewer.has("history reset"), "the word for a camera")
+                viewer.rest()
+                self.assertFalse(viewer.has("history reset"))
+                viewer.find("sun.angle")
+                viewer.fill_in("sun.angle", "7", lambda: viewer.has("history reset"), "the word for a parameter")
+                viewer.rest()
+                self.assertFalse(viewer.has("history reset"))
+
+    def test_a_technique_without_a_history_has_none_to_reset(self):
+        with self.view(STEPS, "--technique", "pcf") as viewer:
+            viewer.drag(*viewer.middle("picture"), LEFT, lambda: not viewer.has("idle"), "another picture")
+            self.assertFalse(viewer.has("history reset"))
+            viewer.rest()
 
 
 class Tint(WindowTest):

@@ -157,6 +157,37 @@ class Narrow(WindowTest):
                         self.assertEqual(clipped(viewer), [])
                     self.assertTrue(viewer.has("lamp place"))
 
+    def check_sliders(self, viewer, expected):
+        """The value of each slider stands beside it, within the panel; there are at least so many."""
+        viewer.leave()
+        viewer.follow()
+        layout = viewer.layout()
+        sliders = [name for name in layout if f"{name} value" in layout]
+        self.assertGreaterEqual(len(sliders), expected)
+        for name in sliders:
+            left, top, right, bottom = layout[name]
+            value = layout[f"{name} value"]
+            self.assertGreater(right - left, 50, name)
+            self.assertGreater(value[0], right, name)
+            self.assertLess(max(top, value[1]), min(bottom, value[3]), name)
+            reset = layout.get(f"{name} reset")
+            end = reset[0] if reset else viewer.box("picture")[0] or self.desktop.client.size(viewer.window)[0]
+            self.assertLess(value[2], end, name)
+
+    def test_values_stand_beside_their_sliders(self):
+        lamp = "--lamp=1,2,3:radius=0.123456:cd=12345678:to=0,0,0"
+        with self.view(STEPS, *self.LOOK, lamp, "--set", "pcf.filter_taps=256", rests=False) as viewer:
+            viewer.open_tab("Scene", "eye")
+            viewer.click("entry of lamp 0", lambda: viewer.has("lamp place"), "the lamp's properties")
+            for size in self.each_size(viewer):
+                with self.subTest(size=size):
+                    viewer.open_tab("Scene", "eye")
+                    self.check_sliders(viewer, 5)
+                    viewer.open_tab("Shadow", "search")
+                    viewer.find_all("e")
+                    self.check_sliders(viewer, 10)
+                    self.assertEqual(clipped(viewer), [])
+
     def test_a_search_that_finds_every_parameter(self):
         with self.view(STEPS, *self.LOOK) as viewer:
             viewer.point_at("search")

@@ -203,15 +203,20 @@ class Viewer:
 
     def find(self, param):
         """Searches for the parameter, so that the panel shows no other one."""
-        self._focus("search")
-        self._desktop.xdotool("key", "ctrl+a")
-        self.type(param)
+        self.find_all(param)
 
         def alone():
             # Rows move up while the viewer handles the last letters.
             rows = {name.split("=")[0].split(" ")[0] for name in self.layout() if "." in name.split("=")[0]}
             return rows == {param}
         self.wait_for(alone, f"{param} alone")
+
+    def find_all(self, text):
+        """Searches for the parameters whose names have this text."""
+        self._focus("search")
+        self._desktop.xdotool("key", "ctrl+a")
+        self.type(text)
+        self.follow()
 
     def _focus(self, widget):
         """Clicks on a field and waits until it looks different, since it then accepts text."""
