@@ -14,7 +14,9 @@ constexpr std::array<Detail, FramePacing::level_count> levels{{{},
                                                                {.maps = 4},
                                                                {.maps = 4, .reads = 4},
                                                                {.picture = 2, .maps = 4, .reads = 4},
+                                                               {.picture = 3, .maps = 4, .reads = 4},
                                                                {.picture = 4, .maps = 4, .reads = 4},
+                                                               {.picture = 6, .maps = 4, .reads = 4},
                                                                {.picture = 8, .maps = 4, .reads = 4}}};
 
 }  // namespace
@@ -51,11 +53,20 @@ bool FramePacing::is_level_useless() const {
   return level_ > whole_picture && ratios_.at(level_) > 0 && ratios_.at(level_) < 1 / worth;
 }
 
+// How many times longer a picture may take at the level before this one; 0: not known. It is at most as many times
+// longer as it has more pixels, whatever was measured while other work slowed it down.
+double FramePacing::most_ratio_before() const {
+  const double measured = ratios_.at(level_);
+  if (level_ <= whole_picture) return measured;
+  const double sides = static_cast<double>(levels.at(level_).picture) / levels.at(level_ - 1).picture;
+  return measured == 0 ? sides * sides : std::min(measured, sides * sides);
+}
+
 // Whether the level before this one would be quick enough: as far as is known, since what it costs changes with the
 // view, and other work may have slowed it down for a moment.
 bool FramePacing::suits_before(double milliseconds, double beside) const {
   if (level_ == 0) return false;
-  const double ratio = ratios_.at(level_);
+  const double ratio = most_ratio_before();
   if (ratio == 0) return milliseconds < fast_ms;
   return drawn_at_level_ >= settled && milliseconds * ratio + beside <= with_room * slow_ms;
 }
@@ -72,7 +83,8 @@ void FramePacing::drew_travelling(double milliseconds, double beside) {
   if (is_level_useless()) {
     most_ = level_ - 1;
     go_to(most_);
-  } else if (level_ == most_ && milliseconds > 3 * least_ms_) {  // another view, in which other levels may help
+  } else if (level_ >= std::min(most_, whole_picture + 1) &&
+             milliseconds > 3 * least_ms_) {  // another view, in which other levels may help
     forget_travel();
     go_to(whole_picture);
   } else if (level_ < whole_picture) {

@@ -14,7 +14,7 @@ namespace penumbra::viewer {
 // that no restart is visible.
 class FramePacing {
  public:
-  static constexpr std::size_t level_count = 7;
+  static constexpr std::size_t level_count = 9;
 
   explicit FramePacing(bool software) : software_(software) {}
 
@@ -36,7 +36,7 @@ class FramePacing {
   void drew(const Detail& detail, double milliseconds, double beside = 0);
 
  private:
-  static constexpr double idle_seconds = 0.25;  // without a change
+  static constexpr double idle_seconds = 0.15;  // without a change
   // Limits in motion: of an update of the window, and of its pictures alone.
   static constexpr double slow_ms = 100, fast_ms = 20;
 
@@ -44,6 +44,7 @@ class FramePacing {
   void go_to(std::size_t level);
   void forget_travel();
   bool is_level_useless() const;
+  double most_ratio_before() const;
   bool suits_before(double milliseconds, double beside) const;
 
   static constexpr std::size_t whole_picture = 3;  // the last level at which the picture has its full size

@@ -227,6 +227,35 @@ TEST(ViewerTravel, TheLargerPictureComesBackAfterASlowWhile) {
   EXPECT_EQ(orbit.in_motion(), settled);
 }
 
+// Not only divisors that are powers of two.
+TEST(ViewerTravel, ThePictureIsTheLargestThatIsQuickEnough) {
+  for (double rest = 110; rest < 6000; rest *= 1.07) {
+    Orbit orbit(0, 0, rest);
+    const Detail settled = orbit.in_motion();
+    EXPECT_LE(orbit.took(settled), 100) << rest;
+    int larger = 0;
+    for (const int divisor : {1, 2, 3, 4, 6, 8}) {
+      if (divisor < settled.picture) larger = divisor;
+    }
+    Detail before = settled;
+    before.picture = larger;
+    ASSERT_GT(larger, 0);
+    EXPECT_GT(orbit.took(before), 90) << rest << ": " << settled.picture << " is smaller than need be";
+  }
+}
+
+// Other work slowed the machine down just while the viewer found its level, so the levels seem to differ by more than
+// they do.
+TEST(ViewerTravel, WhatWasMeasuredUnderLoadDoesNotKeepThePictureSmall) {
+  Orbit orbit(0, 0, 900);
+  orbit.in_motion();
+  orbit.becomes(0, 0, 2600);
+  while (orbit.turn(/*changed=*/true).detail.picture < 6) continue;
+  orbit.becomes(0, 0, 500);
+  EXPECT_LE(orbit.in_motion().picture, 4);
+  EXPECT_EQ(orbit.in_motion().picture, 3);
+}
+
 // What the user waits for is the window.
 TEST(ViewerTravel, WhatTheWindowTakesBesideThePictureCounts) {
   const Detail whole{.maps = 4, .reads = 4};
@@ -259,7 +288,7 @@ TEST(ViewerTravel, WhatIsTooSlowInThisViewIsLeftAlone) {
 }
 
 TEST(ViewerTravel, NothingShrinksFurtherThanItsLimit) {
-  EXPECT_EQ(Orbit(1e6, 1e6, 1e6).in_motion(), (Detail{.picture = 8, .maps = 4, .reads = 4}));
+  EXPECT_EQ(Orbit(1e5, 1e6, 1e6).in_motion(), (Detail{.picture = 8, .maps = 4, .reads = 4}));
 }
 
 TEST(ViewerTravel, ThePictureDoesNotShrinkWhereThatSavesNothing) {
@@ -271,7 +300,7 @@ TEST(ViewerTravel, AnotherViewIsJudgedAnew) {
   Orbit orbit(8000, 10, 10);
   EXPECT_EQ(orbit.in_motion().picture, 1);
   orbit.becomes(160, 400, 3000);
-  EXPECT_EQ(orbit.in_motion().picture, 8);
+  EXPECT_EQ(orbit.in_motion().picture, 6);
   orbit.becomes(8000, 10, 10);
   EXPECT_EQ(orbit.in_motion().picture, 1);
 }
