@@ -140,17 +140,20 @@ Device::Device(ShaderFiles files, Timers::Mode timing)
 
 Device::~Device() = default;
 
-Device& Device::interrupted() {
-  if (!before_pass) return *this;
+void Device::aside(const std::function<void()>& action) {
   struct Turn {
-    explicit Turn(Device& of) : device(of), action(std::exchange(of.before_pass, nullptr)) {}
-    ~Turn() { device.before_pass = std::move(action); }
+    explicit Turn(Device& of) : device(of), before_pass(std::exchange(of.before_pass, nullptr)) {}
+    ~Turn() { device.before_pass = std::move(before_pass); }
     Device& device;
-    std::function<void()> action;
+    std::function<void()> before_pass;
   };
   const Timers::Break uncounted(timers);
   const Turn turn(*this);
-  turn.action();
+  action();
+}
+
+Device& Device::interrupted() {
+  if (before_pass) aside(std::function(before_pass));
   return *this;
 }
 

@@ -34,6 +34,9 @@ class Device {
   // of the frame. Passes that it draws itself do not call it again. What it throws ends the frame.
   std::function<void()> before_pass;
 
+  // Runs the action as before_pass is run: within a frame, of which what it draws is no part.
+  void aside(const std::function<void()>& action);
+
   // The texture of that name; created on first use, and again when the description changes. The reference stays valid;
   // contents persist until the texture is created again. Throws Error as Texture's constructor does.
   const Texture& target(std::string_view name, const TextureDesc& desc);

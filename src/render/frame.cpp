@@ -142,6 +142,11 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
   if (inputs.samples == 1) {
     parts.display = &tone_map(device, {.lit = lit, .exposure = exposure, .noise = noise, .params = params});
   } else {
+    if (inputs.show_first) {
+      device.aside([&] {
+        inputs.show_first(tone_map(device, {.lit = lit, .exposure = exposure, .noise = noise, .params = params}));
+      });
+    }
     const SampleMean mean =
         average_samples(device, shading, {.view = view, .gbuffer = gbuffer, .lit = lit, .exposure = exposure});
     parts.color = mean.color;

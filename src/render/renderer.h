@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <set>
@@ -49,6 +50,9 @@ struct FrameInputs {
   // smooth. The first is the middle of the pixel, and all that is read of the frame besides is that one's. The others
   // see its shadows, and leave histories as they are.
   int samples = 1;
+  // With several samples: called with the display of the first one alone, before the further ones are drawn, for a
+  // program that shows it meanwhile. See gl::Device::before_pass for what it may do.
+  std::function<void(const gl::Texture& display)> show_first;
 };
 
 // With supersampling, how the samples of one pixel become its value.

@@ -176,6 +176,39 @@ TEST_F(SamplesTest, EdgesOfBlendedSurfacesAreSmoothToo) {
   EXPECT_GT(check_edges(red(8), 8, 5e-3f, [](float share) { return 1.0f - 0.5f * share; }), height / 2);
 }
 
+TEST_F(SamplesTest, TheFirstSampleCanBeShownBeforeTheOthersWhichItDoesNotChange) {
+  params.set("render.dither", true);
+  for (const char* technique : {"hard", "slices_denoised", "thesis"}) {
+    SCOPED_TRACE(technique);
+    renderer.registry().select(params, technique);
+    red(1);
+    const std::vector<std::uint8_t> once = renderer.read_display();
+    red(4);
+    const std::vector<std::uint8_t> wanted = renderer.read_display();
+    std::vector<float> first;
+    int calls = 0;
+    inputs.show_first = [&](const gl::Texture& display) {
+      ++calls;
+      first = gl::read_floats(display, 3);
+      clear(device, {.name = "own",
+                     .colors = {{.texture = &device.target("own", {.width = 4, .height = 4}), .clear = glm::vec4(1)}}});
+    };
+    red(4);
+    EXPECT_EQ(calls, 1);
+    EXPECT_EQ(renderer.read_display(), wanted);
+    ASSERT_EQ(first.size(), once.size());
+    const std::size_t row = 3 * static_cast<std::size_t>(width);
+    for (std::size_t i = 0; i < once.size(); ++i) {
+      const std::size_t turned = (static_cast<std::size_t>(height) - 1 - i / row) * row + i % row;
+      ASSERT_EQ(std::lround(first[turned] * 255), once[i]);
+    }
+    inputs.samples = 1;
+    draw(stage);
+    EXPECT_EQ(calls, 1) << "of one sample there is no other picture";
+    inputs.show_first = nullptr;
+  }
+}
+
 TEST_F(SamplesTest, AllElseIsThatOfTheFirstSampleInEveryFrameOfAHistory) {
   params.set_text("technique", "pcss");
   renderer.registry().select(params, "thesis");
