@@ -1,12 +1,15 @@
 // Automatic exposure against its closed form: the geometric mean of what a white surface would show at each pixel.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <glm/gtc/constants.hpp>
 #include <glm/vec4.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "gpu/gpu_test.h"
 #include "render/passes.h"
+#include "render_scenes.h"
 
 namespace penumbra::test {
 namespace {
@@ -70,6 +73,28 @@ TEST_F(Exposure, LeavesOutTheSkyAndWhatAlbedoDoes) {
   });
   // 1/4 over an albedo of 1/4, and 1/2 over 1.
   EXPECT_NEAR(exposure, std::sqrt(2.0f), 1e-4);
+}
+
+// As ADR 32 has it, of ground that fills the picture, at noon and in the evening.
+TEST_F(RenderTest, SunlitSurfacesAreDisplayedByTheirAlbedo) {
+  inputs.camera = inputs.last_camera = render::look_at({0, 2, 2}, {0, 0, 0}, 0.6f, 0.01f);
+  const glm::mat4 level = glm::rotate(glm::scale(glm::mat4(1), glm::vec3(50)), -glm::half_pi<float>(), {1, 0, 0});
+  for (const auto& [albedo, expected] : {std::pair(0.5f, 189), {0.18f, 118}}) {
+    scene::Scene ground;
+    ground.materials = {{.base_color = {albedo, albedo, albedo, 1}, .metallic = 0, .roughness = 1}};
+    scene::Primitive plane = square();
+    plane.material = 0;
+    add_node(ground, std::move(plane), level);
+    for (const float elevation : {0.5f, 1.2f}) {
+      sun().to_light = {0, std::sin(elevation), std::cos(elevation)};
+      draw(ground);
+      const std::vector<std::uint8_t> shown = renderer.read_display();
+      const std::size_t middle = 3 * (height / 2 * width + width / 2);
+      // Sun and sky have colours, whose mean is grey.
+      const int sum = shown[middle] + shown[middle + 1] + shown[middle + 2];
+      EXPECT_NEAR(sum / 3.0, expected, 3) << albedo << ", the sun at " << elevation;
+    }
+  }
 }
 
 }  // namespace
