@@ -73,6 +73,7 @@ std::vector<Variant> variants_of(gl::Device& device, const Part& part) {
 #ifdef PENUMBRA_VIEWER
   for (const bool two : {false, true})
     for (const bool tinted : {false, true}) programs.push_back(viewer::present_program(two, tinted));
+  programs.push_back(viewer::smooth_edges_program());
 #endif
   std::sort(programs.begin(), programs.end());
   programs.erase(std::unique(programs.begin(), programs.end()), programs.end());

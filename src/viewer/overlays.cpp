@@ -219,16 +219,6 @@ void legend_overlay(const Panel& panel, const ImVec2& corner, float room) {
 
 namespace {
 
-// What a picture that is not finished waits for.
-std::string progress(const ViewerStatus& status) {
-  if (status.wanted <= 1) return "drawing";
-  return fmt::format("accumulating {}/{}", std::min(status.frames, status.wanted), status.wanted);
-}
-
-}  // namespace
-
-namespace {
-
 // A part of the status line. Where there is no room for all, those of the lowest ranks are left out.
 struct StatusPart {
   int rank = 0;
@@ -254,7 +244,7 @@ std::vector<StatusPart> status_parts(const Panel& panel) {
     if (detail.reads > 1) parts.push_back({2, fmt::format("taps 1/{}", detail.reads)});
     parts.push_back({4, fmt::format("{:.1f} ms", status.costs_a.frame())});
     parts.push_back({1, session::technique_label(panel.state.document.params)});
-    parts.push_back({5, status.idle ? "idle" : progress(status)});
+    parts.push_back({5, status.idle ? "idle" : text_of(status.progress)});
   }
   if (status.device.software) parts.push_back({0, "software rasteriser"});
   return parts;
@@ -281,6 +271,7 @@ void status_bar(const Panel& panel) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text.c_str());
   panel.widgets.mark("status");
+  if (text.find("history reset") != std::string::npos) panel.widgets.mark("history reset");
   if (text != whole) tooltip(whole);
 
   const char* help = "F1 keys";

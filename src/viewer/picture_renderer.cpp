@@ -17,6 +17,23 @@ bool continues(const session::PreparedScene& prepared, double last, double now) 
   return now >= last && now - last < longest_step && !scene::jumps_between(prepared.scene, last, now);
 }
 
+// The options that choose the lights, without those of the camera.
+std::vector<std::string> light_arguments(const Document& document) {
+  cli::SceneOptions options = document.options;
+  options.camera.reset();
+  options.eye.reset();
+  options.fov.reset();
+  return view_arguments(options);
+}
+
+// Whether parameters differ that shadows depend on.
+bool differ_in_shadows(const ParamSet& one, const ParamSet& other) {
+  return std::ranges::any_of(one.rows(), [&](const Param& row) {
+    const bool of_display = row.name.starts_with("exposure.") || row.name.starts_with("render.");
+    return !of_display && one.value(row.name) != other.value(row.name);
+  });
+}
+
 }  // namespace
 
 PictureRenderer::PictureRenderer(gl::Device& device, render::Renderer& renderer, int view)
@@ -30,7 +47,8 @@ bool PictureRenderer::has_params_of(const Document& document) const {
   return picture_ != nullptr && params_ == document.params;
 }
 
-void PictureRenderer::draw(LoadedScene& scene, const Document& document, const Detail& detail) {
+void PictureRenderer::draw(LoadedScene& scene, const Document& document, const Detail& detail,
+                           const std::function<void()>& first_drawn) {
   const auto start = std::chrono::steady_clock::now();
   const double time = document.seconds();
   std::string text = text_of(document);
@@ -48,17 +66,31 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, const D
   inputs.mask_details = true;  // any AOV can be inspected once the picture is drawn
   // As `penumbra render` finishes it.
   if (detail.is_full() && frames_ >= warmup_of(document)) inputs.samples = document.options.samples;
+  if (first_drawn) {
+    inputs.show_first = [&](const gl::Texture& display) {
+      keep(display, /*rough=*/true);
+      first_drawn();
+    };
+  }
   if (!still) inputs.last_camera = last_camera_;  // the user moves the camera too
-  cut_ = true;                                    // until the frame is drawn: after one that throws there is no history
+  std::vector<std::string> lights = light_arguments(document);
+  const bool same_size =
+      picture_ != nullptr && picture_->width() == pixels.width && picture_->height() == pixels.height;
+  const bool begins = still || detail != detail_ || !same_size || lights != lights_ || params_.rows().empty() ||
+                      differ_in_shadows(params_, document.params);
+  cut_ = true;  // until the frame is drawn: after one that throws there is no history
   const std::string before = std::exchange(drawn_, "");
   try {
-    keep(*renderer_.draw(scene.gpu, inputs, reduced(document.params, detail)).display);
+    const render::Frame& frame = renderer_.draw(scene.gpu, inputs, reduced(document.params, detail));
+    keep(*frame.display, inputs.samples < document.options.samples);
   } catch (const GivenUp&) {
     drawn_ = before;
     frames_ = 0;
     throw;
   }
   cut_ = restart_ = false;
+  began_history_ = begins;
+  lights_ = std::move(lights);
   drawn_ = std::move(text);
   params_ = document.params;
   detail_ = detail;
@@ -75,7 +107,8 @@ void PictureRenderer::forget() {
   cut();
 }
 
-void PictureRenderer::keep(const gl::Texture& display) {
+void PictureRenderer::keep(const gl::Texture& display, bool rough) {
+  rough_ = rough;
   picture_ = &device_.target(fmt::format("viewer/picture {}", view_), display.desc());
   gl::glCopyImageSubData(display.id(), GL_TEXTURE_2D, 0, 0, 0, 0, picture_->id(), GL_TEXTURE_2D, 0, 0, 0, 0,
                          display.width(), display.height(), 1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,9 +39,11 @@ class PictureRenderer {
   bool shows(const Document& document) const;
   // Whether it has these parameters, whatever else has changed.
   bool has_params_of(const Document& document) const;
-  // Draws the document in that detail, with the motion since the last drawing. Throws Error. Where it throws GivenUp,
-  // it still has the picture that it had, and the next drawing is the first of its own picture.
-  void draw(LoadedScene& scene, const Document& document, const Detail& detail);
+  // Draws the document in that detail, with the motion since the last drawing. Where each pixel has several samples,
+  // `first_drawn` is called as soon as picture() has the first of them. Throws Error. Where it throws GivenUp, it still
+  // has a picture, and the next drawing is the first of its own picture.
+  void draw(LoadedScene& scene, const Document& document, const Detail& detail,
+            const std::function<void()>& first_drawn = {});
   // The next drawing has nothing to do with the last one: after another scene or other shaders.
   void cut() {
     cut_ = true;
@@ -52,6 +55,8 @@ class PictureRenderer {
     restart_ = true;
     frames_ = 0;
   }
+  // Whether the last drawing began a history: after a cut or a restart, or with other parameters, lights or sizes.
+  bool began_history() const { return began_history_; }
   // The picture has to be drawn again: what it shows was not finished.
   void again() { frames_ = 0; }
 
@@ -64,22 +69,25 @@ class PictureRenderer {
 
   // The last drawing, tone mapped, RGBA8; valid until the next draw().
   const gl::Texture& picture() const { return *picture_; }
+  // Whether it has one sample of each pixel although the document asks for several.
+  bool is_rough() const { return rough_; }
   bool has_picture() const { return picture_ != nullptr; }
 
  private:
-  void keep(const gl::Texture& display);
+  void keep(const gl::Texture& display, bool rough);
 
   gl::Device& device_;
   render::Renderer& renderer_;
   int view_;
   const gl::Texture* picture_ = nullptr;
-  std::string drawn_;  // the document drawn last, as its command line
-  ParamSet params_;    // its parameters, in full detail
+  std::string drawn_;                // the document drawn last, as its command line
+  ParamSet params_;                  // its parameters, in full detail
+  std::vector<std::string> lights_;  // the options that choose its lights
   Detail detail_;
   int frames_ = 0;
   double milliseconds_ = 0, last_time_ = 0;
   render::Camera last_camera_;
-  bool cut_ = true, restart_ = false;
+  bool cut_ = true, restart_ = false, began_history_ = false, rough_ = false;
 };
 
 }  // namespace penumbra::viewer

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <span>
 #include <utility>
@@ -103,6 +104,7 @@ std::optional<Viewer::PictureWork> Viewer::plan_pictures(const PictureArea& area
   PictureWork work{.b = document_b(), .plan = {}};
   take_traced(work.b);
   const FrameState frame = frame_state(work.b, area, now);
+  note_progress();
   work.b_shown = frame.b.has_value();
   work.plan = plan_frame(pacing_, frame);
   if (work.plan.cancel_truth) truth_.cancel();
@@ -140,17 +142,18 @@ Viewer::Wishes Viewer::wishes() const {
 // Draws pictures in full on a software rasteriser, which takes long: before each pass the user is answered.
 void Viewer::draw_at_rest(const PictureWork& work) {
   struct Attendance {
-    explicit Attendance(Viewer& of) : viewer(of), begun(of.wishes()) {
-      viewer.device_.device.before_pass = [this] { viewer.attend(begun); };
+    explicit Attendance(Viewer& of) : viewer(of) {
+      viewer.begun_ = viewer.wishes();
+      viewer.device_.device.before_pass = [this] { viewer.attend(); };
     }
     ~Attendance() {
       viewer.device_.device.before_pass = nullptr;
+      viewer.begun_.reset();
       viewer.attending_ = false;
     }
     Attendance(const Attendance&) = delete;
     Attendance& operator=(const Attendance&) = delete;
     Viewer& viewer;
-    Wishes begun;
   };
   const Attendance attendance(*this);
   try {
@@ -180,8 +183,15 @@ void Viewer::draw_sides(std::span<const SideWork> work, const Detail& detail) {
   drawn_milliseconds_ = milliseconds;
   status_.detail = detail;
   status_.drawn_size = {a_.renderer.picture().width(), a_.renderer.picture().height()};
-  status_.frames = a_.renderer.frames();
-  status_.wanted = warmup_of(state_.document) + 1;
+  note_progress();
+}
+
+// It says for a second that a history has begun: a GPU draws the next frame at once.
+void Viewer::note_progress() {
+  constexpr double seconds = 1;
+  status_.progress = {.frames = a_.renderer.shows(state_.document) ? a_.renderer.frames() : 0,
+                      .wanted = warmup_of(state_.document) + 1,
+                      .began = ImGui::GetTime() < history_began_ + seconds};
 }
 
 bool Viewer::draw_side(const SideWork& work, const Detail& detail) {
@@ -191,8 +201,10 @@ bool Viewer::draw_side(const SideWork& work, const Detail& detail) {
     // Costs that were measured in another detail do not apply to this one.
     if (std::exchange(side.detail, detail) != detail) side.costs.clear();
     cost_reader_.start(device_.device.timers, side.costs);
-    side.renderer.draw(*scene_, work.document, detail);
+    const std::function<void()> first_drawn = [&] { show_first_sample(side); };
+    side.renderer.draw(*scene_, work.document, detail, begun_ ? first_drawn : nullptr);
     side.untraced = is_traced(work.document) && truth_.unfinished();
+    if (&side == &a_ && side.renderer.began_history()) history_began_ = ImGui::GetTime();
     side.costs.set_work(device_.device.timers.work());
     if (work.plan.measure && !side.untraced) measure(side);
     inspect(side);
@@ -214,6 +226,7 @@ void Viewer::forget_b() {
   b_.shown = b_.colors = nullptr;
   b_.measured = b_.untraced = false;
   renderer_.forget_view(1);
+  device_.device.drop("viewer/smooth b");
 }
 
 // The figures of A against B, over the surfaces that face a light, of all lights that cast shadows.

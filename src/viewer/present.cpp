@@ -30,7 +30,23 @@ void bind(gl::Device& device, const PresentInputs& inputs, const gl::Texture& te
   device.sampler(sampler_for(inputs, texture)).bind(unit);
 }
 
+// The picture, with smooth edges if it is rough.
+const gl::Texture& smoothed(gl::Device& device, const gl::Texture& picture, bool rough, const char* name) {
+  if (!rough) return picture;
+  const gl::Texture& smooth = device.target(name, {.width = picture.width(), .height = picture.height()});
+  gl::Pass pass(device, {.name = "smooth edges", .colors = {{.texture = &smooth, .dont_care = true}}});
+  pass.use(smooth_edges_program());
+  picture.bind(0);
+  device.sampler({.min_filter = GL_LINEAR, .mag_filter = GL_LINEAR}).bind(0);
+  pass.draw_full_screen();
+  return smooth;
+}
+
 }  // namespace
+
+gl::ProgramDesc smooth_edges_program() {
+  return {.name = "smooth edges", .vertex = "shared/full_screen.vert", .fragment = "viewer/smooth_edges.frag"};
+}
 
 gl::ProgramDesc present_program(bool two, bool tinted) {
   return {.name = "present",
@@ -45,22 +61,26 @@ const gl::Texture& present(gl::Device& device, const PresentInputs& inputs) {
   const glm::vec2 center = center_of(inputs);
   const CompareMode how = how_of(inputs);
   const bool two = how != CompareMode::a && how != CompareMode::b;
-  const gl::Texture* first = how == CompareMode::b ? inputs.b : inputs.a;
+  const bool b_first = how == CompareMode::b;
+  const gl::Texture* first = b_first ? inputs.b : inputs.a;
   // A picture without a tint shows itself.
   const auto tint_or = [](const gl::Texture* tint, const gl::Texture* picture) {
     return tint != nullptr ? tint : picture;
   };
-  const gl::Texture* first_tint = tint_or(how == CompareMode::b ? inputs.tint_b : inputs.tint_a, first);
+  const gl::Texture* first_tint = tint_or(b_first ? inputs.tint_b : inputs.tint_a, first);
   const bool tinted = inputs.tint_a != nullptr || inputs.tint_b != nullptr;
   const gl::SamplerDesc of_tints{.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST};
+  const bool first_rough = b_first ? inputs.rough_b : inputs.rough_a;
+  const gl::Texture& shown = smoothed(device, *first, first_rough, b_first ? "viewer/smooth b" : "viewer/smooth a");
+  const gl::Texture* second = two ? &smoothed(device, *inputs.b, inputs.rough_b, "viewer/smooth b") : nullptr;
   {
     gl::Pass pass(device, {.name = "present", .colors = {{.texture = &target}}});
     const gl::Program& program = pass.use(present_program(two, tinted));
-    bind(device, inputs, *first, 0);
+    bind(device, inputs, shown, 0);
     first_tint->bind(2);
     device.sampler(of_tints).bind(2);
     if (two) {
-      bind(device, inputs, *inputs.b, 1);
+      bind(device, inputs, *second, 1);
       tint_or(inputs.tint_b, inputs.b)->bind(3);
       device.sampler(of_tints).bind(3);
     }

@@ -166,8 +166,11 @@ PresentInputs Viewer::present_inputs(const glm::ivec2& window_size) const {
   const glm::ivec2 whole = shows_texture_alone() ? fitted({a_.values.width, a_.values.height}, window_size)
                                                  : glm::ivec2(size.width, size.height);
   const auto tint_of = [&](const Side& side) { return tints && side.shown != side.colors ? side.colors : nullptr; };
+  const auto is_rough = [](const Side& side) { return side.shown != side.colors && side.renderer.is_rough(); };
   return {.a = a_.shown,
           .b = state_.comparison.on ? b_.shown : nullptr,
+          .rough_a = is_rough(a_),
+          .rough_b = is_rough(b_),
           .tint_a = tint_of(a_),
           .tint_b = state_.comparison.on ? tint_of(b_) : nullptr,
           .picture_size = whole,

@@ -10,6 +10,7 @@
 #include "viewer/costs.h"
 #include "viewer/inspect.h"
 #include "viewer/picture_renderer.h"
+#include "viewer/progress.h"
 #include "viewer/unsaved.h"
 
 namespace penumbra::viewer {
@@ -42,8 +43,7 @@ struct ViewerStatus {
   const Costs& costs_b;
   glm::ivec2 drawn_size{0};  // of the last picture, pixels
   Detail detail;             // of it
-  int frames = 0;            // drawn since something changed
-  int wanted = 1;            // frames until the picture is finished
+  Progress progress;         // of A
   bool idle = false;         // all pictures are finished: nothing will be drawn until something changes
   bool can_undo = false, can_redo = false;
   Unsaved unsaved;

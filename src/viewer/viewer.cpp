@@ -182,19 +182,33 @@ void Viewer::show_interface() {
 
 // Gives the window's input to the interface, and draws that over the last picture. A picture that the user has changed
 // meanwhile is given up.
-void Viewer::attend(const Wishes& begun) {
+void Viewer::attend() {
   window_.poll(0);
   if (window_.has_news() || caught_signal != 0) throw GivenUp();
-  if (!window_.has_input()) return;
+  if (window_.has_input()) answer(settling);
+}
+
+// Draws so many frames of the interface, and more while there is input.
+void Viewer::answer(int frames) {
   attending_ = true;
-  for (int left = settling; left > 0; left = window_.has_input() ? settling : left - 1) {
+  for (int left = frames; left > 0; left = window_.has_input() ? settling : left - 1) {
     begin_interface();
     build_interface();
     widgets_.mark_drawing();
     show_interface();
-    if (wishes() != begun) throw GivenUp();
+    if (wishes() != begun_) throw GivenUp();
   }
   attending_ = false;
+}
+
+// A picture at rest is seen as soon as it has one sample of each pixel. Values are those of finished pictures.
+void Viewer::show_first_sample(Side& side) {
+  if (!state_.inspection.what.empty()) return;
+  side.shown = &side.renderer.picture();
+  status_.detail = {};
+  status_.drawn_size = {side.shown->width(), side.shown->height()};
+  show_pictures();
+  answer(1);
 }
 
 void Viewer::take_events() {

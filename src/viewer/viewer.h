@@ -110,10 +110,13 @@ class Viewer {
   void draw_pictures(const PictureWork& work);
   void draw_at_rest(const PictureWork& work);
   Wishes wishes() const;
-  void attend(const Wishes& begun);
+  void attend();
+  void answer(int frames);
+  void show_first_sample(Side& side);
   FrameState frame_state(const Document& b, const PictureArea& area, double now);
   void take_traced(const Document& b);
   void draw_sides(std::span<const SideWork> work, const Detail& detail);
+  void note_progress();
   void measure(Side& side);
   void forget_b();
   bool draw_side(const SideWork& work, const Detail& detail);
@@ -191,10 +194,12 @@ class Viewer {
   const gl::Texture* presented_ = nullptr;  // what the window shows of the pictures
   // Frames of the interface after the last press: a list or a question that opens takes some to find its size.
   static constexpr int settling = 4;
-  int unsettled_ = 0;       // those to come before a picture is begun that takes long
-  bool attending_ = false;  // a picture is being drawn, between two of its passes
+  int unsettled_ = 0;            // those to come before a picture is begun that takes long
+  std::optional<Wishes> begun_;  // what the picture at rest is drawn for that is being drawn
+  bool attending_ = false;       // a picture is being drawn, between two of its passes
   bool vsync_ = true;
   double last_draw_ = 0;
+  double history_began_ = -1e9;  // when A's last history began, seconds
   // Milliseconds: of the pictures that this turn of the loop drew in motion, and of all else in the last such turn.
   double drawn_milliseconds_ = 0, beside_pictures_ = 0;
 };

@@ -368,8 +368,8 @@ class Animation(WindowTest):
             start = viewer.rest()
             viewer.open_tab("Scene", "step")
             for _ in range(3):
-                before = viewer.seen("frame")
-                viewer.click("step", lambda before=before: viewer.seen("frame") != before, "the next frame")
+                before = viewer.seen("frame value")
+                viewer.click("step", lambda before=before: viewer.seen("frame value") != before, "the next frame")
             shown = viewer.changed(start)
             command = viewer.copied()
             self.assertIn("--warmup-still", command)
