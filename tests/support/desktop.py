@@ -162,11 +162,15 @@ class Desktop:
 
     def checksum(self, left, top, right, bottom):
         """Of some rows of the screen within a rectangle: it tells whether a picture has changed, in a few milliseconds."""
+        return zlib.adler32(self.some_rows(left, top, right, bottom))
+
+    def some_rows(self, left, top, right, bottom):
+        """Every eighth row within a rectangle: four bytes for each pixel."""
         data = pathlib.Path(self._folder.name, "Xvfb_screen0").read_bytes()
         width, height = self._size
         pixels = len(data) - 4 * width * height
-        return zlib.adler32(b"".join(data[pixels + 4 * (y * width + left):pixels + 4 * (y * width + right)]
-                                     for y in range(top, bottom, 8)))
+        return b"".join(data[pixels + 4 * (y * width + left):pixels + 4 * (y * width + right)]
+                        for y in range(top, bottom, 8))
 
 
 def _rgb(row):
