@@ -174,13 +174,15 @@ class Search(WindowTest):
             viewer.find("sun.angle")
             resting = viewer.rest()
             left, top, right, bottom = viewer.box("sun.angle")
-            viewer.move(left + (right - left) * 3 // 4, (top + bottom) // 2)
+            x = left + (right - left) * 3 // 4
+            viewer.move(x, (top + bottom) // 2)
             self.desktop.xdotool("click", LEFT)
             viewer.changed(resting)
             command = viewer.copied()
             angle = next(float(word.split("=")[2]) for word in command if word.startswith("--set=sun.angle="))
-        # From 0 to 20°: Dear ImGui takes 0 for 0.001, so a quarter of the slider is a factor of 20000 ** 0.25 = 11.9.
-        self.assertAlmostEqual(math.log(angle), math.log(20 / 11.9), delta=0.25)
+        # From 0 to 20°, of which Dear ImGui takes 0 for 0.001. The grab and the gaps at its ends take 14 pixels.
+        share = (x - left - 7) / (right - left - 14)
+        self.assertAlmostEqual(math.log(angle), math.log(0.001) + share * math.log(20 / 0.001), delta=0.15)
 
 
 class Status(WindowTest):
