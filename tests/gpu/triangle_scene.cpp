@@ -269,6 +269,8 @@ Shadowed TriangleRenderer::render(const TriangleScene& scene, const ParamSet& pa
     pass.use(receiver_program).set("world_to_clip", drawn_projection(scene) * scene.view);
     geometry.draw();
   }
+  // As engines that draw so have it.
+  gl::glClipControl(GL_LOWER_LEFT, scene.conventions.depth_zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
   const gl::Texture& depth = half ? in_half_floats(device_, drawn_depth) : drawn_depth;
   const shadow::Light light{.source = shadow::Sun{scene.to_light}};
   shadow::Inputs inputs{.view = {.view = scene.view, .projection = scene.projection},
