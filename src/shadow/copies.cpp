@@ -1,9 +1,9 @@
 #include "copies.h"
 
-#include <algorithm>
 #include <string>
 
 #include "light_frame.h"
+#include "light_matrices.h"
 #include "shadow_map.h"
 
 namespace penumbra::shadow {
@@ -47,31 +47,20 @@ const gl::Program& use_maps(gl::Device& device, gl::Pass& pass, const FinishedMa
 
 // Into the last layer of a projection, which holds all others, the coarsest first: a finer one replaces what it shows.
 void compose_map(gl::Device& device, const gl::Texture& target, const FinishedMaps& maps) {
-  const Cascades& cascades = maps.projection.cascades();
   const int count = maps.projection.given_layers();
-  const Cascade& all = cascades.items.back();
-  const glm::dvec2 texel(cascades.texel(count));
   for (int layer = count - 1; layer >= 0; --layer) {
-    const Cascade& given = cascades.items[static_cast<std::size_t>(layer)];
     gl::Attachment depth{.texture = &target, .layer = count};
     if (layer == count - 1) depth.clear = glm::vec4(1);
     gl::Pass pass(device, {.name = "compose map", .depth = depth, .depth_write = true});
+    const ComposedPart part = composed_part(maps.projection, layer);
+    if (glm::any(glm::greaterThan(part.texels.first, part.texels.last))) continue;
     const gl::Program& program = use_maps(device, pass, maps, layer, true);
-    const glm::dvec2 low(given.center - given.half_extent), origin(all.center - all.half_extent);
-    const glm::dvec2 scale = texel / glm::dvec2(cascades.texel(layer));
-    const double range = static_cast<double>(given.far_z) - given.near_z;
-    const double all_range = static_cast<double>(all.far_z) - all.near_z;
-    const float most_slope = 4;  // metres along the light for each across
-    program.set("place", glm::vec4(scale, (origin - low) / glm::dvec2(cascades.texel(layer))));
-    program.set("last", glm::ivec2(cascades.size - 1));
-    program.set("depths", glm::vec2(range / all_range, (given.near_z - all.near_z) / all_range));
-    const glm::vec2 size = cascades.texel(layer);
-    program.set("spread", static_cast<float>(most_slope * std::max(size.x, size.y) / range));
-    const glm::dvec2 high(given.center + given.half_extent);
-    const glm::ivec2 first(glm::ceil((low - origin) / texel - 0.5)), last(glm::floor((high - origin) / texel - 0.5));
-    const glm::ivec2 from = glm::max(first, glm::ivec2(0)), to = glm::min(last, glm::ivec2(cascades.size - 1));
-    if (glm::any(glm::greaterThan(from, to))) continue;
-    pass.set_viewport(from.x, from.y, to.x - from.x + 1, to.y - from.y + 1);
+    program.set("place", part.place);
+    program.set("last", glm::ivec2(maps.projection.size() - 1));
+    program.set("depths", part.depths);
+    program.set("spread", part.spread);
+    const glm::ivec2 first = part.texels.first, size = part.texels.last - first + 1;
+    pass.set_viewport(first.x, first.y, size.x, size.y);
     pass.draw_full_screen();
   }
 }

@@ -289,6 +289,22 @@ LightProjection sun_projection(const SunMatrices& maps) {
   return projection;
 }
 
+ComposedPart composed_part(const LightProjection& projection, int layer) {
+  constexpr double most_slope = 4;  // metres along the light for each across
+  const Cascades& cascades = projection.cascades();
+  const Cascade &given = cascades.items.at(static_cast<std::size_t>(layer)), &all = cascades.items.back();
+  const glm::dvec2 texel(cascades.texel(static_cast<int>(cascades.items.size()) - 1)), own(cascades.texel(layer));
+  const glm::dvec2 origin(all.center - all.half_extent), low(given.center - given.half_extent),
+      high(given.center + given.half_extent);
+  const double range = static_cast<double>(given.far_z) - given.near_z;
+  const double whole = static_cast<double>(all.far_z) - all.near_z;
+  const glm::ivec2 first(glm::ceil((low - origin) / texel - 0.5)), last(glm::floor((high - origin) / texel - 0.5));
+  return {.texels = {glm::max(first, glm::ivec2(0)), glm::min(last, glm::ivec2(cascades.size - 1))},
+          .place = glm::vec4(texel / own, (origin - low) / own),
+          .depths = glm::vec2(range / whole, (static_cast<double>(given.near_z) - all.near_z) / whole),
+          .spread = static_cast<float>(most_slope * std::max(own.x, own.y) / range)};
+}
+
 LightProjection spot_projection(const SpotMatrix& map) {
   const Lamp& lamp = map.lamp;
   if (const std::string fault = fault_of(lamp); !fault.empty())

@@ -38,6 +38,17 @@ struct SunMatrices {
 // With a square sun, render() refuses maps whose x axis is not horizontal: the square is that of light_axes().
 LightProjection sun_projection(const SunMatrices& maps);
 
+// How what a given layer's map shows gets into the map of the added one, which holds all.
+struct ComposedPart {
+  TexelRange texels;  // of the added map: those whose centres the given one holds; none if first > last
+  glm::vec4 place;    // xy: scale and zw: offset from texels of the added map to those of the given one
+  glm::vec2 depths;   // x: scale and y: offset from stored depths of the given map to those of the added one
+  float spread;       // by which stored depths of neighbouring texels of one surface differ at most
+};
+
+// `layer`: below LightProjection::given_layers(), of a sun's projection that has one layer more than these.
+ComposedPart composed_part(const LightProjection& projection, int layer);
+
 // A spot's shadow map that the caller draws with a matrix of its own.
 struct SpotMatrix {
   // From world to clip space: a perspective from the lamp's centre along its axis, of the same angle in x and y, with

@@ -130,7 +130,7 @@ Mask SoftShadows::render(const Inputs& inputs, const ParamSet& params) {
   const gl::InitialLegacyState legacy;
   ViewState& view = state_->views[inputs.view.id];
   if (view.prefix.empty()) view.prefix = view_prefix(inputs.view.id);
-  const Mask mask = draw(inputs, params, view);
+  Mask mask = draw(inputs, params, view);
   if (!warning.empty()) log(LogLevel::warning, warning);
   return mask;
 }

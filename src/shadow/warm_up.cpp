@@ -53,12 +53,12 @@ glm::mat4 projection_for(const Conventions& conventions) {
   return projection;
 }
 
-// Towards the first light, so that receivers are not turned away from it.
+// Towards the first light if it is a sun, so that receivers are not turned away from it.
 glm::vec3 normal_for(const FrameKind& kind) {
   const glm::vec3 to_viewer(0, 0, 1);
   if (kind.lights.empty()) return to_viewer;
-  const auto* sun = std::get_if<Sun>(&kind.lights[0].source);
-  return sun != nullptr ? glm::normalize(sun->to_light) : to_viewer;
+  const glm::vec4 place = place_of(kind.lights[0].source);
+  return place.w == 0 ? glm::normalize(glm::vec3(place)) : to_viewer;
 }
 
 void draw_caster(const CasterPass& casters, gl::Pass& pass) {
