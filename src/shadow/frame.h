@@ -1,6 +1,5 @@
 #pragma once
 
-#include "left_out.h"
 #include "light_work.h"
 
 namespace penumbra::shadow {
@@ -10,7 +9,6 @@ struct MaskInputs {
   const Registry& registry;
   const Programs& programs;
   Samples& samples;
-  LeftOut& left_out;
   const ParamSet& defaults;  // the registry's parameters with their default values
   const Inputs& inputs;
   const ParamSet& params;

@@ -7,7 +7,6 @@
 #include "copies.h"
 #include "depth_normals.h"
 #include "filters.h"
-#include "left_out.h"
 #include "light_work.h"
 #include "mask_scale.h"
 #include "movement_map.h"
@@ -309,7 +308,6 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
                                         pack(false),
                                         filter_tiles(),
                                         output_program(),
-                                        mark_frame_program(),
                                         upsample(),
                                         scaled_receivers_program(),
                                         ready(depth_normals_program(false)),
