@@ -6,10 +6,10 @@ layout(binding = 0) uniform sampler2D picture;
 layout(location = 0) out vec4 display;
 
 // Of display values, 0 to 1.
-const float least_contrast = 0.04;        // below which a difference is no edge
-const float relative_contrast = 0.125;    // of the brightest neighbour: the same for bright pixels
-const float longest = 8.0;                // pixels along the edge
-const float least_slope = 1.0 / 128.0;    // keeps the division below finite
+const float least_contrast = 0.04;      // below which a difference is no edge
+const float relative_contrast = 0.125;  // of the brightest neighbour: the same for bright pixels
+const float longest = 8.0;              // pixels along the edge
+const float least_slope = 1.0 / 128.0;  // keeps the division below finite
 
 float brightness(vec3 color) { return dot(color, vec3(0.299, 0.587, 0.114)); }
 

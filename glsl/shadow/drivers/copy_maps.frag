@@ -34,7 +34,9 @@ void main() {
   float most = max(max(four.x, four.y), max(four.z, four.w));
   float depth = depth_at(min(ivec2(at), last));
   if (depth == 1.0) discard;
-  if (most < 1.0 && most - least <= spread) depth = mix(mix(four.x, four.y, share.x), mix(four.z, four.w, share.x), share.y);
+  if (most < 1.0 && most - least <= spread) {
+    depth = mix(mix(four.x, four.y, share.x), mix(four.z, four.w, share.x), share.y);
+  }
   gl_FragDepth = depth * depths.x + depths.y;
 }
 #else
