@@ -263,9 +263,10 @@ typedef struct penumbra_light {
    * Of a sun they are orthographic, along the sun's rays, the finest map first; they may overlap or contain each other.
    * Receivers look in the last one first, for how near to the light casters can be: where it does not hold all others,
    * as with a map for each slice of the view, all are copied in each frame, and a further one that does is made from
-   * them (not of 8). With a square sun their x axis must be horizontal. PENUMBRA_ERROR_REFUSED says which map can't
-   * serve, and why: perspective, warped, skewed or mirrored ones, depths that grow towards the light, a near plane
-   * behind casters (penumbra_frame.casters), whose depths were clamped.
+   * them; there is room for it beside at most 7. With a square sun their x axis must be horizontal.
+   * PENUMBRA_ERROR_REFUSED says which map can't serve, and why: perspective, warped, skewed or mirrored ones, depths
+   * that grow towards the light, a near plane behind casters (penumbra_frame.casters), whose depths were clamped; or
+   * that the last of 8 does not hold all others.
    *
    * Of a spot it is one: a perspective from its centre along its axis, of the same angle in x and y, at least that of
    * its cone, with a near and a far plane, the far one at most 2000 times as far away, and depths of at least 24 bits.

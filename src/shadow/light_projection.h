@@ -76,7 +76,7 @@ class LightProjection {
   LightProjection(const LampMaps& lamp) : maps_(lamp) {}  // NOLINT(google-explicit-constructor)
 
   int layers() const;
-  // Of maps that the caller gives: how many layers it gives. The last one of the others is made from these.
+  // How many layers have a map of the caller's, where it gives maps: all, or all but the last, which is made from them.
   int given_layers() const;
   int size() const;  // side of each layer, texels
   // Width and height of a layer's texel, metres; of a lamp: at the far plane, where texels are largest.
