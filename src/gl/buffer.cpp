@@ -1,7 +1,9 @@
 #include "buffer.h"
 
+#include <atomic>
 #include <cassert>
 #include <string>
+#include <vector>
 
 #include "../core/error.h"
 #include "debug.h"
@@ -12,7 +14,8 @@ void delete_buffer(GLuint id) { glDeleteBuffers(1, &id); }
 
 namespace {
 
-Handle<delete_buffer> make_storage(std::string_view name, std::size_t bytes, const void* contents) {
+Handle<delete_buffer> make_storage(std::string_view name, std::size_t bytes, const void* contents,
+                                   GLbitfield flags = GL_DYNAMIC_STORAGE_BIT) {
   GLuint id = 0;
   glCreateBuffers(1, &id);
   Handle<delete_buffer> handle(id);
@@ -21,7 +24,7 @@ Handle<delete_buffer> make_storage(std::string_view name, std::size_t bytes, con
   const std::size_t storage = bytes == 0 ? 1 : bytes;
   const std::string what = fmt::format("buffer '{}'", name);
   StorageCheck check(what);
-  glNamedBufferStorage(id, static_cast<GLsizeiptr>(storage), bytes == 0 ? nullptr : contents, GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferStorage(id, static_cast<GLsizeiptr>(storage), bytes == 0 ? nullptr : contents, flags);
   if (check.ran_out()) fail("{}: out of memory for {} bytes", what, bytes);
   return handle;
 }
@@ -38,6 +41,27 @@ void Buffer::write(std::span<const std::byte> bytes, std::size_t offset) const {
   assert(offset + bytes.size() <= size_);
   if (bytes.empty()) return;
   glNamedBufferSubData(id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+}
+
+ReadableBuffer::ReadableBuffer(std::string_view label, std::size_t words) {
+  constexpr GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+  const std::vector<std::uint32_t> zeros(words);
+  const std::size_t bytes = words * sizeof(std::uint32_t);
+  handle_ = make_storage(label, bytes, zeros.data(), access | GL_DYNAMIC_STORAGE_BIT);
+  const void* mapped = glMapNamedBufferRange(handle_.id(), 0, static_cast<GLsizeiptr>(bytes), access);
+  if (mapped == nullptr) fail("buffer '{}' can't be mapped", label);
+  words_ = static_cast<const std::uint32_t*>(mapped);
+}
+
+std::uint32_t ReadableBuffer::word(std::size_t index) const {
+  const std::uint32_t value = words_[index];
+  std::atomic_thread_fence(std::memory_order_acquire);  // before the words that are read next
+  return value;
+}
+
+// Not by glClearNamedBufferSubData(), to which Mesa applies the engine's pixel storage modes.
+void ReadableBuffer::write(std::size_t index, std::uint32_t value) const {
+  glNamedBufferSubData(handle_.id(), static_cast<GLintptr>(index * sizeof value), sizeof value, &value);
 }
 
 void Buffer::bind_uniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, id()); }

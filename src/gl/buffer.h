@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -36,6 +37,23 @@ class Buffer {
  private:
   Handle<delete_buffer> handle_;
   std::size_t size_ = 0;
+};
+
+// A buffer of 32-bit words, 0 at first, that the GPU writes and the CPU reads without any call of OpenGL: it stays
+// mapped.
+class ReadableBuffer {
+ public:
+  ReadableBuffer(std::string_view label, std::size_t words);
+
+  // What the GPU has written so far.
+  std::uint32_t word(std::size_t index) const;
+  // A command for the GPU, which conditional rendering does not leave out and which no state of the engine's changes.
+  void write(std::size_t index, std::uint32_t value) const;
+  void bind_storage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, handle_.id()); }
+
+ private:
+  Handle<delete_buffer> handle_;
+  const volatile std::uint32_t* words_ = nullptr;
 };
 
 // Writes one value's bytes; T is a std140/std430 struct shared with GLSL.

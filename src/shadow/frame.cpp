@@ -352,6 +352,7 @@ Mask draw_mask(const MaskInputs& given, ViewState& view) {
                         .registry = given.registry,
                         .programs = given.programs,
                         .samples = given.samples,
+                        .left_out = given.left_out,
                         .defaults = given.defaults,
                         .inputs = inputs,
                         .params = given.params};
@@ -375,6 +376,7 @@ Mask draw_mask(const MaskInputs& given, ViewState& view) {
   forget_lights_left_out(from.device, view);
   release_scales(from.device, view, scaled);
   write_outputs(from.device, from.inputs, view.checked, *mask.texture);
+  from.left_out.mark_frame(from.device);
   view.drawn = true;
   gl::leave_initial_state();
   return mask;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "left_out.h"
 #include "light_work.h"
 
 namespace penumbra::shadow {
@@ -9,6 +10,7 @@ struct MaskInputs {
   const Registry& registry;
   const Programs& programs;
   Samples& samples;
+  LeftOut& left_out;
   const ParamSet& defaults;  // the registry's parameters with their default values
   const Inputs& inputs;
   const ParamSet& params;

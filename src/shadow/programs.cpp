@@ -7,6 +7,7 @@
 #include "copies.h"
 #include "depth_normals.h"
 #include "filters.h"
+#include "left_out.h"
 #include "light_work.h"
 #include "mask_scale.h"
 #include "movement_map.h"
@@ -308,6 +309,7 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
                                         pack(false),
                                         filter_tiles(),
                                         output_program(),
+                                        mark_frame_program(),
                                         upsample(),
                                         scaled_receivers_program(),
                                         ready(depth_normals_program(false)),

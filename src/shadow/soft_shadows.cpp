@@ -101,6 +101,7 @@ struct SoftShadows::State {
   const ParamSet defaults;
   Programs programs;
   Samples samples;
+  LeftOut left_out;
   bool rendering = false;
   std::map<int, ViewState> views;
   std::map<int, LightState> forward;  // the parameters of the last forward programs, by the light's id
@@ -121,6 +122,7 @@ Mask SoftShadows::render(const Inputs& inputs, const ParamSet& params) {
   const Rendering rendering(state_->rendering);
   const Call call(device_);
   // A steady frame in the core profile asks OpenGL nothing: a driver that works on another thread would have to wait.
+  check_earlier_frames();
   const bool first = !state_->views.contains(inputs.view.id);
   if (first || gl::has_legacy_state()) gl::check_context_is_ready(subject);
   if (first) check_nothing_is_left_out();
@@ -133,11 +135,24 @@ Mask SoftShadows::render(const Inputs& inputs, const ParamSet& params) {
   return mask;
 }
 
+// Refuses this frame, so that the next one begins anew.
+void SoftShadows::check_earlier_frames() {
+  if (!state_->left_out.found()) return;
+  for (auto& [id, view] : state_->views) view.drawn = false;
+  gl::check_context_is_ready(subject);
+  check_nothing_is_left_out();
+  throw gl::ContextError(
+      fmt::format("{}: OpenGL left out what an earlier frame drew: conditional rendering or transform feedback was "
+                  "active; end it before",
+                  subject));
+}
+
 Mask SoftShadows::draw(const Inputs& inputs, const ParamSet& params, ViewState& view) {
   return draw_mask({.device = device_,
                     .registry = registry_,
                     .programs = state_->programs,
                     .samples = state_->samples,
+                    .left_out = state_->left_out,
                     .defaults = state_->defaults,
                     .inputs = inputs,
                     .params = params},

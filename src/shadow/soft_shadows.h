@@ -123,6 +123,7 @@ class SoftShadows {
  private:
   struct State;
   std::string view_prefix(int id) const;
+  void check_earlier_frames();
   Mask draw(const Inputs& inputs, const ParamSet& params, ViewState& view);
 
   gl::Device& device_;

@@ -39,7 +39,7 @@ class NoSamples {
   ~NoSamples() { gl::glDeleteQueries(1, &id_); }
   NoSamples(const NoSamples&) = delete;
   NoSamples& operator=(const NoSamples&) = delete;
-  void begin() const { gl::glBeginConditionalRender(id_, GL_QUERY_WAIT); }
+  void begin(GLenum mode = GL_QUERY_WAIT) const { gl::glBeginConditionalRender(id_, mode); }
 
  private:
   GLuint id_ = 0;
@@ -57,6 +57,75 @@ TEST_F(ShadowContext, ConditionalRenderingIsOneClearError) {
   EXPECT_EQ(message_of([&] { renderer_->shadows().warm_up({}, renderer_->params()); }),
             "soft shadows: conditional rendering is active; end it before");
   gl::glEndConditionalRender();
+}
+
+// Views whose frames follow each other without motion, so that they keep what the last frame drew.
+class Follows {
+ public:
+  explicit Follows(TriangleRenderer& renderer) : renderer_(renderer) {
+    renderer.shadows().registry().select(params_, "slices_denoised");
+    params_.set("cascades.size", 128);
+  }
+  std::vector<float> mask(
+      int view, float azimuth, const std::function<void()>& begin = [] {}, const std::function<void()>& end = [] {}) {
+    TriangleScene scene = box_on_ground(32);
+    scene.to_light = sun_direction(azimuth, 40);
+    return renderer_
+        .render(
+            scene, params_,
+            [&](shadow::Inputs& inputs) {
+              inputs.view.id = view;
+              inputs.view.last_view = inputs.view.view;
+              inputs.view.last_projection = inputs.view.projection;
+              begin();
+            },
+            end)
+        .mask;
+  }
+  // The masks of a frame under another sun than that of the last one, in which `begin` has draws left out, and
+  // of the frames after it: the second one is an error, and the next one right.
+  void expect_error_afterwards(const std::function<void()>& begin, const std::function<void()>& end) {
+    const std::vector<float> expected = mask(0, 200);
+    mask(1, 60);
+    EXPECT_NE(mask(1, 200, begin, end), expected);
+    mask(1, 200);
+    gl::glFinish();
+    EXPECT_EQ(message_of([&] { mask(1, 200); }),
+              "soft shadows: OpenGL left out what an earlier frame drew: conditional rendering or transform feedback "
+              "was active; end it before");
+    EXPECT_EQ(mask(1, 200), expected);
+    EXPECT_EQ(mask(1, 200), expected) << "said once";
+    EXPECT_EQ(mask(0, 200), expected) << "another view";
+  }
+
+ private:
+  TriangleRenderer& renderer_;
+  ParamSet params_ = renderer_.params();
+};
+
+TEST_F(ShadowContext, ConditionalRenderingInALaterFrameIsAnErrorSoonAfter) {
+  const NoSamples query;
+  Follows(*renderer_).expect_error_afterwards([&] { query.begin(); }, [] { gl::glEndConditionalRender(); });
+}
+
+TEST_F(ShadowContext, ConditionalRenderingThatGoesOnIsNamed) {
+  const NoSamples query;
+  const std::vector<float> expected = mask(0);
+  mask(0, [&] { query.begin(); });
+  mask(0);
+  EXPECT_EQ(message_of([&] { mask(0); }), "soft shadows: conditional rendering is active; end it before");
+  gl::glEndConditionalRender();
+  EXPECT_EQ(mask(0), expected);
+}
+
+TEST_F(ShadowContext, ConditionalRenderingThatLeavesNothingOutIsNoError) {
+  const NoSamples query;
+  const std::vector<float> expected = mask(0);
+  for (int frame = 0; frame < 3; ++frame) {
+    const auto begin = [&] { query.begin(GL_QUERY_WAIT_INVERTED); };
+    EXPECT_EQ(mask(0, begin, [] { gl::glEndConditionalRender(); }), expected);
+  }
+  EXPECT_EQ(mask(0), expected);
 }
 
 // A program whose positions are written to a buffer while feedback is active.
@@ -123,6 +192,19 @@ TEST_F(ShadowContext, ActiveTransformFeedbackIsOneClearError) {
             "soft shadows: transform feedback is active; end or pause it before");
   Feedback::end();
   EXPECT_EQ(mask(1), expected);
+}
+
+// In a context without debugging, as applications use: a debug context tells of the first call that fails.
+TEST(ShadowContextInUse, ActiveTransformFeedbackInALaterFrameIsAnErrorSoonAfter) {
+  const auto context = gl::make_context(backend_name(), {.debug = false});
+  TriangleRenderer renderer;
+  const Feedback feedback;
+  Follows(renderer).expect_error_afterwards([&] { feedback.begin(); },
+                                            [] {
+                                              while (gl::glGetError() != GL_NO_ERROR) continue;
+                                              Feedback::end();
+                                            });
+  EXPECT_EQ(gl::glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
 TEST_F(ShadowContext, PausedTransformFeedbackGoesOnAfterwards) {
