@@ -90,10 +90,11 @@ def histories():
 
 
 def terminator():
-    ball = ["scenes/moving.glb", "--size", "320x200", "--sun", "90,25", "--eye=-2.1,0.7,3.6", "--target=-2.05,0.5,2.4",
-            "--fov", "32"]
-    return {f"terminator_{soft}": (ball + ["--set", f"render.soft_terminator={soft}"], "color")
-            for soft in ("false", "true")}
+    balls = {"moving": ["--eye=-2.1,0.7,3.6", "--target=-2.05,0.5,2.4", "--fov", "32"],
+             "thesis": ["--eye=-0.25,0.6,1.3", "--target=-0.25,0.35,-0.7", "--fov", "25"]}
+    return {f"terminator_{scene}_{soft}": ([f"scenes/{scene}.glb", "--size", "320x200", "--sun", "90,25", *view, "--set",
+                                            f"render.soft_terminator={soft}"], "color")
+            for scene, view in balls.items() for soft in ("false", "true")}
 
 
 PICTURES = {**techniques(), **volumes(), **layers(), **screen_space(), **patterns(), **noises(), **filters(), **failures(),
