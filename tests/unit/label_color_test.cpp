@@ -1,70 +1,77 @@
-// The colours of labels can be told apart by people who see colours in other ways.
+// Colours that stand for different things can be told apart by people who see colours in other ways.
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <glm/glm.hpp>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <regex>
 #include <string>
+#include <vector>
 
 #include "render/aov_picture.h"
+#include "support/color_vision.h"
 
 namespace penumbra::test {
 namespace {
 
-struct Vision {
-  std::string name;
-  std::array<glm::vec3, 3> rows;  // linear Rec. 709 to what is seen of it
-};
-
-// Machado, Oliveira and Fernandes 2009, "A physiologically-based model for simulation of color vision deficiency", of
-// full severity.
-const std::array<Vision, 4> visions{
-    Vision{"usual", {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}},
-    Vision{
-        "protanopia",
-        {{{0.152286f, 1.052583f, -0.204868f}, {0.114503f, 0.786281f, 0.099216f}, {-0.003882f, -0.048116f, 1.051998f}}}},
-    Vision{"deuteranopia",
-           {{{0.367322f, 0.860646f, -0.227968f}, {0.280085f, 0.672501f, 0.047413f}, {-0.01182f, 0.04294f, 0.968881f}}}},
-    Vision{
-        "tritanopia",
-        {{{1.255528f, -0.076749f, -0.178779f}, {-0.078411f, 0.930809f, 0.147602f}, {0.004733f, 0.691367f, 0.3039f}}}}};
-
-float linear(std::uint8_t byte) {
-  const float v = static_cast<float>(byte) / 255.0f;
-  return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
-
-float lightness(float t) { return t > 0.008856f ? std::cbrt(t) : 7.787f * t + 16.0f / 116.0f; }
-
-// CIE 1976 L*a*b* of what is seen.
-glm::vec3 lab(const Vision& vision, float label) {
-  const std::array<std::uint8_t, 3> color = render::label_color(label);
-  const glm::vec3 stored(linear(color[0]), linear(color[1]), linear(color[2]));
-  glm::vec3 c;
-  for (int i = 0; i < 3; ++i) c[i] = std::clamp(glm::dot(vision.rows[static_cast<std::size_t>(i)], stored), 0.0f, 1.0f);
-  const float x = lightness((0.4124f * c.x + 0.3576f * c.y + 0.1805f * c.z) / 0.9505f);
-  const float y = lightness(0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z);
-  const float z = lightness((0.0193f * c.x + 0.1192f * c.y + 0.9505f * c.z) / 1.089f);
-  return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
-}
-
-TEST(LabelColor, AreFarApartForEveryKindOfColourVision) {
-  for (const Vision& vision : visions) {
-    for (int a = 0; a < render::label_color_count; ++a) {
-      for (int b = 0; b < a; ++b) {
-        const float apart = glm::distance(lab(vision, static_cast<float>(a)), lab(vision, static_cast<float>(b)));
-        EXPECT_GT(apart, 15) << vision.name << ": labels " << a << " and " << b;
-      }
-    }
+void expect_apart(const std::vector<ColorBytes>& colors) {
+  for (std::size_t a = 0; a < colors.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) EXPECT_GT(apart(colors[a], colors[b]), 15) << "colours " << a << " and " << b;
   }
 }
 
-// In the AOV "history" 0 is a pixel whose history is used.
-TEST(LabelColor, TheFirstIsNotRed) {
-  const std::array<std::uint8_t, 3> first = render::label_color(0);
-  EXPECT_LT(first[0], first[2]);
+TEST(LabelColor, AreFarApartForEveryKindOfColourVisionAndFromTheBlackOfTheSky) {
+  std::vector<ColorBytes> colors{render::label_color(-1)};
+  for (int label = 0; label < render::label_color_count; ++label)
+    colors.push_back(render::label_color(static_cast<float>(label)));
+  expect_apart(colors);
+}
+
+// "--NAME: #1f5fbf;" in a style sheet, each time that it stands there: for light pages and for dark ones.
+std::vector<ColorBytes> colors_of(const std::string& css, const std::string& name) {
+  std::vector<ColorBytes> found;
+  const std::regex entry("--" + name + ": #([0-9a-f]{6})");
+  for (std::sregex_iterator at(css.begin(), css.end(), entry); at != std::sregex_iterator(); ++at) {
+    const std::string digits = (*at)[1];
+    unsigned value = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+    found.push_back({static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8 & 255),
+                     static_cast<std::uint8_t>(value & 255)});
+  }
+  return found;
+}
+
+float luminance(const ColorBytes& color) {
+  // L* again as the luminance that it is of.
+  return std::pow((lab(visions()[0], color).x + 16) / 116, 3.0f);
+}
+
+float contrast(const ColorBytes& a, const ColorBytes& b) {
+  const float one = luminance(a) + 0.05f, other = luminance(b) + 0.05f;
+  return std::max(one, other) / std::min(one, other);
+}
+
+TEST(LabelColor, ThoseOfLinesAndBarsInReportsAreToo) {
+  std::ifstream file(PENUMBRA_ROOT "/src/report/web/page.css");
+  const std::string css{std::istreambuf_iterator<char>(file), {}};
+  const std::vector<ColorBytes> cards = colors_of(css, "card");
+  ASSERT_EQ(cards.size(), 2u) << "light and dark";
+  for (std::size_t theme = 0; theme < cards.size(); ++theme) {
+    SCOPED_TRACE(theme == 0 ? "light" : "dark");
+    std::vector<ColorBytes> lines;
+    for (int line = 0; line < 8; ++line) {
+      const std::vector<ColorBytes> both = colors_of(css, "line-" + std::to_string(line));
+      ASSERT_EQ(both.size(), cards.size()) << line;
+      lines.push_back(both[theme]);
+      EXPECT_GE(contrast(both[theme], cards[theme]), 3) << line << ": WCAG 2.2, 1.4.11";
+    }
+    expect_apart(lines);
+    // A verdict that a figure is confirmed. Those that it is not, or in part, have words of these colours.
+    EXPECT_FALSE(is_reddish(colors_of(css, "best").at(theme)));
+    EXPECT_FALSE(is_reddish(colors_of(css, "best-ink").at(theme)));
+    for (const std::size_t word : {4u, 6u}) EXPECT_GE(contrast(lines[word], cards[theme]), 4.5f) << "WCAG 2.2, 1.4.3";
+  }
 }
 
 }  // namespace

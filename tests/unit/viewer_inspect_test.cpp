@@ -3,10 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <random>
+#include <string>
+#include <vector>
 
+#include "render/aov_picture.h"
+#include "support/color_vision.h"
 #include "viewer/present.h"
 
 namespace penumbra {
@@ -167,6 +175,59 @@ TEST(ViewerInspect, EveryAovHasFittingColours) {
     EXPECT_EQ(mapping.unit == "m", aov.help.find(", m;") != std::string::npos) << aov.name;
     EXPECT_EQ(mapping.unit == "px", aov.in_pixels) << aov.name;
   }
+}
+
+std::array<std::uint8_t, 3> shown(ColorScale scale, float value) {
+  const glm::vec3 color = viewer::color_at(scale, value) * 255.0f;
+  return {static_cast<std::uint8_t>(std::lround(color.r)), static_cast<std::uint8_t>(std::lround(color.g)),
+          static_cast<std::uint8_t>(std::lround(color.b))};
+}
+
+TEST(ViewerInspect, LabelsOfAnAovCanBeToldApartWithEveryKindOfColourVision) {
+  int aovs = 0;
+  for (const render::Aov& aov : render::aovs()) {
+    const std::vector<std::string> labels = viewer::mapping_of(aov.name).labels;
+    if (labels.empty()) continue;
+    ++aovs;
+    EXPECT_LE(labels.size(), static_cast<std::size_t>(render::label_color_count)) << aov.name << ": colours repeat";
+    for (std::size_t a = 0; a < labels.size(); ++a) {
+      const auto color = shown(ColorScale::labels, static_cast<float>(a));
+      EXPECT_GT(test::apart(color, {}), 15) << aov.name << ": the sky and " << labels[a];
+      for (std::size_t b = 0; b < a; ++b) {
+        EXPECT_GT(test::apart(color, shown(ColorScale::labels, static_cast<float>(b))), 15)
+            << aov.name << ": " << labels[a] << " and " << labels[b];
+      }
+    }
+  }
+  EXPECT_EQ(aovs, 3);
+}
+
+TEST(ViewerInspect, WhatIsFineIsNeverRed) {
+  // Of each AOV with labels: those that say that all is well.
+  const std::map<std::string, std::vector<std::string>> fine{
+      {"cascade", {"0 (finest)"}}, {"under_texel", {"wider than a texel"}}, {"history", {"kept"}}};
+  for (const render::Aov& aov : render::aovs()) {
+    const std::vector<std::string> labels = viewer::mapping_of(aov.name).labels;
+    if (labels.empty()) continue;
+    ASSERT_TRUE(fine.contains(aov.name)) << aov.name << ": which of its labels are fine?";
+    for (const std::string& label : fine.at(aov.name)) {
+      const auto at = std::ranges::find(labels, label);
+      ASSERT_NE(at, labels.end()) << aov.name << ": " << label;
+      const auto value = static_cast<float>(at - labels.begin());
+      EXPECT_FALSE(test::is_reddish(shown(ColorScale::labels, value))) << aov.name << ": " << label;
+      const render::ByteImage png = render::aov_bytes(aov.name, 1, {value});
+      if (png.channels == 3) {
+        EXPECT_FALSE(test::is_reddish({png.pixels[0], png.pixels[1], png.pixels[2]})) << aov.name << ".png: " << label;
+      }
+    }
+  }
+  // No error, no width, no distance.
+  EXPECT_FALSE(test::is_reddish(shown(ColorScale::heat, 0)));
+  EXPECT_TRUE(test::is_reddish({200, 30, 30}));
+  EXPECT_TRUE(test::is_reddish({204, 121, 167})) << "pink";
+  for (const std::array<std::uint8_t, 3> other :
+       {std::array<std::uint8_t, 3>{230, 159, 0}, {0, 158, 115}, {90, 90, 90}})
+    EXPECT_FALSE(test::is_reddish(other));
 }
 
 TEST(ViewerInspect, TheDifferenceIsThatOfTheFarthestChannelWithoutASign) {
