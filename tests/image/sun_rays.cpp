@@ -61,7 +61,6 @@ void SunRays::Frame::take(const shadow::PassContext& context) {
   rays = truth::eye_rays(frame);
   drawn = truth::drawn_surfaces(context.device(), frame);
   sun = std::get<truth::TracedSun>(truth::traced_light(context));
-  sun.angle = 0;
   tracer.emplace(frame.scene.scene(), geometry);
   truth::fill_mask(context, std::vector<float>(drawn.size(), 1.0f));
 }
@@ -73,7 +72,9 @@ truth::DrawnPixel SunRays::Frame::drawn_at(const glm::ivec2& pixel) const {
 
 std::vector<bool> SunRays::Frame::trace(std::span<const truth::Receiver> receivers, int width) const {
   if (receivers.empty()) return {};
-  const truth::Traced traced = tracer->trace(receivers, width, sun, {.samples = 8, .progress = {}});
+  truth::TracedSun center = sun;
+  center.angle = 0;
+  const truth::Traced traced = tracer->trace(receivers, width, center, {.samples = 8, .progress = {}});
   std::vector<bool> lit;
   for (const float visibility : traced.hard) lit.push_back(visibility > 0.5f);
   return lit;
@@ -138,6 +139,15 @@ std::vector<bool> SunRays::edges(const std::vector<glm::ivec2>& pixels) const {
     edges.push_back(number != 0 && number != points);
   }
   return edges;
+}
+
+std::vector<float> SunRays::visibility(const glm::ivec2& first, const glm::ivec2& size, int samples) const {
+  std::vector<truth::DrawnPixel> shown;
+  for (int y = 0; y < size.y; ++y) {
+    for (int x = 0; x < size.x; ++x) shown.push_back(frame_->drawn_at(first + glm::ivec2(x, y)));
+  }
+  const std::vector<truth::Receiver> receivers = truth::receivers_of(frame_->geometry, frame_->rays, shown);
+  return frame_->tracer->trace(receivers, size.x, frame_->sun, {.samples = samples, .progress = {}}).visibility;
 }
 
 bool SunRays::masked_casters() const { return frame_->masked; }

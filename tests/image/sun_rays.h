@@ -8,7 +8,8 @@
 
 namespace penumbra::test {
 
-// Rays to the sun's centre from what the pixels of a renderer's frame show. Pixels are counted from the upper left.
+// Rays to the sun's centre, or all over its disc, from what the pixels of a renderer's frame show. Pixels are counted
+// from the upper left.
 class SunRays {
  public:
   SunRays();
@@ -31,6 +32,9 @@ class SunRays {
   // For each of these pixels, whether it is within a pixel of an edge: whether rays from a grid of 17 x 17 points less
   // than a pixel away in x and y, on the plane of the triangle that the pixel shows, disagree with each other.
   std::vector<bool> edges(const std::vector<glm::ivec2>& pixels) const;
+
+  // The share of the sun's disc that each pixel of a rectangle sees, row by row from the top; 1 for the sky.
+  std::vector<float> visibility(const glm::ivec2& first, const glm::ivec2& size, int samples) const;
 
   // Whether alpha leaves a part of casters with an alpha mask, and of blended ones.
   bool masked_casters() const;
