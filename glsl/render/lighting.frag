@@ -29,15 +29,7 @@ layout(binding = 16) uniform sampler2D first_normal;  // geometric
 
 #if LAMPS || FURTHER_SAMPLE
 layout(binding = 13) uniform sampler2D gbuffer_depth;
-
-uniform mat4 clip_to_world;
-
-vec3 position_at(ivec2 pixel) {
-  vec2 ndc = gl_FragCoord.xy * view.viewport.zw * 2.0 - 1.0;
-  float depth = texelFetch(gbuffer_depth, pixel, 0).x;
-  vec4 world = clip_to_world * vec4(ndc, depth, 1.0);
-  return world.xyz / world.w;
-}
+#include "render/position_at.glsl"
 #endif
 
 layout(location = 0) out vec4 lit;

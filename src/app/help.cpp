@@ -128,23 +128,27 @@ bool explain_product(const std::string& name) {
   return false;
 }
 
-const char* to_text(render::Reduction reduction) {
+// What a pixel of an AOV shows where there are `several` to choose from: all of them, or the one that is `chosen`.
+std::string to_text(render::Reduction reduction, std::string_view several, std::string_view chosen) {
   switch (reduction) {
     case render::Reduction::mean:
-      return "the mean of the pixels that are drawn for each pixel of the picture";
+      return fmt::format("the mean of {}", several);
     case render::Reduction::mean_of_valid:
-      return "the mean of the pixels that are drawn for each pixel of the picture, without those that are 0";
+      return fmt::format("the mean of {}, without those that are 0", several);
     case render::Reduction::nearest_center:
-      return "the pixel in the middle of those that are drawn for each pixel of the picture";
+      break;
   }
-  return "";
+  return std::string(chosen);
 }
 
 bool explain_aov(const std::string& name) {
   for (const render::Aov& aov : render::aovs()) {
     if (aov.name != name) continue;
-    say("{}: {}\n\n  channels       {}\n  --supersample  {}\n", aov.name, aov.help, fmt::join(aov.channels, ", "),
-        to_text(aov.reduction));
+    say("{}: {}\n\n  channels           {}\n  --supersample      {}\n  --aov-samples all  {}\n", aov.name, aov.help,
+        fmt::join(aov.channels, ", "),
+        to_text(aov.reduction, "the pixels that are drawn for each pixel of the picture",
+                "the pixel in the middle of those that are drawn for each pixel of the picture"),
+        to_text(aov.reduction, "all samples of the pixel", "the first sample of the pixel, in its middle"));
     if (aov.of_light)
       say("\n  Of several lights with shadows, the first one's picture has this name, the second one's is {}, and so "
           "on.\n",

@@ -206,6 +206,15 @@ Aov detail(const char* name, const char* help, Reduction reduction) {
       .name = name, .help = help, .channels = {"V"}, .reduction = reduction, .mask_details = true, .of_light = true};
 }
 
+// The part of a whole frame's values that is asked for.
+std::vector<float> at_pixel(const std::vector<float>& values, std::size_t channels, const Source& from) {
+  if (!from.pixel) return values;
+  const glm::ivec2& at = *from.pixel;
+  const auto first =
+      values.begin() + (at.y * from.frame.gbuffer.depth->width() + at.x) * static_cast<std::ptrdiff_t>(channels);
+  return {first, first + static_cast<std::ptrdiff_t>(channels)};
+}
+
 struct Row {
   Aov aov;
   std::vector<float> (*read)(const Source&);
@@ -280,7 +289,10 @@ std::vector<float> read_aov(const FrameParts& frame, std::string_view name, int 
     if (row.aov.name == name) {
       if (row.aov.mask_details && frame.mask.texture->desc().format != GL_RGBA16F)
         fail("aov '{}' was not kept: the frame was drawn without details of its mask", name);
-      return row.read({frame, static_cast<std::size_t>(light), pixel});
+      const Source source{frame, static_cast<std::size_t>(light), pixel};
+      const auto mean = frame.means.find(name);
+      if (mean == frame.means.end()) return row.read(source);
+      return at_pixel(mean->second.at(source.light), row.aov.channels.size(), source);
     }
     names.push_back(row.aov.name);
   }

@@ -1,6 +1,8 @@
 // The steps of a frame, in order.
 #include "render/frame.h"
 
+#include "render/aov_sums.h"
+
 namespace penumbra::render {
 
 namespace {
@@ -53,20 +55,26 @@ const gl::Texture& shade(gl::Device& device, const ShadingInputs& in, const glsl
   return lit;
 }
 
-// The first sample of each pixel.
-struct FirstColors {
-  const glsl::ViewBlock& view;
-  const GBuffer& gbuffer;
-  const gl::Texture& lit;
-  const gl::Buffer& exposure;
-};
+// What AOVs show of a further sample.
+FrameParts parts_of_sample(gl::Device& device, const FrameParts& first, const SampleMaskInputs& sample,
+                           bool read_mask) {
+  FrameParts parts = first;
+  parts.view = sample.view;
+  parts.gbuffer = sample.gbuffer;
+  if (read_mask) parts.mask = draw_sample_mask(device, sample);
+  return parts;
+}
 
 // Draws the further samples of each pixel with the first one's shadows and exposure, and returns the mean of all.
-SampleMean average_samples(gl::Device& device, const ShadingInputs& shading, const FirstColors& first) {
+// Where AOVs are averaged, too, their means are added to `parts`, the first sample's.
+SampleMean average_samples(gl::Device& device, const ShadingInputs& shading, FrameParts& parts) {
   const FrameInputs& frame = shading.frame;
+  const FrameParts& first = parts;
   const std::vector<glm::vec2> offsets = sample_offsets(frame.samples);
+  AovSums sums(frame.averaged_aovs, first.mask.lights.size());
+  sums.add(first);
   SampleMean mean =
-      add_sample(device, {.lit = first.lit, .exposure = first.exposure, .index = 0, .count = frame.samples});
+      add_sample(device, {.lit = *first.color, .exposure = *first.exposure, .index = 0, .count = frame.samples});
   for (int i = 1; i < frame.samples; ++i) {
     const glm::vec2 offset = offsets[static_cast<std::size_t>(i)];
     const glsl::ViewBlock view = view_block(frame.camera, frame.last_camera, frame.width, frame.height, offset);
@@ -77,8 +85,12 @@ SampleMean average_samples(gl::Device& device, const ShadingInputs& shading, con
                                .offset = offset,
                                .pixel_size = pixel_size(frame.camera, frame.height)};
     const gl::Texture& lit = shade(device, shading, view, gbuffer, &of_first);
-    mean = add_sample(device, {.lit = lit, .exposure = first.exposure, .index = i, .count = frame.samples});
+    mean = add_sample(device, {.lit = lit, .exposure = *first.exposure, .index = i, .count = frame.samples});
+    if (sums.empty()) continue;
+    const SampleMaskInputs sample{.mask = first.mask, .first = of_first, .gbuffer = gbuffer, .view = view};
+    sums.add(parts_of_sample(device, first, sample, sums.read_mask()));
   }
+  parts.means = sums.means();
   return mean;
 }
 
@@ -147,8 +159,7 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
         inputs.show_first(tone_map(device, {.lit = lit, .exposure = exposure, .noise = noise, .params = params}));
       });
     }
-    const SampleMean mean =
-        average_samples(device, shading, {.view = view, .gbuffer = gbuffer, .lit = lit, .exposure = exposure});
+    const SampleMean mean = average_samples(device, shading, parts);
     parts.color = mean.color;
     parts.display = &encode_mean(device, {.display = *mean.display, .noise = noise, .params = params});
   }

@@ -1,9 +1,17 @@
 #pragma once
 
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
 #include "render/passes.h"
 #include "render/renderer.h"
 
 namespace penumbra::render {
+
+// Means of AOVs over the samples of each pixel: by name, one for each light that the AOV has a picture of.
+using AovMeans = std::map<std::string, std::vector<std::vector<float>>, std::less<>>;
 
 // Everything that a frame produced, for the picture and the inspector.
 struct FrameParts {
@@ -16,6 +24,7 @@ struct FrameParts {
   const gl::Texture* color = nullptr;
   const gl::Buffer* exposure = nullptr;
   const gl::Texture* display = nullptr;
+  AovMeans means;  // of FrameInputs::averaged_aovs; others are those of the first sample
 };
 
 // `knows_moved`: what moved between the inputs' two times is what moved since the view's last frame.

@@ -142,8 +142,6 @@ glsl::LightingBlock lighting_block(const LightingInputs& inputs) {
   return block;
 }
 
-glm::mat4 clip_to_world(const glsl::ViewBlock& view) { return glm::mat4(glm::inverse(glm::dmat4(view.world_to_clip))); }
-
 // What the program is compiled for.
 struct Lit {
   std::size_t lights = 1, shadowed = 1;
@@ -170,6 +168,14 @@ gl::ProgramDesc sky_program(std::size_t lights, bool lamps) {
 }
 
 }  // namespace
+
+glm::mat4 clip_to_world(const glsl::ViewBlock& view) { return glm::mat4(glm::inverse(glm::dmat4(view.world_to_clip))); }
+
+void set_first_sample(const gl::Program& program, const FirstSample& first) {
+  program.set("first_clip_to_world", clip_to_world(first.view));
+  program.set("offset", first.offset);
+  program.set("pixel_size", first.pixel_size);
+}
 
 glm::vec2 pixel_size(const Camera& camera, int height) {
   const float pixels = static_cast<float>(height) * 0.5f;
@@ -201,9 +207,7 @@ void draw_surfaces(gl::Device& device, const LightingInputs& inputs, const gl::T
     for (const gl::Texture* texture :
          {gbuffer.geometric_normal, inputs.first->gbuffer.depth, inputs.first->gbuffer.geometric_normal})
       sources.push_back(texture);
-    used.set("first_clip_to_world", clip_to_world(inputs.first->view));
-    used.set("offset", inputs.first->offset);
-    used.set("pixel_size", inputs.first->pixel_size);
+    set_first_sample(used, *inputs.first);
   }
   for (const gl::Texture* texture : sources) {
     device.sampler({}).bind(unit);

@@ -114,6 +114,22 @@ struct FirstSample {
 // The size of a pixel where a surface is, metres: x, and y for each metre of its distance from the camera.
 glm::vec2 pixel_size(const Camera& camera, int height);
 
+glm::mat4 clip_to_world(const glsl::ViewBlock& view);
+
+// Sets the uniforms of glsl/render/first_mask.glsl.
+void set_first_sample(const gl::Program& program, const FirstSample& first);
+
+struct SampleMaskInputs {
+  const shadow::Mask& mask;  // of the first sample
+  const FirstSample& first;
+  const GBuffer& gbuffer;  // of the further sample, as `view`
+  const glsl::ViewBlock& view;
+};
+// The mask of a further sample, as lighting finds it in that of the first one. Of the details, penumbra radius and
+// blocker distance are there, but no layer of the shadow map.
+shadow::Mask draw_sample_mask(gl::Device& device, const SampleMaskInputs& inputs);
+std::vector<gl::ProgramDesc> sample_mask_programs();
+
 struct LightingInputs {
   const GBuffer& gbuffer;
   const shadow::Mask& mask;

@@ -159,7 +159,7 @@ std::vector<gl::ProgramDesc> Renderer::all_programs(const ParamSet& defaults) {
        std::vector{scene::GpuScene::programs(), gbuffer_programs(), surface_id_programs(),
                    state_->soft_shadows.all_programs(defaults), lighting_programs(),
                    blended_programs(state_->device, state_->soft_shadows, defaults), exposure_programs(),
-                   tone_map_programs(), sample_programs()}) {
+                   tone_map_programs(), sample_programs(), sample_mask_programs()}) {
     std::move(programs.begin(), programs.end(), std::back_inserter(all));
   }
   const auto of_casters = [](const gl::ProgramDesc& program) {

@@ -50,16 +50,18 @@ struct FrameInputs {
   // smooth. The first is the middle of the pixel, and all that is read of the frame besides is that one's. The others
   // see its shadows, and leave histories as they are.
   int samples = 1;
+  // AOVs that are read as the mean of all samples, too, if their Aov::reduction is a mean.
+  std::vector<std::string> averaged_aovs;
   // With several samples: called with the display of the first one alone, before the further ones are drawn, for a
   // program that shows it meanwhile. See gl::Device::before_pass for what it may do.
   std::function<void(const gl::Texture& display)> show_first;
 };
 
-// With supersampling, how the samples of one pixel become its value.
+// With supersampling or FrameInputs::averaged_aovs, how the samples of one pixel become its value.
 enum class Reduction {
   mean,            // the mean of all samples
   mean_of_valid,   // the mean of the samples that are not 0, where 0 means "none"
-  nearest_center,  // the sample at the centre: for labels and unit vectors, whose mean would be neither
+  nearest_center,  // the sample at the centre: for labels, places and unit vectors, whose mean would be neither
 };
 
 // A named intermediate picture (AOV) of the frame, for --aov and the inspector.

@@ -54,6 +54,7 @@ void RenderSession::draw_at(const FrameTime& when, const ParamSet& params, int s
   render::FrameInputs inputs = frame_inputs(*prepared_, pixels, when);
   inputs.mask_details = mask_details_;
   inputs.samples = samples;
+  inputs.averaged_aovs = averaged_aovs_;
   setup_ = setup_at(*prepared_, when.time);
   renderer_.draw(*scene_, inputs, params);
   drawn_time_ = when.time;

@@ -2,6 +2,9 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "gl/context.h"
 #include "render/renderer.h"
@@ -29,6 +32,8 @@ class RenderSession {
 
   // From now on frames keep what the AOVs need whose render::Aov::mask_details is set.
   void keep_mask_details() { mask_details_ = true; }
+  // From now on frames of several samples have these AOVs as render::FrameInputs::averaged_aovs.
+  void average_aovs(std::vector<std::string> names) { averaged_aovs_ = std::move(names); }
 
   // The next frame starts without history, as the first of a run. Call it when shaders have changed.
   void cut() { drawn_time_.reset(); }
@@ -56,6 +61,7 @@ class RenderSession {
   render::Setup setup_;
   std::optional<double> drawn_time_;  // of the last frame
   bool mask_details_ = false;
+  std::vector<std::string> averaged_aovs_;
 };
 
 }  // namespace penumbra::session

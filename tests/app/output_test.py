@@ -118,6 +118,24 @@ class Output(TestCase):
         for name in names:
             self.assertEqual(file("one", f"x.{name}.png"), file("usual", f"x.{name}.png"), name)
 
+    def test_aovs_of_all_samples(self):
+        rows = [row["name"] for row in self.listed("aovs")]
+        aovs = ("--aov", ",".join(rows), "--samples", "4")
+        for name, which in (("unsaid", []), ("first", ["first"]), ("all", ["all"]), ("again", ["all"])):
+            self.draw(f"{name}/x.exr", *aovs, *(["--aov-samples", *which] if which else []))
+        unsaid, first, means = (read_exr(self.folder / name / "x.exr") for name in ("unsaid", "first", "all"))
+        self.assertEqual(unsaid, first)
+        self.assertEqual((self.folder / "all/x.exr").read_bytes(), (self.folder / "again/x.exr").read_bytes())
+        header = read_exr_header(self.folder / "all/x.exr")
+        self.assertEqual((header["penumbra:samples"], header["penumbra:aov_samples"]), ("4", "all"))
+        averaged = {name.split(".")[0] for name in means if means[name] != first[name]}
+        self.assertEqual(averaged, {"shadow", "albedo", "material", "blocker", "penumbra"})  # nothing emits light
+        self.assertLessEqual({value for row in means["cascade.V"] for value in row}, {-1, 0, 1, 2, 3})
+        self.draw("p.png", *aovs, "--aov-samples", "all")
+        self.draw("q.png", *aovs)
+        self.assertNotEqual(*((self.folder / f"{name}.shadow.png").read_bytes() for name in "pq"))
+        self.assertEqual(*((self.folder / f"{name}.depth.png").read_bytes() for name in "pq"))
+
     def test_samples_leave_the_frames_of_a_sequence_their_history(self):
         remembers = ("--technique", "thesis", "--frames", "0:3", "--aov", "shadow,history", "--quiet")
         for samples in ("1", "5"):

@@ -48,6 +48,7 @@ class Usage(TestCase):
             (["--technique", "thesi"], "'thesis'"),
             (["--set", "sun.angel=1"], "'sun.angle'"),
             (["--aov", "shadow,dept"], "'depth'"),
+            (["--aov", "shadow", "--aov-samples", "al"], "'all'"),
             (["--backend", "elg"], "'egl'"),
             (["--log-level", "warn"], "'warning'"),
             (["--ground", "onn"], "'on'"),
@@ -95,6 +96,7 @@ class Usage(TestCase):
             ["--egl-device", "0", "--backend", "osmesa"],
             ["--stats-frames", "3"],
             ["--warmup-still"],
+            ["--aov-samples", "all"],
             ["--size", "16384x16384"],
             ["--size", "9000x100", "--supersample", "2"],
         ):

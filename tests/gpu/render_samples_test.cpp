@@ -1,6 +1,8 @@
 // Several samples of each pixel: the picture is the mean of all, and everything else that of the first.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "lib/tone_map.glsl"
 #include "render/aov_picture.h"
@@ -236,6 +238,52 @@ TEST_F(SamplesTest, AllElseIsThatOfTheFirstSampleInEveryFrameOfAHistory) {
     inputs.last_time = inputs.time;
     inputs.time += 0.1;
   }
+}
+
+TEST_F(SamplesTest, AovsAreMeansOfAllSamplesWhereThatIsAskedForAndMeansSomething) {
+  // The ground is darker than the screen before it.
+  stage.materials.push_back({.base_color = {0.25f, 0.25f, 0.25f, 1}, .metallic = 0, .roughness = 1});
+  stage.meshes.front().primitives.front().material = 1;
+  params.set_text("technique", "pcss");  // which has blocker distances
+  inputs.mask_details = true;
+  for (const render::Aov& aov : render::aovs()) inputs.averaged_aovs.push_back(aov.name);
+  const auto all = [&](int samples) {
+    red(samples);
+    std::map<std::string, std::vector<float>> values;
+    for (const render::Aov& aov : render::aovs()) values[aov.name] = renderer.read_aov(aov.name);
+    return values;
+  };
+  const auto once = all(1), means = all(8);
+  EXPECT_EQ(means, all(8));
+  EXPECT_EQ(renderer.read_aov("shadow", {width / 2, height / 2})[0],
+            means.at("shadow")[height / 2 * width + width / 2]);
+  std::vector<float> albedo;
+  for (std::size_t i = 0; i < means.at("albedo").size(); i += 3) albedo.push_back(means.at("albedo")[i]);
+  EXPECT_GT(check_edges(albedo, 8, 2e-3f, [](float share) { return 0.25f + 0.75f * share; }), height / 2);
+  // The screen is lit, and the ground behind its edge in its shadow.
+  EXPECT_GT(check_edges(means.at("shadow"), 8, 1e-3f, [](float share) { return share; }), height / 2);
+  // What hides the sun from the ground is at the screen's distance, and nothing hides it from the screen: the mean is
+  // of the ground alone.
+  const float distance = 1 / sun().to_light.z;
+  EXPECT_GT(
+      check_edges(means.at("blocker"), 8, 0.02f * distance, [&](float share) { return share < 1 ? distance : 0.0f; }),
+      height / 2);
+  for (const render::Aov& aov : render::aovs()) {
+    if (aov.reduction == render::Reduction::nearest_center) {
+      EXPECT_EQ(means.at(aov.name), once.at(aov.name)) << aov.name;
+    }
+  }
+  inputs.averaged_aovs.clear();
+  const auto of_first = all(8);
+  EXPECT_EQ(of_first.at("color"), means.at("color"));
+  EXPECT_EQ(of_first.at("shadow"), once.at("shadow"));
+}
+
+TEST_F(SamplesTest, AMeanOverTheSkyHasThatInTheLight) {
+  stage.roots.erase(stage.roots.begin());  // no ground
+  inputs.averaged_aovs = {"shadow"};
+  red(8);
+  for (const float visibility : renderer.read_aov("shadow")) EXPECT_EQ(visibility, 1.0f);
 }
 
 TEST_F(SamplesTest, TheirNumberIsChecked) {

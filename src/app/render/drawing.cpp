@@ -31,6 +31,7 @@ bool wants_mask_details(const RenderOptions& options) {
 void draw_frames(const RenderOptions& options, session::RenderSession& session, const ParamSet& params,
                  const cli::FrameRange& range, const std::function<void(int frame)>& drawn) {
   if (wants_mask_details(options)) session.keep_mask_details();
+  if (options.average_aovs) session.average_aovs(options.aovs);
   cli::Progress progress("frame", options.warmup + range.count(), !options.quiet);
   for (int frame = range.first - options.warmup; frame <= range.last; ++frame) {
     const int samples = frame < range.first ? 1 : options.samples;  // of warm-up frames nobody sees edges

@@ -46,6 +46,12 @@ void add_output_options(CLI::App& app, RenderOptions& o) {
   add_value(app, "--aov", "NAME,...",
             "Other pictures of the frame: layers of an EXR, or a PNG each; see penumbra list aovs",
             [&o](const auto& text) { add_aovs(o.aovs, text); });
+  add_value(app, "--aov-samples", "first|all",
+            "What AOVs show of each pixel: its first sample, or the mean of all where that means something (first)",
+            [&o](const auto& text) {
+              static const std::vector<std::string> choices{"first", "all"};
+              o.average_aovs = cli::one_of("choice of --aov-samples", text, choices) == "all";
+            });
   add_value(app, "--stats", "FILE",
             "Write the cost of each pass and facts about the frame as JSON; -: to standard output",
             [&o](const auto& text) { o.stats = cli::text_output(text); });
@@ -92,6 +98,7 @@ void check_together(const RenderOptions& o) {
   cli::check_together(static_cast<const cli::SceneOptions&>(o));
   cli::check_together(static_cast<const cli::DeviceOptions&>(o));
   check_together(static_cast<const session::CacheOptions&>(o));
+  if (o.average_aovs && o.aovs.empty()) cli::fail_usage("--aov-samples needs --aov");
   if (o.warmup_still && o.warmup == 0) cli::fail_usage("--warmup-still needs --warmup");
   if (o.stats_frames > 1 && o.is_sequence())
     cli::fail_usage("--stats measures each frame of a sequence: leave out --stats-frames");

@@ -15,6 +15,7 @@ struct RenderOptions : FrameOptions {
   bool warmup_still = false;  // all warm-up frames are drawn at the time of the first frame
   std::string save_preset;
   std::vector<std::string> aovs;
+  bool average_aovs = false;  // over all samples of a pixel, where that means something; else they are the first one's
   std::string stats;
   int stats_frames = 1;
 
