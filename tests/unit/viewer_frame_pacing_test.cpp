@@ -67,6 +67,7 @@ TEST(ViewerPace, AtRestThePictureIsFullAndDrawnAsOftenAsWanted) {
   int waited = 0, frames = 0, drawn = 0;
   while (!machine.turn(false).draw) ASSERT_LT(++waited, 100);
   EXPECT_GT(waited, 3) << "a short pause is not idle";
+  EXPECT_LE(0.02 * waited, 0.15) << "seconds from the last change to the full picture";
   for (int i = 0; i < 100; ++i) {
     const FramePacing::Step step = machine.turn(false, frames, 31);
     if (!step.draw) continue;
@@ -250,7 +251,8 @@ TEST(ViewerTravel, WhatWasMeasuredUnderLoadDoesNotKeepThePictureSmall) {
   Orbit orbit(0, 0, 900);
   orbit.in_motion();
   orbit.becomes(0, 0, 2600);
-  while (orbit.turn(/*changed=*/true).detail.picture < 6) continue;
+  int turns = 0;
+  while (orbit.turn(/*changed=*/true).detail.picture < 6) ASSERT_LT(++turns, 1000);
   orbit.becomes(0, 0, 500);
   EXPECT_LE(orbit.in_motion().picture, 4);
   EXPECT_EQ(orbit.in_motion().picture, 3);
