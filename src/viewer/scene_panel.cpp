@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <glm/trigonometric.hpp>
 
+#include "session/techniques.h"
 #include "viewer/edit.h"
 #include "viewer/fields.h"
 #include "viewer/panels.h"
@@ -101,7 +102,8 @@ void sun(const Panel& panel) {
   row("elevation", "Over the horizon.");
   moved |= slider(panel.widgets, "elevation", elevation, 0, 90, "%.1f°");
   std::string fault;
-  param_row(state.document.params, state.document.params.row("sun.angle"), panel.widgets, fault);
+  ParamSet& params = state.document.params;
+  param_row(params, session::unmodified(params), params.row("sun.angle"), panel.widgets, fault);
   end_rows();
   if (moved) {
     state.document.options.sun = cli::Direction{glm::radians(azimuth), glm::radians(elevation)};

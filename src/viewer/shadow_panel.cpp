@@ -84,7 +84,7 @@ bool group(const Panel& panel, ParamSet& params, const ParamSet& base, const std
   begin_rows(title.c_str());
   // A widget may change values, but not the list of declarations.
   for (const Param& param : rows) {
-    if (shown(param)) param_row(params, param, panel.widgets, fault);
+    if (shown(param)) param_row(params, base, param, panel.widgets, fault);
   }
   end_rows();
   return true;

@@ -138,9 +138,10 @@ void row(const std::string& label, const std::string& text, bool changed) {
 
 void end_rows() { ImGui::EndTable(); }
 
-bool param_row(ParamSet& params, const Param& param, WidgetMap& widgets, std::string& fault) {
+bool param_row(ParamSet& params, const ParamSet& base, const Param& param, WidgetMap& widgets, std::string& fault) {
   ImGui::PushID(param.name.c_str());
-  const bool differs = !params.is_default(param.name);
+  const ParamValue& usual = base.value(param.name);
+  const bool differs = params.value(param.name) != usual;
   row(short_name(param.name), tooltip_of(param), differs);
   const float reset_width = ImGui::GetFrameHeight();
   if (differs) ImGui::SetNextItemWidth(-reset_width - ImGui::GetStyle().ItemInnerSpacing.x);
@@ -150,11 +151,11 @@ bool param_row(ParamSet& params, const Param& param, WidgetMap& widgets, std::st
   if (differs) {
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     if (ImGui::Button("×", {reset_width, 0})) {
-      value = param.default_value;
+      value = usual;
       changed = true;
     }
     widgets.mark(param.name + " reset");
-    tooltip("Back to " + to_text(param.default_value));
+    tooltip("Back to " + to_text(usual));
   }
   ImGui::PopID();
   if (!changed) return false;

@@ -47,8 +47,9 @@ void row(const std::string& label, const std::string& tooltip, bool changed = fa
 void end_rows();
 
 // A row for a parameter, made from its declaration. Returns whether `params` changed. A value that the program refuses
-// (maps over the limit of memory) changes nothing and sets `fault` to the reason.
-bool param_row(ParamSet& params, const Param& param, WidgetMap& widgets, std::string& fault);
+// (maps over the limit of memory) changes nothing and sets `fault` to the reason. A value that differs from the one of
+// `base`, the technique or preset that is shown, is marked, and a button leads back to that one.
+bool param_row(ParamSet& params, const ParamSet& base, const Param& param, WidgetMap& widgets, std::string& fault);
 
 // Text shown while the pointer is over the last widget.
 void tooltip(const std::string& text);

@@ -250,6 +250,18 @@ class Lock(WindowTest):
 
 
 class Preset(WindowTest):
+    def test_a_value_is_marked_where_it_differs_from_the_preset_and_leads_back_to_that(self):
+        with self.view(STEPS, "--technique", "slices_denoised", size=(640, 400)) as viewer:
+            viewer.find("slices.azimuths")
+            self.assertFalse(viewer.has("slices.azimuths reset"), "6 is the preset's own value")
+            for text in ("9", "12"):
+                viewer.fill_in("slices.azimuths", text, lambda: viewer.has("slices.azimuths reset"), "another value")
+            self.assertIn("--set=slices.azimuths=12", viewer.copied())
+            viewer.click("slices.azimuths reset", lambda: not viewer.has("slices.azimuths reset"), "the preset's value")
+            command = viewer.copied()
+        self.assertIn("--technique=slices_denoised", command)
+        self.assertFalse([word for word in command if word.startswith("--set=slices")])
+
     def test_one_that_is_saved_draws_the_same_picture_by_render(self):
         preset = self.folder / "preset.toml"
         with self.view(STEPS, "--technique", "pcf", "--set", "sun.angle=6", size=(640, 400)) as viewer:
