@@ -109,6 +109,10 @@ class Reproduce(TestCase):
             self.assertEqual(cards, expected)
             window.resize(400, 800)
             self.assertEqual(window.script("return document.documentElement.scrollWidth"), 400)
+            cut_off = window.script(
+                "return [...document.querySelectorAll('.thumbnail svg')].filter(plot => "
+                "plot.getBoundingClientRect().right > plot.parentElement.getBoundingClientRect().right + 1).length")
+            self.assertEqual(cut_off, 0, "plots of which the overview shows a part")
             window.screenshot(browser.results_folder() / "reproduce_narrow.png")
             window.resize(1280, 800)
             titles = window.script("return [...document.querySelectorAll('h2')].map(e => e.textContent)")
