@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 
 #include "viewer/detail.h"
@@ -10,8 +11,9 @@ namespace penumbra::viewer {
 // Decides when to draw, and in what detail, so that the picture follows the mouse without delay also where the CPU
 // draws. While camera, lights or time move, what is expensive shrinks before what is seen: the shadow maps, then what a
 // pixel reads of them, and last the resolution. While a parameter changes, only the resolution does, so that its effect
-// can be seen. A GPU draws every frame at full size and keeps its history when the motion ends, so
-// that no restart is visible.
+// can be seen. The first step of a motion is answered by a still smaller picture, and then by one of the detail that
+// the motion has, unless there is another step by then. A GPU draws every frame at full size and keeps its history when
+// the motion ends, so that no restart is visible.
 class FramePacing {
  public:
   static constexpr std::size_t level_count = 9;
@@ -29,6 +31,9 @@ class FramePacing {
   // `travels`: camera, lights or time change, and the parameters stay.
   Step next(double now, bool changed, bool ui_active, int frames, int wanted, bool travels = false);
 
+  // The user has ended the motion, as by the release of a button: what next() shows now does not wait for a rest.
+  void end_motion() { ended_ = true; }
+
   bool software() const { return software_; }
 
   // Reports how long the pictures of the last step took, and how long all else takes until the window shows them: the
@@ -36,10 +41,17 @@ class FramePacing {
   void drew(const Detail& detail, double milliseconds, double beside = 0);
 
  private:
-  static constexpr double idle_seconds = 0.15;  // without a change
+  static constexpr double idle_seconds = 0.15;    // without a change
+  static constexpr double pause_seconds = 0.05;   // without a change, after which a motion begins
+  static constexpr int most_without_history = 2;  // frames of a picture
   // Limits in motion: of an update of the window, and of its pictures alone.
   static constexpr double slow_ms = 100, fast_ms = 20;
 
+  // What the time of the last step's pictures is compared with.
+  enum class Judged { size, travel, nothing };
+
+  Detail detail_in_motion(double now, int wanted, bool travels);
+  std::size_t quick_level() const;
   void drew_travelling(double milliseconds, double beside);
   void go_to(std::size_t level);
   void forget_travel();
@@ -62,9 +74,26 @@ class FramePacing {
   int drawn_at_level_ = 0, slow_in_turn_ = 0;
   // Milliseconds: of the last two pictures in motion, the least at this level, and at the level that was left for it.
   double last_ms_ = 0, before_last_ms_ = 0, least_ms_ = 0, left_ms_ = 0;
-  bool travelling_ = false;  // the last step was drawn at that level
+  Judged judged_ = Judged::size;
   double last_change_ = -1e9;
-  bool restarted_ = false;  // since the last change
+  bool paused_ = true;       // there was a step without a change since the last one with a change
+  bool finer_next_ = false;  // the last change was answered by a picture that is smaller than those in motion
+  bool ended_ = false;       // by end_motion(), since the last step
+  bool restarted_ = false;   // since the last change
+};
+
+// How long the turns of the viewer's loop take that draw pictures in motion.
+class TurnClock {
+ public:
+  void begin();
+  void drew(double milliseconds) { drawn_ = milliseconds; }
+  void end();
+  // Milliseconds of all else than pictures in the last turn that drew some.
+  double beside() const { return beside_; }
+
+ private:
+  std::chrono::steady_clock::time_point start_;
+  double drawn_ = 0, beside_ = 0;
 };
 
 }  // namespace penumbra::viewer

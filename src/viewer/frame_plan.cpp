@@ -70,7 +70,7 @@ FramePlan plan_frame(FramePacing& pacing, const FrameState& state) {
       side.plan.draw = draws_on_gpu(side, state, step);
     }
   }
-  plan.at_rest = pacing.software() && step.idle && !moves && (plan.a.draw || plan.b.draw);
+  plan.at_rest = pacing.software() && !moves && (plan.a.draw || plan.b.draw);
   plan.inspect = state.values_wanted && !plan.a.draw && !state.last_is_b && !state.unreadable;
   return plan;
 }

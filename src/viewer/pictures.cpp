@@ -139,6 +139,29 @@ Viewer::Wishes Viewer::wishes() const {
           .playing = state_.playback.playing};
 }
 
+// Draws so many frames of the interface, and more while there is input.
+void Viewer::answer(int frames) {
+  attending_ = true;
+  for (int left = frames; left > 0; left = window_.has_input() ? settling : left - 1) {
+    begin_interface();
+    build_interface();
+    widgets_.mark_drawing();
+    show_interface();
+    if (wishes() != begun_) throw GivenUp();
+  }
+  attending_ = false;
+}
+
+// A picture at rest is seen as soon as it has one sample of each pixel. Values are those of finished pictures.
+void Viewer::show_first_sample(Side& side) {
+  if (!state_.inspection.what.empty()) return;
+  side.shown = &side.renderer.picture();
+  status_.detail = {};
+  status_.drawn_size = {side.shown->width(), side.shown->height()};
+  show_pictures();
+  answer(1);
+}
+
 // Draws pictures in full on a software rasteriser, which takes long: before each pass the user is answered.
 void Viewer::draw_at_rest(const PictureWork& work) {
   struct Attendance {
@@ -179,8 +202,8 @@ void Viewer::draw_sides(std::span<const SideWork> work, const Detail& detail) {
   last_draw_ = ImGui::GetTime();
   probe_is_old_ = true;
   if (!readable_) return;
-  pacing_.drew(detail, milliseconds, beside_pictures_);
-  drawn_milliseconds_ = milliseconds;
+  pacing_.drew(detail, milliseconds, turn_.beside());
+  turn_.drew(milliseconds);
   status_.detail = detail;
   status_.drawn_size = {a_.renderer.picture().width(), a_.renderer.picture().height()};
   note_progress();

@@ -196,12 +196,12 @@ class Viewer {
   static constexpr int settling = 4;
   int unsettled_ = 0;            // those to come before a picture is begun that takes long
   std::optional<Wishes> begun_;  // what the picture at rest is drawn for that is being drawn
+  bool dragging_ = false;        // the user held a button over the picture in the last frame
   bool attending_ = false;       // a picture is being drawn, between two of its passes
   bool vsync_ = true;
   double last_draw_ = 0;
   double history_began_ = -1e9;  // when A's last history began, seconds
-  // Milliseconds: of the pictures that this turn of the loop drew in motion, and of all else in the last such turn.
-  double drawn_milliseconds_ = 0, beside_pictures_ = 0;
+  TurnClock turn_;
 };
 
 }  // namespace penumbra::viewer
