@@ -20,7 +20,7 @@ struct Heading {
 const std::vector<Heading>& headings() {
   static const std::vector<Heading> all{
       {"Output", {"output", "aov", "aov-samples", "stats", "stats-frames", "save-preset", "layout", "quiet"}},
-      {"Picture", {"size", "supersample", "samples", "quick", "defaults"}},
+      {"Picture", {"size", "supersample", "samples", "sample-shadows", "quick", "defaults"}},
       {"Camera", {"camera", "eye", "target", "fov", "orbit", "cut-at"}},
       {"Light", {"sun", "no-sun", "lights", "lamp-radius", "lamp", "sun-angle", "exposure"}},
       {"Scene", {"ground", "casters", "limit", "follow-links"}},

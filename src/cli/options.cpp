@@ -69,6 +69,9 @@ void add_samples_option(CLI::App& app, SceneOptions& o) {
   add_value(app, "--samples", "N",
             "Samples of each pixel of the colour picture, for smooth edges; they share the first one's shadows (4)",
             [&o](const auto& text) { o.samples = parse_count("--samples", text, 1, render::max_samples); });
+  app.add_flag("--sample-shadows", o.own_shadows,
+               "Each sample has shadows of its own, without a history, so that edges of shadows are smooth too")
+      ->disable_flag_override();
 }
 
 void add_view_options(CLI::App& app, SceneOptions& o) {

@@ -26,6 +26,7 @@ struct SceneOptions {
   Size size;
   int supersample = 1;
   int samples = render::usual_samples;  // of each pixel of a colour picture that is drawn
+  bool own_shadows = false;             // render::FrameInputs::own_shadows
 
   std::optional<std::string> camera;  // name or index in the file
   std::optional<glm::vec3> eye, target;

@@ -26,47 +26,123 @@ struct ShadingInputs {
   const ParamSet& params;
 };
 
-// The colours of one sample of each pixel. `first`: the pixels' first sample, if this is a further one.
-const gl::Texture& shade(gl::Device& device, const ShadingInputs& in, const glsl::ViewBlock& view,
-                         const GBuffer& gbuffer, const FirstSample* first = nullptr) {
+// What is shaded: one sample of each pixel.
+struct SampleSurfaces {
+  const glsl::ViewBlock& view;
+  const GBuffer& gbuffer;
+  Sample sample = Sample::first;
+  const FirstSample* first = nullptr;  // see LightingInputs
+};
+
+// The colours of one sample of each pixel.
+const gl::Texture& shade(gl::Device& device, const ShadingInputs& in, const SampleSurfaces& seen) {
   const FrameInputs& frame = in.frame;
-  const gl::Texture& lit = light_surfaces(device, {.gbuffer = gbuffer,
+  const gl::Texture& lit = light_surfaces(device, {.gbuffer = seen.gbuffer,
                                                    .mask = in.mask,
-                                                   .first = first,
+                                                   .first = seen.first,
                                                    .sky = in.sky,
                                                    .bounds = in.bounds,
                                                    .ground_color = frame.ground_color,
                                                    .lights = frame.lights,
                                                    .on_ground = frame.on_ground,
-                                                   .view = view,
+                                                   .view = seen.view,
                                                    .emission_in_nits = in.scene.lit_by_file(),
+                                                   .sample = seen.sample,
                                                    .params = in.params});
   draw_blended(device, {.soft_shadows = in.soft_shadows,
                         .scene = in.scene,
                         .camera = frame.camera,
-                        .view = view,
-                        .gbuffer = gbuffer,
+                        .view = seen.view,
+                        .gbuffer = seen.gbuffer,
                         .mask = in.mask,
                         .params = in.params,
                         .lit = lit,
                         .first = in.lights.front(),
                         .lamps = has_lamps(frame.lights),
-                        .sample = first == nullptr ? Sample::first : Sample::further});
+                        .sample = seen.sample});
   return lit;
 }
 
+// The values with which a further sample computes shadows of its own.
+ParamSet params_of_sample(const ParamSet& params, int index) {
+  constexpr int seeds = 65536;
+  ParamSet own = params;
+  own.set("history.reuse", false);
+  own.set("sampling.seed", (params.get_int("sampling.seed") + index) % seeds);
+  return own;
+}
+
+// A further sample of each pixel.
+struct FurtherSample {
+  int index;         // from 1 on
+  glm::vec2 offset;  // from the first, pixels
+  const glsl::ViewBlock& view;
+  const GBuffer& gbuffer;
+};
+
+struct ShadedSample {
+  const gl::Texture* color;
+  shadow::Mask mask;  // for AOVs, if they read it
+};
+
+ShadedSample shade_by_first(gl::Device& device, const ShadingInputs& shading, const FrameParts& first,
+                            const FurtherSample& sample, bool read_mask) {
+  const FirstSample of_first{.gbuffer = first.gbuffer,
+                             .view = first.view,
+                             .offset = sample.offset,
+                             .pixel_size = pixel_size(shading.frame.camera, shading.frame.height)};
+  const gl::Texture& color = shade(
+      device, shading, {.view = sample.view, .gbuffer = sample.gbuffer, .sample = Sample::further, .first = &of_first});
+  if (!read_mask) return {&color, shading.mask};
+  return {&color,
+          draw_sample_mask(device,
+                           {.mask = shading.mask, .first = of_first, .gbuffer = sample.gbuffer, .view = sample.view})};
+}
+
+// Its maps are those of the sample before it, where that is one of them.
+ShadedSample shade_alone(gl::Device& device, const ShadingInputs& shading, const FurtherSample& sample,
+                         bool read_mask) {
+  const FrameInputs& frame = shading.frame;
+  const ParamSet params = params_of_sample(shading.params, sample.index);
+  const bool first = sample.index == 1;
+  const shadow::Mask mask =
+      draw_shadow_mask(device, {.soft_shadows = shading.soft_shadows,
+                                .scene = shading.scene,
+                                .camera = frame.camera,
+                                .last_camera = first ? frame.last_camera : frame.camera,
+                                .view = sample.view,
+                                .jitter = -2.0f * sample.offset / glm::vec2(frame.width, frame.height),
+                                .view_id = further_view(frame.view),
+                                .time = frame.time,
+                                .cut = first,
+                                .mask_details = frame.mask_details && read_mask,
+                                .lights = shading.lights,
+                                .frame_lights = frame.lights,
+                                .on_ground = frame.on_ground,
+                                .gbuffer = sample.gbuffer,
+                                .params = params});
+  const ShadingInputs own{.soft_shadows = shading.soft_shadows,
+                          .scene = shading.scene,
+                          .frame = frame,
+                          .mask = mask,
+                          .sky = shading.sky,
+                          .bounds = shading.bounds,
+                          .lights = shading.lights,
+                          .params = params};
+  return {&shade(device, own, {.view = sample.view, .gbuffer = sample.gbuffer, .sample = Sample::further}), mask};
+}
+
 // What AOVs show of a further sample.
-FrameParts parts_of_sample(gl::Device& device, const FrameParts& first, const SampleMaskInputs& sample,
-                           bool read_mask) {
+FrameParts parts_of_sample(const FrameParts& first, const FurtherSample& sample, const shadow::Mask& mask) {
   FrameParts parts = first;
   parts.view = sample.view;
   parts.gbuffer = sample.gbuffer;
-  if (read_mask) parts.mask = draw_sample_mask(device, sample);
+  parts.mask = mask;
   return parts;
 }
 
-// Draws the further samples of each pixel with the first one's shadows and exposure, and returns the mean of all.
-// Where AOVs are averaged, too, their means are added to `parts`, the first sample's.
+// Draws the further samples of each pixel with the first one's exposure, and returns the mean of all. Where AOVs are
+// averaged, too, their means are added to `parts`, the first sample's.
 SampleMean average_samples(gl::Device& device, const ShadingInputs& shading, FrameParts& parts) {
   const FrameInputs& frame = shading.frame;
   const FrameParts& first = parts;
@@ -80,15 +156,11 @@ SampleMean average_samples(gl::Device& device, const ShadingInputs& shading, Fra
     const glsl::ViewBlock view = view_block(frame.camera, frame.last_camera, frame.width, frame.height, offset);
     bind_view(device, view);
     const GBuffer gbuffer = draw_gbuffer(device, {.scene = shading.scene, .view = view, .sample = Sample::further});
-    const FirstSample of_first{.gbuffer = first.gbuffer,
-                               .view = first.view,
-                               .offset = offset,
-                               .pixel_size = pixel_size(frame.camera, frame.height)};
-    const gl::Texture& lit = shade(device, shading, view, gbuffer, &of_first);
-    mean = add_sample(device, {.lit = lit, .exposure = *first.exposure, .index = i, .count = frame.samples});
-    if (sums.empty()) continue;
-    const SampleMaskInputs sample{.mask = first.mask, .first = of_first, .gbuffer = gbuffer, .view = view};
-    sums.add(parts_of_sample(device, first, sample, sums.read_mask()));
+    const FurtherSample sample{.index = i, .offset = offset, .view = view, .gbuffer = gbuffer};
+    const ShadedSample shaded = frame.own_shadows ? shade_alone(device, shading, sample, sums.read_mask())
+                                                  : shade_by_first(device, shading, first, sample, sums.read_mask());
+    mean = add_sample(device, {.lit = *shaded.color, .exposure = *first.exposure, .index = i, .count = frame.samples});
+    if (!sums.empty()) sums.add(parts_of_sample(first, sample, shaded.mask));
   }
   parts.means = sums.means();
   return mean;
@@ -138,7 +210,7 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                               .bounds = bounds,
                               .lights = lights,
                               .params = params};
-  const gl::Texture& lit = shade(device, shading, view, gbuffer);
+  const gl::Texture& lit = shade(device, shading, {.view = view, .gbuffer = gbuffer});
 
   const gl::Buffer& exposure = measure_exposure(device, {.gbuffer = gbuffer, .lit = lit, .params = params});
 

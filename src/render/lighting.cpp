@@ -235,7 +235,7 @@ void draw_sky(gl::Device& device, const LightingInputs& inputs, const gl::Textur
 
 const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inputs) {
   const gl::Texture& depth = *inputs.gbuffer.depth;
-  const gl::Texture& lit = device.target(inputs.first != nullptr ? "sample lit" : "lit",
+  const gl::Texture& lit = device.target(inputs.sample == Sample::further ? "sample lit" : "lit",
                                          {.format = GL_RGBA16F, .width = depth.width(), .height = depth.height()});
   const gl::Buffer& block = device.scratch("lighting", sizeof(glsl::LightingBlock));
   gl::write_value(block, lighting_block(inputs));

@@ -72,13 +72,17 @@ bool has_lamps(std::span<const FrameLight> lights);
 // scene stands on ground (FrameInputs::on_ground).
 bool is_hidden(const FrameLight& light, bool on_ground, const ParamSet& params);
 
+// Under which id the shadow library keeps what further samples with shadows of their own need for a view.
+constexpr int further_view(int view) { return -1 - view; }
+
 struct ShadowMaskInputs {
   shadow::SoftShadows& soft_shadows;
   scene::GpuScene& scene;
   const Camera& camera;
   const Camera& last_camera;
   const glsl::ViewBlock& view;
-  int view_id = 0;  // same as FrameInputs::view
+  glm::vec2 jitter{0};  // same as shadow::View::jitter
+  int view_id = 0;      // same as FrameInputs::view, or further_view() of it
   double time = 0;
   bool cut = false, restart = false, mask_details = false;  // same as in FrameInputs
   bool knows_moved = true;  // the scene's moved casters are those that moved since the view's last frame
@@ -141,6 +145,7 @@ struct LightingInputs {
   bool on_ground = false;              // same as in FrameInputs
   const glsl::ViewBlock& view;
   bool emission_in_nits = true;  // false: 1 is the luminance of white in the sun
+  Sample sample = Sample::first;
   const ParamSet& params;
 };
 const gl::Texture& light_surfaces(gl::Device& device, const LightingInputs& inputs);  // RGBA16F, linear, exposed

@@ -178,6 +178,7 @@ std::vector<gl::ProgramDesc> Renderer::all_programs(const ParamSet& defaults) {
 
 void Renderer::forget_view(int id) {
   state_->soft_shadows.forget_view(id);
+  state_->soft_shadows.forget_view(further_view(id));
   state_->last.erase(id);
 }
 

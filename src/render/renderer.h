@@ -50,6 +50,10 @@ struct FrameInputs {
   // smooth. The first is the middle of the pixel, and all that is read of the frame besides is that one's. The others
   // see its shadows, and leave histories as they are.
   int samples = 1;
+  // The other samples have shadows of their own instead: each computes a mask at its place in the pixels, with other
+  // noise and without a history, under an id that no other view has. So edges of shadows become smooth too, for the
+  // time of a mask for each sample.
+  bool own_shadows = false;
   // AOVs that are read as the mean of all samples, too, if their Aov::reduction is a mean.
   std::vector<std::string> averaged_aovs;
   // With several samples: called with the display of the first one alone, before the further ones are drawn, for a

@@ -104,6 +104,7 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
                                                            .projection = projection_of(inputs.camera, aspect),
                                                            .last_view = inputs.last_camera.view,
                                                            .last_projection = projection_of(inputs.last_camera, aspect),
+                                                           .jitter = inputs.jitter,
                                                            .id = inputs.view_id,
                                                            .cut = inputs.cut,
                                                            .restart = inputs.restart},

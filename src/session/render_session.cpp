@@ -55,6 +55,7 @@ void RenderSession::draw_at(const FrameTime& when, const ParamSet& params, int s
   inputs.mask_details = mask_details_;
   inputs.samples = samples;
   inputs.averaged_aovs = averaged_aovs_;
+  inputs.own_shadows = options_.own_shadows;
   setup_ = setup_at(*prepared_, when.time);
   renderer_.draw(*scene_, inputs, params);
   drawn_time_ = when.time;

@@ -65,6 +65,12 @@ int warmup_of(const Document& document) {
   return remembers ? settled : 0;
 }
 
+bool refines(const Document& document) {
+  return warmup_of(document) == 0 && document.options.samples > 1 && document.params.get_word("technique") != "truth";
+}
+
+int frames_of(const Document& document) { return warmup_of(document) + (refines(document) ? 2 : 1); }
+
 std::vector<std::string> camera_arguments(const cli::SceneOptions& options) {
   std::vector<std::string> arguments;
   if (options.camera) add(arguments, "--camera", *options.camera);
@@ -114,6 +120,7 @@ std::vector<std::string> render_arguments(const Document& document, const std::s
   // The viewer's picture shows one moment, and so do its warm-up frames. Those of a sequence play up to its first
   // frame.
   if (warmup > 0 && !range && document.frame > 0) arguments.emplace_back("--warmup-still");
+  if (refines(document)) arguments.emplace_back("--sample-shadows");
   if (!glsl.empty()) add(arguments, "--glsl", glsl);
   return arguments;
 }

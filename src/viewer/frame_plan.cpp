@@ -35,10 +35,12 @@ void plan_software(const Side& side, const FrameState& state, const FramePacing:
   plan.measure = plan.measure && (plan.draw ? picture.wanted == 1 || !plan.restart : picture.missing() == 0);
 }
 
-// A GPU draws every frame. A ray-traced picture does not change once it is finished.
+// A GPU draws every frame. A picture that is ray traced, or whose shadows were refined, does not change once it is
+// finished.
 bool draws_on_gpu(const Side& side, const FrameState& state, const FramePacing::Step& step) {
   const PictureState& picture = side.picture;
-  if (!picture.traced || (!picture.current && side.follows_motion)) return true;
+  const bool ends = picture.traced || picture.refines;
+  if (!ends || (!picture.current && side.follows_motion)) return true;
   return step.idle && (picture.missing() > 0 || state.values_wanted || side.plan.measure);
 }
 

@@ -12,6 +12,7 @@ struct PictureState {
   int frames = 0;         // drawn at full size since the document changed
   int wanted = 1;         // frames at full size until the picture is finished
   bool traced = false;    // by the technique `truth`, which takes long and then does not change
+  bool refines = false;   // its last frame has shadows of their own for all samples, and then it does not change
   bool measured = false;  // its visibility was read, to compare the two pictures
 
   int missing() const;  // frames until it is finished
@@ -48,7 +49,7 @@ struct FramePlan {
 };
 
 // A picture is finished after exactly the frames that `penumbra render` would draw for it, whatever happens to the
-// other one. A GPU continues to draw finished pictures, except ray-traced ones.
+// other one. A GPU continues to draw finished pictures that have a history.
 FramePlan plan_frame(FramePacing& pacing, const FrameState& state);
 
 }  // namespace penumbra::viewer

@@ -66,7 +66,8 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, const D
   inputs.mask_details = true;  // any AOV can be inspected once the picture is drawn
   // As `penumbra render` finishes it.
   if (detail.is_full() && frames_ >= warmup_of(document)) inputs.samples = document.options.samples;
-  if (first_drawn) {
+  inputs.own_shadows = detail.is_full() && refines(document) && frames_ > 0;
+  if (first_drawn && !inputs.own_shadows) {
     inputs.show_first = [&](const gl::Texture& display) {
       keep(display, /*rough=*/true);
       first_drawn();

@@ -62,8 +62,9 @@ FrameState Viewer::frame_state(const Document& b, const PictureArea& area, doubl
   const auto state_of = [](Side& side, const Document& document) {
     PictureState state{.current = side.renderer.shows(document),
                        .frames = side.renderer.frames(),
-                       .wanted = warmup_of(document) + 1,
-                       .traced = is_traced(document)};
+                       .wanted = frames_of(document),
+                       .traced = is_traced(document),
+                       .refines = refines(document)};
     if (state.missing() > 0) side.measured = false;
     state.measured = side.measured;
     return state;
@@ -214,6 +215,7 @@ void Viewer::note_progress() {
   constexpr double seconds = 1;
   status_.progress = {.frames = a_.renderer.shows(state_.document) ? a_.renderer.frames() : 0,
                       .wanted = warmup_of(state_.document) + 1,
+                      .refines = refines(state_.document),
                       .began = ImGui::GetTime() < history_began_ + seconds};
 }
 
@@ -223,12 +225,14 @@ bool Viewer::draw_side(const SideWork& work, const Detail& detail) {
   guarded([&] {
     // Costs that were measured in another detail do not apply to this one.
     if (std::exchange(side.detail, detail) != detail) side.costs.clear();
-    cost_reader_.start(device_.device.timers, side.costs);
+    const bool refined = refines(work.document) && side.renderer.shows(work.document) && side.renderer.frames() > 0;
+    Costs& costs = refined ? side.refined_costs : side.costs;
+    cost_reader_.start(device_.device.timers, costs);
     const std::function<void()> first_drawn = [&] { show_first_sample(side); };
     side.renderer.draw(*scene_, work.document, detail, begun_ ? first_drawn : nullptr);
     side.untraced = is_traced(work.document) && truth_.unfinished();
     if (&side == &a_ && side.renderer.began_history()) history_began_ = ImGui::GetTime();
-    side.costs.set_work(device_.device.timers.work());
+    costs.set_work(device_.device.timers.work());
     if (work.plan.measure && !side.untraced) measure(side);
     inspect(side);
     drawn = true;

@@ -7,7 +7,7 @@
 namespace penumbra::viewer {
 
 std::string text_of(const Progress& progress) {
-  if (progress.wanted <= 1) return "drawing";
+  if (progress.wanted <= 1) return progress.refines && progress.frames == 1 ? "smoothing shadows" : "drawing";
   if (progress.frames == 0) return "history reset";
   return fmt::format("{}accumulating {}/{}", progress.began ? "history reset, " : "",
                      std::min(progress.frames, progress.wanted), progress.wanted);

@@ -48,7 +48,7 @@ class Viewer {
   struct Side {
     Side(gl::Device& device, render::Renderer& shared, int view) : renderer(device, shared, view) {}
     PictureRenderer renderer;
-    Costs costs;
+    Costs costs, refined_costs;           // refined_costs: of frames with shadows of their own for all samples
     Detail detail;                        // of the last frame
     Values values;                        // of the inspected AOV or texture
     int reads = 0;                        // how often they were read back

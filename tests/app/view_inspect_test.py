@@ -272,7 +272,7 @@ class Preset(WindowTest):
             left, top, right, bottom = viewer.box("picture")
         self.assertIn("7", preset.read_text())
         self.succeed("render", STEPS, "--preset", preset, "--size", f"{right - left}x{bottom - top}", "-o",
-                     self.folder / "written.png", "--quiet")
+                     self.folder / "written.png", "--sample-shadows", "--quiet")
         written = read(self.folder / "written.png")
         part = written.crop(0, written.height // 3, written.width, written.height * 3 // 4)
         self.assertEqual(part.differing(shown, by=1), 0)

@@ -42,10 +42,25 @@ class Picture(WindowTest):
             self.assertGreater(len(shown.colors()), 30)
             left, top, right, bottom = viewer.box("picture")
         self.succeed("render", STEPS, *options, *SMALL_MAPS, "--size", f"{right - left}x{bottom - top}", "-o",
-                     self.folder / "written.png", "--quiet")
+                     self.folder / "written.png", "--sample-shadows", "--quiet")
         written = read(self.folder / "written.png")
         written = written.crop(0, written.height // 3, written.width, written.height * 3 // 4)
         self.assertEqual(written.differing(shown, by=1), 0)
+
+    def test_at_rest_each_sample_has_shadows_of_its_own(self):
+        # Penumbrae of some pixels, and edges of none.
+        for options in (("--technique", "pcss", "--set", "sun.angle=3"), ("--technique", "hard")):
+            with self.subTest(options), self.view(STEPS, *options) as viewer:
+                shown = viewer.rest()
+                left, top, right, bottom = viewer.box("picture")
+                written = {}
+                for name, shadows in (("own", ["--sample-shadows"]), ("first", [])):
+                    self.succeed("render", STEPS, *options, *SMALL_MAPS, "--samples", 4, *shadows, "--size",
+                                 f"{right - left}x{bottom - top}", "-o", self.folder / f"{name}.png", "--quiet")
+                    whole = read(self.folder / f"{name}.png")
+                    written[name] = whole.crop(0, whole.height // 3, whole.width, whole.height * 3 // 4)
+                self.assertEqual(written["own"].differing(shown, by=1), 0)
+                self.assertGreater(written["first"].differing(shown, by=4), 0.0005, "the shadows of the first samples")
 
 
 class Hand(WindowTest):

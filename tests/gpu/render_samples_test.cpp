@@ -286,6 +286,62 @@ TEST_F(SamplesTest, AMeanOverTheSkyHasThatInTheLight) {
   for (const float visibility : renderer.read_aov("shadow")) EXPECT_EQ(visibility, 1.0f);
 }
 
+// A shadow's edge on the ground, all of which shows in one surface.
+TEST_F(SamplesTest, WithShadowsOfTheirOwnEdgesOfShadowsAreThoseOfAPictureThatIsDrawnLargerAndAveraged) {
+  constexpr int scale = 8, samples = 32;
+  stage.nodes.clear();
+  stage.meshes.clear();
+  add(square(), glm::scale(glm::mat4(1), glm::vec3(10)));
+  add(square(), screen_at(8));
+  sun() = {.to_light = glm::normalize(glm::vec3(0.02f, 0.01f, 1)), .illuminance = glm::vec3(10)};
+  inputs.camera = inputs.last_camera = render::look_at({0.3f, -4, 2.5f}, {0.3f, 0, 0}, 0.8f, 0.1f);
+  const std::vector<float> reference = red(1, scale), shared = red(samples);
+  inputs.own_shadows = true;
+  inputs.averaged_aovs = {"shadow"};
+  const std::vector<float> own = red(samples), visibility = renderer.read_aov("shadow");
+  const float lit = *std::ranges::max_element(reference), dark = *std::ranges::min_element(reference);
+  int edges = 0;
+  float worst_shared = 0, worst_own = 0, worst_mean = 0;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    edges += reference[i] > 0.1f * lit && reference[i] < 0.9f * lit ? 1 : 0;
+    worst_shared = std::max(worst_shared, std::abs(shared[i] - reference[i]) / lit);
+    worst_own = std::max(worst_own, std::abs(own[i] - reference[i]) / lit);
+    worst_mean = std::max(worst_mean, std::abs(own[i] - glm::mix(dark, lit, visibility[i])) / lit);
+  }
+  EXPECT_GT(edges, height / 4);
+  EXPECT_LT(worst_own, 0.15f);
+  EXPECT_GT(worst_shared, 0.25f) << "a staircase";
+  EXPECT_LT(worst_mean, 0.02f) << "masks that are averaged are those of the samples";
+}
+
+TEST_F(SamplesTest, ShadowsOfTheirOwnLeaveHistoriesAndAllElseAsTheyAre) {
+  for (const char* technique : {"slices_denoised", "thesis"}) {
+    SCOPED_TRACE(technique);
+    renderer.registry().select(params, technique);
+    inputs.mask_details = true;
+    inputs.samples = 4;
+    gpu_scene.emplace(device, stage);
+    for (int frame = 0; frame < 3; ++frame) {
+      std::vector<std::vector<float>> shared;
+      for (const bool own : {false, true}) {
+        inputs.own_shadows = own;
+        inputs.view = own ? 1 : 0;
+        renderer.draw(*gpu_scene, inputs, params);
+        for (std::size_t i = 0; i < render::aovs().size(); ++i) {
+          std::vector<float> values = renderer.read_aov(render::aovs()[i].name);
+          if (!own) {
+            shared.push_back(std::move(values));
+          } else if (render::aovs()[i].name != "color") {
+            EXPECT_EQ(values, shared[i]) << render::aovs()[i].name << " of frame " << frame;
+          }
+        }
+      }
+    }
+    renderer.forget_view(0);
+    renderer.forget_view(1);
+  }
+}
+
 TEST_F(SamplesTest, TheirNumberIsChecked) {
   for (const int samples : {0, -1, render::max_samples + 1}) {
     inputs.samples = samples;

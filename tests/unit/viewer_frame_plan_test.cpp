@@ -245,6 +245,23 @@ TEST(ViewerPlan, OnAGpuATracedAFollowsTheHandAndThenStays) {
   EXPECT_TRUE(desk.turn().idle);
 }
 
+TEST(ViewerPlan, APictureWhoseShadowsAreRefinedIsDrawnTwiceAtRestAndThenStays) {
+  for (const bool software : {true, false}) {
+    Desk desk(software);
+    desk.a = wanting(2);
+    desk.a.refines = true;
+    for (int i = 0; i < 10; ++i) {
+      Desk::change(desk.a);
+      EXPECT_TRUE(desk.turn().a.draw);
+    }
+    EXPECT_TRUE(desk.rest().idle);
+    EXPECT_EQ(desk.a.frames, 2) << software;
+    int drawn = 0;
+    for (int i = 0; i < 50; ++i) drawn += desk.turn().a.draw;
+    EXPECT_EQ(drawn, 0) << software;
+  }
+}
+
 TEST(ViewerPlan, ATruthThatNobodyWaitsForIsCancelled) {
   for (const bool software : {true, false}) {
     Desk desk(software);

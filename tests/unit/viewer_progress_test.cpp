@@ -13,6 +13,12 @@ TEST(ViewerProgress, APictureOfOneFrameIsDrawn) {
   EXPECT_EQ(text_of({.frames = 0, .wanted = 1, .began = true}), "drawing");
 }
 
+TEST(ViewerProgress, ShadowsOfAllSamplesComeLast) {
+  EXPECT_EQ(text_of({.frames = 0, .wanted = 1, .refines = true}), "drawing");
+  EXPECT_EQ(text_of({.frames = 1, .wanted = 1, .refines = true}), "smoothing shadows");
+  EXPECT_EQ(text_of({.frames = 2, .wanted = 1, .refines = true}), "drawing") << "the other picture";
+}
+
 TEST(ViewerProgress, AHistoryThatBeginsAnewSaysSoAndThenCounts) {
   EXPECT_EQ(text_of({.frames = 0, .wanted = 32}), "history reset");
   EXPECT_EQ(text_of({.frames = 0, .wanted = 32, .began = true}), "history reset");

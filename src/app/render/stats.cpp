@@ -96,6 +96,7 @@ Json stats_of(const RenderOptions& options, const session::PreparedScene& prepar
        {"height", options.size.height},
        {"supersample", options.supersample},
        {"samples", options.samples},
+       {"sample_shadows", options.own_shadows},
        {"technique", params.get_word("technique")},
        {"label", session::technique_label(params)},
        {"backend", gl::to_string(session.context().backend())},
