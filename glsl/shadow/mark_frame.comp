@@ -3,7 +3,7 @@
 
 layout(local_size_x = 1) in;
 
-const uint places = 16u;
+const uint places = 256u;
 
 layout(std430, binding = 7) restrict writeonly buffer Marks { uint drawn[places]; } marks;
 

@@ -513,13 +513,12 @@ PENUMBRA_API penumbra_result penumbra_unbind_forward(penumbra_device* device);
  * be as it was.
  *
  * Conditional rendering and transform feedback of the engine's must not be active (paused feedback may be), nor may a
- * display list be recorded: in the first frame of a view this is PENUMBRA_ERROR_CONTEXT, and in a compatibility profile
- * active feedback and lists are in every frame. To look for the rest in later frames, drivers would have to wait. So if
- * draws are conditional and left out in a later frame, or feedback is active, which also leaves OpenGL's error flag
- * set, masks are wrong from that frame until a penumbra_render() is PENUMBRA_ERROR_CONTEXT because of it: the call
- * after the next, or a later one if the GPU is behind. The next frames begin anew. An active query counts what the
- * library draws.
- */
+ * display list be recorded. In a view's first frame each of these is PENUMBRA_ERROR_CONTEXT. Later frames look only for
+ * feedback and lists, and only in a compatibility profile, because other checks would make drivers wait. Otherwise, if
+ * OpenGL leaves out what a later frame draws, masks are wrong until a penumbra_render() of any view of the device is
+ * PENUMBRA_ERROR_CONTEXT because of it: usually the second call after that frame, a later one if the GPU is behind.
+ * Then all views begin anew. Active feedback also leaves OpenGL's error flag set. An active query counts what the
+ * library draws. */
 
 #ifdef __cplusplus
 }

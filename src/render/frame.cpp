@@ -63,6 +63,19 @@ const gl::Texture& shade(gl::Device& device, const ShadingInputs& in, const Samp
   return lit;
 }
 
+// Deletes a view's maps, masks and histories at the end of the scope.
+class DroppedView {
+ public:
+  DroppedView(shadow::SoftShadows& soft_shadows, int id) : soft_shadows_(soft_shadows), id_(id) {}
+  ~DroppedView() { soft_shadows_.forget_view(id_); }
+  DroppedView(const DroppedView&) = delete;
+  DroppedView& operator=(const DroppedView&) = delete;
+
+ private:
+  shadow::SoftShadows& soft_shadows_;
+  int id_;
+};
+
 // The values with which a further sample computes shadows of its own.
 ParamSet params_of_sample(const ParamSet& params, int index) {
   constexpr int seeds = 65536;
@@ -99,23 +112,23 @@ ShadedSample shade_by_first(gl::Device& device, const ShadingInputs& shading, co
                            {.mask = shading.mask, .first = of_first, .gbuffer = sample.gbuffer, .view = sample.view})};
 }
 
-// Its maps are those of the sample before it, where that is one of them.
+// Its maps are those of the further sample before it.
 ShadedSample shade_alone(gl::Device& device, const ShadingInputs& shading, const FurtherSample& sample,
                          bool read_mask) {
   const FrameInputs& frame = shading.frame;
   const ParamSet params = params_of_sample(shading.params, sample.index);
-  const bool first = sample.index == 1;
   const shadow::Mask mask =
       draw_shadow_mask(device, {.soft_shadows = shading.soft_shadows,
                                 .scene = shading.scene,
                                 .camera = frame.camera,
-                                .last_camera = first ? frame.last_camera : frame.camera,
+                                .last_camera = frame.camera,
                                 .view = sample.view,
                                 .jitter = -2.0f * sample.offset / glm::vec2(frame.width, frame.height),
                                 .view_id = further_view(frame.view),
                                 .time = frame.time,
-                                .cut = first,
+                                .cut = sample.index == 1,
                                 .mask_details = frame.mask_details && read_mask,
+                                .moved = Moved::nothing,
                                 .lights = shading.lights,
                                 .frame_lights = frame.lights,
                                 .on_ground = frame.on_ground,
@@ -147,6 +160,7 @@ SampleMean average_samples(gl::Device& device, const ShadingInputs& shading, Fra
   const FrameInputs& frame = shading.frame;
   const FrameParts& first = parts;
   const std::vector<glm::vec2> offsets = sample_offsets(frame.samples);
+  const DroppedView further(shading.soft_shadows, further_view(frame.view));
   AovSums sums(frame.averaged_aovs, first.mask.lights.size());
   sums.add(first);
   SampleMean mean =
@@ -194,7 +208,7 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
                                                       .cut = inputs.cut,
                                                       .restart = inputs.restart,
                                                       .mask_details = inputs.mask_details,
-                                                      .knows_moved = knows_moved,
+                                                      .moved = knows_moved ? Moved::of_scene : Moved::unknown,
                                                       .lights = lights,
                                                       .frame_lights = inputs.lights,
                                                       .on_ground = inputs.on_ground,

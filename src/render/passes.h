@@ -75,6 +75,10 @@ bool is_hidden(const FrameLight& light, bool on_ground, const ParamSet& params);
 // Under which id the shadow library keeps what further samples with shadows of their own need for a view.
 constexpr int further_view(int view) { return -1 - view; }
 
+// What moved since the view's last frame: what moved between the scene's two times, as after frames that follow each
+// other, or nothing, as from one sample of a frame to the next.
+enum class Moved { unknown, of_scene, nothing };
+
 struct ShadowMaskInputs {
   shadow::SoftShadows& soft_shadows;
   scene::GpuScene& scene;
@@ -85,7 +89,7 @@ struct ShadowMaskInputs {
   int view_id = 0;      // same as FrameInputs::view, or further_view() of it
   double time = 0;
   bool cut = false, restart = false, mask_details = false;  // same as in FrameInputs
-  bool knows_moved = true;  // the scene's moved casters are those that moved since the view's last frame
+  Moved moved = Moved::of_scene;
   std::span<const shadow::Light> lights;
   std::span<const FrameLight> frame_lights;  // the same lights, and those without shadows
   bool on_ground = false;                    // same as in FrameInputs

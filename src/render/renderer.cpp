@@ -93,6 +93,7 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
     fail("a frame has {} lights, and {} ids of lights", inputs.lights.size(), inputs.light_ids.size());
   if (!inputs.light_names.empty() && inputs.light_names.size() != inputs.lights.size())
     fail("a frame has {} lights, and {} names of lights", inputs.lights.size(), inputs.light_names.size());
+  if (inputs.view < 0) fail("view {} can't be drawn: views have numbers from 0 on", inputs.view);
   if (inputs.samples < 1 || inputs.samples > max_samples)
     fail("a frame has {} samples for each pixel; 1 to {} can be drawn", inputs.samples, max_samples);
   check_lights(shadow_lights(inputs.lights, {}), registry(), params);
@@ -178,7 +179,6 @@ std::vector<gl::ProgramDesc> Renderer::all_programs(const ParamSet& defaults) {
 
 void Renderer::forget_view(int id) {
   state_->soft_shadows.forget_view(id);
-  state_->soft_shadows.forget_view(further_view(id));
   state_->last.erase(id);
 }
 

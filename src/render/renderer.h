@@ -25,7 +25,7 @@ inline constexpr int max_samples = 256, usual_samples = 4;
 // its own values there.
 struct FrameInputs {
   int width = 1280, height = 720;
-  int view = 0;  // identifies one of several views drawn in turn; each has its own maps, mask and history
+  int view = 0;  // one of several drawn in turn, 0 or more; each has its own maps, mask and history
   Camera camera, last_camera;
   // 1 to max_lights; light i has layer i of the mask, up to max_shadowed_lights
   std::vector<FrameLight> lights{SunLight{}};

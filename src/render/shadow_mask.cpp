@@ -16,9 +16,9 @@ shadow::Box box_or_none(const scene::Bounds& bounds) {
   return bounds.empty ? shadow::Box{glm::vec3(1), glm::vec3(-1)} : box_of(bounds);
 }
 
-std::optional<shadow::Box> moved_box(const scene::GpuScene& scene, bool known) {
-  if (!known) return {};
-  return box_or_none(scene.moved_bounds());
+std::optional<shadow::Box> moved_box(const scene::GpuScene& scene, Moved moved) {
+  if (moved == Moved::unknown) return {};
+  return box_or_none(moved == Moved::nothing ? scene::Bounds{} : scene.moved_bounds());
 }
 
 shadow::LightSource source_of(const SunLight& sun) { return shadow::Sun{.to_light = sun.to_light}; }
@@ -116,7 +116,7 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
                                                   .receivers = box_of(inputs.scene.receivers()),
                                                   .exact_bounds = true,
                                                   .forward_receivers = box_or_none(inputs.scene.blended_receivers()),
-                                                  .moved = moved_box(inputs.scene, inputs.knows_moved),
+                                                  .moved = moved_box(inputs.scene, inputs.moved),
                                                   .mask_details = inputs.mask_details,
                                                   .draw = draw,
                                                   .user = &frame_scene},

@@ -6,7 +6,7 @@ namespace {
 
 // Must match glsl/shadow/mark_frame.comp.
 constexpr GLuint marks_binding = 7;
-constexpr std::uint32_t places = 16;  // for numbers of drawn frames, which take turns with them
+constexpr std::uint32_t places = 256;  // for numbers of drawn frames, which take turns with them
 
 constexpr std::size_t last_frame = places;  // the word after them: stored for each frame, also if it was left out
 

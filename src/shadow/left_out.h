@@ -11,7 +11,8 @@ namespace penumbra::shadow {
 // Notices that OpenGL has left out what a frame drew, as it does while conditional rendering whose query found nothing
 // or transform feedback is active. OpenGL can't be asked for the former, and a driver that works on another thread
 // would have to wait to answer for the latter. So each frame ends with a dispatch that stores the frame's number and
-// with a command that is never left out, which stores it in another place; the CPU reads both without a call.
+// with a command that is never left out, which stores it in another place; the CPU reads both without a call. The
+// dispatch is no gl::Pass, which ends with a memory barrier: software rasterisers finish at one what they draw.
 class LeftOut {
  public:
   // At the end of a frame.

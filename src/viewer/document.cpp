@@ -69,7 +69,11 @@ bool refines(const Document& document) {
   return warmup_of(document) == 0 && document.options.samples > 1 && document.params.get_word("technique") != "truth";
 }
 
-int frames_of(const Document& document) { return warmup_of(document) + (refines(document) ? 2 : 1); }
+int frames_of(const Document& document, bool software) {
+  constexpr int measured = 60;
+  if (refines(document)) return (software ? 1 : measured) + 1;
+  return warmup_of(document) + 1;
+}
 
 std::vector<std::string> camera_arguments(const cli::SceneOptions& options) {
   std::vector<std::string> arguments;

@@ -32,8 +32,9 @@ int warmup_of(const Document& document);
 // Whether a finished picture is drawn once more with shadows of their own for all samples of its pixels. Not where they
 // have a history, which each sample would lack, nor where they are traced.
 bool refines(const Document& document);
-// Frames to draw until a picture is finished.
-int frames_of(const Document& document);
+// Frames to draw until a picture is finished. On a GPU one that is refined is drawn often before, so that what its
+// passes cost can be measured.
+int frames_of(const Document& document, bool software);
 
 // Camera, sun, lights and lamps as arguments of `penumbra render`.
 std::vector<std::string> view_arguments(const cli::SceneOptions& options);

@@ -22,44 +22,21 @@ constexpr std::array<Detail, FramePacing::level_count> levels{{{},
 }  // namespace
 
 FramePacing::Step FramePacing::next(double now, bool changed, bool ui_active, int frames, int wanted, bool travels) {
-  judged_ = Judged::size;
+  travelling_ = changed && travels && software_;
   const bool ended = std::exchange(ended_, false);
   if (changed && !travels) forget_travel();
   if (changed) {
     Detail detail;
-    if (software_) detail = detail_in_motion(now, wanted, travels);
+    if (software_) detail = travels ? levels.at(level_) : Detail{.picture = divisor_};
     last_change_ = ended ? now - idle_seconds : now;
-    paused_ = restarted_ = false;
+    restarted_ = false;
     return {.draw = true, .detail = detail};
   }
-  paused_ = true;
   if (ended) last_change_ = std::min(last_change_, now - idle_seconds);
   const bool idle = now - last_change_ >= idle_seconds;
   if (!software_) return {.draw = true, .idle = idle};
-  if (std::exchange(finer_next_, false) && !idle) {
-    judged_ = Judged::travel;
-    return {.draw = true, .detail = levels.at(level_)};
-  }
   const bool draw = idle && !ui_active && frames < wanted;
   return {.draw = draw, .idle = idle, .restart = draw && !std::exchange(restarted_, restarted_ || draw)};
-}
-
-// Of a picture that changes. One with a history has the same size in the whole motion: another one would begin the
-// history anew.
-Detail FramePacing::detail_in_motion(double now, int wanted, bool travels) {
-  finer_next_ = false;
-  if (!travels) return {.picture = divisor_};
-  const bool begins = paused_ && now - last_change_ >= pause_seconds && wanted <= most_without_history;
-  const std::size_t level = begins ? quick_level() : level_;
-  finer_next_ = level != level_;
-  judged_ = finer_next_ ? Judged::nothing : Judged::travel;
-  return levels.at(level);
-}
-
-// The level for the first step of a motion: two coarser than that of the motion, if that takes long.
-std::size_t FramePacing::quick_level() const {
-  if (last_ms_ < fast_ms) return level_;
-  return std::max(level_, std::min(std::max(level_, whole_picture) + 2, most_));
 }
 
 void FramePacing::go_to(std::size_t level) {
@@ -120,8 +97,7 @@ void FramePacing::drew_travelling(double milliseconds, double beside) {
 }
 
 void FramePacing::drew(const Detail& detail, double milliseconds, double beside) {
-  if (judged_ == Judged::nothing) return;
-  if (judged_ == Judged::travel) return drew_travelling(milliseconds, beside);
+  if (travelling_) return drew_travelling(milliseconds, beside);
   const int divisor = detail.picture;
   if (divisor == 1 && milliseconds < fast_ms) go_to(0);
   // Cost is about proportional to the number of pixels, so a frame of another size predicts this one's, and the next

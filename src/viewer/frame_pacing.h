@@ -11,9 +11,8 @@ namespace penumbra::viewer {
 // Decides when to draw, and in what detail, so that the picture follows the mouse without delay also where the CPU
 // draws. While camera, lights or time move, what is expensive shrinks before what is seen: the shadow maps, then what a
 // pixel reads of them, and last the resolution. While a parameter changes, only the resolution does, so that its effect
-// can be seen. The first step of a motion is answered by a still smaller picture, and then by one of the detail that
-// the motion has, unless there is another step by then. A GPU draws every frame at full size and keeps its history when
-// the motion ends, so that no restart is visible.
+// can be seen. A GPU draws every frame at full size and keeps its history when the motion ends, so that no restart is
+// visible.
 class FramePacing {
  public:
   static constexpr std::size_t level_count = 9;
@@ -41,17 +40,10 @@ class FramePacing {
   void drew(const Detail& detail, double milliseconds, double beside = 0);
 
  private:
-  static constexpr double idle_seconds = 0.15;    // without a change
-  static constexpr double pause_seconds = 0.05;   // without a change, after which a motion begins
-  static constexpr int most_without_history = 2;  // frames of a picture
+  static constexpr double idle_seconds = 0.15;  // without a change
   // Limits in motion: of an update of the window, and of its pictures alone.
   static constexpr double slow_ms = 100, fast_ms = 20;
 
-  // What the time of the last step's pictures is compared with.
-  enum class Judged { size, travel, nothing };
-
-  Detail detail_in_motion(double now, int wanted, bool travels);
-  std::size_t quick_level() const;
   void drew_travelling(double milliseconds, double beside);
   void go_to(std::size_t level);
   void forget_travel();
@@ -74,12 +66,10 @@ class FramePacing {
   int drawn_at_level_ = 0, slow_in_turn_ = 0;
   // Milliseconds: of the last two pictures in motion, the least at this level, and at the level that was left for it.
   double last_ms_ = 0, before_last_ms_ = 0, least_ms_ = 0, left_ms_ = 0;
-  Judged judged_ = Judged::size;
+  bool travelling_ = false;  // the last step was drawn at that level
   double last_change_ = -1e9;
-  bool paused_ = true;       // there was a step without a change since the last one with a change
-  bool finer_next_ = false;  // the last change was answered by a picture that is smaller than those in motion
-  bool ended_ = false;       // by end_motion(), since the last step
-  bool restarted_ = false;   // since the last change
+  bool ended_ = false;      // by end_motion(), since the last step
+  bool restarted_ = false;  // since the last change
 };
 
 // How long the turns of the viewer's loop take that draw pictures in motion.

@@ -47,7 +47,7 @@ bool PictureRenderer::has_params_of(const Document& document) const {
   return picture_ != nullptr && params_ == document.params;
 }
 
-void PictureRenderer::draw(LoadedScene& scene, const Document& document, const Detail& detail,
+void PictureRenderer::draw(LoadedScene& scene, const Document& document, const Detail& detail, bool refined,
                            const std::function<void()>& first_drawn) {
   const auto start = std::chrono::steady_clock::now();
   const double time = document.seconds();
@@ -66,8 +66,8 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, const D
   inputs.mask_details = true;  // any AOV can be inspected once the picture is drawn
   // As `penumbra render` finishes it.
   if (detail.is_full() && frames_ >= warmup_of(document)) inputs.samples = document.options.samples;
-  inputs.own_shadows = detail.is_full() && refines(document) && frames_ > 0;
-  if (first_drawn && !inputs.own_shadows) {
+  inputs.own_shadows = refined;
+  if (first_drawn) {
     inputs.show_first = [&](const gl::Texture& display) {
       keep(display, /*rough=*/true);
       first_drawn();

@@ -59,10 +59,10 @@ Document Viewer::document_b() const {
 }
 
 FrameState Viewer::frame_state(const Document& b, const PictureArea& area, double now) {
-  const auto state_of = [](Side& side, const Document& document) {
+  const auto state_of = [this](Side& side, const Document& document) {
     PictureState state{.current = side.renderer.shows(document),
                        .frames = side.renderer.frames(),
-                       .wanted = frames_of(document),
+                       .wanted = frames_of(document, pacing_.software()),
                        .traced = is_traced(document),
                        .refines = refines(document)};
     if (state.missing() > 0) side.measured = false;
@@ -215,8 +215,14 @@ void Viewer::note_progress() {
   constexpr double seconds = 1;
   status_.progress = {.frames = a_.renderer.shows(state_.document) ? a_.renderer.frames() : 0,
                       .wanted = warmup_of(state_.document) + 1,
-                      .refines = refines(state_.document),
+                      .refines = pacing_.software() && refines(state_.document),
                       .began = ImGui::GetTime() < history_began_ + seconds};
+}
+
+// Whether the side's next frame is the one with shadows of their own for all samples.
+bool Viewer::is_last_of_refined(const Side& side, const Document& document) const {
+  if (!refines(document) || !side.renderer.shows(document)) return false;
+  return side.renderer.frames() + 1 >= frames_of(document, pacing_.software());
 }
 
 bool Viewer::draw_side(const SideWork& work, const Detail& detail) {
@@ -225,11 +231,12 @@ bool Viewer::draw_side(const SideWork& work, const Detail& detail) {
   guarded([&] {
     // Costs that were measured in another detail do not apply to this one.
     if (std::exchange(side.detail, detail) != detail) side.costs.clear();
-    const bool refined = refines(work.document) && side.renderer.shows(work.document) && side.renderer.frames() > 0;
-    Costs& costs = refined ? side.refined_costs : side.costs;
+    const bool refined = is_last_of_refined(side, work.document);
+    Costs& costs = refined ? unshown_costs_ : side.costs;
     cost_reader_.start(device_.device.timers, costs);
     const std::function<void()> first_drawn = [&] { show_first_sample(side); };
-    side.renderer.draw(*scene_, work.document, detail, begun_ ? first_drawn : nullptr);
+    // A picture that is refined has been seen with all its samples.
+    side.renderer.draw(*scene_, work.document, detail, refined, begun_ && !refined ? first_drawn : nullptr);
     side.untraced = is_traced(work.document) && truth_.unfinished();
     if (&side == &a_ && side.renderer.began_history()) history_began_ = ImGui::GetTime();
     costs.set_work(device_.device.timers.work());

@@ -48,7 +48,7 @@ class Viewer {
   struct Side {
     Side(gl::Device& device, render::Renderer& shared, int view) : renderer(device, shared, view) {}
     PictureRenderer renderer;
-    Costs costs, refined_costs;           // refined_costs: of frames with shadows of their own for all samples
+    Costs costs;
     Detail detail;                        // of the last frame
     Values values;                        // of the inspected AOV or texture
     int reads = 0;                        // how often they were read back
@@ -119,6 +119,7 @@ class Viewer {
   void note_progress();
   void measure(Side& side);
   void forget_b();
+  bool is_last_of_refined(const Side& side, const Document& document) const;
   bool draw_side(const SideWork& work, const Detail& detail);
   Document document_b() const;
   void inspect(Side& side);
@@ -183,6 +184,7 @@ class Viewer {
   Side a_, b_;
   FramePacing pacing_;
   CostReader cost_reader_;
+  Costs unshown_costs_;  // of frames with shadows of their own for all samples
   WidgetMap widgets_;
   ViewerStatus status_;
   std::string view_options_;                // the options that camera and sun were last chosen for

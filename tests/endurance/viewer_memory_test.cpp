@@ -50,7 +50,7 @@ class ViewerMemory : public GpuTest {
   void draw(viewer::LoadedScene& scene, int frames, const viewer::Detail& detail = {}) {
     for (int i = 0; i < frames; ++i) {
       document_.params.set("sampling.seed", i % 2);  // changes the document, as a user would
-      renderer_of_a_.draw(scene, document_, detail);
+      renderer_of_a_.draw(scene, document_, detail, /*refined=*/false);
       device_.timers.take();
     }
   }

@@ -28,7 +28,7 @@ class ViewerFirstSample : public GpuTest {
 
   void draw(int samples, const viewer::Detail& detail = {}) {
     document_.options.samples = samples;
-    picture_.draw(*scene_, document_, detail, [this] {
+    picture_.draw(*scene_, document_, detail, /*refined=*/false, [this] {
       ++calls_;
       EXPECT_TRUE(picture_.is_rough());
       first_ = shown();

@@ -22,7 +22,7 @@ class ViewerKeep : public GpuTest {
 
   // How many maps the next frame draws.
   std::size_t maps(const viewer::Detail& detail = {}) {
-    picture_.draw(*scene_, document_, detail);
+    picture_.draw(*scene_, document_, detail, /*refined=*/false);
     const auto& work = device_.timers.work();
     const auto found = work.find("shadow map");
     return found == work.end() ? 0 : found->second.draws;

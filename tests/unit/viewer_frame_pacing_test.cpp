@@ -171,7 +171,7 @@ class Orbit {
 
   FramePacing::Step turn(bool changed) {
     now_ += 0.02;
-    const FramePacing::Step step = pacing_.next(now_, changed, /*ui_active=*/false, frames_, wanted_, /*travels=*/true);
+    const FramePacing::Step step = pacing_.next(now_, changed, /*ui_active=*/false, frames_, 1, /*travels=*/true);
     frames_ = changed ? 0 : frames_ + (step.draw ? 1 : 0);
     if (step.draw) pacing_.drew(step.detail, took(step.detail), beside_);
     return step;
@@ -192,16 +192,11 @@ class Orbit {
     for (int i = 0; i < 50; ++i) detail = turn(/*changed=*/true).detail;
     return detail;
   }
-  // Turns without a change, less than a rest.
-  void pause() {
-    for (int i = 0; i < 5; ++i) turn(/*changed=*/false);
-  }
-  void wants(int frames) { wanted_ = frames; }
   void end_motion() { pacing_.end_motion(); }
 
  private:
   double maps_, reads_, rest_, beside_, now_ = 10;
-  int frames_ = 0, wanted_ = 1;
+  int frames_ = 0;
   FramePacing pacing_{/*software=*/true};
 };
 
@@ -212,42 +207,6 @@ TEST(ViewerTravel, MapsShrinkBeforeReadsAndReadsBeforeThePicture) {
   EXPECT_EQ(Orbit(400, 150, 10).in_motion(), (Detail{.maps = 4, .reads = 4}));
   EXPECT_EQ(Orbit(400, 150, 100).in_motion(), (Detail{.picture = 2, .maps = 4, .reads = 4}));
   EXPECT_EQ(Orbit(0, 0, 1000).in_motion(), (Detail{.picture = 4, .maps = 4, .reads = 4}));
-}
-
-TEST(ViewerTravel, TheFirstStepAfterAPauseIsAnsweredByAQuickPictureAndThenByAFinerOne) {
-  Orbit orbit(0, 0, 500);
-  const Detail settled = orbit.in_motion();
-  EXPECT_EQ(settled.picture, 3);
-  for (int i = 0; i < 30; ++i) {
-    orbit.pause();
-    EXPECT_EQ(orbit.turn(/*changed=*/true).detail.picture, 6) << i;
-    const FramePacing::Step next = orbit.turn(/*changed=*/false);
-    EXPECT_TRUE(next.draw);
-    EXPECT_EQ(next.detail, settled) << i;
-    EXPECT_FALSE(orbit.turn(/*changed=*/false).draw) << "once is enough";
-  }
-}
-
-TEST(ViewerTravel, AMotionThatGoesOnKeepsItsPicture) {
-  Orbit orbit(0, 0, 500);
-  const Detail settled = orbit.in_motion();
-  orbit.pause();
-  EXPECT_NE(orbit.turn(/*changed=*/true).detail, settled);
-  for (int i = 0; i < 30; ++i) EXPECT_EQ(orbit.turn(/*changed=*/true).detail, settled) << i;
-  orbit.turn(/*changed=*/false);
-  EXPECT_EQ(orbit.turn(/*changed=*/true).detail, settled) << "a single turn without a change is no pause";
-}
-
-TEST(ViewerTravel, APictureThatIsQuickOrHasAHistoryStaysAsItIs) {
-  Orbit quick(0, 0, 15);
-  quick.in_motion();
-  quick.pause();
-  EXPECT_TRUE(quick.turn(/*changed=*/true).detail.is_full());
-  Orbit history(0, 0, 500);
-  history.wants(32);
-  const Detail settled = history.in_motion();
-  history.pause();
-  EXPECT_EQ(history.turn(/*changed=*/true).detail, settled);
 }
 
 TEST(ViewerTravel, TheFullPictureDoesNotWaitOnceTheUserHasEndedTheMotion) {
@@ -370,7 +329,6 @@ TEST(ViewerTravel, TheDetailSettlesAndIsTheSameAfterARest) {
     const Detail settled = orbit.in_motion();
     for (int i = 0; i < 10; ++i) EXPECT_EQ(orbit.turn(true).detail, settled) << full;
     for (int i = 0; i < 40; ++i) orbit.turn(false);
-    orbit.turn(true);  // quicker, as the first step of a motion
     EXPECT_EQ(orbit.turn(true).detail, settled) << full;
   }
 }

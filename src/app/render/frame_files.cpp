@@ -95,6 +95,7 @@ std::vector<cli::EncodedFile> encoded_frame(const session::RenderSession& sessio
     if (!names.is_exr()) return pngs(session, options, names, frame);
     image::Metadata metadata = metadata_of(options, session.setup(), params, frame);
     metadata.emplace_back("penumbra:samples", std::to_string(options.samples));
+    metadata.emplace_back("penumbra:sample_shadows", options.own_shadows ? "true" : "false");
     metadata.emplace_back("penumbra:aov_samples", options.average_aovs ? "all" : "first");
     return {exr(session, options, metadata, names, frame)};
   } catch (const Error& error) {

@@ -1,8 +1,12 @@
 #include "app/render/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
 
+#include "cli/no_effect.h"
 #include "cli/output_names.h"
+#include "core/log.h"
 #include "render/renderer.h"
 #include "session/techniques.h"
 
@@ -92,6 +96,21 @@ ParamSet params_of(const RenderOptions& options) {
     shadows.assignments.insert(shadows.assignments.begin(), "cascades.fit=visible");
   }
   return cli::resolve_params(shadows, session::all_techniques());
+}
+
+void warn_without_effect(const RenderOptions& o, const ParamSet& params) {
+  cli::warn_without_effect(o, {&params, 1}, session::all_techniques());
+  constexpr std::string_view one_sample = "each pixel has one sample";
+  if (o.own_shadows && o.samples == 1) warn("--sample-shadows has no effect here: {}", one_sample);
+  if (!o.average_aovs) return;
+  const bool has_means = std::ranges::any_of(render::aovs(), [&](const render::Aov& aov) {
+    return aov.reduction != render::Reduction::nearest_center && std::ranges::find(o.aovs, aov.name) != o.aovs.end();
+  });
+  if (o.samples == 1) {
+    warn("--aov-samples has no effect here: {}", one_sample);
+  } else if (!has_means) {
+    warn("--aov-samples has no effect here: none of these AOVs has a mean");
+  }
 }
 
 void check_together(const RenderOptions& o) {

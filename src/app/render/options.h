@@ -28,6 +28,9 @@ ParamSet params_of(const RenderOptions& options);
 
 void add_render_options(CLI::App& app, RenderOptions& options);
 
+// Warns of options that change nothing beside the others.
+void warn_without_effect(const RenderOptions& options, const ParamSet& params);
+
 // Throws UsageError for options that can't be combined.
 void check_together(const RenderOptions& options);
 

@@ -8,7 +8,6 @@
 #include "app/render/file_check.h"
 #include "app/render/frame_files.h"
 #include "app/render/options.h"
-#include "cli/no_effect.h"
 #include "cli/output_names.h"
 #include "cli/signals.h"
 #include "image/read.h"
@@ -46,7 +45,7 @@ void render_files(RenderOptions options) {
   const Clock::time_point start = Clock::now();
   const cli::OutputNames names(options.output, options.is_sequence());
   const ParamSet params = params_of(options);
-  cli::warn_without_effect(options, {&params, 1}, session::all_techniques());
+  warn_without_effect(options, params);
   const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});
   cli::clean_up_on_signals();
   session::limit_threads(options);

@@ -97,6 +97,7 @@ Json stats_of(const RenderOptions& options, const session::PreparedScene& prepar
        {"supersample", options.supersample},
        {"samples", options.samples},
        {"sample_shadows", options.own_shadows},
+       {"aov_samples", options.average_aovs ? "all" : "first"},
        {"technique", params.get_word("technique")},
        {"label", session::technique_label(params)},
        {"backend", gl::to_string(session.context().backend())},

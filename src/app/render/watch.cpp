@@ -14,7 +14,6 @@
 #include "app/render/file_check.h"
 #include "app/render/frame_files.h"
 #include "app/render/options.h"
-#include "cli/no_effect.h"
 #include "cli/output_names.h"
 #include "cli/signals.h"
 #include "cli/text.h"
@@ -122,7 +121,7 @@ Watch::Watch(RenderOptions options)
   files_.set_files(inputs());
   if (!options_.glsl.empty()) files_.add_folder(options_.glsl);
   params_ = params_of(options_);  // files may have changed before the watch began
-  cli::warn_without_effect(options_, {&params_, 1}, session::all_techniques());
+  warn_without_effect(options_, params_);
   options_.reading.skies_chosen = cli::is_chosen(options_, params_, "casters.skies");
   prepared_ = std::make_unique<session::PreparedScene>(
       session::load_scene(options_, image::image_decoder(cli::limits_of(options_.reading))));
