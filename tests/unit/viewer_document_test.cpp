@@ -157,7 +157,7 @@ TEST_F(ViewerDocument, RenderDrawsWhatIsShown) {
 TEST_F(ViewerDocument, DefaultsAreNotSpelledOut) {
   Document document = plain();
   EXPECT_EQ(render_arguments(document, "out.png", 0, ""),
-            (Arguments{"render", "a.glb", "--size=1280x720", "-o", "out.png", "--technique=pcss"}));
+            (Arguments{"render", "a.glb", "--size=1280x720", "-o", "out.png", "--technique=pcss", "--sample-shadows"}));
   session::all_techniques().select(document.params, "thesis");
   document.params.set("filter.width", 0.2f);
   EXPECT_EQ(render_arguments(document, "out.png", 0, ""),
