@@ -3,7 +3,9 @@
     tidy.py BUILD [FILE...]     BUILD: a build folder, built; FILE: only these
 
 A result is kept under the hash of all that it depends on: the file, the project's headers that it includes, the
-command line, the configuration and clang-tidy's version. So a second run checks only what changed.
+command line, the configuration, clang-tidy's version and those of Debian's packages, whose headers are included too. So a
+second run checks only what changed, also in another checkout: like a compiler's cache, this one is the user's
+(XDG_CACHE_HOME).
 
 Most of the time goes into headers of other projects, which every file includes. So several files are checked as one
 translation unit, one after the other. A unit with findings is halved until each finding is reported for one file.
@@ -18,13 +20,16 @@ import os
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 TIDY = "clang-tidy-16"  # findings differ from version to version; older ones fail on <ranges> of GCC 12
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LARGEST_UNIT = 24  # files: two units of 8 take 1.8 times as long as one of 16, but one finding costs more
+LONGEST_UNUSED = 30 * 24 * 3600  # seconds
 
 INCLUDE = re.compile(r'^#include (?:"([^"]+)"|<[^>]+>)', re.MULTILINE)
 # Names that a file declares for the rest of its unit: using-declarations, and what begins in the first column, as
@@ -133,10 +138,21 @@ def configuration(file):
     return [folder / ".clang-tidy" for folder in file.parents if (folder / ".clang-tidy").exists()]
 
 
+def versions():
+    """Of clang-tidy and, on Debian, of all packages."""
+    listed = [TIDY, "--version"], ["dpkg-query", "--show"]
+    return "".join(subprocess.run(command, check=True, capture_output=True, text=True).stdout
+                   for command in listed if shutil.which(command[0]))
+
+
+def in_any_checkout(text):
+    return text.replace(str(ROOT), ".")
+
+
 def key_of(arguments, inputs, version, contents):
     digest = hashlib.sha256()
     for part in (version, *arguments, *sorted(str(path) for path in inputs)):
-        digest.update(part.encode() + b"\0")
+        digest.update(in_any_checkout(part).encode() + b"\0")
     for path in sorted(inputs):
         if path not in contents:
             contents[path] = hashlib.sha256(path.read_bytes()).digest() if path.exists() else b""
@@ -146,8 +162,7 @@ def key_of(arguments, inputs, version, contents):
 
 def files_to_check(build, only, cache):
     """All files that were asked for, and those of them whose result is not known."""
-    version = subprocess.run([TIDY, "--version"], check=True, capture_output=True, text=True).stdout
-    deps, contents, count, todo = dependencies(build), {}, 0, []
+    version, deps, contents, count, todo = versions(), dependencies(build), {}, 0, []
     for path, command in own_commands(build).items():
         if only and path not in only:
             continue
@@ -156,7 +171,9 @@ def files_to_check(build, only, cache):
         own = {file for file in deps.get(output, []) if ROOT in file.parents and file.suffix != ".gch"}
         arguments = compiler_arguments(command)
         key = key_of(arguments, own | {path, *configuration(path)}, version, contents)
-        if not (cache / key).exists():
+        if (cache / key).exists():
+            (cache / key).touch()
+        else:
             todo.append(File(path, arguments, key))
     return count, todo
 
@@ -210,6 +227,16 @@ def check(build, unit):
     return [result for half in unit.halves() for result in check(build, half)]
 
 
+def kept_results():
+    """The folder of the results, without those that no run has used for long."""
+    cache = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "penumbra" / "tidy"
+    cache.mkdir(parents=True, exist_ok=True)
+    for result in cache.iterdir():
+        if time.time() - result.stat().st_mtime > LONGEST_UNUSED:
+            result.unlink(missing_ok=True)
+    return cache
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build", type=pathlib.Path, help="a build folder, built")
@@ -217,8 +244,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
     build = arguments.build.resolve()
-    cache = ROOT / "build" / "tidy-cache"
-    cache.mkdir(parents=True, exist_ok=True)
+    cache = kept_results()
 
     count, todo = files_to_check(build, {file.resolve() for file in arguments.files}, cache)
     units = units_of(todo, max(1, min(LARGEST_UNIT, len(todo) // arguments.jobs)))
