@@ -163,11 +163,13 @@ class AddOneOfEach(support.TestCase):
 
     def build(self, tree):
         """The library of the tree, installed, and a little program that draws with it."""
+        # Where the compiler's cache knows the files that are as they were: it is as deep in its tree as other builds.
+        build = tree / "build" / "release"
         prefix, mask = self.folder / "prefix", self.folder / "mask"
-        for arguments in (["cmake", "-S", tree, "-B", tree / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+        for arguments in (["cmake", "-S", tree, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                            "-DPENUMBRA_APP=OFF", "-DPENUMBRA_TESTS=OFF"],
-                          ["cmake", "--build", tree / "build", "--parallel", "2"],
-                          ["cmake", "--install", tree / "build", "--prefix", prefix],
+                          ["cmake", "--build", build, "--parallel", "2"],
+                          ["cmake", "--install", build, "--prefix", prefix],
                           ["cmake", "-S", tree / "tests/project/mask", "-B", mask, "-G", "Ninja",
                            "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_PREFIX_PATH={prefix}"],
                           ["cmake", "--build", mask]):
