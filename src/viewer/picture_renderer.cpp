@@ -86,7 +86,7 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, const D
     keep(*frame.display, inputs.samples < document.options.samples);
   } catch (const GivenUp&) {
     drawn_ = before;
-    frames_ = 0;
+    if (!refined) frames_ = 0;  // what a refined frame begins with is still there
     throw;
   }
   cut_ = restart_ = false;
