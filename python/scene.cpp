@@ -74,6 +74,7 @@ Scene::Scene(const std::string& path, const std::vector<std::string>& arguments)
   cli::add_scene_option(app, options_);
   cli::add_size_option(app, options_);
   cli::add_samples_option(app, options_);
+  cli::add_sample_shadows_option(app, options_);
   cli::add_view_options(app, options_);
   cli::add_time_options(app, options_);
   cli::add_technique_option(app, options_);

@@ -65,10 +65,12 @@ void add_supersample_option(CLI::App& app, SceneOptions& o) {
             [&o](const auto& text) { o.supersample = parse_count("--supersample", text, 1, 16); });
 }
 
-void add_samples_option(CLI::App& app, SceneOptions& o) {
-  add_value(app, "--samples", "N",
-            "Samples of each pixel of the colour picture, for smooth edges; they share the first one's shadows (4)",
+void add_samples_option(CLI::App& app, SceneOptions& o, const char* help) {
+  add_value(app, "--samples", "N", help,
             [&o](const auto& text) { o.samples = parse_count("--samples", text, 1, render::max_samples); });
+}
+
+void add_sample_shadows_option(CLI::App& app, SceneOptions& o) {
   app.add_flag("--sample-shadows", o.own_shadows,
                "Each sample has shadows of its own, without a history, so that edges of shadows are smooth too")
       ->disable_flag_override();

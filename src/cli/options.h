@@ -63,7 +63,11 @@ struct DeviceOptions {
 void add_scene_option(CLI::App& app, SceneOptions& options);
 void add_size_option(CLI::App& app, SceneOptions& options);
 void add_supersample_option(CLI::App& app, SceneOptions& options);
-void add_samples_option(CLI::App& app, SceneOptions& options);
+void add_samples_option(
+    CLI::App& app, SceneOptions& options,
+    const char* help =
+        "Samples of each pixel of the colour picture, for smooth edges; they share the first one's shadows (4)");
+void add_sample_shadows_option(CLI::App& app, SceneOptions& options);
 void add_view_options(CLI::App& app, SceneOptions& options);
 void add_time_options(CLI::App& app, SceneOptions& options);
 void add_technique_option(CLI::App& app, ShadowOptions& options);

@@ -118,6 +118,8 @@ std::vector<std::string> render_arguments(const Document& document, const std::s
   std::vector<std::string> arguments{"render"};
   for (std::string& argument : scene_arguments(document.options)) arguments.push_back(std::move(argument));
   arguments.insert(arguments.end(), {"-o", output});
+  if (document.options.samples != cli::SceneOptions{}.samples)
+    add(arguments, "--samples", std::to_string(document.options.samples));
   add_frames(arguments, document, range);
   add_params(arguments, document.params);
   if (warmup > 0) add(arguments, "--warmup", std::to_string(warmup));

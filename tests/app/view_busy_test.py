@@ -38,7 +38,7 @@ class Busy(WindowTest):
             self.assertNotEqual(viewer.rest(), motion)
 
     def test_what_changes_the_picture_ends_it(self):
-        with self.view(STEPS, *LONG, size=(1000, 700)) as viewer:
+        with self.view(STEPS, *LONG, size=(1000, 700), edges=()) as viewer:
             first = viewer.rest()
             for _ in range(3):
                 self.begin(viewer)

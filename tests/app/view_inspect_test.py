@@ -113,7 +113,7 @@ class Compare(WindowTest):
     def test_rays_that_are_traced_before_their_frame_ends_are_shown(self):
         # Few rays of few pixels, and triangles that take long to draw again for smooth edges.
         look = (pictures.scene("courtyard"), "--set", "truth.samples=8")
-        with self.view(*look, "--technique", "none", size=(640, 300)) as viewer:
+        with self.view(*look, "--technique", "none", size=(640, 300), edges=()) as viewer:
             viewer.open_tab("Compare", "compare")
             viewer.click("compare", lambda: viewer.has("b"), "the choice of B")
             viewer.wait_for(lambda: viewer.has("distance"), "the figures")
@@ -264,7 +264,7 @@ class Preset(WindowTest):
 
     def test_one_that_is_saved_draws_the_same_picture_by_render(self):
         preset = self.folder / "preset.toml"
-        with self.view(STEPS, "--technique", "pcf", "--set", "sun.angle=6", size=(640, 400)) as viewer:
+        with self.view(STEPS, "--technique", "pcf", "--set", "sun.angle=6", size=(640, 400), edges=()) as viewer:
             viewer.find("pcf.filter_taps")
             viewer.fill_in("pcf.filter_taps", "7", lambda: viewer.has("pcf.filter_taps reset"), "other taps")
             shown = viewer.rest()

@@ -6,7 +6,7 @@ import signal
 from desktop import LEFT, Desktop
 from support import TestCase, main
 from viewer import Viewer
-from window import STEPS, WindowTest
+from window import NO_SMOOTH_EDGES, STEPS, WindowTest
 
 
 def width(box):
@@ -266,7 +266,7 @@ class Tooltips(TestCase):
         """Calls check() with each field under the pointer, with the panel below the picture and beside it, in
         windows that are high enough for all of a tab. `entered`: typed into the files of presets and pictures."""
         with Desktop(1300, 1450) as desktop, \
-                Viewer(desktop, *arguments, "--technique", "none", size=(1280, 1400), rests=False,
+                Viewer(desktop, *arguments, *NO_SMOOTH_EDGES, "--technique", "none", size=(1280, 1400), rests=False,
                        folder=self.folder) as viewer:
             viewer.open_tab("Scene", "eye")
             viewer.click("entry of lamp 0", lambda: viewer.has("lamp axis"), "the lamp's properties")
@@ -313,7 +313,7 @@ class Scale(TestCase):
         boxes = []
         for dpi in (96, 192):
             with Desktop(1400, 900, resources=f"Xft.dpi: {dpi}") as desktop, \
-                    Viewer(desktop, STEPS, size=(1280, 720)) as viewer:
+                    Viewer(desktop, STEPS, *NO_SMOOTH_EDGES, size=(1280, 720)) as viewer:
                 self.assertGreater(len(viewer.rest().colors()), 30)
                 boxes.append({name: viewer.box(name) for name in ("technique", "search", "tab Scene", "reset all")})
         for name, box in boxes[0].items():

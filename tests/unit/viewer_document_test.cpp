@@ -62,6 +62,8 @@ void expect_same(const Document& document, const Rendered& render) {
     EXPECT_EQ(drawn.sun->elevation, shown.sun->elevation);
   }
   EXPECT_EQ(drawn.ground, shown.ground);
+  EXPECT_EQ(drawn.samples, shown.samples);
+  EXPECT_EQ(drawn.own_shadows, viewer::refines(document));
   const cli::FrameRange frames = drawn.frames.value_or(cli::FrameRange{});
   EXPECT_EQ(frames.count(), 1);
   EXPECT_EQ(session::time_of(drawn, frames.first), document.seconds());
@@ -101,6 +103,7 @@ class ViewerDocument : public testing::Test {
     options.scene = sometimes() ? "a folder/it's \"one\".glb" : "scene.gltf";
     options.size = {count(1, 2000), count(1, 2000)};
     options.ground = static_cast<render::GroundChoice>(count(0, 2));
+    if (sometimes()) options.samples = count(1, render::max_samples);
     if (sometimes()) options.time = in(0.0, 1e6);
     if (sometimes()) options.fps = in(0.001, 240.0);
     if (sometimes()) options.fov = in(1.0, 179.0);

@@ -79,6 +79,7 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
   cli::add_size_option(app, options);
   cli::add_supersample_option(app, options);
   cli::add_samples_option(app, options);
+  cli::add_sample_shadows_option(app, options);
   cli::add_view_options(app, options);
   cli::add_time_options(app, options);
   add_frame_option(app, options);
