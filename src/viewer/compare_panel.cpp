@@ -37,14 +37,18 @@ void choose_b(const Panel& panel) {
   const bool open = begin_combo("##b", session::technique_label(comparison.params), ImGuiComboFlags_HeightLargest);
   panel.widgets.mark("b");
   if (!open) return;
-  for (const std::string& name : registry.names()) {
+  const auto item = [&](const std::string& name, const std::string& summary) {
     if (ImGui::Selectable(name.c_str(), name == current)) {
       comparison.params = panel.state.document.params;
       session::choose_technique(comparison.params, registry, name);
       if (truth::is_reference(name)) truth::make_reference(comparison.params);
     }
     panel.widgets.mark("b=" + name);
-  }
+    tooltip(summary);
+  };
+  for (const shadow::Technique& technique : registry.techniques()) item(technique.name, technique.summary);
+  ImGui::Separator();
+  for (const shadow::Preset& preset : registry.presets()) item(preset.name, preset.summary);
   ImGui::EndCombo();
 }
 
@@ -60,6 +64,7 @@ void choose_way(const Panel& panel) {
   if (comparison.how != CompareMode::difference) return;
   row("gain", "What a difference is multiplied by.");
   slider(panel.widgets, "gain", comparison.gain, 1, 64, "%.0f ×", ImGuiSliderFlags_Logarithmic);
+  tooltip_beside(panel.widgets, "What a difference is multiplied by.");
 }
 
 void figure(const char* name, const std::string& value, const char* help) {

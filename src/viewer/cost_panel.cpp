@@ -59,9 +59,9 @@ void plot(const Costs& costs) {
   const std::vector<float>& history = costs.history();
   if (history.empty()) return;
   const float most = *std::max_element(history.begin(), history.end());
-  ImGui::PlotHistogram("##history", history.data(), static_cast<int>(history.size()), 0,
-                       fmt::format("frames, 0 to {:.1f} ms", most).c_str(), 0, most * 1.1f,
+  ImGui::PlotHistogram("##history", history.data(), static_cast<int>(history.size()), 0, nullptr, 0, most * 1.1f,
                        {ImGui::GetContentRegionAvail().x, 4 * ImGui::GetTextLineHeightWithSpacing()});
+  ImGui::TextDisabled("frames, 0 to %.1f ms", static_cast<double>(most));
 }
 
 void memory(const Panel& panel) {

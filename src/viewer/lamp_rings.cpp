@@ -11,7 +11,8 @@ namespace penumbra::viewer {
 
 namespace {
 
-constexpr float ring = 9;  // radius, pixels
+// The radius of a ring, pixels: about 9 at 100 %.
+float ring_radius() { return 0.6f * ImGui::GetFontSize(); }
 
 // A lamp as the picture shows it.
 struct Shown {
@@ -26,7 +27,7 @@ render::Camera camera_of(const Panel& panel) {
 bool shows_rings(const Panel& panel) {
   const Comparison& comparison = panel.state.comparison;
   const bool halves = comparison.on && comparison.how == CompareMode::side_by_side;
-  return panel.status.scene != nullptr && panel.state.zoom.factor == 1 && !halves;
+  return panel.status.scene != nullptr && !panel.status.texture_alone && panel.state.zoom.factor == 1 && !halves;
 }
 
 std::optional<Shown> shown(const render::Camera& camera, const glm::vec3& place, const PictureArea& area) {
@@ -46,6 +47,7 @@ bool drag_lamp(const Panel& panel, const PictureArea& area, bool active) {
   if (!shows_rings(panel)) return false;
   const render::Camera camera = camera_of(panel);
   const ImVec2 pointer = ImGui::GetIO().MousePos;
+  const float ring = ring_radius();
   const std::vector<ShownLamp> lamps = shown_lamps(panel);
   for (const ShownLamp& lamp : lamps) {
     const std::optional<Shown> at = shown(camera, lamp.light.position, area);
@@ -70,6 +72,7 @@ void draw_lamp_rings(const Panel& panel, const PictureArea& area) {
   const UiState& state = panel.state;
   const render::Camera camera = camera_of(panel);
   ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float ring = ring_radius();
   for (const ShownLamp& shining : shown_lamps(panel)) {
     const std::optional<Shown> lamp = shown(camera, shining.light.position, area);
     if (!lamp) continue;

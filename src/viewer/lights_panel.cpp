@@ -149,7 +149,11 @@ void lamp_list(const Panel& panel) {
   const auto open =
       std::ranges::find_if(lamps, [&](const ShownLamp& lamp) { return state.lamp && lamp.name == *state.lamp; });
   if (open == lamps.end()) return;
-  if (!open->name.of_file) remove_button(panel, open->name.index);
+  if (open->name.of_file) {
+    ImGui::TextWrapped("A light of the scene: with the first change, a lamp of your own takes its place.");
+  } else {
+    remove_button(panel, open->name.index);
+  }
   if (!state.lamp) return;
   render::LampLight changed = open->light;
   lamp_rows(panel, changed);

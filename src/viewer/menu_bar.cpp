@@ -38,7 +38,9 @@ void edit_menu(const Panel& panel) {
   if (menu_item(panel, "Undo", "Ctrl+Z", panel.status.can_undo)) state.requests.undo = true;
   if (menu_item(panel, "Redo", "Ctrl+Shift+Z", panel.status.can_redo)) state.requests.redo = true;
   ImGui::Separator();
-  if (menu_item(panel, "Back to the scene's camera", "", shown)) use_scene_camera(state.document.options);
+  const cli::SceneOptions& view = state.document.options;
+  const bool moved = shown && (view.camera || view.eye || view.fov);
+  if (menu_item(panel, "Back to the scene's camera", "", moved)) use_scene_camera(state.document.options);
 }
 
 void scale_menu(const Panel& panel) {

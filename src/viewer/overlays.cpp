@@ -19,9 +19,10 @@ constexpr ImGuiWindowFlags overlay_flags = ImGuiWindowFlags_NoDecoration | ImGui
                                            ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
                                            ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 
-bool begin_overlay(const char* name, const ImVec2& place, const ImVec2& pivot, ImGuiWindowFlags flags = overlay_flags) {
+bool begin_overlay(const char* name, const ImVec2& place, const ImVec2& pivot, ImGuiWindowFlags flags = overlay_flags,
+                   float alpha = 0.92f) {
   ImGui::SetNextWindowPos(place, ImGuiCond_Always, pivot);
-  ImGui::SetNextWindowBgAlpha(0.92f);
+  ImGui::SetNextWindowBgAlpha(alpha);
   return ImGui::Begin(name, nullptr, flags);
 }
 
@@ -76,8 +77,8 @@ void help_overlay(const Panel& panel) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowSizeConstraints({0, 0}, {size.x, std::max(size.y - 2 * style.WindowPadding.y, 1.0f)});
-  if (begin_overlay("keys", {size.x * 0.5f, size.y * 0.5f}, {0.5f, 0.5f},
-                    overlay_flags & ~ImGuiWindowFlags_NoScrollbar)) {
+  if (begin_overlay("keys", {size.x * 0.5f, size.y * 0.5f}, {0.5f, 0.5f}, overlay_flags & ~ImGuiWindowFlags_NoScrollbar,
+                    /* alpha= */ 1)) {
     ImGui::TextUnformatted("Mouse and keys");
     ImGui::Separator();
     float left = 0, right = 0;
@@ -242,7 +243,7 @@ std::vector<StatusPart> status_parts(const Panel& panel) {
           {2, fmt::format("maps {} × {}²", drawn.get_int("cascades.count"), drawn.get_int("cascades.size"))});
     }
     if (detail.reads > 1) parts.push_back({2, fmt::format("taps 1/{}", detail.reads)});
-    parts.push_back({4, fmt::format("{:.1f} ms", status.costs_a.frame())});
+    if (status.costs_a.frame() > 0) parts.push_back({4, fmt::format("{:.1f} ms", status.costs_a.frame())});
     parts.push_back({1, session::technique_label(panel.state.document.params)});
     parts.push_back({5, status.idle ? "idle" : text_of(status.progress)});
   }

@@ -61,7 +61,7 @@ void take_wheel(const Panel& panel, const PictureArea& area) {
     const Comparison& comparison = panel.state.comparison;
     const bool halves = comparison.on && comparison.how == CompareMode::side_by_side;
     magnify(panel.state.zoom, notches > 0 ? 1.0f : -1.0f, area, halves, panel.status.fitted);
-  } else if (panel.status.scene != nullptr) {
+  } else if (panel.status.scene != nullptr && !panel.status.texture_alone) {
     CameraRig rig = present_rig(panel.state.document, panel.status.scene->prepared);
     rig.dolly(std::pow(dolly_per_notch, notches));
     move(panel, rig);
@@ -106,7 +106,7 @@ void draw_line(const Panel& panel, const PictureArea& area) {
   const float left = area.corner.x + gap, right = area.corner.x + area.size.x - gap;
   const std::string a = "A: " + session::technique_label(panel.state.document.params);
   const std::string b =
-      "B: " + session::technique_label(comparison.params) + (panel.status.b_is_old ? " (not drawn again yet)" : "");
+      "B: " + session::technique_label(comparison.params) + (panel.status.b_is_old ? " (not drawn yet)" : "");
   float line = -1;
   if (comparison.how == CompareMode::wipe) line = area.corner.x + comparison.wipe * area.size.x;
   if (comparison.how == CompareMode::side_by_side) line = area.corner.x + 0.5f * area.size.x;
@@ -208,7 +208,8 @@ PictureArea picture_area(const Panel& panel, const gl::Texture* shown) {
   if (ImGui::IsItemActivated()) panel.state.drag.press(pointer);
   if (ImGui::IsMousePosValid()) area.dragged = panel.state.drag.move(pointer);
   const bool taken = drag_line(panel, area, active) || drag_lamp(panel, area, active);
-  if (area.dragged != glm::vec2(0) && !taken && panel.status.scene != nullptr) {
+  // A texture that is shown alone has no camera.
+  if (area.dragged != glm::vec2(0) && !taken && panel.status.scene != nullptr && !panel.status.texture_alone) {
     if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
       drag_sun(panel, area.dragged);
     } else {

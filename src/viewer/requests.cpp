@@ -70,6 +70,7 @@ void Viewer::open(const std::string& asked) {
   cli::SceneOptions options;
   options.scene = scene;
   options.fps = options_.fps;
+  options.samples = options_.samples;
   options.frames = cli::FrameRange{};
   // The shown scene keeps its camera, sun, ground and time; another one starts with the defaults.
   loader_.start(scene == state_.document.options.scene ? state_.document.options : options);

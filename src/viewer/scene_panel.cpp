@@ -59,11 +59,19 @@ void choose_camera(const Panel& panel) {
   ImGui::EndCombo();
 }
 
+// Fields have three decimals, of which a tiny negative number would be "-0.000".
+glm::vec3 without_minus_zero(glm::vec3 v) {
+  constexpr float shown = 0.0005f;
+  for (int i = 0; i < 3; ++i) v[i] = v[i] > -shown && v[i] <= 0 ? 0 : v[i];
+  return v;
+}
+
 void camera(const Panel& panel) {
   UiState& state = panel.state;
   const session::PreparedScene& prepared = panel.status.scene->prepared;
   CameraRig rig = present_rig(state.document, prepared);
-  rig.eye += 0.0f;  // no minus before a zero
+  rig.eye = without_minus_zero(rig.eye);
+  rig.target = without_minus_zero(rig.target);
   begin_rows("camera");
   choose_camera(panel);
   bool moved = false;
@@ -73,7 +81,9 @@ void camera(const Panel& panel) {
   moved |= type_vector(panel.widgets, "target", rig.target, 3);
   row("field of view", "Of the picture's height.");
   float degrees = glm::degrees(rig.fov_y);
-  if (slider(panel.widgets, "fov", degrees, 5, 120, "%.1f°")) {
+  const bool wider = slider(panel.widgets, "fov", degrees, 5, 120, "%.1f°");
+  tooltip_beside(panel.widgets, "Of the picture's height.");
+  if (wider) {
     rig.fov_y = glm::radians(degrees);
     moved = true;
   }
@@ -92,15 +102,33 @@ void camera(const Panel& panel) {
   tooltip("The left button looks around from the eye; W A S D Q E move (F)");
 }
 
+bool slider_row(WidgetMap& widgets, const char* name, const std::string& help, float& value, float low, float high,
+                const char* format) {
+  row(name, help);
+  const bool changed = slider(widgets, name, value, low, high, format);
+  tooltip_beside(widgets, help);
+  return changed;
+}
+
+// Whether the user has turned the sun off. A scene without one gets one as soon as it is given a direction.
+bool sun_is_off(const cli::SceneOptions& options, const session::PreparedScene& prepared) {
+  if (options.no_sun) return true;
+  const bool of_file = std::ranges::find(prepared.scene.lights, scene::LightKind::directional,
+                                         &scene::PunctualLight::kind) != prepared.scene.lights.end();
+  return !options.sun && of_file && !prepared.setup.sun_shines;
+}
+
 void sun(const Panel& panel) {
   UiState& state = panel.state;
   const cli::Direction sun = present_sun(state.document, panel.status.scene->prepared);
   float azimuth = glm::degrees(sun.azimuth), elevation = glm::degrees(sun.elevation);
   begin_rows("sun");
-  row("azimuth", "From +Z towards +X. The right mouse button drags the sun.");
-  bool moved = slider(panel.widgets, "azimuth", azimuth, -180, 180, "%.1f°");
-  row("elevation", "Over the horizon.");
-  moved |= slider(panel.widgets, "elevation", elevation, 0, 90, "%.1f°");
+  const bool off = sun_is_off(state.document.options, panel.status.scene->prepared);
+  ImGui::BeginDisabled(off);
+  const std::string how = off ? "The sun is off: see the list of lights." : "The right mouse button drags the sun.";
+  bool moved = slider_row(panel.widgets, "azimuth", "From +Z towards +X. " + how, azimuth, -180, 180, "%.1f°");
+  moved |= slider_row(panel.widgets, "elevation", "Over the horizon. " + how, elevation, 0, 90, "%.1f°");
+  ImGui::EndDisabled();
   std::string fault;
   ParamSet& params = state.document.params;
   param_row(params, session::unmodified(params), params.row("sun.angle"), panel.widgets, fault);

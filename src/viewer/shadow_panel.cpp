@@ -48,12 +48,6 @@ void choose_technique(const Panel& panel, ParamSet& params) {
   ImGui::EndCombo();
 }
 
-void reset_all(ParamSet& params) {
-  const std::string technique = params.get_word("technique");
-  for (const Param& row : params.rows()) params.reset(row.name);
-  params.set("technique", technique);
-}
-
 // Whether a value of the group differs from what the technique or preset sets, or else from its default.
 bool is_changed(const ParamSet& params, const ParamSet& base, const std::string& group) {
   return std::ranges::any_of(params.rows(), [&](const Param& param) {
@@ -69,15 +63,16 @@ bool group(const Panel& panel, ParamSet& params, const ParamSet& base, const std
   const auto rows = params.rows();
   if (std::none_of(rows.begin(), rows.end(), shown)) return false;
   const bool own = is_technique(panel.status.techniques, name);
+  const bool unused = own && name != params.get_word("technique");
   const bool searched = !panel.state.search.empty();
-  if (own && name != params.get_word("technique") && !searched) return false;
+  if (unused && !searched) return false;
   const std::string title = name.empty() ? "general" : name;
   const bool first = own || name.empty() || name == "sun";
   const bool changed = is_changed(params, base, name);
   // Open while it is searched. It has another id then, so that it is as it was once the search is cleared.
   ImGui::SetNextItemOpen(searched || first, searched ? ImGuiCond_Always : ImGuiCond_Once);
-  const bool open =
-      ImGui::CollapsingHeader((title + (changed ? " *" : "") + "###" + title + (searched ? " searched" : "")).c_str());
+  const std::string shown_title = title + (changed ? " *" : "") + (unused ? " (not in use)" : "");
+  const bool open = ImGui::CollapsingHeader((shown_title + "###" + title + (searched ? " searched" : "")).c_str());
   panel.widgets.mark("group " + title);
   if (changed) tooltip("Has values that differ from those of \"" + session::selection_of(params).name + "\".");
   if (!open) return true;
@@ -154,9 +149,10 @@ void shadow_panel(const Panel& panel) {
   if (std::exchange(state.focus_search, false)) ImGui::SetKeyboardFocusHere();
   text_field(panel.widgets, "search", state.search, "Search parameters");
   ImGui::SameLine();
-  if (ImGui::Button("Reset all")) reset_all(params);
+  if (ImGui::Button("Reset all")) params = session::unmodified(params);
   panel.widgets.mark("reset all");
-  tooltip("Reset every parameter but the technique to its default");
+  tooltip("Every parameter has the value again that it had right after choosing \"" +
+          session::selection_of(params).name + "\".");
   const float footer = 2 * ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().ItemSpacing.y;
   std::string fault;
   if (ImGui::BeginChild("parameters", {0, rest_of_panel(footer)})) groups(panel, params, fault);

@@ -165,7 +165,8 @@ std::optional<gl::Device::NamedTarget> inspected_target(const Inspection& inspec
 
 std::string title_of(const Inspection& inspection, const gl::Device& device) {
   const std::optional<gl::Device::NamedTarget> target = inspected_target(inspection, device);
-  if (!target) return inspection.what;
+  if (!target && !is_target(inspection.what)) return inspection.what;
+  if (!target) return target_label(std::string_view(inspection.what).substr(target_prefix.size()));
   const std::vector<TargetPart> parts = parts_of(*target);
   const std::string label = target_label(target->name);
   return parts.size() == 1 ? label : label + ": " + parts[part_index(parts, inspection)].name;

@@ -30,6 +30,8 @@ void set_theme(float scale) {
   colors[ImGuiCol_TextDisabled] = grey(0.58f);
   colors[ImGuiCol_WindowBg] = grey(0.125f);
   colors[ImGuiCol_PopupBg] = grey(0.15f, 0.98f);
+  colors[ImGuiCol_TitleBg] = colors[ImGuiCol_TitleBgActive] = grey(0.20f);
+  colors[ImGuiCol_ModalWindowDimBg] = grey(0.05f, 0.5f);
   colors[ImGuiCol_FrameBg] = grey(0.20f);
   colors[ImGuiCol_FrameBgHovered] = grey(0.26f);
   colors[ImGuiCol_FrameBgActive] = grey(0.30f);

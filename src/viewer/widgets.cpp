@@ -147,7 +147,7 @@ bool param_row(ParamSet& params, const ParamSet& base, const Param& param, Widge
   if (differs) ImGui::SetNextItemWidth(-reset_width - ImGui::GetStyle().ItemInnerSpacing.x);
   ParamValue value = params.value(param.name);
   bool changed = edit(param, value, widgets);
-  if (!ImGui::IsItemActive()) tooltip(tooltip_of(param));
+  tooltip_beside(widgets, tooltip_of(param));
   if (differs) {
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     if (ImGui::Button("×", {reset_width, 0})) {
@@ -190,8 +190,26 @@ void show_tooltip(const std::string& text) {
   ImGui::EndTooltip();
 }
 
+void tooltip_beside(WidgetMap& widgets, const std::string& text) {
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsItemActive()) return;
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(), window = ImGui::GetIO().DisplaySize;
+  const ImVec2 inner = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap_width(26.0f, window.x));
+  const float gap = style.ItemSpacing.y, width = inner.x + 2 * style.WindowPadding.x;
+  const bool fits_below = high.y + gap + inner.y + 2 * style.WindowPadding.y <= window.y;
+  ImGui::SetNextWindowPos({std::max(std::min(low.x, window.x - width), 0.0f), fits_below ? high.y + gap : low.y - gap},
+                          ImGuiCond_Always, {0, fits_below ? 0.0f : 1.0f});
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(wrap_width(26.0f, window.x));
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  widgets.mark("tooltip", at, {at.x + size.x, at.y + size.y});
+  ImGui::EndTooltip();
+}
+
 void tooltip(const std::string& text) {
-  if (ImGui::IsItemHovered()) show_tooltip(text);
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) show_tooltip(text);
 }
 
 float wrap_width(float most, float room) {

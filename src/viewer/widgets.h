@@ -53,6 +53,8 @@ bool param_row(ParamSet& params, const ParamSet& base, const Param& param, Widge
 
 // Text shown while the pointer is over the last widget.
 void tooltip(const std::string& text);
+// The same below the last item or above it, so that its value stays readable, and not while it is used.
+void tooltip_beside(WidgetMap& widgets, const std::string& text);
 // The same, wherever the pointer is.
 void show_tooltip(const std::string& text);
 

@@ -4,7 +4,7 @@ import math
 import subprocess
 
 import pictures
-from desktop import LEFT, WHEEL_DOWN, WHEEL_UP
+from desktop import LEFT, WHEEL_UP
 from support import PROGRAM, main
 from window import STEPS, WindowTest, read
 
@@ -20,29 +20,12 @@ def is_grey(picture):
 
 
 class Inspect(WindowTest):
-    def look_at(self, viewer, what):
-        """From the list, which is longer than its place."""
-        before, item = viewer.rest(), f"show={what}"
-        viewer.point_at("shown list")
-
-        def is_seen():
-            _, top, _, bottom = viewer.box("shown list")
-            viewer.follow()
-            if top <= viewer.box(item)[1] and viewer.box(item)[3] <= bottom:
-                return True
-            self.desktop.xdotool("click", WHEEL_DOWN)
-            return False
-
-        viewer.wait_for(is_seen, item)
-        viewer.click(item, lambda: viewer.has("legend"), "a legend")
-        return viewer.changed(before)
-
     def test_steps_of_the_mask_are_looked_at_part_by_part(self):
         with self.view(STEPS, *THESIS, **NARROW) as viewer:
             colored = viewer.rest()
             self.assertFalse(is_grey(colored))
             viewer.open_tab("Inspect", "show=picture")
-            raw = self.look_at(viewer, f"{LIGHT}denoisers/history_and_filters/texels")
+            raw = viewer.look_at(f"{LIGHT}denoisers/history_and_filters/texels")
             self.assertTrue(is_grey(raw))
             self.assertGreater(len(raw.colors()), 30)
             viewer.choose("part", "mean blocker distance")
@@ -51,14 +34,14 @@ class Inspect(WindowTest):
             self.assertGreater(len(distance.colors()), 30)
             viewer.choose("part", "visibility")
             self.assertEqual(viewer.changed(distance), raw)
-            mask = self.look_at(viewer, "target shadow 1/view 0/mask")
+            mask = viewer.look_at("target shadow 1/view 0/mask")
             self.assertTrue(is_grey(mask))
             self.assertGreater(mask.differing(raw), 0)  # the filters' work
 
     def test_noise_is_shown_texel_by_texel(self):
         with self.view(STEPS, *THESIS, **NARROW) as viewer:
             viewer.open_tab("Inspect", "show=picture")
-            noise = self.look_at(viewer, "target shadow 1/noise/blue")
+            noise = viewer.look_at("target shadow 1/noise/blue")
             self.assertTrue(is_grey(noise))
             rows = [bytes(row) for row in noise.rows]
             left, top, right, bottom = viewer.box("picture")
@@ -81,7 +64,7 @@ class Inspect(WindowTest):
         with self.view(STEPS, *THESIS, size=(1100, 600)) as viewer:
             viewer.open_tab("Inspect", "show=picture")
             self.assertTrue(viewer.has("point at the picture"))
-            self.look_at(viewer, "target shadow 1/noise/blue")
+            viewer.look_at("target shadow 1/noise/blue")
             self.assertTrue(viewer.has("values of a texture"))  # in the legend: the picture is not there to point at
             self.assertFalse(viewer.has("point at the picture"))
             left, top, right, bottom = viewer.box("picture")
@@ -261,6 +244,29 @@ class Preset(WindowTest):
             command = viewer.copied()
         self.assertIn("--technique=slices_denoised", command)
         self.assertFalse([word for word in command if word.startswith("--set=slices")])
+
+    def test_all_values_are_led_back_to_those_of_the_preset(self):
+        with self.view(STEPS, *THESIS, size=(640, 400), maps=()) as viewer:
+            self.assertGreater(sum(word.startswith("--set=") for word in viewer.copied()), 2)
+            viewer.click("reset all", lambda: True, "the preset's values")
+            viewer.follow()
+            command = viewer.copied()
+        self.assertIn("--technique=thesis", command)
+        self.assertFalse([word for word in command if word.startswith("--set=")])
+
+    def test_a_tooltip_leaves_the_value_and_what_resets_it_readable(self):
+        with self.view(STEPS, "--sun-angle", "5", size=(900, 500)) as viewer:
+            for number, text in enumerate(("sun.angle", "cascades.count", "sun")):
+                viewer.find_all(text)
+                widget = "sun.angle" if text == "sun" else text
+                with self.subTest(number=number, widget=widget):
+                    viewer.point_at(widget)
+                    viewer.wait_for(lambda: viewer.has("tooltip"), "the tooltip")
+                    viewer.follow()
+                    left, top, right, bottom = viewer.box("tooltip")
+                    _, low, _, high = viewer.box(widget)
+                    self.assertTrue(top >= high or bottom <= low, (top, bottom, low, high))
+                    self.assertTrue(left >= 0 and top >= 0 and right <= 900 and bottom <= 500, (left, top, right, bottom))
 
     def test_one_that_is_saved_draws_the_same_picture_by_render(self):
         preset = self.folder / "preset.toml"

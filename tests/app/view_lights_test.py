@@ -3,7 +3,7 @@
 import json
 import struct
 
-from desktop import LEFT
+from desktop import LEFT, WHEEL_UP
 from pictures import scene
 from support import main
 from window import STEPS, WindowTest
@@ -122,6 +122,41 @@ class Lights(WindowTest):
             viewer.click("no sun", lambda: True, "no sun")
             self.assertGreater(viewer.changed(all_on).differing(all_on, by=16), 0.001)
             self.assertIn("--no-sun", viewer.copied())
+
+    def test_the_sliders_of_a_sun_that_is_off_do_nothing(self):
+        with self.view(scene("gallery"), "--technique", "hard", "--no-sun") as viewer:
+            viewer.open_tab("Scene", "eye")
+            before = viewer.copied()
+            self.assertIn("--no-sun", before)
+            viewer.point_at("azimuth")
+            viewer.wait_for(lambda: viewer.has("tooltip"), "the tooltip, which says why")
+            self.desktop.xdotool("click", LEFT)
+            viewer.follow()
+            self.assertEqual(viewer.copied(), before)
+            viewer.click("no sun", lambda: True, "the sun")
+            viewer.follow()
+            self.desktop.xdotool("mousemove", "--window", viewer.window, *viewer.middle("azimuth"), "click", LEFT)
+            viewer.wait_for(lambda: any(word.startswith("--sun=") for word in viewer.copied()), "another sun")
+
+    def test_a_texture_that_is_shown_alone_has_no_rings_and_no_camera(self):
+        with self.view(scene("gallery"), "--technique", "hard", size=(1000, 700)) as viewer:
+            viewer.open_tab("Inspect", "show=picture")
+            self.assertTrue(viewer.has("ring of light 3"))
+            ring, before = viewer.middle("ring of light 3"), viewer.copied()
+            viewer.look_at("target shadow 1/view 0/light 0/shadow map")
+            self.assertFalse(viewer.has("ring of light 3"))
+            for place in (ring, viewer.middle("picture")):
+                self.desktop.xdotool("mousemove", "--window", viewer.window, *place, "mousedown", LEFT)
+                for step in range(10, 61, 10):
+                    viewer.follow()
+                    viewer.move(place[0] + step, place[1])
+                viewer.follow()
+                self.desktop.xdotool("mouseup", LEFT)
+                viewer.follow()
+            viewer.point_at("picture")
+            self.desktop.xdotool("click", WHEEL_UP)
+            viewer.follow()
+            self.assertEqual(viewer.copied(), before)
 
     def test_a_lamp_does_not_put_out_the_sun_of_a_scene_without_lights(self):
         unlit = self.folder / "unlit.glb"

@@ -7,7 +7,7 @@ import pathlib
 import shlex
 import tempfile
 
-from desktop import LEFT, PATIENCE, end, start, wait_for
+from desktop import LEFT, PATIENCE, WHEEL_DOWN, end, start, wait_for
 from support import PROGRAM
 
 FEWEST_COLORS = 5  # of a picture that shows a scene, even without shadows
@@ -200,6 +200,23 @@ class Viewer:
         item = f"{widget}={word}"
         self.click(widget, lambda: self.has(item), f"the list of {widget}")
         self.click(item, lambda: not self.has(item), f"{item} to be chosen")
+
+    def look_at(self, what):
+        """Chooses it from the list of what can be shown, which is longer than its place."""
+        before, item = self.rest(), f"show={what}"
+        self.point_at("shown list")
+
+        def is_seen():
+            _, top, _, bottom = self.box("shown list")
+            self.follow()
+            if top <= self.box(item)[1] and self.box(item)[3] <= bottom:
+                return True
+            self._desktop.xdotool("click", WHEEL_DOWN)
+            return False
+
+        self.wait_for(is_seen, item)
+        self.click(item, lambda: self.has("legend"), "a legend")
+        return self.changed(before)
 
     def find(self, param):
         """Searches for the parameter, so that the panel shows no other one."""
