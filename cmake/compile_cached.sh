@@ -1,9 +1,9 @@
 #!/bin/sh
 # Compiles through ccache: compile_cached.sh ROOT CCACHE COMPILER ARGUMENTS...
 #
-# CCACHE_BASEDIR makes a second checkout of the same code, as deep in its tree, hit the cache. Without CCACHE_SLOPPINESS
-# ccache does not cache files that use a precompiled header. Such a header has 100 MB, which ccache would read for every
-# file that uses it; beside it is its checksum, which ccache reads instead (CCACHE_PCH_EXTSUM).
+# CCACHE_BASEDIR lets a second checkout hit the cache, if its build folder is as many levels below its root. Without
+# CCACHE_SLOPPINESS ccache does not cache files that use a precompiled header. Such a header is 100 MB large, which ccache
+# would read for every file that uses it; beside it is its checksum, which ccache reads instead (CCACHE_PCH_EXTSUM).
 export CCACHE_BASEDIR="$1" CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_PCH_EXTSUM=1
 shift
 

@@ -3,9 +3,9 @@
     tidy.py BUILD [FILE...]     BUILD: a build folder, built; FILE: only these
 
 A result is kept under the hash of all that it depends on: the file, the project's headers that it includes, the
-command line, the configuration, clang-tidy's version and those of Debian's packages, whose headers are included too. So a
-second run checks only what changed, also in another checkout: like a compiler's cache, this one is the user's
-(XDG_CACHE_HOME).
+command line, the configuration, this script, clang-tidy's version and those of Debian's packages, whose headers are
+included too. Headers from elsewhere are not among it: once they have changed, empty the cache. So a second run checks only
+what changed, also in another checkout: like a compiler's cache, this one is the user's (XDG_CACHE_HOME).
 
 Most of the time goes into headers of other projects, which every file includes. So several files are checked as one
 translation unit, one after the other. A unit with findings is halved until each finding is reported for one file.
@@ -13,6 +13,7 @@ translation unit, one after the other. A unit with findings is halved until each
 
 import argparse
 import concurrent.futures
+import contextlib
 import dataclasses
 import hashlib
 import json
@@ -139,10 +140,11 @@ def configuration(file):
 
 
 def versions():
-    """Of clang-tidy and, on Debian, of all packages."""
+    """Of clang-tidy, of this script and, on Debian, of all packages."""
     listed = [TIDY, "--version"], ["dpkg-query", "--show"]
-    return "".join(subprocess.run(command, check=True, capture_output=True, text=True).stdout
-                   for command in listed if shutil.which(command[0]))
+    return pathlib.Path(__file__).read_text() + "".join(
+        subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        for command in listed if shutil.which(command[0]))
 
 
 def in_any_checkout(text):
@@ -232,8 +234,9 @@ def kept_results():
     cache = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "penumbra" / "tidy"
     cache.mkdir(parents=True, exist_ok=True)
     for result in cache.iterdir():
-        if time.time() - result.stat().st_mtime > LONGEST_UNUSED:
-            result.unlink(missing_ok=True)
+        with contextlib.suppress(FileNotFoundError):  # another run may remove it
+            if time.time() - result.stat().st_mtime > LONGEST_UNUSED:
+                result.unlink()
     return cache
 
 

@@ -65,13 +65,15 @@ int warmup_of(const Document& document) {
   return remembers ? settled : 0;
 }
 
-bool refines(const Document& document) {
-  return warmup_of(document) == 0 && document.options.samples > 1 && document.params.get_word("technique") != "truth";
+bool changes_once_drawn(const Document& document) {
+  return warmup_of(document) > 0 || document.params.get_word("technique") == "truth";
 }
+
+bool refines(const Document& document) { return !changes_once_drawn(document) && document.options.samples > 1; }
 
 int frames_of(const Document& document, bool software) {
   constexpr int measured = 60;
-  if (refines(document)) return (software ? 1 : measured) + 1;
+  if (!changes_once_drawn(document)) return (software ? 1 : measured) + (refines(document) ? 1 : 0);
   return warmup_of(document) + 1;
 }
 

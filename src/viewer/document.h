@@ -29,11 +29,13 @@ struct Document {
 // Frames to draw before a picture is finished: techniques with a history need them.
 int warmup_of(const Document& document);
 
+// Whether a picture may change after its first frame though nothing else does: by a history, or once it is traced.
+bool changes_once_drawn(const Document& document);
 // Whether a finished picture is drawn once more with shadows of their own for all samples of its pixels. Not where they
 // have a history, which each sample would lack, nor where they are traced.
 bool refines(const Document& document);
-// Frames to draw until a picture is finished. On a GPU one that is refined is drawn often before, so that what its
-// passes cost can be measured.
+// Frames to draw until a picture is finished. On a GPU one that does not change is drawn often, so that what its passes
+// cost can be measured.
 int frames_of(const Document& document, bool software);
 
 // Camera, sun, lights and lamps as arguments of `penumbra render`.

@@ -35,11 +35,10 @@ void plan_software(const Side& side, const FrameState& state, const FramePacing:
   plan.measure = plan.measure && (plan.draw ? picture.wanted == 1 || !plan.restart : picture.missing() == 0);
 }
 
-// A GPU draws every frame. A picture that is ray traced, or whose shadows were refined, does not change once it is
-// finished.
+// A GPU draws every frame. A picture that is ray traced or has no history does not change once it is finished.
 bool draws_on_gpu(const Side& side, const FrameState& state, const FramePacing::Step& step) {
   const PictureState& picture = side.picture;
-  const bool ends = picture.traced || picture.refines;
+  const bool ends = picture.traced || picture.settles;
   if (!ends || (!picture.current && side.follows_motion)) return true;
   return step.idle && (picture.missing() > 0 || state.values_wanted || side.plan.measure);
 }

@@ -12,7 +12,7 @@ struct PictureState {
   int frames = 0;         // drawn at full size since the document changed
   int wanted = 1;         // frames at full size until the picture is finished
   bool traced = false;    // by the technique `truth`, which takes long and then does not change
-  bool refines = false;   // its last frame has shadows of their own for all samples, and then it does not change
+  bool settles = false;   // it has no history, and so does not change once it is finished
   bool measured = false;  // its visibility was read, to compare the two pictures
 
   int missing() const;  // frames until it is finished

@@ -16,7 +16,8 @@ void add_view_command_options(CLI::App& app, ViewOptions& options) {
                    options.size = cli::parse_size("--size", text);
                    options.sized = true;
                  });
-  cli::add_samples_option(app, options, "Samples of each pixel of a picture at rest, for smooth edges; 1: steps (4)");
+  cli::add_samples_option(app, options,
+                          "Samples of each pixel of a picture at rest, for smooth edges; 1: jagged edges (4)");
   app.add_flag("--defaults", options.defaults, "Ignore the settings of the last run, and save none")
       ->disable_flag_override();
   cli::add_view_options(app, options);

@@ -86,7 +86,7 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, const D
     keep(*frame.display, inputs.samples < document.options.samples);
   } catch (const GivenUp&) {
     drawn_ = before;
-    if (!refined) frames_ = 0;  // what a refined frame begins with is still there
+    frames_ = 0;
     throw;
   }
   cut_ = restart_ = false;

@@ -64,7 +64,7 @@ FrameState Viewer::frame_state(const Document& b, const PictureArea& area, doubl
                        .frames = side.renderer.frames(),
                        .wanted = frames_of(document, pacing_.software()),
                        .traced = is_traced(document),
-                       .refines = refines(document)};
+                       .settles = !changes_once_drawn(document)};
     if (state.missing() > 0) side.measured = false;
     state.measured = side.measured;
     return state;

@@ -59,26 +59,26 @@ void choose_camera(const Panel& panel) {
   ImGui::EndCombo();
 }
 
-// Fields have three decimals, of which a tiny negative number would be "-0.000".
-glm::vec3 without_minus_zero(glm::vec3 v) {
-  constexpr float shown = 0.0005f;
-  for (int i = 0; i < 3; ++i) v[i] = v[i] > -shown && v[i] <= 0 ? 0 : v[i];
-  return v;
+// With three decimals, of which a tiny negative number would be "-0.000".
+bool place_field(WidgetMap& widgets, const char* name, glm::vec3& place) {
+  glm::vec3 shown = place;
+  for (int i = 0; i < 3; ++i) shown[i] = shown[i] > -0.0005f && shown[i] <= 0 ? 0 : shown[i];
+  if (!type_vector(widgets, name, shown, 3)) return false;
+  place = shown;
+  return true;
 }
 
 void camera(const Panel& panel) {
   UiState& state = panel.state;
   const session::PreparedScene& prepared = panel.status.scene->prepared;
   CameraRig rig = present_rig(state.document, prepared);
-  rig.eye = without_minus_zero(rig.eye);
-  rig.target = without_minus_zero(rig.target);
   begin_rows("camera");
   choose_camera(panel);
   bool moved = false;
   row("eye", "Where the camera is, metres.");
-  moved |= type_vector(panel.widgets, "eye", rig.eye, 3);
+  moved |= place_field(panel.widgets, "eye", rig.eye);
   row("target", "What it looks at, metres.");
-  moved |= type_vector(panel.widgets, "target", rig.target, 3);
+  moved |= place_field(panel.widgets, "target", rig.target);
   row("field of view", "Of the picture's height.");
   float degrees = glm::degrees(rig.fov_y);
   const bool wider = slider(panel.widgets, "fov", degrees, 5, 120, "%.1f°");

@@ -151,8 +151,8 @@ void shadow_panel(const Panel& panel) {
   ImGui::SameLine();
   if (ImGui::Button("Reset all")) params = session::unmodified(params);
   panel.widgets.mark("reset all");
-  tooltip("Every parameter has the value again that it had right after choosing \"" +
-          session::selection_of(params).name + "\".");
+  tooltip("Every parameter gets the value that \"" + session::selection_of(params).name +
+          "\" sets, or else its default.");
   const float footer = 2 * ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().ItemSpacing.y;
   std::string fault;
   if (ImGui::BeginChild("parameters", {0, rest_of_panel(footer)})) groups(panel, params, fault);

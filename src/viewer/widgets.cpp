@@ -194,7 +194,8 @@ void tooltip_beside(WidgetMap& widgets, const std::string& text) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsItemActive()) return;
   const ImGuiStyle& style = ImGui::GetStyle();
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(), window = ImGui::GetIO().DisplaySize;
-  const ImVec2 inner = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap_width(26.0f, window.x));
+  const ImVec2 inner =
+      ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap_width(26.0f, window.x) - style.WindowPadding.x);
   const float gap = style.ItemSpacing.y, width = inner.x + 2 * style.WindowPadding.x;
   const bool fits_below = high.y + gap + inner.y + 2 * style.WindowPadding.y <= window.y;
   ImGui::SetNextWindowPos({std::max(std::min(low.x, window.x - width), 0.0f), fits_below ? high.y + gap : low.y - gap},

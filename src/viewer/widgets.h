@@ -53,10 +53,10 @@ bool param_row(ParamSet& params, const ParamSet& base, const Param& param, Widge
 
 // Text shown while the pointer is over the last widget.
 void tooltip(const std::string& text);
-// The same below the last item or above it, so that its value stays readable, and not while it is used.
-void tooltip_beside(WidgetMap& widgets, const std::string& text);
 // The same, wherever the pointer is.
 void show_tooltip(const std::string& text);
+// As tooltip(), but below the last widget or above it, so that its value stays readable, and not while it is used.
+void tooltip_beside(WidgetMap& widgets, const std::string& text);
 
 // The width at which text of a window that fits its contents is wrapped: `most` times the font's size, if the whole
 // window, of `room` pixels, has space for that.

@@ -249,7 +249,7 @@ TEST(ViewerPlan, APictureWhoseShadowsAreRefinedIsDrawnTwiceAtRestAndThenStays) {
   for (const bool software : {true, false}) {
     Desk desk(software);
     desk.a = wanting(2);
-    desk.a.refines = true;
+    desk.a.settles = true;
     for (int i = 0; i < 10; ++i) {
       Desk::change(desk.a);
       EXPECT_TRUE(desk.turn().a.draw);
