@@ -48,15 +48,14 @@ ReadableBuffer::ReadableBuffer(std::string_view label, std::size_t words) {
   const std::vector<std::uint32_t> zeros(words);
   const std::size_t bytes = words * sizeof(std::uint32_t);
   handle_ = make_storage(label, bytes, zeros.data(), access | GL_DYNAMIC_STORAGE_BIT);
-  const void* mapped = glMapNamedBufferRange(handle_.id(), 0, static_cast<GLsizeiptr>(bytes), access);
+  void* mapped = glMapNamedBufferRange(handle_.id(), 0, static_cast<GLsizeiptr>(bytes), access);
   if (mapped == nullptr) fail("buffer '{}' can't be mapped", label);
-  words_ = static_cast<const std::uint32_t*>(mapped);
+  words_ = static_cast<std::uint32_t*>(mapped);
 }
 
 std::uint32_t ReadableBuffer::word(std::size_t index) const {
-  const std::uint32_t value = words_[index];
-  std::atomic_thread_fence(std::memory_order_acquire);  // before the words that are read next
-  return value;
+  // Acquired: before the words that are read next.
+  return std::atomic_ref(words_[index]).load(std::memory_order_acquire);
 }
 
 // Not by glClearNamedBufferSubData(), to which Mesa applies the engine's pixel storage modes.

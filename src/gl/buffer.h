@@ -53,7 +53,7 @@ class ReadableBuffer {
 
  private:
   Handle<delete_buffer> handle_;
-  const volatile std::uint32_t* words_ = nullptr;
+  std::uint32_t* words_ = nullptr;
 };
 
 // Writes one value's bytes; T is a std140/std430 struct shared with GLSL.

@@ -106,11 +106,11 @@ Estimate estimate_of(const SceneFacts& facts, const cli::Size& pixels, std::span
   for (const Drawn& one : drawn) {
     const bool is_traced = one.params->get_word("technique") == "truth";
     const double points = points_of(*one.params, registry);
-    const int further = one.samples - 1;
+    const int further = one.samples - 1, masks = one.own_shadows ? one.samples : 1;
     estimate.seconds +=
         one.frames *
         (facts.triangles * (facts.lights + further) * per_triangle +
-         count * (per_pixel + further * per_sample + facts.lights * points * (is_traced ? per_ray : per_tap)));
+         count * (per_pixel + further * per_sample + facts.lights * masks * points * (is_traced ? per_ray : per_tap)));
     if (further > 0) sampled = count * per_sampled_pixel;
     if (is_traced) traced = tracer * mebibyte + facts.triangles * per_traced_triangle;
     const double side = one.params->get_int("cascades.size");

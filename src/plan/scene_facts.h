@@ -51,7 +51,8 @@ SceneFacts facts_of(const session::PreparedScene& prepared, const cli::DeviceOpt
 struct Drawn {
   const ParamSet* params = nullptr;
   int frames = 1;
-  int samples = 1;  // of each pixel: render::FrameInputs::samples
+  int samples = 1;           // of each pixel: render::FrameInputs::samples
+  bool own_shadows = false;  // render::FrameInputs::own_shadows
 };
 
 // The estimate, to a tenth, of drawing `drawn` at `pixels` (supersampling included). `kept_bytes`: what is in memory

@@ -36,7 +36,7 @@ void list(const Panel& panel) {
     const std::string about = about_target(target.name);
     const std::string layers = desc.layers > 1 ? fmt::format(", {} layers", desc.layers) : "";
     const std::string levels = desc.levels > 1 ? fmt::format(", {} levels", desc.levels) : "";
-    choose(panel, "target " + std::string(target.name), target_label(target.name),
+    choose(panel, "target " + std::string(target.name), target_label(target.name, panel.status.scene),
            fmt::format("{}{}{} × {}{}{}, {}", about, about.empty() ? "" : "\n", desc.width, desc.height, layers, levels,
                        cli::bytes_text(static_cast<double>(target.texture->bytes()))));
   }

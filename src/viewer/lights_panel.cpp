@@ -105,23 +105,59 @@ void entry(const Panel& panel, const LampName& name, const std::string& label) {
   panel.widgets.mark("entry of " + text_of(name));
 }
 
+// Whether light `index` of the file is a sun.
+bool is_sun(const LoadedScene& loaded, std::size_t index) {
+  const scene::Scene& scene = loaded.prepared.scene;
+  const int light = scene.nodes[loaded.light_nodes[index]].light;
+  return scene.lights[static_cast<std::size_t>(light)].kind == scene::LightKind::directional;
+}
+
+bool has_suns(const LoadedScene& loaded) {
+  for (std::size_t i = 0; i < loaded.lights.size(); ++i) {
+    if (is_sun(loaded, i)) return true;
+  }
+  return false;
+}
+
+// For scenes whose file has no sun that its own entry turns off.
+void no_sun_box(const Panel& panel) {
+  const cli::SceneOptions& options = panel.state.document.options;
+  if (!options.no_sun && has_suns(*panel.status.scene)) return;
+  bool no_sun = options.no_sun;
+  if (ImGui::Checkbox("No sun", &no_sun)) {
+    cli::SceneOptions wanted = options;
+    wanted.no_sun = no_sun;
+    if (no_sun) wanted.sun.reset();
+    take_lights(panel, std::move(wanted));
+  }
+  panel.widgets.mark("no sun");
+  tooltip("Spots and point lamps alone light the scene (--no-sun)");
+}
+
 void lights_of_the_file(const Panel& panel, const std::vector<ShownLamp>& lamps) {
   const cli::SceneOptions& options = panel.state.document.options;
   const std::vector<std::string>& names = panel.status.scene->lights;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const LampName name{.of_file = true, .index = i};
     const bool is_lamp = std::ranges::find(lamps, name, &ShownLamp::name) != lamps.end();
-    bool on = is_chosen(options, i);
+    const bool put_out = options.no_sun && is_sun(*panel.status.scene, i);
+    bool on = is_chosen(options, i) && !put_out;
     // A lamp's name opens its properties, beside the box that turns it off.
     const float room = ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeightWithSpacing();
     const std::string label = is_lamp ? std::string() : shortened(names[i], room);
+    ImGui::BeginDisabled(put_out);
     if (ImGui::Checkbox(fmt::format("{}##light{}", label, i).c_str(), &on)) {
       cli::SceneOptions wanted = options;
       choose_light(wanted, i, on, names.size());
       take_lights(panel, std::move(wanted));
     }
+    ImGui::EndDisabled();
     panel.widgets.mark(fmt::format("light={}", i));
-    if (!is_lamp && label != names[i]) tooltip(names[i]);
+    if (put_out) {
+      tooltip("\"No sun\" puts it out");
+    } else if (!is_lamp && label != names[i]) {
+      tooltip(names[i]);
+    }
     if (!is_lamp) continue;
     ImGui::SameLine();
     entry(panel, name, names[i]);
@@ -165,15 +201,7 @@ void lamp_list(const Panel& panel) {
 void lights_panel(const Panel& panel) {
   UiState& state = panel.state;
   cli::SceneOptions& options = state.document.options;
-  bool no_sun = options.no_sun;
-  if (ImGui::Checkbox("No sun", &no_sun)) {
-    cli::SceneOptions wanted = options;
-    wanted.no_sun = no_sun;
-    if (no_sun) wanted.sun.reset();
-    take_lights(panel, std::move(wanted));
-  }
-  panel.widgets.mark("no sun");
-  tooltip("Spots and point lamps alone light the scene (--no-sun)");
+  no_sun_box(panel);
   if (ImGui::Button("Add lamp")) {
     // Between the eye and what it looks at, a little higher.
     const CameraRig rig = present_rig(state.document, panel.status.scene->prepared);

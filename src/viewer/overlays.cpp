@@ -195,7 +195,9 @@ void legend_overlay(const Panel& panel, const ImVec2& corner, float room) {
   if (panel.state.inspection.what.empty()) return;
   if (begin_overlay("legend", inner(corner, -1, 1), {1, 0})) {
     ImGui::PushTextWrapPos(wrap_width(44.0f, room));
-    ImGui::TextUnformatted(title_of(panel.state.inspection, panel.status.gl).c_str());
+    const std::string title = title_of(panel.state.inspection, panel.status.gl, panel.status.scene);
+    ImGui::TextUnformatted(title.c_str());
+    panel.widgets.mark("legend=" + title);
     switch (panel.status.mapping.scale) {
       case ColorScale::labels:
         label_list(panel);

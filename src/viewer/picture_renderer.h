@@ -42,7 +42,7 @@ class PictureRenderer {
   // Draws the document in that detail, with the motion since the last drawing. `refined`: all samples of a pixel have
   // shadows of their own. Where each pixel has several samples, `first_drawn` is called as soon as picture() has the
   // first of them. Throws Error. Where it throws GivenUp, it still has a picture, and the next drawing is the first of
-  // its own picture.
+  // its own picture; of a picture without a history, which was to be refined, only that drawing is missing.
   void draw(LoadedScene& scene, const Document& document, const Detail& detail, bool refined,
             const std::function<void()>& first_drawn = {});
   // The next drawing has nothing to do with the last one: after another scene or other shaders.

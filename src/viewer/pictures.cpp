@@ -183,8 +183,8 @@ void Viewer::draw_at_rest(const PictureWork& work) {
   try {
     guarded([&] { draw_pictures(work); });
   } catch (const GivenUp&) {
-    // Values are read from the renderer's last frame, which is to be A's again.
-    a_.renderer.restart();
+    // Values of two pictures are read from the renderer's last frame, which is to be A's again.
+    if (work.b_shown) a_.renderer.restart();
     readable_ = false;
     unsettled_ = settling;
   }

@@ -31,7 +31,8 @@ void Viewer::inspect(Side& side) {
   if (is_target(inspection.what) && !inspected_target(inspection, device_.device)) {
     // A filter that is off has no textures; and B can lack some of A's.
     if (&side == &b_) return;
-    tell(state_, fmt::format("{} is no longer drawn", title_of(inspection, device_.device)), ImGui::GetTime());
+    tell(state_, fmt::format("{} is no longer drawn", title_of(inspection, device_.device, scene_.get())),
+         ImGui::GetTime());
     state_.inspection = {};
     return;
   }

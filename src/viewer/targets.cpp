@@ -10,6 +10,8 @@
 #include "core/names.h"
 #include "gl/texture_format.h"
 #include "lib/packed_texel.glsl"
+#include "render/setup.h"
+#include "viewer/picture_renderer.h"
 
 namespace penumbra::viewer {
 
@@ -119,10 +121,17 @@ std::size_t part_index(const std::vector<TargetPart>& parts, const Inspection& i
   return std::min(static_cast<std::size_t>(std::max(inspection.part, 0)), parts.size() - 1);
 }
 
-std::string target_label(std::string_view name) {
+std::string target_label(std::string_view name, const LoadedScene* scene) {
   std::string label(name);
-  for (const std::string_view once : {"shadow 1/", "view 0/", "light 0/"}) {
+  for (const std::string_view once : {"shadow 1/", "view 0/"}) {
     if (label.starts_with(once)) label.erase(0, once.size());
+  }
+  if (scene == nullptr) return label;
+  const std::vector<std::string> lights = render::shadowed_names(scene->prepared.setup);
+  const std::vector<int> ids = render::light_ids(scene->prepared.setup);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const std::string prefix = fmt::format("light {}/", ids[i]);
+    if (label.starts_with(prefix)) return label.replace(0, prefix.size(), lights.size() == 1 ? "" : lights[i] + "/");
   }
   return label;
 }
@@ -163,12 +172,12 @@ std::optional<gl::Device::NamedTarget> inspected_target(const Inspection& inspec
   return {};
 }
 
-std::string title_of(const Inspection& inspection, const gl::Device& device) {
+std::string title_of(const Inspection& inspection, const gl::Device& device, const LoadedScene* scene) {
   const std::optional<gl::Device::NamedTarget> target = inspected_target(inspection, device);
   if (!target && !is_target(inspection.what)) return inspection.what;
-  if (!target) return target_label(std::string_view(inspection.what).substr(target_prefix.size()));
+  if (!target) return target_label(std::string_view(inspection.what).substr(target_prefix.size()), scene);
   const std::vector<TargetPart> parts = parts_of(*target);
-  const std::string label = target_label(target->name);
+  const std::string label = target_label(target->name, scene);
   return parts.size() == 1 ? label : label + ": " + parts[part_index(parts, inspection)].name;
 }
 

@@ -10,6 +10,8 @@
 
 namespace penumbra::viewer {
 
+struct LoadedScene;
+
 // The textures that passes draw to, for inspection: the intermediate results of a frame.
 
 // Whether Inspection::what names one.
@@ -24,8 +26,9 @@ struct TargetPart {
 };
 std::vector<TargetPart> parts_of(const gl::Device::NamedTarget& target);
 
-// The name as it is listed: without the numbers of instances, views and lights that there is only one of.
-std::string target_label(std::string_view name);
+// The name as it is listed: without the numbers of instances and views that there is only one of, and with the name of
+// the light in place of its number, where several cast shadows. `scene`: absent until one is loaded.
+std::string target_label(std::string_view name, const LoadedScene* scene);
 // The inspected part's index.
 std::size_t part_index(const std::vector<TargetPart>& parts, const Inspection& inspection);
 
@@ -36,7 +39,7 @@ std::string about_target(std::string_view name);
 std::optional<gl::Device::NamedTarget> inspected_target(const Inspection& inspection, const gl::Device& device);
 
 // The title of the legend: "depth", "denoisers/history_and_filters/texels: visibility".
-std::string title_of(const Inspection& inspection, const gl::Device& device);
+std::string title_of(const Inspection& inspection, const gl::Device& device, const LoadedScene* scene);
 
 // Throws Error for an unknown name.
 Values read_target(const Inspection& inspection, const gl::Device& device);

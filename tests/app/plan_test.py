@@ -114,6 +114,11 @@ class Drawn(Plans):
         same = sorted(name for name in whole if divided[name] == whole[name])
         self.assertEqual(same, [f"frame_{i:04}.png" for i in range(6)])
 
+    def test_the_estimate_counts_the_shadows_of_all_samples(self):
+        view = (scene("steps"), "--size", "640x360", "--technique", "pcss", "--samples", "8")
+        first, own = (float(self.make("render", *view, *more)["seconds"]) for more in ((), ("--sample-shadows",)))
+        self.assertGreater(own, first)
+
     def test_a_warm_up_before_a_lead_in_that_begins_at_the_first_frame(self):
         for still in ((), ("--warmup-still",)):
             arguments = (scene("moving"), "--technique", "thesis", *TINY, "--set", "cascades.size=256", "--frames",

@@ -54,6 +54,21 @@ for file, layer, picture in (("{render}", "shadow", frame["shadow"]), ("{render}
     assert numpy.array_equal(penumbra.read(file, layer), picture), layer
 """)
 
+    def test_samples_have_shadows_of_their_own_where_asked(self):
+        written = self.folder / "render.png"
+        self.succeed("render", "scenes/steps.glb", "-o", written, "--size", "96x54", "--samples", "4", "--sample-shadows",
+                     "--backend", "osmesa", "--technique", "pcss", cwd=support.ROOT)
+        self.python(f"""
+import penumbra, numpy
+def drawn(**options):
+    scene = penumbra.open("scenes/steps.glb", size=(96, 54), samples=4, backend="osmesa", **options)
+    scene.select("pcss")
+    return scene.render("display")
+own = drawn(sample_shadows=True)
+assert numpy.array_equal(own, numpy.rint(penumbra.read("{written}") * 255)), "as the program's"
+assert not numpy.array_equal(own, drawn())
+""")
+
     def test_each_scene_warns_of_a_sun_that_its_ground_hides(self):
         result = self.run_code("""
 import penumbra

@@ -119,9 +119,16 @@ class Lights(WindowTest):
             self.assertIn("--lights=0,1,3", viewer.copied())
             viewer.click("light=2", lambda: True, "the light turned on")
             self.assertEqual(viewer.changed(without), all_on)
-            viewer.click("no sun", lambda: True, "no sun")
+            self.assertFalse(viewer.has("no sun"))  # the file's sun has its own box
+            viewer.click("light=0", lambda: True, "the sun turned off")
             self.assertGreater(viewer.changed(all_on).differing(all_on, by=16), 0.001)
-            self.assertIn("--no-sun", viewer.copied())
+            self.assertIn("--lights=1,2,3", viewer.copied())
+
+    def test_maps_in_the_list_of_textures_have_their_lights_names(self):
+        with self.view(scene("gallery"), "--technique", "hard", size=(1000, 700)) as viewer:
+            viewer.open_tab("Inspect", "show=picture")
+            viewer.look_at("target shadow 1/view 0/light 0/shadow map")
+            viewer.wait_for(lambda: viewer.has("legend=sun/shadow map"), "the title of the legend")
 
     def test_the_sliders_of_a_sun_that_is_off_do_nothing(self):
         with self.view(scene("gallery"), "--technique", "hard", "--no-sun") as viewer:

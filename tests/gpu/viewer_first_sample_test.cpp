@@ -35,6 +35,18 @@ class ViewerFirstSample : public GpuTest {
     });
   }
 
+  void refine() { picture_.draw(*scene_, document_, {}, /*refined=*/true); }
+
+  // Gives the drawing of the refined picture up before one of its passes.
+  void refine_in_vain() {
+    int passes = 0;
+    device_.before_pass = [&] {
+      if (++passes == 6) throw viewer::GivenUp();
+    };
+    EXPECT_THROW(refine(), viewer::GivenUp);
+    device_.before_pass = nullptr;
+  }
+
   std::vector<float> shown() const { return gl::read_floats(picture_.picture(), 3); }
 
   gl::Device device_{gl::ShaderFiles{}, gl::Timers::Mode::off};
@@ -74,6 +86,29 @@ TEST_F(ViewerFirstSample, WhileAHistoryGrowsThereIsNoOther) {
   EXPECT_FALSE(picture_.is_rough()) << "the last frame has all samples";
   EXPECT_GT(picture_.frames(), 2);
   EXPECT_EQ(calls_, 1);
+}
+
+TEST_F(ViewerFirstSample, IsNotDrawnAgainWhereOnlySmoothShadowsWereGivenUp) {
+  draw(4);
+  const std::vector<float> full = shown();
+  refine();
+  const std::vector<float> refined = shown();
+  EXPECT_NE(refined, full);
+  picture_.restart();
+  draw(4);
+  refine_in_vain();
+  EXPECT_EQ(picture_.frames(), 1);
+  EXPECT_TRUE(picture_.shows(document_));
+  EXPECT_EQ(shown(), full);
+  refine();
+  EXPECT_EQ(shown(), refined);
+}
+
+TEST_F(ViewerFirstSample, IsDrawnAgainWhereAHistoryWasGivenUp) {
+  choose("thesis");
+  draw(4);
+  refine_in_vain();
+  EXPECT_EQ(picture_.frames(), 0);
 }
 
 }  // namespace

@@ -56,8 +56,10 @@ plan::SceneFacts SequenceJob::facts(std::size_t /*scene*/) const {
 plan::Estimate SequenceJob::estimate(std::size_t item, const plan::SceneFacts& facts) const {
   const FrameOptions& how = options();
   const cli::Size pixels{how.size.width * how.supersample, how.size.height * how.supersample};
-  const plan::Drawn drawn{
-      .params = &params_, .frames = items_.drawn(item).count() + warmup_of(item), .samples = samples()};
+  const plan::Drawn drawn{.params = &params_,
+                          .frames = items_.drawn(item).count() + warmup_of(item),
+                          .samples = samples(),
+                          .own_shadows = how.own_shadows};
   const double kept_bytes = file_bytes(facts.lights) * items_.frames(item).count();
   return plan::estimate_of(facts, pixels, {&drawn, 1}, session::all_techniques(), kept_bytes);
 }
