@@ -76,6 +76,7 @@ std::vector<float> masks(const Engine& engine, const std::string& technique, boo
   const TriangleScene scene = box_on_ground(48);
   ParamSet params = engine.renderer->params();
   params.set("technique", technique);
+  params.set("cascades.size", 256);
   params.set("history.reuse", history);
   std::vector<float> all;
   for (int frame = 0; frame < 2; ++frame) {

@@ -46,6 +46,7 @@ TEST_F(ShadowBias, LitPlanesDoNotShadowThemselves) {
           ParamSet params = renderer_->params();
           params.set("technique", technique);
           params.set("sun.angle", angle);
+          params.set("cascades.size", 1024);
           const Shadowed shadowed = renderer_->render(scene, params);
           int lit = 0;
           int dark = 0;

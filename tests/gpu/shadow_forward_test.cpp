@@ -88,6 +88,7 @@ TEST_F(ShadowForward, EveryTechniqueServesAnEnginesShaderWithNamesOfItsOwn) {
   TriangleRenderer renderer;
   ParamSet params = renderer.params();
   params.set("sun.angle", 4.0f);
+  params.set("cascades.size", 512);
   params.set("brute_force.blocker_taps", 32);
   params.set("brute_force.filter_taps", 32);
   for (const shadow::Technique& technique : renderer.shadows().registry().techniques()) {

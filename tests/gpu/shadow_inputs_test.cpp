@@ -15,6 +15,8 @@ constexpr float infinite = std::numeric_limits<float>::infinity();
 
 class ShadowInputs : public GpuTest {
  protected:
+  ShadowInputs() { params.set("cascades.size", 512); }
+
   // The message with which inputs are refused after `change` has changed them.
   std::string refusal(const TriangleRenderer::Adjust& change) {
     return message_of([&] { renderer.render(box_on_ground(48), params, change); });

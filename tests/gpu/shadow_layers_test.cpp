@@ -49,6 +49,7 @@ double worst_error(TriangleRenderer& renderer, int layers, bool both) {
   params.set("technique", std::string("slices"));
   params.set("sun.angle", angle);
   params.set("maps.layers", layers);
+  params.set("cascades.size", 1024);
   for (const char* name : {"slices.azimuths", "slices.samples"}) params.set(name, 32);
   constexpr int seeds = 16;
   std::vector<double> sums;

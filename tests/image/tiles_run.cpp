@@ -63,6 +63,12 @@ std::vector<float> TilesTest::mask(render::Renderer& renderer, const std::string
   return renderer.read_aov("shadow");
 }
 
+std::vector<std::vector<float>> TilesTest::read_all(std::span<const char* const> names) const {
+  std::vector<std::vector<float>> all;
+  for (const char* name : names) all.push_back(renderer_.read_aov(name));
+  return all;
+}
+
 std::vector<std::vector<float>> TilesTest::layers() const {
   std::vector<std::vector<float>> all;
   for (int layer = 0; layer < drawn_.mask.texture->desc().layers; ++layer)

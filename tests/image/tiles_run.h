@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,10 @@ class TilesTest : public GpuTest {
 
   // All values of the layers of the last mask.
   std::vector<std::vector<float>> layers() const;
+
+  // What the mask tells of each pixel.
+  static constexpr std::array aovs{"shadow", "penumbra", "blocker", "cascade", "under_texel"};
+  std::vector<std::vector<float>> read_all(std::span<const char* const> names) const;
 
   // Expects decided pixels to have the visibility that the technique computes for them, with a slack for the few that
   // the technique itself darkens by texels of their own surface. Returns the share of decided pixels.
