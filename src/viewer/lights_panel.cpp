@@ -159,7 +159,7 @@ void lights_of_the_file(const Panel& panel, const std::vector<ShownLamp>& lamps)
       tooltip(names[i]);
     }
     if (!is_lamp) continue;
-    ImGui::SameLine();
+    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);  // where the box has its own label
     entry(panel, name, names[i]);
   }
 }
