@@ -7,10 +7,6 @@ die() {
   exit 1
 }
 
-# A software rasteriser takes its textures from malloc(). Where the kernel gives huge pages only to programs that ask for
-# them, this asks: small pages cost a short run up to half of its time.
-export GLIBC_TUNABLES=${GLIBC_TUNABLES-glibc.malloc.hugetlb=1}
-
 # found KIND FILE: whether the file is on this machine. It looks for the file itself, without a package manager: that
 # takes milliseconds and works on every distribution.
 found() {

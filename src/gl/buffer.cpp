@@ -54,7 +54,7 @@ ReadableBuffer::ReadableBuffer(std::string_view label, std::size_t words) {
 }
 
 std::uint32_t ReadableBuffer::word(std::size_t index) const {
-  // Acquired: before the words that are read next.
+  // Words that are read after this one are at least as new.
   return std::atomic_ref(words_[index]).load(std::memory_order_acquire);
 }
 

@@ -109,12 +109,14 @@ Estimate estimate_of(const SceneFacts& facts, const cli::Size& pixels, std::span
     const int further = one.samples - 1, masks = one.own_shadows ? one.samples : 1;
     estimate.seconds +=
         one.frames *
-        (facts.triangles * (facts.lights + further) * per_triangle +
+        (facts.triangles * (facts.lights * masks + further) * per_triangle +
          count * (per_pixel + further * per_sample + facts.lights * masks * points * (is_traced ? per_ray : per_tap)));
     if (further > 0) sampled = count * per_sampled_pixel;
     if (is_traced) traced = tracer * mebibyte + facts.triangles * per_traced_triangle;
     const double side = one.params->get_int("cascades.size");
-    maps += is_traced ? 0 : facts.lights * side * side * one.params->get_int("cascades.count") * per_texel;
+    // Shadows of further samples have maps of their own.
+    const int sets = masks > 1 ? 2 : 1;
+    maps += is_traced ? 0 : sets * facts.lights * side * side * one.params->get_int("cascades.count") * per_texel;
   }
   const double targets = count * per_target_pixel * static_cast<double>(drawn.size());
   estimate.memory_mib =

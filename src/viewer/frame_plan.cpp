@@ -28,7 +28,9 @@ void plan_software(const Side& side, const FrameState& state, const FramePacing:
   const PictureState& picture = side.picture;
   PicturePlan& plan = side.plan;
   const bool read_again = state.values_wanted && !moves && (state.b || state.last_is_b);
-  const bool lost = plan.measure && picture.missing() == 0 && !side.is_last;
+  // The user gave up the frame when it was drawn and its values were not read yet.
+  const bool unread = state.unreadable && !state.b && !moves;
+  const bool lost = picture.missing() == 0 && (unread || (plan.measure && !side.is_last));
   plan.restart = read_again || lost || (step.restart && picture.missing() > 0);
   plan.draw = moves ? step.draw && !picture.current && side.follows_motion
                     : plan.restart || (step.draw && picture.missing() > 0);

@@ -119,10 +119,12 @@ bool has_suns(const LoadedScene& loaded) {
   return false;
 }
 
-// For scenes whose file has no sun that its own entry turns off.
+// A sun of the file is turned off by its own entry.
 void no_sun_box(const Panel& panel) {
   const cli::SceneOptions& options = panel.state.document.options;
-  if (!options.no_sun && has_suns(*panel.status.scene)) return;
+  const render::Setup& setup = panel.status.scene->prepared.setup;
+  const bool has_entry = has_suns(*panel.status.scene) && (!setup.sun_shines || setup.sun_node);
+  if (!options.no_sun && has_entry) return;
   bool no_sun = options.no_sun;
   if (ImGui::Checkbox("No sun", &no_sun)) {
     cli::SceneOptions wanted = options;

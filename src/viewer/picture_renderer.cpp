@@ -86,8 +86,7 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, const D
     keep(*frame.display, inputs.samples < document.options.samples);
   } catch (const GivenUp&) {
     drawn_ = before;
-    // A history that the frame has changed can't be continued.
-    if (!refined || changes_once_drawn(document)) frames_ = 0;
+    if (!refined) frames_ = 0;
     throw;
   }
   cut_ = restart_ = false;

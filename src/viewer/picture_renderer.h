@@ -40,9 +40,10 @@ class PictureRenderer {
   // Whether it has these parameters, whatever else has changed.
   bool has_params_of(const Document& document) const;
   // Draws the document in that detail, with the motion since the last drawing. `refined`: all samples of a pixel have
-  // shadows of their own. Where each pixel has several samples, `first_drawn` is called as soon as picture() has the
-  // first of them. Throws Error. Where it throws GivenUp, it still has a picture, and the next drawing is the first of
-  // its own picture; of a picture without a history, which was to be refined, only that drawing is missing.
+  // shadows of their own; only of documents that refines() names. Where each pixel has several samples, `first_drawn`
+  // is called as soon as picture() has the first of them. Throws Error. Where it throws GivenUp, it still has a
+  // picture, and the next drawing is the first of its own picture; where only the refined drawing was given up, the
+  // picture before it stays and counts.
   void draw(LoadedScene& scene, const Document& document, const Detail& detail, bool refined,
             const std::function<void()>& first_drawn = {});
   // The next drawing has nothing to do with the last one: after another scene or other shaders.

@@ -131,7 +131,12 @@ std::string target_label(std::string_view name, const LoadedScene* scene) {
   const std::vector<int> ids = render::light_ids(scene->prepared.setup);
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const std::string prefix = fmt::format("light {}/", ids[i]);
-    if (label.starts_with(prefix)) return label.replace(0, prefix.size(), lights.size() == 1 ? "" : lights[i] + "/");
+    if (!label.starts_with(prefix)) continue;
+    label.erase(0, prefix.size());
+    if (lights.size() == 1) return label;
+    // Several nodes may share a light of the file.
+    const bool is_unique = std::ranges::count(lights, lights[i]) == 1;
+    return is_unique ? fmt::format("{}/{}", lights[i], label) : fmt::format("{} ({})/{}", lights[i], ids[i], label);
   }
   return label;
 }

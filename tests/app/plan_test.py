@@ -116,8 +116,9 @@ class Drawn(Plans):
 
     def test_the_estimate_counts_the_shadows_of_all_samples(self):
         view = (scene("steps"), "--size", "640x360", "--technique", "pcss", "--samples", "8")
-        first, own = (float(self.make("render", *view, *more)["seconds"]) for more in ((), ("--sample-shadows",)))
-        self.assertGreater(own, first)
+        first, own = (self.make("render", *view, *more) for more in ((), ("--sample-shadows",)))
+        for name in ("seconds", "memory_mib"):
+            self.assertGreater(float(own[name]), float(first[name]), name)
 
     def test_a_warm_up_before_a_lead_in_that_begins_at_the_first_frame(self):
         for still in ((), ("--warmup-still",)):

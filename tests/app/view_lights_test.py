@@ -1,6 +1,7 @@
 """The viewer's lights: those of the file, and lamps that the user adds and drags."""
 
 import json
+import re
 import struct
 
 from desktop import LEFT, WHEEL_UP
@@ -9,18 +10,30 @@ from support import main
 from window import STEPS, WindowTest
 
 
-def without_lights(glb):
-    """The scene of a .glb file without its lights."""
+def edited(glb, edit):
+    """The .glb file with its JSON as `edit` leaves it."""
     size = struct.unpack_from("<I", glb, 12)[0]
     document = json.loads(glb[20:20 + size])
-    document["extensions"].pop("KHR_lights_punctual")
-    for node in document["nodes"]:
-        node.get("extensions", {}).pop("KHR_lights_punctual", None)
+    edit(document)
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     rest = glb[20 + size:]
     head = struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text) + len(rest), len(text), b"JSON")
     return head + text + rest
+
+
+def remove_lights(document):
+    document["extensions"].pop("KHR_lights_punctual")
+    for node in document["nodes"]:
+        node.get("extensions", {}).pop("KHR_lights_punctual", None)
+
+
+def share_a_light(document):
+    """The spots and the point lamp become one lamp at three places."""
+    for node in document["nodes"]:
+        light = node.get("extensions", {}).get("KHR_lights_punctual")
+        if light and light["light"] > 0:
+            light["light"] = 3
 
 
 class Lights(WindowTest):
@@ -124,11 +137,30 @@ class Lights(WindowTest):
             self.assertGreater(viewer.changed(all_on).differing(all_on, by=16), 0.001)
             self.assertIn("--lights=1,2,3", viewer.copied())
 
+    def test_a_sun_that_the_file_does_not_have_is_turned_off(self):
+        with self.view(STEPS, "--technique", "hard", "--lights", "none", "--sun", "20,50", "--lamp", "0,2,0") as viewer:
+            viewer.open_tab("Scene", "eye")
+            lit = viewer.rest()
+            viewer.click("no sun", lambda: True, "no sun")
+            self.assertGreater(viewer.changed(lit).differing(lit, by=16), 0.001)
+            words = viewer.copied()
+            self.assertIn("--no-sun", words)
+            self.assertFalse(any(word.startswith("--sun=") for word in words))
+
     def test_maps_in_the_list_of_textures_have_their_lights_names(self):
         with self.view(scene("gallery"), "--technique", "hard", size=(1000, 700)) as viewer:
             viewer.open_tab("Inspect", "show=picture")
             viewer.look_at("target shadow 1/view 0/light 0/shadow map")
             viewer.wait_for(lambda: viewer.has("legend=sun/shadow map"), "the title of the legend")
+        shared = self.folder / "shared.glb"
+        shared.write_bytes(edited(scene("gallery").read_bytes(), share_a_light))
+        with self.view(shared, "--technique", "hard", size=(1000, 700)) as viewer:
+            viewer.open_tab("Inspect", "show=picture")
+            maps = [name for name in viewer.layout() if re.fullmatch(r"show=target .*/light \d+/shadow map", name)]
+            self.assertEqual(len(maps), 4)
+            number = max(int(re.search(r"light (\d+)", name)[1]) for name in maps)
+            viewer.look_at(f"target shadow 1/view 0/light {number}/shadow map")
+            viewer.wait_for(lambda: viewer.has(f"legend=pendant ({number})/shadow map"), "the title of the legend")
 
     def test_the_sliders_of_a_sun_that_is_off_do_nothing(self):
         with self.view(scene("gallery"), "--technique", "hard", "--no-sun") as viewer:
@@ -138,6 +170,9 @@ class Lights(WindowTest):
             viewer.point_at("azimuth")
             viewer.wait_for(lambda: viewer.has("tooltip"), "the tooltip, which says why")
             self.desktop.xdotool("click", LEFT)
+            viewer.follow()
+            self.assertEqual(viewer.copied(), before)
+            viewer.click("light=0", lambda: True, "a sun that is put out")
             viewer.follow()
             self.assertEqual(viewer.copied(), before)
             viewer.click("no sun", lambda: True, "the sun")
@@ -167,7 +202,7 @@ class Lights(WindowTest):
 
     def test_a_lamp_does_not_put_out_the_sun_of_a_scene_without_lights(self):
         unlit = self.folder / "unlit.glb"
-        unlit.write_bytes(without_lights(STEPS.read_bytes()))
+        unlit.write_bytes(edited(STEPS.read_bytes(), remove_lights))
         with self.view(unlit, "--technique", "hard") as viewer:
             viewer.open_tab("Scene", "eye")
             viewer.click("add lamp", lambda: viewer.has("ring of lamp 0"), "its ring")

@@ -17,7 +17,7 @@ namespace {
 
 constexpr float radius = 0.1f;  // of the kernels, metres
 
-// Its one map has the texels of a face of a cube, which takes six times as long to filter.
+// A spot with one map, whose texels are those of a cube's face: a cube takes six times as long to filter.
 const shadow::Lamp one_face{.radius = 0, .axis = {0, -1, 0}, .cone = glm::pi<float>() / 4};
 const shadow::Lamp cube{.radius = 0};
 
@@ -91,6 +91,16 @@ TEST_F(LampFilters, KernelsDependOnNeitherMapSizeNorNearPlane) {
       }
     }
   }
+}
+
+TEST_F(LampFilters, KernelsInACubeDependOnNeitherMapSizeNorNearPlane) {
+  ParamSet params = parameters("evsm");
+  params.set("lamps.size", 2048);
+  const double fine = width(1.4f, params, cube);
+  params.set("lamps.size", 1024);
+  EXPECT_NEAR(width(1.4f, params, cube), fine, 0.03 * fine);
+  params.set("lamps.near", 0.2f);
+  EXPECT_NEAR(width(1.4f, params, cube), fine, 0.03 * fine);
 }
 
 // A wall that nothing shadows, with kernels that reach beyond the rims of the cube's faces.

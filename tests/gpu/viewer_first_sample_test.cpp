@@ -1,4 +1,5 @@
 // Which pictures of the viewer have one sample of each pixel, so that their edges are smoothed when they are shown.
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,13 +38,13 @@ class ViewerFirstSample : public GpuTest {
 
   void refine() { picture_.draw(*scene_, document_, {}, /*refined=*/true); }
 
-  // Gives the drawing of the refined picture up before one of its passes.
-  void refine_in_vain() {
+  // Gives a drawing up before one of its passes.
+  void give_up(const std::function<void()>& drawing) {
     int passes = 0;
     device_.before_pass = [&] {
       if (++passes == 6) throw viewer::GivenUp();
     };
-    EXPECT_THROW(refine(), viewer::GivenUp);
+    EXPECT_THROW(drawing(), viewer::GivenUp);
     device_.before_pass = nullptr;
   }
 
@@ -96,7 +97,7 @@ TEST_F(ViewerFirstSample, IsNotDrawnAgainWhereOnlySmoothShadowsWereGivenUp) {
   EXPECT_NE(refined, full);
   picture_.restart();
   draw(4);
-  refine_in_vain();
+  give_up([this] { refine(); });
   EXPECT_EQ(picture_.frames(), 1);
   EXPECT_TRUE(picture_.shows(document_));
   EXPECT_EQ(shown(), full);
@@ -104,10 +105,10 @@ TEST_F(ViewerFirstSample, IsNotDrawnAgainWhereOnlySmoothShadowsWereGivenUp) {
   EXPECT_EQ(shown(), refined);
 }
 
-TEST_F(ViewerFirstSample, IsDrawnAgainWhereAHistoryWasGivenUp) {
-  choose("thesis");
+TEST_F(ViewerFirstSample, IsDrawnAgainWhereThePictureWasGivenUp) {
   draw(4);
-  refine_in_vain();
+  document_.options.samples = 2;
+  give_up([this] { picture_.draw(*scene_, document_, {}, /*refined=*/false); });
   EXPECT_EQ(picture_.frames(), 0);
 }
 

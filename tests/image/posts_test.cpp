@@ -142,7 +142,7 @@ TEST_F(Posts, PenumbraWidthIsTheSameForEveryCascadeCountMapSizeAndBounds) {
     double greatest = 0;
     for (const int cascades : {1, 2, 4, 8}) {
       for (const int size : {1024, 2048, 4096}) {
-        if (cascades * size / 4096 > 4) continue;  // 8 cascades of 4096² would take as long as all others
+        if (cascades == 8 && size == 4096) continue;  // would take as long as all others
         for (scene::GpuScene* scene : {&near_gpu, &far_gpu}) {
           const Measured measured = measure(*scene, setup, cascades, size);
           ++all;

@@ -19,7 +19,7 @@ STRUCT = re.compile(r"^typedef struct (\w+) \{\n(.*?)^\} \1;", re.MULTILINE | re
 WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"]
 C = [("gcc", "c11"), ("clang-16", "c11")]
 CXX = [(compiler, standard) for compiler in ("g++", "clang++-16") for standard in ("c++20", "c++2b")]
-CXX20 = [("g++", "c++20"), ("clang++-16", "c++20")]
+CXX20 = [each for each in CXX if each[1] == "c++20"]
 # Headers that engines have beside Penumbra's.
 OTHERS = ["GL/glew.h", "epoxy/gl.h", "GL/gl.h", "GLFW/glfw3.h", "GL/glcorearb.h"]
 

@@ -39,7 +39,7 @@ class Installed(support.TestCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.installed = support.BUILD.parent / "installed"
+        cls.installed = support.BUILD / "installed"
         shutil.rmtree(cls.installed, ignore_errors=True)
         cls.addClassCleanup(shutil.rmtree, cls.installed)
         cls.prefix = cls.installed / "prefix"

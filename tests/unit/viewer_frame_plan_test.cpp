@@ -34,7 +34,7 @@ class Desk {
       EXPECT_TRUE(plan.at_rest) << "only then the user can end what is drawn";
       gives_up = false;
       unreadable_ = true;
-      (plan.b.draw ? *b : a).frames = 0;
+      (plan.b.draw ? *b : a).frames = frames_kept;
       return plan;
     }
     values_wanted = false;
@@ -81,6 +81,7 @@ class Desk {
   std::optional<PictureState> b;
   bool values_wanted = false;
   bool gives_up = false;         // the user ends the next drawing
+  int frames_kept = 0;           // then
   int tracing = 0;               // turns until the truth is traced
   int drawn_a = 0, drawn_b = 0;  // frames since the last cut
 
@@ -114,6 +115,25 @@ TEST(ViewerPlan, InSoftwareEachPictureAtRestHasItsFrames) {
     EXPECT_FALSE(last.a.draw || last.b.draw);
     EXPECT_EQ(desk.drawn_a, 32);
     EXPECT_EQ(desk.drawn_b, two ? 5 : 0);
+  }
+}
+
+// Of a picture of two frames, the second one was given up before it was drawn, or when only its values were missing.
+TEST(ViewerPlan, AfterASecondFrameWasGivenUpThePictureIsFinishedAndCanBeRead) {
+  for (const int kept : {1, 2}) {
+    Desk desk(/*software=*/true);
+    desk.a = wanting(2);
+    desk.move(5);
+    while (desk.a.frames < 1) desk.turn();
+    desk.gives_up = true;
+    desk.frames_kept = kept;
+    desk.turn();
+    ASSERT_FALSE(desk.gives_up);
+    EXPECT_TRUE(desk.turn().a.draw) << kept;
+    EXPECT_TRUE(desk.rest().idle) << kept;
+    EXPECT_EQ(desk.a.frames, 2) << kept;
+    desk.values_wanted = true;
+    EXPECT_TRUE(desk.turn().inspect) << kept;
   }
 }
 
