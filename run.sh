@@ -13,9 +13,6 @@ build release penumbra
 build_unlock
 
 program=$root/build/release/penumbra
-# A software rasteriser takes its textures from malloc(). Where the kernel gives huge pages only to programs that ask for
-# them, this asks: small pages cost a short run up to half of its time.
-export GLIBC_TUNABLES=${GLIBC_TUNABLES-glibc.malloc.hugetlb=1}
 (($# > 0)) && exec "$program" "$@"
 
 picture=$root/out/penumbra.png

@@ -18,8 +18,8 @@ while (($# > 0)); do
   esac
   shift
 done
-# A software rasteriser takes its textures from malloc(). Where the kernel gives huge pages only to programs that ask for
-# them, this asks: small pages cost the many short runs of the tests up to half of their time.
+# A software rasteriser keeps its textures in the memory of the process. The program itself asks for huge pages, which takes
+# up to half of a short run's time away; this asks for them for the other programs that the tests draw with.
 export GLIBC_TUNABLES=${GLIBC_TUNABLES-glibc.malloc.hugetlb=1}
 [[ -z ${PENUMBRA_ASSETS:-} ]] || PENUMBRA_ASSETS=$(cd "$PENUMBRA_ASSETS" && pwd)
 

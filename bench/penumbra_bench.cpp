@@ -4,10 +4,12 @@
 
 #include "bench/bench.h"
 #include "bench/machine.h"
+#include "cli/huge_pages.h"
 #include "stb_decoder.h"
 
 int main(int argc, char** argv) {
   namespace cli = penumbra::cli;
+  cli::start_with_huge_pages(argv);
   const cli::Arguments arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
   return cli::run_guarded([&] {
     if (!arguments.empty() && arguments.front() == "--version") {
