@@ -59,7 +59,9 @@ GLSL_FUNCTION vec4 within_cone(vec4 radius, bool square, vec4 x, vec4 y) {
 
 // Level of a pyramid (level 0: `base` metres a texel) at which a disc of that radius touches at most 2 × 2 texels.
 GLSL_FUNCTION int covering_level(float radius, float base, int levels) {
-  return clamp(int(ceil(log2(max(2.0f * radius / base, 1.0f)))), 0, levels - 1);
+  // The exponent of the least power of two that is not less: faster than a logarithm, and exact.
+  uint bits = floatBitsToUint(max(2.0f * radius / base, 1.0f));
+  return clamp(int((bits + 0x7fffffu) >> 23) - 127, 0, levels - 1);
 }
 
 GLSL_END

@@ -13,13 +13,16 @@ GLSL_FUNCTION vec2 octahedral_encode(vec3 v) {
   return vec2((1.0f - abs(p.y)) * (p.x >= 0.0f ? 1.0f : -1.0f), (1.0f - abs(p.x)) * (p.y >= 0.0f ? 1.0f : -1.0f));
 }
 
-GLSL_FUNCTION vec3 octahedral_decode(vec2 e) {
+// And back, to a vector of any length.
+GLSL_FUNCTION vec3 octahedral_direction(vec2 e) {
   vec3 v = vec3(e.x, e.y, 1.0f - abs(e.x) - abs(e.y));
   float fold = max(-v.z, 0.0f);
   v.x += v.x >= 0.0f ? -fold : fold;
   v.y += v.y >= 0.0f ? -fold : fold;
-  return normalize(v);
+  return v;
 }
+
+GLSL_FUNCTION vec3 octahedral_decode(vec2 e) { return normalize(octahedral_direction(e)); }
 
 GLSL_END
 

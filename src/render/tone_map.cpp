@@ -1,3 +1,4 @@
+#include <bit>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,7 @@ gl::ProgramDesc program() {
 }  // namespace
 
 gl::Texture dither_noise() {
+  static_assert(std::has_single_bit(unsigned{shadow::built_in_noise_side}), "render/encode.glsl repeats it by a mask");
   const shadow::NoiseTile tile = shadow::built_in_noise("void_and_cluster");
   std::vector<float> values;
   for (int pixel = 0; pixel < tile.count(); ++pixel) values.push_back(tile.value(pixel, 0));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lib/disc.glsl"
 #include "lib/hash.glsl"
@@ -174,6 +175,12 @@ TEST(Kernel, CoveringLevelHoldsTheDiscInTwoTexels) {
     EXPECT_GE(texel, 2 * radius * 0.9999f);
     EXPECT_LE(texel, std::max(4 * radius * 1.0001f, 0.1f)) << "a coarser level than needed";
   }
+  for (int level = 0; level < 11; ++level) {
+    const float radius = std::exp2(static_cast<float>(level - 1));
+    EXPECT_EQ(covering_level(radius, 1, 12), level) << "a disc as wide as two texels";
+    EXPECT_EQ(covering_level(std::nextafter(radius, 2 * radius), 1, 12), level + 1) << "a wider one";
+  }
+  EXPECT_EQ(covering_level(std::numeric_limits<float>::infinity(), 1, 12), 11);
   EXPECT_EQ(covering_level(1e9f, 0.1f, 12), 11);
   EXPECT_EQ(covering_level(0, 0.1f, 12), 0);
 }

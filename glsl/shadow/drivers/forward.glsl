@@ -5,6 +5,6 @@
 float shadow_visibility(vec3 view_position, vec3 geometric_normal, vec2 pixel) {
   Receiver receiver = make_receiver(view_position, light_direction(geometric_normal), pixel);
   // The caller may have made the position from stored depths.
-  receiver.depth_error = vertex_error(receiver, view_position);
+  receiver.depth_error = vertex_error(plane_moves(receiver), view_position);
   return shadow_of(receiver, light_for(receiver)).visibility.visibility;
 }

@@ -36,8 +36,8 @@ struct StoredNormal {
 StoredNormal stored_normal_at(ivec2 pixel) {
   vec4 texel = texelFetch(receiver_normal, pixel, 0);
   vec3 stored = texel.xyz * shadow.normal_decode.x + shadow.normal_decode.y;
-  vec3 normal = shadow.octahedral_normals != 0 ? octahedral_decode(stored.xy) : normalize(stored);
-  return StoredNormal(light_direction(normal), texel.zw);
+  vec3 along = shadow.octahedral_normals != 0 ? octahedral_direction(stored.xy) : stored;
+  return StoredNormal(light_direction(normalize(along)), texel.zw);
 }
 
 vec3 light_normal_at(ivec2 pixel) { return stored_normal_at(pixel).normal; }
@@ -47,7 +47,8 @@ Receiver receiver_at(ivec2 pixel) {
   vec3 position = unproject(vec2(pixel) + 0.5, depth);
   StoredNormal stored = stored_normal_at(pixel);
   Receiver receiver = make_receiver(position, stored.normal, vec2(pixel));
-  receiver.depth_error = plane_moves(receiver, position_error(position, depth)) + vertex_error(receiver, position);
+  vec3 moves = plane_moves(receiver);
+  receiver.depth_error = abs(dot(moves, position_error(position, depth))) + vertex_error(moves, position);
   if (shadow.normals_from_depth != 0) {
     // Both ends may be off, and a metre across the light is more on a plane that is steep along it.
     float longer = sqrt(1.0 + dot(receiver.gradient, receiver.gradient));

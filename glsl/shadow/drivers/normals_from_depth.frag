@@ -34,7 +34,7 @@ uniform bool octahedral;  // else xyz
 // The caller's normal, view space.
 vec3 shading_normal_at(ivec2 pixel) {
   vec3 stored = texelFetch(receiver_normal, pixel, 0).xyz * decode.x + decode.y;
-  vec3 normal = octahedral ? octahedral_decode(stored.xy) : normalize(stored);
+  vec3 normal = normalize(octahedral ? octahedral_direction(stored.xy) : stored);
   return view_direction(light_direction(normal));
 }
 

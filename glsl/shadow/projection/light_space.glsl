@@ -144,10 +144,15 @@ vec3 move_in_light(Receiver receiver, vec3 view_vector) {
   return along_rays(receiver, is_lamp ? seen_by_face(moves, receiver.layer) : moves);
 }
 
-// By how much its plane then moves along the light, metres.
-float plane_moves(Receiver receiver, vec3 view_vector) {
-  vec3 moves = move_in_light(receiver, view_vector);
-  return abs(moves.z - dot(receiver.gradient, moves.xy));
+// How far a receiver's plane moves along the light, with sign, for each metre that the receiver moves along x, y and z
+// of view space; metres.
+vec3 plane_moves(Receiver receiver) {
+  vec3 across = vec3(-receiver.gradient, 1.0);
+  if (is_lamp) {
+    across.z += dot(receiver.gradient, receiver.position.xy) / receiver.position.z;
+    across = from_face(across, receiver.layer);
+  }
+  return across * mat3(shadow.view_to_light);
 }
 
 // Width of a pixel at a position in view space, metres.
@@ -162,11 +167,8 @@ vec2 rounding_of_vertices(vec3 position) {
   return abs(shadow.vertex_rounding * clip_w * shadow.pixel_size.xy);
 }
 
-// The most by which a receiver's plane may be off along the light for that reason, metres.
-float vertex_error(Receiver receiver, vec3 position) {
-  vec2 beside = rounding_of_vertices(position);
-  return plane_moves(receiver, vec3(beside.x, 0.0, 0.0)) + plane_moves(receiver, vec3(0.0, beside.y, 0.0));
-}
+// The most by which a receiver's plane may be off along the light for that reason, metres. `moves`: plane_moves().
+float vertex_error(vec3 moves, vec3 position) { return dot(abs(moves.xy), rounding_of_vertices(position)); }
 
 // How many pixels a metre on a plane through a position takes along x and along y; view space.
 vec2 pixels_on_plane(vec3 position, vec3 normal) {

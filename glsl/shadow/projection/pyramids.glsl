@@ -21,7 +21,7 @@ ivec2 next_texel(ivec2 at, TexelRange range) { return next_in_rows(at, range.low
 
 // The texels of a level that a rectangle of these half widths touches; `last` is the level's last texel.
 TexelRange pyramid_range(vec3 position, vec2 radius, Light light, float base, int level, ivec2 last) {
-  vec2 texel = base * texel_extent_at(position, light) * exp2(float(level));
+  vec2 texel = base * texel_extent_at(position, light) * float(1 << level);
   radius *= outline_reach(light);
   vec2 origin = position.xy - light.map.center + 0.5 / light.map.widths_per_metre;
   return TexelRange(clamp(ivec2(floor((origin - radius) / texel)), ivec2(0), last),
