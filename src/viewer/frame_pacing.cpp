@@ -28,11 +28,11 @@ FramePacing::Step FramePacing::next(double now, bool changed, bool ui_active, in
   if (changed) {
     Detail detail;
     if (software_) detail = travels ? levels.at(level_) : Detail{.picture = divisor_};
-    last_change_ = ended ? now - idle_seconds : now;
+    last_change_ = ended ? long_ago : now;
     restarted_ = false;
     return {.draw = true, .detail = detail};
   }
-  if (ended) last_change_ = std::min(last_change_, now - idle_seconds);
+  if (ended) last_change_ = long_ago;
   const bool idle = now - last_change_ >= idle_seconds;
   if (!software_) return {.draw = true, .idle = idle};
   const bool draw = idle && !ui_active && frames < wanted;

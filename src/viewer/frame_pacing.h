@@ -41,6 +41,7 @@ class FramePacing {
 
  private:
   static constexpr double idle_seconds = 0.15;  // without a change
+  static constexpr double long_ago = -1e9;      // seconds: a change that no rest is waited for after
   // Limits in motion: of an update of the window, and of its pictures alone.
   static constexpr double slow_ms = 100, fast_ms = 20;
 
@@ -67,7 +68,7 @@ class FramePacing {
   // Milliseconds: of the last two pictures in motion, the least at this level, and at the level that was left for it.
   double last_ms_ = 0, before_last_ms_ = 0, least_ms_ = 0, left_ms_ = 0;
   bool travelling_ = false;  // the last step was drawn at that level
-  double last_change_ = -1e9;
+  double last_change_ = long_ago;
   bool ended_ = false;      // by end_motion(), since the last step
   bool restarted_ = false;  // since the last change
 };

@@ -31,7 +31,7 @@ void list(const Panel& panel) {
   ImGui::Separator();
   ImGui::TextDisabled("textures that passes draw to");
   for (const gl::Device::NamedTarget& target : panel.status.gl.targets()) {
-    if (target.name.starts_with("viewer/") || target.name.find("/view 1/") != std::string_view::npos) continue;
+    if (target.name.starts_with("viewer/") || is_of_other_view(target.name)) continue;
     const gl::TextureDesc& desc = target.texture->desc();
     const std::string about = about_target(target.name);
     const std::string layers = desc.layers > 1 ? fmt::format(", {} layers", desc.layers) : "";

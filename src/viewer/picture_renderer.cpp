@@ -6,6 +6,7 @@
 
 #include "gl/api.h"
 #include "scene/animation.h"
+#include "viewer/present.h"
 
 namespace penumbra::viewer {
 
@@ -54,14 +55,17 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, const D
   std::string text = text_of(document);
   frames_ = detail == detail_ && shows(document) ? frames_ : 0;
   const cli::Size& size = document.options.size;
-  const bool cut = cut_ || !continues(scene.prepared, last_time_, time);
+  const bool small_maps = detail.maps > 1;
+  bool& to_cut = cut_.at(small_maps ? 1 : 0);
+  restart_ = restart_ || small_maps != small_maps_;
+  const bool cut = to_cut || !continues(scene.prepared, last_time_, time);
   const cli::Size pixels{.width = std::max(size.width / detail.picture, 1),
                          .height = std::max(size.height / detail.picture, 1)};
   // The first frame of a picture has no motion, as in `penumbra render`.
   const bool still = cut || restart_;
   render::FrameInputs inputs =
       session::frame_inputs(scene.prepared, pixels, {.time = time, .last_time = still ? time : last_time_, .cut = cut});
-  inputs.view = view_;
+  inputs.view = small_maps ? view_of_small_maps(view_) : view_;
   inputs.restart = restart_;
   inputs.mask_details = true;  // any AOV can be inspected once the picture is drawn
   // As `penumbra render` finishes it.
@@ -79,7 +83,7 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, const D
       picture_ != nullptr && picture_->width() == pixels.width && picture_->height() == pixels.height;
   const bool begins = still || detail != detail_ || !same_size || lights != lights_ || params_.rows().empty() ||
                       differ_in_shadows(params_, document.params);
-  cut_ = true;  // until the frame is drawn: after one that throws there is no history
+  to_cut = true;  // until the frame is drawn: after one that throws there is no history
   const std::string before = std::exchange(drawn_, "");
   try {
     const render::Frame& frame = renderer_.draw(scene.gpu, inputs, reduced(document.params, detail));
@@ -89,7 +93,8 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, const D
     if (!refined) frames_ = 0;
     throw;
   }
-  cut_ = restart_ = false;
+  to_cut = restart_ = false;
+  small_maps_ = small_maps;
   began_history_ = begins;
   lights_ = std::move(lights);
   drawn_ = std::move(text);
@@ -103,16 +108,22 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, const D
 
 void PictureRenderer::forget() {
   device_.drop(fmt::format("viewer/picture {}", view_));
-  picture_ = nullptr;
+  device_.drop(fmt::format("viewer/smooth {}", view_));
+  for (const int view : {view_, view_of_small_maps(view_)}) renderer_.forget_view(view);
+  picture_ = smooth_ = nullptr;
   drawn_.clear();
   cut();
 }
 
 void PictureRenderer::keep(const gl::Texture& display, bool rough) {
-  rough_ = rough;
   picture_ = &device_.target(fmt::format("viewer/picture {}", view_), display.desc());
   gl::glCopyImageSubData(display.id(), GL_TEXTURE_2D, 0, 0, 0, 0, picture_->id(), GL_TEXTURE_2D, 0, 0, 0, 0,
                          display.width(), display.height(), 1);
+  smooth_ = nullptr;
+  if (!rough) return;
+  const gl::Texture& smooth = device_.target(fmt::format("viewer/smooth {}", view_), display.desc());
+  device_.aside([&] { smooth_edges(device_, *picture_, smooth); });
+  smooth_ = &smooth;
 }
 
 }  // namespace penumbra::viewer

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -32,7 +33,8 @@ struct GivenUp {};
 // Draws one of the two pictures, A or B, and keeps what it drew last.
 class PictureRenderer {
  public:
-  // `view`: 0 for A, 1 for B, which share a renderer (FrameInputs::view).
+  // `view`: 0 for A, 1 for B, which share a renderer (FrameInputs::view). Frames with smaller maps than the document
+  // asks for have a view of their own, so that those of full size need not be allocated and drawn again after them.
   PictureRenderer(gl::Device& device, render::Renderer& renderer, int view);
 
   // Whether the last drawing is of this document, at full size or a smaller one.
@@ -48,7 +50,7 @@ class PictureRenderer {
             const std::function<void()>& first_drawn = {});
   // The next drawing has nothing to do with the last one: after another scene or other shaders.
   void cut() {
-    cut_ = true;
+    cut_.fill(true);
     frames_ = 0;
     drawn_.clear();
   }
@@ -62,7 +64,7 @@ class PictureRenderer {
   // The picture has to be drawn again: what it shows was not finished.
   void again() { frames_ = 0; }
 
-  // Frees the picture.
+  // Frees the picture, and its maps, masks and histories.
   void forget();
 
   // Frames drawn in full detail since the document changed.
@@ -72,16 +74,23 @@ class PictureRenderer {
   // The last drawing, tone mapped, RGBA8; valid until the next draw().
   const gl::Texture& picture() const { return *picture_; }
   // Whether it has one sample of each pixel although the document asks for several.
-  bool is_rough() const { return rough_; }
+  bool is_rough() const { return smooth_ != nullptr; }
+  // The same with smooth edges if it is rough: what a user is shown.
+  const gl::Texture& smoothed_picture() const { return is_rough() ? *smooth_ : *picture_; }
   bool has_picture() const { return picture_ != nullptr; }
+  // The view in which the last drawing's maps and masks are.
+  int view() const { return small_maps_ ? view_of_small_maps(view_) : view_; }
 
  private:
+  static constexpr int view_of_small_maps(int view) { return view + 2; }
+
   void keep(const gl::Texture& display, bool rough);
 
   gl::Device& device_;
   render::Renderer& renderer_;
   int view_;
   const gl::Texture* picture_ = nullptr;
+  const gl::Texture* smooth_ = nullptr;  // of a rough picture
   std::string drawn_;                // the document drawn last, as its command line
   ParamSet params_;                  // its parameters, in full detail
   std::vector<std::string> lights_;  // the options that choose its lights
@@ -89,7 +98,8 @@ class PictureRenderer {
   int frames_ = 0;
   double milliseconds_ = 0, last_time_ = 0;
   render::Camera last_camera_;
-  bool cut_ = true, restart_ = false, began_history_ = false, rough_ = false;
+  std::array<bool, 2> cut_{true, true};  // of the view with maps of full size, and of that with smaller ones
+  bool restart_ = false, small_maps_ = false, began_history_ = false;
 };
 
 }  // namespace penumbra::viewer

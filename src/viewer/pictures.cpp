@@ -156,7 +156,7 @@ void Viewer::answer(int frames) {
 // A picture at rest is seen as soon as it has one sample of each pixel. Values are those of finished pictures.
 void Viewer::show_first_sample(Side& side) {
   if (!state_.inspection.what.empty()) return;
-  side.shown = &side.renderer.picture();
+  side.shown = &side.renderer.smoothed_picture();
   status_.detail = {};
   status_.drawn_size = {side.shown->width(), side.shown->height()};
   show_pictures();
@@ -259,8 +259,6 @@ void Viewer::forget_b() {
   b_.renderer.forget();
   b_.shown = b_.colors = nullptr;
   b_.measured = b_.untraced = false;
-  renderer_.forget_view(1);
-  device_.device.drop("viewer/smooth b");
 }
 
 // The figures of A against B, over the surfaces that face a light, of all lights that cast shadows.

@@ -30,18 +30,6 @@ void bind(gl::Device& device, const PresentInputs& inputs, const gl::Texture& te
   device.sampler(sampler_for(inputs, texture)).bind(unit);
 }
 
-// The picture, with smooth edges if it is rough.
-const gl::Texture& smoothed(gl::Device& device, const gl::Texture& picture, bool rough, const char* name) {
-  if (!rough) return picture;
-  const gl::Texture& smooth = device.target(name, {.width = picture.width(), .height = picture.height()});
-  gl::Pass pass(device, {.name = "smooth edges", .colors = {{.texture = &smooth, .dont_care = true}}});
-  pass.use(smooth_edges_program());
-  picture.bind(0);
-  device.sampler({.min_filter = GL_LINEAR, .mag_filter = GL_LINEAR}).bind(0);
-  pass.draw_full_screen();
-  return smooth;
-}
-
 }  // namespace
 
 gl::ProgramDesc smooth_edges_program() {
@@ -53,6 +41,14 @@ gl::ProgramDesc present_program(bool two, bool tinted) {
           .vertex = "shared/full_screen.vert",
           .fragment = "viewer/present.frag",
           .defines = {{"PICTURES", two ? "2" : "1"}, {"TINTED", tinted ? "1" : "0"}}};
+}
+
+void smooth_edges(gl::Device& device, const gl::Texture& picture, const gl::Texture& smooth) {
+  gl::Pass pass(device, {.name = "smooth edges", .colors = {{.texture = &smooth, .dont_care = true}}});
+  pass.use(smooth_edges_program());
+  picture.bind(0);
+  device.sampler({.min_filter = GL_LINEAR, .mag_filter = GL_LINEAR}).bind(0);
+  pass.draw_full_screen();
 }
 
 const gl::Texture& present(gl::Device& device, const PresentInputs& inputs) {
@@ -70,17 +66,14 @@ const gl::Texture& present(gl::Device& device, const PresentInputs& inputs) {
   const gl::Texture* first_tint = tint_or(b_first ? inputs.tint_b : inputs.tint_a, first);
   const bool tinted = inputs.tint_a != nullptr || inputs.tint_b != nullptr;
   const gl::SamplerDesc of_tints{.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST};
-  const bool first_rough = b_first ? inputs.rough_b : inputs.rough_a;
-  const gl::Texture& shown = smoothed(device, *first, first_rough, b_first ? "viewer/smooth b" : "viewer/smooth a");
-  const gl::Texture* second = two ? &smoothed(device, *inputs.b, inputs.rough_b, "viewer/smooth b") : nullptr;
   {
     gl::Pass pass(device, {.name = "present", .colors = {{.texture = &target}}});
     const gl::Program& program = pass.use(present_program(two, tinted));
-    bind(device, inputs, shown, 0);
+    bind(device, inputs, *first, 0);
     first_tint->bind(2);
     device.sampler(of_tints).bind(2);
     if (two) {
-      bind(device, inputs, *second, 1);
+      bind(device, inputs, *inputs.b, 1);
       tint_or(inputs.tint_b, inputs.b)->bind(3);
       device.sampler(of_tints).bind(3);
     }

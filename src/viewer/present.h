@@ -11,9 +11,8 @@ namespace penumbra::viewer {
 // Pictures in the window's frame. Pixels count from the upper left.
 struct PresentInputs {
   const gl::Texture* a = nullptr;
-  const gl::Texture* b = nullptr;         // absent: there is only A
-  bool rough_a = false, rough_b = false;  // they have one sample of each pixel, so their edges are smoothed
-  const gl::Texture* tint_a = nullptr;    // colours to mix into it
+  const gl::Texture* b = nullptr;       // absent: there is only A
+  const gl::Texture* tint_a = nullptr;  // colours to mix into it
   const gl::Texture* tint_b = nullptr;
   glm::ivec2 picture_size{1};  // that all of them have where they are not magnified, whatever their own sizes are
   glm::ivec2 window_size{1};
@@ -28,7 +27,10 @@ const gl::Texture& present(gl::Device& device, const PresentInputs& inputs);
 // The program that present() uses to show one picture, or two, for the check that compiles all shaders.
 gl::ProgramDesc present_program(bool two, bool tinted);
 
-// The program that smooths edges.
+// Draws the picture, which has one sample of each pixel, with smooth edges into a texture of the same size, RGBA8.
+void smooth_edges(gl::Device& device, const gl::Texture& picture, const gl::Texture& smooth);
+
+// The program of smooth_edges(), for the same check.
 gl::ProgramDesc smooth_edges_program();
 
 // The picture's pixel that a pixel of the window shows; nothing outside of the picture.

@@ -21,16 +21,16 @@ std::string number_text(const std::vector<float>& values, const std::string& uni
 }  // namespace
 
 void Viewer::inspect(Side& side) {
-  side.shown = &side.renderer.picture();
+  side.shown = &side.renderer.smoothed_picture();
   side.colors = nullptr;
   side.values = {};
   ++side.reads;
   if (state_.inspection.what.empty()) return;
   Inspection inspection = state_.inspection;
-  if (&side == &b_) inspection.what = target_of_view(inspection.what, 1);  // the list has A's names
+  inspection.what = target_of_view(inspection.what, side.renderer.view());  // the list has those of view 0
   if (is_target(inspection.what) && !inspected_target(inspection, device_.device)) {
-    // A filter that is off has no textures; and B can lack some of A's.
-    if (&side == &b_) return;
+    // A filter that is off has no textures; and other views can lack some of view 0's.
+    if (side.renderer.view() != 0) return;
     tell(state_, fmt::format("{} is no longer drawn", title_of(inspection, device_.device, scene_.get())),
          ImGui::GetTime());
     state_.inspection = {};
@@ -125,7 +125,7 @@ void Viewer::show_pictures() {
   for (Side* side : {&a_, &b_}) {
     if (!side->renderer.has_picture()) continue;
     const bool colored = values && side->colors != nullptr && (!state_.inspection.over || differ);
-    side->shown = colored ? side->colors : &side->renderer.picture();
+    side->shown = colored ? side->colors : &side->renderer.smoothed_picture();
   }
   PresentInputs inputs = present_inputs(window_size_);
   status_.fitted = glm::vec2(inputs.picture_size) / glm::vec2(window_size_);
@@ -167,11 +167,8 @@ PresentInputs Viewer::present_inputs(const glm::ivec2& window_size) const {
   const glm::ivec2 whole = shows_texture_alone() ? fitted({a_.values.width, a_.values.height}, window_size)
                                                  : glm::ivec2(size.width, size.height);
   const auto tint_of = [&](const Side& side) { return tints && side.shown != side.colors ? side.colors : nullptr; };
-  const auto is_rough = [](const Side& side) { return side.shown != side.colors && side.renderer.is_rough(); };
   return {.a = a_.shown,
           .b = state_.comparison.on ? b_.shown : nullptr,
-          .rough_a = is_rough(a_),
-          .rough_b = is_rough(b_),
           .tint_a = tint_of(a_),
           .tint_b = state_.comparison.on ? tint_of(b_) : nullptr,
           .picture_size = whole,

@@ -102,6 +102,10 @@ std::string target_of_view(std::string_view what, int view) {
   return name;
 }
 
+bool is_of_other_view(std::string_view name) {
+  return name.find("/view ") != name.npos && name.find("/view 0/") == name.npos;
+}
+
 std::vector<TargetPart> parts_of(const gl::Device::NamedTarget& target) {
   std::vector<TargetPart> parts;
   if (const std::array<Field, 3>* fields = fields_of(*target.texture)) {

@@ -18,6 +18,8 @@ struct LoadedScene;
 bool is_target(std::string_view what);
 // The name that a texture of view 0 has in another view; other names stay as they are.
 std::string target_of_view(std::string_view what, int view);
+// Whether a texture is of a view, and not of view 0.
+bool is_of_other_view(std::string_view name);
 
 // One of the values of a texel: a field of a packed one, or a channel.
 struct TargetPart {

@@ -49,12 +49,44 @@ TEST_F(ViewerKeep, TuningAFilterDrawsNoMaps) {
   }
 }
 
-TEST_F(ViewerKeep, SmallerMapsWhileTheViewMovesAndThoseOfTheRestAreDrawn) {
+// The maps of full size stay beside the smaller ones: allocating them anew takes as long as drawing them.
+TEST_F(ViewerKeep, SmallerMapsWhileTheViewMovesLeaveThoseOfTheRest) {
+  document_.params.set("cascades.size", 512);
+  document_.params.set("history.reuse", true);
+  maps();
+  const std::vector<float> at_rest = renderer_.read_aov("shadow");
+  const auto textures = [&] {
+    std::vector<GLuint> ids;
+    for (const gl::Device::NamedTarget& target : device_.targets()) {
+      if (target.name.find("/view 0/") != std::string_view::npos) ids.push_back(target.texture->id());
+    }
+    return ids;
+  };
+  const std::vector<GLuint> before = textures();
+  EXPECT_GT(maps({.maps = 2}), 0u);
+  EXPECT_EQ(picture_.view(), 2);
+  EXPECT_EQ(maps({.maps = 2}), 0u);
+  EXPECT_EQ(maps(), 0u);
+  EXPECT_EQ(picture_.view(), 0);
+  EXPECT_EQ(textures(), before);
+  EXPECT_EQ(renderer_.read_aov("shadow"), at_rest) << "the motion's history is not the rest's";
+}
+
+TEST_F(ViewerKeep, WhatMovesBesideSmallerMapsIsDrawnInThoseOfTheRest) {
+  document_.options.scene = PENUMBRA_ROOT "/scenes/moving.glb";
+  document_.options.frames = cli::FrameRange{};
+  scene_ =
+      std::make_unique<viewer::LoadedScene>(device_, session::load_scene(document_.options, image::image_decoder()));
   document_.params.set("cascades.size", 512);
   maps();
-  EXPECT_GT(maps({.maps = 2}), 0u);
-  EXPECT_EQ(maps({.maps = 2}), 0u);
+  document_.step(6);
+  maps({.maps = 2});
   EXPECT_GT(maps(), 0u);
+  const std::vector<float> moved = renderer_.read_aov("shadow");
+  picture_.cut();
+  maps({.maps = 2});
+  EXPECT_GT(maps(), 0u) << "a cut is one for both";
+  EXPECT_EQ(renderer_.read_aov("shadow"), moved);
 }
 
 TEST_F(ViewerKeep, ARestartGivesThePictureOfAFirstFrame) {
