@@ -116,6 +116,7 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
                                                   .receivers = box_of(inputs.scene.receivers()),
                                                   .exact_bounds = true,
                                                   .forward_receivers = box_or_none(inputs.scene.blended_receivers()),
+                                                  .binds_forward = inputs.scene.has_blended(),
                                                   .moved = moved_box(inputs.scene, inputs.moved),
                                                   .mask_details = inputs.mask_details,
                                                   .draw = draw,

@@ -279,6 +279,7 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   }
   if (light.maps) check_compared_maps(light, view.checked, technique, wanted);
   take_shape(state, frame.shape);
+  if (std::exchange(state.bound_forward, frame.binds_forward) != frame.binds_forward) state.changed = true;
   begin_frame(state, light, frame.projection.layers(), same_params);
   if (visible) state.drawn_texels.reset();
   narrow_projection(work, wanted.recipes);
@@ -369,7 +370,8 @@ Mask draw_mask(const MaskInputs& given, ViewState& view) {
     const LightFrame frame{.view = from.inputs.view.id,
                            .light = read.light.id,
                            .layer = static_cast<int>(mask.lights.size()),
-                           .viewport = viewport_of(from.inputs)};
+                           .viewport = viewport_of(from.inputs),
+                           .binds_forward = from.inputs.binds_forward};
     mask.lights.push_back(draw_light(from, read, view, frame, *mask.texture, scaled));
     warn_of_bounds(view, mask.lights.back());
   }

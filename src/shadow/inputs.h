@@ -178,6 +178,9 @@ struct Inputs {
   // (min > max): there are none. Only read where maps are fitted to what `depth` shows (cascades.fit): elsewhere in the
   // view no map holds anything, and receivers are lit.
   Box forward_receivers{glm::vec3(1), glm::vec3(-1)};
+  // Whether SoftShadows::bind_forward() may follow this frame. If not, a technique that fills the mask by itself needs
+  // no maps for its stand-in (Technique::stand_in), and bind_forward() throws Error for its lights.
+  bool binds_forward = true;
   // World bounds of the casters that moved since the view's last frame, enclosing their present and their last
   // positions. Absent: unknown, so any caster may have moved. An empty box (min > max): none moved, and no movement map
   // is drawn.

@@ -56,6 +56,7 @@ struct LightFrame {
   const gl::Texture* movement = nullptr;  // see movement_map.h; null unless a history uses it
   bool casters_moved = false;             // since the last frame: `movement` shows where
   bool history = false;                   // the history of the last frame is valid
+  bool binds_forward = true;              // as in Inputs
   int scale = 1;                          // of the mask that the technique filled: see mask_scale.h
   // R8UI, of the size of that mask, only if a denoiser ran: bits 0 to 3 the layer of the shadow map that was read, bit
   // 4 set if the kernel is smaller than a texel of the map, bits 5 to 7 why the history was rejected (see History in

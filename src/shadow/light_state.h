@@ -91,6 +91,7 @@ struct LightState {
   };
   std::map<std::string, KeptProduct, std::less<>> products;  // by recipe
   bool had_movement_map = false, had_shadow_map = false;     // which the library drew in the last frame
+  bool bound_forward = true;                                 // Inputs::binds_forward of the last frame
 };
 
 // The state of a view that is kept between frames.

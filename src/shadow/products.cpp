@@ -21,7 +21,7 @@ Wanted wanted_of(const LightWork& work) {
   };
   const auto asked = [&names](std::string_view name) { return std::ranges::find(names, name) != names.end(); };
   ask(work.technique.needs);
-  ask(work.forward.needs);
+  if (work.inputs.binds_forward) ask(work.forward.needs);
   if (work.denoiser != nullptr) ask(work.denoiser->needs);
   Wanted wanted;
   // A recipe's needs come before it in the registry, so a backward pass finds all of them.

@@ -187,7 +187,11 @@ void SoftShadows::bind_forward(const Mask& mask, size_t light) {
   const Call call(device_);
   const LightFrame& frame = mask.lights.at(light);
   const LightState& state = state_->views.at(frame.view).lights.at(frame.light);
-  bind_light(device_, frame, state, owner_of(forward_technique(registry_, state.params)));
+  const Technique& forward = forward_technique(registry_, state.params);
+  if (!frame.binds_forward && forward.name != state.params.get_word("technique"))
+    fail("soft shadows: light {} has no maps for surfaces drawn forward: its frame had Inputs::binds_forward off",
+         frame.light);
+  bind_light(device_, frame, state, owner_of(forward));
 }
 
 void SoftShadows::unbind_forward() {

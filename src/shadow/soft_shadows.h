@@ -110,7 +110,8 @@ class SoftShadows {
   std::string forward_source(const ParamSet& params, const Light& light = {}) const;
   ForwardProgram forward_program(const ParamSet& params, const Light& light = {}) const;
   // Binds what that function reads for one light of the mask, by its index in Mask::lights: textures and samplers of
-  // units 0 to 7, uniform buffers 0 to 2. unbind_forward() unbinds the textures and samplers.
+  // units 0 to 7, uniform buffers 0 to 2. unbind_forward() unbinds the textures and samplers. Throws Error where the
+  // light's technique has a stand-in and Inputs::binds_forward was off.
   void bind_forward(const Mask& mask, size_t light);
   void unbind_forward();
 

@@ -63,6 +63,7 @@ struct Technique {
   // Whether it can't compute the shadows of lamps: render() then throws Error for a lamp.
   bool suns_only = false;
   // The name of the technique that computes shadows on blended surfaces instead. Techniques without `glsl` need one.
+  // What it needs is made only in frames that it may serve (Inputs::binds_forward).
   std::string stand_in = {};
   // Whether it reads the light's maps only near receivers of the view. Texels: at most read_margin (light_projection.h)
   // texels beyond the disc of search_radius() (glsl/shadow/search.glsl) around the receiver. Pyramids: for discs of at

@@ -161,6 +161,25 @@ TEST_F(ShadowForward, AStandInServesForwardSurfaces) {
   EXPECT_LT(mean_difference(drawn_forward(renderer, params), soft), rounding);
 }
 
+// The maps take most of the memory, and often most of the time.
+TEST_F(ShadowForward, WhereNoForwardSurfacesFollowAStandInHasNoMaps) {
+  TriangleRenderer renderer(with_painted());
+  ParamSet params = renderer.params();
+  params.set("technique", std::string("painted"));
+  const auto draw = [&](bool binds_forward) {
+    renderer.render(box_on_ground(), params, [&](shadow::Inputs& in) { in.binds_forward = binds_forward; });
+    return renderer.device().target_bytes("shadow ");
+  };
+  const std::size_t without = draw(false), with = draw(true);
+  EXPECT_LT(100 * without, with);
+  EXPECT_EQ(draw(false), without) << "the maps are freed";
+  EXPECT_THROW(renderer.shadows().bind_forward(renderer.mask(), 0), Error);
+  params.set("technique", std::string("pcss"));
+  draw(false);
+  EXPECT_NO_THROW(renderer.shadows().bind_forward(renderer.mask(), 0)) << "it is its own";
+  renderer.shadows().unbind_forward();
+}
+
 TEST_F(ShadowForward, RegistriesOnOneDeviceDoNotDisturbEachOther) {
   TriangleRenderer renderer;
   ParamSet params = renderer.params();
