@@ -41,7 +41,7 @@ class FramePacing {
 
  private:
   static constexpr double idle_seconds = 0.15;  // without a change
-  static constexpr double long_ago = -1e9;      // seconds: a change that no rest is waited for after
+  static constexpr double long_ago = -1e9;      // seconds: of a change after which nothing waits for a rest
   // Limits in motion: of an update of the window, and of its pictures alone.
   static constexpr double slow_ms = 100, fast_ms = 20;
 

@@ -116,7 +116,7 @@ PictureArea Viewer::picture_window(const Panel& panel, const Box& box) {
   const ImVec2 room = ImGui::GetContentRegionAvail();
   window_size_ = glm::max(glm::ivec2(room.x * dots.x, room.y * dots.y), 1);
   // What was presented last stays while a picture is drawn; else present() draws into this texture, after the
-  // interface.
+  // interface, where something has changed.
   if (a_.shown != nullptr && !attending_)
     presented_ = &device_.device.target("viewer/window", {.width = window_size_.x, .height = window_size_.y});
   const PictureArea area = picture_area(panel, presented_);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "core/error.h"
 #include "gl/api.h"
 #include "scene/animation.h"
 #include "viewer/present.h"
@@ -55,7 +56,7 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, const D
   std::string text = text_of(document);
   frames_ = detail == detail_ && shows(document) ? frames_ : 0;
   const cli::Size& size = document.options.size;
-  const bool small_maps = detail.maps > 1;
+  const bool small_maps = effective(document.params, detail).maps > 1;
   bool& to_cut = cut_.at(small_maps ? 1 : 0);
   restart_ = restart_ || small_maps != small_maps_;
   const bool cut = to_cut || !continues(scene.prepared, last_time_, time);
@@ -79,6 +80,10 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, const D
   }
   if (!still) inputs.last_camera = last_camera_;  // the user moves the camera too
   std::vector<std::string> lights = light_arguments(document);
+  // What a drag has left is of no use for a picture of other lights, parameters or size.
+  const bool other =
+      to_cut || lights != lights_ || params_ != document.params || glm::ivec2(size.width, size.height) != size_;
+  if (!small_maps && other) renderer_.forget_view(view_of_small_maps(view_));
   const bool same_size =
       picture_ != nullptr && picture_->width() == pixels.width && picture_->height() == pixels.height;
   const bool begins = still || detail != detail_ || !same_size || lights != lights_ || params_.rows().empty() ||
@@ -99,6 +104,7 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, const D
   lights_ = std::move(lights);
   drawn_ = std::move(text);
   params_ = document.params;
+  size_ = {size.width, size.height};
   detail_ = detail;
   ++frames_;
   last_time_ = time;
@@ -119,11 +125,17 @@ void PictureRenderer::keep(const gl::Texture& display, bool rough) {
   picture_ = &device_.target(fmt::format("viewer/picture {}", view_), display.desc());
   gl::glCopyImageSubData(display.id(), GL_TEXTURE_2D, 0, 0, 0, 0, picture_->id(), GL_TEXTURE_2D, 0, 0, 0, 0,
                          display.width(), display.height(), 1);
+  ++version_;
   smooth_ = nullptr;
+  rough_ = rough;
   if (!rough) return;
   const gl::Texture& smooth = device_.target(fmt::format("viewer/smooth {}", view_), display.desc());
-  device_.aside([&] { smooth_edges(device_, *picture_, smooth); });
-  smooth_ = &smooth;
+  try {
+    device_.aside([&] { smooth_edges(device_, *picture_, smooth); });
+    smooth_ = &smooth;
+  } catch (const Error&) {
+    // The user is changing its shader, and reads among the shaders' errors what is wrong with it.
+  }
 }
 
 }  // namespace penumbra::viewer

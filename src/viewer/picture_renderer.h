@@ -33,8 +33,8 @@ struct GivenUp {};
 // Draws one of the two pictures, A or B, and keeps what it drew last.
 class PictureRenderer {
  public:
-  // `view`: 0 for A, 1 for B, which share a renderer (FrameInputs::view). Frames with smaller maps than the document
-  // asks for have a view of their own, so that those of full size need not be allocated and drawn again after them.
+  // `view`: 0 for A, 1 for B, which share a renderer (FrameInputs::view). Frames whose detail makes the maps smaller
+  // have a view of their own, so that those of full size need not be allocated and drawn again after them.
   PictureRenderer(gl::Device& device, render::Renderer& renderer, int view);
 
   // Whether the last drawing is of this document, at full size or a smaller one.
@@ -74,9 +74,11 @@ class PictureRenderer {
   // The last drawing, tone mapped, RGBA8; valid until the next draw().
   const gl::Texture& picture() const { return *picture_; }
   // Whether it has one sample of each pixel although the document asks for several.
-  bool is_rough() const { return smooth_ != nullptr; }
+  bool is_rough() const { return rough_; }
   // The same with smooth edges if it is rough: what a user is shown.
-  const gl::Texture& smoothed_picture() const { return is_rough() ? *smooth_ : *picture_; }
+  const gl::Texture& smoothed_picture() const { return smooth_ != nullptr ? *smooth_ : *picture_; }
+  // Goes up whenever either has other content.
+  std::uint64_t version() const { return version_; }
   bool has_picture() const { return picture_ != nullptr; }
   // The view in which the last drawing's maps and masks are.
   int view() const { return small_maps_ ? view_of_small_maps(view_) : view_; }
@@ -91,15 +93,17 @@ class PictureRenderer {
   int view_;
   const gl::Texture* picture_ = nullptr;
   const gl::Texture* smooth_ = nullptr;  // of a rough picture
-  std::string drawn_;                // the document drawn last, as its command line
-  ParamSet params_;                  // its parameters, in full detail
-  std::vector<std::string> lights_;  // the options that choose its lights
+  std::string drawn_;                    // the document drawn last, as its command line
+  ParamSet params_;                      // its parameters, in full detail
+  std::vector<std::string> lights_;      // the options that choose its lights
   Detail detail_;
   int frames_ = 0;
   double milliseconds_ = 0, last_time_ = 0;
   render::Camera last_camera_;
   std::array<bool, 2> cut_{true, true};  // of the view with maps of full size, and of that with smaller ones
-  bool restart_ = false, small_maps_ = false, began_history_ = false;
+  glm::ivec2 size_{0};                   // of the last document
+  std::uint64_t version_ = 0;
+  bool restart_ = false, small_maps_ = false, rough_ = false, began_history_ = false;
 };
 
 }  // namespace penumbra::viewer

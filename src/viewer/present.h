@@ -19,6 +19,8 @@ struct PresentInputs {
   Comparison comparison;
   Zoom zoom;
   bool values = false;  // the textures are values in false colour: never interpolated
+
+  bool operator==(const PresentInputs&) const = default;
 };
 
 // Draws them into a texture of the window's size, RGBA8.

@@ -116,6 +116,9 @@ void Viewer::read_texel(const PictureArea& area) {
   if (both) status_.texel->value = "A " + status_.texel->value + ", B " + text(b_.values);
 }
 
+// A number that goes up whenever a texture that can be shown has other content.
+std::uint64_t Viewer::contents() const { return a_.renderer.version() + b_.renderer.version() + colorings_; }
+
 void Viewer::show_pictures() {
   if (a_.shown == nullptr) return;
   const bool values = !state_.inspection.what.empty();
@@ -130,7 +133,13 @@ void Viewer::show_pictures() {
   PresentInputs inputs = present_inputs(window_size_);
   status_.fitted = glm::vec2(inputs.picture_size) / glm::vec2(window_size_);
   if (differ) inputs.b = nullptr;
-  present(device_.device, inputs);
+  const bool is_presented = presented_ != nullptr && presented_->serial() == presented_texture_ &&
+                            contents() == presented_contents_ && inputs == presented_inputs_;
+  if (is_presented) return;
+  presented_texture_ = present(device_.device, inputs).serial();
+  presented_contents_ = contents();
+  presented_inputs_ = std::move(inputs);
+  ++presents_;
 }
 
 // Computes colours only if the values or their range have changed.
@@ -159,6 +168,7 @@ void Viewer::color(Side& side, const Values& values, int number) {
       device_.device.target(fmt::format("viewer/colors {}", number), {.width = values.width, .height = values.height});
   texture.upload(GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(colors)));
   side.colors = &texture;
+  ++colorings_;
 }
 
 PresentInputs Viewer::present_inputs(const glm::ivec2& window_size) const {

@@ -109,8 +109,7 @@ int Viewer::run() {
 
 void Viewer::show_frames() {
   while (caught_signal == 0 && !ended_) {
-    const bool still = device_.info.software && ImGui::GetTime() - last_draw_ > 0.5 && loader_.file().empty();
-    window_.poll(still ? 0.1 : 0.0);
+    window_.poll(pause());
     if (window_.take_close()) state_.requests.quit = true;
     if (window_.pixels().x == 0 || window_.pixels().y == 0) {
       if (closes()) break;
@@ -121,6 +120,15 @@ void Viewer::show_frames() {
     if (closes()) break;
     do_requests();
   }
+}
+
+// Seconds that the viewer waits for input before its next frame.
+double Viewer::pause() const {
+  const bool rests = device_.info.software && ImGui::GetTime() - last_draw_ > 0.5 && loader_.file().empty();
+  if (rests) return 0.1;
+  const bool waits = !interface_changed_ && contents() == presented_contents_ && unsettled_ == 0;
+  constexpr double often = 0.002, seldom = 0.02;  // a playing animation needs its next frame in time
+  return !waits ? 0 : state_.playback.playing ? often : seldom;
 }
 
 void Viewer::guarded(const std::function<void()>& action) {
@@ -168,7 +176,7 @@ void Viewer::begin_interface() {
 
 void Viewer::show_interface() {
   gl::leave_initial_state();
-  window_.show();
+  interface_changed_ = window_.show(presents_);
   if (options_.layout.empty()) return;
   mark_clipped(widgets_);
   guarded([&] { widgets_.write_changes(options_.layout); });

@@ -92,6 +92,7 @@ class Viewer {
   };
 
   void show_frames();
+  double pause() const;
   void frame();
   void begin_interface();
   void show_interface();
@@ -131,6 +132,7 @@ class Viewer {
   void probe(const PictureArea& area);
   void read_texel(const PictureArea& area);
   bool shows_texture_alone() const;
+  std::uint64_t contents() const;
   void show_pictures();
   PresentInputs present_inputs(const glm::ivec2& window_size) const;
   void do_requests();
@@ -194,6 +196,12 @@ class Viewer {
   bool probe_is_old_ = false;               // a picture was drawn since values were last probed
   glm::ivec2 window_size_{1};               // of the picture's area, pixels
   const gl::Texture* presented_ = nullptr;  // what the window shows of the pictures
+  // What that was drawn from, to be compared alone: its textures may be gone. Their contents(), and the texture's
+  // serial.
+  PresentInputs presented_inputs_;
+  std::uint64_t presented_contents_ = 0, presented_texture_ = 0;
+  std::uint64_t presents_ = 0;   // how often it was drawn
+  std::uint64_t colorings_ = 0;  // how often values were coloured
   // Frames of the interface after the last press: a list or a question that opens takes some to find its size.
   static constexpr int settling = 4;
   int unsettled_ = 0;            // those to come before a picture is begun that takes long
@@ -201,6 +209,7 @@ class Viewer {
   bool dragging_ = false;        // the user held a button over the picture in the last frame
   bool attending_ = false;       // a picture is being drawn, between two of its passes
   bool vsync_ = true;
+  bool interface_changed_ = true;  // the last frame of the interface differed from the one before
   double last_draw_ = 0;
   double history_began_ = -1e9;  // when A's last history began, seconds
   TurnClock turn_;

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "core/error.h"
@@ -49,6 +50,27 @@ gl::ContextOptions context_options(const Window::Options& options) {
   return wanted;
 }
 
+// What the interface draws: equal bytes are equal pixels, as long as textures have the same content.
+std::vector<std::byte> bytes_of(const ImDrawData& data) {
+  std::vector<std::byte> bytes;
+  const auto add = [&](const auto* items, int count) {
+    const auto* first = reinterpret_cast<const std::byte*>(items);  // NOLINT: to compare them
+    bytes.insert(bytes.end(), first, first + static_cast<std::size_t>(count) * sizeof(*items));
+  };
+  for (const ImDrawList* list : std::span(data.CmdLists, static_cast<std::size_t>(data.CmdListsCount))) {
+    add(list->VtxBuffer.Data, list->VtxBuffer.Size);
+    add(list->IdxBuffer.Data, list->IdxBuffer.Size);
+    for (const ImDrawCmd& command : list->CmdBuffer) {
+      add(&command.ClipRect, 1);
+      add(&command.TextureId, 1);
+      add(&command.VtxOffset, 1);
+      add(&command.IdxOffset, 1);
+      add(&command.ElemCount, 1);
+    }
+  }
+  return bytes;
+}
+
 }  // namespace
 
 std::string missing_display() {
@@ -62,6 +84,8 @@ Window::Window(const Options& options)
     auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
     self.dropped_.insert(self.dropped_.end(), paths, paths + count);
   });
+  glfwSetWindowRefreshCallback(
+      window_, [](GLFWwindow* window) { static_cast<Window*>(glfwGetWindowUserPointer(window))->must_show_ = true; });
   record_input();
   set_up_interface();
 }
@@ -137,9 +161,11 @@ void Window::apply_scale(float scale) {
     ImGui_ImplOpenGL3_CreateFontsTexture();
   }
   set_theme(scale);
+  must_show_ = true;
 }
 
 void Window::poll(double seconds) {
+  if (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0) must_show_ = true;
   if (seconds > 0 && changes_.empty()) {
     glfwWaitEventsTimeout(seconds);
   } else {
@@ -268,15 +294,22 @@ void Window::begin() {
   ImGui::NewFrame();
 }
 
-void Window::show() {
+bool Window::show(std::uint64_t contents) {
   ImGui::Render();
-  const glm::ivec2 size = shown_ = pixels();
+  const glm::ivec2 size = pixels();
+  std::vector<std::byte> drawn = bytes_of(*ImGui::GetDrawData());
+  if (!must_show_ && size == shown_ && contents == contents_ && drawn == drawn_) return false;
+  must_show_ = false;
+  shown_ = size;
+  contents_ = contents;
+  drawn_ = std::move(drawn);
   gl::glBindFramebuffer(GL_FRAMEBUFFER, 0);
   gl::glViewport(0, 0, size.x, size.y);
   gl::glClearColor(0.07f, 0.07f, 0.07f, 1.0f);
   gl::glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   glfwSwapBuffers(window_);
+  return true;
 }
 
 glm::ivec2 Window::pixels() const {

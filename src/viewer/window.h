@@ -38,9 +38,11 @@ class Window {
   // Whether take_close() or dropped() have something to return, or the window has another size than its last frame.
   bool has_news() const;
 
-  // begin() starts a frame of the user interface; show() ends it and puts it on the screen.
+  // begin() starts a frame of the user interface; show() ends it and puts it on the screen. Where the screen has it
+  // already, show() draws nothing and returns false: the interface consists of the same triangles as in the last frame,
+  // and `contents`, which the caller changes whenever a texture in it has other content, is the same.
   void begin();
-  void show();
+  bool show(std::uint64_t contents);
 
   // Of the framebuffer; 0 while it is minimised.
   glm::ivec2 pixels() const;
@@ -88,6 +90,9 @@ class Window {
   glm::vec2 hovered_{0};          // in the interface's last frame
   bool touched_ = false;          // the pointer or the wheel moved since begin()
   glm::ivec2 shown_{0};           // size of the last frame, pixels
+  std::uint64_t contents_ = 0;    // of its textures
+  std::vector<std::byte> drawn_;  // by the interface in it, bytes of vertices and commands
+  bool must_show_ = true;         // the screen has lost it, or textures of fonts have changed
   std::deque<Change> changes_;    // recorded, not given to ImGui yet
   std::array<bool, 512> keys_{};  // the keys that ImGui considers pressed; it has 512
   std::array<bool, 5> buttons_{};

@@ -11,7 +11,7 @@ namespace {
 class ViewerKeep : public GpuTest {
  protected:
   ViewerKeep() {
-    document_.options.scene = std::string(PENUMBRA_ROOT) + "/scenes/steps.glb";
+    document_.options.scene = PENUMBRA_ROOT "/scenes/steps.glb";
     document_.options.size = {64, 36};
     document_.params = ParamSet(render::Renderer::params(renderer_.registry()));
     renderer_.registry().select(document_.params, "thesis_8x8");
@@ -87,6 +87,29 @@ TEST_F(ViewerKeep, WhatMovesBesideSmallerMapsIsDrawnInThoseOfTheRest) {
   maps({.maps = 2});
   EXPECT_GT(maps(), 0u) << "a cut is one for both";
   EXPECT_EQ(renderer_.read_aov("shadow"), moved);
+}
+
+TEST_F(ViewerKeep, MapsThatGetNoSmallerHaveNoViewOfTheirOwn) {
+  document_.params.set("cascades.count", 1);
+  maps();
+  EXPECT_EQ(maps({.maps = 2}), 0u);  // which already has less than the least size
+  EXPECT_EQ(picture_.view(), 0);
+}
+
+TEST_F(ViewerKeep, OtherParametersFreeWhatADragHasLeft) {
+  document_.params.set("cascades.size", 512);
+  maps();
+  maps({.maps = 2});
+  const auto is_there = [&] {
+    return std::ranges::any_of(device_.targets(), [](const gl::Device::NamedTarget& target) {
+      return target.name.find("/view 2/") != std::string_view::npos;
+    });
+  };
+  maps();
+  EXPECT_TRUE(is_there()) << "the next drag goes on with it";
+  document_.params.set("pcss.filter_taps", 4);
+  maps();
+  EXPECT_FALSE(is_there());
 }
 
 TEST_F(ViewerKeep, ARestartGivesThePictureOfAFirstFrame) {
