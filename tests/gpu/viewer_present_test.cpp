@@ -32,9 +32,8 @@ class ViewerPresent : public GpuTest {
   // The red of each pixel of the window.
   std::vector<float> shown(bool rough, int window = side) {
     if (rough) viewer::smooth_edges(device_, picture_, smooth_);
-    const viewer::PresentInputs inputs{.a = rough ? &smooth_ : &picture_,
-                                       .picture_size = {window, window},
-                                       .window_size = {window, window}};
+    const viewer::PresentInputs inputs{
+        .a = rough ? &smooth_ : &picture_, .picture_size = {window, window}, .window_size = {window, window}};
     const std::vector<float> all = gl::read_floats(viewer::present(device_, inputs), channels);
     std::vector<float> red;
     for (std::size_t i = 0; i < all.size(); i += channels) red.push_back(all[i]);
