@@ -84,7 +84,7 @@ class PictureRenderer {
   int view() const { return small_maps_ ? view_of_small_maps(view_) : view_; }
 
  private:
-  static constexpr int view_of_small_maps(int view) { return view + 2; }
+  static constexpr int view_of_small_maps(int view) { return view + 2; }  // beside those of A and B
 
   void keep(const gl::Texture& display, bool rough);
 
