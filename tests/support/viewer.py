@@ -94,7 +94,7 @@ class Viewer:
         """The pixels of a widget, or of the whole picture for "picture"."""
         left, top, right, bottom = self.box(widget)
         x, y = self._desktop.client.position(self.window)
-        return self._desktop.screenshot().crop(x + left, y + top, x + right, y + bottom)
+        return self._desktop.screenshot(x + left, y + top, x + right, y + bottom)
 
     def picture(self):
         """The middle of the picture, which no message covers."""
