@@ -7,7 +7,8 @@ import signal
 import subprocess
 
 from pictures import scene
-from plans import COMPARED, TINY, Plans, validator
+from plans import COMPARED, TINY, Plans
+from schemas import validator
 from support import PROGRAM, ROOT, main, run, wait_until_it_catches
 
 SEQUENCE = (scene("moving"), "--technique", "pcss", "--set", "cascades.size=256", *TINY)
