@@ -8,7 +8,7 @@ import subprocess
 import time
 
 from pictures import SMALL, SMALL_MAPS, read_exr, read_exr_header, read_png, scene
-from support import PROGRAM, TestCase, main, wait_until_it_catches
+from support import PROGRAM, TestCase, main, shader_cache, wait_until_it_catches
 
 FENCE = scene("fence")
 LAYERS = {"shadow.V", "standard_error.V", "hard.V", "receiver.V"}
@@ -312,7 +312,7 @@ class Truth(TestCase):
 
     def test_the_usual_cache_is_the_users(self):
         home = self.folder / "home"
-        environment = {**os.environ, "HOME": str(home)}
+        environment = {**os.environ, "MESA_SHADER_CACHE_DIR": shader_cache(), "HOME": str(home)}
         environment.pop("XDG_CACHE_HOME", None)
         self.succeed("truth", FENCE, "-o", self.folder / "x.png", *SMALL, "--spp", "8", env=environment)
         self.assertEqual(len(list((home / ".cache/penumbra/truth").iterdir())), 1)
@@ -320,11 +320,11 @@ class Truth(TestCase):
     def test_a_cache_folder_that_is_relative_is_ignored(self):
         # As the XDG base directory specification says.
         home = self.folder / "home"
-        environment = {**os.environ, "HOME": str(home), "XDG_CACHE_HOME": "here"}
+        environment = {**os.environ, "MESA_SHADER_CACHE_DIR": shader_cache(), "HOME": str(home), "XDG_CACHE_HOME": "here"}
         self.succeed("truth", FENCE.resolve(), "-o", self.folder / "x.png", *SMALL, "--spp", "8", env=environment,
                      cwd=self.folder)
         self.assertEqual(len(list((home / ".cache/penumbra/truth").iterdir())), 1)
-        self.assertFalse((self.folder / "here/penumbra").exists())  # the driver may keep its shaders there
+        self.assertFalse((self.folder / "here").exists())
 
 
 if __name__ == "__main__":

@@ -105,6 +105,12 @@ def temporary_folder():
     return tempfile.TemporaryDirectory(prefix="penumbra-test-")
 
 
+def shader_cache():
+    """Where Mesa keeps compiled shaders for all programs of this user: compiling them again takes seconds."""
+    cache = os.environ.get("XDG_CACHE_HOME") or str(pathlib.Path.home() / ".cache")
+    return os.environ.get("MESA_SHADER_CACHE_DIR") or cache
+
+
 def without_root():
     """Arguments with which subprocess runs a program as an unprivileged user; skips the test if that is impossible."""
     if os.geteuid() != 0:
