@@ -302,7 +302,8 @@ class Refusals(TestCase):
             resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
 
         folder = self.folder / "report"
-        self.assertIn("index.html", self.refuse("compare", POSTS, "-o", folder, *SMALL, *SMALL_MAPS, *BRUTE, preexec_fn=few_bytes))
+        self.assertIn("index.html", self.refuse("compare", POSTS, "-o", folder, *SMALL, *SMALL_MAPS, *BRUTE,
+                                                preexec_fn=few_bytes))
         self.assertEqual([path for path in self.folder.rglob("*") if path.is_file()], [])
 
     def test_signals_leave_no_file(self):

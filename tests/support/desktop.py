@@ -159,8 +159,8 @@ class Desktop:
         left, top = max(left, 0), max(top, 0)
         right, bottom = width if right is None else min(right, width), height if bottom is None else min(bottom, height)
         start = head[0] + 12 * colors
-        return Picture(right - left, bottom - top, [_rgb(data[start + y * stride + 4 * left:start + y * stride + 4 * right])
-                                                    for y in range(top, bottom)])
+        lines = (start + y * stride for y in range(top, bottom))
+        return Picture(right - left, bottom - top, [_rgb(data[at + 4 * left:at + 4 * right]) for at in lines])
 
     def checksum(self, left, top, right, bottom):
         """Of some rows of the screen within a rectangle: it tells whether a picture has changed, in a few milliseconds."""
