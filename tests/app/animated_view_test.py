@@ -5,7 +5,7 @@ import json
 import math
 import struct
 
-from pictures import read_exr, read_exr_header
+from pictures import SMALL_MAPS, read_exr, read_exr_header
 from support import TestCase, main
 
 WIDTH, HEIGHT, FPS, FOV = 96, 54, 8, 0.9
@@ -103,7 +103,7 @@ class AnimatedView(TestCase):
 
     def draw(self, name, *arguments):
         self.succeed("render", self.scene, "-o", self.folder / name, "--size", f"{WIDTH}x{HEIGHT}", "--quiet",
-                     "--fps", FPS, "--set", "cascades.fit=stable", *arguments)
+                     "--fps", FPS, "--set", "cascades.fit=stable", *SMALL_MAPS, *arguments)
 
     def bytes_of(self, name):
         return (self.folder / name).read_bytes()

@@ -8,14 +8,12 @@ import signal
 import subprocess
 import time
 
-from pictures import SMALL, scene
+from pictures import SMALL, SMALL_MAPS, scene
 from support import PROGRAM, TestCase, main, wait_until_it_catches
 
 POSTS = scene("posts")
 NAMES = ["hard", "pcf", "pcss:pcss.filter_taps=4,pcss.blocker_taps=4"]
 BRUTE = ("--reference", "brute_force", "--technique", ",".join(NAMES))
-# Where 31 frames come before the measured one, for a history, maps are small.
-SMALL_MAPS = ("--set", "cascades.size=256")
 COSTS = ("cost_median_ms", "cost_min_ms", "cost_max_ms")
 
 
@@ -25,8 +23,8 @@ def rows_of(path):
 
 
 class Compare(TestCase):
-    def compare(self, *arguments, of=(POSTS,), into="report", size=SMALL, **options):
-        result = self.succeed("compare", *of, "-o", self.folder / into, *size, "--no-cache", *arguments, **options)
+    def compare(self, *arguments, of=(POSTS,), into="report", size=SMALL, maps=SMALL_MAPS, **options):
+        result = self.succeed("compare", *of, "-o", self.folder / into, *size, *maps, "--no-cache", *arguments, **options)
         folder = self.folder / into
         return result.stdout, rows_of(folder / "results.csv"), json.loads((folder / "results.json").read_text())
 
@@ -58,7 +56,7 @@ class Compare(TestCase):
 
     def test_the_page_speaks_of_the_lights_that_there_are(self):
         def page(*arguments, of):
-            self.compare("--technique", "hard", "--spp", "8", "--no-cost", *SMALL_MAPS, *arguments, of=(of,))
+            self.compare("--technique", "hard", "--spp", "8", "--no-cost", *arguments, of=(of,))
             return (self.folder / "report" / "index.html").read_text(encoding="utf-8")
 
         sun = page(of=POSTS)
@@ -80,7 +78,7 @@ class Compare(TestCase):
         self.assertEqual(self.files(), [])
 
     def test_parameters_of_one_technique_are_its_own(self):
-        _, _, data = self.compare(*BRUTE, "--set", "sun.angle=3")
+        _, _, data = self.compare(*BRUTE, "--set", "sun.angle=3", maps=())
         hard, pcf, pcss = (technique["changed_params"] for technique in data["scenes"][0]["techniques"])
         self.assertEqual(pcss, {"sun.angle": 3, "pcss.filter_taps": 4, "pcss.blocker_taps": 4})
         self.assertEqual((hard["sun.angle"], hard["technique"]), (3, "hard"))
@@ -89,7 +87,7 @@ class Compare(TestCase):
         self.assertEqual((reference["sun.angle"], reference["technique"]), (3, "brute_force"))
 
     def test_a_reference_is_not_filtered(self):
-        _, _, data = self.compare(*BRUTE, *SMALL_MAPS, "--set", "history.reuse=true", "--set", "filter.visibility=box")
+        _, _, data = self.compare(*BRUTE, "--set", "history.reuse=true", "--set", "filter.visibility=box")
         self.assertEqual(data["reference"]["changed_params"]["denoiser"], "none")
         self.assertEqual(data["scenes"][0]["techniques"][0]["changed_params"]["filter.visibility"], "box")
 
@@ -107,7 +105,7 @@ class Compare(TestCase):
         self.assertEqual(first[2], second[2])
 
     def test_figures_do_not_depend_on_what_else_is_compared(self):
-        thesis = ("--set", "sun.angle=4", *SMALL_MAPS)
+        thesis = ("--set", "sun.angle=4")
         together = self.compare("--reference", "brute_force", "--technique", "pcf,thesis", *thesis, into="a")[2]
         alone = self.compare("--reference", "brute_force", "--technique", "thesis", *thesis, into="b")[2]
         a, b = together["scenes"][0]["techniques"][1], alone["scenes"][0]["techniques"][0]
@@ -162,7 +160,7 @@ class Compare(TestCase):
 
     def test_a_picture_that_the_sun_does_not_reach_is_told(self):
         arguments = ("--ground", "off", "--eye", "0,50,0", "--target", "0,60,0")
-        result = self.succeed("compare", POSTS, "-o", self.folder / "sky", *SMALL, *BRUTE, *arguments)
+        result = self.succeed("compare", POSTS, "-o", self.folder / "sky", *SMALL, *SMALL_MAPS, *BRUTE, *arguments)
         self.assertEqual(len(result.stderr.splitlines()), 1)
         self.assertIn("nothing to measure", result.stderr)
         self.assertIn(POSTS.name, result.stderr)
@@ -194,13 +192,13 @@ class Compare(TestCase):
         _, rows, _ = self.compare("--reference", "brute_force", "--technique", "hard")
         self.assertEqual(rows[0]["flicker"], "")
         _, rows, data = self.compare("--reference", "brute_force", "--technique", "hard,thesis", "--frames", "0:5",
-                                     *SMALL_MAPS, of=(scene("moving"),))
+                                     of=(scene("moving"),))
         self.assertEqual(data["frames"], 6)
         for row in rows:
             self.assertGreater(float(row["flicker"]), 0)
 
     def test_an_orbit_moves_the_camera_and_cuts(self):
-        arguments = ("--reference", "brute_force", "--technique", "thesis", "--frames", "0:5", *SMALL_MAPS)
+        arguments = ("--reference", "brute_force", "--technique", "thesis", "--frames", "0:5")
         _, still, at_rest = self.compare(*arguments)
         _, moving, data = self.compare(*arguments, "--orbit", "2", "--cut-at", "4")
         self.assertNotEqual(still[0]["psnr"], moving[0]["psnr"])
@@ -211,7 +209,7 @@ class Compare(TestCase):
         self.assertEqual(data["scenes"][0]["techniques"][0]["figures"]["recoveries"][0]["frame"], 3)
 
     def test_quiet_prints_nothing(self):
-        result = self.succeed("compare", POSTS, "-o", self.folder / "x", *SMALL, *BRUTE, "--quiet")
+        result = self.succeed("compare", POSTS, "-o", self.folder / "x", *SMALL, *SMALL_MAPS, *BRUTE, "--quiet")
         self.assertEqual((result.stdout, result.stderr), ("", ""))
 
 
@@ -238,7 +236,7 @@ class Refusals(TestCase):
         self.assertIn("empty", self.refuse("compare", POSTS, "-o", "", "--technique", "pcss", code=2))
 
     def test_a_cache_is_for_what_is_traced(self):
-        arguments = ("--reference", "brute_force", "--cache", self.folder / "kept", *SMALL)
+        arguments = ("--reference", "brute_force", "--cache", self.folder / "kept", *SMALL, *SMALL_MAPS)
         self.assertIn("--cache", self.refused("--technique", "hard", *arguments))
         self.succeed("compare", POSTS, "-o", self.folder / "report", "--technique", "truth:truth.samples=8", *arguments)
         self.assertEqual(len([path for path in (self.folder / "kept").rglob("*") if path.is_file()]), 1)
@@ -247,7 +245,7 @@ class Refusals(TestCase):
         folder = self.folder / "cache"
         truth = ("--technique", "hard", "--spp", "8", "--no-cost", "--cache", folder)
         for size, kept in (("1KiB", 0), ("1MiB", 1)):
-            self.succeed("compare", POSTS, "-o", self.folder / "report", *SMALL, *truth, "--cache-size", size)
+            self.succeed("compare", POSTS, "-o", self.folder / "report", *SMALL, *SMALL_MAPS, *truth, "--cache-size", size)
             self.assertEqual(len(list(folder.glob("*.truth"))), kept)
         for size in ("", "0", "1.5GiB", "-3", "many", "99999999999999999999"):
             self.refuse("compare", POSTS, "-o", self.folder / "x", *truth, "--cache-size", size, code=2)
@@ -304,7 +302,7 @@ class Refusals(TestCase):
             resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
 
         folder = self.folder / "report"
-        self.assertIn("index.html", self.refuse("compare", POSTS, "-o", folder, *SMALL, *BRUTE, preexec_fn=few_bytes))
+        self.assertIn("index.html", self.refuse("compare", POSTS, "-o", folder, *SMALL, *SMALL_MAPS, *BRUTE, preexec_fn=few_bytes))
         self.assertEqual([path for path in self.folder.rglob("*") if path.is_file()], [])
 
     def test_signals_leave_no_file(self):
@@ -320,11 +318,11 @@ class Refusals(TestCase):
 
     def test_a_report_keeps_its_files_when_the_next_one_fails(self):
         folder = self.folder / "report"
-        self.succeed("compare", POSTS, "-o", folder, *SMALL, *BRUTE)
+        self.succeed("compare", POSTS, "-o", folder, *SMALL, *SMALL_MAPS, *BRUTE)
         before = {path.name: path.read_bytes() for path in folder.iterdir()}
         bad = self.folder / "bad.glb"
         bad.write_bytes(POSTS.read_bytes()[:200])
-        self.refuse("compare", POSTS, bad, "-o", folder, *SMALL, *BRUTE)
+        self.refuse("compare", POSTS, bad, "-o", folder, *SMALL, *SMALL_MAPS, *BRUTE)
         self.assertEqual({path.name: path.read_bytes() for path in folder.iterdir()}, before)
 
 

@@ -2,7 +2,7 @@
 
 import json
 
-from pictures import read_exr, scene
+from pictures import SMALL_MAPS, read_exr, scene
 from support import TestCase, main
 
 GALLERY, POSTS = scene("gallery"), scene("posts")
@@ -12,8 +12,8 @@ SIZE = ("--size", "64x36")
 class Lamps(TestCase):
     def lights(self, path, *arguments):
         stats = self.folder / "stats.json"
-        self.succeed("render", path, "-o", self.folder / "x.png", *SIZE, "--technique", "hard", "--quiet", "--stats", stats,
-                     *arguments)
+        self.succeed("render", path, "-o", self.folder / "x.png", *SIZE, *SMALL_MAPS, "--technique", "hard", "--quiet", "--stats",
+                     stats, *arguments)
         return json.loads(stats.read_text())["lights"]
 
     def kinds(self, *arguments):

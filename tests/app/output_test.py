@@ -8,7 +8,7 @@ import signal
 import subprocess
 import time
 
-from pictures import SMALL, read_exr, read_exr_header, read_png, scene
+from pictures import SMALL, SMALL_MAPS, read_exr, read_exr_header, read_png, scene
 from support import PROGRAM, TestCase, main, run, without_root
 
 POSTS = scene("posts")
@@ -17,7 +17,7 @@ AOVS = ("shadow", "depth", "normal", "albedo", "motion", "cascade", "blocker", "
 
 class Output(TestCase):
     def draw(self, name, *arguments, of=POSTS, size=SMALL):
-        self.succeed("render", of, "-o", self.folder / name, *size, "--quiet", *arguments)
+        self.succeed("render", of, "-o", self.folder / name, *size, *SMALL_MAPS, "--quiet", *arguments)
         return (self.folder / name).read_bytes()
 
     def files(self):
@@ -139,7 +139,7 @@ class Output(TestCase):
     def test_samples_leave_the_frames_of_a_sequence_their_history(self):
         remembers = ("--technique", "thesis", "--frames", "0:3", "--aov", "shadow,history", "--quiet")
         for samples in ("1", "5"):
-            self.succeed("render", scene("moving"), "-o", self.folder / samples / "x.png", *SMALL, *remembers,
+            self.succeed("render", scene("moving"), "-o", self.folder / samples / "x.png", *SMALL, *SMALL_MAPS, *remembers,
                          "--samples", samples)
         for frame in range(4):
             for aov in ("", ".shadow", ".history"):
@@ -218,7 +218,7 @@ class Output(TestCase):
         for number in (signal.SIGINT, signal.SIGTERM):
             with self.subTest(number):
                 process = subprocess.Popen([PROGRAM, "render", POSTS, "-o", self.folder / "x_%d.png", "--frames",
-                                            "0:9999", "--size", "64x36"], stdout=subprocess.DEVNULL)
+                                            "0:9999", "--size", "64x36", *SMALL_MAPS], stdout=subprocess.DEVNULL)
                 deadline = time.monotonic() + 120
                 while not (self.folder / "x_1.png").exists() and time.monotonic() < deadline:
                     time.sleep(0.02)
@@ -279,8 +279,8 @@ class Output(TestCase):
             others = [] if option == "-o" else ["-o", self.folder / "y.png"]
             written = []
             for output in (subprocess.PIPE, (self.folder / "stdout.txt").open("wb")):
-                result = subprocess.run([PROGRAM, "render", POSTS, option, link, *others, *SMALL], stdout=output,
-                                        stderr=subprocess.PIPE, check=False)
+                result = subprocess.run([PROGRAM, "render", POSTS, option, link, *others, *SMALL, *SMALL_MAPS],
+                                        stdout=output, stderr=subprocess.PIPE, check=False)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertRegex(result.stderr.decode(), r"^wrote \S+", "the summary is elsewhere")
                 written.append(result.stdout or (self.folder / "stdout.txt").read_bytes())

@@ -2,7 +2,7 @@
 
 import json
 
-from pictures import SMALL, scene
+from pictures import SMALL, SMALL_MAPS, scene
 from support import TestCase, main, run
 
 POSTS = scene("posts")
@@ -117,7 +117,7 @@ class Params(TestCase):
         self.assertEqual((values["technique"], values["sun.angle"], values["pcss.filter_taps"]), ("hard", 1, 9))
 
     def warnings(self, *arguments):
-        result = self.succeed("render", POSTS, "-o", self.folder / "x.png", *SMALL, "--quiet", *arguments)
+        result = self.succeed("render", POSTS, "-o", self.folder / "x.png", *SMALL, *SMALL_MAPS, "--quiet", *arguments)
         return [line for line in result.stderr.splitlines() if line.startswith("warning: ")]
 
     def test_what_has_no_effect_is_told_once(self):

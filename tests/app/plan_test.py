@@ -6,8 +6,9 @@ import pathlib
 import signal
 import subprocess
 
-from pictures import scene
-from plans import COMPARED, TINY, Plans, validator
+from pictures import SMALL_MAPS, scene
+from plans import COMPARED, TINY, Plans
+from schemas import validator
 from support import PROGRAM, ROOT, main, run, wait_until_it_catches
 
 SEQUENCE = (scene("moving"), "--technique", "pcss", "--set", "cascades.size=256", *TINY)
@@ -35,7 +36,7 @@ class Compared(Plans):
         self.assertEqual(self.merge("report"), whole)
 
     def test_several_lights(self):
-        arguments = (scene("gallery"), "--technique", "hard,pcf", "--spp", "8", *TINY,
+        arguments = (scene("gallery"), "--technique", "hard,pcf", "--spp", "8", *TINY, *SMALL_MAPS,
                      "--no-cache", "--no-cost")
         self.succeed("compare", *arguments, "-o", self.folder / "report")
         whole = self.contents("report")
@@ -131,7 +132,7 @@ class Drawn(Plans):
             self.assertEqual(self.merge(f"merged{len(still)}"), self.contents(whole))
 
     def test_traced_frames(self):
-        arguments = (scene("moving"), "--spp", "8", *TINY, "--frames", "0:2", "--no-cache")
+        arguments = (scene("moving"), "--spp", "8", *TINY, *SMALL_MAPS, "--frames", "0:2", "--no-cache")
         self.succeed("truth", *arguments, "-o", self.folder / "whole" / "truth.exr")
         self.make("truth", *arguments, "--frames-per-item", 2)
         self.work()
@@ -140,7 +141,7 @@ class Drawn(Plans):
     def test_pictures_of_every_light(self):
         for command, more in (("truth", ("--spp", "8")), ("render", ("--technique", "hard", "--aov", "shadow,depth"))):
             with self.subTest(command):
-                arguments = (scene("gallery"), *more, *TINY, "--frames", "0:2", "--no-cache")
+                arguments = (scene("gallery"), *more, *TINY, *SMALL_MAPS, "--frames", "0:2", "--no-cache")
                 self.succeed(command, *arguments, "-o", self.folder / command / "x.png")
                 whole = self.contents(command)
                 self.assertIn("x_0002.shadow_4.png", whole)

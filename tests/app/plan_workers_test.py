@@ -12,7 +12,7 @@ import time
 import unittest
 
 from pictures import scene
-from support import PROGRAM, TestCase, main, run
+from support import PROGRAM, TestCase, main, run, shader_cache
 
 WORKERS = 8
 SWEEP = (scene("steps"), scene("posts"), scene("knife_edge"), "--technique", "hard,pcf,pcss,vssm", "--spp", "8", "--size",
@@ -144,7 +144,7 @@ class Workers(TestCase):
         result = subprocess.run(["parallel", "--will-cite", "--jobs", "4", PROGRAM, "work", str(self.plan), "--item", "{}",
                                  "--threads", "1", "--quiet", "--results", str(self.folder / "results")],
                                 input=items, capture_output=True, text=True, timeout=300,
-                                env={**os.environ, "HOME": str(self.folder)})
+                                env={**os.environ, "MESA_SHADER_CACHE_DIR": shader_cache(), "HOME": str(self.folder)})
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(result.stdout, "")
         self.assertEqual(self.results(), expected)

@@ -3,17 +3,12 @@
 import json
 import os
 
-import jsonschema
 from pictures import scene
-from support import ROOT, TestCase
+from support import TestCase
 
 TINY = ("--size", "64x36")
 COMPARED = (scene("steps"), scene("posts"), "--technique", "hard,pcss:pcss.filter_taps=4,slices_denoised", "--spp", "8",
             *TINY, "--set", "cascades.size=256", "--no-cache")
-
-
-def validator(kind):
-    return jsonschema.Draft202012Validator(json.loads((ROOT / "docs" / "schemas" / f"{kind}.json").read_text()))
 
 
 class Plans(TestCase):

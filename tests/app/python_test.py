@@ -18,7 +18,8 @@ PYTHON = "/usr/bin/python3" if os.path.exists("/usr/bin/python3") else support.s
 @unittest.skipUnless(any(PACKAGE.glob("penumbra/_penumbra*.so")), "skipped: built without the Python module")
 class Module(support.TestCase):
     def environment(self):
-        return {**os.environ, "PYTHONPATH": str(PACKAGE), "XDG_CACHE_HOME": str(self.folder / "cache")}
+        return {**os.environ, "PYTHONPATH": str(PACKAGE), "XDG_CACHE_HOME": str(self.folder / "cache"),
+                "MESA_SHADER_CACHE_DIR": support.shader_cache()}
 
     def run_code(self, code, folder=support.ROOT):
         return subprocess.run([PYTHON, "-B", "-c", code], capture_output=True, text=True, timeout=300, cwd=folder,

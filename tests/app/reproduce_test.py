@@ -5,6 +5,7 @@ import json
 import re
 
 import browser
+from schemas import SchemaTest
 from support import ROOT, TestCase, main, run, temporary_folder
 
 SECTIONS = ["2.2", "2.3"]
@@ -16,7 +17,7 @@ def heading(name):
     return f"{'Section' if name in SECTIONS else 'Figure'} {name}"
 
 
-class Reproduce(TestCase):
+class Reproduce(SchemaTest):
     """One run for all: it takes most of a minute."""
 
     @classmethod
@@ -69,6 +70,9 @@ class Reproduce(TestCase):
                 self.assertEqual(float(a) - float(b) >= float(margin) - 1e-6, not negated, figure["sentence"])
                 found += 1
         self.assertGreaterEqual(found, 4)
+
+    def test_json_is_as_its_schema_says(self):
+        self.check("reproduce", self.data)
 
     def test_csv_has_the_figures_of_json(self):
         with open(f"{self.report}/figures.csv", newline="", encoding="utf-8") as file:

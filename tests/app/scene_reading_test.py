@@ -5,7 +5,7 @@ import os
 import struct
 import zlib
 
-from pictures import SMALL, scene
+from pictures import SMALL, SMALL_MAPS, scene
 from support import TestCase, main
 
 TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
@@ -67,7 +67,7 @@ class SceneReading(TestCase):
     def test_materials_that_cast_are_known(self):
         path = self.write_scene()
         picture = self.folder / "x.png"
-        self.succeed("render", path, "-o", picture, *SMALL, "--casters", "paint = red=off")
+        self.succeed("render", path, "-o", picture, *SMALL, *SMALL_MAPS, "--casters", "paint = red=off")
         self.assertIn("did you mean 'paint = red'",
                       self.refuse("render", path, "-o", picture, *SMALL, "--casters", "paint red=off"))
         self.assertIn("--casters); it has 'paint = red'",
@@ -96,13 +96,13 @@ class SceneReading(TestCase):
                                  (["--casters", "sky=on"], False), (["--set", "casters.skies=on"], False),
                                  (["--set", "casters.skies=off"], False), (["--preset", preset], False)):
             with self.subTest(arguments):
-                result = self.succeed("render", path, "-o", picture, *SMALL, *arguments)
+                result = self.succeed("render", path, "-o", picture, *SMALL, *SMALL_MAPS, *arguments)
                 self.assertEqual("encloses the scene as a sky does" in result.stderr, warns, result.stderr)
 
     def test_casters_change_the_picture(self):
         def mask(*arguments):
             path = self.folder / "mask.png"
-            self.succeed("render", scene("steps"), "-o", path, *SMALL, "--aov", "shadow", *arguments)
+            self.succeed("render", scene("steps"), "-o", path, *SMALL, *SMALL_MAPS, "--aov", "shadow", *arguments)
             return {file.name: file.read_bytes() for file in self.folder.glob("*.png")}
 
         usual = mask()

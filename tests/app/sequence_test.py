@@ -1,6 +1,6 @@
 """Sequences: numbered files, each the picture of its own time."""
 
-from pictures import SMALL, read_png, scene
+from pictures import SMALL, SMALL_MAPS, read_png, scene
 from support import TestCase, main
 
 MOVING = scene("moving")
@@ -8,7 +8,7 @@ MOVING = scene("moving")
 
 class Sequence(TestCase):
     def draw(self, output, *arguments):
-        return self.succeed("render", MOVING, "-o", self.folder / output, *SMALL, *arguments)
+        return self.succeed("render", MOVING, "-o", self.folder / output, *SMALL, *SMALL_MAPS, *arguments)
 
     def files(self):
         return sorted(path.name for path in self.folder.iterdir())

@@ -2,12 +2,12 @@
 
 import json
 
-from pictures import SMALL, scene
+from pictures import SMALL, SMALL_MAPS, scene
 from support import TestCase, main
 
 
 class Stats(TestCase):
-    def stats(self, *arguments, of="posts", size=SMALL):
+    def stats(self, *arguments, of="posts", size=(*SMALL, *SMALL_MAPS)):
         path = self.folder / "s.json"
         self.succeed("render", scene(of), "-o", self.folder / "x.png", *size, "--stats", path, *arguments)
         return json.loads(path.read_text())
@@ -99,7 +99,7 @@ class Stats(TestCase):
     def test_measuring_does_not_change_the_picture(self):
         self.stats("--stats-frames", "3")
         measured = (self.folder / "x.png").read_bytes()
-        self.succeed("render", scene("posts"), "-o", self.folder / "y.png", *SMALL)
+        self.succeed("render", scene("posts"), "-o", self.folder / "y.png", *SMALL, *SMALL_MAPS)
         self.assertEqual((self.folder / "y.png").read_bytes(), measured)
 
 

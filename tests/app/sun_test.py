@@ -4,7 +4,7 @@ import base64
 import json
 import struct
 
-from pictures import read_exr, read_png, scene
+from pictures import SMALL_MAPS, read_exr, read_png, scene
 from support import TestCase, main
 
 SIZE = ("--size", "320x180")
@@ -29,7 +29,7 @@ def upright_square(path):
 class Horizon(TestCase):
     def lit(self, of, *arguments):
         """The brightest pixel of the sun's shadow picture, and what was printed as a warning."""
-        result = self.succeed("render", of, "-o", self.folder / "x.png", *SIZE, "--aov", "shadow", "--quiet",
+        result = self.succeed("render", of, "-o", self.folder / "x.png", *SIZE, *SMALL_MAPS, "--aov", "shadow", "--quiet",
                               *arguments)
         return max(max(row) for row in read_png(self.folder / "x.shadow.png")[3]), result.stderr
 
@@ -75,18 +75,19 @@ class Horizon(TestCase):
         """The lamps of a room look the same whether the sun has set or was left out."""
         pictures = []
         for arguments in (("--sun", "40,-10"), ("--no-sun",)):
-            self.succeed("render", scene("gallery"), "-o", self.folder / "x.png", *SIZE, "--quiet", *arguments)
+            self.succeed("render", scene("gallery"), "-o", self.folder / "x.png", *SIZE, *SMALL_MAPS, "--quiet",
+                         *arguments)
             pictures.append(read_png(self.folder / "x.png")[3])
         self.assertEqual(*pictures)
 
     def test_compare_warns_once(self):
         result = self.succeed("compare", scene("posts"), "-o", self.folder / "report", "--size", "32x18", "--sun", "40,-10",
-                              "--technique", "hard,pcf", "--reference", "brute_force", "--no-cost", "--quiet")
+                              *SMALL_MAPS, "--technique", "hard,pcf", "--reference", "brute_force", "--no-cost", "--quiet")
         self.assertEqual(result.stderr.count("below the horizon"), 1, result.stderr)
 
     def test_a_sequence_warns_once(self):
         result = self.succeed("render", scene("moving"), "-o", self.folder / "x.png", "--size", "32x18", "--frames",
-                              "0:2", "--sun", "40,-10", "--quiet")
+                              "0:2", *SMALL_MAPS, "--sun", "40,-10", "--quiet")
         self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
 
 

@@ -7,8 +7,8 @@ import signal
 import subprocess
 import time
 
-from pictures import SMALL, read_exr, read_exr_header, read_png, scene
-from support import PROGRAM, TestCase, main, wait_until_it_catches
+from pictures import SMALL, SMALL_MAPS, read_exr, read_exr_header, read_png, scene
+from support import PROGRAM, TestCase, main, shader_cache, wait_until_it_catches
 
 FENCE = scene("fence")
 LAYERS = {"shadow.V", "standard_error.V", "hard.V", "receiver.V"}
@@ -79,12 +79,12 @@ class Truth(TestCase):
                     ("--eye", "3,2,3", "--target", "0,0,0")]
         for i, more in enumerate(variants):
             with self.subTest(more):
-                self.assertNotIn("from the cache", self.trace("x.exr", *more, size=() if "--size" in more else SMALL))
+                self.assertNotIn("from the cache", self.trace("x.png", *more, size=() if "--size" in more else SMALL))
                 self.assertEqual(len(self.kept()), i + 1)
         # What no ray sees does not matter.
-        self.assertIn("from the cache", self.trace("x.exr", "--exposure", "10", "--set", "cascades.size=256"))
-        self.assertNotIn("from the cache", self.trace("x.exr", of=scene("moving"), size=SMALL))
-        self.assertNotIn("from the cache", self.trace("x.exr", "--time", "0.5", of=scene("moving"), size=SMALL))
+        self.assertIn("from the cache", self.trace("x.png", "--exposure", "10", "--set", "cascades.size=256"))
+        self.assertNotIn("from the cache", self.trace("x.png", of=scene("moving"), size=SMALL))
+        self.assertNotIn("from the cache", self.trace("x.png", "--time", "0.5", of=scene("moving"), size=SMALL))
 
     def test_a_damaged_cache_is_not_believed(self):
         self.trace("x.exr")
@@ -99,7 +99,7 @@ class Truth(TestCase):
 
     def test_a_cache_that_cannot_be_written_is_no_failure(self):
         (self.folder / "file").write_text("")
-        result = self.succeed("truth", FENCE, "-o", self.folder / "x.exr", *SMALL, "--spp", "8", "--cache",
+        result = self.succeed("truth", FENCE, "-o", self.folder / "x.png", *SMALL, "--spp", "8", "--cache",
                               self.folder / "file")
         self.assertIn("warning: the cache", result.stderr)
 
@@ -194,8 +194,8 @@ class Truth(TestCase):
                             (("--lights", "none", "--lamp", "0,2.4,0"), 1), (("--lamp", "0,2.4,0:radius=0.1"), 5)):
             with self.subTest(more):
                 self.trace("t.exr", "--spp", "8", *more, of=of)
-                self.succeed("render", of, "-o", self.folder / "r.exr", *SMALL, "--technique", "truth", "--set",
-                             "truth.samples=8", "--aov", "shadow", "--cache", self.cache, *more)
+                self.succeed("render", of, "-o", self.folder / "r.exr", *SMALL, *SMALL_MAPS, "--technique", "truth",
+                             "--set", "truth.samples=8", "--aov", "shadow", "--cache", self.cache, *more)
                 traced, drawn = (read_exr(self.folder / f"{name}.exr") for name in ("t", "r"))
                 layers = [name for name in drawn if name.startswith("shadow")]
                 self.assertEqual(len(layers), names)
@@ -292,7 +292,7 @@ class Truth(TestCase):
 
     def test_render_draws_by_it(self):
         self.trace("t.exr", "--spp", "64")
-        self.succeed("render", FENCE, "-o", self.folder / "r.exr", *SMALL, "--technique", "truth", "--set",
+        self.succeed("render", FENCE, "-o", self.folder / "r.exr", *SMALL, *SMALL_MAPS, "--technique", "truth", "--set",
                      "truth.samples=64", "--aov", "shadow", "--cache", self.cache)
         traced, drawn = (read_exr(self.folder / f"{name}.exr")["shadow.V"] for name in ("t", "r"))
         worst = max(abs(a - b) for rows in zip(traced, drawn) for a, b in zip(*rows))
@@ -312,19 +312,19 @@ class Truth(TestCase):
 
     def test_the_usual_cache_is_the_users(self):
         home = self.folder / "home"
-        environment = {**os.environ, "HOME": str(home)}
+        environment = {**os.environ, "MESA_SHADER_CACHE_DIR": shader_cache(), "HOME": str(home)}
         environment.pop("XDG_CACHE_HOME", None)
-        self.succeed("truth", FENCE, "-o", self.folder / "x.exr", *SMALL, "--spp", "8", env=environment)
+        self.succeed("truth", FENCE, "-o", self.folder / "x.png", *SMALL, "--spp", "8", env=environment)
         self.assertEqual(len(list((home / ".cache/penumbra/truth").iterdir())), 1)
 
     def test_a_cache_folder_that_is_relative_is_ignored(self):
         # As the XDG base directory specification says.
         home = self.folder / "home"
-        environment = {**os.environ, "HOME": str(home), "XDG_CACHE_HOME": "here"}
-        self.succeed("truth", FENCE.resolve(), "-o", self.folder / "x.exr", *SMALL, "--spp", "8", env=environment,
+        environment = {**os.environ, "MESA_SHADER_CACHE_DIR": shader_cache(), "HOME": str(home), "XDG_CACHE_HOME": "here"}
+        self.succeed("truth", FENCE.resolve(), "-o", self.folder / "x.png", *SMALL, "--spp", "8", env=environment,
                      cwd=self.folder)
         self.assertEqual(len(list((home / ".cache/penumbra/truth").iterdir())), 1)
-        self.assertFalse((self.folder / "here/penumbra").exists())  # the driver may keep its shaders there
+        self.assertFalse((self.folder / "here").exists())
 
 
 if __name__ == "__main__":

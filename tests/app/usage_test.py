@@ -5,7 +5,7 @@ import re
 import struct
 import subprocess
 
-from pictures import SMALL, scene
+from pictures import SMALL, SMALL_MAPS, scene
 from support import PROGRAM, TestCase, main, run, without_root
 
 POSTS = scene("posts")
@@ -188,13 +188,14 @@ class Usage(TestCase):
 
     def test_a_dash_is_standard_output(self):
         for option, start in (("--stats", "{"), ("--save-preset", "#")):
-            result = self.succeed("render", POSTS, "-o", "x.png", *SMALL, option, "-", cwd=self.folder)
+            result = self.succeed("render", POSTS, "-o", "x.png", *SMALL, *SMALL_MAPS, option, "-", cwd=self.folder)
             self.assertTrue(result.stdout.startswith(start), result.stdout)
             self.assertNotIn("wrote", result.stdout)
             if option == "--stats":
                 json.loads(result.stdout)
         self.assertEqual([path.name for path in self.folder.iterdir()], ["x.png"])
-        self.succeed("render", POSTS, "-o", "x.png", *SMALL, "--stats", "./-", "--quiet", cwd=self.folder)
+        self.succeed("render", POSTS, "-o", "x.png", *SMALL, *SMALL_MAPS, "--stats", "./-", "--quiet",
+                     cwd=self.folder)
         self.assertTrue((self.folder / "-").exists())
         (self.folder / "-").unlink()
         for arguments in (["render", POSTS, "-o", "-"], ["compare", POSTS, "-o", "-", "--technique", "hard"],

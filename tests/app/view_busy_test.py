@@ -6,13 +6,17 @@ from window import STEPS, WindowTest
 
 # Lamps with six maps each, and many taps: hundreds of passes, which take seconds in software.
 LAMPS = [f"--lamp={x},3,{z}" for x in (-1.5, -0.5, 0.5, 1.5) for z in (-1, 1)][1:]
-LONG = (*LAMPS, "--technique", "brute_force", "--set", "lamps.size=512")
+LAMP_MAPS = ("--set", "lamps.size=256")
 
 
 class Busy(WindowTest):
     def begin(self, viewer):
-        """Turns the sun, and waits until the finished picture is being drawn: the layout says so once there is input."""
+        """Turns the sun, and waits until the finished picture is being drawn."""
         viewer.drag(*viewer.middle("picture"), RIGHT, lambda: not viewer.has("idle"), "another picture")
+        self.wait_until_drawn(viewer)
+
+    def wait_until_drawn(self, viewer):
+        """Waits until the finished picture is being drawn: the layout says so once there is input."""
         x, y = viewer.middle("search")
 
         def is_begun():
@@ -27,8 +31,10 @@ class Busy(WindowTest):
         self.desktop.xdotool("mousemove", "--window", viewer.window, *viewer.middle(widget), "click", LEFT)
 
     def test_a_click_on_a_panel_is_seen_before_the_picture_is_finished(self):
-        with self.view(STEPS, *LONG, size=(1000, 700)) as viewer:
-            self.begin(viewer)
+        # The first picture is none of those that take long.
+        with self.view(STEPS, *LAMPS, *LAMP_MAPS, "--technique", "none", size=(1000, 700)) as viewer:
+            viewer.choose("technique", "brute_force")
+            self.wait_until_drawn(viewer)
             motion = viewer.picture()
             for tab, widget in (("Scene", "scene file"), ("Files", "copy command"), ("Shadow", "technique")):
                 self.click(viewer, f"tab {tab}")
@@ -38,7 +44,9 @@ class Busy(WindowTest):
             self.assertNotEqual(viewer.rest(), motion)
 
     def test_what_changes_the_picture_ends_it(self):
-        with self.view(STEPS, *LONG, size=(1000, 700), edges=()) as viewer:
+        # With several samples of each pixel, three lamps and a small picture take long enough.
+        with self.view(STEPS, *LAMPS[::3], *LAMP_MAPS, "--technique", "brute_force", size=(640, 400),
+                       edges=()) as viewer:
             first = viewer.rest()
             for _ in range(3):
                 self.begin(viewer)

@@ -9,9 +9,11 @@ from support import PROGRAM, main
 from window import STEPS, WindowTest, read
 
 MOVING, POSTS = pictures.scene("moving"), pictures.scene("posts")
+TINY_MAPS = ("--set", "cascades.size=128")
 # A finished picture takes 32 frames, so each is cheap.
-THESIS = ("--technique", "thesis", "--set", "sun.angle=4", "--set", "pcss.blocker_taps=6", "--set", "pcss.filter_taps=6")
-NARROW = {"size": (640, 600)}
+THESIS = ("--technique", "thesis", "--set", "sun.angle=4", "--set", "pcss.blocker_taps=6", "--set", "pcss.filter_taps=6",
+          "--set", "pcss.disocclusion_taps=6")
+NARROW = {"size": (640, 400), "maps": TINY_MAPS}
 LIGHT = "target shadow 1/view 0/light 0/"
 
 
@@ -61,7 +63,7 @@ class Inspect(WindowTest):
         return tuple(map(int, at.split(", "))), tuple(map(int, size.split(" × "))), value.strip()
 
     def test_a_texture_fits_and_tells_its_own_texels(self):
-        with self.view(STEPS, *THESIS, size=(1100, 600)) as viewer:
+        with self.view(STEPS, *THESIS, size=(900, 400), maps=TINY_MAPS) as viewer:
             viewer.open_tab("Inspect", "show=picture")
             self.assertTrue(viewer.has("point at the picture"))
             viewer.look_at("target shadow 1/noise/blue")
@@ -170,8 +172,8 @@ class Search(WindowTest):
 
 class Status(WindowTest):
     def test_it_says_that_a_history_begins_anew(self):
-        for size in ((900, 300), (420, 440)):  # small, since each picture is the last of 32 frames
-            with self.subTest(size=size), self.view(STEPS, *THESIS, size=size) as viewer:
+        for size in ((700, 300), (420, 440)):  # small, since each picture is the last of 32 frames
+            with self.subTest(size=size), self.view(STEPS, *THESIS, size=size, maps=TINY_MAPS) as viewer:
                 self.assertFalse(viewer.has("history reset"))
                 viewer.drag(*viewer.middle("picture"), LEFT, lambda: viewer.has("history reset"), "the word for a camera")
                 viewer.rest()
@@ -384,7 +386,7 @@ class Open(WindowTest):
 
 class Animation(WindowTest):
     def test_a_moment_that_was_stepped_to_is_the_copied_commands(self):
-        with self.view(MOVING, *THESIS, size=(640, 680)) as viewer:
+        with self.view(MOVING, *THESIS, size=(640, 680), maps=TINY_MAPS) as viewer:
             start = viewer.rest()
             viewer.open_tab("Scene", "step")
             for _ in range(3):

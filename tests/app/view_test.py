@@ -37,7 +37,7 @@ class Picture(WindowTest):
 
     def test_it_is_the_picture_that_render_writes(self):
         options = ("--technique", "pcf", "--sun", "40,35", "--set", "sun.angle=3")
-        with self.view(STEPS, *options, edges=()) as viewer:
+        with self.view(STEPS, *options, edges=(), size=(640, 400)) as viewer:
             shown = viewer.rest()
             self.assertGreater(len(shown.colors()), 30)
             left, top, right, bottom = viewer.box("picture")
@@ -50,7 +50,7 @@ class Picture(WindowTest):
     def test_at_rest_each_sample_has_shadows_of_its_own(self):
         # Penumbrae of some pixels, and edges of none.
         for options in (("--technique", "pcss", "--set", "sun.angle=3"), ("--technique", "hard")):
-            with self.subTest(options), self.view(STEPS, *options, edges=()) as viewer:
+            with self.subTest(options), self.view(STEPS, *options, edges=(), size=(640, 400)) as viewer:
                 shown = viewer.rest()
                 left, top, right, bottom = viewer.box("picture")
                 written = {}

@@ -9,7 +9,7 @@ import struct
 import subprocess
 import threading
 
-from pictures import SMALL, scene
+from pictures import SMALL, SMALL_MAPS, scene
 from support import PROGRAM, ROOT, TestCase, main, run
 
 POSTS, STEPS = scene("posts"), scene("steps")
@@ -59,12 +59,12 @@ class Watch(TestCase):
         self.glsl.mkdir()
 
     def watch(self, *arguments, of=POSTS, size=SMALL):
-        process = Process(of, "-o", self.picture, *size, *arguments)
+        process = Process(of, "-o", self.picture, *size, *SMALL_MAPS, *arguments)
         self.addCleanup(process.end, signal.SIGKILL)
         return process
 
     def assert_drawn_as_by_render(self, *arguments, of=POSTS):
-        self.succeed("render", of, "-o", self.folder / "reference.png", *SMALL, "--quiet", *arguments)
+        self.succeed("render", of, "-o", self.folder / "reference.png", *SMALL, *SMALL_MAPS, "--quiet", *arguments)
         self.assertEqual(self.picture.read_bytes(), (self.folder / "reference.png").read_bytes())
 
     def overlay(self, name, *changes):
@@ -250,7 +250,7 @@ class Glsl(TestCase):
     def test_the_picture_is_the_same_with_them(self):
         self.succeed("glsl", self.folder / "glsl", "--quiet")
         for name, options in (("a.png", ()), ("b.png", ("--glsl", self.folder / "glsl"))):
-            self.succeed("render", POSTS, "-o", self.folder / name, *SMALL, "--quiet", *options)
+            self.succeed("render", POSTS, "-o", self.folder / name, *SMALL, *SMALL_MAPS, "--quiet", *options)
         self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
 
     def test_what_is_there_is_kept(self):

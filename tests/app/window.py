@@ -1,4 +1,6 @@
-"""What the tests of penumbra view share: scenes, a desktop for each class, and viewers on it."""
+"""What the tests of penumbra view share: scenes, a desktop for each file, and viewers on it."""
+
+import unittest
 
 import pictures  # sets PENUMBRA_DEBUG: an OpenGL error ends the program
 from desktop import Desktop, Picture
@@ -8,16 +10,20 @@ from viewer import Viewer
 STEPS, KNIFE_EDGE = pictures.scene("steps"), pictures.scene("knife_edge")
 # What the maps cost is a third of a frame, and how sharp they are is no matter of these tests; nor are edges, for which a
 # picture at rest is drawn eight times.
-SMALL_MAPS, NO_SMOOTH_EDGES = ("--set", "cascades.size=512"), ("--samples", 1)
+SMALL_MAPS, NO_SMOOTH_EDGES = ("--set", "cascades.size=512", "--set", "lamps.size=256"), ("--samples", 1)
 
 
 class WindowTest(TestCase):
-    """A test with a desktop, which the tests of its class share."""
+    """A test with a desktop, which the tests of its file share."""
+
+    _shared = None
 
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.desktop = cls.enterClassContext(Desktop())
+        if WindowTest._shared is None:
+            WindowTest._shared = unittest.enterModuleContext(Desktop())
+        cls.desktop = WindowTest._shared
 
     def view(self, *arguments, maps=SMALL_MAPS, edges=NO_SMOOTH_EDGES, **options):
         """A viewer that is started in the test's folder."""

@@ -57,15 +57,16 @@ class Picture:
         return Picture(right - left, bottom - top, [row[3 * left:3 * right] for row in self.rows[top:bottom]])
 
     def colors(self):
-        return {row[i:i + 3] for row in self.rows for i in range(0, len(row), 3)}
+        return set().union(*(_pixels(row) for row in self.rows))
 
     def differing(self, other, by=0):
         """The share of pixels with a channel that differs by more than so many levels."""
         assert (self.width, self.height) == (other.width, other.height), "pictures of different sizes"
         count = 0
-        for a, b in zip(self.rows, other.rows):
-            if a != b:
-                count += sum(any(abs(a[i + c] - b[i + c]) > by for c in range(3)) for i in range(0, len(a), 3))
+        for row, others in zip(self.rows, other.rows):
+            if row != others:
+                count += sum(abs(r - red) > by or abs(g - green) > by or abs(b - blue) > by
+                             for (r, g, b), (red, green, blue) in zip(_pixels(row), _pixels(others)))
         return count / (self.width * self.height)
 
     def save_png(self, path):
@@ -150,15 +151,16 @@ class Desktop:
     def move(self, x, y):
         self.xdotool("mousemove", x, y)
 
-    def screenshot(self):
-        """The whole screen."""
+    def screenshot(self, left=0, top=0, right=None, bottom=None):
+        """The whole screen, or a part of it."""
         data = pathlib.Path(self._folder.name, "Xvfb_screen0").read_bytes()
         head = struct.unpack_from(">25I", data)  # XWDFileHeader
         width, height, stride, colors = head[4], head[5], head[12], head[19]
+        left, top = max(left, 0), max(top, 0)
+        right, bottom = width if right is None else min(right, width), height if bottom is None else min(bottom, height)
         start = head[0] + 12 * colors
-        return Picture(width, height, [_rgb(data[start + y * stride:start + y * stride + 4 * width])
-                                       for y in range(height)])
-
+        return Picture(right - left, bottom - top, [_rgb(data[start + y * stride + 4 * left:start + y * stride + 4 * right])
+                                                    for y in range(top, bottom)])
 
     def checksum(self, left, top, right, bottom):
         """Of some rows of the screen within a rectangle: it tells whether a picture has changed, in a few milliseconds."""
@@ -171,6 +173,11 @@ class Desktop:
         pixels = len(data) - 4 * width * height
         return b"".join(data[pixels + 4 * (y * width + left):pixels + 4 * (y * width + right)]
                         for y in range(top, bottom, 8))
+
+
+def _pixels(row):
+    """Red, green and blue of each pixel."""
+    return zip(row[0::3], row[1::3], row[2::3])
 
 
 def _rgb(row):

@@ -49,21 +49,34 @@ def read_png(path):
     rows, above = [], bytes(stride)
     for y in range(height):
         line = lines[y * (stride + 1) : (y + 1) * (stride + 1)]
-        above = _unfilter(line[0], line[1:], above, channels)
+        above = unfilter(line[0], line[1:], above, channels)
         rows.append([tuple(above[x : x + channels]) for x in range(0, stride, channels)])
     return rows
 
 
-def _unfilter(kind, line, above, channels):
+def unfilter(kind, line, above, channels):
     """Reverses the filter of one row of a PNG (PNG specification, section 9)."""
-    row = bytearray(line)
-    for i in range(len(row)):
-        left = row[i - channels] if i >= channels else 0
-        up = above[i]
-        corner = above[i - channels] if i >= channels else 0
-        nearest = min((left, up, corner), key=lambda value: abs(left + up - corner - value))
-        row[i] = (row[i] + (0, left, up, (left + up) // 2, nearest)[kind]) & 255
-    return bytes(row)
+    if kind == 0:
+        return bytes(line)
+    if kind == 2:
+        return bytes([(value + up) & 255 for value, up in zip(line, above)])
+    row = bytearray(channels) + line  # the pixel left of the first one is 0
+    if kind == 1:
+        for i in range(channels, len(row)):
+            row[i] = (row[i] + row[i - channels]) & 255
+    elif kind == 3:
+        for i, up in enumerate(above, channels):
+            row[i] = (row[i] + (row[i - channels] + up) // 2) & 255
+    else:
+        assert kind == 4, f"a PNG has no filter {kind}"
+        for i, (up, corner) in enumerate(zip(above, bytes(channels) + above), channels):
+            left = row[i - channels]
+            by_left, by_up, by_corner = abs(up - corner), abs(left - corner), abs(left + up - 2 * corner)
+            if by_left <= by_up and by_left <= by_corner:
+                row[i] = (row[i] + left) & 255
+            else:
+                row[i] = (row[i] + (up if by_up <= by_corner else corner)) & 255
+    return bytes(row[channels:])
 
 
 def assets(folder):
@@ -90,6 +103,12 @@ def has_ogre():
 
 def temporary_folder():
     return tempfile.TemporaryDirectory(prefix="penumbra-test-")
+
+
+def shader_cache():
+    """Where Mesa keeps compiled shaders for all programs of this user: compiling them again takes seconds."""
+    cache = os.environ.get("XDG_CACHE_HOME") or str(pathlib.Path.home() / ".cache")
+    return os.environ.get("MESA_SHADER_CACHE_DIR") or cache
 
 
 def without_root():

@@ -2,24 +2,17 @@
 
 import itertools
 import json
-import os
 import pathlib
 import shlex
 import tempfile
 
 from desktop import LEFT, PATIENCE, WHEEL_DOWN, end, start, wait_for
-from support import PROGRAM
+from support import PROGRAM, shader_cache
 
 FEWEST_COLORS = 5  # of a picture that shows a scene, even without shadows
 # A click is down in one frame and up in the next, a popup needs one frame to compute its size, and the layout is written
 # after a second one that is the same.
 FRAMES_OF_A_CLICK = 5
-
-
-def shader_cache():
-    """Where Mesa keeps compiled shaders for all programs of this user: compiling them again takes each viewer seconds."""
-    cache = os.environ.get("XDG_CACHE_HOME") or str(pathlib.Path.home() / ".cache")
-    return os.environ.get("MESA_SHADER_CACHE_DIR") or cache
 
 
 class Viewer:
@@ -94,7 +87,7 @@ class Viewer:
         """The pixels of a widget, or of the whole picture for "picture"."""
         left, top, right, bottom = self.box(widget)
         x, y = self._desktop.client.position(self.window)
-        return self._desktop.screenshot().crop(x + left, y + top, x + right, y + bottom)
+        return self._desktop.screenshot(x + left, y + top, x + right, y + bottom)
 
     def picture(self):
         """The middle of the picture, which no message covers."""
