@@ -121,9 +121,9 @@ struct Counts {
   int azimuths, samples;
 };
 
-// Under a narrow light a slice mostly crosses one edge, so two thirds of slices.samples do, and as many texels give more
-// slices. Under a wide light, and with two layers, it crosses several. More than two samples a texel would read the same
-// texels again.
+// Under a narrow light a slice mostly crosses one edge, so two thirds of slices.samples do, and the texels saved give
+// more slices. Under a wide light, and with two layers, it crosses several. More than two samples a texel would read
+// the same texels again.
 Counts counts_for(Receiver receiver, float radius, Light light) {
   const float narrow = 0.02, wide = 0.05;  // radius of the cone to the light, for each metre of its length
   float wideness = clamp((1.0 / cone_slope(receiver, light) - narrow) / (wide - narrow), 0.0, 1.0);
