@@ -121,15 +121,17 @@ struct Counts {
   int azimuths, samples;
 };
 
-// Under a narrow light a slice mostly crosses one edge, so two thirds of slices.samples do, and the texels saved give
-// more slices. Under a wide light, and with two layers, it crosses several. More than two samples a texel would read
-// the same texels again.
+// Under a narrow light a slice mostly crosses one edge: two thirds of slices.samples are enough, and there are more slices
+// instead. Under a wide light, and with two layers, it crosses several. More than two samples a texel would read the
+// same texels again.
 Counts counts_for(Receiver receiver, float radius, Light light) {
-  const float narrow = 0.02, wide = 0.05;  // radius of the cone to the light, for each metre of its length
+  // Of the cone to the light: its radius for each metre along the light.
+  const float narrow = 0.02, wide = 0.05;
   float wideness = clamp((1.0 / cone_slope(receiver, light) - narrow) / (wide - narrow), 0.0, 1.0);
   float share = maps_layers == 2 ? 1.0 : mix(2.0 / 3.0, 1.0, wideness);
   int samples = max(int(share * float(slices_samples) + 0.5), 1);
   int azimuths = slices_azimuths * slices_samples / samples;
+  samples = slices_azimuths * slices_samples / azimuths;  // what whole slices leave over
   return Counts(azimuths, min(samples, int(2.0 * radius / texel_size(receiver, light)) + 3));
 }
 
@@ -168,7 +170,7 @@ Slice walk(Receiver receiver, float share, int index, int samples, float radius,
 // How many times slices.azimuths slices a pixel in a penumbra gets, whose mean blocker is that high: more where the
 // penumbra is narrow on the screen, since there no filter finds neighbours that it could average.
 int rounds_for(Receiver receiver, float height, Light light) {
-  const int most = clamp(32767 / (slices_azimuths * slices_samples), 1, 4);
+  const int most = clamp(32767 / (slices_azimuths * (slices_samples + 2)), 1, 4);
   float width = 2.0 * penumbra_radius(receiver, height, light) / pixel_width(view_position_of(receiver));
   return min(1 + int(float(slices_narrow) / max(width, 0.01)), most);
 }
