@@ -118,7 +118,7 @@ std::vector<Preset> presets() {
       "slices_denoised",
       "slices",
       "The technique slices with few samples a pixel, and a filter that removes their noise.",
-      {"slices.azimuths=6", "slices.samples=8", "slices.narrow=8", "sampling.noise=interleaved_gradient",
+      {"slices.azimuths=6", "slices.samples=9", "slices.narrow=8", "sampling.noise=interleaved_gradient",
        "denoiser=history_and_filters", "filter.penumbra=none", "filter.visibility=isophote", "filter.taps=4"}};
   Preset history = denoised;
   history.name = "slices_history";

@@ -1,6 +1,6 @@
-"""Every JSON document that a command writes is as its schema in docs/schemas says, and docs/formats.md lists them all.
+"""JSON documents that commands write are as their schemas in docs/schemas say, and docs/formats.md lists them all.
 
-reproduce_test.py has that of reproduce, which takes half a minute to make."""
+That of reproduce is checked by reproduce_test.py, which makes it anyway."""
 
 import json
 

@@ -324,7 +324,7 @@ class Truth(TestCase):
         self.succeed("truth", FENCE.resolve(), "-o", self.folder / "x.png", *SMALL, "--spp", "8", env=environment,
                      cwd=self.folder)
         self.assertEqual(len(list((home / ".cache/penumbra/truth").iterdir())), 1)
-        self.assertFalse((self.folder / "here").exists())
+        self.assertFalse((self.folder / "here" / "penumbra").exists())
 
 
 if __name__ == "__main__":

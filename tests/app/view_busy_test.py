@@ -33,8 +33,10 @@ class Busy(WindowTest):
     def test_a_click_on_a_panel_is_seen_before_the_picture_is_finished(self):
         # The first picture is none of those that take long.
         with self.view(STEPS, *LAMPS, *LAMP_MAPS, "--technique", "none", size=(1000, 700)) as viewer:
+            first = viewer.rest()
             viewer.choose("technique", "brute_force")
             self.wait_until_drawn(viewer)
+            viewer.wait_for(lambda: viewer.picture() != first, "a first picture of brute_force")
             motion = viewer.picture()
             for tab, widget in (("Scene", "scene file"), ("Files", "copy command"), ("Shadow", "technique")):
                 self.click(viewer, f"tab {tab}")

@@ -62,7 +62,7 @@ class Size(WindowTest):
             before = viewer.rest()
             # One xdotool for all: to start one for each takes longer than a frame, and half of the processor's time.
             self.desktop.xdotool(*[word for size in ((1, 1), (1200, 300)) * 150
-                                   for word in ("windowsize", viewer.window, *size, "sleep", 0.015)])
+                                   for word in ("windowsize", viewer.window, *size, "sleep", 0.03)])
             self.resize(viewer, 800, 600)
             viewer.wait_for(lambda: viewer.rest() == before, "the first picture")
 

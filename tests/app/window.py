@@ -23,6 +23,7 @@ class WindowTest(TestCase):
         super().setUpClass()
         if WindowTest._shared is None:
             WindowTest._shared = unittest.enterModuleContext(Desktop())
+            unittest.addModuleCleanup(setattr, WindowTest, "_shared", None)
         cls.desktop = WindowTest._shared
 
     def view(self, *arguments, maps=SMALL_MAPS, edges=NO_SMOOTH_EDGES, **options):

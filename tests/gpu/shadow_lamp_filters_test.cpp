@@ -66,7 +66,7 @@ bool is_series(const std::string& technique) { return technique == "csm_fourier"
 TEST_F(LampFilters, KernelsAreAsWideAsAskedForAtEveryDepth) {
   for (const std::string technique : techniques) {
     ParamSet params = parameters(technique);
-    params.set("lamps.size", is_series(technique) ? 1024 : 2048);
+    params.set("lamps.size", is_series(technique) ? 512 : 1024);
     const double share = is_series(technique) ? 0.15 : 0.05;
     const double exact = radius * (technique.starts_with("pcf") ? disc_width : gaussian_width);
     for (const float depth : {4.0f, 2.8f, 2.0f, 1.4f, 1.0f, 0.5f})
@@ -79,11 +79,11 @@ TEST_F(LampFilters, KernelsDependOnNeitherMapSizeNorNearPlane) {
   for (const std::string technique : techniques) {
     for (const float depth : {4.0f, 1.4f}) {
       ParamSet params = parameters(technique);
-      params.set("lamps.size", is_series(technique) ? 1024 : 4096);
+      params.set("lamps.size", is_series(technique) ? 512 : 2048);
       const double fine = width(depth, params);
-      for (const int size : is_series(technique) ? std::vector<int>() : std::vector<int>{2048, 1024}) {
-        params.set("lamps.size", size);
-        EXPECT_NEAR(width(depth, params), fine, 0.03 * fine) << technique << ", " << depth << " m, " << size;
+      if (!is_series(technique)) {
+        params.set("lamps.size", 1024);
+        EXPECT_NEAR(width(depth, params), fine, 0.03 * fine) << technique << ", " << depth << " m, maps of 1024²";
       }
       for (const float near : {0.002f, 0.2f}) {
         params.set("lamps.near", near);
@@ -107,7 +107,7 @@ TEST_F(LampFilters, KernelsInACubeDependOnNeitherMapSizeNorNearPlane) {
 TEST_F(LampFilters, WideKernelsLeaveAWallLit) {
   for (const std::string technique : {"pcf", "vsm", "evsm", "msm", "esm", "csm_fourier"}) {
     ParamSet params = parameters(technique);
-    params.set("lamps.size", 512);
+    params.set("lamps.size", 256);
     for (const float wide : {0.25f, 0.5f, 1.0f, 2.0f}) {
       params.set(technique + ".radius", wide);
       float least = 1;

@@ -69,7 +69,7 @@ TEST_F(LampSphere, NoStepShowsOnASphereOfReceivers) {
   params.set("brute_force.every_texel", true);
   int pairs = 0;
   for (const Screen& screen : screens()) {
-    const Shadowed shadowed = mean_sphere(*renderer_, screen, radius, params, "lamps.size", {960, 1100, 1270, 1430});
+    const Shadowed shadowed = mean_sphere(*renderer_, screen, radius, params, "lamps.size", {680, 780, 900, 1010});
     const Steps steps = steps_of(shadowed, screen, radius);
     EXPECT_LE(steps.across, 1.0 / 255) << "screen towards " << screen.towards.x << " " << screen.towards.y << " "
                                        << screen.towards.z;

@@ -21,7 +21,7 @@ namespace {
 class ShadowHistory : public GpuTest {};
 
 TEST_F(ShadowHistory, AStillPictureGetsNoWorse) {
-  SceneRun run("thesis", 320, 180);
+  SceneRun run("thesis", 240, 135);
   run.choose("thesis");
   run.params().set("cascades.size", 1024);
   const Visibility reference = run.draw_reference();
@@ -31,7 +31,7 @@ TEST_F(ShadowHistory, AStillPictureGetsNoWorse) {
     double best = 0;
     double flicker = 0;
     Visibility last;
-    std::printf("thesis.glb 320x180, maps of 1024, filter sequence %s:", sequence.c_str());
+    std::printf("thesis.glb 240x135, maps of 1024, filter sequence %s:", sequence.c_str());
     for (int frame = 1; frame <= 64; ++frame) {
       const Visibility picture = run.draw(/*cut=*/frame == 1);
       if (frame > 32) flicker += mean_error(picture, last, penumbra) / 32;
@@ -141,7 +141,7 @@ class MovingAndStopping {
 
  private:
   static constexpr const char* scene = "moving";
-  static constexpr int width = 320, height = 180;
+  static constexpr int width = 240, height = 135;
   static constexpr double step = 1 / 30.0;
   static constexpr int begin = 44, stop = 60, end = 120;  // at 2 s everything stops
 

@@ -20,6 +20,7 @@ constexpr std::array techniques{"pcss", "slices"};
 class Tiles : public TilesTest {};
 
 TEST_F(Tiles, DecideMostPixelsAndMissNoPenumbra) {
+  settings_ = {"cascades.size=1024"};
   for (const char* scene : {"posts", "foliage", "fence", "steps", "courtyard", "thesis"}) {
     SCOPED_TRACE(scene);
     load(scene, 320, 180);
@@ -27,6 +28,7 @@ TEST_F(Tiles, DecideMostPixelsAndMissNoPenumbra) {
       for (const char* technique : techniques) expect_no_penumbra_is_missed(technique, angle);
     }
   }
+  settings_ = {};
   load("posts", 640, 360);
   EXPECT_GT(expect_no_penumbra_is_missed("pcss", 0.53f), 0.6);
 }

@@ -116,8 +116,28 @@ Blocker add_texel(inout Slice slice, Receiver receiver, float depth, float block
   return Blocker(high, height, stretch.at);
 }
 
+// How many slices a pixel is given in a round, and how many samples a slice.
+struct Counts {
+  int azimuths, samples;
+};
+
+// Under a narrow light a slice mostly crosses one edge: two thirds of slices.samples are enough, and there are more slices
+// instead. Under a wide light, and with two layers, it crosses several. More than two samples a texel would read the
+// same texels again.
+Counts counts_for(Receiver receiver, float radius, Light light) {
+  // Of the cone to the light: its radius for each metre along the light.
+  const float narrow = 0.02, wide = 0.05;
+  float wideness = clamp((1.0 / cone_slope(receiver, light) - narrow) / (wide - narrow), 0.0, 1.0);
+  float share = maps_layers == 2 ? 1.0 : mix(2.0 / 3.0, 1.0, wideness);
+  int samples = max(int(share * float(slices_samples) + 0.5), 1);
+  int azimuths = slices_azimuths * slices_samples / samples;
+  samples = slices_azimuths * slices_samples / azimuths;  // what whole slices leave over
+  return Counts(azimuths, min(samples, int(2.0 * radius / texel_size(receiver, light)) + 3));
+}
+
 // `share`: the slice's place on the rim, as for rim_point(); `index`: its number among the pixel's slices.
-Slice walk(Receiver receiver, float share, int index, float radius, PixelNoise noise, float bias, Light light) {
+Slice walk(Receiver receiver, float share, int index, int samples, float radius, PixelNoise noise, float bias,
+           Light light) {
   Slice slice = Slice(0u, 0.0, 0.0);
   float rim_texel = texel_size(receiver, light);
   vec2 texel = texel_extent(receiver, light);
@@ -127,8 +147,6 @@ Slice walk(Receiver receiver, float share, int index, float radius, PixelNoise n
   float dither = fract(noise.ring + plastic.x * float(index));
   float begin = 0.0;
   Blocker before = no_blocker, second_before = no_blocker;
-  // More than two samples a texel would read the same texels again.
-  int samples = min(int(2.0 * radius / rim_texel) + 3, slices_samples);
   int i = 0;
   do {
     float end = (radius + rim_texel) * spread(float(i + 1) / float(samples));
@@ -152,7 +170,7 @@ Slice walk(Receiver receiver, float share, int index, float radius, PixelNoise n
 // How many times slices.azimuths slices a pixel in a penumbra gets, whose mean blocker is that high: more where the
 // penumbra is narrow on the screen, since there no filter finds neighbours that it could average.
 int rounds_for(Receiver receiver, float height, Light light) {
-  const int most = clamp(32767 / (slices_azimuths * slices_samples), 1, 4);
+  const int most = clamp(32767 / (slices_azimuths * (slices_samples + 2)), 1, 4);
   float width = 2.0 * penumbra_radius(receiver, height, light) / pixel_width(view_position_of(receiver));
   return min(1 + int(float(slices_narrow) / max(width, 0.01)), most);
 }
@@ -163,6 +181,7 @@ Visibility visibility(Receiver receiver, Light light) {
   float radius = walk_radius(receiver, light);
   // The map can't show a penumbra so narrow. Where none is near, pixels of decided tiles are computed in this way too.
   if (radius < 0.5 * texel_size(receiver, light)) return centre_shadow(receiver, bias, light);
+  Counts counts = counts_for(receiver, radius, light);
   PixelNoise noise = noise_of(receiver);
   int hidden = 0, rounds = 1;
   float height_sum = 0.0, blockers = 0.0;
@@ -172,18 +191,19 @@ Visibility visibility(Receiver receiver, Light light) {
     float first = noise.azimuth + float(turn) / float(rounds);
     int azimuth = 0;
     do {
-      float share = (float(azimuth) + first) / float(slices_azimuths);
-      Slice slice = walk(receiver, share, turn * slices_azimuths + azimuth, radius, noise, bias, light);
+      float share = (float(azimuth) + first) / float(counts.azimuths);
+      int index = turn * counts.azimuths + azimuth;
+      Slice slice = walk(receiver, share, index, counts.samples, radius, noise, bias, light);
       hidden += bitCount(slice.hidden);
       height_sum += slice.height_sum;
       blockers += slice.blockers;
-    } while (++azimuth < slices_azimuths);
-    if (turn == 0 && hidden > 0 && hidden < ring_count * slices_azimuths)
+    } while (++azimuth < counts.azimuths);
+    if (turn == 0 && hidden > 0 && hidden < ring_count * counts.azimuths)
       rounds = rounds_for(receiver, mean_height(height_sum, blockers), light);
   } while (++turn < rounds);
   if (hidden == 0) return fully_lit();
   float mean = mean_height(height_sum, blockers);
   float penumbra = penumbra_radius(receiver, mean, light);
-  return Visibility(1.0 - float(hidden) / float(ring_count * slices_azimuths * rounds), penumbra, mean,
+  return Visibility(1.0 - float(hidden) / float(ring_count * counts.azimuths * rounds), penumbra, mean,
                     penumbra < texel_size(receiver, light));
 }

@@ -15,8 +15,12 @@ Technique slices() {
       .params =
           {
               // Mesa's software rasteriser ends loops after 65,535 iterations in total, and a seam draws two layers.
-              {"slices.azimuths", 8, 1, 128, "slices", "Directions in which a pixel's light is followed.", compiled},
-              {"slices.samples", 8, 1, 128, "texels", "Texels that are read along each slice.", compiled},
+              {"slices.azimuths", 8, 1, 128, "slices",
+               "Directions in which a pixel's light is followed: about half as many again under a narrow light, with one layer.",
+               compiled},
+              {"slices.samples", 8, 1, 128, "texels",
+               "Texels that are read along each slice: two thirds of them under a narrow light, with one layer.",
+               compiled},
               {"slices.narrow", 0, 0, 64, "px",
                "Where a penumbra is narrower than this in the picture, up to four times as many slices are followed, "
                "since no filter can smooth it there.",
