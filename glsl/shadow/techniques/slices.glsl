@@ -121,9 +121,9 @@ struct Counts {
   int azimuths, samples;
 };
 
-// Under a narrow light a slice mostly crosses one edge: two thirds of slices.samples are enough, and there are more slices
-// instead. Under a wide light, and with two layers, it crosses several. More than two samples a texel would read the
-// same texels again.
+// Under a narrow light a slice mostly crosses one edge: two thirds of slices.samples are enough, and there are more
+// slices instead. Under a wide light, and with two layers, it crosses several. More than two samples a texel would
+// read the same texels again.
 Counts counts_for(Receiver receiver, float radius, Light light) {
   // Of the cone to the light: its radius for each metre along the light.
   const float narrow = 0.02, wide = 0.05;

@@ -16,7 +16,8 @@ Technique slices() {
           {
               // Mesa's software rasteriser ends loops after 65,535 iterations in total, and a seam draws two layers.
               {"slices.azimuths", 8, 1, 128, "slices",
-               "Directions in which a pixel's light is followed: about half as many again under a narrow light, with one layer.",
+               "Directions in which a pixel's light is followed: about half as many again under a narrow light, with "
+               "one layer.",
                compiled},
               {"slices.samples", 8, 1, 128, "texels",
                "Texels that are read along each slice: two thirds of them under a narrow light, with one layer.",
