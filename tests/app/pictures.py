@@ -10,7 +10,7 @@ from support import ROOT, unfilter
 os.environ["PENUMBRA_DEBUG"] = "1"
 
 SMALL = ("--size", "96x54")
-# Clearing maps of the usual size, 78 MB, takes as long as all else that a small picture needs.
+# Clearing maps of the usual size and their pyramids, 80 MB, takes as long as all else that a small picture needs.
 SMALL_MAPS = ("--set", "cascades.size=512", "--set", "lamps.size=256")
 
 

@@ -10,7 +10,7 @@ from viewer import Viewer
 STEPS, KNIFE_EDGE = pictures.scene("steps"), pictures.scene("knife_edge")
 # What the maps cost is a third of a frame, and how sharp they are is no matter of these tests; nor are edges, for which a
 # picture at rest is drawn eight times.
-SMALL_MAPS, NO_SMOOTH_EDGES = ("--set", "cascades.size=512", "--set", "lamps.size=256"), ("--samples", 1)
+SMALL_MAPS, NO_SMOOTH_EDGES = pictures.SMALL_MAPS, ("--samples", 1)
 
 
 class WindowTest(TestCase):
