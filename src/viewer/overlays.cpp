@@ -116,7 +116,8 @@ void messages_overlay(const Panel& panel, const ImVec2& corner, double now) {
   std::deque<Message>& messages = panel.state.messages;
   std::erase_if(messages, [now](const Message& message) { return message.until < now; });
   if (messages.empty()) return;
-  if (begin_overlay("messages", inner(corner, 1, -1), {0, 1})) {
+  // The mouse reaches the picture below, which a message may cover for seconds.
+  if (begin_overlay("messages", inner(corner, 1, -1), {0, 1}, overlay_flags | ImGuiWindowFlags_NoInputs)) {
     ImGui::PushTextWrapPos(wrap_width(40.0f, ImGui::GetIO().DisplaySize.x - corner.x));
     for (const Message& message : messages) {
       const ImVec4 color = message.is_error ? ImVec4(1.0f, 0.45f, 0.38f, 1) : ImGui::GetStyleColorVec4(ImGuiCol_Text);
@@ -308,7 +309,11 @@ void add(UiState& state, Message message) {
 
 }  // namespace
 
-void tell(UiState& state, const std::string& text, double now) { add(state, {without_middle(text), false, now + 6}); }
+void tell(UiState& state, const std::string& text, double now, std::string_view replaced) {
+  const auto is_replaced = [&](const Message& other) { return other.text.starts_with(replaced); };
+  if (!replaced.empty()) std::erase_if(state.messages, is_replaced);
+  add(state, {without_middle(text), false, now + 6});
+}
 
 void tell_error(UiState& state, const std::string& text, double now) {
   add(state, {without_middle(text), true, now + 20});

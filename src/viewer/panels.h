@@ -2,6 +2,9 @@
 
 #include <imgui.h>
 
+#include <string>
+#include <string_view>
+
 #include "viewer/state.h"
 #include "viewer/status.h"
 #include "viewer/widgets.h"
@@ -56,8 +59,8 @@ void legend_overlay(const Panel& panel, const ImVec2& upper_right, float picture
 // At the window's lower edge.
 void status_bar(const Panel& panel);
 
-// Shows a message for some seconds; errors stay longer.
-void tell(UiState& state, const std::string& text, double now);
+// Shows a message for some seconds; errors stay longer. It takes the place of earlier ones that begin with `replaced`.
+void tell(UiState& state, const std::string& text, double now, std::string_view replaced = {});
 void tell_error(UiState& state, const std::string& text, double now);
 
 }  // namespace penumbra::viewer

@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include <filesystem>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -17,6 +18,8 @@
 namespace penumbra::viewer {
 
 namespace {
+
+constexpr const char* copied = "copied: ";  // how the message begins that shows what the clipboard has
 
 // A preset overwrites nothing but another preset file: many other programs have files that end in .toml too.
 void check_overwrites_preset(const std::string& file) {
@@ -110,7 +113,7 @@ std::vector<std::string> Viewer::command() const {
 void Viewer::copy_command() {
   const std::string text = cli::command_text("penumbra", command());
   ImGui::SetClipboardText(text.c_str());
-  tell(state_, "copied: " + text, ImGui::GetTime());
+  tell(state_, copied + text, ImGui::GetTime(), copied);
 }
 
 void Viewer::write_picture(bool sequence) {
@@ -164,7 +167,8 @@ void Viewer::go_back(bool redo) {
 void Viewer::copy_camera() {
   const std::string text = cli::command_text("", camera_arguments(state_.document.options));
   ImGui::SetClipboardText(text.c_str());
-  tell(state_, text.empty() ? "the camera is the default one: nothing to copy" : "copied: " + text, ImGui::GetTime());
+  tell(state_, text.empty() ? "the camera is the default one: nothing to copy" : copied + text, ImGui::GetTime(),
+       copied);
 }
 
 void Viewer::frame_casters() {

@@ -264,10 +264,9 @@ void Viewer::take_shaders(std::span<const std::filesystem::path> changed) {
   if (!reload.redraws()) return;
   a_.renderer.cut();
   b_.renderer.cut();
-  // Replaces the last message of this kind: editors save often.
-  std::erase_if(state_.messages, [](const Message& message) { return message.text.starts_with("programs compiled"); });
-  tell(state_, fmt::format("programs compiled: {}, in {:.2f} s; histories start again", reload.rebuilt, reload.seconds),
-       ImGui::GetTime());
+  const std::string compiled = "programs compiled: ";  // editors save often: only the last one is shown
+  tell(state_, fmt::format("{}{}, in {:.2f} s; histories start again", compiled, reload.rebuilt, reload.seconds),
+       ImGui::GetTime(), compiled);
 }
 
 void Viewer::play(float seconds) {

@@ -26,9 +26,9 @@ class Camera(WindowTest):
             viewer.tap(key)
             viewer.follow()
 
-    def turn(self, viewer):
-        """Turns the camera by a drag, and returns the new one."""
-        before, (x, y) = self.camera(viewer), viewer.middle("picture")
+    def turn(self, viewer, on="picture"):
+        """Turns the camera by a drag that starts in the middle of a widget, and returns the new one."""
+        before, (x, y) = self.camera(viewer), viewer.middle(on)
         viewer.move(x, y)
         self.desktop.xdotool("mousedown", LEFT)
         for step in (10, 50, 90):
@@ -101,6 +101,20 @@ class Travel(Camera):
             self.desktop.xdotool("keyup", "s")
             viewer.follow()
             self.assertNotEqual(self.camera(viewer), before)
+
+
+class Messages(Camera):
+    def test_the_mouse_reaches_the_picture_below_them_and_only_the_last_copy_is_told(self):
+        with self.view("mine.glb", *self.VIEW) as viewer:
+            def height():
+                viewer.follow()
+                _, top, _, bottom = viewer.box("messages")
+                return bottom - top
+
+            self.camera(viewer)
+            one = height()
+            self.turn(viewer, on="messages")
+            self.assertLess(height(), 2 * one)
 
 
 class Home(Camera):
