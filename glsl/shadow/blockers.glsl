@@ -1,5 +1,7 @@
 // The steps of percentage-closer soft shadows (Fernando 2005): mean blocker depth, kernel size, filter. For techniques
-// that need the "least_depth_pyramid" and have the sample sets "blocker", "filter" and "disocclusion".
+// that need the "least_depth_pyramid" and have the sample sets "blocker", "filter" and "disocclusion", and that define
+//   const bool blocker_footprints  whether the blocker search reads the four texels around each point, else one
+// It is no parameter of the functions: drivers would inline both ways before they drop one.
 #include "shadow/search.glsl"
 #include "shadow/sampling.glsl"
 
@@ -46,7 +48,7 @@ void add_blockers(inout Blockers blockers, Receiver receiver, vec2 offset, float
 // The mean over the points of the set, each with its texel or with the four texels around it. Where the disc is smaller
 // than the four texels around the receiver, or no point finds a blocker, these four are read instead: near the receiver
 // the cone is narrow, so that all taps of a wide disc can miss a blocker that touches it.
-Blockers find_blockers(Receiver receiver, float radius, int taps, bool footprints, float bias, Light light) {
+Blockers find_blockers(Receiver receiver, float radius, int taps, float bias, Light light) {
   Scramble scramble = blocker_scramble(receiver);
   Blockers blockers = Blockers(0.0, 0.0);
   int count = radius < 0.5 * texel_size(receiver, light) ? 0 : taps;
@@ -54,13 +56,13 @@ Blockers find_blockers(Receiver receiver, float radius, int taps, bool footprint
   do {
     bool at_receiver = i == count;
     vec2 offset = at_receiver ? vec2(0.0) : radius * blocker_point(i, scramble, light);
-    if (footprints) {
+    if (blocker_footprints) {
       add_blockers(blockers, receiver, offset, bias, light);
     } else if (!at_receiver) {
       add_blocker(blockers, receiver, offset, bias, light);
     }
-  } while (++i < count || (footprints && i == count && blockers.weight == 0.0));
-  if (!footprints && blockers.weight == 0.0) add_blockers(blockers, receiver, vec2(0.0), bias, light);
+  } while (++i < count || (blocker_footprints && i == count && blockers.weight == 0.0));
+  if (!blocker_footprints && blockers.weight == 0.0) add_blockers(blockers, receiver, vec2(0.0), bias, light);
   return blockers;
 }
 
@@ -94,17 +96,19 @@ Visibility filtered(Receiver receiver, float mean, FilterPoints points, float bi
                     radius < texel_size(receiver, light));
 }
 
-// Both steps with the given numbers of taps, and with another number where the history is rejected. `footprints`: see
-// find_blockers(). With early exit, both are skipped where the depth bounds rule out blockers.
-Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, bool footprints, int filter_taps,
-                       int disocclusion_taps, bool early_exits) {
+// Both steps with the given numbers of taps, and with another number where the history is rejected. With early exit,
+// both are skipped where the depth bounds rule out blockers.
+Visibility soft_shadow(Receiver receiver, Light light, int blocker_taps, int filter_taps, int disocclusion_taps,
+                       bool early_exits) {
   float bias = depth_bias(receiver, light);
   Search search = narrow_search(receiver, light, light.read_radius);
   if (early_exits && search.nearest >= receiver.position.z - bias) return fully_lit();
   receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
-  Blockers blockers = find_blockers(receiver, search.radius, blocker_taps, footprints, bias, light);
+  Blockers blockers = find_blockers(receiver, search.radius, blocker_taps, bias, light);
   if (blockers.weight == 0.0) return fully_lit();
   float mean = mean_distance(blockers);
+#if HISTORY
   if (receiver.history_refused) return filtered(receiver, mean, FilterPoints(disocclusion_taps, true), bias, light);
+#endif
   return filtered(receiver, mean, FilterPoints(filter_taps, false), bias, light);
 }

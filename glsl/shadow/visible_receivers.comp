@@ -86,15 +86,22 @@ void add(Part part, int slice) {
   const float right_angle = 1.57079633;
   // The fifth direction is opposite to the first.
   vec4 next_low = vec4(part.low.yzw, -part.high.x), next_high = vec4(part.high.yzw, -part.low.x);
-  uint first = uint(slice) * measures;
-  for (int step = 0; step < steps; ++step) {
-    float angle = 0.5 * right_angle * float(step) / float(steps);
-    // A direction between two of the four is this sum of them.
-    float of_first = sin(0.5 * right_angle - angle) * sqrt(2.0), of_next = sin(angle) * sqrt(2.0);
-    vec4 low = of_first * part.low + of_next * next_low, high = of_first * part.high + of_next * next_high;
-    for (int i = 0; i < 4; ++i) add_range(first + uint(i * steps + step), low[i], high[i]);
-  }
-  add_range(first + uint(DIRECTIONS), part.depths.x, part.depths.y);
+  uint index = uint(slice) * measures, depths = index + uint(DIRECTIONS);
+  int i = 0;
+  // Each of the four, and the directions between it and the next. The end is no constant, so that drivers do not unroll
+  // this loop: atomic operations are long code.
+  do {
+    for (int step = 0; step < steps; ++step) {
+      float angle = 0.5 * right_angle * float(step) / float(steps);
+      // A direction between two of the four is this sum of them.
+      float of_first = sin(0.5 * right_angle - angle) * sqrt(2.0), of_next = sin(angle) * sqrt(2.0);
+      add_range(index + uint(step), of_first * part.low[i] + of_next * next_low[i],
+                of_first * part.high[i] + of_next * next_high[i]);
+    }
+    index += uint(steps);
+    ++i;
+  } while (index < depths);
+  add_range(depths, part.depths.x, part.depths.y);
   atomicAdd(group_pixels[slice], part.pixels);
 }
 

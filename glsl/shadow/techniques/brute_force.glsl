@@ -1,4 +1,5 @@
 // The thesis's reference: PCSS with so many taps that no noise is visible, or with every texel of the disc.
+const bool blocker_footprints = true;
 #include "shadow/blockers.glsl"
 
 float read_radius(Receiver receiver, Light light) { return search_radius(receiver, light); }
@@ -85,8 +86,8 @@ Visibility visibility(Receiver receiver, Light light) {
 #else
 
 Visibility visibility(Receiver receiver, Light light) {
-  return soft_shadow(receiver, light, brute_force_blocker_taps, /* footprints= */ true, brute_force_filter_taps,
-                     brute_force_filter_taps, /* early_exits= */ false);
+  return soft_shadow(receiver, light, brute_force_blocker_taps, brute_force_filter_taps, brute_force_filter_taps,
+                     /* early_exits= */ false);
 }
 
 #endif
