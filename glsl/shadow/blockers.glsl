@@ -2,6 +2,9 @@
 // that need the "least_depth_pyramid" and have the sample sets "blocker", "filter" and "disocclusion", and that define
 //   const bool blocker_footprints  whether the blocker search reads the four texels around each point, else one
 // It is no parameter of the functions: drivers would inline both ways before they drop one.
+#ifndef HISTORY
+#define HISTORY 0  // 1: receivers may say that their history is refused
+#endif
 #include "shadow/search.glsl"
 #include "shadow/sampling.glsl"
 

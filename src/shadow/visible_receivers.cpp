@@ -18,6 +18,7 @@ constexpr GLuint found_binding = 7;  // must match glsl/shadow/visible_receivers
 constexpr int slices = 32;
 constexpr int block_size = 8;                      // pixels along each side that an invocation reads
 constexpr int measures = measured_directions + 1;  // the last one: depths
+static_assert(measured_directions > 0 && measured_directions % 4 == 0, "the shader measures along four and between");
 
 // std430, as in the shader.
 struct Found {

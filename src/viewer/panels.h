@@ -59,7 +59,8 @@ void legend_overlay(const Panel& panel, const ImVec2& upper_right, float picture
 // At the window's lower edge.
 void status_bar(const Panel& panel);
 
-// Shows a message for some seconds; errors stay longer. It takes the place of earlier ones that begin with `replaced`.
+// Shows a message for some seconds; errors stay longer. It takes the place of earlier ones that begin with
+// `replaced`, if that is not empty.
 void tell(UiState& state, const std::string& text, double now, std::string_view replaced = {});
 void tell_error(UiState& state, const std::string& text, double now);
 

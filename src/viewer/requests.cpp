@@ -167,7 +167,7 @@ void Viewer::go_back(bool redo) {
 void Viewer::copy_camera() {
   const std::string text = cli::command_text("", camera_arguments(state_.document.options));
   ImGui::SetClipboardText(text.c_str());
-  tell(state_, text.empty() ? "the camera is the default one: nothing to copy" : copied + text, ImGui::GetTime(),
+  tell(state_, text.empty() ? "copied: nothing, since the camera is the default one" : copied + text, ImGui::GetTime(),
        copied);
 }
 

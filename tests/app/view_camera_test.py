@@ -114,7 +114,7 @@ class Messages(Camera):
             self.camera(viewer)
             one = height()
             self.turn(viewer, on="messages")
-            self.assertLess(height(), 2 * one)
+            self.assertLess(height(), 1.5 * one)
 
 
 class Home(Camera):

@@ -19,6 +19,7 @@ const float max_plane_slope = 7.0;
 float bilinear(vec4 a, vec2 b) { return a.x * b.x; }
 float bias_constant;
 #define UNIT_least_depth_pyramid 3
+#define HISTORY
 )";
 
 constexpr const char* engine_after = R"(

@@ -5,7 +5,7 @@ import os
 import subprocess
 import tarfile
 
-from support import BUILD, ROOT, TestCase, main
+from support import BUILD, ROOT, TestCase, main, shader_cache
 
 BUNDLE = BUILD / "penumbra-bench-bundle"
 
@@ -21,9 +21,9 @@ class BenchBundle(TestCase):
         return self.folder / BUNDLE.name
 
     def bench(self, bundle, *arguments, **options):
-        # No variable of this machine's helps it along, but for where Mesa may keep its cache.
+        # No variable of this machine's helps it along, but for where Mesa keeps compiled shaders.
         return subprocess.run([bundle / "penumbra-bench", *arguments], capture_output=True, text=True, timeout=300,
-                              cwd=bundle, env={"XDG_CACHE_HOME": str(self.folder / "cache")}, **options)
+                              cwd=bundle, env={"MESA_SHADER_CACHE_DIR": shader_cache()}, **options)
 
     def test_is_small_and_holds_what_its_readme_names(self):
         bundle = self.unpacked()

@@ -110,11 +110,15 @@ class Installed(support.TestCase):
         for file in ("man/man1/penumbra.1", "bash-completion/completions/penumbra", "zsh/site-functions/_penumbra"):
             self.assertIn("penumbra", (self.prefix / "share" / file).read_text(), file)
 
+    def elsewhere(self):
+        """The environment with an empty home folder, but with the shaders that this user's programs have compiled."""
+        return {**os.environ, "HOME": str(self.folder), "MESA_SHADER_CACHE_DIR": support.shader_cache()}
+
     def test_program_runs_with_its_own_data(self):
         program = self.prefix / "bin" / "penumbra"
         picture = self.folder / "steps.png"
         command(program, "render", self.prefix / "share" / "penumbra" / "scenes" / "steps.glb", "--size", "64x36", "-o",
-                picture, cwd=self.folder, env={**os.environ, "HOME": str(self.folder)})
+                picture, cwd=self.folder, env=self.elsewhere())
         self.assertTrue(picture.exists())
 
     def write_scene(self):
@@ -135,7 +139,7 @@ class Installed(support.TestCase):
         """As a shell would in the test's folder; the result has returncode and stderr."""
         arguments = [program, "render", scene, "--size", "64x36", "-o", self.folder / name, "--quiet"]
         return subprocess.run([*map(str, arguments)], capture_output=True, text=True, timeout=600, cwd=self.folder,
-                              env={**os.environ, "HOME": str(self.folder)})
+                              env=self.elsewhere())
 
     def test_program_reads_jpegs_and_writes_exrs_by_its_own_module(self):
         result = self.draw(self.prefix / "bin" / "penumbra", self.write_scene(), "x.exr")
