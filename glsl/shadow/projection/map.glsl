@@ -45,8 +45,8 @@ float filtered_difference(float difference, Light light) {
 // Beyond the rim of a cube's face the map goes on in the faces there. Their texels lie elsewhere, so that what is read
 // of one is a depth and its own place.
 
-// Whether there are such faces. A macro, not a function: of a function drivers see that it is false in programs for suns
-// only after they have inlined all that is behind it, wherever a texel is read.
+// Whether there are such faces. A macro, not a function: of a function drivers see that it is false in programs for
+// suns only after they have inlined all that is behind it, wherever a texel is read.
 #define has_faces(light) (RIM != 0 && is_lamp && (light).layers > 1)
 
 bool leaves_map(ivec2 low, ivec2 high) {
