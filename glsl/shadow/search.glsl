@@ -127,3 +127,10 @@ Visibility centre_shadow(Receiver receiver, float bias, Light light) {
   float penumbra = penumbra_radius(receiver, mean, light);
   return Visibility(1.0 - covered, penumbra, mean, penumbra < texel_size(receiver, light));
 }
+
+// The light with a read radius that also holds what covers a receiver's centre. A caster that is narrower than a texel
+// of the widest layer may be missing from it, and so from the technique's read radius.
+Light reading_centre(Visibility centre, Light light) {
+  light.read_radius = max(light.read_radius, centre.penumbra_radius);
+  return light;
+}

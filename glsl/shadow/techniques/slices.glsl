@@ -178,9 +178,10 @@ int rounds_for(Receiver receiver, float height, Light light) {
 Visibility visibility(Receiver receiver, Light light) {
   float bias = depth_bias(receiver, light);
   receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
-  float radius = walk_radius(receiver, light);
+  Visibility centre = centre_shadow(receiver, bias, light);
+  float radius = walk_radius(receiver, reading_centre(centre, light));
   // The map can't show a penumbra so narrow. Where none is near, pixels of decided tiles are computed in this way too.
-  if (radius < 0.5 * texel_size(receiver, light)) return centre_shadow(receiver, bias, light);
+  if (radius < 0.5 * texel_size(receiver, light)) return centre;
   Counts counts = counts_for(receiver, radius, light);
   PixelNoise noise = noise_of(receiver);
   int hidden = 0, rounds = 1;

@@ -138,8 +138,10 @@ Visibility visibility(Receiver receiver, Light light) {
   if (search.nearest >= receiver.position.z - bias) return fully_lit();
   receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
   float texel = texel_size(receiver, light);
+  Visibility centre = centre_shadow(receiver, bias, light);
   // No edge is so near that it could make a penumbra.
-  if (edge_radius(receiver, light) < 0.5 * texel) return centre_shadow(receiver, bias, light);
+  if (edge_radius(receiver, reading_centre(centre, light)) < 0.5 * texel) return centre;
+  search.radius = max(search.radius, centre.penumbra_radius);
   float reach = search.radius + 1.5 * texel;
   float least_blocking = receiver.position.z - bias - reach * length(receiver.gradient);
   bool dark = greatest_near(receiver.position, reach, light) < least_blocking;
