@@ -109,11 +109,13 @@ class Drawn(Plans):
         self.assertIn("--lead-in", error)
         # Divided: the first item is exact, and so is one whose lead-in begins where the sequence does.
         result = self.succeed("plan", "render", *arguments, "-o", self.plan, "--frames-per-item", 3, "--lead-in", 3)
-        self.assertIn("from frame 3 on", result.stderr)
+        self.assertIn("from frame 6 on", result.stderr)
         self.assertEqual(self.succeed("work", self.plan).stderr, "", "told when the plan was made")
         divided = self.merge("divided")
         same = sorted(name for name in whole if divided[name] == whole[name])
         self.assertEqual(same, [f"frame_{i:04}.png" for i in range(6)])
+        result = self.succeed("plan", "render", *arguments, "-o", self.plan, "--frames-per-item", 5, "--lead-in", 5)
+        self.assertEqual(result.stderr, "", "all items are exact")
 
     def test_the_estimate_counts_the_shadows_of_all_samples(self):
         view = (scene("steps"), "--size", "640x360", "--technique", "pcss", "--samples", "8")

@@ -45,11 +45,15 @@ void SequenceItems::warn() const {
   if (lead_in_ == 0) {
     penumbra::warn("each frame depends on those before it ({}), so the sequence is one item; --lead-in N divides it",
                    depends_);
-  } else if (count() > 1) {
+    return;
+  }
+  for (std::size_t item = 0; item < count(); ++item) {
+    if (drawn(item).first == range_.first) continue;  // it draws all frames that its own depend on
     penumbra::warn(
         "each frame depends on those before it ({}): from frame {} on, pictures differ from those of one "
         "process, and change with --lead-in and --frames-per-item",
-        depends_, range_.first + per_item_);
+        depends_, frames(item).first);
+    return;
   }
 }
 
