@@ -91,8 +91,11 @@ class Bench {
     for (const Entry& entry : results_.entries)
       limits.cascades = std::max(limits.cascades, entry.params.get_int("cascades.count"));
     if (model_) limits.own_triangles = drawn_triangles(*model_);
-    if (options_.sweep == "lights")
-      limits.lights = static_cast<int>(render::shadowed_lights(session::load_scene(options_, decode_).setup).size());
+    if (options_.sweep == "lights" || is_of_suns(options_.sweep)) {
+      const render::Setup setup = session::load_scene(options_, decode_).setup;
+      limits.lights = static_cast<int>(render::shadowed_lights(setup).size());
+      limits.sun = setup.sun_shines;
+    }
     return limits;
   }
 
@@ -131,6 +134,8 @@ class Bench {
     if (prepared_ && !point.triangles) return;
     contenders_.clear();
     prepared_.emplace(scene_at(point));
+    if (!std::exchange(told_lights_, true))
+      cli::warn_without_lights(options_, options_, session::kinds_of_light(*prepared_));
     const cli::InputFiles inputs = inputs_of(options_, prepared_->scene.files);
     for (const std::string& output : options_.outputs) inputs.check("-o", output);
     results_.scene = options_.scene.empty() ? "generated grid of casters"
@@ -193,6 +198,7 @@ class Bench {
   Results results_;
   std::optional<scene::Scene> model_;  // the scene that a sweep of casters copies
   std::optional<session::PreparedScene> prepared_;
+  bool told_lights_ = false;             // warned of settings for lights that the scene lacks
   Contenders contenders_;                // destroyed before the scenes that they draw
   std::vector<std::vector<Kept>> kept_;  // by point, by entry
 };

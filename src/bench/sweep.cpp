@@ -120,6 +120,7 @@ const std::vector<std::string>& sweep_names() {
 }
 
 Sweep make_sweep(const std::string& name, const SweepLimits& limits) {
+  if (is_of_suns(name) && !limits.sun) fail("no sun shines: a sweep of {} would change nothing", name);
   Sweep sweep{.points = {Point{}}};
   if (name == "taps") sweep = taps();
   if (name == "resolution") sweep = resolution(limits);
@@ -131,6 +132,8 @@ Sweep make_sweep(const std::string& name, const SweepLimits& limits) {
   sweep.name = name;
   return sweep;
 }
+
+bool is_of_suns(const std::string& sweep) { return sweep == "map_size" || sweep == "cascades" || sweep == "sun_angle"; }
 
 ParamSet params_at(const Point& point, const ParamSet& params) {
   ParamSet at = params;

@@ -44,8 +44,12 @@ struct SweepLimits {
   int max_texture = 16384;
   int cascades = 4;             // the largest count of any entry
   int lights = 8;               // of the scene that cast shadows
+  bool sun = true;              // whether one of them is a sun
   long long own_triangles = 0;  // triangles of the scene that casters are copies of; 0: no such scene
 };
+
+// Whether a sweep varies what only shadows of suns depend on.
+bool is_of_suns(const std::string& sweep);
 
 // `name` is empty or one of sweep_names().
 Sweep make_sweep(const std::string& name, const SweepLimits& limits);

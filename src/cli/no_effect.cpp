@@ -130,10 +130,41 @@ void warn_without_effect(std::span<const std::string> assignments, std::span<con
   }
 }
 
-void warn_without_effect(const ShadowOptions& options, std::span<const ParamSet> drawn, const Registry& registry) {
+namespace {
+
+std::vector<std::string> assigned(const ShadowOptions& options) {
   std::vector<std::string> assignments = options.assignments;
   if (!options.sun_angle.empty()) assignments.insert(assignments.begin(), "sun.angle=" + options.sun_angle);
-  warn_without_effect(assignments, drawn, registry);
+  return assignments;
+}
+
+// The sizes of maps are no sign of a mistake: scripts set them once for all their scenes.
+bool is_of_lamps(const std::string& name) { return name.starts_with("lamps.") && name != "lamps.size"; }
+
+// Lamps read cascades.seam and cascades.blend where the maps of a cube meet.
+bool is_of_suns(const std::string& name) {
+  constexpr std::array<std::string_view, 3> exempt{"cascades.size", "cascades.seam", "cascades.blend"};
+  return name.starts_with("sun.") || (name.starts_with("cascades.") && std::ranges::find(exempt, name) == exempt.end());
+}
+
+}  // namespace
+
+void warn_without_lights(const SceneOptions& scene, const ShadowOptions& shadows, const LightKinds& shining) {
+  constexpr std::string_view no_sun = "no sun shines", no_lamp = "no spot or point light shines";
+  std::vector<std::string> warned;
+  for (const std::string& assignment : assigned(shadows)) {
+    const std::string name = assignment.substr(0, assignment.find('='));
+    const bool without_sun = is_of_suns(name) && !shining.sun;
+    if (!without_sun && !(is_of_lamps(name) && !shining.lamps)) continue;
+    if (std::ranges::find(warned, name) != warned.end()) continue;
+    warn("{} has no effect here: {}", name, without_sun ? no_sun : no_lamp);
+    warned.push_back(name);
+  }
+  if (scene.lamp_radius && !shining.lamps) warn("--lamp-radius has no effect here: {}", no_lamp);
+}
+
+void warn_without_effect(const ShadowOptions& options, std::span<const ParamSet> drawn, const Registry& registry) {
+  warn_without_effect(assigned(options), drawn, registry);
 }
 
 }  // namespace penumbra::cli

@@ -20,4 +20,12 @@ void warn_without_effect(const ShadowOptions& options, std::span<const ParamSet>
 void warn_without_effect(std::span<const std::string> assignments, std::span<const ParamSet> drawn,
                          const shadow::Registry& registry);
 
+// The kinds of light that shine on a scene.
+struct LightKinds {
+  bool sun = true, lamps = true;
+};
+
+// Warns of each parameter that the user sets, and of --lamp-radius, although no light shines that it belongs to.
+void warn_without_lights(const SceneOptions& scene, const ShadowOptions& shadows, const LightKinds& shining);
+
 }  // namespace penumbra::cli

@@ -31,6 +31,14 @@ session::PreparedScene load(const CompareOptions& options) {
   return load_scene(options, image::image_decoder(cli::limits_of(options.reading)));
 }
 
+// Of settings that all contenders share, and of each one's own.
+void warn_of_lights(const CompareOptions& options, const session::PreparedScene& prepared) {
+  auto settings = static_cast<const cli::ShadowOptions&>(options);
+  for (const auto& contender : options.contenders)
+    settings.assignments.insert(settings.assignments.end(), contender.assignments.begin(), contender.assignments.end());
+  cli::warn_without_lights(options, settings, session::kinds_of_light(prepared));
+}
+
 using Timed = session::RenderDevice::Timed;
 
 }  // namespace
@@ -59,6 +67,7 @@ Drawing::Drawing(const CompareOptions& options, const ComparedValues& values, st
   context_ = session::open_context(options, options);
   device_.emplace(options, options.no_cost ? Timed::nothing : Timed::passes);
   prepared_.emplace(loading.get());
+  if (options.scenes.size() == 1) warn_of_lights(options, *prepared_);
 }
 
 CompareOptions Drawing::of_scene(std::size_t scene) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/trigonometric.hpp>
 #include <utility>
+#include <variant>
 
 #include "scene/animation.h"
 #include "scene/gltf.h"
@@ -60,6 +61,13 @@ PreparedScene prepare_scene(scene::Scene scene, const cli::SceneOptions& options
 
 PreparedScene load_scene(const cli::SceneOptions& options, const scene::ImageDecoder& decode) {
   return prepare_scene(cli::read_scene(options.scene, options.reading, decode), options);
+}
+
+cli::LightKinds kinds_of_light(const PreparedScene& prepared) {
+  cli::LightKinds kinds{.sun = false, .lamps = false};
+  for (const render::FrameLight& light : render::frame_lights(prepared.setup))
+    (std::holds_alternative<render::SunLight>(light) ? kinds.sun : kinds.lamps) = true;
+  return kinds;
 }
 
 render::Setup setup_at(const PreparedScene& prepared, double seconds) {

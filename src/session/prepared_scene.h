@@ -3,6 +3,7 @@
 #include <memory>
 #include <set>
 
+#include "cli/no_effect.h"
 #include "cli/options.h"
 #include "render/renderer.h"
 #include "render/setup.h"
@@ -26,6 +27,9 @@ PreparedScene prepare_scene(scene::Scene scene, const cli::SceneOptions& options
 
 // Reads the scene and sets it up. Throws Error.
 PreparedScene load_scene(const cli::SceneOptions& options, const scene::ImageDecoder& decode);
+
+// The kinds of light that shine on it, for cli::warn_without_lights().
+cli::LightKinds kinds_of_light(const PreparedScene& prepared);
 
 // Chooses camera and sun again for changed options. Scene and ground stay as they are. Throws Error.
 void update_view(PreparedScene& prepared, const cli::SceneOptions& options);

@@ -200,6 +200,9 @@ class Bench(TestCase):
         }.items():
             self.assertIn(said, self.refuse("bench", SCENE, *arguments, code=2), arguments)
         self.assertIn("SCENE", self.refuse("bench", code=2))
+        for name in ("sun_angle", "cascades", "map_size"):
+            arguments = ("--sweep", name, "--no-sun", "--lamp", "1,2,3", "--technique", "hard")
+            self.assertIn("no sun shines", self.refuse("bench", SCENE, *arguments))
 
     def test_no_output_overwrites_a_file_of_the_scene(self):
         names = ("s.json", "data.csv")

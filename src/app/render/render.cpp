@@ -27,8 +27,8 @@ std::string summary(const RenderOptions& options, const ParamSet& params, const 
                     const cli::FrameRange& range, double seconds) {
   std::string files = names.picture(range.first).string();
   if (range.count() > 1) files += " to " + names.picture(range.last).string();
-  if (const std::size_t count = options.aovs.size(); count > 0)
-    files += fmt::format(" with {} AOV{}", count, count == 1 ? "" : "s");
+  if (!options.aovs.empty())
+    files += fmt::format(" with the AOV{} {}", options.aovs.size() == 1 ? "" : "s", fmt::join(options.aovs, ", "));
   return fmt::format("wrote {} ({}×{}, {}, {:.2f} s)", files, options.size.width, options.size.height,
                      session::technique_label(params), seconds);
 }
@@ -59,6 +59,7 @@ void render_files(RenderOptions options) {
   std::unique_ptr<gl::Context> context = session::open_context(options, options);
   const session::PreparedScene prepared = loading.get();
   check_scene_files(prepared.scene.files, options, names);
+  cli::warn_without_lights(options, options, session::kinds_of_light(prepared));
   const truth::TruthTechnique truth(session::truth_options(options, options));
   session::RenderSession session(options, options, std::move(context), prepared, truth.registry(),
                                  /* timed= */ !options.stats.empty());

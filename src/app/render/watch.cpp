@@ -126,6 +126,7 @@ Watch::Watch(RenderOptions options)
   prepared_ = std::make_unique<session::PreparedScene>(
       session::load_scene(options_, image::image_decoder(cli::limits_of(options_.reading))));
   check_scene_files(prepared_->scene.files, options_, names_);
+  cli::warn_without_lights(options_, options_, session::kinds_of_light(*prepared_));
   files_.set_files(inputs());
   session_ = std::make_unique<session::RenderSession>(options_, options_, session::open_context(options_, options_),
                                                       *prepared_, truth_.registry(), /* timed= */ true);
