@@ -122,8 +122,10 @@ void add_time_options(CLI::App& app, SceneOptions& o) {
   add_value(app, "--frames", "FIRST:LAST",
             "A sequence; files are numbered at one #### or %04d in -o, or before its extension",
             [&o](const auto& text) { o.frames = parse_frames("--frames", text); });
-  add_value(app, "--fps", "N", "Frames per second (24)",
-            [&o](const auto& text) { o.fps = parse_number("--fps", text, 0.001, 10000); });
+  add_value(app, "--fps", "N", "Frames per second (24)", [&o](const auto& text) {
+    o.fps = parse_number("--fps", text, 0.001, 10000);
+    o.names_fps = true;
+  });
 }
 
 void add_technique_option(CLI::App& app, ShadowOptions& o) {
@@ -169,7 +171,13 @@ namespace {
 
 void set_exposure(ParamSet& params, const std::string& text) {
   params.set("exposure.auto", text == "auto");
-  if (text != "auto") params.set_text("exposure.ev", text);
+  if (text == "auto") return;
+  try {
+    params.set_text("exposure.ev", text);
+  } catch (const Error&) {
+    const Param& row = params.row("exposure.ev");
+    fail_usage("--exposure can't be '{}': it takes auto or a number from {:g} to {:g}", text, row.min, row.max);
+  }
 }
 
 }  // namespace
@@ -183,6 +191,10 @@ void check_together(const SceneOptions& o) {
   if (width > largest_side || height > largest_side || width * height > largest_area)
     fail_usage("a picture of {}x{} pixels (--size times --supersample) is over the limit of {} a side and {} in all",
                width, height, largest_side, largest_area);
+}
+
+void check_frames(const SceneOptions& o) {
+  if (o.names_fps && !o.frames) fail_usage("--fps changes nothing in a single picture: it needs --frames");
 }
 
 void check_together(const DeviceOptions& o) {

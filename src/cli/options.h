@@ -41,6 +41,7 @@ struct SceneOptions {
   double time = 0;  // seconds: of the picture, or of frame 0
   std::optional<FrameRange> frames;
   double fps = 24;
+  bool names_fps = false;  // on the command line
 };
 
 struct ShadowOptions {
@@ -76,6 +77,8 @@ void add_device_options(CLI::App& app, DeviceOptions& options);
 
 // Throw UsageError for options that can't be combined, and Error if --glsl does not name a folder.
 void check_together(const SceneOptions& options);
+// For commands that draw a single picture unless --frames is given.
+void check_frames(const SceneOptions& options);
 void check_together(const DeviceOptions& options);
 
 // The values to render with: defaults, then the presets and --technique in the order given, then --sun-angle and

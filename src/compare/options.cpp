@@ -75,11 +75,13 @@ void check_orbit(const CompareOptions& o) {
   if (o.orbit && !o.frames) fail_usage("--orbit moves the camera from frame to frame: it needs --frames");
   if (o.cut_at && !o.orbit) fail_usage("--cut-at needs --orbit");
   if (o.cut_at && (*o.cut_at <= o.frames->first || *o.cut_at > o.frames->last))
-    fail_usage("--cut-at {} is not after the first of the frames {}:{}", *o.cut_at, o.frames->first, o.frames->last);
+    fail_usage("--cut-at {} is not one of the frames {}:{} after the first", *o.cut_at, o.frames->first,
+               o.frames->last);
 }
 
 void check_together(const CompareOptions& o) {
   cli::check_together(static_cast<const cli::SceneOptions&>(o));
+  cli::check_frames(o);
   check_together(static_cast<const session::CacheOptions&>(o));
   if (o.contenders.empty()) fail_usage("--technique is required: what to compare; see penumbra list techniques");
   if (o.reference == "truth" && std::ranges::any_of(o.contenders, [](const auto& c) { return c.name == "truth"; }))

@@ -1,5 +1,7 @@
 #include "render/renderer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -55,13 +57,19 @@ std::vector<Param> Renderer::params(const shadow::Registry& registry) {
 
 namespace {
 
+// A light by its place in the frame.
+std::string name_of(int place, std::span<const std::string> names) {
+  return names.empty() ? std::to_string(place) : fmt::format("'{}'", names[static_cast<std::size_t>(place)]);
+}
+
 // Lamps whose shadows the technique can compute, with maps within what those of a sun may take at most. Throws Error
 // before anything is allocated. `lights`: their ids are their places in the frame.
-void check_lights(std::span<const shadow::Light> lights, const shadow::Registry& registry, const ParamSet& params) {
+void check_lights(std::span<const shadow::Light> lights, std::span<const std::string> names,
+                  const shadow::Registry& registry, const ParamSet& params) {
   const shadow::Technique& technique = registry.find(params.get_word("technique"));
   for (const shadow::Light& light : lights) {
     if (technique.suns_only && shadow::lamp_map_count(light.source) > 0)
-      fail("light {} of the frame is a lamp, and technique '{}' is for suns alone", light.id, technique.name);
+      fail("light {} is a lamp, and technique '{}' is for suns alone", name_of(light.id, names), technique.name);
   }
   constexpr long long most_texels = 4LL * 8192 * 8192;
   const long long size = params.get_int("lamps.size");
@@ -79,8 +87,8 @@ void warn_of_hidden_suns(const FrameInputs& inputs, const ParamSet& params) {
     if (!is_hidden(inputs.lights[i], inputs.on_ground, params)) continue;
     const int id = inputs.light_ids.empty() ? static_cast<int>(i) : inputs.light_ids[i];
     if (!inputs.told_hidden->insert(id).second) continue;
-    const std::string name = inputs.light_names.empty() ? std::to_string(i) : inputs.light_names[i];
-    warn("light '{}' is below the horizon: the ground hides it, and it lights nothing", name);
+    warn("light {} is below the horizon: the ground hides it, and it lights nothing",
+         name_of(static_cast<int>(i), inputs.light_names));
   }
 }
 
@@ -96,7 +104,7 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   if (inputs.view < 0) fail("view {} can't be drawn: views have numbers from 0 on", inputs.view);
   if (inputs.samples < 1 || inputs.samples > max_samples)
     fail("a frame has {} samples for each pixel; 1 to {} can be drawn", inputs.samples, max_samples);
-  check_lights(shadow_lights(inputs.lights, {}), registry(), params);
+  check_lights(shadow_lights(inputs.lights, {}), inputs.light_names, registry(), params);
   gl::Device& device = state_->device;
   const State::Drawn now{.scene = scene.id(), .casters = caster_choice(params), .time = inputs.time};
   // Removed until this frame is complete: if it throws, the view's next frame must not reuse its history.

@@ -195,6 +195,12 @@ void warn_of_many(std::size_t lights) {
   if (lights > max_shadowed_lights) warn("only the first {} of {} lights cast shadows", max_shadowed_lights, lights);
 }
 
+const char* why_dark(const SetupRequest& request) {
+  if (request.lights && request.lights->empty()) return "none of its lights is chosen";
+  if (request.no_sun) return "no other light than a sun shines";
+  return "its lights, or those of them that were chosen, are dark or too far away";
+}
+
 // The lights of the file and of the user, else a sun that suits the camera.
 void choose_lights(Setup& setup, const scene::Scene& scene, const scene::Pose& pose, const SetupRequest& request) {
   bool lit = false;
@@ -221,10 +227,7 @@ void choose_lights(Setup& setup, const scene::Scene& scene, const scene::Pose& p
     setup.sun_shines = request.own_sun || !(lit || request.no_sun || request.lights);
   }
   const std::size_t shining = setup.lights.size() + (setup.sun_shines ? 1 : 0);
-  if (shining == 0)
-    fail("nothing lights the scene: {}",
-         request.no_sun ? "it has no other light than a sun"
-                        : "its lights, or those of them that were chosen, are dark or too far away");
+  if (shining == 0) fail("nothing lights the scene: {}", why_dark(request));
   warn_of_many(shining);
   setup.lights.resize(std::min<std::size_t>(setup.lights.size(), max_lights - (setup.sun_shines ? 1 : 0)));
   follow(setup, pose);

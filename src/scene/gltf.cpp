@@ -69,14 +69,15 @@ Scene read_scene(const std::filesystem::path& path, const ImageDecoder& decode, 
 }  // namespace
 
 Scene read_gltf(const std::filesystem::path& path, const ImageDecoder& decode, const ReadOptions& options) {
+  const std::string name = path.empty() ? "''" : path.string();
   try {
     return read_scene(path, decode, options);
   } catch (const Error& e) {
-    fail("{}: {}", path.string(), one_line(e.what()));
+    fail("{}: {}", name, one_line(e.what()));
   } catch (const std::bad_alloc&) {
-    fail("{}: not enough memory to read it", path.string());
+    fail("{}: not enough memory to read it", name);
   } catch (const std::exception& e) {  // thrown by a library
-    fail("{}: {}", path.string(), one_line(e.what()));
+    fail("{}: {}", name, one_line(e.what()));
   }
 }
 

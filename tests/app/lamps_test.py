@@ -79,7 +79,8 @@ class Lamps(TestCase):
 
     def test_faults_are_one_line(self):
         for arguments, line in ((("--lights", "pendent"), "unknown light 'pendent'; did you mean 'pendant'?"),
-                                (("--lights", "pendant", "--technique", "ssss"), "technique 'ssss' is for suns alone"),
+                                (("--lights", "pendant", "--technique", "ssss"),
+                                 "light 'pendant' is a lamp, and technique 'ssss' is for suns alone"),
                                 (("--no-sun", "--sun", "0,45"), "--sun and --no-sun exclude each other"),
                                 (("--lamp", "1,2"), "x,y,z in metres"), (("--lights", "a,,b"), "has an empty name"),
                                 (("--lamp", "1,2,3:size=4"), "no attribute 'size'")):
@@ -91,8 +92,10 @@ class Lamps(TestCase):
         self.assertIn("48 maps of lamps with lamps.size=4096 are 805306368 texels: the limit is 268435456 (1.1 GiB)",
                       self.refuse("render", POSTS, "-o", self.folder / "y.png", *SIZE, "--no-sun", "--set",
                                   "lamps.size=4096", *many))
-        self.assertIn("nothing lights the scene",
-                      self.refuse("render", POSTS, "-o", self.folder / "y.png", *SIZE, "--no-sun"))
+        for of, arguments, why in ((POSTS, (), "no other light than a sun shines"),
+                                   (GALLERY, ("--lights", "none"), "none of its lights is chosen")):
+            self.assertIn(f"nothing lights the scene: {why}",
+                          self.refuse("render", of, "-o", self.folder / "y.png", *SIZE, "--no-sun", *arguments))
         self.assertFalse((self.folder / "y.png").exists())
 
 

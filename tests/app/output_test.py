@@ -41,9 +41,9 @@ class Output(TestCase):
         self.assertRegex(result.stdout, r"^wrote \S+x\.png \(96×54, slices_denoised, \d+\.\d\d s\)\n$")
         self.assertEqual(result.stderr, "")
 
-    def test_summary_counts_the_aovs_that_were_asked_for(self):
+    def test_summary_names_the_aovs_that_were_asked_for(self):
         result = self.succeed("render", POSTS, "-o", self.folder / "x.exr", *SMALL, "--aov", "color, shadow ,depth")
-        self.assertRegex(result.stdout, r"x\.exr with 3 AOVs \(")
+        self.assertRegex(result.stdout, r"x\.exr with the AOVs color, shadow, depth \(")
         self.assertEqual(len(read_exr_header(self.folder / "x.exr")["channels"]), 5)
 
     def test_missing_folders_are_made(self):
@@ -198,7 +198,8 @@ class Output(TestCase):
     def test_places_that_cannot_be_written_are_found_first(self):
         (self.folder / "file").write_text("a file")
         for option in ("-o", "--stats", "--save-preset"):
-            for place in ("/proc/none/x.png", self.folder / "file" / "x.png", self.folder):
+            name = "x.toml" if option == "--save-preset" else "x.png"
+            for place in (f"/proc/none/{name}", self.folder / "file" / name, self.folder):
                 with self.subTest(f"{option} {place}"):
                     others = [] if option == "-o" else ["-o", self.folder / "x.png"]
                     # The scene does not exist either: the error shows which check comes first.
@@ -260,10 +261,10 @@ class Output(TestCase):
         copy = self.folder / "s.glb"
         shutil.copy(POSTS, copy)
         before = copy.read_bytes()
-        for name in ("x.png", "x.depth.png", "x_0001.png", "s.json"):
+        for name in ("x.png", "x.depth.png", "x_0001.png", "s.json", "p.toml"):
             (self.folder / name).symlink_to("s.glb")
         for results in (("-o", "x.png"), ("-o", "x_#.png", "--frames", "0:1"), ("-o", "y.png", "--stats", "s.json"),
-                        ("-o", "x.png", "--aov", "depth"), ("-o", "y.png", "--save-preset", "s.json")):
+                        ("-o", "x.png", "--aov", "depth"), ("-o", "y.png", "--save-preset", "p.toml")):
             arguments = [result.replace("x_#", "x_####") for result in results]
             error = self.refuse("render", copy, *arguments, *SMALL, code=2, cwd=self.folder)
             self.assertIn("overwrite the scene", error)
@@ -354,15 +355,16 @@ class Output(TestCase):
             self.assertEqual(copy.read_bytes(), before)
 
     def test_no_result_overwrites_a_file_that_the_scene_names(self):
-        names = ("a b.bin", "color.png")
-        gltf = {"asset": {"version": "2.0"}, "buffers": [{"uri": "a%20b.bin", "byteLength": 4}]}
+        names = ("a b.bin", "color.png", "p.toml")
+        buffers = [{"uri": uri, "byteLength": 4} for uri in ("a%20b.bin", "p.toml")]
+        gltf = {"asset": {"version": "2.0"}, "buffers": buffers}
         gltf["images"] = [{"uri": "color.png"}]
         (self.folder / "s.gltf").write_text(json.dumps(gltf))
         for name in names:
             (self.folder / name).write_bytes(b"data")
         command = ("render", self.folder / "s.gltf", *SMALL)
         stats = ("-o", self.folder / "x.png", "--stats", self.folder / names[0])
-        preset = ("-o", self.folder / "x.png", "--save-preset", self.folder / names[0])
+        preset = ("-o", self.folder / "x.png", "--save-preset", self.folder / names[2])
         for results in (("-o", self.folder / names[1]), stats, preset):
             self.assertIn("overwrite the scene's file", self.refuse(*command, *results, code=2))
         for name in names:

@@ -42,12 +42,12 @@ class Sequence(TestCase):
         self.assertEqual(self.files(), ["100%.png"])
 
     def test_one_frame_has_the_name_that_was_asked_for(self):
-        fit = ("--set", "cascades.fit=stable", "--fps", "4", "--time", "0.25")
-        self.draw("x.png", "--frames", "3:3", *fit)
-        self.draw("y.png", "--frame", "3", "--aov", "shadow", *fit)
+        rate = ("--fps", "4", "--time", "0.25")
+        self.draw("x.png", "--frames", "3:3", *rate)
+        self.draw("y.png", "--frame", "3", "--aov", "shadow", *rate)
         self.assertEqual(self.files(), ["x_0003.png", "y.png", "y.shadow.png"])
         self.assertEqual((self.folder / "y.png").read_bytes(), (self.folder / "x_0003.png").read_bytes())
-        self.draw("z.png", "--frame", "2", *fit)
+        self.draw("z.png", "--frame", "2", *rate)
         self.assertNotEqual((self.folder / "z.png").read_bytes(), (self.folder / "y.png").read_bytes())
         for output, more in (("w.png", ["--frames", "0:1"]), ("w_##.png", [])):
             self.assertIn("--frames", self.refuse("render", MOVING, "-o", self.folder / output, "--frame", "3", *more,
@@ -82,9 +82,10 @@ class Sequence(TestCase):
             self.assertEqual(len(set(pictures)), 1, suffix)
 
     def test_frames_before_a_part_come_to_it_or_stand_still_at_it(self):
-        remembers = ("--technique", "thesis", "--fps", "4", "--warmup", "6")
-        self.draw("moves.png", "--frames", "3:3", *remembers)
-        self.draw("still.png", "--frames", "3:3", *remembers, "--warmup-still")
+        remembers = ("--technique", "thesis", "--warmup", "6")
+        frame = ("--frames", "3:3", "--fps", "4")
+        self.draw("moves.png", *frame, *remembers)
+        self.draw("still.png", *frame, *remembers, "--warmup-still")
         self.draw("moment.png", "--time", "0.75", *remembers)
         moves, still = ((self.folder / f"{name}_0003.png").read_bytes() for name in ("moves", "still"))
         self.assertNotEqual(moves, still)

@@ -71,7 +71,7 @@ class Usage(TestCase):
             "--fov": ["180", ""],
             "--sun": ["10,91"],
             "--sun-angle": ["-1"],
-            "--exposure": ["nan", "Auto"],
+            "--exposure": ["nan", "Auto", "30"],
             "--time": ["inf"],
             "--frames": ["2:1"],
             "--frame": ["-1", "0:1"],
@@ -133,7 +133,7 @@ class Usage(TestCase):
             ("scene.glb", ["--stats", "x.depth.png", "--aov", "shadow,depth"]),
             ("scene.glb", ["--stats", "x_0003.png", "--frames", "0:4"]),
             ("scene.glb", ["--stats", "x_0003.shadow.png", "--frames", "0:4", "--aov", "shadow"]),
-            ("scene.glb", ["--stats", "a", "--save-preset", "./a"]),
+            ("scene.glb", ["--stats", "a.toml", "--save-preset", "./a.toml"]),
             ("scene.glb", ["--stats", "p.toml", "--preset", "p.toml"]),
             ("scene.glb", ["--stats", "shaders/own/a.inc", "--glsl", "shaders"]),
             ("scene.glb", ["--save-preset", "here/shaders/own/a.inc", "--glsl", "shaders"]),
@@ -150,6 +150,29 @@ class Usage(TestCase):
         self.succeed("render", copy, "-o", self.folder / "x.png", *SMALL, "--preset", preset, "--sun-angle", "2",
                      "--save-preset", preset)
         self.assertIn("angle = 2.0", preset.read_text())
+
+    def test_a_preset_takes_no_place_of_another_kind_of_file(self):
+        notes = self.folder / "README.md"
+        notes.write_text("notes\n")
+        for name in (notes, self.folder / "new.tom"):
+            error = self.wrong("render", POSTS, "-o", "x.png", "--save-preset", name)
+            self.assertIn("ends in .toml", error)
+        self.assertEqual(notes.read_text(), "notes\n")
+        self.assertEqual(list(self.folder.iterdir()), [notes])
+
+    def test_errors_say_what_would_be_right(self):
+        picture = ("-o", self.folder / "x.png")
+        for arguments, word in (
+            (["render", POSTS, *picture, "--exposure", "bright"], "auto or a number from -16 to 24"),
+            (["render", POSTS, *picture, "--fps", "30"], "--frames"),
+            (["truth", POSTS, *picture, "--fps", "30"], "--frames"),
+            (["compare", POSTS, "-o", self.folder / "c", "--technique", "hard", "--fps", "30"], "--frames"),
+            (["compare", POSTS, "-o", self.folder / "c", "--technique", "hard", "--frames", "0:3", "--orbit", "2",
+              "--cut-at", "99"], "one of the frames 0:3"),
+        ):
+            with self.subTest(arguments):
+                self.assertIn(word, self.wrong(*arguments))
+        self.assertIn("'': file not found", self.refuse("render", "", *picture))
 
     def test_results_in_a_folder_spare_what_is_read(self):
         for name in ("index.html", "results.json", "figures.csv", "steps.csv"):

@@ -2,17 +2,31 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <string_view>
 
 #include "cli/no_effect.h"
 #include "cli/output_names.h"
 #include "core/log.h"
+#include "io/output_file.h"
 #include "render/renderer.h"
 #include "session/techniques.h"
 
 namespace penumbra::app {
 
 namespace {
+
+// Where --save-preset writes. A file's name must end in .toml, so that no file of another kind is replaced by a slip;
+// pipes and devices have any name.
+std::string preset_output(const std::string& text) {
+  std::string output = cli::text_output(text);
+  const std::filesystem::path path = output;
+  std::error_code error;
+  const bool is_file = std::filesystem::is_regular_file(path, error) || !std::filesystem::exists(path, error);
+  if (is_file && path.extension() != ".toml")
+    cli::fail_usage("--save-preset {}: the name of a preset file ends in .toml", io::quoted(path));
+  return output;
+}
 
 using cli::add_value;
 
@@ -61,8 +75,9 @@ void add_output_options(CLI::App& app, RenderOptions& o) {
             [&o](const auto& text) { o.stats = cli::text_output(text); });
   add_value(app, "--stats-frames", "N", "Frames to measure, after one that compiles shaders (1)",
             [&o](const auto& text) { o.stats_frames = cli::parse_count("--stats-frames", text, 1, 10000); });
-  add_value(app, "--save-preset", "FILE", "Write this picture's parameters as a preset file; -: to standard output",
-            [&o](const auto& text) { o.save_preset = cli::text_output(text); });
+  add_value(app, "--save-preset", "FILE.toml",
+            "Write this picture's parameters as a preset file; -: to standard output",
+            [&o](const auto& text) { o.save_preset = preset_output(text); });
   add_value(app, "--warmup", "N", "Frames drawn, but not written, before the first, for techniques with a history (0)",
             [&o](const auto& text) { o.warmup = cli::parse_count("--warmup", text, 0, 10000); });
   app.add_flag("--warmup-still", o.warmup_still,
@@ -92,7 +107,7 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
 ParamSet params_of(const RenderOptions& options) {
   auto shadows = static_cast<const cli::ShadowOptions&>(options);
   shadows.otherwise = session::usual_technique;
-  if (!options.is_sequence() && !cli::names_technique(options)) {
+  if (!options.frames && !cli::names_technique(options)) {
     // In the first place, so that the user's own value counts.
     shadows.assignments.insert(shadows.assignments.begin(), "cascades.fit=visible");
   }
@@ -116,6 +131,7 @@ void warn_without_effect(const RenderOptions& o, const ParamSet& params) {
 
 void check_together(const RenderOptions& o) {
   cli::check_together(static_cast<const cli::SceneOptions&>(o));
+  cli::check_frames(o);
   cli::check_together(static_cast<const cli::DeviceOptions&>(o));
   check_together(static_cast<const session::CacheOptions&>(o));
   if (o.average_aovs && o.aovs.empty()) cli::fail_usage("--aov-samples needs --aov");

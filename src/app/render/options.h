@@ -23,7 +23,7 @@ struct RenderOptions : FrameOptions {
 };
 
 // The values to render with. Where the user names no technique they are those of session::usual_technique, and maps of
-// a single picture are fitted to what it shows, unless the user sets cascades.fit.
+// a picture that is no frame of a sequence are fitted to what it shows, unless the user sets cascades.fit.
 ParamSet params_of(const RenderOptions& options);
 
 void add_render_options(CLI::App& app, RenderOptions& options);
