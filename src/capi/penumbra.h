@@ -401,8 +401,11 @@ typedef struct penumbra_frame {
    */
   uint32_t mask_details;
 
-  penumbra_box casters;   /**< world bounds of all that casts shadows; not empty, a point (min = max) is valid */
-  penumbra_box receivers; /**< the same of all surfaces whose shadows are computed, those drawn forward too */
+  /** World bounds of all that casts shadows; not empty, a point (min = max) is valid. Casters are drawn only to texels
+   * that lie within, so a tighter box costs less. */
+  penumbra_box casters;
+  /** The same of all surfaces whose shadows are computed, those drawn forward too. */
+  penumbra_box receivers;
   /** World bounds of those receivers that `depth` does not hold, such as glass; default: empty. Read only with the
    * parameter cascades.fit=visible. */
   penumbra_box forward_receivers;

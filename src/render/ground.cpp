@@ -162,6 +162,7 @@ void add_ground(scene::Scene& scene, const scene::Bounds& bounds) {
   scene.materials.push_back(
       {.name = "ground", .base_color = glm::vec4(glm::vec3(ground_albedo), 1.0f), .metallic = 0.0f});
   scene::Node node{.name = "ground"};
+  node.ground = true;
   node.mesh = static_cast<int>(scene.meshes.size());
   scene.meshes.push_back({.name = "ground", .primitives = {std::move(plane)}});
   scene.roots.push_back(static_cast<int>(scene.nodes.size()));

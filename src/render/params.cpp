@@ -1,3 +1,9 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <span>
+#include <variant>
+
 #include "render/passes.h"
 #include "render/renderer.h"
 
@@ -41,12 +47,18 @@ std::vector<Param> render_params() {
   };
 }
 
-scene::CasterChoice caster_choice(const ParamSet& params) {
+scene::CasterChoice caster_choice(const ParamSet& params, std::span<const FrameLight> lights) {
+  const auto sine_of_radius = std::sin(0.5f * glm::radians(params.get_float("sun.angle")));
+  const auto is_above = [&](const FrameLight& light) {
+    const auto* sun = std::get_if<SunLight>(&light);
+    return sun != nullptr && sun->to_light.y > sine_of_radius;
+  };
   const std::string& faces = params.get_word("casters.faces");
   return {.faces = faces == "front"  ? scene::CasterFaces::front
                    : faces == "back" ? scene::CasterFaces::back
                                      : scene::CasterFaces::both,
-          .skies = params.get_bool("casters.skies")};
+          .skies = params.get_bool("casters.skies"),
+          .ground = !std::ranges::all_of(lights, is_above)};
 }
 
 }  // namespace penumbra::render

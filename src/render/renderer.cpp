@@ -106,7 +106,7 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
     fail("a frame has {} samples for each pixel; 1 to {} can be drawn", inputs.samples, max_samples);
   check_lights(shadow_lights(inputs.lights, {}), inputs.light_names, registry(), params);
   gl::Device& device = state_->device;
-  const State::Drawn now{.scene = scene.id(), .casters = caster_choice(params), .time = inputs.time};
+  const State::Drawn now{.scene = scene.id(), .casters = caster_choice(params, inputs.lights), .time = inputs.time};
   // Removed until this frame is complete: if it throws, the view's next frame must not reuse its history.
   const auto last = state_->last.extract(inputs.view);
   FrameInputs placed = inputs;

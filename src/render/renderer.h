@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -89,8 +90,9 @@ struct Frame {
   shadow::Mask mask;
 };
 
-// The casters that the parameters choose.
-scene::CasterChoice caster_choice(const ParamSet& params);
+// The casters that the parameters choose. A ground casts unless all lights are suns whose whole discs are above the
+// horizon.
+scene::CasterChoice caster_choice(const ParamSet& params, std::span<const FrameLight> lights);
 
 class Renderer {
  public:

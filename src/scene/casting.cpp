@@ -46,6 +46,7 @@ std::optional<CasterFaces> casting_faces(const Node& node, const Material& mater
   switch (decided_casting(node, material)) {
     case CastSetting::automatic:
       if (node.sky && !choice.skies) return {};
+      if (node.ground && !choice.ground) return {};
       return chosen;
     case CastSetting::on:
       return chosen;

@@ -21,6 +21,7 @@ bool set_casting(Scene& scene, std::string_view material, CastSetting casting);
 struct CasterChoice {
   CasterFaces faces = CasterFaces::both;
   bool skies = false;  // whether skies cast shadows too
+  bool ground = true;  // whether a ground (Node::ground) does: it shadows nothing if all lights shine from above it
 
   bool operator==(const CasterChoice&) const = default;
 };

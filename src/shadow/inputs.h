@@ -165,8 +165,10 @@ struct Inputs {
   std::span<const Light> lights;
   // World bounds; unused when every light brings its maps. A single point (min = max) is valid; the default (min > max)
   // is an unset box, which check() rejects. `receivers` must hold all surfaces whose shadows are computed, those drawn
-  // forward too: casters are drawn only to texels of the maps that what the view sees of this box can read (see
-  // Technique::reads_light_discs).
+  // forward too, and `casters` all that casts: casters are drawn only to texels of the maps that lie in the casters'
+  // box as the light sees it, and that what the view sees of the receivers' box can read (see
+  // Technique::reads_light_discs). What casts on nothing, such as a ground below everything, is best left out of both
+  // the box and the callback: tighter boxes cost less.
   Box casters{glm::vec3(1), glm::vec3(-1)}, receivers{glm::vec3(1), glm::vec3(-1)};
   // Whether `casters` and `receivers` are no larger than what they hold. If not, boxes of more than 10 km, such as
   // those of a sky's dome, limit what a sun's maps hold, so that near shadows stay right. Receivers more than 1 km from

@@ -90,6 +90,9 @@ LightBounds seen_bounds(const Box& box, const CascadeInputs& inputs, const Casca
 }
 
 void narrow_to_receivers(Cascades& cascades, const CascadeInputs& inputs, const ReadMargins& margins) {
+  const LightBounds casters = bounds_of(box_faces(inputs.casters, cascades));
+  // A block of a pyramid counts as empty unless it is drawn whole, with the row of texels around it.
+  constexpr double beside_casters = 8;  // texels
   const std::vector<Polygon> seen =
       within(box_faces(inputs.receivers, cascades), view_sides(inputs, cascades, frustum_width + margins.ndc));
   // A disc is as wide in finer cascades as in the last one, whose casters bound it.
@@ -107,8 +110,11 @@ void narrow_to_receivers(Cascades& cascades, const CascadeInputs& inputs, const 
     const double larger = glm::max(texel.x, texel.y), smaller = glm::min(texel.x, texel.y);
     const glm::dvec2 beyond = 5 * (disc + 1.5 * larger) * (texel / smaller) + margins.texels * larger;
     const glm::dvec2 origin = glm::dvec2(cascade.center) - glm::dvec2(cascade.half_extent);
-    cascade.drawn = texels_around((glm::dvec2(receivers.low) - beyond - origin) / texel,
-                                  (glm::dvec2(receivers.high) + beyond - origin) / texel, cascades.size);
+    const auto texels_at = [&](const glm::dvec3& place) { return (glm::dvec2(place) - origin) / texel; };
+    const glm::dvec2 low = glm::max(texels_at(receivers.low) - beyond / texel, texels_at(casters.low) - beside_casters);
+    const glm::dvec2 high =
+        glm::min(texels_at(receivers.high) + beyond / texel, texels_at(casters.high) + beside_casters);
+    cascade.drawn = texels_around(low, glm::max(low, high), cascades.size);
   }
 }
 

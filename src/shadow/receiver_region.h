@@ -19,8 +19,9 @@ LightBounds seen_bounds(const Box& box, const CascadeInputs& inputs, const Casca
 
 // Narrows the part of each cascade that is drawn (Cascade::drawn) to what receivers of the view can read: the part of
 // the receivers' box that the view sees, as far as the cascade contains it, widened by the discs of the light and by
-// what a pyramid reads beside them. `inputs`: those that the cascades were fitted to. Only for techniques and products
-// that read the map nowhere else (Technique::reads_light_discs).
+// what a pyramid reads beside them; and of that to what the casters' box covers, since the rest is empty. `inputs`:
+// those that the cascades were fitted to. Only for techniques and products that read the map nowhere else
+// (Technique::reads_light_discs).
 void narrow_to_receivers(Cascades& cascades, const CascadeInputs& inputs, const ReadMargins& margins);
 
 }  // namespace penumbra::shadow

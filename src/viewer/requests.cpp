@@ -175,7 +175,9 @@ void Viewer::frame_casters() {
   const session::PreparedScene& prepared = scene_->prepared;
   CameraRig rig = present_rig(state_.document, prepared);
   const scene::Pose pose = scene::pose_at(prepared.scene, state_.document.seconds());
-  rig.frame(render::caster_bounds(prepared.scene, pose, render::caster_choice(state_.document.params)),
+  const scene::CasterChoice choice =
+      render::caster_choice(state_.document.params, render::frame_lights(prepared.setup));
+  rig.frame(render::caster_bounds(prepared.scene, pose, choice),
             static_cast<float>(window_size_.x) / static_cast<float>(window_size_.y));
   place(state_.document, prepared, rig);
   state_.zoom = {};

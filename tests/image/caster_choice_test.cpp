@@ -130,6 +130,26 @@ TEST_F(CasterChoiceImage, SkiesOnlyIfAsked) {
   EXPECT_LT(fronts.different, 0.02);
 }
 
+TEST_F(CasterChoiceImage, TheGroundOnlyIfALightIsNotAboveIt) {
+  const Means with_floor = measure("both");
+  scene_.nodes[0].ground = true;
+  const Means usual = measure("both");
+  EXPECT_NEAR(usual.lit, with_floor.lit, 0.005) << "it shadows nothing";
+  EXPECT_LT(usual.different, 0.02);
+  ParamSet params(render::Renderer::params(renderer_.registry()));
+  params.set("sun.angle", 2.0f);
+  const auto ground_casts = [&](const std::vector<render::FrameLight>& lights) {
+    return render::caster_choice(params, lights).ground;
+  };
+  const auto sun_at = [](float degrees) {
+    return render::SunLight{.to_light = render::direction_to(0, glm::radians(degrees))};
+  };
+  EXPECT_FALSE(ground_casts({sun_at(45)}));
+  EXPECT_FALSE(ground_casts({sun_at(45), sun_at(1.1f)}));
+  EXPECT_TRUE(ground_casts({sun_at(45), sun_at(0.9f)})) << "the horizon hides a part of the disc";
+  EXPECT_TRUE(ground_casts({sun_at(45), render::LampLight{}}));
+}
+
 TEST_F(CasterChoiceImage, ByMaterialAndNode) {
   const Means both = measure("both");
   EXPECT_TRUE(scene::set_casting(scene_, "outline", scene::CastSetting::off));

@@ -140,6 +140,22 @@ TEST_F(NarrowedMaps, PcssIsTheSame) {
   for (const char* scene : {"courtyard", "foliage", "posts", "thesis"}) compare(scene, "pcss");
 }
 
+// What is left out beside the casters' box is empty.
+TEST_F(NarrowedMaps, SoAreTheyWhereTheFloorCastsNothing) {
+  for (const char* scene : {"posts", "steps"}) {
+    for (const char* technique : {"pcss", "slices"}) {
+      open(scene, technique);
+      const std::size_t with_floor = expect_same(scene).texels;
+      const std::vector<scene::Bounds> boxes = scene::node_bounds(scene_, scene::pose_at(scene_, 0));
+      const auto width_of = [](const scene::Bounds& box) { return box.empty ? 0 : box.extent().x; };
+      const auto widest = std::ranges::max_element(boxes, {}, width_of);
+      scene_.nodes[static_cast<std::size_t>(widest - boxes.begin())].ground = true;
+      show();
+      EXPECT_LT(expect_same(std::string(scene) + " without its floor").texels, with_floor) << scene;
+    }
+  }
+}
+
 TEST_F(NarrowedMaps, HardShadowsAreTheSame) { compare("courtyard", "hard"); }
 
 TEST_F(NarrowedMaps, SlicesAreTheSame) {

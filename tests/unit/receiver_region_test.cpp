@@ -40,10 +40,22 @@ int for_each_seen(const CascadeInputs& in, const Test& test) {
   return seen;
 }
 
-// How many points have a disc that is not drawn whole, in a cascade that contains the point.
+// The rectangle that the casters' box covers in light space: nothing has to be drawn beside it.
+LightBounds casters_in(const CascadeInputs& in, const Cascades& cascades) {
+  LightBounds bounds;
+  for (const glm::dvec3& corner : in.casters.corners()) {
+    const glm::dvec3 point = cascades.world_to_light * (corner - cascades.anchor);
+    bounds = {glm::min(bounds.low, point), glm::max(bounds.high, point)};
+  }
+  return bounds;
+}
+
+// How many points have a disc that is not drawn whole, as far as there may be casters, in a cascade that contains the
+// point.
 int cut_discs(const CascadeInputs& in) {
   Cascades cascades = fit_cascades(in);
   narrow_to_receivers(cascades, in, {});
+  const LightBounds casters = casters_in(in, cascades);
   int cut = 0;
   const int seen = for_each_seen(in, [&](const glm::dvec3& world) {
     const glm::dvec3 point = cascades.world_to_light * (world - cascades.anchor);
@@ -55,8 +67,11 @@ int cut_discs(const CascadeInputs& in) {
       const double disc = in.tan_half_angle * (point.z - cascades.items.back().near_z);
       const glm::dvec2 place = (glm::dvec2(point) - glm::dvec2(cascade.center) + half) / texel;
       const TexelRange drawn = cascades.drawn_texels(i);
-      const glm::dvec2 low = glm::max(place - disc / texel, 0.0);
-      const glm::dvec2 high = glm::min(place + disc / texel, static_cast<double>(in.size));
+      const glm::dvec2 origin = glm::dvec2(cascade.center) - half;
+      const glm::dvec2 low = glm::max(place - disc / texel, glm::max((glm::dvec2(casters.low) - origin) / texel, 0.0));
+      const glm::dvec2 high = glm::min(
+          place + disc / texel, glm::min((glm::dvec2(casters.high) - origin) / texel, static_cast<double>(in.size)));
+      if (glm::any(glm::greaterThan(low, high))) continue;
       const bool whole = glm::all(glm::lessThanEqual(glm::dvec2(drawn.first), low)) &&
                          glm::all(glm::greaterThanEqual(glm::dvec2(drawn.last + 1), high));
       if (!whole) ++cut;
@@ -108,6 +123,39 @@ TEST(ReceiverRegion, LeavesOutWhatTheViewDoesNotSee) {
   const Box behind{{2.9f, 1, 18}, {3.1f, 2, 18.2f}};
   EXPECT_TRUE(whole.cull_volume(last).holds(behind));
   EXPECT_FALSE(narrow.cull_volume(last).holds(behind));
+}
+
+// Maps of a wide ground that casts nothing are drawn only around what stands on it.
+TEST(ReceiverRegion, HoldsTheCastersAloneWhereTheyAreFew) {
+  CascadeInputs in = town(40, 0.53f);
+  in.casters = {{-2, 0, -2}, {2, 3, 2}};
+  Cascades few = fit_cascades(in);
+  Cascades many = few;
+  narrow_to_receivers(few, in, {});
+  CascadeInputs everywhere = in;
+  everywhere.casters = in.receivers;
+  narrow_to_receivers(many, everywhere, {});
+  const auto area = [](const TexelRange& drawn) {
+    const glm::dvec2 size(drawn.last - drawn.first + 1);
+    return size.x * size.y;
+  };
+  for (int i = 0; i < in.count; ++i) {
+    const Cascade& cascade = few.items[static_cast<size_t>(i)];
+    const TexelRange drawn = few.drawn_texels(i);
+    EXPECT_TRUE(many.drawn_texels(i).contains(drawn)) << i;
+    for (const glm::dvec3& corner : in.casters.corners()) {
+      const glm::dvec3 point = few.world_to_light * (corner - few.anchor);
+      const glm::ivec2 texel(
+          glm::floor((glm::dvec2(point) - glm::dvec2(cascade.center) + glm::dvec2(cascade.half_extent)) /
+                     glm::dvec2(few.texel(i))));
+      const TexelRange all = many.drawn_texels(i);
+      if (glm::any(glm::lessThan(texel, all.first)) || glm::any(glm::greaterThan(texel, all.last))) continue;
+      EXPECT_TRUE(glm::all(glm::lessThanEqual(drawn.first, texel)) && glm::all(glm::lessThanEqual(texel, drawn.last)))
+          << "cascade " << i;
+    }
+  }
+  const int last = in.count - 1;
+  EXPECT_LT(area(few.drawn_texels(last)), 0.05 * area(many.drawn_texels(last)));
 }
 
 TEST(ReceiverRegion, IsWithinTheMapWhereTheViewSeesNoReceiver) {
