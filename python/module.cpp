@@ -23,15 +23,22 @@ namespace py = pybind11;
 
 using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
-image::Picture picture_of(const Floats& values, const char* name) {
+// Bytes, as of a display, count as shares of 255.
+image::Picture picture_of(const py::array& given, const char* name) {
+  const Floats values = Floats::ensure(given);
+  if (!values) throw py::error_already_set();
   if (values.ndim() != 2 && values.ndim() != 3)
     fail("{} has {} dimensions: it takes rows and columns, and channels", name, values.ndim());
+  if (values.size() == 0) fail("{} has no values", name);
   image::Picture picture;
   picture.height = static_cast<int>(values.shape(0));
   picture.width = static_cast<int>(values.shape(1));
   const py::ssize_t channels = values.ndim() == 3 ? values.shape(2) : 1;
   for (py::ssize_t i = 0; i < channels; ++i) picture.channels.push_back(channels == 1 ? "V" : fmt::format("{}", i));
   picture.pixels.assign(values.data(), values.data() + values.size());
+  if (py::isinstance<py::array_t<std::uint8_t>>(given)) {
+    for (float& value : picture.pixels) value /= 255.0f;
+  }
   return picture;
 }
 
@@ -44,7 +51,7 @@ std::vector<std::uint8_t> receivers_of(const std::optional<Floats>& values, cons
   return receivers;
 }
 
-py::dict difference(const Floats& test, const Floats& reference, const std::optional<Floats>& receivers) {
+py::dict difference(const py::array& test, const py::array& reference, const std::optional<Floats>& receivers) {
   const image::Picture a = picture_of(test, "the test picture"), b = picture_of(reference, "the reference");
   const std::vector<std::uint8_t> measured = receivers_of(receivers, b);
   app::Difference found;

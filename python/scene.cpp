@@ -54,6 +54,16 @@ py::array flipped(const std::vector<float>& rows, int height, int width) {
 
 constexpr const char* display = "display";
 
+// A wrong name or value is a usage error.
+template <class Call>
+void as_usage(const Call& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    throw cli::UsageError(error.what());
+  }
+}
+
 // Null for the display. Throws UsageError for an unknown name.
 const render::Aov* find_picture(const std::string& name) {
   std::vector<std::string> names{display};
@@ -88,6 +98,7 @@ Scene::Scene(const std::string& path, const std::vector<std::string>& arguments)
   cli::check_together(static_cast<const cli::DeviceOptions&>(options_));
   session::check_together(static_cast<const session::CacheOptions&>(options_));
   params_ = cli::resolve_params(options_, session::all_techniques());
+  if (!options_.frames) options_.frames = cli::FrameRange{};  // each frame has its time
 
   const py::gil_scoped_release release;
   session::limit_threads(options_);
@@ -111,31 +122,43 @@ Scene::~Scene() {
   }
 }
 
-void Scene::use() const {
+void Scene::check_thread() const {
   if (thread_ != std::this_thread::get_id()) fail("a scene can be used only on the thread that opened it");
+}
+
+void Scene::use() const {
+  check_thread();
   context_->make_current();
 }
 
 void Scene::select(const std::string& technique) {
+  check_thread();
   ParamSet chosen = params_;
-  session::choose_technique(chosen, session::all_techniques(), technique);
+  as_usage([&] { session::choose_technique(chosen, session::all_techniques(), technique); });
   params_ = chosen;  // only if there is such a technique
 }
 
 py::object Scene::get(const std::string& param) const {
+  check_thread();
   const std::vector<std::string> names = params_.names();
   if (!params_.contains(param) && near_names(param, names).empty())
     cli::fail_usage("unknown parameter '{}'; see penumbra.params()", param);
-  return to_python(params_.value(param));
+  py::object value;
+  as_usage([&] { value = to_python(params_.value(param)); });
+  return value;
 }
 
 void Scene::set(const std::string& param, const py::object& value) {
+  check_thread();
   // A bool is also an int to Python, and a number from NumPy is neither a float nor an int.
-  std::string text = py::isinstance<py::bool_>(value) ? (value.cast<bool>() ? "on" : "off") : py::str(value);
+  const bool is_bool =
+      py::isinstance<py::bool_>(value) || py::isinstance(value, py::module_::import("numpy").attr("bool_"));
+  const std::string text = is_bool ? (py::bool_(value) ? "on" : "off") : std::string(py::str(value));
   cli::assign(params_, param + "=" + text);
 }
 
 py::dict Scene::params() const {
+  check_thread();
   py::dict values;
   for (const std::string& name : params_.names()) values[py::str(name)] = get(name);
   return values;

@@ -46,7 +46,8 @@ class Scene {
  private:
   struct Options : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOptions, session::CacheOptions {};
 
-  void use() const;  // makes its context current; throws Error on another thread
+  void check_thread() const;  // throws Error on another thread than the scene's
+  void use() const;           // the same, and makes the scene's context current
   void draw(const ParamSet& params, int frame, int samples);
   void check_light(int light) const;
   pybind11::array read(const std::string& picture, int light) const;

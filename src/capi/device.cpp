@@ -57,9 +57,8 @@ void release(penumbra_device& device, bool context_is_lost) {
   device.objects.reset();
 }
 
-void check_context(gl::DeviceScope& scope) {
-  if (!scope.has_context())
-    fail_with(PENUMBRA_ERROR_CONTEXT, "the device's OpenGL context is not current on this thread");
+void check_context(bool is_there) {
+  if (!is_there) fail_with(PENUMBRA_ERROR_CONTEXT, "the device's OpenGL context is not current on this thread");
 }
 
 }  // namespace
@@ -80,7 +79,7 @@ OneCall::~OneCall() { device_.in_use.clear(); }
 
 DeviceCall::DeviceCall(penumbra_device* device) : device_(required(device, "device")), one_(device_) {
   if (device_.objects == nullptr) fail_with(PENUMBRA_ERROR_CONTEXT, "the device was abandoned");
-  check_context(scope_.emplace(device_.objects->device));
+  check_context(scope_.emplace(device_.objects->device).has_context());
 }
 
 const ParamSet& params_of(const penumbra_settings* settings) { return required(settings, "settings").params; }
@@ -112,7 +111,7 @@ penumbra_result penumbra_device_destroy(penumbra_device* device) {
       penumbra::gl::DeviceScope scope(device->objects->device);
       try {
         penumbra::gl::check_context_is_current("penumbra_device_destroy()");
-        check_context(scope);
+        check_context(scope.finds_context());
       } catch (...) {
         no_context = std::current_exception();
       }

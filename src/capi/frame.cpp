@@ -2,6 +2,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "../core/error.h"
 #include "../shadow/light_matrices.h"
 #include "structs.h"
 
@@ -256,7 +257,16 @@ penumbra_result penumbra_render(penumbra_device* device, const penumbra_settings
     const penumbra_frame given = read_struct(&required(frame, "frame"));
     check_size<penumbra_mask>(required(mask, "mask").struct_size);
     penumbra::shadow::Inputs inputs = inputs_of(given);
-    const std::vector<penumbra::shadow::Light> lights = lights_of(given.lights, given.light_count, &inputs);
+    std::vector<penumbra::shadow::Light> lights;
+    try {
+      lights = lights_of(given.lights, given.light_count, &inputs);
+    } catch (const Failure& failure) {
+      if (failure.result() != PENUMBRA_ERROR_ARGUMENT) device->masks.erase(given.view_id);
+      throw;
+    } catch (const penumbra::Error&) {  // refused maps
+      device->masks.erase(given.view_id);
+      throw;
+    }
     inputs.lights = lights;
     inputs.draw = casters_of(given, *device);
     device->masks.erase(given.view_id);

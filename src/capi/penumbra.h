@@ -340,7 +340,8 @@ typedef int32_t (*penumbra_draw_casters)(void* user, const penumbra_caster_pass*
 
 /* ----------------------------------------------------------------------------------------------------------- Frames */
 
-/** An axis-aligned box in world space, m. Empty if min > max in an axis, as boxes are after penumbra_frame_init(). */
+/** An axis-aligned box in world space, m. Empty if min > max in every axis, as boxes are after
+ * penumbra_frame_init(). */
 typedef struct penumbra_box {
   float min[3]; /**< the corner with the least coordinates */
   float max[3]; /**< the corner with the greatest coordinates */

@@ -180,7 +180,7 @@ struct Frame : penumbra_frame {
     light_count = all.size();
   }
   /// Draws casters; what it throws leaves Device::render(). Replaces penumbra_frame::draw and draw_user.
-  void draw_with(std::function<void(const penumbra_caster_pass&)> casters) { casters_ = std::move(casters); }
+  void draw_with(std::function<void(const penumbra_caster_pass&)> function) { casters_ = std::move(function); }
 
  private:
   friend class Device;

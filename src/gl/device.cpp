@@ -281,13 +281,13 @@ DeviceScope::~DeviceScope() { current_api = outer_; }
 
 void DeviceScope::mark_context() { device_.empty_vertex_array(); }
 
-bool DeviceScope::has_context() {
+bool DeviceScope::has_context() { return device_.impl_->thread == std::this_thread::get_id() || finds_context(); }
+
+bool DeviceScope::finds_context() {
   Device::Impl& impl = *device_.impl_;
-  const std::thread::id here = std::this_thread::get_id();
-  if (impl.thread == here) return true;
   const GLuint mark = impl.empty_vertex_array.id();
   if (mark != 0 && (glIsVertexArray(mark) == GL_FALSE || label_of(GL_VERTEX_ARRAY, mark) != impl.name)) return false;
-  impl.thread = here;
+  impl.thread = std::this_thread::get_id();
   return true;
 }
 

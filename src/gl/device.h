@@ -90,6 +90,8 @@ class DeviceScope {
   // Whether the context that is current on this thread may be the device's. OpenGL is asked only where the device was
   // last used on another thread, since drivers would have to wait.
   bool has_context();
+  // The same, and OpenGL is asked on every thread.
+  bool finds_context();
 
  private:
   Device& device_;

@@ -75,6 +75,8 @@ void check(const Inputs& inputs, TextureChecks& checks) {
   check_matrix("the projection matrix", inputs.view.projection);
   check_conventions(inputs.view.projection, inputs.conventions);
   if (!all_finite(glm::value_ptr(inputs.view.jitter), 2)) fail("soft shadows: the jitter is not finite");
+  if (glm::any(glm::greaterThan(glm::abs(inputs.view.jitter), glm::vec2(1))))
+    fail("soft shadows: the jitter moves the picture by more than half its size");
   check_depth(inputs.depth, checks);
   check_normals(inputs, checks);
   check_motion(inputs, checks);

@@ -10,6 +10,8 @@ namespace penumbra::viewer {
 
 namespace {
 
+// Metres from the target: --eye takes numbers up to ten times as large.
+constexpr float farthest = 1e8f;
 // Looking straight up or down, "upright" is undefined.
 constexpr float steepest = glm::half_pi<float>() - 0.01f;
 // At the zenith the azimuth is undefined.
@@ -55,7 +57,8 @@ void CameraRig::pan(const glm::vec2& heights) {
 void CameraRig::dolly(float factor) {
   // At a smaller distance, eye and target would be equal in single precision.
   const float least = 1e-4f * (1.0f + glm::length(target)), now = distance();
-  eye = target + (eye - target) * (std::max(now * factor, least) / now);
+  const float most = std::max(least, farthest);
+  eye = target + (eye - target) * (std::clamp(now * factor, least, most) / now);
 }
 
 void CameraRig::fly(const glm::vec3& metres) {

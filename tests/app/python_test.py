@@ -55,6 +55,20 @@ for file, layer, picture in (("{render}", "shadow", frame["shadow"]), ("{render}
     assert numpy.array_equal(penumbra.read(file, layer), picture), layer
 """)
 
+    def test_frames_are_at_their_times(self):
+        frame = self.folder / "frame.png"
+        self.succeed("render", "scenes/moving.glb", "-o", frame, "--size", "96x54", "--technique", "pcss", "--samples", "1",
+                     "--frame", "6", "--fps", "12", "--backend", "osmesa", cwd=support.ROOT)
+        self.python(f"""
+import penumbra, numpy
+scene = penumbra.open("scenes/moving.glb", size=(96, 54), technique="pcss", samples=1, fps=12, backend="osmesa",
+                      no_cache=True)
+first, sixth = scene.render(frame=0), scene.render(frame=6)
+assert not numpy.array_equal(first, sixth)
+assert numpy.array_equal(sixth, numpy.rint(255 * penumbra.read("{frame}")).astype(numpy.uint8))
+assert not numpy.array_equal(scene.truth(samples=8, frame=6)["shadow"], scene.truth(samples=8)["shadow"])
+""")
+
     def test_samples_have_shadows_of_their_own_where_asked(self):
         written = self.folder / "render.png"
         self.succeed("render", "scenes/steps.glb", "-o", written, "--size", "96x54", "--samples", "4", "--sample-shadows",
@@ -114,6 +128,14 @@ refused(lambda: penumbra.open("scenes/steps.glb", siez=(1, 1)), penumbra.UsageEr
 refused(lambda: penumbra.open("scenes/steps.glb", eye=(1, 2, 3)), penumbra.UsageError, "--eye and --target")
 refused(lambda: scene.select("pccs"), penumbra.Error, "did you mean 'pcss'")
 refused(lambda: scene.__setitem__("sun.angle", 99), penumbra.UsageError, "0 to 20")
+refused(lambda: scene["sun.angl"], penumbra.UsageError, "'sun.angle'")
+refused(lambda: scene.select("pcs"), penumbra.UsageError, "'pcss'")
+scene["pcss.early_exit"] = numpy.bool_(False)
+assert scene["pcss.early_exit"] is False
+for shape in ((4, 4, 0), (0, 0)):
+    refused(lambda: penumbra.difference(numpy.zeros(shape), numpy.zeros(shape)), penumbra.Error, "no values")
+shown = scene.render()
+assert penumbra.difference(shown, shown / 255)["rmse"] < 1e-6
 refused(lambda: scene["sun.angel"], penumbra.Error, "sun.angle")
 refused(lambda: scene["zzzzzzzz"], penumbra.UsageError, "penumbra.params()")
 refused(lambda: scene.render("shadwo"), penumbra.UsageError, "'shadow'")
@@ -135,14 +157,16 @@ assert second.render("shadow").shape == (9, 16)
 assert numpy.array_equal(first.render("shadow"), shadow)
 told = []
 def draw():
-    try:
-        first.render("shadow")
-    except penumbra.Error as error:
-        told.append(str(error))
+    for call in (lambda: first.render("shadow"), lambda: first["sun.angle"], lambda: first.select("pcss"), first.params,
+                 lambda: first.__setitem__("sun.angle", 2)):
+        try:
+            call()
+        except penumbra.Error as error:
+            told.append(str(error))
 thread = threading.Thread(target=draw)
 thread.start()
 thread.join()
-assert told == ["a scene can be used only on the thread that opened it"], told
+assert told == 5 * ["a scene can be used only on the thread that opened it"], told
 """)
 
     def test_ctrl_c_interrupts_tracing(self):

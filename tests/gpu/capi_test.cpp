@@ -443,6 +443,23 @@ TEST(CapiContext, AnAbandonedDeviceLeavesTheObjectsOfTheNextContext) {
   EXPECT_EQ(gl::glIsProgram(program), GL_TRUE);
 }
 
+// On the thread on which the device was used, where OpenGL isn't asked in each call.
+TEST(CapiContext, ADeviceThatIsDestroyedInAnotherContextLeavesItsObjects) {
+  const auto context = gl::make_context(backend_name(), {});
+  CInterface c(context->get_proc_address());
+  penumbra_frame frame;
+  ASSERT_EQ(penumbra_frame_init(&frame, sizeof frame), PENUMBRA_OK);
+  ASSERT_EQ(penumbra_warm_up(c.device, c.settings, &frame), PENUMBRA_OK) << penumbra_last_error();
+  const auto another = gl::make_context(backend_name(), {});
+  std::array<GLuint, 256> textures{}, buffers{};
+  gl::glCreateTextures(GL_TEXTURE_2D, static_cast<GLsizei>(textures.size()), textures.data());
+  gl::glCreateBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
+  EXPECT_EQ(penumbra_device_destroy(c.device), PENUMBRA_ERROR_CONTEXT);
+  c.device = nullptr;
+  for (const GLuint id : textures) EXPECT_EQ(gl::glIsTexture(id), GL_TRUE) << id;
+  for (const GLuint id : buffers) EXPECT_EQ(gl::glIsBuffer(id), GL_TRUE) << id;
+}
+
 TEST(CapiContext, ADeviceThatIsDestroyedWithoutAContextSaysSo) {
   auto context = gl::make_context(backend_name(), {});
   CInterface c(context->get_proc_address());

@@ -42,6 +42,7 @@ TEST_F(ShadowInputs, MatricesAndBoxesAreChecked) {
   expect_refusal("the projection matrix is not finite", [](Inputs& in) { in.view.projection[0][0] = NAN; });
   expect_refusal("the projection matrix has no inverse", [](Inputs& in) { in.view.projection[0][0] = 0; });
   expect_refusal("the jitter is not finite", [](Inputs& in) { in.view.jitter.x = NAN; });
+  expect_refusal("the jitter moves the picture", [](Inputs& in) { in.view.jitter.y = -1.5f; });
   expect_refusal("the bounding box of the casters is empty", [](Inputs& in) { in.casters = Inputs().casters; });
   expect_refusal("the bounding box of the receivers is empty", [](Inputs& in) { in.receivers.min.y = 100; });
   expect_refusal("the bounding box of the casters is not finite", [](Inputs& in) { in.casters.max.x = infinite; });

@@ -121,6 +121,11 @@ TEST_F(ViewerCameraRig, DollyNeverReachesTheTargetNorPassesIt) {
     const float near = rig.distance();
     for (int notch = 0; notch < 20; ++notch) rig.dolly(2.0f);
     EXPECT_GT(rig.distance(), 2 * near) << "can't leave";
+    for (int notch = 0; notch < 3000; ++notch) rig.dolly(1.14f);
+    EXPECT_LT(glm::length(rig.eye), 1e9f) << "as far as --eye takes it";
+    const float far = rig.distance();
+    for (int notch = 0; notch < 20; ++notch) rig.dolly(0.5f);
+    EXPECT_LT(rig.distance(), far / 2) << "can't come back";
   }
 }
 
