@@ -24,9 +24,9 @@ namespace py = pybind11;
 using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
 // Bytes, as of a display, count as shares of 255.
-image::Picture picture_of(const py::array& given, const char* name) {
+image::Picture picture_of(const py::object& given, const char* name) {
   const Floats values = Floats::ensure(given);
-  if (!values) throw py::error_already_set();
+  if (!values) fail("{} is no array of numbers", name);
   if (values.ndim() != 2 && values.ndim() != 3)
     fail("{} has {} dimensions: it takes rows and columns, and channels", name, values.ndim());
   if (values.size() == 0) fail("{} has no values", name);
@@ -51,7 +51,7 @@ std::vector<std::uint8_t> receivers_of(const std::optional<Floats>& values, cons
   return receivers;
 }
 
-py::dict difference(const py::array& test, const py::array& reference, const std::optional<Floats>& receivers) {
+py::dict difference(const py::object& test, const py::object& reference, const std::optional<Floats>& receivers) {
   const image::Picture a = picture_of(test, "the test picture"), b = picture_of(reference, "the reference");
   const std::vector<std::uint8_t> measured = receivers_of(receivers, b);
   app::Difference found;

@@ -75,7 +75,9 @@ class BenchJob : public plan::Job {
     constexpr double most_casters = 1e6;  // in software
     if (options_.scene.empty()) return {.view = Json::object(), .files = {}, .triangles = most_casters};
     plan::ImageSizes images(tools_.probe);
-    plan::SceneFacts facts = plan::facts_of(session::load_scene(options_, images.decoder()), options_, images);
+    const session::PreparedScene prepared = session::load_scene(options_, images.decoder());
+    cli::warn_without_lights(options_, options_, session::kinds_of_light(prepared));
+    plan::SceneFacts facts = plan::facts_of(prepared, options_, images);
     if (options_.sweep == "casters") facts.triangles = std::max(facts.triangles, most_casters);
     return facts;
   }

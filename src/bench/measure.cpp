@@ -68,6 +68,7 @@ class Bench {
   Results run(const std::optional<OnePoint>& only) {
     describe();
     if (only) keep(*only);
+    told_lights_ = only.has_value();  // when the work was planned
     kept_.assign(results_.sweep.points.size(), std::vector<Kept>(results_.entries.size()));
     results_.points.resize(results_.sweep.points.size());
     const int visits = visit_count();

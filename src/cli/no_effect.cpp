@@ -149,6 +149,10 @@ bool is_of_suns(const std::string& name) {
 
 }  // namespace
 
+void warn_of_rate(const SceneOptions& options) {
+  if (options.names_fps && !options.frames) warn("--fps has no effect here: a single picture is drawn");
+}
+
 void warn_without_lights(const SceneOptions& scene, const ShadowOptions& shadows, const LightKinds& shining) {
   constexpr std::string_view no_sun = "no sun shines", no_lamp = "no spot or point light shines";
   std::vector<std::string> warned;

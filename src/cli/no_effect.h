@@ -20,6 +20,9 @@ void warn_without_effect(const ShadowOptions& options, std::span<const ParamSet>
 void warn_without_effect(std::span<const std::string> assignments, std::span<const ParamSet> drawn,
                          const shadow::Registry& registry);
 
+// Warns of --fps where a single picture is drawn.
+void warn_of_rate(const SceneOptions& options);
+
 // The kinds of light that shine on a scene.
 struct LightKinds {
   bool sun = true, lamps = true;

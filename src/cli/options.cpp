@@ -193,10 +193,6 @@ void check_together(const SceneOptions& o) {
                width, height, largest_side, largest_area);
 }
 
-void check_frames(const SceneOptions& o) {
-  if (o.names_fps && !o.frames) fail_usage("--fps changes nothing in a single picture: it needs --frames");
-}
-
 void check_together(const DeviceOptions& o) {
   std::error_code unread;
   if (!o.glsl.empty() && !std::filesystem::is_directory(o.glsl, unread))

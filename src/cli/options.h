@@ -77,8 +77,6 @@ void add_device_options(CLI::App& app, DeviceOptions& options);
 
 // Throw UsageError for options that can't be combined, and Error if --glsl does not name a folder.
 void check_together(const SceneOptions& options);
-// For commands that draw a single picture unless --frames is given.
-void check_frames(const SceneOptions& options);
 void check_together(const DeviceOptions& options);
 
 // The values to render with: defaults, then the presets and --technique in the order given, then --sun-angle and

@@ -59,6 +59,7 @@ void warn_of_settings(const CompareOptions& options, const ComparedValues& value
   std::vector<ParamSet> drawn = values.contenders;
   drawn.push_back(values.reference);
   cli::warn_without_effect(options, drawn, session::all_techniques());
+  cli::warn_of_rate(options);
   for (std::size_t i = 0; i < options.contenders.size(); ++i)
     cli::warn_without_effect(options.contenders[i].assignments, {&values.contenders[i], 1}, session::all_techniques());
 }

@@ -18,7 +18,7 @@ Angles angles_of(const glm::vec3& to_light) {
 
 Comparison compare(const CompareOptions& options, const ComparedValues& values) {
   Drawing drawing(options, values, 0);
-  drawing.check_cameras();  // before minutes of drawing
+  drawing.check_scenes();  // before minutes of drawing
   Comparison comparison{.drawn_by = drawing.drawn_by(), .reference_params = values.reference};
   const std::size_t drawings = options.scenes.size() * (values.contenders.size() + 1);
   const int frames = options.frames ? options.frames->count() : 1;

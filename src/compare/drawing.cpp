@@ -32,11 +32,11 @@ session::PreparedScene load(const CompareOptions& options) {
 }
 
 // Of settings that all contenders share, and of each one's own.
-void warn_of_lights(const CompareOptions& options, const session::PreparedScene& prepared) {
+void warn_of_lights(const CompareOptions& options, const cli::LightKinds& shining) {
   auto settings = static_cast<const cli::ShadowOptions&>(options);
   for (const auto& contender : options.contenders)
     settings.assignments.insert(settings.assignments.end(), contender.assignments.begin(), contender.assignments.end());
-  cli::warn_without_lights(options, settings, session::kinds_of_light(prepared));
+  cli::warn_without_lights(options, settings, shining);
 }
 
 using Timed = session::RenderDevice::Timed;
@@ -67,7 +67,6 @@ Drawing::Drawing(const CompareOptions& options, const ComparedValues& values, st
   context_ = session::open_context(options, options);
   device_.emplace(options, options.no_cost ? Timed::nothing : Timed::passes);
   prepared_.emplace(loading.get());
-  if (options.scenes.size() == 1) warn_of_lights(options, *prepared_);
 }
 
 CompareOptions Drawing::of_scene(std::size_t scene) const {
@@ -76,13 +75,18 @@ CompareOptions Drawing::of_scene(std::size_t scene) const {
   return one;
 }
 
-void Drawing::check_cameras() const {
+void Drawing::check_scenes() const {
+  cli::LightKinds shining = session::kinds_of_light(*prepared_);
   for (std::size_t i = 0; i < options_.scenes.size(); ++i) {
     if (i == prepared_scene_) continue;
-    load_scene(of_scene(i), [](std::span<const std::byte>, const std::string& name) {
-      return scene::Image{.name = name, .width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
-    });
+    const session::PreparedScene other =
+        load_scene(of_scene(i), [](std::span<const std::byte>, const std::string& name) {
+          return scene::Image{.name = name, .width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
+        });
+    const cli::LightKinds kinds = session::kinds_of_light(other);
+    shining = {.sun = shining.sun || kinds.sun, .lamps = shining.lamps || kinds.lamps};
   }
+  warn_of_lights(options_, shining);
 }
 
 ComparedScene Drawing::draw(const Part& part, const std::function<void()>& drawn) {

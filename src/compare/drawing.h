@@ -26,8 +26,9 @@ class Drawing {
   // Opens the context; the scene of `first` is read meanwhile. Both arguments must outlive this object. Throws Error.
   Drawing(const CompareOptions& options, const ComparedValues& values, std::size_t first_scene);
 
-  // Throws Error for a camera that a scene lacks, except the first one's. Reads the scenes without their images.
-  void check_cameras() const;
+  // Throws Error for a camera that a scene lacks, except the first one's, and warns of settings for lights that none
+  // has. Reads the scenes without their images.
+  void check_scenes() const;
 
   // `drawn` is called after each picture of the reference and of each contender.
   ComparedScene draw(const Part& part, const std::function<void()>& drawn);

@@ -81,7 +81,6 @@ void check_orbit(const CompareOptions& o) {
 
 void check_together(const CompareOptions& o) {
   cli::check_together(static_cast<const cli::SceneOptions&>(o));
-  cli::check_frames(o);
   check_together(static_cast<const session::CacheOptions&>(o));
   if (o.contenders.empty()) fail_usage("--technique is required: what to compare; see penumbra list techniques");
   if (o.reference == "truth" && std::ranges::any_of(o.contenders, [](const auto& c) { return c.name == "truth"; }))

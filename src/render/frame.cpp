@@ -190,7 +190,7 @@ FrameParts draw_frame(gl::Device& device, shadow::SoftShadows& soft_shadows, sce
   const glsl::ViewBlock view = view_block(camera, last_camera, inputs.width, inputs.height);
   bind_view(device, view);
 
-  scene.choose_casters(caster_choice(params, inputs.lights));
+  scene.choose_casters(caster_choice(params, inputs.lights, soft_shadows.registry()));
   scene.pose(device, inputs.last_time, inputs.time);
 
   const std::vector<shadow::Light> lights = shadow_lights(inputs.lights, inputs.light_ids);

@@ -47,7 +47,8 @@ std::vector<Param> render_params() {
   };
 }
 
-scene::CasterChoice caster_choice(const ParamSet& params, std::span<const FrameLight> lights) {
+scene::CasterChoice caster_choice(const ParamSet& params, std::span<const FrameLight> lights,
+                                  const shadow::Registry& registry) {
   const auto sine_of_radius = std::sin(0.5f * glm::radians(params.get_float("sun.angle")));
   const auto is_above = [&](const FrameLight& light) {
     const auto* sun = std::get_if<SunLight>(&light);
@@ -58,7 +59,8 @@ scene::CasterChoice caster_choice(const ParamSet& params, std::span<const FrameL
                    : faces == "back" ? scene::CasterFaces::back
                                      : scene::CasterFaces::both,
           .skies = params.get_bool("casters.skies"),
-          .ground = !std::ranges::all_of(lights, is_above)};
+          .ground =
+              !registry.find(params.get_word("technique")).reads_light_discs || !std::ranges::all_of(lights, is_above)};
 }
 
 }  // namespace penumbra::render

@@ -28,7 +28,10 @@ struct Renderer::State {
     scene::CasterChoice casters;
     double time = 0;
 
-    bool same_casters(const Drawn& other) const { return scene == other.scene && casters == other.casters; }
+    // Apart from a ground, which shadows nothing when it begins or ends to cast.
+    bool same_casters(const Drawn& other) const {
+      return scene == other.scene && casters.faces == other.casters.faces && casters.skies == other.casters.skies;
+    }
   };
   std::map<int, Drawn> last;  // by view; absent: its last frame threw, or there was none
 
@@ -106,14 +109,16 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
     fail("a frame has {} samples for each pixel; 1 to {} can be drawn", inputs.samples, max_samples);
   check_lights(shadow_lights(inputs.lights, {}), inputs.light_names, registry(), params);
   gl::Device& device = state_->device;
-  const State::Drawn now{.scene = scene.id(), .casters = caster_choice(params, inputs.lights), .time = inputs.time};
+  const State::Drawn now{
+      .scene = scene.id(), .casters = caster_choice(params, inputs.lights, registry()), .time = inputs.time};
   // Removed until this frame is complete: if it throws, the view's next frame must not reuse its history.
   const auto last = state_->last.extract(inputs.view);
   FrameInputs placed = inputs;
   placed.cut = inputs.cut || last.empty() || !last.mapped().same_casters(now);
   // If the caller left out frames of this view, the scene does not know what moved since its last one.
   constexpr double rounding = 1e-6;  // seconds: the caller may have computed the time again
-  const bool knows_moved = placed.cut || std::abs(last.mapped().time - inputs.last_time) <= rounding;
+  const bool knows_moved = placed.cut || (std::abs(last.mapped().time - inputs.last_time) <= rounding &&
+                                          last.mapped().casters == now.casters);
   warn_of_hidden_suns(inputs, params);
   // If this frame throws, the textures of the last one are no longer valid and must not be read.
   state_->parts = {};

@@ -91,8 +91,9 @@ struct Frame {
 };
 
 // The casters that the parameters choose. A ground casts unless all lights are suns whose whole discs are above the
-// horizon.
-scene::CasterChoice caster_choice(const ParamSet& params, std::span<const FrameLight> lights);
+// horizon, and the technique compares depths near receivers alone: mean depths need what lies behind the casters.
+scene::CasterChoice caster_choice(const ParamSet& params, std::span<const FrameLight> lights,
+                                  const shadow::Registry& registry);
 
 class Renderer {
  public:

@@ -117,7 +117,7 @@ struct Node {
   int mesh = -1, skin = -1, camera = -1, light = -1;
   CastSetting casting = CastSetting::automatic;  // extras: "penumbra_casts"
   bool sky = false;                  // a shell, such as a sky dome, around everything else that is drawn: see sky.h
-  bool ground = false;               // a level plane below everything else that is drawn
+  bool ground = false;               // a level plane on which everything else stands
   std::vector<float> weights;        // overrides the mesh's default weights
   std::vector<Transform> instances;  // EXT_mesh_gpu_instancing; empty: a single instance at the node
 };

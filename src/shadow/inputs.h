@@ -167,8 +167,9 @@ struct Inputs {
   // is an unset box, which check() rejects. `receivers` must hold all surfaces whose shadows are computed, those drawn
   // forward too, and `casters` all that casts: casters are drawn only to texels of the maps that lie in the casters'
   // box as the light sees it, and that what the view sees of the receivers' box can read (see
-  // Technique::reads_light_discs). What casts on nothing, such as a ground below everything, is best left out of both
-  // the box and the callback: tighter boxes cost less.
+  // Technique::reads_light_discs). For techniques that read so, what casts on nothing, such as a ground below
+  // everything, is best left out of both the box and the callback: tighter boxes cost less. Those that average depths
+  // need it.
   Box casters{glm::vec3(1), glm::vec3(-1)}, receivers{glm::vec3(1), glm::vec3(-1)};
   // Whether `casters` and `receivers` are no larger than what they hold. If not, boxes of more than 10 km, such as
   // those of a sky's dome, limit what a sun's maps hold, so that near shadows stay right. Receivers more than 1 km from

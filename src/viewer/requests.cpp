@@ -176,7 +176,7 @@ void Viewer::frame_casters() {
   CameraRig rig = present_rig(state_.document, prepared);
   const scene::Pose pose = scene::pose_at(prepared.scene, state_.document.seconds());
   const scene::CasterChoice choice =
-      render::caster_choice(state_.document.params, render::frame_lights(prepared.setup));
+      render::caster_choice(state_.document.params, render::frame_lights(prepared.setup), session::all_techniques());
   rig.frame(render::caster_bounds(prepared.scene, pose, choice),
             static_cast<float>(window_size_.x) / static_cast<float>(window_size_.y));
   place(state_.document, prepared, rig);

@@ -127,6 +127,7 @@ class Params(TestCase):
             (["--set", "history.alpha=0.2"], "history.alpha has no effect here: history.reuse is false"),
             (["--technique", "hard", "--sun-angle", "3"], "sun.angle has no effect here: the shadows of the technique hard"),
             (["--set", "exposure.ev=9"], "exposure.ev has no effect here: exposure.auto is true"),
+            (["--fps", "30"], "--fps has no effect here: a single picture is drawn"),
             (["--sample-shadows", "--samples", "1"], "--sample-shadows has no effect here: each pixel has one sample"),
             (["--aov", "shadow", "--aov-samples", "all", "--samples", "1"], "--aov-samples has no effect here: each pixel has"),
             (["--aov", "depth", "--aov-samples", "all"], "--aov-samples has no effect here: none of these AOVs has a mean"),
@@ -138,6 +139,7 @@ class Params(TestCase):
         for arguments in (["--technique", "pcss", "--sun-angle", "3", "--set", "pcss.filter_taps=9"],
                           ["--technique", "thesis", "--set", "history.alpha=0.2"],
                           ["--exposure", "9", "--set", "exposure.ev=10"], ["--set", "slices.samples=4"],
+                          ["--frame", "0", "--fps", "30"],
                           ["--sample-shadows", "--aov", "shadow,depth", "--aov-samples", "all"]):
             with self.subTest(arguments):
                 self.assertEqual(self.warnings(*arguments), [])

@@ -134,6 +134,8 @@ scene["pcss.early_exit"] = numpy.bool_(False)
 assert scene["pcss.early_exit"] is False
 for shape in ((4, 4, 0), (0, 0)):
     refused(lambda: penumbra.difference(numpy.zeros(shape), numpy.zeros(shape)), penumbra.Error, "no values")
+refused(lambda: penumbra.difference("a", "b"), penumbra.Error, "no array of numbers")
+assert penumbra.difference([[0.0, 1.0]], [[0.0, 0.5]])["max"] == 0.5
 shown = scene.render()
 assert penumbra.difference(shown, shown / 255)["rmse"] < 1e-6
 refused(lambda: scene["sun.angel"], penumbra.Error, "sun.angle")

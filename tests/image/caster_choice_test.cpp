@@ -136,10 +136,17 @@ TEST_F(CasterChoiceImage, TheGroundOnlyIfALightIsNotAboveIt) {
   const Means usual = measure("both");
   EXPECT_NEAR(usual.lit, with_floor.lit, 0.005) << "it shadows nothing";
   EXPECT_LT(usual.different, 0.02);
+  scene::GpuScene gpu_scene(device_, scene_);
+  ParamSet drawn(render::Renderer::params(renderer_.registry()));
+  for (const auto& [technique, width_of_casters] : {std::pair("hard", 3.0f), std::pair("vsm", 15.0f)}) {
+    renderer_.registry().select(drawn, technique);
+    draw(gpu_scene, drawn, "shadow");
+    EXPECT_NEAR(gpu_scene.casters().extent().x, width_of_casters, 1) << technique;
+  }
   ParamSet params(render::Renderer::params(renderer_.registry()));
   params.set("sun.angle", 2.0f);
   const auto ground_casts = [&](const std::vector<render::FrameLight>& lights) {
-    return render::caster_choice(params, lights).ground;
+    return render::caster_choice(params, lights, renderer_.registry()).ground;
   };
   const auto sun_at = [](float degrees) {
     return render::SunLight{.to_light = render::direction_to(0, glm::radians(degrees))};

@@ -50,7 +50,9 @@ Json SequenceJob::what(std::size_t item) const {
 
 plan::SceneFacts SequenceJob::facts(std::size_t /*scene*/) const {
   plan::ImageSizes images([](const scene::ReadAt& file) { return image::probe(file); });
-  return plan::facts_of(session::load_scene(options(), images.decoder()), options(), images);
+  const session::PreparedScene prepared = session::load_scene(options(), images.decoder());
+  cli::warn_without_lights(options(), options(), session::kinds_of_light(prepared));
+  return plan::facts_of(prepared, options(), images);
 }
 
 plan::Estimate SequenceJob::estimate(std::size_t item, const plan::SceneFacts& facts) const {
@@ -67,6 +69,7 @@ plan::Estimate SequenceJob::estimate(std::size_t item, const plan::SceneFacts& f
 void SequenceJob::warn() const {
   items_.warn();
   cli::warn_without_effect(options(), {&params_, 1}, session::all_techniques());
+  cli::warn_of_rate(options());
 }
 
 plan::Result SequenceJob::work(std::size_t item) const {

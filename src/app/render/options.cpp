@@ -20,6 +20,7 @@ namespace {
 // pipes and devices have any name.
 std::string preset_output(const std::string& text) {
   std::string output = cli::text_output(text);
+  if (text == "-") return output;
   const std::filesystem::path path = output;
   std::error_code error;
   const bool is_file = std::filesystem::is_regular_file(path, error) || !std::filesystem::exists(path, error);
@@ -116,6 +117,7 @@ ParamSet params_of(const RenderOptions& options) {
 
 void warn_without_effect(const RenderOptions& o, const ParamSet& params) {
   cli::warn_without_effect(o, {&params, 1}, session::all_techniques());
+  cli::warn_of_rate(o);
   constexpr std::string_view one_sample = "each pixel has one sample";
   if (o.own_shadows && o.samples == 1) warn("--sample-shadows has no effect here: {}", one_sample);
   if (!o.average_aovs) return;
@@ -131,7 +133,6 @@ void warn_without_effect(const RenderOptions& o, const ParamSet& params) {
 
 void check_together(const RenderOptions& o) {
   cli::check_together(static_cast<const cli::SceneOptions&>(o));
-  cli::check_frames(o);
   cli::check_together(static_cast<const cli::DeviceOptions&>(o));
   check_together(static_cast<const session::CacheOptions&>(o));
   if (o.average_aovs && o.aovs.empty()) cli::fail_usage("--aov-samples needs --aov");

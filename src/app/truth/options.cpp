@@ -31,7 +31,6 @@ void add_truth_options(CLI::App& app, TruthOptions& o) {
 
 void check_together(const TruthOptions& options) {
   cli::check_together(static_cast<const cli::SceneOptions&>(options));
-  cli::check_frames(options);
   cli::check_together(static_cast<const cli::DeviceOptions&>(options));
   check_together(static_cast<const session::CacheOptions&>(options));
 }

@@ -82,6 +82,7 @@ void trace_files(TruthOptions options) {
   const cli::OutputNames names(options.output, options.frames.has_value());
   const ParamSet params = params_of(options, session::all_techniques());
   cli::warn_without_effect(options, {&params, 1}, session::all_techniques());
+  cli::warn_of_rate(options);
   const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});
   cli::clean_up_on_signals();
   session::limit_threads(options);
