@@ -149,7 +149,7 @@ TEST_F(NarrowedMaps, SoAreTheyWhereTheFloorCastsNothing) {
       const std::vector<scene::Bounds> boxes = scene::node_bounds(scene_, scene::pose_at(scene_, 0));
       const auto width_of = [](const scene::Bounds& box) { return box.empty ? 0 : box.extent().x; };
       const auto widest = std::ranges::max_element(boxes, {}, width_of);
-      scene_.nodes[static_cast<std::size_t>(widest - boxes.begin())].ground = true;
+      scene_.nodes[static_cast<std::size_t>(widest - boxes.begin())].casting = scene::CastSetting::off;
       show();
       EXPECT_LT(expect_same(std::string(scene) + " without its floor").texels, with_floor) << scene;
     }
