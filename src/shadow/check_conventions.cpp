@@ -49,13 +49,15 @@ constexpr double least_far_depth = -1 + 1e-3;  // of reversed Z in -1..1, with w
 void check_conventions(const glm::mat4& projection, const Conventions& conventions) {
   const DepthOfDistance depth(projection);
   if (depth.reversed() != conventions.reversed_z) {
-    fail("soft shadows: the projection's depth {} with the distance, but Conventions::reversed_z is {}",
+    fail("soft shadows: the projection's depth {} with the distance, but the conventions say reversed_z={}",
          depth.reversed() ? "falls" : "grows", conventions.reversed_z);
   }
   const std::optional<double> least = depth.least_at_infinity();
   if (conventions.reversed_z && !conventions.depth_zero_to_one && least && *least > least_far_depth) {
-    fail("soft shadows: the projection's depth is above {:.3g} everywhere, but Conventions::depth_zero_to_one is false",
-         *least + 0.0);  // not "-0"
+    fail(
+        "soft shadows: the projection's depth is above {:.3g} everywhere, but the conventions say "
+        "depth_zero_to_one=false",
+        *least + 0.0);  // not "-0"
   }
 }
 
@@ -66,7 +68,8 @@ std::string clip_control_warning(const glm::mat4& projection, const Conventions&
   const bool sure = conventions.reversed_z && !(least && *least <= least_far_depth);
   if (conventions.depth_zero_to_one && sure) return "";
   return fmt::format(
-      "soft shadows: depth is said to be drawn with z in {} (Conventions::depth_zero_to_one), but glClipControl is at "
+      "soft shadows: depth is said to be drawn with z in {} (depth_zero_to_one of the conventions), but glClipControl "
+      "is at "
       "{}. If depth was drawn so, shadows are wrong; if it was not, set glClipControl as it was before the first frame",
       conventions.depth_zero_to_one ? "0..1" : "-1..1", zero_to_one ? "0..1" : "-1..1");
 }

@@ -14,8 +14,9 @@ GLint level_parameter(unsigned texture, GLenum name, GLint level) {
 }
 
 bool holds_depth(unsigned texture) {
+  const bool red_alone = level_parameter(texture, GL_TEXTURE_GREEN_SIZE) == 0;
   return level_parameter(texture, GL_TEXTURE_DEPTH_SIZE) > 0 ||
-         level_parameter(texture, GL_TEXTURE_RED_TYPE) == GL_FLOAT;
+         (red_alone && level_parameter(texture, GL_TEXTURE_RED_TYPE) == GL_FLOAT);
 }
 
 void check_given(std::string_view name, const TextureView& view) {

@@ -106,8 +106,9 @@ TEST_F(ShadowInputs, ProjectionsThatContradictTheConventionsAreRefused) {
     EXPECT_EQ(refused(projection, reversed, zero_to_one), "");
     EXPECT_EQ(
         refused(projection, !reversed, zero_to_one),
-        reversed ? "soft shadows: the projection's depth falls with the distance, but Conventions::reversed_z is false"
-                 : "soft shadows: the projection's depth grows with the distance, but Conventions::reversed_z is true");
+        reversed
+            ? "soft shadows: the projection's depth falls with the distance, but the conventions say reversed_z=false"
+            : "soft shadows: the projection's depth grows with the distance, but the conventions say reversed_z=true");
   };
   for (const bool reversed : {false, true}) {
     for (const bool zero_to_one : {false, true}) {
@@ -124,8 +125,9 @@ TEST_F(ShadowInputs, ProjectionsThatContradictTheConventionsAreRefused) {
   }
   const glm::mat4 infinite_far = perspective(0.8f, 1, 0.1f);
   EXPECT_EQ(refused(infinite_far, true, true), "");
-  EXPECT_EQ(refused(infinite_far, true, false),
-            "soft shadows: the projection's depth is above 0 everywhere, but Conventions::depth_zero_to_one is false");
+  EXPECT_EQ(
+      refused(infinite_far, true, false),
+      "soft shadows: the projection's depth is above 0 everywhere, but the conventions say depth_zero_to_one=false");
   EXPECT_NE(refused(finite_perspective(true, true, 0.1f, 100), true, false).find("above -0.001 everywhere"),
             std::string::npos);
   EXPECT_NE(refused(oblique_perspective(true, true, slanted_plane), true, false).find("everywhere"), std::string::npos);
