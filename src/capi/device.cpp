@@ -65,8 +65,8 @@ void check_context(bool is_there) {
 
 ThreadCall::ThreadCall(const penumbra_device& device) {
   if (in_call) fail_with(PENUMBRA_ERROR_ARGUMENT, "called from within a callback of a device");
-  in_call = true;
   if (device.log) sink_.emplace(device.log);
+  in_call = true;
 }
 
 ThreadCall::~ThreadCall() { in_call = false; }

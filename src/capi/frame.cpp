@@ -245,6 +245,29 @@ shadow::DrawCasters casters_of(const penumbra_frame& frame, penumbra_device& dev
   };
 }
 
+namespace {
+
+// Runs what draws a frame of a view. If that fails otherwise than by a wrong argument, the view has no mask, and its
+// next frame begins anew.
+template <class Draw>
+void draw_view(penumbra_device& device, int view, const Draw& draw) {
+  const auto drop = [&] {
+    device.masks.erase(view);
+    if (device.objects != nullptr) device.objects->shadows.interrupt_view(view);
+  };
+  try {
+    draw();
+  } catch (const Failure& failure) {
+    if (failure.result() != PENUMBRA_ERROR_ARGUMENT) drop();
+    throw;
+  } catch (...) {
+    drop();
+    throw;
+  }
+}
+
+}  // namespace
+
 }  // namespace penumbra::capi
 
 using namespace penumbra::capi;
@@ -252,34 +275,28 @@ using namespace penumbra::capi;
 penumbra_result penumbra_render(penumbra_device* device, const penumbra_settings* settings, const penumbra_frame* frame,
                                 penumbra_mask* mask) {
   return run("penumbra_render", [&] {
-    const DeviceCall call(device);
-    const penumbra::ParamSet& params = params_of(settings);
+    required(device, "device");
     const penumbra_frame given = read_struct(&required(frame, "frame"));
-    check_size<penumbra_mask>(required(mask, "mask").struct_size);
-    penumbra::shadow::Inputs inputs = inputs_of(given);
-    std::vector<penumbra::shadow::Light> lights;
-    try {
-      lights = lights_of(given.lights, given.light_count, &inputs);
-    } catch (const Failure& failure) {
-      if (failure.result() != PENUMBRA_ERROR_ARGUMENT) device->masks.erase(given.view_id);
-      throw;
-    } catch (const penumbra::Error&) {  // refused maps
+    draw_view(*device, given.view_id, [&] {
+      const DeviceCall call(device);
+      const penumbra::ParamSet& params = params_of(settings);
+      check_size<penumbra_mask>(required(mask, "mask").struct_size);
+      penumbra::shadow::Inputs inputs = inputs_of(given);
+      const std::vector<penumbra::shadow::Light> lights = lights_of(given.lights, given.light_count, &inputs);
+      inputs.lights = lights;
+      inputs.draw = casters_of(given, *device);
       device->masks.erase(given.view_id);
-      throw;
-    }
-    inputs.lights = lights;
-    inputs.draw = casters_of(given, *device);
-    device->masks.erase(given.view_id);
-    const penumbra::shadow::Mask& made = device->masks[given.view_id] = call.shadows().render(inputs, params);
-    const penumbra::gl::TextureDesc& desc = made.texture->desc();
-    penumbra_mask out{};
-    out.texture = made.texture->id();
-    out.format = desc.format;
-    out.width = desc.width;
-    out.height = desc.height;
-    out.layers = desc.layers;
-    out.view_id = given.view_id;
-    write_struct(mask, out);
+      const penumbra::shadow::Mask& made = device->masks[given.view_id] = call.shadows().render(inputs, params);
+      const penumbra::gl::TextureDesc& desc = made.texture->desc();
+      penumbra_mask out{};
+      out.texture = made.texture->id();
+      out.format = desc.format;
+      out.width = desc.width;
+      out.height = desc.height;
+      out.layers = desc.layers;
+      out.view_id = given.view_id;
+      write_struct(mask, out);
+    });
   });
 }
 

@@ -103,7 +103,7 @@ typedef struct penumbra_device_desc {
   void* log_user;   /**< passed to log */
 } penumbra_device_desc;
 
-/** PENUMBRA_ERROR_ARGUMENT: `desc` is null or `struct_size` is not that of a version of the struct. */
+/** PENUMBRA_ERROR_ARGUMENT: `desc` is null or `struct_size` can be that of no version. */
 PENUMBRA_API penumbra_result penumbra_device_desc_init(penumbra_device_desc* desc, size_t struct_size);
 
 /** Makes a device for the current context, which has OpenGL 4.5 or more, of the core or the compatibility profile.
@@ -280,7 +280,7 @@ typedef struct penumbra_light {
   uint32_t reserved;      /**< 0 */
 } penumbra_light;
 
-/** PENUMBRA_ERROR_ARGUMENT: `light` is null or `struct_size` is not that of a version of the struct. */
+/** PENUMBRA_ERROR_ARGUMENT: `light` is null or `struct_size` can be that of no version. */
 PENUMBRA_API penumbra_result penumbra_light_init(penumbra_light* light, size_t struct_size);
 
 /* ----------------------------------------------------------------------------------------------- Drawing of casters */
@@ -374,7 +374,8 @@ typedef struct penumbra_frame {
   uint32_t depth_zero_to_one;
   int32_t normals_encoding; /**< PENUMBRA_NORMALS_...; default octahedral */
 
-  float view[16];       /**< from world to view space: right-handed, the camera looks along -z; default: identity */
+  float view[16]; /**< from world to view space, in metres; it turns and moves, and mirrors for a planar reflection.
+                     The camera looks along -z; default: identity */
   float projection[16]; /**< from view to clip space, without jitter; perspective or orthographic; default: identity */
   /** `view` of the view's last frame, and of this one where there was none; default: identity. Where last_view or
    * last_projection are others than those of that call, the history and the kept maps are discarded. */
@@ -445,7 +446,7 @@ typedef struct penumbra_frame {
   uint32_t normals_are_shading;
 } penumbra_frame;
 
-/** PENUMBRA_ERROR_ARGUMENT: `frame` is null or `struct_size` is not that of a version of the struct. */
+/** PENUMBRA_ERROR_ARGUMENT: `frame` is null or `struct_size` can be that of no version. */
 PENUMBRA_API penumbra_result penumbra_frame_init(penumbra_frame* frame, size_t struct_size);
 
 /** The result: a GL_TEXTURE_2D_ARRAY of the size of penumbra_frame.depth, which stays the library's. Layer i belongs to

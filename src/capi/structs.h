@@ -52,11 +52,11 @@ constexpr std::size_t first_size = sizeof(void*) == 8 ? StructTraits<T>::first_s
 // No version of a struct will be as large: such a size was never set.
 constexpr std::size_t too_large = 65536;
 
-// Refuses sizes below that of the first version, and those that no version can have.
+// Refuses sizes below that of the first version, and those that no version can have: of part of a field, or too large.
 template <class T>
 void check_size(std::size_t size) {
   static_assert(first_size<T> <= sizeof(T) && sizeof(T) < too_large);
-  if (size >= first_size<T> && size < too_large) return;
+  if (size >= first_size<T> && size < too_large && size % alignof(T) == 0) return;
   fail_with(PENUMBRA_ERROR_ARGUMENT, "{}.struct_size is {}; set it to sizeof({}), which is {}", StructTraits<T>::name,
             size, StructTraits<T>::name, sizeof(T));
 }

@@ -1,6 +1,8 @@
 #include "check_inputs.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <string_view>
 
@@ -21,6 +23,25 @@ bool all_finite(const float* values, int count) {
 void check_matrix(std::string_view name, const glm::mat4& matrix) {
   if (!all_finite(glm::value_ptr(matrix), 16)) fail("soft shadows: {} is not finite", name);
   if (glm::determinant(glm::dmat4(matrix)) == 0) fail("soft shadows: {} has no inverse", name);
+}
+
+// Shadows are computed in view space, in metres. It may be mirrored, as for a planar reflection.
+void check_view(const View& view) {
+  check_matrix("the view matrix", view.view);
+  constexpr double rounding = 1e-3;
+  const glm::dmat4 given(view.view);
+  const glm::dmat3 turn(given);
+  const glm::dmat3 apart = glm::transpose(turn) * turn - glm::dmat3(1);
+  double most = 0;
+  for (int i = 0; i < 9; ++i) most = std::max(most, std::abs(apart[i / 3][i % 3]));
+  const glm::dvec4 last_row = glm::abs(glm::row(given, 3) - glm::dvec4(0, 0, 0, 1));
+  if (most > rounding || glm::any(glm::greaterThan(last_row, glm::dvec4(rounding))))
+    fail(
+        "soft shadows: the view matrix does more than turn, mirror and move: it must be column-major and have no "
+        "scale");
+  check_matrix("the projection matrix", view.projection);
+  if (view.projection[2][3] > 0)
+    fail("soft shadows: the projection is of a camera that looks along +z; in view space it must look along -z");
 }
 
 void check_finite(std::string_view name, const Box& box) {
@@ -71,8 +92,7 @@ void check(const Inputs& inputs) {
 
 void check(const Inputs& inputs, TextureChecks& checks) {
   checks.begin();
-  check_matrix("the view matrix", inputs.view.view);
-  check_matrix("the projection matrix", inputs.view.projection);
+  check_view(inputs.view);
   check_conventions(inputs.view.projection, inputs.conventions);
   if (!all_finite(glm::value_ptr(inputs.view.jitter), 2)) fail("soft shadows: the jitter is not finite");
   if (glm::any(glm::greaterThan(glm::abs(inputs.view.jitter), glm::vec2(1))))
@@ -84,7 +104,7 @@ void check(const Inputs& inputs, TextureChecks& checks) {
   const Box& forward = inputs.forward_receivers;
   if (!glm::all(glm::greaterThan(forward.min, forward.max))) check_box("forward receivers", forward);
   const bool none_moved = inputs.moved && glm::all(glm::greaterThan(inputs.moved->min, inputs.moved->max));
-  if (inputs.moved && !none_moved) check_finite("moved casters", *inputs.moved);
+  if (inputs.moved && !none_moved) check_box("moved casters", *inputs.moved);
   check_lights(inputs, checks);
   check_outputs(inputs, checks);
 }

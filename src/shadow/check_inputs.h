@@ -22,7 +22,7 @@ class TextureChecks {
     int channels = 0;                          // that it needs, of signed numbers; 0: it is a depth texture
     int layers = 0;                            // of shadow maps, that it needs at least; 0: it is of receivers
     int layer = 0;                             // of receivers
-    bool atlas = false;                        // of shadow maps
+    bool atlas = false, lamp = false;          // of shadow maps
     bool may_be_unsigned = false;              // the numbers, because a scale and an offset are given
     std::optional<OutputTexture> output = {};  // drawn to, not read
 

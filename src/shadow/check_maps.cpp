@@ -46,7 +46,8 @@ void check_maps(const Light& given, TextureChecks& checks) {
                                .width = depth.width,
                                .height = depth.height,
                                .layers = projection.given_layers(),
-                               .atlas = !maps.atlas.empty()};
+                               .atlas = !maps.atlas.empty(),
+                               .lamp = projection.texels_vary()};
   const TextureChecks::Source* found = checks.known_source(key);
   const bool known = found != nullptr, atlas = !maps.atlas.empty();
   TextureChecks::Source source = known ? *found : TextureChecks::Source();
@@ -60,6 +61,8 @@ void check_maps(const Light& given, TextureChecks& checks) {
     if (!holds_depth(depth.id)) fail("soft shadows: the maps of light {} hold no depth", light);
     const GLint bits = level_parameter(depth.id, GL_TEXTURE_DEPTH_SIZE);
     source.can_compare = bits > 0;
+    if (bits == 0 && level_parameter(depth.id, GL_TEXTURE_RED_SIZE) < 32)
+      fail("soft shadows: the maps of light {} hold half floats, which are too coarse", light);
     // Depths of a perspective need more than those of a sun, and the bias of lamps covers no coarser rounding.
     if (projection.texels_vary() && bits > 0 && bits < 24)
       fail("soft shadows: the map of light {} has depths of {} bits; a lamp's needs at least 24", light, bits);

@@ -31,7 +31,10 @@ struct Conventions {
 // A camera in this frame and in the last one. Projections are without jitter; `jitter` is the subpixel offset that was
 // added to clip-space xy (in NDC).
 struct View {
-  glm::mat4 view{1}, projection{1};
+  // From world to view space, in metres; it turns and moves, and mirrors for a planar reflection. The camera looks
+  // along -z.
+  glm::mat4 view{1};
+  glm::mat4 projection{1};
   // Used to reproject the history. They must equal the matrices of this view's last render(), else the history and the
   // kept maps are discarded (see PassContext and Inputs::moved).
   glm::mat4 last_view{1}, last_projection{1};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <string>
 #include <utility>
 
@@ -16,6 +17,7 @@ namespace {
 
 // By how much directions may differ, radians: what matrices of floats round away, and more; see check_places().
 constexpr double same_direction = 1e-3;
+constexpr double widest_cone = glm::half_pi<double>() - 1e-6;
 
 template <typename... Args>
 [[noreturn]] void refuse(std::size_t layer, fmt::format_string<Args...> text, Args&&... args) {
@@ -325,7 +327,9 @@ LightProjection spot_projection(const SpotMatrix& map) {
   maps.world_to_lamp = spot_space_of(drawn, glm::normalize(glm::dvec3(lamp.axis)));
   maps.tangent = 1 / glm::length(glm::dvec3(row_of(drawn, 0)));
   set_planes(maps, drawn);
-  if (maps.tangent < std::tan(lamp.cone) * (1 - same_direction)) refuse_spot("spans less than the spot's cone");
+  // The tangent of a float that is a little above a right angle is negative.
+  const double cone = std::min(static_cast<double>(lamp.cone), widest_cone);
+  if (maps.tangent < std::tan(cone) * (1 - same_direction)) refuse_spot("spans less than the spot's cone");
   check_spot_places(maps, drawn);
   LightProjection projection(maps);
   if (const std::string fault = projection.fault(); !fault.empty())

@@ -120,6 +120,19 @@ std::string SoftShadows::view_prefix(int id) const { return fmt::format("shadow 
 
 Mask SoftShadows::render(const Inputs& inputs, const ParamSet& params) {
   const Rendering rendering(state_->rendering);
+  try {
+    return render_view(inputs, params);
+  } catch (...) {
+    interrupt_view(inputs.view.id);
+    throw;
+  }
+}
+
+void SoftShadows::interrupt_view(int id) {
+  if (const auto view = state_->views.find(id); view != state_->views.end()) view->second.drawn = false;
+}
+
+Mask SoftShadows::render_view(const Inputs& inputs, const ParamSet& params) {
   const Call call(device_);
   // A steady frame in the core profile asks OpenGL nothing: a driver that works on another thread would have to wait.
   check_earlier_frames();

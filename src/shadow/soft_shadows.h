@@ -93,11 +93,14 @@ class SoftShadows {
   // the caller need not draw motion vectors.
   bool reads_motion(const ParamSet& params, std::span<const Light> lights) const;
   // Compiles the programs and makes the tables that frames of that kind need with these parameters, so that none of
-  // them has to. Draws two frames of 64 × 64 pixels without casters, with maps of the parameters' size, which are
-  // released afterwards. Leaves OpenGL and throws as render() does.
+  // them has to. Draws three frames of 60 × 60 pixels with one caster of its own and maps of the parameters' size,
+  // which are released afterwards. Leaves OpenGL and throws as render() does.
   void warm_up(const FrameKind& kind, const ParamSet& params);
   // Releases everything that is kept for a view.
   void forget_view(int id);
+  // For callers that could not make Inputs of a view's frame: the next one begins anew, as after an Error of render().
+  // Else what moved in the frame that is missing would be unknown.
+  void interrupt_view(int id);
 
   // For surfaces drawn forward, after render(). The caller's own programs use forward_source(): text to put after the
   // #version 450 line, in which every global name begins with "penumbra_", and which defines
@@ -125,6 +128,7 @@ class SoftShadows {
   struct State;
   std::string view_prefix(int id) const;
   void check_earlier_frames();
+  Mask render_view(const Inputs& inputs, const ParamSet& params);
   Mask draw(const Inputs& inputs, const ParamSet& params, ViewState& view);
 
   gl::Device& device_;

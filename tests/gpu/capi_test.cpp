@@ -64,6 +64,12 @@ class CapiTest : public TriangleTest {
     return frame;
   }
 
+  penumbra_result result_of(const penumbra_frame& frame) {
+    penumbra_mask mask{};
+    mask.struct_size = sizeof(mask);
+    return penumbra_render(c_->device, c_->settings, &frame, &mask);
+  }
+
   std::unique_ptr<CInterface> c_;
   shadow::Light light_;
 };
@@ -209,6 +215,36 @@ TEST_F(CapiTest, MapsAreDrawnAgainOnlyWhereSomethingMayHaveMoved) {
   EXPECT_EQ(drawn(), all);
   frame.cut = 0;
   frame.restart = 1;
+  EXPECT_EQ(drawn(), 0);
+}
+
+// What moved in a frame that was refused is not said again.
+TEST_F(CapiTest, AfterARefusedFrameMapsAreDrawnAnew) {
+  const TriangleScene scene = box_on_ground(48);
+  const Geometry geometry(scene);
+  penumbra_frame frame = frame_of(scene, geometry);
+  frame.moved = {{1, 1, 1}, {-1, -1, -1}};
+  const auto drawn = [&] {
+    c_->passes.clear();
+    c_->render(frame);
+    return c_->passes[PENUMBRA_PASS_DEPTH];
+  };
+  const int all = drawn();
+  EXPECT_EQ(drawn(), 0);
+  penumbra_frame refused = frame;
+  penumbra_light with_maps = *frame.lights;
+  with_maps.maps = frame.depth;  // by a matrix of zeros
+  with_maps.maps_size = 48;
+  with_maps.maps_count = 1;
+  const std::array<float, 16> zeros{};
+  with_maps.maps_world_to_clip = zeros.data();
+  refused.lights = &with_maps;
+  EXPECT_EQ(result_of(refused), PENUMBRA_ERROR_REFUSED) << penumbra_last_error();
+  EXPECT_EQ(drawn(), all);
+  EXPECT_EQ(drawn(), 0);
+  penumbra_frame wrong = frame;
+  wrong.reserved = 1;
+  EXPECT_EQ(result_of(wrong), PENUMBRA_ERROR_ARGUMENT);
   EXPECT_EQ(drawn(), 0);
 }
 

@@ -39,6 +39,11 @@ TEST_F(ShadowInputs, MatricesAndBoxesAreChecked) {
   using shadow::Inputs;
   expect_refusal("the view matrix is not finite", [](Inputs& in) { in.view.view[3][1] = infinite; });
   expect_refusal("the view matrix has no inverse", [](Inputs& in) { in.view.view = glm::mat4(0); });
+  const char* view_alone = "the view matrix does more than turn, mirror and move";
+  expect_refusal(view_alone, [](Inputs& in) { in.view.view = glm::transpose(in.view.view); });
+  expect_refusal(view_alone, [](Inputs& in) { in.view.view = glm::scale(in.view.view, glm::vec3(2)); });
+  expect_refusal("a camera that looks along +z",
+                 [](Inputs& in) { in.view.projection = glm::perspectiveLH_ZO(0.8f, 1.0f, 100.0f, 0.1f); });
   expect_refusal("the projection matrix is not finite", [](Inputs& in) { in.view.projection[0][0] = NAN; });
   expect_refusal("the projection matrix has no inverse", [](Inputs& in) { in.view.projection[0][0] = 0; });
   expect_refusal("the jitter is not finite", [](Inputs& in) { in.view.jitter.x = NAN; });
@@ -49,6 +54,9 @@ TEST_F(ShadowInputs, MatricesAndBoxesAreChecked) {
   expect_refusal("the bounding box of the receivers is not finite", [](Inputs& in) { in.receivers.min.z = NAN; });
   expect_refusal("the bounding box of the moved casters is not finite", [](Inputs& in) {
     in.moved = shadow::Box{glm::vec3(0), {0, NAN, 0}};
+  });
+  expect_refusal("the bounding box of the moved casters is empty", [](Inputs& in) {
+    in.moved = shadow::Box{{1, 0, 0}, {0, 1, 1}};
   });
   expect_refusal("the bounding box of the forward receivers is not finite", [](Inputs& in) {
     in.forward_receivers = {glm::vec3(0), {0, NAN, 0}};
@@ -218,6 +226,7 @@ TEST_F(ShadowInputs, TexturesAreChecked) {
   using shadow::Inputs;
   const int size = 48;
   const auto color = texture("color", {.format = GL_RGBA8, .width = size, .height = size});
+  const auto float_color = texture("float color", {.format = GL_RGBA16F, .width = size, .height = size});
   const auto packed = texture("packed", {.format = GL_RG16, .width = size, .height = size});
   const auto unsigned_floats = texture("unsigned floats", {.format = GL_R11F_G11F_B10F, .width = size, .height = size});
   const auto half = texture("half", {.format = GL_R16F, .width = size, .height = size});
@@ -229,6 +238,7 @@ TEST_F(ShadowInputs, TexturesAreChecked) {
   expect_refusal("depth: 4242 is not the name of a texture", [](Inputs& in) { in.depth.id = 4242; });
   expect_refusal("depth: texture", [](Inputs& in) { in.depth.width += 1; });
   expect_refusal("holds no depth", [&](Inputs& in) { in.depth = color; });
+  expect_refusal("holds no depth", [&](Inputs& in) { in.depth = float_color; });
   expect_refusal("has no layer 1", [&](Inputs& in) { in.depth = array, in.depth.layer = 1; });
   expect_refusal("depths of half floats are too coarse to make normals from", [&](Inputs& in) {
     in.depth = half;

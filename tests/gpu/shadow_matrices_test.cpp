@@ -345,8 +345,35 @@ TEST_F(ShadowMatrices, ASpotsMapNeedsDepthsOf24Bits) {
   };
   const std::string refused = message_of([&] { draw_with_maps(GL_DEPTH_COMPONENT16); });
   EXPECT_NE(refused.find("has depths of 16 bits; a lamp's needs at least 24"), std::string::npos) << refused;
+  const std::string half = message_of([&] { draw_with_maps(GL_R16F); });
+  EXPECT_NE(half.find("hold half floats, which are too coarse"), std::string::npos) << half;
   for (const GLenum format : {GL_DEPTH_COMPONENT24, GL_DEPTH24_STENCIL8, GL_DEPTH_COMPONENT32F, GL_R32F})
     EXPECT_NO_THROW(draw_with_maps(format)) << format;
+}
+
+// Checks of a texture are remembered, but not for another kind of light.
+TEST_F(ShadowMatrices, AMapThatServedASunIsCheckedForASpot) {
+  const gl::Texture maps(
+      "maps",
+      {.target = GL_TEXTURE_2D_ARRAY, .format = GL_DEPTH_COMPONENT16, .width = size, .height = size, .layers = 1});
+  const glm::vec3 at(3, 6, 2);
+  const shadow::Lamp lamp{.position = at, .radius = 0.25f, .axis = glm::normalize(-at), .cone = 0.5f};
+  const glm::mat4 of_spot =
+      glm::perspectiveRH_ZO(1.2f, 1.0f, 0.5f, 20.0f) * glm::lookAt(at, glm::vec3(0), glm::vec3(0.3f, 1, 0));
+  const shadow::Light spot{
+      .source = lamp,
+      .maps = shadow::FinishedMaps{{maps.id(), size, size},
+                                   shadow::spot_projection({.world_to_clip = of_spot, .lamp = lamp, .size = size})}};
+  const std::vector<glm::mat4> of_sun = {slices(scene_.to_light)[2]};
+  const shadow::LightProjection projection = shadow::sun_projection(
+      {.world_to_clip = of_sun, .to_light = scene_.to_light, .size = size, .camera = glm::vec3(2, 5, 6)});
+  const shadow::Light sun{.source = shadow::Sun{scene_.to_light},
+                          .maps = shadow::FinishedMaps{{maps.id(), size, size}, projection}};
+  render("pcss", [&](shadow::Inputs& inputs) { inputs.lights = {&sun, 1}; });
+  const std::string refused = message_of([&] {
+    render("pcss", [&](shadow::Inputs& inputs) { inputs.lights = {&spot, 1}; });
+  });
+  EXPECT_NE(refused.find("has depths of 16 bits"), std::string::npos) << refused;
 }
 
 TEST_F(ShadowMatrices, ASpotsMapIsTakenByTheCInterface) {

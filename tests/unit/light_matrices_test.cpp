@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <string>
@@ -135,6 +136,9 @@ TEST(SpotMatrices, MatricesThatCannotServeAreRefusedWithTheReason) {
             map + "is orthographic: it must be a perspective from the lamp's centre");
   EXPECT_EQ(of_projection(glm::perspectiveRH_ZO(1.2f, 1.5f, 0.5f, 30.0f)), map + "spans different angles in x and y");
   EXPECT_EQ(of_projection(glm::perspectiveRH_ZO(1.0f, 1.0f, 0.5f, 30.0f)), map + "spans less than the spot's cone");
+  SpotMatrix half_space = spot_map(good);
+  half_space.lamp.cone = glm::half_pi<float>();  // as a float, a little more than a right angle
+  EXPECT_EQ(spot_refusal(half_space), map + "spans less than the spot's cone");
   EXPECT_EQ(of_projection(glm::frustumRH_ZO(-0.4f, 0.5f, -0.4f, 0.5f, 0.5f, 30.0f)),
             map + "is skewed or off-centre: the spot's axis must be in its middle");
   EXPECT_EQ(of_projection(glm::scale(glm::mat4(1), glm::vec3(-1, 1, 1)) * perspective),
