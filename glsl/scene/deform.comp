@@ -1,7 +1,6 @@
 // Applies morph targets and skinning to the vertices of one primitive.
+#include "scene/rows_of_work.glsl"
 #include "shared/scene_blocks.h"
-
-layout(local_size_x = 64) in;
 
 // Layouts. Undeformed vertex: position, normal, tangent, lean of smooth normals. Morph delta: the first three, without
 // the tangent's handedness.
@@ -38,7 +37,7 @@ vec3 safe_normalize(vec3 v) {
 
 void main() {
   DeformBlock block = jobs[job];
-  uint vertex = gl_GlobalInvocationID.x;
+  uint vertex = index_in_rows();
   if (vertex >= block.count) return;
   uint at = (block.source + vertex) * 11u;
   vec3 position = rest_vector(at), normal = rest_vector(at + 3u), tangent = rest_vector(at + 6u);

@@ -1,8 +1,7 @@
 // Computes the normals of the triangles of one deformed primitive, after deform.comp.
 #include "lib/triangle_normal.glsl"
+#include "scene/rows_of_work.glsl"
 #include "shared/scene_blocks.h"
-
-layout(local_size_x = 64) in;
 
 layout(std430, binding = 0) readonly restrict buffer Indices { uint indices[]; };
 layout(std430, binding = 1) writeonly restrict buffer TriangleNormals { float triangle_normals[]; };
@@ -17,7 +16,7 @@ vec3 corner(uint vertex) {
 
 void main() {
   DeformBlock block = jobs[job];
-  uint triangle = gl_GlobalInvocationID.x;
+  uint triangle = index_in_rows();
   if (triangle >= block.triangle_count) return;
   uint first = block.first_index + 3u * triangle;
   vec3 normal = triangle_normal(corner(block.target + indices[first]), corner(block.target + indices[first + 1u]),

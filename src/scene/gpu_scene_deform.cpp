@@ -95,6 +95,13 @@ float weight_of(const Pose& pose, int node, std::size_t target) {
   return target < weights.size() ? weights[target] : 0.0f;
 }
 
+constexpr int row = 1 << 16;  // invocations: see glsl/scene/rows_of_work.glsl
+
+void dispatch(gl::Pass& pass, std::uint32_t count) {
+  const auto all = static_cast<int>(count);
+  if (all > 0) pass.dispatch(std::min(all, row), (all + row - 1) / row);
+}
+
 }  // namespace
 
 bool Deformer::deforms(const Node& node, const Primitive& primitive) {
@@ -214,14 +221,14 @@ void Deformer::run(gl::Device& device, const Pose& pose, const gl::Buffer& indic
   results.frames.bind_storage(binding_frames);
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
     deform.set("job", static_cast<int>(i));
-    if (jobs_[i].block.count != 0) pass.dispatch(static_cast<int>(jobs_[i].block.count), 1);
+    dispatch(pass, jobs_[i].block.count);
   }
   const gl::Program& normals = pass.use(triangle_program());
   indices.bind_storage(binding_indices);
   results.triangle_normals.bind_storage(binding_triangle_normals);
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
     normals.set("job", static_cast<int>(i));
-    if (jobs_[i].block.triangle_count != 0) pass.dispatch(static_cast<int>(jobs_[i].block.triangle_count), 1);
+    dispatch(pass, jobs_[i].block.triangle_count);
   }
 }
 

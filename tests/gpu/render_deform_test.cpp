@@ -10,12 +10,12 @@ namespace {
 constexpr int vertices = 200;
 
 // A strip of random triangles with two targets and three joints, animated. `seed`: other vertices.
-scene::Scene deforming_scene(bool skinned, bool morphed, unsigned seed = 7) {
+scene::Scene deforming_scene(bool skinned, bool morphed, unsigned seed = 7, int count = vertices) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(-1, 1);
   const auto vector = [&] { return glm::vec3(unit(random), unit(random), unit(random)); };
   scene::Primitive primitive;
-  for (int i = 0; i < vertices; ++i) {
+  for (int i = 0; i < count; ++i) {
     primitive.positions.push_back(vector());
     primitive.normals.push_back(glm::normalize(vector()));
     primitive.indices.push_back(static_cast<std::uint32_t>(i));
@@ -24,10 +24,10 @@ scene::Scene deforming_scene(bool skinned, bool morphed, unsigned seed = 7) {
     const float share = 0.5f + 0.5f * unit(random);
     primitive.weights.emplace_back(share, (1 - share) * 0.75f, (1 - share) * 0.25f, 0);
   }
-  primitive.indices.resize(vertices / 3 * 3);
+  primitive.indices.resize(static_cast<std::size_t>(count) / 3 * 3);
   if (morphed) {
     primitive.targets.resize(2);
-    for (int i = 0; i < vertices; ++i) {
+    for (int i = 0; i < count; ++i) {
       primitive.targets[0].positions.push_back(vector());
       primitive.targets[1].positions.push_back(vector());
     }
@@ -94,6 +94,17 @@ TEST_F(DeformTest, PositionsEqualTheSumsOnTheCpu) {
         ASSERT_LT(glm::distance(gpu[i], cpu[i]), 1e-5f) << i << " at " << time;
     }
   }
+}
+
+// More than one row of invocations: see glsl/scene/rows_of_work.glsl.
+TEST_F(DeformTest, LargePrimitivesAreComputedToTheirEnd) {
+  const scene::Scene scene = deforming_scene(false, true, 7, 200'003);
+  scene::GpuScene on_gpu(device, scene);
+  on_gpu.pose(device, 0.4, 0.4);
+  const std::vector<glm::vec3> gpu = on_gpu.read_deformed();
+  const std::vector<glm::vec3> cpu = deformed_on_cpu(scene, scene::pose_at(scene, 0.4));
+  ASSERT_EQ(gpu.size(), cpu.size());
+  for (std::size_t i = 0; i < cpu.size(); ++i) ASSERT_LT(glm::distance(gpu[i], cpu[i]), 1e-5f) << i;
 }
 
 TEST_F(DeformTest, EachOfTwoPrimitivesKeepsItsOwnVertices) {

@@ -78,6 +78,21 @@ TEST(GltfLimits, CountWhatIsDrawn) {
             std::string::npos);
 }
 
+// Draco allocates what its header declares before it reads the data.
+TEST(GltfLimits, CountWhatADracoHeaderDeclares) {
+  std::string bytes("DRACO\x02\x02\x01\x01\0\0\0", 12);  // version 2.2, a mesh, edge breaker, no flags, traversal 0
+  bytes += std::string("\x80\x80\x80\x20\x80\x80\x80\x20", 8);  // 2^26 points and faces
+  bytes.resize(1 << 19);
+  GltfBuilder gltf;
+  gltf.add(std::vector<uint8_t>(bytes.begin(), bytes.end()), "SCALAR", 1);
+  const std::string text =
+      gltf.text(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"extensions":{"KHR_draco_mesh_compression":)"
+                R"({"bufferView":0,"attributes":{"POSITION":0}}}}]}],"nodes":[{"mesh":0}],)"
+                R"("extensionsUsed":["KHR_draco_mesh_compression"])");
+  EXPECT_NE(refusal(text, {}).find("bytes of files expand to more, over the limit of"), std::string::npos)
+      << refusal(text, {});
+}
+
 TEST(GltfLimits, ProgressTellsOfEveryPartAtMostAHundredTimes) {
   GltfBuilder gltf;
   gltf.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);

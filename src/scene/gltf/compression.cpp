@@ -55,10 +55,12 @@ void check_meshopt_sizes(const MeshoptStream& s) {
 
 constexpr uint8_t sequential = 0;     // Draco's encoder methods
 constexpr std::size_t densest = 256;  // faces per byte: far more than real meshes reach
+// Bytes that the decoder takes for a face, of its indices and of the corner table, and for a point, besides attributes.
+constexpr std::size_t draco_face = 36, draco_point = 12;
 
 // Draco allocates what its header declares before it notices that the data are missing, so the header is checked here
 // first.
-void check_draco_header(const char* data, std::size_t size) {
+void check_draco_header(const char* data, std::size_t size, Budget& budget) {
   draco::DecoderBuffer buffer;
   buffer.Init(data, size);
   draco::DracoHeader header{};
@@ -81,6 +83,8 @@ void check_draco_header(const char* data, std::size_t size) {
   if (!ok) fail("Draco header is damaged");
   if (faces > size * densest || points > size * densest)
     fail("Draco data of {} bytes declares {} faces and {} vertices", size, faces, points);
+  budget.spend(faces, draco_face);
+  budget.spend(points, draco_point);
 }
 
 template <class T>
@@ -159,7 +163,7 @@ DracoMesh decode_draco(Document& document, const tinygltf::Primitive& primitive,
   const Bytes bytes = document.views[static_cast<std::size_t>(index_or(extension, "bufferView", 0))];
   if (bytes.empty()) fail("KHR_draco_mesh_compression without data");
   const char* data = reinterpret_cast<const char*>(bytes.data());
-  check_draco_header(data, bytes.size());
+  check_draco_header(data, bytes.size(), document.budget);
   draco::DecoderBuffer buffer;
   buffer.Init(data, bytes.size());
   draco::Decoder decoder;
