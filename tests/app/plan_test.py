@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import signal
+import struct
 import subprocess
 
 from pictures import SMALL_MAPS, scene
@@ -303,6 +304,33 @@ class Folder(Plans):
         path.write_bytes(scene("posts").read_bytes())
         self.assertIn("is not as it was when the plan was made", self.refuse("work", self.plan))
         self.assertFalse((self.folder / "sweep.results").exists())
+
+    def test_a_shader_that_was_added_is_refused(self):
+        glsl = self.folder / "glsl"
+        glsl.mkdir()
+        (glsl / "a.glsl").write_text("// one\n")
+        self.make("compare", *COMPARED, "--no-cost", "--glsl", glsl)
+        (glsl / "b.glsl").write_text("// another\n")
+        self.assertIn("b.glsl' was not there when the plan was made: plan again", self.refuse("work", self.plan))
+
+    def test_files_that_a_scene_names_and_does_not_use_may_be_missing(self):
+        """And a name with a percent sign may be meant as it is written, as `render` takes it."""
+        (self.folder / "a%20b.bin").write_bytes(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))
+        path = self.folder / "scene.gltf"
+        path.write_text(json.dumps({
+            "asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "buffers": [{"byteLength": 36, "uri": "a%20b.bin"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}], "images": [{"uri": "nowhere.png"}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]}))
+        self.make("render", path, *TINY, "--technique", "hard")
+        files = [pathlib.Path(file["path"]).name for file in self.document()["scenes"][0]["files"]]
+        self.assertEqual(sorted(files), ["a%20b.bin", "scene.gltf"])
+
+    def test_names_that_are_not_text_are_refused(self):
+        name = self.folder / os.fsdecode(b"\xff.glb")
+        name.write_bytes(scene("steps").read_bytes())
+        self.assertIn("which is not UTF-8", self.refuse("plan", "render", name, "-o", self.plan, code=2,
+                                                         errors="replace"))
 
     def test_another_folder_for_results_and_other_threads(self):
         other = self.folder / "elsewhere" / "deep"

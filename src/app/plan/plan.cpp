@@ -53,11 +53,12 @@ std::optional<std::size_t> split_output(Arguments& arguments) {
 plan::PlannedScene planned_scene(const std::string& path, const plan::SceneFacts& facts) {
   plan::PlannedScene scene{.path = path, .view = facts.view, .files = {}};
   for (const auto& [file, shader] : facts.files) {
+    std::error_code unread;
+    const std::uintmax_t bytes = std::filesystem::file_size(file, unread);
+    if (unread == std::errc::no_such_file_or_directory) continue;  // a scene may name files that it does not use
+    if (unread) fail("cannot read {}: {}", io::quoted(file), unread.message());
     try {
-      scene.files.push_back({.path = file.string(),
-                             .bytes = std::filesystem::file_size(file),
-                             .hash = io::key_of_file(file),
-                             .shader = shader});
+      scene.files.push_back({.path = file.string(), .bytes = bytes, .hash = io::key_of_file(file), .shader = shader});
     } catch (const Error& error) {
       fail("cannot read {}: {}", io::quoted(file), error.what());
     }
@@ -65,7 +66,19 @@ plan::PlannedScene planned_scene(const std::string& path, const plan::SceneFacts
   return scene;
 }
 
+// A plan is JSON, so bytes of a name that are not UTF-8 would be lost.
+void check_text(const Arguments& arguments) {
+  for (const std::string& argument : arguments) {
+    try {
+      static_cast<void>(io::Json(argument).dump());
+    } catch (const io::Json::type_error&) {
+      cli::fail_usage("a plan can't hold '{}', which is not UTF-8", cli::printable(argument));
+    }
+  }
+}
+
 void write_plan(const std::string& command, Arguments arguments) {
+  check_text(arguments);
   const std::optional<std::size_t> output = split_output(arguments);
   const std::unique_ptr<plan::Job> job = make_job(command, arguments, output.value_or(0));
   if (!job) return;

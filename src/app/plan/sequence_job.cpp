@@ -105,25 +105,35 @@ std::vector<fs::path> SequenceJob::outputs(const fs::path& folder) const {
 }
 
 std::vector<fs::path> SequenceJob::merge(const Read& read, const fs::path& folder) const {
-  std::vector<fs::path> written;
   plan::DeviceCheck devices;
+  // All before any is written, so that a damaged result leaves the pictures of the last merge as they are.
   for (std::size_t item = 0; item < count(); ++item) {
     const plan::Result result = read(item);
+    check_files(item, result);
     devices.add(plan::text_in(result.data, "device"));
-    const std::size_t lights = plan::whole_in(result.data, "lights", render::max_shadowed_lights);
-    // Names come from a file that anybody may have written: none may lead elsewhere.
-    const std::vector<fs::path> expected = files_of_item(item, lights);
-    for (std::size_t i = 0; i < std::max(result.files.size(), expected.size()); ++i) {
-      if (i == result.files.size()) fail("the result of item {} lacks the picture {}", item, io::quoted(expected[i]));
-      const plan::ResultFile& file = result.files[i];
-      if (i == expected.size() || expected[i] != file.name)
-        fail("the result of item {} has the picture '{}', which it should not have", item, file.name);
-      written.push_back(folder / expected[i]);
+  }
+  devices.warn();
+  std::vector<fs::path> written;
+  for (std::size_t item = 0; item < count(); ++item) {
+    const plan::Result result = read(item);
+    check_files(item, result);
+    for (const plan::ResultFile& file : result.files) {
+      written.push_back(folder / file.name);
       io::write_text(written.back(), {reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()});
     }
   }
-  devices.warn();
   return written;
+}
+
+// Names come from a file that anybody may have written: none may lead elsewhere.
+void SequenceJob::check_files(std::size_t item, const plan::Result& result) const {
+  const std::size_t lights = plan::whole_in(result.data, "lights", render::max_shadowed_lights);
+  const std::vector<fs::path> expected = files_of_item(item, lights);
+  for (std::size_t i = 0; i < std::max(result.files.size(), expected.size()); ++i) {
+    if (i == result.files.size()) fail("the result of item {} lacks the picture {}", item, io::quoted(expected[i]));
+    if (i == expected.size() || expected[i] != result.files[i].name)
+      fail("the result of item {} has the picture '{}', which it should not have", item, result.files[i].name);
+  }
 }
 
 }  // namespace penumbra::app

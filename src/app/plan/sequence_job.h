@@ -54,6 +54,7 @@ class SequenceJob : public plan::Job {
 
  private:
   std::vector<std::filesystem::path> files_of_item(std::size_t item, std::size_t lights) const;
+  void check_files(std::size_t item, const plan::Result& result) const;  // throws Error
 
   ParamSet params_;
   cli::OutputNames names_;

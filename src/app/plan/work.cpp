@@ -28,11 +28,12 @@ struct WorkOptions {
   bool quiet = false;
 };
 
-// Files that were found to be as the plan says, so that each is read once only.
+// Files and folders that were found to be as the plan says, so that each is read once only.
 class CheckedFiles {
  public:
   // Throws Error unless each file of the scene is as it was when the plan was made.
   void check(const plan::PlannedScene& scene) {
+    check_shaders(scene);
     for (const plan::PlannedFile& file : scene.files) {
       if (checked_.contains(file.path)) continue;
       std::error_code error;
@@ -45,6 +46,25 @@ class CheckedFiles {
   }
 
  private:
+  // A shader that was added since would take the place of one of the program's own.
+  void check_shaders(const plan::PlannedScene& scene) {
+    std::set<std::string> planned;
+    std::string folder;
+    for (const plan::PlannedFile& file : scene.files) {
+      if (file.shader.empty()) continue;
+      planned.insert(file.path);
+      folder = file.path.substr(0, file.path.size() - file.shader.size());
+    }
+    if (planned.empty() || !checked_.insert(folder).second) return;
+    std::error_code error;
+    for (std::filesystem::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      if (entry->is_regular_file(error) && !planned.contains(entry->path().string()))
+        fail("{} was not there when the plan was made: plan again", io::quoted(entry->path()));
+    }
+    if (error) fail("cannot read {}: {}", io::quoted(folder), error.message());
+  }
+
   static io::Key hash_of(const std::string& path) {
     try {
       return io::key_of_file(path);

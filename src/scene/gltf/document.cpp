@@ -155,7 +155,7 @@ void list_files(Document& document, const Json& json) {
     if (!json.contains(key)) continue;
     for (const Json& owner : json[key]) {
       const auto uri = owner.value("uri", std::string());
-      if (!uri.empty() && !is_data_uri(uri)) document.files.push_back(document.folder / percent_decoded(uri));
+      if (!uri.empty() && !is_data_uri(uri)) document.files.push_back(named_file(document.folder, uri));
     }
   }
 }

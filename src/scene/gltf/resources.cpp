@@ -125,6 +125,12 @@ std::string percent_decoded(std::string_view text) {
   return decoded;
 }
 
+std::filesystem::path named_file(const std::filesystem::path& folder, const std::string& uri) {
+  const std::filesystem::path decoded = folder / percent_decoded(uri), written = folder / uri;
+  std::error_code error;
+  return !std::filesystem::exists(decoded, error) && std::filesystem::exists(written, error) ? written : decoded;
+}
+
 std::vector<std::byte> base64_decoded(std::string_view text) {
   while (!text.empty() && text.back() == '=') text.remove_suffix(1);
   if (text.size() % 4 == 1) fail("base64 data has an impossible length");

@@ -13,6 +13,10 @@ namespace penumbra::scene::gltf {
 // Decodes percent escapes such as %20; anything that is not such an escape stays unchanged.
 std::string percent_decoded(std::string_view text);
 
+// The file below the folder that a relative URI names, also where there is none: percent-decoded as the standard says,
+// or by the name as it is written, as many exporters mean it, if only that exists.
+std::filesystem::path named_file(const std::filesystem::path& folder, const std::string& uri);
+
 // Decodes base64. Throws Error for a character outside the alphabet or a wrong length.
 std::vector<std::byte> base64_decoded(std::string_view text);
 
