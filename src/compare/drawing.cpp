@@ -75,7 +75,21 @@ CompareOptions Drawing::of_scene(std::size_t scene) const {
   return one;
 }
 
+// Before the reference is drawn, which takes longest.
+void Drawing::check_techniques(const Part& part, const session::PreparedScene& prepared) const {
+  const CompareOptions options = of_scene(part.scene);
+  const render::FrameInputs inputs = CameraPath(options, prepared).frame(options.frames ? options.frames->first : 0);
+  for (std::size_t i = part.first; i < part.first + part.count; ++i) {
+    try {
+      render::check_lights(inputs, techniques_, values_.contenders[i]);
+    } catch (const Error& error) {
+      fail("{}: {}", io::quoted(options.scene), error.what());
+    }
+  }
+}
+
 void Drawing::check_scenes() const {
+  check_techniques({.scene = *prepared_scene_, .count = values_.contenders.size()}, *prepared_);
   cli::LightKinds shining = session::kinds_of_light(*prepared_);
   for (std::size_t i = 0; i < options_.scenes.size(); ++i) {
     if (i == prepared_scene_) continue;
@@ -83,6 +97,7 @@ void Drawing::check_scenes() const {
         load_scene(of_scene(i), [](std::span<const std::byte>, const std::string& name) {
           return scene::Image{.name = name, .width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
         });
+    check_techniques({.scene = i, .count = values_.contenders.size()}, other);
     const cli::LightKinds kinds = session::kinds_of_light(other);
     shining = {.sun = shining.sun || kinds.sun, .lamps = shining.lamps || kinds.lamps};
   }
@@ -96,6 +111,7 @@ ComparedScene Drawing::draw(const Part& part, const std::function<void()>& drawn
     prepared_.emplace(load(options));
     prepared_scene_ = part.scene;
   }
+  check_techniques(part, *prepared_);
   scene::GpuScene scene(device_->device, prepared_->scene);
   const CameraPath path(options, *prepared_);
   const int first = options.frames ? options.frames->first : 0;

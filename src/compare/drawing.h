@@ -26,8 +26,8 @@ class Drawing {
   // Opens the context; the scene of `first` is read meanwhile. Both arguments must outlive this object. Throws Error.
   Drawing(const CompareOptions& options, const ComparedValues& values, std::size_t first_scene);
 
-  // Throws Error for a camera that a scene lacks, except the first one's, and warns of settings for lights that none
-  // has. Reads the scenes without their images.
+  // Throws Error for a camera that a scene lacks, except the first one's, and for techniques that do not take its
+  // lights; warns of settings for lights that none has. Reads the scenes without their images.
   void check_scenes() const;
 
   // `drawn` is called after each picture of the reference and of each contender.
@@ -37,6 +37,7 @@ class Drawing {
 
  private:
   CompareOptions of_scene(std::size_t scene) const;
+  void check_techniques(const Part& part, const session::PreparedScene& prepared) const;
 
   const CompareOptions& options_;
   const ComparedValues& values_;

@@ -65,24 +65,6 @@ std::string name_of(int place, std::span<const std::string> names) {
   return names.empty() ? std::to_string(place) : fmt::format("'{}'", names[static_cast<std::size_t>(place)]);
 }
 
-// Lamps whose shadows the technique can compute, with maps within what those of a sun may take at most. Throws Error
-// before anything is allocated. `lights`: their ids are their places in the frame.
-void check_lights(std::span<const shadow::Light> lights, std::span<const std::string> names,
-                  const shadow::Registry& registry, const ParamSet& params) {
-  const shadow::Technique& technique = registry.find(params.get_word("technique"));
-  for (const shadow::Light& light : lights) {
-    if (technique.suns_only && shadow::lamp_map_count(light.source) > 0)
-      fail("light {} is a lamp, and technique '{}' is for suns alone", name_of(light.id, names), technique.name);
-  }
-  constexpr long long most_texels = 4LL * 8192 * 8192;
-  const long long size = params.get_int("lamps.size");
-  long long maps = 0;
-  for (const shadow::Light& light : lights) maps += shadow::lamp_map_count(light.source);
-  if (maps * size * size <= most_texels) return;
-  fail("{} maps of lamps with lamps.size={} are {} texels: the limit is {} (1.1 GiB)", maps, size, maps * size * size,
-       most_texels);
-}
-
 // Once for each, however many renderers draw the scene.
 void warn_of_hidden_suns(const FrameInputs& inputs, const ParamSet& params) {
   if (inputs.told_hidden == nullptr) return;
@@ -97,6 +79,23 @@ void warn_of_hidden_suns(const FrameInputs& inputs, const ParamSet& params) {
 
 }  // namespace
 
+void check_lights(const FrameInputs& inputs, const shadow::Registry& registry, const ParamSet& params) {
+  const std::vector<shadow::Light> lights = shadow_lights(inputs.lights, {});  // with their places as ids
+  const shadow::Technique& technique = registry.find(params.get_word("technique"));
+  for (const shadow::Light& light : lights) {
+    if (technique.suns_only && shadow::lamp_map_count(light.source) > 0)
+      fail("light {} is a lamp, and technique '{}' is for suns alone", name_of(light.id, inputs.light_names),
+           technique.name);
+  }
+  constexpr long long most_texels = 4LL * 8192 * 8192;
+  const long long size = params.get_int("lamps.size");
+  long long maps = 0;
+  for (const shadow::Light& light : lights) maps += shadow::lamp_map_count(light.source);
+  if (maps * size * size <= most_texels) return;
+  fail("{} maps of lamps with lamps.size={} are {} texels: the limit is {} (1.1 GiB)", maps, size, maps * size * size,
+       most_texels);
+}
+
 const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, const ParamSet& params) {
   if (inputs.lights.empty() || inputs.lights.size() > max_lights)
     fail("a frame has {} lights; 1 to {} can be drawn", inputs.lights.size(), max_lights);
@@ -107,7 +106,7 @@ const Frame& Renderer::draw(scene::GpuScene& scene, const FrameInputs& inputs, c
   if (inputs.view < 0) fail("view {} can't be drawn: views have numbers from 0 on", inputs.view);
   if (inputs.samples < 1 || inputs.samples > max_samples)
     fail("a frame has {} samples for each pixel; 1 to {} can be drawn", inputs.samples, max_samples);
-  check_lights(shadow_lights(inputs.lights, {}), inputs.light_names, registry(), params);
+  check_lights(inputs, registry(), params);
   gl::Device& device = state_->device;
   const State::Drawn now{
       .scene = scene.id(), .casters = caster_choice(params, inputs.lights, registry()), .time = inputs.time};

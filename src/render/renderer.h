@@ -95,6 +95,10 @@ struct Frame {
 scene::CasterChoice caster_choice(const ParamSet& params, std::span<const FrameLight> lights,
                                   const shadow::Registry& registry);
 
+// Throws Error, as Renderer::draw() does, for lamps whose shadows the technique can't compute, and for maps of lamps
+// that are larger than those of a sun can be. Nothing is allocated.
+void check_lights(const FrameInputs& inputs, const shadow::Registry& registry, const ParamSet& params);
+
 class Renderer {
  public:
   explicit Renderer(gl::Device& device, shadow::Registry registry = shadow::built_in_registry());

@@ -8,6 +8,7 @@
 #include "bench/times.h"
 #include "cli/input_files.h"
 #include "image/read.h"
+#include "io/output_file.h"
 #include "metrics/convolve.h"
 #include "metrics/flip.h"
 #include "metrics/penumbra_width.h"
@@ -28,6 +29,10 @@ metrics::Plane blurred(const metrics::Plane& plane) {
 session::PreparedScene load_scene(const Options& options) {
   session::PreparedScene prepared = session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)));
   check_inputs(options, prepared.scene.files);
+  const cli::LightKinds shining = session::kinds_of_light(prepared);
+  if (shining.lamps || !shining.sun)
+    fail("{}: the figures are of a scene that suns alone light, and {}; choose them with --lights",
+         io::quoted(options.scene), shining.sun ? "lamps shine here too" : "none shines here");
   return prepared;
 }
 

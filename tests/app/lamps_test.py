@@ -88,6 +88,12 @@ class Lamps(TestCase):
                 message = self.refuse("render", GALLERY, "-o", self.folder / "y.png", *SIZE, *arguments,
                                       code=1 if "technique" in line or "pendant" in line else 2)
                 self.assertIn(line, message)
+        # Before the reference is traced, which would take long.
+        for arguments in (("compare", "--technique", "hard,vssm", "--spp", "4096"), ("reproduce", "--quick")):
+            with self.subTest(arguments=arguments):
+                message = self.refuse(arguments[0], GALLERY, "-o", self.folder / "y", *arguments[1:], "--no-cache")
+                self.assertIn("technique 'vssm' is for suns alone" if arguments[0] == "compare" else
+                              "the figures are of a scene that suns alone light, and lamps shine here too", message)
         many = [word for x in range(8) for word in ("--lamp", f"{x},3,0")]
         self.assertIn("48 maps of lamps with lamps.size=4096 are 805306368 texels: the limit is 268435456 (1.1 GiB)",
                       self.refuse("render", POSTS, "-o", self.folder / "y.png", *SIZE, "--no-sun", "--set",
