@@ -63,7 +63,7 @@ struct CachedFramebuffer {
   std::uint64_t last_use = 0;
 };
 
-using SamplerKey = std::tuple<GLenum, GLenum, GLenum, GLenum, bool, float>;
+using SamplerKey = std::tuple<GLenum, GLenum, GLenum, GLenum, bool, float, float>;
 
 void attach(GLuint framebuffer, GLenum point, const Attachment& attachment) {
   const Texture& texture = *attachment.texture;
@@ -198,7 +198,8 @@ void Device::drop(std::string_view prefix, const std::set<std::string, std::less
 }
 
 const Sampler& Device::sampler(const SamplerDesc& desc) {
-  const SamplerKey key(desc.min_filter, desc.mag_filter, desc.wrap_s, desc.wrap_t, desc.compare, desc.max_anisotropy);
+  const SamplerKey key(desc.min_filter, desc.mag_filter, desc.wrap_s, desc.wrap_t, desc.compare, desc.max_anisotropy,
+                       desc.lod_bias);
   Sampler& sampler = impl_->samplers[key];
   if (sampler.id() == 0) sampler = Sampler("sampler", desc);
   return sampler;

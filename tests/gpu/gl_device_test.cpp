@@ -45,6 +45,15 @@ TEST_F(GlDevice, AFrameMakesNoObjectsAfterTheFirst) {
   EXPECT_TRUE(creations.counts().empty()) << creations.counts().begin()->first << ": made and deleted again";
 }
 
+TEST_F(GlDevice, SamplersOfOneDescriptionAreShared) {
+  const gl::SamplerDesc plain{.min_filter = GL_LINEAR_MIPMAP_NEAREST};
+  gl::SamplerDesc sharper = plain;
+  sharper.lod_bias = -1.5f;
+  const GLuint first = device.sampler(plain).id();
+  EXPECT_NE(device.sampler(sharper).id(), first);
+  EXPECT_EQ(device.sampler(plain).id(), first);
+}
+
 TEST_F(GlDevice, DropTakesWhatBeginsWithThePrefixAndNothingElse) {
   for (const char* name : {"a", "b", "b/1", "b/1/x", "b/10", "b0", "c"}) {
     device.target(name, {.format = GL_R8, .width = 4});
