@@ -115,10 +115,11 @@ Scene::Scene(const std::string& path, const std::vector<std::string>& arguments)
 
 Scene::~Scene() {
   if (!session_) return;
-  if (thread_ == std::this_thread::get_id()) {
+  try {
     use();
-  } else {
-    static_cast<void>(session_.release());  // OpenGL objects can't be deleted on another thread than theirs
+  } catch (const Error&) {
+    // OpenGL objects can't be deleted without their context, nor on another thread than theirs.
+    static_cast<void>(session_.release());
   }
 }
 
@@ -173,10 +174,14 @@ void Scene::check_light(int light) const {
 
 void Scene::draw(const ParamSet& params, int frame, int samples) {
   use();
+  // The session takes the frame before the first one for the first one itself, which has the same time.
+  if (drawn_ != frame - 1) session_->cut();
+  drawn_.reset();
   {
     const py::gil_scoped_release release;
     try {
       session_->draw(frame, params, samples);
+      drawn_ = frame;
     } catch (const truth::Interrupted&) {
       session_->cut();
     }

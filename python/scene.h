@@ -53,6 +53,7 @@ class Scene {
   pybind11::array read(const std::string& picture, int light) const;
 
   std::thread::id thread_ = std::this_thread::get_id();
+  std::optional<int> drawn_;  // the last frame that was finished
   Options options_;
   ParamSet params_;
   session::PreparedScene prepared_;

@@ -69,6 +69,18 @@ assert numpy.array_equal(sixth, numpy.rint(255 * penumbra.read("{frame}")).astyp
 assert not numpy.array_equal(scene.truth(samples=8, frame=6)["shadow"], scene.truth(samples=8)["shadow"])
 """)
 
+    def test_a_frame_that_is_drawn_again_begins_a_new_history(self):
+        self.python("""
+import penumbra, numpy
+scene = penumbra.open("scenes/moving.glb", size=(96, 54), technique="thesis", samples=1, fps=12, backend="osmesa",
+                      no_cache=True)
+for frame in (0, 5):
+    assert numpy.array_equal(scene.render("shadow", frame=frame), scene.render("shadow", frame=frame)), frame
+alone = scene.render("shadow", frame=1)
+scene.render(frame=0)
+assert not numpy.array_equal(scene.render("shadow", frame=1), alone)
+""")
+
     def test_samples_have_shadows_of_their_own_where_asked(self):
         written = self.folder / "render.png"
         self.succeed("render", "scenes/steps.glb", "-o", written, "--size", "96x54", "--samples", "4", "--sample-shadows",
