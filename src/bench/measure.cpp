@@ -224,7 +224,11 @@ void fit_models(Results& results) {
       xs.push_back(point.point.at);
       ys.push_back(point.costs[c].swept.median);
     }
-    results.models.push_back({results.entries[c].label, fit_linear(xs, ys)});
+    try {
+      results.models.push_back({results.entries[c].label, fit_linear(xs, ys)});
+    } catch (const Error&) {
+      return;  // what was measured is worth writing without a model
+    }
   }
 }
 

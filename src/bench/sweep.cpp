@@ -43,6 +43,7 @@ Sweep resolution(const SweepLimits& limits) {
     if ((limits.software && factor > largest_in_software) || too_large) break;
     Point point = point_of(size.width * static_cast<double>(size.height) / million,
                            fmt::format("{}x{}", size.width, size.height));
+    if (!sweep.points.empty() && sweep.points.back().at == point.at) continue;  // of a tiny picture
     point.size = size;
     sweep.points.push_back(std::move(point));
   }

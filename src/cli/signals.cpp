@@ -12,11 +12,20 @@ extern "C" void end_by_signal(int signal) { io::exit_without_temporaries(128 + s
 
 }  // namespace
 
+std::vector<int> ending_signals() {
+  std::vector<int> signals;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction present = {};
+    sigaction(signal, nullptr, &present);
+    if (present.sa_handler != SIG_IGN) signals.push_back(signal);
+  }
+  return signals;
+}
+
 void clean_up_on_signals() {
   struct sigaction action = {};
   action.sa_handler = end_by_signal;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : ending_signals()) sigaction(signal, &action, nullptr);
 }
 
 void fail_writes_past_the_limit() {

@@ -11,8 +11,13 @@
 namespace penumbra::cli {
 
 std::string printable(std::string text) {
+  bool after_c2 = false;  // the first byte of U+0080 to U+00BF in UTF-8
   for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_c1 = after_c2 && byte >= 0x80 && byte < 0xa0;
+    if (is_c1) *(&c - 1) = ' ';
+    if (is_c1 || byte < 0x20 || byte == 0x7f) c = ' ';
+    after_c2 = byte == 0xc2;
   }
   return text;
 }

@@ -100,10 +100,14 @@ std::vector<png_text> texts_of(const Metadata& metadata) {
   std::vector<png_text> texts;
   for (const auto& [name, value] : metadata) {
     png_text text{};
-    text.compression = PNG_TEXT_COMPRESSION_NONE;
     text.key = not_const(name);
     text.text = not_const(value);
-    text.text_length = value.size();
+    // Plain texts of a PNG are Latin-1.
+    const bool ascii = std::ranges::all_of(value, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    text.compression = ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
+    (ascii ? text.text_length : text.itxt_length) = value.size();
+    static char no_language[] = "";
+    text.lang = text.lang_key = no_language;
     texts.push_back(text);
   }
   return texts;

@@ -181,6 +181,7 @@ void refuse_all_but_files(const fs::path& path, const fs::path& target) {
   std::error_code error;
   const fs::file_status there = fs::status(target, error);
   if (!path.has_filename() || fs::is_directory(there)) fail_write(path, "it is a folder");
+  if (there.type() == fs::file_type::none) fail_write(path, error.message());
   if (!fs::exists(there)) return;
   if (!fs::is_regular_file(there)) fail_write(path, "it is not a file");
   if (access(target.c_str(), W_OK) != 0) fail_write(path, std::strerror(errno));

@@ -9,7 +9,7 @@ import subprocess
 import time
 
 from pictures import SMALL, SMALL_MAPS, read_exr, read_exr_header, read_png, scene
-from support import PROGRAM, TestCase, main, run, without_root
+from support import PROGRAM, TestCase, main, run, wait_until_it_catches, without_root
 
 POSTS = scene("posts")
 AOVS = ("shadow", "depth", "normal", "albedo", "motion", "cascade", "blocker", "penumbra")
@@ -216,7 +216,7 @@ class Output(TestCase):
         self.assertIn("x.png", self.refuse("render", POSTS, "-o", self.folder / "x.png"))
 
     def test_signals_leave_nothing(self):
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with self.subTest(number):
                 process = subprocess.Popen([PROGRAM, "render", POSTS, "-o", self.folder / "x_%d.png", "--frames",
                                             "0:9999", "--size", "64x36", *SMALL_MAPS], stdout=subprocess.DEVNULL)
@@ -229,6 +229,16 @@ class Output(TestCase):
                 for path in self.folder.iterdir():
                     read_png(path)  # each is whole
                     path.unlink()
+
+    def test_a_signal_that_is_ignored_stays_ignored(self):
+        """As SIGINT in programs that a script starts in the background, and SIGHUP in those of nohup."""
+        for number in (signal.SIGINT, signal.SIGHUP):
+            process = subprocess.Popen([PROGRAM, "render", POSTS, "-o", self.folder / "x_%d.png", "--frames", "0:1",
+                                        *SMALL, *SMALL_MAPS], stdout=subprocess.DEVNULL,
+                                       preexec_fn=lambda ignored=number: signal.signal(ignored, signal.SIG_IGN))
+            wait_until_it_catches(signal.SIGTERM, process)
+            process.send_signal(number)
+            self.assertEqual(process.wait(timeout=60), 0)
 
     def test_a_limit_of_file_sizes_is_an_error_and_leaves_nothing(self):
         def few_bytes():

@@ -55,6 +55,11 @@ TEST(Sweep, StaysWithinTheDevicesLimits) {
   EXPECT_EQ(make_sweep("map_size", {.cascades = 1}).points.back().names.front(), "8192");
 }
 
+TEST(Sweep, NoSizeComesTwice) {
+  const Sweep sweep = make_sweep("resolution", {.size = {1, 1}});
+  for (std::size_t i = 1; i < sweep.points.size(); ++i) EXPECT_NE(sweep.points[i].at, sweep.points[i - 1].at) << i;
+}
+
 TEST(CasterGrid, HasTheTrianglesThatWereAskedFor) {
   constexpr long long plane = 2;
   for (const long long triangles : {1'000LL, 10'000LL, 100'000LL, 1'000'000LL, 10'000'000LL})

@@ -28,4 +28,13 @@ TEST(CliText, AWordIsNeverBroken) {
 
 TEST(CliText, LettersOfSeveralBytesAreOneColumn) { EXPECT_EQ(wrapped("ÄÄÄÄ ÖÖÖÖ ÜÜÜÜ", 9), "ÄÄÄÄ ÖÖÖÖ\nÜÜÜÜ"); }
 
+// U+0080 to U+009F, of which U+009B begins a sequence for some terminals.
+TEST(CliText, ControlCharactersBecomeSpaces) {
+  EXPECT_EQ(penumbra::cli::printable("a\nb\x1b[2J\x7f"), "a b [2J ");
+  EXPECT_EQ(penumbra::cli::printable("a\xc2\x9b"
+                                     "2J\xc2\x80"),
+            "a  2J  ");
+  EXPECT_EQ(penumbra::cli::printable("\u00a0\u00e9\u2014\xc2"), "\u00a0\u00e9\u2014\xc2");
+}
+
 }  // namespace

@@ -52,6 +52,16 @@ TEST_F(ImageWrite, PngHoldsTheBytesAsTheyAre) {
   stbi_image_free(read);
 }
 
+// tEXt is Latin-1, iTXt is UTF-8: name, no compression, no language, no translated name, value.
+TEST_F(ImageWrite, TextsOfAPngAreUtf8OnlyWhereTheFormatHasIt) {
+  using namespace std::string_literals;
+  const std::vector<std::uint8_t> pixel{7};
+  penumbra::image::write_png(folder_ / "x.png", 1, 1, 1, pixel, {{"scene", "a.glb"}, {"light", "L\u00e1mpara"}});
+  const std::string bytes = bytes_of(folder_ / "x.png");
+  EXPECT_NE(bytes.find("tEXtscene\0a.glb"s), std::string::npos);
+  EXPECT_NE(bytes.find("iTXtlight\0\0\0\0\0L\xc3\xa1mpara"s), std::string::npos);
+}
+
 TEST_F(ImageWrite, APngInMemoryIsTheFile) {
   const std::vector<std::uint8_t> pixels{1, 2, 3, 250, 251, 252};
   penumbra::image::write_png(folder_ / "x.png", 2, 1, 3, pixels);

@@ -221,6 +221,8 @@ TEST_F(OutputFileTest, RefusesPlacesThatCannotBeWritten) {
   EXPECT_THROW(check_writable(folder_), Error);
   EXPECT_THROW(check_writable(folder_ / "file/x.png"), Error);
   EXPECT_THROW(check_writable(folder_ / std::string(300, 'x') / "x.png"), Error);
+  EXPECT_TRUE(
+      error_of([&] { check_writable(folder_ / (std::string(300, 'x') + ".png")); }).ends_with("File name too long"));
   EXPECT_THROW(check_writable("/proc/no/x.png"), Error);
   EXPECT_THROW(write_text("/proc/no/x.png", "text"), Error);
   EXPECT_NO_THROW(check_writable(folder_ / "new/x.png"));

@@ -70,7 +70,11 @@ void check_scene_files(const std::vector<fs::path>& files, const RenderOptions& 
 
 void check_files(const RenderOptions& options, const cli::OutputNames& names) {
   check_scene_files({options.scene}, options, names);
-  io::check_writable(names.picture(options.frames.value_or(cli::FrameRange{}).first));
+  const int first = options.frames.value_or(cli::FrameRange{}).first;
+  io::check_writable(names.picture(first));
+  for (const std::string& aov : options.aovs) {
+    if (!names.is_exr()) io::check_writable(names.aov(first, aov));
+  }
   if (!options.save_preset.empty()) check_alone("--save-preset", options.save_preset, options, names);
   if (options.stats.empty()) return;
   check_alone("--stats", options.stats, options, names);
