@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <optional>
@@ -12,7 +14,8 @@ namespace penumbra::cli {
 
 namespace {
 
-constexpr double usual_cone = 40;  // degrees
+constexpr double usual_cone = 40, least_cone = 1e-3;  // degrees
+constexpr float brightest = 1e9f;                     // of rgb
 constexpr float inner_share = 0.8f;
 
 std::string text_of(const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
@@ -40,7 +43,7 @@ void set(render::LampLight& lamp, Spot& spot, const std::string& option, std::st
   } else if (name == "to") {
     spot.to = parse_point(full, value);
   } else if (name == "cone") {
-    spot.cone = parse_number(full, value, 0.1, 90);
+    spot.cone = parse_number(full, value, least_cone, 90);
   } else if (name == "inner") {
     spot.inner = parse_number(full, value, 0, 90);
   } else {
@@ -81,10 +84,13 @@ render::LampLight parse_lamp(std::string_view option, std::string_view text) {
 
 std::string lamp_text(const render::LampLight& lamp) {
   std::string text = text_of(lamp.position) + fmt::format(":radius={}", lamp.radius);
-  text += fmt::format(":rgb={}", text_of(lamp.intensity / 100.0f));
+  text += fmt::format(":rgb={}", text_of(glm::min(lamp.intensity / 100.0f, glm::vec3(brightest))));
   if (lamp.range > 0) text += fmt::format(":range={}", lamp.range);
   if (lamp.axis != glm::vec3(0)) {
-    text += fmt::format(":to={}:cone={}", text_of(lamp.position + lamp.axis), glm::degrees(lamp.outer_cone));
+    // Far from the origin, a point a metre away would be rounded to another direction.
+    const float away = std::max(1.0f, 1e-3f * glm::length(lamp.position));
+    text += fmt::format(":to={}:cone={}", text_of(lamp.position + away * lamp.axis),
+                        std::max(static_cast<double>(glm::degrees(lamp.outer_cone)), least_cone));
     if (lamp.inner_cone != inner_share * lamp.outer_cone)
       text += fmt::format(":inner={}", glm::degrees(lamp.inner_cone));
   }

@@ -25,6 +25,14 @@ void add_cache_options(CLI::App& app, CacheOptions& options) {
   app.add_flag("--no-cache", options.no_cache, "Neither look up nor keep ray-traced shadows")->disable_flag_override();
 }
 
+std::vector<std::string> cache_arguments(const CacheOptions& options) {
+  std::vector<std::string> arguments;
+  if (options.cache) arguments.push_back("--cache=" + *options.cache);
+  if (options.cache_bytes) arguments.push_back("--cache-size=" + std::to_string(*options.cache_bytes));
+  if (options.no_cache) arguments.emplace_back("--no-cache");
+  return arguments;
+}
+
 void check_together(const CacheOptions& options) {
   if (options.cache && options.no_cache) cli::fail_usage("--cache and --no-cache exclude each other");
   if (options.cache_bytes && options.no_cache) cli::fail_usage("--cache-size and --no-cache exclude each other");

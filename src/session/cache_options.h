@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/cli_fwd.h"
 
@@ -19,6 +20,9 @@ struct CacheOptions {
 };
 
 void add_cache_options(CLI::App& app, CacheOptions& options);
+
+// The options that say the same.
+std::vector<std::string> cache_arguments(const CacheOptions& options);
 
 // Throws cli::UsageError for --no-cache with --cache or --cache-size.
 void check_together(const CacheOptions& options);

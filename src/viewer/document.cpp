@@ -103,9 +103,11 @@ std::vector<std::string> view_arguments(const cli::SceneOptions& options) {
   return arguments;
 }
 
+// A file whose name begins with a minus sign.
+std::string no_option(const std::string& file) { return file.starts_with('-') ? "./" + file : file; }
+
 std::vector<std::string> scene_arguments(const cli::SceneOptions& options) {
-  // A file whose name begins with a minus sign is no option.
-  std::vector<std::string> arguments{options.scene.starts_with('-') ? "./" + options.scene : options.scene};
+  std::vector<std::string> arguments{no_option(options.scene)};
   add(arguments, "--size", fmt::format("{}x{}", options.size.width, options.size.height));
   for (std::string& argument : view_arguments(options)) arguments.push_back(std::move(argument));
   if (options.ground == render::GroundChoice::on) add(arguments, "--ground", "on");
@@ -119,7 +121,7 @@ std::vector<std::string> render_arguments(const Document& document, const std::s
                                           const std::string& glsl, std::optional<cli::FrameRange> range) {
   std::vector<std::string> arguments{"render"};
   for (std::string& argument : scene_arguments(document.options)) arguments.push_back(std::move(argument));
-  arguments.insert(arguments.end(), {"-o", output});
+  arguments.insert(arguments.end(), {"-o", no_option(output)});
   if (document.options.samples != cli::SceneOptions{}.samples)
     add(arguments, "--samples", std::to_string(document.options.samples));
   add_frames(arguments, document, range);

@@ -167,6 +167,8 @@ void take_letters_with_ctrl(UiState& state) {
   const ImGuiIO& io = ImGui::GetIO();
   if (!io.KeyCtrl) return;
   if (letter_pressed('s')) state.requests.save = true;
+  if (letter_pressed('c')) state.requests.copy_command = true;
+  if (letter_pressed('o')) state.open_files();
   if (letter_pressed('q')) state.requests.quit = true;
   const bool z = letter_pressed('z');
   if (z && !io.KeyShift) state.requests.undo = true;
@@ -251,16 +253,9 @@ void take_keys(const Panel& panel, float seconds) {
   if (pressed(GLFW_KEY_L)) toggle_lock(panel);
   if (pressed(GLFW_KEY_0)) state.zoom = {};
   if (pressed(GLFW_KEY_HOME)) state.requests.frame_casters = true;
-  if (pressed(GLFW_KEY_C)) {
-    if (ImGui::GetIO().KeyCtrl) {
-      state.requests.copy_command = true;
-    } else {
-      state.compare(!state.comparison.on);
-    }
-  }
+  if (pressed(GLFW_KEY_C) && !ImGui::GetIO().KeyCtrl) state.compare(!state.comparison.on);
   if (pressed(GLFW_KEY_X) && state.comparison.on)
     state.comparison.how = state.comparison.how == CompareMode::a ? CompareMode::b : CompareMode::a;
-  if (pressed(GLFW_KEY_O) && ImGui::GetIO().KeyCtrl) state.open_files();
   take_letters_with_ctrl(state);
   take_digits(panel);
   take_time_keys(panel);

@@ -75,6 +75,8 @@ void Viewer::open(const std::string& asked) {
   options.fps = options_.fps;
   options.samples = options_.samples;
   options.frames = cli::FrameRange{};
+  options.reading.limits = options_.reading.limits;
+  options.reading.follow_links = options_.reading.follow_links;
   // The shown scene keeps its camera, sun, ground and time; another one starts with the defaults.
   loader_.start(scene == state_.document.options.scene ? state_.document.options : options);
 }
@@ -85,7 +87,7 @@ void Viewer::open_preset(const std::string& file) {
   cli::ShadowOptions options;
   options.presets = {file};
   state_.document.params = cli::resolve_params(options, session::all_techniques());
-  note_preset(file);
+  if (is_preset(file)) note_preset(file);
   tell(state_, "loaded " + file, ImGui::GetTime());
 }
 
@@ -125,6 +127,8 @@ void Viewer::write_picture(bool sequence) {
   if (state_.with_aovs) {
     for (const render::Aov& aov : render::aovs()) arguments.push_back("--aov=" + aov.name);
   }
+  for (std::string& argument : cache_arguments(options_)) arguments.push_back(std::move(argument));
+  if (options_.threads) arguments.push_back(fmt::format("--threads={}", *options_.threads));
   const cli::OutputNames names(state_.picture_file, sequence);
   std::vector<std::filesystem::path> files;
   for (int frame = range.first; frame <= range.last; ++frame) files.push_back(names.picture(frame));

@@ -64,8 +64,14 @@ void Viewer::save_view() {
 
 void Viewer::save() {
   if (options_.defaults) fail("nothing is saved: --defaults was given");
-  if (scene_ != nullptr) save_view();
+  // First, as the view's file is beside the scene, where the user may not write.
   if (status_.unsaved.preset) save_preset(saved_.preset, /* overwrite= */ true);
+  if (scene_ != nullptr) save_view();
+}
+
+void Viewer::save_what_would_be_lost() {
+  if (status_.unsaved.preset) save_preset(saved_.preset, /* overwrite= */ true);
+  if (status_.unsaved.view) save_view();
 }
 
 // Whether the window closes now: the user wants it, and nothing would be lost. Else the next frame asks.
@@ -92,7 +98,7 @@ void Viewer::answer_closing(ClosingAnswer answer) {
     open(state_.closing.scene);
     return;
   }
-  if (answer == ClosingAnswer::save) save();
+  if (answer == ClosingAnswer::save) save_what_would_be_lost();
   // The parameters that the next run begins with.
   if (answer == ClosingAnswer::discard && status_.unsaved.preset) state_.document.params = saved_.params;
   ended_ = true;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "cli/signals.h"
 #include "cli/text.h"
 #include "io/presets.h"
 #include "session/render_session.h"
@@ -24,8 +25,7 @@ volatile std::sig_atomic_t caught_signal = 0;
 void end_on_signals() {
   struct sigaction action {};
   action.sa_handler = [](int number) { caught_signal = number; };
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : cli::ending_signals()) sigaction(signal, &action, nullptr);
 }
 
 // The document of the command line.

@@ -156,6 +156,19 @@ class Closing(WindowTest):
             self.answer(viewer, "Discard")
             self.assertEqual(viewer.exit_code(), 0)
 
+    def test_a_preset_is_saved_where_the_view_cannot_be(self):
+        broken = '{"view": ["--eye=nan,0,0", "--target=0,0,0"]}'
+        self.saved.write_text(broken)
+        preset = self.folder / "preset.toml"
+        preset.write_text('technique = "pcf"\n')
+        with self.view("mine.glb", "--preset", "preset.toml", maps=()) as viewer:
+            viewer.choose("technique", "none")
+            self.ask(viewer, "Escape")
+            self.answer(viewer, "Save")
+            self.assertEqual(viewer.exit_code(), 0)
+        self.assertIn('"none"', preset.read_text())
+        self.assertEqual(self.saved.read_text(), broken)
+
     def test_a_scene_that_was_not_loaded_has_no_view_to_save(self):
         self.scene.write_text("no scene")
         preset = self.folder / "preset.toml"
