@@ -23,18 +23,6 @@ done
 export GLIBC_TUNABLES=${GLIBC_TUNABLES-glibc.malloc.hugetlb=1}
 [[ -z ${PENUMBRA_ASSETS:-} ]] || PENUMBRA_ASSETS=$(cd "$PENUMBRA_ASSETS" && pwd)
 
-# tests_built PRESET TARGETS...: the preset with its tests, up to date.
-tests_built() {
-  local preset=$1
-  shift
-  build_lock
-  if ! configured "$root/build/$preset" || grep -qx 'PENUMBRA_TESTS:BOOL=OFF' "$root/build/$preset/CMakeCache.txt"; then
-    configure "$preset" -DPENUMBRA_TESTS=ON
-  fi
-  build "$preset" "$@"
-  build_unlock
-}
-
 # suite PRESET CTEST-ARGUMENTS...: results stay in the build folder for the count at the end.
 suite() {
   local folder=$root/build/$1

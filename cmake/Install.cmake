@@ -38,8 +38,15 @@ install(FILES "${PROJECT_BINARY_DIR}/penumbraConfig.cmake" "${PROJECT_BINARY_DIR
 
 # The same for builds that use pkg-config.
 set(pkgconfig_dir "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
-file(RELATIVE_PATH pc_prefix "/${pkgconfig_dir}" "/")
+file(RELATIVE_PATH pc_prefix "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
 string(REGEX REPLACE "/$" "" pc_prefix "${pc_prefix}")
+foreach(dir includedir libdir)
+  string(TOUPPER ${dir} DIR)
+  set(pc_${dir} "${CMAKE_INSTALL_${DIR}}")
+  if(NOT IS_ABSOLUTE "${pc_${dir}}")
+    string(PREPEND pc_${dir} "\${prefix}/")
+  endif()
+endforeach()
 list(TRANSFORM CMAKE_DL_LIBS PREPEND "-l" OUTPUT_VARIABLE dl_libraries)
 foreach(package penumbra penumbra-shadow)
   configure_file("${PROJECT_SOURCE_DIR}/cmake/${package}.pc.in" "${PROJECT_BINARY_DIR}/${package}.pc" @ONLY)

@@ -34,7 +34,7 @@ foreach(library penumbra_shared penumbra_static)
   add_dependencies(${library} penumbra_settings_header)
   set_target_properties(${library} PROPERTIES OUTPUT_NAME penumbra LINKER_LANGUAGE CXX)
   target_include_directories(${library} INTERFACE $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>)
-  if(NOT PROJECT_IS_TOP_LEVEL)
+  if(NOT PROJECT_IS_TOP_LEVEL AND NOT PENUMBRA_INSTALL)
     set_target_properties(${library} PROPERTIES EXCLUDE_FROM_ALL ON) # built if the project links it
   endif()
 endforeach()

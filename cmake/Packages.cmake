@@ -51,7 +51,7 @@ penumbra_package(development libpenumbra-dev
     "context, depth buffer and draw calls. This package has the headers for C and"
     "C++, their reference, the static library, files for CMake and pkg-config,"
     "shaders and examples."
-  DEPENDS "${runtime_package} (= ${PROJECT_VERSION}-1)" libfmt-dev libglm-dev)
+  DEPENDS "${runtime_package} (= ${PROJECT_VERSION}-1)" libfmt-dev libgl-dev libglm-dev)
 if(PENUMBRA_APP)
   penumbra_package(program penumbra
     SECTION graphics LIBRARIES

@@ -8,10 +8,7 @@ root=$(dirname -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")")
 source "$root/scripts/setup.sh"
 
 ensure_packages "run test"
-build_lock
-configured "$root/build/release" || configure release -DPENUMBRA_TESTS=ON
-build release penumbra_image_tests
-build_unlock
+tests_built release penumbra_image_tests
 
 filter='All/GoldenPictures.*'
 if (($# > 0)); then

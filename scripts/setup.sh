@@ -179,10 +179,22 @@ build() {
   wait "$reporter" || true
   [[ -t 2 ]] && printf '\r\033[K' >&2
   ((status == 0)) && return
-  if grep -q "rebuilding 'build.ninja'" "$log"; then
+  if grep -q "rebuilding 'build.ninja'" "$log" || ! grep -q '^FAILED:' "$log"; then
     tail -n 40 "$log" >&2
   else
     awk '/^FAILED:/ { failed = 1 } failed' "$log" | head -n 60 >&2
   fi
   die "the build of '$preset' failed; the whole log is in $log"
+}
+
+# tests_built PRESET TARGETS...: the preset with its tests, up to date.
+tests_built() {
+  local preset=$1
+  shift
+  build_lock
+  if ! configured "$root/build/$preset" || grep -qx 'PENUMBRA_TESTS:BOOL=OFF' "$root/build/$preset/CMakeCache.txt"; then
+    configure "$preset" -DPENUMBRA_TESTS=ON
+  fi
+  build "$preset" "$@"
+  build_unlock
 }
