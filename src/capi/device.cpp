@@ -77,7 +77,11 @@ OneCall::OneCall(penumbra_device& device) : thread_(device), device_(device) {
 
 OneCall::~OneCall() { device_.in_use.clear(); }
 
-DeviceCall::DeviceCall(penumbra_device* device) : device_(required(device, "device")), one_(device_) {
+DeviceCall::DeviceCall(penumbra_device* device) : device_(required(device, "device")), one_(device_) { begin(); }
+
+DeviceCall::DeviceCall(penumbra_device& device, const OneCall& /*one*/) : device_(device) { begin(); }
+
+void DeviceCall::begin() {
   if (device_.objects == nullptr) fail_with(PENUMBRA_ERROR_CONTEXT, "the device was abandoned");
   check_context(scope_.emplace(device_.objects->device).has_context());
 }

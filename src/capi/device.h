@@ -71,13 +71,16 @@ class OneCall {
 class DeviceCall {
  public:
   explicit DeviceCall(penumbra_device* device);
+  DeviceCall(penumbra_device& device, const OneCall& one);  // within that scope
 
   shadow::SoftShadows& shadows() const { return device_.objects->shadows; }
   gl::Device& gl() const { return device_.objects->device; }
 
  private:
+  void begin();
+
   penumbra_device& device_;
-  OneCall one_;
+  std::optional<OneCall> one_;
   std::optional<gl::DeviceScope> scope_;
 };
 

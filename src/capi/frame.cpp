@@ -247,16 +247,17 @@ shadow::DrawCasters casters_of(const penumbra_frame& frame, penumbra_device& dev
 
 namespace {
 
-// Runs what draws a frame of a view. If that fails otherwise than by a wrong argument, the view has no mask, and its
-// next frame begins anew.
+// Runs what draws a frame of a view, within one call with the device. If it fails otherwise than by a wrong argument,
+// the view has no mask, and its next frame begins anew.
 template <class Draw>
 void draw_view(penumbra_device& device, int view, const Draw& draw) {
+  const OneCall one(device);
   const auto drop = [&] {
     device.masks.erase(view);
     if (device.objects != nullptr) device.objects->shadows.interrupt_view(view);
   };
   try {
-    draw();
+    draw(DeviceCall(device, one));
   } catch (const Failure& failure) {
     if (failure.result() != PENUMBRA_ERROR_ARGUMENT) drop();
     throw;
@@ -277,8 +278,7 @@ penumbra_result penumbra_render(penumbra_device* device, const penumbra_settings
   return run("penumbra_render", [&] {
     required(device, "device");
     const penumbra_frame given = read_struct(&required(frame, "frame"));
-    draw_view(*device, given.view_id, [&] {
-      const DeviceCall call(device);
+    draw_view(*device, given.view_id, [&](const DeviceCall& call) {
       const penumbra::ParamSet& params = params_of(settings);
       check_size<penumbra_mask>(required(mask, "mask").struct_size);
       penumbra::shadow::Inputs inputs = inputs_of(given);

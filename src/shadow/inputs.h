@@ -181,15 +181,15 @@ struct Inputs {
   // (core/log.h) says so once for a view.
   bool exact_bounds = false;
   // World bounds of those receivers that `depth` does not hold, such as blended surfaces that are drawn forward; empty
-  // (min > max): there are none. Only read where maps are fitted to what `depth` shows (cascades.fit): elsewhere in the
-  // view no map holds anything, and receivers are lit.
+  // (min > max in every axis): there are none. Only read where maps are fitted to what `depth` shows (cascades.fit):
+  // elsewhere in the view no map holds anything, and receivers are lit.
   Box forward_receivers{glm::vec3(1), glm::vec3(-1)};
   // Whether SoftShadows::bind_forward() may follow this frame. If not, a technique that fills the mask by itself needs
   // no maps for its stand-in (Technique::stand_in), and bind_forward() throws Error for its lights.
   bool binds_forward = true;
   // World bounds of the casters that moved since the view's last frame, enclosing their present and their last
-  // positions. Absent: unknown, so any caster may have moved. An empty box (min > max): none moved, and no movement map
-  // is drawn.
+  // positions. Absent: unknown, so any caster may have moved. An empty box (min > max in every axis): none moved, and
+  // no movement map is drawn.
   // A layer of a shadow map that these bounds do not reach, and whose projection is the same, is not drawn again
   // (parameter maps.keep): `draw` is not called for it. So the bounds must also enclose casters that appeared,
   // disappeared, or changed what they cast in another way: the opacity of a texture, the face that casts, a level of
@@ -209,9 +209,10 @@ struct Inputs {
 };
 
 // Throws Error, in one line that names the input and the fault, for: textures that don't exist, have the wrong size or
-// a format that does not suit their use; matrices that are not finite or not invertible; boxes that are empty or not
-// finite (`moved` and `forward_receivers` may be empty); lights without direction, without maps, or with the same id as
-// another; outputs that two lights share, or whose level, layer, channel or format does not exist or suit.
+// a format that does not suit their use; matrices that are not finite or not invertible, a view with a scale or for a
+// camera that looks along +z; boxes that are empty or not finite (`moved` and `forward_receivers` may be empty); lights
+// without direction, without maps, or with the same id as another; outputs that two lights share, or whose level,
+// layer, channel or format does not exist or suit.
 void check(const Inputs& inputs);
 
 // Inputs::viewport, or the whole depth texture if that has no size.
