@@ -50,7 +50,7 @@ class Job {
   // All files that merge() may write into a folder.
   virtual std::vector<std::filesystem::path> outputs(const std::filesystem::path& folder) const = 0;
 
-  // Gives the result of an item; called once for each. Throws Error if it is damaged.
+  // Gives the result of an item, as often as it is asked for. Throws Error if it is damaged.
   using Read = std::function<Result(std::size_t item)>;
   // Writes what the whole command would write into a folder. Returns the files. Throws Error.
   virtual std::vector<std::filesystem::path> merge(const Read& read, const std::filesystem::path& folder) const = 0;

@@ -310,8 +310,12 @@ class Folder(Plans):
         glsl.mkdir()
         (glsl / "a.glsl").write_text("// one\n")
         self.make("compare", *COMPARED, "--no-cost", "--glsl", glsl)
-        (glsl / "b.glsl").write_text("// another\n")
-        self.assertIn("b.glsl' was not there when the plan was made: plan again", self.refuse("work", self.plan))
+        (glsl / "notes.txt").write_text("of the user's\n")
+        self.work("--item", "0")
+        shader = glsl / "lib" / "octahedral.glsl"
+        shader.parent.mkdir()
+        shader.write_bytes((ROOT / "glsl" / "lib" / "octahedral.glsl").read_bytes())
+        self.assertIn("lib/octahedral.glsl' was not there when the plan was made: plan again", self.refuse("work", self.plan))
 
     def test_files_that_a_scene_names_and_does_not_use_may_be_missing(self):
         """And a name with a percent sign may be meant as it is written, as `render` takes it."""
@@ -329,8 +333,7 @@ class Folder(Plans):
     def test_names_that_are_not_text_are_refused(self):
         name = self.folder / os.fsdecode(b"\xff.glb")
         name.write_bytes(scene("steps").read_bytes())
-        self.assertIn("which is not UTF-8", self.refuse("plan", "render", name, "-o", self.plan, code=2,
-                                                         errors="replace"))
+        self.assertIn("which is not UTF-8", self.refuse("plan", "render", name, "-o", self.plan, errors="replace"))
 
     def test_another_folder_for_results_and_other_threads(self):
         other = self.folder / "elsewhere" / "deep"

@@ -50,6 +50,15 @@ std::optional<std::size_t> split_output(Arguments& arguments) {
   return output;
 }
 
+// A plan is JSON, so bytes of a name that are not UTF-8 would be lost.
+void check_text(const std::string& name) {
+  try {
+    static_cast<void>(io::Json(name).dump());
+  } catch (const io::Json::type_error&) {
+    fail("a plan can't hold '{}', which is not UTF-8", cli::printable(name));
+  }
+}
+
 plan::PlannedScene planned_scene(const std::string& path, const plan::SceneFacts& facts) {
   plan::PlannedScene scene{.path = path, .view = facts.view, .files = {}};
   for (const auto& [file, shader] : facts.files) {
@@ -57,6 +66,7 @@ plan::PlannedScene planned_scene(const std::string& path, const plan::SceneFacts
     const std::uintmax_t bytes = std::filesystem::file_size(file, unread);
     if (unread == std::errc::no_such_file_or_directory) continue;  // a scene may name files that it does not use
     if (unread) fail("cannot read {}: {}", io::quoted(file), unread.message());
+    check_text(file.string());
     try {
       scene.files.push_back({.path = file.string(), .bytes = bytes, .hash = io::key_of_file(file), .shader = shader});
     } catch (const Error& error) {
@@ -66,25 +76,16 @@ plan::PlannedScene planned_scene(const std::string& path, const plan::SceneFacts
   return scene;
 }
 
-// A plan is JSON, so bytes of a name that are not UTF-8 would be lost.
-void check_text(const Arguments& arguments) {
-  for (const std::string& argument : arguments) {
-    try {
-      static_cast<void>(io::Json(argument).dump());
-    } catch (const io::Json::type_error&) {
-      cli::fail_usage("a plan can't hold '{}', which is not UTF-8", cli::printable(argument));
-    }
-  }
-}
-
 void write_plan(const std::string& command, Arguments arguments) {
-  check_text(arguments);
   const std::optional<std::size_t> output = split_output(arguments);
   const std::unique_ptr<plan::Job> job = make_job(command, arguments, output.value_or(0));
   if (!job) return;
   if (!output) cli::fail_usage("-o is required: the file of the plan");
   const std::filesystem::path path = arguments[*output];
   if (path.extension() != ".json") cli::fail_usage("-o {}: the name of a plan ends in .json", io::quoted(path));
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (i != *output) check_text(arguments[i]);
+  }
   job->warn();
   cli::clean_up_on_signals();
   io::check_writable(path);

@@ -14,6 +14,7 @@
 #include "cli/progress.h"
 #include "cli/signals.h"
 #include "cli/text.h"
+#include "gl/shader_source.h"
 #include "io/output_file.h"
 #include "plan/results.h"
 
@@ -46,7 +47,7 @@ class CheckedFiles {
   }
 
  private:
-  // A shader that was added since would take the place of one of the program's own.
+  // A file that was added since may take the place of one of the program's shaders.
   void check_shaders(const plan::PlannedScene& scene) {
     std::set<std::string> planned;
     std::string folder;
@@ -56,13 +57,12 @@ class CheckedFiles {
       folder = file.path.substr(0, file.path.size() - file.shader.size());
     }
     if (planned.empty() || !checked_.insert(folder).second) return;
-    std::error_code error;
-    for (std::filesystem::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
-         entry.increment(error)) {
-      if (entry->is_regular_file(error) && !planned.contains(entry->path().string()))
-        fail("{} was not there when the plan was made: plan again", io::quoted(entry->path()));
+    for (const std::string& name : gl::ShaderFiles::built_in_names()) {
+      const std::string file = folder + name;
+      std::error_code error;
+      if (!planned.contains(file) && std::filesystem::exists(file, error))
+        fail("{} was not there when the plan was made: plan again", io::quoted(file));
     }
-    if (error) fail("cannot read {}: {}", io::quoted(folder), error.message());
   }
 
   static io::Key hash_of(const std::string& path) {
