@@ -60,7 +60,7 @@ constexpr std::size_t draco_face = 36, draco_point = 12;
 
 // Draco allocates what its header declares before it notices that the data are missing, so the header is checked here
 // first.
-void check_draco_header(const char* data, std::size_t size, Budget& budget) {
+void check_draco_header(const char* data, std::size_t size, Budget budget) {
   draco::DecoderBuffer buffer;
   buffer.Init(data, size);
   draco::DracoHeader header{};
