@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <optional>
@@ -90,7 +90,7 @@ std::string lamp_text(const render::LampLight& lamp) {
     // Far from the origin, a point a metre away would be rounded to another direction.
     const float away = std::max(1.0f, 1e-3f * glm::length(lamp.position));
     text += fmt::format(":to={}:cone={}", text_of(lamp.position + away * lamp.axis),
-                        std::max(static_cast<double>(glm::degrees(lamp.outer_cone)), least_cone));
+                        std::max(glm::degrees(lamp.outer_cone), static_cast<float>(least_cone)));
     if (lamp.inner_cone != inner_share * lamp.outer_cone)
       text += fmt::format(":inner={}", glm::degrees(lamp.inner_cone));
   }

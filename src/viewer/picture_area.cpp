@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "session/techniques.h"
 #include "viewer/lamp_rings.h"
@@ -153,12 +154,15 @@ void fly(const Panel& panel, float seconds) {
   panel.state.last_travel = ImGui::GetTime();
 }
 
-// Whether the key of a letter goes down, wherever the keyboard's layout has it: Y and Z change places in some.
+// Whether the key of a letter goes down, wherever the keyboard's layout has it: Y and Z change places in some. Where
+// the layout has other letters, as in Greek, keys are those of a keyboard with Latin ones.
 bool letter_pressed(char letter) {
-  for (int key = GLFW_KEY_A; key <= GLFW_KEY_Z; ++key) {
+  for (int key = GLFW_KEY_APOSTROPHE; key <= GLFW_KEY_WORLD_2; ++key) {
     if (!ImGui::IsKeyPressed(key, /* repeat= */ false)) continue;
     const char* name = glfwGetKeyName(key, 0);
-    if ((name != nullptr ? name[0] : 'a' + key - GLFW_KEY_A) == letter) return true;
+    const std::string_view shown = name != nullptr ? name : "";
+    const bool latin = shown.size() == 1 && shown[0] >= 'a' && shown[0] <= 'z';
+    if ((latin ? shown[0] : 'a' + key - GLFW_KEY_A) == letter) return true;
   }
   return false;
 }

@@ -77,6 +77,7 @@ void Viewer::open(const std::string& asked) {
   options.frames = cli::FrameRange{};
   options.reading.limits = options_.reading.limits;
   options.reading.follow_links = options_.reading.follow_links;
+  options.reading.skies_chosen = state_.document.options.reading.skies_chosen;
   // The shown scene keeps its camera, sun, ground and time; another one starts with the defaults.
   loader_.start(scene == state_.document.options.scene ? state_.document.options : options);
 }
@@ -87,7 +88,11 @@ void Viewer::open_preset(const std::string& file) {
   cli::ShadowOptions options;
   options.presets = {file};
   state_.document.params = cli::resolve_params(options, session::all_techniques());
-  if (is_preset(file)) note_preset(file);
+  if (is_preset(file)) {
+    note_preset(file);
+  } else {
+    saved_.preset.clear();  // one of the program's own is no file to save to
+  }
   tell(state_, "loaded " + file, ImGui::GetTime());
 }
 

@@ -64,14 +64,19 @@ void Viewer::save_view() {
 
 void Viewer::save() {
   if (options_.defaults) fail("nothing is saved: --defaults was given");
-  // First, as the view's file is beside the scene, where the user may not write.
-  if (status_.unsaved.preset) save_preset(saved_.preset, /* overwrite= */ true);
-  if (scene_ != nullptr) save_view();
+  save(/* view= */ scene_ != nullptr, status_.unsaved.preset);
 }
 
-void Viewer::save_what_would_be_lost() {
-  if (status_.unsaved.preset) save_preset(saved_.preset, /* overwrite= */ true);
-  if (status_.unsaved.view) save_view();
+// Where one of them can't be written, the other one is.
+void Viewer::save(bool view, bool preset) {
+  std::string fault;
+  try {
+    if (preset) save_preset(saved_.preset, /* overwrite= */ true);
+  } catch (const Error& error) {
+    fault = error.what();
+  }
+  if (view) save_view();
+  if (!fault.empty()) fail("{}", fault);
 }
 
 // Whether the window closes now: the user wants it, and nothing would be lost. Else the next frame asks.
@@ -98,7 +103,7 @@ void Viewer::answer_closing(ClosingAnswer answer) {
     open(state_.closing.scene);
     return;
   }
-  if (answer == ClosingAnswer::save) save_what_would_be_lost();
+  if (answer == ClosingAnswer::save) save(status_.unsaved.view, status_.unsaved.preset);
   // The parameters that the next run begins with.
   if (answer == ClosingAnswer::discard && status_.unsaved.preset) state_.document.params = saved_.params;
   ended_ = true;

@@ -152,7 +152,7 @@ class Viewer {
   void update_unsaved();
   void save_view();
   void save();
-  void save_what_would_be_lost();
+  void save(bool view, bool preset);
   bool closes();
   bool leaves_scene_for(const std::string& scene);
   void answer_closing(ClosingAnswer answer);
