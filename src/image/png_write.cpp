@@ -1,5 +1,6 @@
 #include <png.h>
 
+#include <algorithm>
 #include <cassert>
 #include <csetjmp>
 #include <new>

@@ -67,7 +67,7 @@ bool would_replace(const std::filesystem::path& result, const std::filesystem::p
 std::string quoted(const std::filesystem::path& path);
 
 // Removes the temporaries of all existing OutputFiles and ends the process at once with that exit code.
-// Async-signal-safe: for handlers of SIGINT and SIGTERM, on any thread.
+// Async-signal-safe: for handlers of signals, on any thread.
 [[noreturn]] void exit_without_temporaries(int code) noexcept;
 
 }  // namespace penumbra::io

@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import signal
 import struct
 import subprocess
 import sys
@@ -15,6 +16,13 @@ import zlib
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("PENUMBRA_PROGRAM") or str(ROOT / "build" / "release" / "penumbra")
 BUILD = pathlib.Path(os.environ.get("PENUMBRA_BUILD") or ROOT / "build" / "release")
+
+
+# Of a suite that runs in the background or under nohup. A handler is not inherited: programs that the tests start have these
+# signals' usual effects.
+for _number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    if signal.getsignal(_number) is signal.SIG_IGN:
+        signal.signal(_number, lambda number, frame: None)
 
 
 def run(*arguments, timeout=300, **options):

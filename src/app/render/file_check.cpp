@@ -71,10 +71,7 @@ void check_scene_files(const std::vector<fs::path>& files, const RenderOptions& 
 void check_files(const RenderOptions& options, const cli::OutputNames& names) {
   check_scene_files({options.scene}, options, names);
   const int first = options.frames.value_or(cli::FrameRange{}).first;
-  io::check_writable(names.picture(first));
-  for (const std::string& aov : options.aovs) {
-    if (!names.is_exr()) io::check_writable(names.aov(first, aov));
-  }
+  for (const fs::path& file : frame_files(options, names, first, /* lights= */ 1)) io::check_writable(file);
   if (!options.save_preset.empty()) check_alone("--save-preset", options.save_preset, options, names);
   if (options.stats.empty()) return;
   check_alone("--stats", options.stats, options, names);

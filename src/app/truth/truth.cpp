@@ -93,6 +93,7 @@ void trace_files(TruthOptions options) {
       session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)));
   const std::size_t lights = render::shadowed_lights(prepared.setup).size();
   check_inputs(prepared.scene.files, options, names, range, lights);
+  for (const std::filesystem::path& file : picture_files(names, range.first, lights)) io::check_writable(file);
   cli::warn_without_lights(options, options, session::kinds_of_light(prepared));
 
   constexpr int parts = 1000;  // of a frame
