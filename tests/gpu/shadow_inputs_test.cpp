@@ -222,6 +222,27 @@ TEST_F(ShadowInputs, ObliqueNearPlanesChangeNoShadow) {
   }
 }
 
+// As for a planar reflection: the view's handedness changes, the shadows do not. Normals are made from depth, as those of
+// the test's renderer follow the winding of triangles on the screen.
+TEST_F(ShadowInputs, AMirroredViewShowsTheSameShadows) {
+  params.set("technique", "brute_force");
+  params.set("sun.angle", 4.0f);
+  TriangleScene scene = box_on_ground(48);
+  const auto without_normals = [](shadow::Inputs& in) { in.normals = {}; };
+  const Shadowed plain = renderer.render(scene, params, without_normals);
+  scene.view = glm::scale(glm::mat4(1), glm::vec3(-1, 1, 1)) * scene.view;
+  const Shadowed mirrored = renderer.render(scene, params, without_normals);
+  int wrong = 0, shadowed = 0;
+  for (int y = 0; y < plain.height; ++y) {
+    for (int x = 0; x < plain.width; ++x) {
+      wrong += std::abs(mirrored.visibility(plain.width - 1 - x, y) - plain.visibility(x, y)) > 0.1f ? 1 : 0;
+      shadowed += plain.visibility(x, y) < 0.1f ? 1 : 0;
+    }
+  }
+  EXPECT_GT(shadowed, 30);
+  EXPECT_LE(wrong, 4);
+}
+
 TEST_F(ShadowInputs, TexturesAreChecked) {
   using shadow::Inputs;
   const int size = 48;
