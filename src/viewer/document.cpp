@@ -103,7 +103,7 @@ std::vector<std::string> view_arguments(const cli::SceneOptions& options) {
   return arguments;
 }
 
-// A file whose name begins with a minus sign.
+// A file as an argument that is no option, also if its name begins with a minus sign.
 std::string no_option(const std::string& file) { return file.starts_with('-') ? "./" + file : file; }
 
 std::vector<std::string> scene_arguments(const cli::SceneOptions& options) {

@@ -222,8 +222,8 @@ TEST_F(ShadowInputs, ObliqueNearPlanesChangeNoShadow) {
   }
 }
 
-// As for a planar reflection: the view's handedness changes, the shadows do not. Normals are made from depth, as those of
-// the test's renderer follow the winding of triangles on the screen.
+// As for a planar reflection: the view's handedness changes, the shadows do not. Normals are made from depth, as those
+// of the test's renderer follow the winding of triangles on the screen.
 TEST_F(ShadowInputs, AMirroredViewShowsTheSameShadows) {
   params.set("technique", "brute_force");
   params.set("sun.angle", 4.0f);
