@@ -22,23 +22,22 @@ void sort_around(Polygon& points, const glm::dvec3& normal) {
 
 }  // namespace
 
-Polygon clipped(const Polygon& polygon, const HalfSpace& side) {
-  Polygon kept;
+void clip(Polygon& polygon, const HalfSpace& side, Polygon& spare) {
+  spare.clear();
   for (size_t i = 0; i < polygon.size(); ++i) {
     const glm::dvec3& a = polygon[i];
     const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
     const double da = glm::dot(a, side.normal) - side.limit;
     const double db = glm::dot(b, side.normal) - side.limit;
-    if (da <= 0) kept.push_back(a);
-    if ((da < 0 && db > 0) || (da > 0 && db < 0)) kept.push_back(glm::mix(a, b, da / (da - db)));
+    if (da <= 0) spare.push_back(a);
+    if ((da < 0 && db > 0) || (da > 0 && db < 0)) spare.push_back(glm::mix(a, b, da / (da - db)));
   }
-  return kept;
+  polygon.swap(spare);
 }
 
-std::vector<Polygon> clipped(const std::vector<Polygon>& faces, const HalfSpace& side) {
-  std::vector<Polygon> result;
-  Polygon cut;
-  for (const Polygon& face : faces) {
+void clip(std::vector<Polygon>& faces, const HalfSpace& side) {
+  Polygon cut, spare;
+  for (Polygon& face : faces) {
     // Where the outline crosses the plane; points on the plane belong to the cut too.
     for (size_t i = 0; i < face.size(); ++i) {
       const glm::dvec3& a = face[i];
@@ -48,12 +47,12 @@ std::vector<Polygon> clipped(const std::vector<Polygon>& faces, const HalfSpace&
       if (da == 0) cut.push_back(a);
       if ((da < 0 && db > 0) || (da > 0 && db < 0)) cut.push_back(glm::mix(a, b, da / (da - db)));
     }
-    if (Polygon kept = clipped(face, side); !kept.empty()) result.push_back(std::move(kept));
+    clip(face, side, spare);
   }
-  if (result.empty() || cut.size() < 3) return result;
+  std::erase_if(faces, [](const Polygon& face) { return face.empty(); });
+  if (faces.empty() || cut.size() < 3) return;
   sort_around(cut, side.normal);
-  result.push_back(std::move(cut));
-  return result;
+  faces.push_back(std::move(cut));
 }
 
 }  // namespace penumbra::shadow

@@ -13,9 +13,11 @@ struct HalfSpace {
   double limit = 0;
 };
 
-Polygon clipped(const Polygon& polygon, const HalfSpace& side);
+// Leaves the part of a polygon within a half-space. `spare` lends its memory; its points are lost.
+void clip(Polygon& polygon, const HalfSpace& side, Polygon& spare);
 
-// The faces of a convex body's part within a half-space, with the one that the cut makes. None if nothing is left.
-std::vector<Polygon> clipped(const std::vector<Polygon>& faces, const HalfSpace& side);
+// Leaves the faces of a convex body's part within a half-space, with the one that the cut makes. None if nothing is
+// left.
+void clip(std::vector<Polygon>& faces, const HalfSpace& side);
 
 }  // namespace penumbra::shadow

@@ -61,7 +61,7 @@ std::array<HalfSpace, 4> column_sides(const Cascade& cascade) {
 }
 
 std::vector<Polygon> within(std::vector<Polygon> faces, std::span<const HalfSpace> sides) {
-  for (const HalfSpace& side : sides) faces = clipped(faces, side);
+  for (const HalfSpace& side : sides) clip(faces, side);
   return faces;
 }
 
