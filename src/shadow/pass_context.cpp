@@ -71,6 +71,8 @@ const gl::Texture& PassContext::receiver_depth() const {
   return known;
 }
 
+const DepthRounding& PassContext::depth_rounding() const { return work_.view.checked.depth; }
+
 const gl::Texture& PassContext::shadow_map() const {
   gl::Texture& known = work_.state.shadow_map;
   const gl::TextureDesc desc = shadow_map_desc(work_.frame.projection);

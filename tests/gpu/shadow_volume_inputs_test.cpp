@@ -133,6 +133,29 @@ TEST_F(ShadowVolumeInputs, ConventionsAndFormatsOfDepthChangeNothing) {
   }
 }
 
+// As with stereo views. What reads such depths reads a copy of them in floats, whose values are still those of the
+// format.
+TEST_F(ShadowVolumeInputs, NoSurfaceShadowsItselfThroughDepthsInAnArray) {
+  for (const GLenum format : {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT16}) {
+    for (const float tilt : {0.0f, 0.3f, 0.9f}) {
+      const TriangleScene scene = tilted(glm::vec3(0), 30, tilt, 10);
+      const gl::Texture layers(
+          "layers",
+          {.target = GL_TEXTURE_2D_ARRAY, .format = format, .width = scene.width, .height = scene.height, .layers = 2});
+      const std::vector<float> stored = draw(scene).depth;
+      const gl::Texture one("one layer", {.format = format, .width = scene.width, .height = scene.height});
+      one.upload(GL_DEPTH_COMPONENT, GL_FLOAT, std::as_bytes(std::span(stored)));
+      gl::glCopyImageSubData(one.id(), GL_TEXTURE_2D, 0, 0, 0, 0, layers.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 1,
+                             scene.width, scene.height, 1);
+      const Shadowed shadowed = draw(scene, [&](shadow::Inputs& in) {
+        in.depth = {layers.id(), scene.width, scene.height, 1};
+      });
+      const std::vector<float> seen = shadowed.visibilities();
+      EXPECT_EQ(std::ranges::count(seen, 1.0f), std::ssize(seen)) << format << ", tilt " << tilt;
+    }
+  }
+}
+
 // The middle of the picture as a view of its own, shifted by fractions of a pixel.
 TEST_F(ShadowVolumeInputs, ViewportsAndJitterChangeNothing) {
   const shadow::Rect middle{.x = 20, .y = 10, .width = 60, .height = 72};

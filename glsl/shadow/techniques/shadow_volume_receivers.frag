@@ -6,7 +6,9 @@ layout(location = 0) out vec4 mask;
 layout(location = 1) out vec4 place;  // metres along the world's axes from the camera
 
 uniform mat4 view_to_world;
-uniform float stored_spacing;   // between two depths that the caller's texture can hold; 0: it holds floats
+// The most by which the format of the caller's texture changes a depth, over what 32-bit floats change. x: absolute; y:
+// as a share of the depth.
+uniform vec2 stored_rounding;
 uniform float camera_distance;  // from the world's origin, metres
 
 const float rounding = exp2(-24.0);  // of a float, as a share of it
@@ -33,7 +35,7 @@ float change_to_clear_surface(Receiver receiver, vec3 position, vec3 per_depth, 
   apart += dot(rounding_of_vertices(position), abs(normal.xy));
   float across = abs(dot(per_depth, normal));
   float size = depth + abs(shadow.depth_to_ndc.y / shadow.depth_to_ndc.x);
-  return stored_spacing + depth_rounding_share * size + apart / across;
+  return stored_rounding.x + stored_rounding.y * depth + depth_rounding_share * size + apart / across;
 }
 
 void main() {

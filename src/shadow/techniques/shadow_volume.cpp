@@ -45,17 +45,10 @@ glm::vec4 eye_of(const Inputs& inputs) {
   return {glm::vec3(depth_grows_with_z ? -z : z), 0};
 }
 
-// Between two depths that a texture can hold; 0: it holds floats.
-float spacing_of(GLenum format) {
-  switch (format) {
-    case GL_DEPTH_COMPONENT16:
-      return std::ldexp(1.0f, -16);
-    case GL_DEPTH_COMPONENT24:
-    case GL_DEPTH24_STENCIL8:
-      return std::ldexp(1.0f, -24);
-    default:
-      return 0;
-  }
+// See shadow_volume_receivers.frag.
+glm::vec2 over_floats(const DepthRounding& stored) {
+  const float of_floats = std::ldexp(1.0f, -24);
+  return {stored.absolute, std::max(stored.relative - of_floats, 0.0f)};
 }
 
 // The caller's box. It may be empty where every light brings its maps: then what is within 100 km of the camera.
@@ -101,7 +94,7 @@ void write_receivers(const PassContext& context, const Receivers& receivers) {
   const glm::dmat4 view_to_world = glm::inverse(glm::dmat4(inputs.view.view));
   const gl::Program& program = context.use(pass, "receivers");
   program.set("view_to_world", glm::mat4(view_to_world));
-  program.set("stored_spacing", spacing_of(context.receiver_depth().desc().format));
+  program.set("stored_rounding", over_floats(context.depth_rounding()));
   program.set("camera_distance", static_cast<float>(glm::length(glm::dvec3(view_to_world[3]))));
   pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
   pass.draw_full_screen();
