@@ -61,6 +61,7 @@ void check_maps(const Light& given, TextureChecks& checks) {
     if (!holds_depth(depth.id)) fail("soft shadows: the maps of light {} hold no depth", light);
     const GLint bits = level_parameter(depth.id, GL_TEXTURE_DEPTH_SIZE);
     source.can_compare = bits > 0;
+    source.rounding = depth_rounding_of(depth.id);
     if (bits == 0 && level_parameter(depth.id, GL_TEXTURE_RED_SIZE) < 32)
       fail("soft shadows: the maps of light {} hold half floats, which are too coarse", light);
     // Depths of a perspective need more than those of a sun, and the bias of lamps covers no coarser rounding.

@@ -111,6 +111,10 @@ void draw_maps(const LightWork& work) {
                               .present_is_drawn = in_one_pass});
 }
 
+DepthRounding map_rounding(const LightWork& work) {
+  return work.light.maps ? work.view.checked.source_of(*work.light.maps).rounding : DepthRounding{};
+}
+
 // Uploads the uniforms of the view and the light.
 // `scale`: pixels of the caller's depths from one receiver to the next.
 void upload_light(const LightWork& work, const char* name, const glm::vec2& last_jitter, int scale = 1) {
@@ -118,7 +122,8 @@ void upload_light(const LightWork& work, const char* name, const glm::vec2& last
                            .last_jitter = last_jitter,
                            .depth_error = work.view.depth_error,
                            .vertex_rounding = work.device.vertex_rounding() / static_cast<float>(scale),
-                           .made_normals = !work.view.brings_normals};
+                           .made_normals = !work.view.brings_normals,
+                           .map_rounding = map_rounding(work)};
   work.state.shadow_block = &work.device.scratch(work.prefix() + name, sizeof(glsl::ShadowBlock));
   gl::write_value(*work.state.shadow_block, shadow_block(work.inputs, work.frame, traits));
 }
@@ -270,6 +275,8 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
     visible = find_visible_receivers(from.device, from.inputs, light, state.params, state.prefix);
   }
   frame.projection = projection_of(from.inputs, light, state.params, visible);
+  if (const std::string fault = frame.projection.fault(); !fault.empty())
+    fail("soft shadows: no maps of light {} fit the view: {}", light.id, fault);
   frame.shape = shape_of(light.source, state.params);
   if (frame.shape.lamp && technique.suns_only) {
     fail("soft shadows: light {} is a lamp, and technique '{}' is for suns alone", light.id, technique.name);
@@ -281,7 +288,8 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   take_shape(state, frame.shape);
   if (std::exchange(state.bound_forward, frame.binds_forward) != frame.binds_forward) state.changed = true;
   begin_frame(state, light, frame.projection.layers(), same_params);
-  if (visible) state.drawn_texels.reset();
+  // Whether anything is visible, and so what the maps are fitted to, may change though nothing else does.
+  if (state.params.get_word("cascades.fit") == "visible") state.drawn_texels.reset();
   narrow_projection(work, wanted.recipes);
   const bool has_shadow_map = wanted.shadow_map || (may_draw_casters && asks_for_movement(work));
   plan_history(work, has_shadow_map);

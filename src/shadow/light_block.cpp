@@ -1,6 +1,7 @@
 #include "light_block.h"
 
 #include <algorithm>
+#include <span>
 
 namespace penumbra::shadow {
 
@@ -21,6 +22,15 @@ glm::vec4 pixel_size(const glm::mat4& projection, const Rect& viewport) {
           2.0f / (projection[1][1] * static_cast<float>(viewport.height)), projection[2][3], projection[3][3]};
 }
 
+// The bias of a layer covers what 32-bit floats and depths of 24 bits round away; depths of fewer bits are farther off.
+void add_rounding(glsl::ShadowBlock& block, const DepthRounding& of_maps) {
+  constexpr float covered = 0x1p-23f;
+  if (of_maps.absolute <= covered) return;
+  const auto add = [&](glsl::LayerBlock& layer) { layer.rounding += of_maps.absolute * layer.depth_range; };
+  add(block.widest);
+  std::ranges::for_each(std::span(block.layers).first(static_cast<std::size_t>(block.layer_count)), add);
+}
+
 }  // namespace
 
 glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, const LightTraits& traits) {
@@ -31,6 +41,7 @@ glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, co
       glm::dmat4(inputs.view.last_projection) * glm::dmat4(inputs.view.last_view) * view_to_world;
   glsl::ShadowBlock block{};
   light.projection.write(block, view_to_world, inputs.moved);
+  add_rounding(block, traits.map_rounding);
   block.clip_to_view = glm::mat4(glm::inverse(glm::dmat4(inputs.view.projection)));
   block.view_to_last_clip = glm::mat4(view_to_last_clip);
   block.last_clip_to_view = glm::mat4(glm::inverse(view_to_last_clip));

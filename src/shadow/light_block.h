@@ -14,8 +14,9 @@ struct LightTraits {
   NoiseRead noise;
   glm::vec2 last_jitter{0};
   NdcError depth_error;
-  float vertex_rounding = 0;  // see ShadowBlock
-  bool made_normals = false;  // from depths, since the caller brings none
+  float vertex_rounding = 0;        // see ShadowBlock
+  bool made_normals = false;        // from depths, since the caller brings none
+  DepthRounding map_rounding = {};  // by the format of the caller's maps; 0 of Penumbra's own
 };
 
 // The contents of the uniform block that the shadow passes read for one view and one light.

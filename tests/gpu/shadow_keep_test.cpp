@@ -24,6 +24,7 @@ shadow::Recipe counted_recipe() {
           .source = "made up",
           .params = {{"counted.value", 0.5f, 0, 1, "", "What the texel holds.", ParamBinding::host}},
           .depends_only_on_needs = true,
+          .reads_light_discs = true,
           .build = [](const shadow::PassContext& context) -> const gl::Texture& {
             ++builds;
             const gl::Texture& texel = context.target("texel", {.format = GL_R32F});
@@ -97,6 +98,28 @@ TEST_F(ShadowKeep, NothingIsDrawnAgainWhereNothingChanged) {
   params.set("maps.keep", true);
   frame();
   EXPECT_EQ(frame(), Layers());
+}
+
+// Where a view shows only sky, its maps are fitted to the frustum, for surfaces that are drawn forward.
+TEST_F(ShadowKeep, MapsOfAViewThatShowsNothingAnyMoreAreDrawnWhole) {
+  params.set("cascades.size", 512);
+  params.set("cascades.fit", "visible");
+  scene.receivers = shadow::Box{{-50, 0, -50}, {50, 3, 50}};
+  const gl::Texture sky("sky", {.format = GL_DEPTH_COMPONENT32F, .width = scene.width, .height = scene.height});
+  const float far = 0;
+  gl::glClearTexImage(sky.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &far);
+  const auto drawn_texels = [&](int view, bool shows_sky) {
+    frame([&](shadow::Inputs& in) {
+      in.view.id = view;
+      if (shows_sky) in.depth.id = sky.id();
+    });
+    std::vector<shadow::TexelRange> texels;
+    for (const int i : all_layers) texels.push_back(renderer.mask().lights[0].projection.drawn_texels(i));
+    return texels;
+  };
+  const std::vector<shadow::TexelRange> expected = drawn_texels(1, true);
+  EXPECT_NE(drawn_texels(0, false), expected);
+  EXPECT_EQ(drawn_texels(0, true), expected);
 }
 
 TEST_F(ShadowKeep, TuningWhatReadsTheMapsDoesNotDrawThem) {

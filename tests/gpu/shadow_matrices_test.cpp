@@ -42,8 +42,8 @@ class ShadowMatrices : public TriangleTest {
   // The scene's shadow, from maps that are drawn with these matrices; `adjust` may change what is given of the maps.
   using AdjustMaps = std::function<void(shadow::FinishedMaps&)>;
   Shadowed draw_with(const std::vector<glm::mat4>& matrices, const std::string& technique,
-                     const AdjustMaps& adjust = {}) {
-    const gl::Texture maps = draw_maps(matrices);
+                     const AdjustMaps& adjust = {}, GLenum format = GL_DEPTH_COMPONENT32F) {
+    const gl::Texture maps = draw_maps(matrices, false, format);
     const shadow::LightProjection projection = shadow::sun_projection(
         {.world_to_clip = matrices, .to_light = scene_.to_light, .size = size, .camera = glm::vec3(2, 5, 6)});
     shadow::FinishedMaps finished{{maps.id(), size, size}, projection};
@@ -56,9 +56,10 @@ class ShadowMatrices : public TriangleTest {
   }
 
   // `matrices`: with clip-space z in 0..1, 0 near the light unless they are reversed.
-  gl::Texture draw_maps(const std::vector<glm::mat4>& matrices, bool reversed = false) {
+  gl::Texture draw_maps(const std::vector<glm::mat4>& matrices, bool reversed = false,
+                        GLenum format = GL_DEPTH_COMPONENT32F) {
     gl::Texture maps("engine's maps", {.target = GL_TEXTURE_2D_ARRAY,
-                                       .format = GL_DEPTH_COMPONENT32F,
+                                       .format = format,
                                        .width = size,
                                        .height = size,
                                        .layers = static_cast<int>(matrices.size())});
@@ -149,6 +150,30 @@ TEST_F(ShadowMatrices, BlendWithTheNextThatHoldsTheReceiver) {
   const glm::vec3& sun = scene_.to_light;
   expect_own_shadows(
       {slice(sun, {0, 0, 0}, 2, 30), slice(sun, {7, 0, 7}, 2.5f, 30), slice(sun, {-2, 0, -2}, 4.5f, 30)});
+}
+
+// 16 bits over 600 m are steps of 9 mm, larger than the maps' texels.
+TEST_F(ShadowMatrices, DepthsOf16BitsLeaveLitSurfacesLit) {
+  const std::vector<glm::mat4> matrices = {slice(scene_.to_light, {0, 0, 1}, 4, 300),
+                                           slice(scene_.to_light, {0, 0, 0}, 9, 300)};
+  for (const char* technique : {"hard", "pcss", "slices"}) {
+    const Shadowed fine = draw_with(matrices, technique);
+    const Shadowed coarse = draw_with(matrices, technique, {}, GL_DEPTH_COMPONENT16);
+    int lit = 0, darker = 0, dark = 0, still_dark = 0;
+    for (int y = 0; y < fine.height; ++y) {
+      for (int x = 0; x < fine.width; ++x) {
+        if (fine.sky(x, y)) continue;
+        lit += fine.visibility(x, y) == 1 ? 1 : 0;
+        darker += fine.visibility(x, y) == 1 && coarse.visibility(x, y) < 1 ? 1 : 0;
+        dark += fine.visibility(x, y) == 0 ? 1 : 0;
+        still_dark += fine.visibility(x, y) == 0 && coarse.visibility(x, y) == 0 ? 1 : 0;
+      }
+    }
+    EXPECT_GT(lit, 8000) << technique;
+    EXPECT_EQ(darker, 0) << technique;
+    EXPECT_GT(dark, 500) << technique;
+    EXPECT_GT(still_dark, dark * 0.95) << technique;
+  }
 }
 
 TEST_F(ShadowMatrices, AnAtlasGivesTheShadowsOfAnArray) {
