@@ -143,9 +143,15 @@ Mask SoftShadows::render_view(const Inputs& inputs, const ParamSet& params) {
   const gl::InitialLegacyState legacy;
   ViewState& view = state_->views[inputs.view.id];
   if (view.prefix.empty()) view.prefix = view_prefix(inputs.view.id);
-  Mask mask = draw(inputs, params, view);
-  if (!warning.empty()) log(LogLevel::warning, warning);
-  return mask;
+  try {
+    Mask mask = draw(inputs, params, view);
+    if (!warning.empty()) log(LogLevel::warning, warning);
+    return mask;
+  } catch (...) {
+    // The next one is the view's first again, with what is checked then.
+    if (first) drop_view(inputs.view.id);
+    throw;
+  }
 }
 
 // Refuses this frame, so that the next one begins anew.
@@ -192,6 +198,10 @@ void SoftShadows::warm_up(const FrameKind& kind, const ParamSet& params) {
 
 void SoftShadows::forget_view(int id) {
   const Call call(device_);
+  drop_view(id);
+}
+
+void SoftShadows::drop_view(int id) {
   state_->views.erase(id);
   device_.drop(view_prefix(id));
 }
