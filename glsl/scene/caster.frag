@@ -19,12 +19,16 @@ uniform float least_gap;
 #endif
 
 void main() {
+#if MASKED
+  // Read before anything is discarded: mip levels need the derivatives of the whole quad.
+  float alpha = base_color(caster.uv, caster.color).a;
+#endif
 #if BEHIND
   float first = texelFetch(first_layer, ivec3(ivec2(gl_FragCoord.xy), map_layer), 0).x;
   if (gl_FragCoord.z <= first + least_gap) discard;
 #endif
 #if MASKED
-  if (base_color(caster.uv, caster.color).a < material.alpha_cutoff) discard;
+  if (alpha < material.alpha_cutoff) discard;
 #endif
 #if MARKS_MOVED
   moved = 1.0;
