@@ -29,14 +29,18 @@ vec2 depth_range(Pixels pixels) {
   return range;
 }
 
-Hull hull_of(Pixels pixels, vec2 range) {
-  Hull hull;
+// False if a corner lies at the camera or behind it, where corners bound nothing: under an oblique near plane, the
+// depth of one pixel may mean that in another.
+bool find_hull(Pixels pixels, vec2 range, out Hull hull) {
+  bool before_camera = true;
   for (int corner = 0; corner < 8; ++corner) {
     bvec3 high = notEqual(ivec3(corner) & ivec3(1, 2, 4), ivec3(0));
     vec2 pixel = mix(vec2(pixels.low), vec2(pixels.high), high.xy);
-    hull.corners[corner] = light_position(unproject(pixel, high.z ? range.y : range.x));
+    vec4 view = unproject_with_w(pixel, high.z ? range.y : range.x);
+    before_camera = before_camera && view.w > 0.0;
+    hull.corners[corner] = light_position(view.xyz / view.w);
   }
-  return hull;
+  return before_camera;
 }
 
 // Bounds of what search_radius() gives the receivers of a box, metres. It reads the texels of the pyramid that a disc
@@ -198,10 +202,11 @@ int decide_tile(Pixels pixels, out Decision decision) {
   vec2 range = depth_range(pixels);
   if (range.x > range.y) return tile_decided;
   TileState tile = TileState(uvec2(0u), 0, 0, 0.0, Decision(uvec2(0u), 0.0, 0.0, 0));
-  Hull hull = hull_of(pixels, range);
+  Hull hull;
+  bool bounded = find_hull(pixels, range, hull);
   bool done = may_be_out_of_reach() && decide_out_of_reach(pixels, tile);
-  bool failed = false;
-  for (int left = done ? 0 : sights_of(hull); left != 0 && !failed; left &= left - 1) {
+  bool failed = !bounded && !done;
+  for (int left = done || failed ? 0 : sights_of(hull); left != 0 && !failed; left &= left - 1) {
     Box box;
     Light light = frame_light();
     failed = !box_of(hull, findLSB(left), box, light) || !decide_box(pixels, box, light, tile);
@@ -211,7 +216,7 @@ int decide_tile(Pixels pixels, out Decision decision) {
   ivec2 size = pixels.high - pixels.low;
   bool all_decided = bitCount(tile.decided.x) + bitCount(tile.decided.y) == size.x * size.y;
   if (all_decided && !failed) return tile_decided;
-  return may_read_beyond_rim(hull) ? tile_at_rim : tile_listed;
+  return !bounded && has_faces(frame_light()) || may_read_beyond_rim(hull) ? tile_at_rim : tile_listed;
 }
 
 // The pixels of a tile of the viewport.

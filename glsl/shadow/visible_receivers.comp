@@ -64,7 +64,7 @@ shared uint group_low[all_measures], group_high[all_measures], group_pixels[slic
 // What a block of pixels shows: extents along four directions, half a right angle apart, and depths along the light.
 struct Part {
   uint pixels;
-  float farthest;  // from the camera
+  float farthest;  // metres from where distances are counted
   vec4 low, high;
   vec2 depths;
 };
@@ -117,9 +117,12 @@ void main() {
   vec2 middle = viewport.xy + 0.5 * viewport.zw;
   float a = -view_position(middle, value_of(found.least)).z;
   float b = -view_position(middle, value_of(found.greatest)).z;
+  // Distances are counted from the camera, or from the nearest receiver if an orthographic view shows it behind that.
+  float start = min(min(a, b), 0.0);
   float far = max(a, b);
   if (distance_limit > 0.0) far = min(far, distance_limit);
-  float near = max(min(a, b), far * 1e-3);
+  far -= start;
+  float near = max(min(a, b) - start, far * 1e-3);
   float slices_a_ratio = float(slices) / max(log2(far / near), 1e-6);
 
   Pixels pixels = own_pixels();
@@ -129,7 +132,7 @@ void main() {
       float depth = texelFetch(receiver_depth, ivec2(x, y), 0).x;
       if (!is_receiver(depth)) continue;
       vec3 position = view_position(vec2(x, y) + 0.5, depth);
-      float away = -position.z;
+      float away = -position.z - start;
       if (away > far * 1.0001 || isnan(away)) continue;
       vec3 place = mat3(view_to_light) * position;
       vec4 across = along_four(place.xy);

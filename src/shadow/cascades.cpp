@@ -47,8 +47,14 @@ double step_down(double value, double steps_an_octave) {
   return value <= 0 ? 0 : std::exp2(std::floor(std::log2(value) * steps_an_octave + 1e-9) / steps_an_octave);
 }
 
-// The range of view depths, metres in front of the camera, in which receivers lie.
-Range view_range(const CascadeInputs& in, CutOff& cut_off) {
+// The range of view depths in which receivers lie, metres from `start`: the camera, or a depth behind it that an
+// orthographic view shows.
+struct ViewRange {
+  double start = 0;
+  Range range;
+};
+
+ViewRange view_range(const CascadeInputs& in, CutOff& cut_off) {
   Range range{1e30, -1e30};
   double farthest = 0;
   for (const glm::dvec3& corner : in.receivers.corners()) {
@@ -57,12 +63,15 @@ Range view_range(const CascadeInputs& in, CutOff& cut_off) {
     farthest = std::max(farthest, glm::length(at));
   }
   double limit = in.distance > 0 ? in.distance : range.max;
+  double behind = std::max(-std::max(range.min, in.nearest), 0.0);
   if (!in.exact_bounds && in.distance <= 0 && farthest > wide_bounds) {
     limit = std::min(limit, std::max(range_in_wide_bounds, 10 * range.min));
-    cut_off.view = limit < range.max;
+    cut_off.view = limit < range.max || behind > range_in_wide_bounds;
+    behind = std::min(behind, range_in_wide_bounds);
   }
-  const double far = in.distance > 0 ? limit : step_up(std::max(limit, 1e-6), 3);
-  return {std::max(step_down(std::max(range.min, 0.0), 3), far * 1e-3), far};
+  const double start = -step_up(behind, 3);
+  const double far = (in.distance > 0 ? limit : step_up(std::max(limit, 1e-6), 3)) - start;
+  return {start, {std::max(step_down(std::max(range.min - start, 0.0), 3), far * 1e-3), far}};
 }
 
 // The smallest sphere, with its centre on the frustum's axis, that contains the part of the frustum between two depths.
@@ -143,11 +152,12 @@ Range held_range(const Range& range, const Region& region, const CascadeInputs& 
 // About the part of the frustum up to each cascade's range, or about all receivers if that is smaller. A region turns
 // with the camera without changing size.
 std::vector<Region> stable_regions(const CascadeInputs& in, Cascades& cascades) {
-  const Range view = view_range(in, cascades.cut_off);
+  const auto [start, view] = view_range(in, cascades.cut_off);
   const Sphere all = sphere_about(in.receivers);
   std::vector<Region> regions;
   for (int i = 0; i < in.count; ++i) {
-    Sphere sphere = frustum_sphere(in, view.min, split_distance(view, i, in.count, in.split_blend));
+    const double end = split_distance(view, i, in.count, in.split_blend);
+    Sphere sphere = frustum_sphere(in, start + view.min, start + end);
     if (all.radius < sphere.radius) sphere = all;
     const glm::dvec3 center = cascades.world_to_light * (sphere.center - cascades.anchor);
     regions.push_back({center, glm::dvec2(sphere.radius), center.z - sphere.radius, center.z + sphere.radius});
@@ -268,11 +278,11 @@ glm::dmat3 light_axes(const glm::dvec3& to_light, double turn) {
 }
 
 glm::dvec3 frustum_corner(const glm::dmat4& projection, double depth, double ndc_x, double ndc_y) {
-  const bool perspective = projection[2][3] != 0;
-  const double scale = perspective ? depth : 1.0;
-  const double shift_x = perspective ? projection[2][0] : -projection[3][0];
-  const double shift_y = perspective ? projection[2][1] : -projection[3][1];
-  return {(ndc_x + shift_x) / projection[0][0] * scale, (ndc_y + shift_y) / projection[1][1] * scale, -depth};
+  const double w = projection[3][3] - depth * projection[2][3];
+  const auto place = [&](int axis, double ndc) {
+    return (ndc * w + depth * projection[2][axis] - projection[3][axis]) / projection[axis][axis];
+  };
+  return {place(0, ndc_x), place(1, ndc_y), -depth};
 }
 
 glm::dmat4 clip_from_world(const Cascades& cascades, const Cascade& cascade) {

@@ -25,6 +25,19 @@ void check_matrix(std::string_view name, const glm::mat4& matrix) {
   if (glm::determinant(glm::dmat4(matrix)) == 0) fail("soft shadows: {} has no inverse", name);
 }
 
+// The picture's x and y must depend on x and y of view space alone, as where cascades lie and how large pixels are is
+// computed from that.
+void check_axes(const glm::dmat4& projection) {
+  constexpr double rounding = 1e-5;
+  const double least = std::min(std::abs(projection[0][0]), std::abs(projection[1][1]));
+  const double others = std::max(
+      {std::abs(projection[1][0]), std::abs(projection[0][1]), std::abs(projection[0][3]), std::abs(projection[1][3])});
+  if (others > rounding * least || least == 0)
+    fail(
+        "soft shadows: the projection matrix turns or skews the picture; only what it does to view space's x and y "
+        "by scaling and moving them is allowed");
+}
+
 // Shadows are computed in view space, in metres. It may be mirrored, as for a planar reflection.
 void check_view(const View& view) {
   check_matrix("the view matrix", view.view);
@@ -42,6 +55,7 @@ void check_view(const View& view) {
   check_matrix("the projection matrix", view.projection);
   if (view.projection[2][3] > 0)
     fail("soft shadows: the projection is of a camera that looks along +z; in view space it must look along -z");
+  check_axes(glm::dmat4(view.projection));
 }
 
 void check_finite(std::string_view name, const Box& box) {

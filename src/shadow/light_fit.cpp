@@ -10,9 +10,18 @@ namespace penumbra::shadow {
 
 namespace {
 
+// See CascadeInputs.
+double nearest_of(const glm::mat4& projection, const Conventions& conventions) {
+  if (projection[2][3] != 0) return 0;
+  const double at_near = conventions.reversed_z ? 1 : conventions.depth_zero_to_one ? 0 : -1;
+  const glm::dmat4 to_clip(projection);
+  return std::min((to_clip[3][2] - at_near * to_clip[3][3]) / to_clip[2][2], 0.0);
+}
+
 FitInputs fit_inputs(const Inputs& inputs, const ParamSet& params) {
   return {.view = inputs.view.view,
           .projection = inputs.view.projection,
+          .nearest = nearest_of(inputs.view.projection, inputs.conventions),
           .casters = inputs.casters,
           .receivers = inputs.receivers,
           .exact_bounds = inputs.exact_bounds,

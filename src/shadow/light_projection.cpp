@@ -104,6 +104,7 @@ CascadeInputs cascade_inputs(const Sun& sun, const FitInputs& inputs) {
   const ParamSet& params = inputs.params;
   return {.view = inputs.view,
           .projection = inputs.projection,
+          .nearest = inputs.nearest,
           .to_light = sun.to_light,
           .tan_half_angle = shape_of(sun, params).extent,
           .casters = inputs.casters,
@@ -271,7 +272,7 @@ int lamp_map_count(const LightSource& source) {
 
 glm::vec4 place_of(const LightSource& source) {
   if (const auto* lamp = std::get_if<Lamp>(&source)) return {lamp->position, 1};
-  return {std::get<Sun>(source).to_light, 0};
+  return {glm::normalize(std::get<Sun>(source).to_light), 0};
 }
 
 glm::dmat3 light_axes(const LightSource& source) { return light_axes(glm::dvec3(std::get<Sun>(source).to_light)); }

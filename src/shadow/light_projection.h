@@ -115,6 +115,7 @@ class LightProjection {
 // What fit_projection() fits the layers to.
 struct FitInputs {
   glm::mat4 view{1}, projection{1};  // of the camera
+  double nearest = 0;                // see CascadeInputs
   Box casters, receivers;
   bool exact_bounds = false;  // see CascadeInputs
   const ParamSet& params;

@@ -1,5 +1,6 @@
 // Inputs: bad input is refused with one line that names it, and a view may cover a part of its textures.
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
@@ -44,6 +45,12 @@ TEST_F(ShadowInputs, MatricesAndBoxesAreChecked) {
   expect_refusal(view_alone, [](Inputs& in) { in.view.view = glm::scale(in.view.view, glm::vec3(2)); });
   expect_refusal("a camera that looks along +z",
                  [](Inputs& in) { in.view.projection = glm::perspectiveLH_ZO(0.8f, 1.0f, 100.0f, 0.1f); });
+  const char* turned = "the projection matrix turns or skews the picture";
+  expect_refusal(turned, [](Inputs& in) {
+    const glm::mat4 roll(0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
+    in.view.projection = roll * in.view.projection;
+  });
+  expect_refusal(turned, [](Inputs& in) { in.view.projection[1][0] = 0.2f; });
   expect_refusal("the projection matrix is not finite", [](Inputs& in) { in.view.projection[0][0] = NAN; });
   expect_refusal("the projection matrix has no inverse", [](Inputs& in) { in.view.projection[0][0] = 0; });
   expect_refusal("the jitter is not finite", [](Inputs& in) { in.view.jitter.x = NAN; });
@@ -198,6 +205,64 @@ TEST_F(ClipControl, IsLookedAtInTheFirstFrameOfAView) {
   EXPECT_EQ(warnings(projection, from_zero, GL_NEGATIVE_ONE_TO_ONE, 0, 3), 1);
   EXPECT_EQ(warnings(projection, from_zero, GL_NEGATIVE_ONE_TO_ONE, 1), 0) << "the library may have set it";
   EXPECT_EQ(warnings(projection, from_minus_one, GL_ZERO_TO_ONE, 2, 3), 1);
+}
+
+TEST_F(ClipControl, IsStillLookedAtWhereTheFirstFrameFailed) {
+  const auto fails = [](shadow::Inputs& in) { in.view.jitter.x = NAN; };
+  EXPECT_NE(refusal(fails), "");
+  constexpr shadow::Conventions from_zero{.reversed_z = false};
+  EXPECT_EQ(warnings(finite_perspective(false, true, 0.1f, 100), from_zero, GL_NEGATIVE_ONE_TO_ONE, 0, 2), 1);
+}
+
+// The camera moves through the scene, and its planes move back by as much: the picture stays as it is.
+TEST_F(ShadowInputs, AnOrthographicViewMayShowWhatLiesBehindItsCamera) {
+  params.set("sun.angle", 2.0f);
+  TriangleScene scene = box_on_ground(96);
+  scene.receivers = shadow::Box{glm::vec3(-200), glm::vec3(200)};
+  const glm::mat4 view = scene.view;
+  for (const char* fit : {"stable", "visible"}) {
+    params.set("cascades.fit", fit);
+    params.set("cascades.distance", 0.0f);
+    const auto from = [&](float forward) {
+      scene.view = glm::translate(glm::mat4(1), glm::vec3(0, 0, forward)) * view;
+      scene.projection = orthographic(5, 5, 1 - forward, 31 - forward);
+      return renderer.render(scene, params).visibilities();
+    };
+    const std::vector<float> before = from(0);
+    EXPECT_GT(std::ranges::count_if(before, [](float seen) { return seen < 0.1f; }), 100);
+    for (const float forward : {8.0f, 30.0f}) {
+      // The range ends before the camera, but what lies behind it is within it.
+      params.set("cascades.distance", forward > 20 ? 5.0f : 0.0f);
+      const std::vector<float> behind = from(forward);
+      int wrong = 0;
+      for (std::size_t i = 0; i < before.size(); ++i) wrong += std::abs(before[i] - behind[i]) > 0.25f ? 1 : 0;
+      EXPECT_LE(wrong, 20) << fit << ", " << forward << " m";
+    }
+  }
+}
+
+TEST_F(ShadowInputs, AProjectionMayBeScaledAsAWhole) {
+  params.set("cascades.distance", 20.0f);
+  const std::vector<float> plain = renderer.render(box_on_ground(), params).visibilities();
+  EXPECT_GT(std::ranges::count(plain, 0.0f), 50);
+  EXPECT_EQ(
+      renderer.render(box_on_ground(), params, [](shadow::Inputs& in) { in.view.projection *= 4; }).visibilities(),
+      plain);
+}
+
+// Shadow volumes compute with the direction itself, other techniques with the axes made from it.
+TEST_F(ShadowInputs, TheLengthOfASunsDirectionDoesNotMatter) {
+  for (const char* technique : {"shadow_volume", "hard"}) {
+    params.set("technique", technique);
+    const TriangleScene scene = box_on_ground();
+    const std::vector<float> plain = renderer.render(scene, params).visibilities();
+    const shadow::Light longer{.source = shadow::Sun{20.0f * scene.to_light}};
+    const auto given = [&](shadow::Inputs& in) { in.lights = {&longer, 1}; };
+    const std::vector<float> same = renderer.render(scene, params, given).visibilities();
+    int wrong = 0;
+    for (std::size_t i = 0; i < plain.size(); ++i) wrong += std::abs(plain[i] - same[i]) > 0.1f ? 1 : 0;
+    EXPECT_LE(wrong, 2) << technique;
+  }
 }
 
 TEST_F(ShadowInputs, ObliqueNearPlanesChangeNoShadow) {

@@ -57,6 +57,44 @@ std::vector<glm::dvec3> frustum_points(const CascadeInputs& in, double distance)
   return points;
 }
 
+// Its near plane lies behind the camera, as in editors whose camera is somewhere in the scene.
+TEST(Cascades, TheLastHoldsWhatAnOrthographicViewShowsBehindItsCamera) {
+  CascadeInputs in = courtyard();
+  in.view = glm::lookAt(glm::vec3(-20, 20, -20), glm::vec3(0), glm::vec3(0, 1, 0));
+  in.projection = glm::ortho(-30.0f, 30.0f, -30.0f, 30.0f, -100.0f, 100.0f);
+  in.casters = in.receivers = {{-200, 0, -200}, {200, 9, 200}};
+  const glm::dmat4 to_world = glm::inverse(glm::dmat4(in.view));
+  // How far beyond the last cascade's map the corners of the picture are at that depth, 1: on its border.
+  const auto reach = [&](double depth) {
+    double most = 0;
+    for (const glm::dvec2& corner : {glm::dvec2(-30, -30), {30, -30}, {30, 30}, {-30, 30}}) {
+      const glm::dvec3 p = clip(fit_cascades(in).items.back(), to_world * glm::dvec4(corner, -depth, 1));
+      most = std::max({most, std::abs(p.x), std::abs(p.y)});
+    }
+    return most;
+  };
+  in.nearest = -100;
+  for (const double depth : {-100.0, -60.0, 0.0, 60.0, 100.0}) EXPECT_LE(reach(depth), 1) << depth;
+  in.nearest = 0;
+  EXPECT_GT(reach(-100), 1) << "maps do not hold what the view does not show";
+}
+
+// As Lengyel 2005 and others scale them, and as cameras beside the middle of their picture have them.
+TEST(Cascades, AProjectionMayBeScaledAsAWhole) {
+  const auto expect_corner = [](const glm::dmat4& projection, double depth) {
+    const glm::dvec3 corner = frustum_corner(projection, depth, 0.5, -1);
+    const glm::dvec4 at = projection * glm::dvec4(corner, 1);
+    EXPECT_NEAR(at.x / at.w, 0.5, 1e-12);
+    EXPECT_NEAR(at.y / at.w, -1, 1e-12);
+    EXPECT_EQ(corner.z, -depth);
+  };
+  for (const double scale : {1.0, 4.0, 0.1}) {
+    expect_corner(scale * glm::frustum(-0.3, 0.9, -0.2, 0.7, 1.0, 50.0), 20);
+    expect_corner(scale * glm::ortho(-3.0, 9.0, -2.0, 7.0, 1.0, 50.0), 20);
+    expect_corner(scale * glm::ortho(-3.0, 9.0, -2.0, 7.0, -50.0, 50.0), -20);
+  }
+}
+
 TEST(Cascades, GrowAndNest) {
   CascadeInputs in = courtyard();
   in.receivers = {{-500, 0, -500}, {500, 9, 500}};

@@ -157,7 +157,8 @@ vec3 plane_moves(Receiver receiver) {
 
 // Width of a pixel at a position in view space, metres.
 float pixel_width(vec3 position) {
-  return max(shadow.pixel_size.x, shadow.pixel_size.y) * abs(shadow.pixel_size.z * position.z + shadow.pixel_size.w);
+  vec2 size = abs(shadow.pixel_size.xy);  // either is negative in a picture that is turned over
+  return max(size.x, size.y) * abs(shadow.pixel_size.z * position.z + shadow.pixel_size.w);
 }
 
 // Rasterisers round vertices to a grid, so what they draw at a pixel's centre may be a point of the surface up to half
