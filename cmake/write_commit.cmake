@@ -9,8 +9,11 @@ if(GIT)
   # If the sources are a copy within another project's checkout, that project's commit does not describe them.
   if(NOT failed AND prefix STREQUAL "")
     execute_process(COMMAND "${GIT}" -C "${ROOT}" diff --quiet HEAD RESULT_VARIABLE changed ERROR_QUIET)
+    # Sources are found by their names, so that those which Git does not know are compiled too.
+    execute_process(COMMAND "${GIT}" -C "${ROOT}" ls-files --others --exclude-standard -- src glsl presets
+      OUTPUT_VARIABLE unknown ERROR_QUIET)
     set(commit "${head}")
-    if(changed)
+    if(changed OR NOT unknown STREQUAL "")
       string(APPEND commit "-changed")
     endif()
   endif()

@@ -79,7 +79,7 @@ class Writer {
                              results_.device.version,
                              results_.backend,
                              results_.timing,
-                             maps_of(entry),
+                             maps_of(entry.params),
                              results_.machine.cpu,
                              std::to_string(results_.machine.cores),
                              results_.version,

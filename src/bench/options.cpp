@@ -6,6 +6,7 @@
 
 #include "bench/sweep.h"
 #include "cli/usage.h"
+#include "io/output_file.h"
 #include "io/presets.h"
 #include "io/text.h"
 
@@ -28,7 +29,11 @@ void add_output(Options& options, const std::string& name) {
   const std::string extension = std::filesystem::path(name).extension().string();
   if (extension != ".json" && extension != ".csv" && extension != ".html")
     fail_usage("-o '{}': the name ends in none of .json, .csv, .html", name);
-  if (std::ranges::find(options.outputs, name) != options.outputs.end()) fail_usage("-o '{}' is given twice", name);
+  for (const std::string& other : options.outputs) {
+    if (io::place_of(other) != io::place_of(name)) continue;
+    if (other == name) fail_usage("-o '{}' is given twice", name);
+    fail_usage("-o '{}' would replace the output '{}'", name, other);
+  }
   options.outputs.push_back(name);
 }
 
@@ -90,18 +95,22 @@ void check_together(const Options& o) {
 
 std::vector<Entry> entries_of(const Options& options, const shadow::Registry& registry) {
   std::vector<std::string> names = options.techniques;
-  if (names.empty()) names.emplace_back();  // what the presets say
+  if (names.empty()) {
+    names.emplace_back();  // what the presets say
+  } else {
+    cli::refuse_technique(options.assignments, "see --technique");
+  }
   std::vector<Entry> entries;
   for (const std::string& name : names) {
     cli::ShadowOptions one = static_cast<const cli::ShadowOptions&>(options);
     if (is_preset(name)) {
       one.presets.push_back(name);
     } else {
-      if (name == "truth")
-        fail_usage("--technique truth is traced by the CPU: see penumbra truth, which prints its rays per second");
       one.technique = name;
     }
     Entry entry{.label = name, .params = cli::resolve_params(one, registry)};
+    if (entry.params.get_word("technique") == "truth")
+      fail_usage("the technique truth is traced by the CPU: see penumbra truth, which prints its rays per second");
     // The camera stands still, unlike in most uses, so that maps would be drawn in the first frame only.
     if (!cli::is_chosen(one, entry.params, "maps.keep")) entry.params.set("maps.keep", false);
     if (is_preset(name)) entry.label = std::filesystem::path(name).stem().string();

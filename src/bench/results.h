@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,9 +48,10 @@ struct Results {
 std::string equation_of(const Model& model, const Sweep& sweep);
 // "shadow passes" or the one pass that the sweep is about
 std::string subject_of(const Sweep& sweep);
-// "drawn anew in every frame": whether shadow maps were, for all entries or for one.
+// "drawn anew in every frame": whether shadow maps were, with these parameters or with all of these; at least one.
+std::string maps_of(const ParamSet& params);
+std::string maps_of(std::span<const ParamSet* const> of_all);
 std::string maps_of(const Results& results);
-std::string maps_of(const Entry& entry);
 // "courtyard.glb, 1280×720, 4 cascades of 2048×2048, maps drawn anew in every frame"
 std::string setting_of(const Results& results);
 

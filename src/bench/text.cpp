@@ -68,14 +68,20 @@ std::string sweep_lines(const Results& results) {
 
 }  // namespace
 
-std::string maps_of(const Entry& entry) {
-  return entry.params.get_bool("maps.keep") ? "kept where nothing moved" : "drawn anew in every frame";
+std::string maps_of(const ParamSet& params) {
+  return params.get_bool("maps.keep") ? "kept where nothing moved" : "drawn anew in every frame";
+}
+
+std::string maps_of(std::span<const ParamSet* const> of_all) {
+  const std::string first = maps_of(*of_all.front());
+  const bool same = std::ranges::all_of(of_all, [&](const ParamSet* params) { return maps_of(*params) == first; });
+  return same ? first : "kept or drawn anew as maps.keep says of each";
 }
 
 std::string maps_of(const Results& results) {
-  const std::string first = maps_of(results.entries.front());
-  const bool same = std::ranges::all_of(results.entries, [&](const Entry& entry) { return maps_of(entry) == first; });
-  return same ? first : "kept or drawn anew as maps.keep says of each";
+  std::vector<const ParamSet*> params;
+  for (const Entry& entry : results.entries) params.push_back(&entry.params);
+  return maps_of(params);
 }
 
 std::string setting_of(const Results& results) {

@@ -59,7 +59,9 @@ void log_from(const std::string& name) {
   set_log_sink([least = found->second](LogLevel level, std::string_view message) {
     if (static_cast<int>(level) < least) return;
     static constexpr const char* labels[] = {"debug", "info", "warning", "error"};
-    fmt::print(stderr, "{}: {}\n", labels[static_cast<int>(level)], printable(std::string(message)));
+    // Not by fmt::print, which throws where stderr is closed or full.
+    std::fputs(fmt::format("{}: {}\n", labels[static_cast<int>(level)], printable(std::string(message))).c_str(),
+               stderr);
   });
 }
 

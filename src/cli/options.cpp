@@ -244,6 +244,12 @@ bool is_assigned(const ShadowOptions& options, std::string_view name) {
 
 }  // namespace
 
+void refuse_technique(std::span<const std::string> assignments, std::string_view instead) {
+  for (const std::string& text : assignments) {
+    if (text.starts_with("technique=")) fail_usage("'{}' can't be set here: {}", text, instead);
+  }
+}
+
 bool names_technique(const ShadowOptions& options) {
   return !options.technique.empty() || !options.presets.empty() || is_assigned(options, "technique");
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -85,6 +86,9 @@ void check_together(const DeviceOptions& options);
 // place of --technique. A preset is a file, or what shadow::Registry::select() takes. Throws UsageError if the command
 // line is wrong, and Error if a preset is.
 ParamSet resolve_params(const ShadowOptions& options, const shadow::Registry& registry);
+
+// For commands that name the technique in another way: a UsageError if --set names one. `instead`: "see --technique".
+void refuse_technique(std::span<const std::string> assignments, std::string_view instead);
 
 // Whether the user names a technique: by --technique, a preset file or --set technique=NAME.
 bool names_technique(const ShadowOptions& options);

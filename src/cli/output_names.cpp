@@ -18,14 +18,20 @@ struct Place {
 };
 
 std::vector<Place> places_in(const std::string& stem) {
-  static const std::regex pattern("#+|%(?:0([1-9]))?d");
+  // Each number sign alone: std::regex takes stack for each character of a run.
+  static const std::regex pattern("#|%(?:0([1-9]))?d");
   std::vector<Place> places;
   for (std::sregex_iterator match(stem.begin(), stem.end(), pattern), none; match != none; ++match) {
     const auto begin = static_cast<std::size_t>(match->position());
-    const auto length = static_cast<std::size_t>(match->length());
-    const bool hashes = stem[begin] == '#';
-    const int digits = hashes ? static_cast<int>(length) : (*match)[1].matched ? stem[begin + 2] - '0' : 1;
-    places.push_back({begin, begin + length, digits});
+    const std::size_t end = begin + static_cast<std::size_t>(match->length());
+    const bool is_hash = stem[begin] == '#';
+    if (is_hash && !places.empty() && places.back().end == begin && stem[places.back().begin] == '#') {
+      places.back().end = end;
+      ++places.back().digits;
+      continue;
+    }
+    const int digits = is_hash || !(*match)[1].matched ? 1 : stem[begin + 2] - '0';
+    places.push_back({begin, end, digits});
   }
   return places;
 }

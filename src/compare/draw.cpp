@@ -53,15 +53,10 @@ std::size_t frames_drawn(gl::Timers& timers) {
 // The state of one contender. Each has its own renderer, so that no history is shared.
 struct ContenderRun {
   ContenderRun(const DrawnScene& scene, const std::string& name, const ParamSet& own)
-      : label(name),
-        params(own),
-        drawn(own),
-        renderer(scene.device, scene.techniques),
-        sums(scene.options.size, scene.lights) {}
+      : label(name), params(own), renderer(scene.device, scene.techniques), sums(scene.options.size, scene.lights) {}
 
   const std::string& label;
   const ParamSet& params;
-  ParamSet drawn;  // the same; maps are drawn anew in every frame, so that costs don't depend on how still the view is
   render::Renderer renderer;
   FigureSums sums;
   ComparedPictures pictures;
@@ -106,7 +101,7 @@ class InterleavedRuns {
  private:
   void draw(ContenderRun& run, const render::FrameInputs& inputs, bool timed) {
     const std::size_t before = scene_.device.target_bytes("shadow ");
-    run.renderer.draw(scene_.scene, inputs, run.drawn);
+    run.renderer.draw(scene_.scene, inputs, run.params);
     run.shadow_bytes += scene_.device.target_bytes("shadow ") - before;
     if (timed) run.timed.push_back(frames_drawn_);
     ++frames_drawn_;

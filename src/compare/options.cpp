@@ -94,14 +94,9 @@ void check_together(const CompareOptions& o) {
                o.size.width, o.size.height);
 }
 
-// The technique of a contender is its name, so no assignment may change it.
-void check_assignment(const std::string& assignment) {
-  if (assignment.starts_with("technique=")) fail_usage("'{}' can't be set here: see --technique", assignment);
-}
-
 // All contenders are drawn with the reference's sun and casters, so no assignment of one contender may change those.
 void check_own_assignment(const std::string& assignment) {
-  check_assignment(assignment);
+  cli::refuse_technique({&assignment, 1}, "see --technique");
   if (assignment.starts_with("sun."))
     fail_usage("'{}' would give a technique another sun than the reference's: see --set", assignment);
   if (assignment.starts_with("casters."))
@@ -123,10 +118,8 @@ void check_values(const CompareOptions& options, const shadow::Registry& registr
       ParamSet params = defaults;
       cli::assign(params, assignment);
     };
-    for (const std::string& assignment : options.assignments) {
-      check_assignment(assignment);
-      check(assignment);
-    }
+    cli::refuse_technique(options.assignments, "see --technique");
+    for (const std::string& assignment : options.assignments) check(assignment);
     for (const std::string& assignment : contender.assignments) {
       check_own_assignment(assignment);
       check(assignment);
@@ -140,15 +133,19 @@ ParamSet params_of(const CompareOptions& options, const Contender& contender, co
   auto own = static_cast<const cli::ShadowOptions&>(options);
   own.technique = contender.name;
   ParamSet params = cli::resolve_params(own, registry);
+  // So that costs do not depend on how still the view is.
+  if (!cli::is_chosen(own, params, "maps.keep")) params.set("maps.keep", false);
   for (const std::string& assignment : contender.assignments) cli::assign(params, assignment);
   return params;
 }
 
 ParamSet reference_params(const CompareOptions& options, const shadow::Registry& registry) {
-  ParamSet params =
-      params_of(options, {.label = options.reference, .name = options.reference, .assignments = {}}, registry);
+  auto own = static_cast<const cli::ShadowOptions&>(options);
+  own.technique = options.reference;
+  if (options.samples)
+    own.assignments.insert(own.assignments.begin(), fmt::format("truth.samples={}", *options.samples));
+  ParamSet params = cli::resolve_params(own, registry);
   truth::make_reference(params);
-  if (options.samples) params.set("truth.samples", *options.samples);
   return params;
 }
 

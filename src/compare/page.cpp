@@ -36,7 +36,8 @@ std::vector<report::Column> columns_of(bool sequence) {
   std::vector<report::Column> columns{
       {"Technique", "", "As --technique names it."},
       {"Cost", "ms",
-       "Median time of all passes between G-buffer and lighting; shadow maps are drawn anew in every frame.",
+       "Median time of all passes between G-buffer and lighting; shadow maps are drawn anew in every frame, unless "
+       "maps.keep was chosen.",
        Best::lowest},
       {"Memory", "MiB", "Shadow maps, masks, history and all other textures of the technique.", Best::lowest},
       {"PSNR penumbra", "dB", "Over receivers whose reference is between 0.02 and 0.98.", Best::highest},

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/machine.h"
+#include "bench/results.h"
 #include "cli/command_line.h"
 #include "cli/text.h"
 #include "io/text.h"
@@ -187,6 +188,8 @@ std::string csv_table(const Comparison& comparison) {
 }
 
 Json json_of(const Comparison& comparison, const CompareOptions& options, const cli::Arguments& arguments) {
+  std::vector<const ParamSet*> params;
+  for (const ComparedTechnique& technique : comparison.scenes.front().techniques) params.push_back(technique.params);
   Json scenes = Json::array();
   for (const ComparedScene& scene : comparison.scenes) {
     Json techniques = Json::array();
@@ -207,7 +210,7 @@ Json json_of(const Comparison& comparison, const CompareOptions& options, const 
                        {"width", options.size.width},
                        {"height", options.size.height},
                        {"frames", options.frames ? options.frames->count() : 1},
-                       {"maps", "drawn anew in every frame"},
+                       {"maps", bench::maps_of(params)},
                        {"backend", comparison.drawn_by.backend},
                        {"device", comparison.drawn_by.device},
                        {"scenes", std::move(scenes)}});

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "core/log.h"
+#include "io/key.h"
 #include "io/output_file.h"
 
 namespace penumbra::truth {
@@ -55,10 +56,13 @@ std::optional<Traced> read(const fs::path& path, const Key& key, std::size_t pix
   return traced;
 }
 
-// Whether a file is a cached picture, or the temporary that a killed process left behind.
+// Whether a file is a cached picture, or the temporary that a killed process left behind: KEY.truth or
+// .KEY.truth.XXXXXX. The user may keep other files in the folder.
 bool is_ours(const fs::path& path) {
-  const std::string name = path.filename().string();
-  return path.extension() == ".truth" || (name.starts_with('.') && name.find(".truth.") != std::string::npos);
+  std::string name = path.filename().string();
+  if (name.starts_with('.')) name = fs::path(name.substr(1)).stem().string();
+  const fs::path picture(name);
+  return picture.extension() == ".truth" && io::key_from(picture.stem().string());
 }
 
 // Whether another process may still be writing the file.

@@ -1,5 +1,7 @@
 #include "truth/embree_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -259,7 +262,9 @@ void EmbreeSceneBuilder::add_shared(const Surfaces& copies) {
 
 void EmbreeSceneBuilder::build() {
   out_.memory_->limit = static_cast<std::ptrdiff_t>(options_.memory);
-  out_.device_.reset(rtcNewDevice(device_options));
+  std::string device = device_options;
+  if (options_.threads > 0) device += fmt::format(",threads={}", options_.threads);
+  out_.device_.reset(rtcNewDevice(device.c_str()));
   check();
   rtcSetDeviceMemoryMonitorFunction(out_.device_.get(), keep_to_limit, out_.memory_.get());
   const std::vector<Surfaces> all = copies();

@@ -35,11 +35,11 @@ struct KeptCasters {
   std::optional<EmbreeScene> scene;
   Key key;
 
-  const EmbreeScene& of(const scene::Scene& from, const scene::PosedGeometry& geometry) {
+  const EmbreeScene& of(const scene::Scene& from, const scene::PosedGeometry& geometry, int threads) {
     const Key wanted = key_of(from, geometry);
     if (!scene || key != wanted) {
       scene.reset();  // released first, so that two never exist at the same time
-      scene.emplace(from, geometry, BuildOptions{});
+      scene.emplace(from, geometry, BuildOptions{.threads = threads});
       key = wanted;
     }
     return *scene;
@@ -147,7 +147,7 @@ class HybridFrame {
   void trace(std::span<const DrawnPixel> left) const {
     gl::Pass pass(context_.device(), {.name = "rays"});
     const std::vector<PenumbraPixel> traced =
-        trace_penumbrae(casters_.of(user_.scene.scene(), geometry_),
+        trace_penumbrae(casters_.of(user_.scene.scene(), geometry_, threads_),
                         {.geometry = geometry_,
                          .eye = eye_rays(user_),
                          .pixels = left,

@@ -6,7 +6,7 @@ TracedPicture PictureTracer::trace(const PictureRequest& request, const std::sto
   TracedPicture picture{.key = request.key};
   if (!tracer_ || casters_ != request.casters) {
     tracer_.reset();  // released first, so that two tracers never exist at the same time
-    tracer_.emplace(*request.scene, request.geometry, BuildOptions{.stop = stop});
+    tracer_.emplace(*request.scene, request.geometry, BuildOptions{.threads = request.options.threads, .stop = stop});
     casters_ = request.casters;
     picture.build = tracer_->stats();
   }

@@ -23,6 +23,7 @@ struct BuildOptions {
   // in single precision, which adds rounding errors.
   std::size_t flat_triangles = 4'000'000;
   std::size_t memory = 0;  // bytes that Embree may use; 0: no limit
+  int threads = 0;         // that build; 0: one for each core
   // A stop request, from any thread, makes Tracer() throw Interrupted.
   std::stop_token stop = {};
 };

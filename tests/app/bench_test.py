@@ -191,6 +191,8 @@ class Bench(TestCase):
             ("--technique", "pcs"): "did you mean 'pcf'",
             ("--technique", "pcss,pcss"): "twice",
             ("--technique", "pcss,truth"): "see penumbra truth",
+            ("--set", "technique=truth"): "see penumbra truth",
+            ("--technique", "pcss,hard", "--set", "technique=esm"): "see --technique",
             ("--technique", "pcss,,hard"): "empty",
             ("--technique", "hard", "--sweep", "taps"): "hard.blocker_taps",
             ("--sweep", "tap"): "did you mean 'taps'",
@@ -213,6 +215,12 @@ class Bench(TestCase):
             said = self.refuse("bench", self.folder / "s.json", "-o", self.folder / name, *SMALL, code=2)
             self.assertIn("overwrite the scene's file", said)
             self.assertEqual((self.folder / name).read_text(), before)
+
+    def test_no_output_takes_the_place_of_another(self):
+        (self.folder / "b.csv").symlink_to(self.folder / "b.json")
+        for first, second in (("b.json", "./b.json"), ("b.json", "b.csv")):
+            said = self.refuse("bench", SCENE, "-o", first, "-o", second, cwd=self.folder, code=2)
+            self.assertIn(f"'{second}' would replace the output '{first}'", said)
 
     def test_unwritable_output_is_told_before_anything_is_measured(self):
         blocker = self.folder / "file"

@@ -54,6 +54,18 @@ class Compare(TestCase):
                     self.assertEqual(row[name], "" if value is None else f"{value:.6g}", name)
             self.assertEqual(int(row["shadow_bytes"]), technique["shadow_bytes"])
 
+    def test_says_whether_maps_were_drawn_anew_or_kept(self):
+        contenders = ("--reference", "brute_force", "--technique")
+        for names, more, said in (("pcss,hard", (), "drawn anew in every frame"),
+                                  ("pcss,hard", ("--set", "maps.keep=on"), "kept where nothing moved"),
+                                  ("pcss:maps.keep=on,hard", (), "kept or drawn anew as maps.keep says of each")):
+            data = self.compare(*contenders, names, *more)[2]
+            self.assertEqual(data["maps"], said)
+
+    def test_a_number_of_rays_that_is_set_counts_as_for_truth(self):
+        data = self.compare("--technique", "hard", "--spp", "8", "--set", "truth.samples=16", "--no-cost")[2]
+        self.assertEqual(data["reference"]["changed_params"]["truth.samples"], 16)
+
     def test_the_page_speaks_of_the_lights_that_there_are(self):
         def page(*arguments, of):
             self.compare("--technique", "hard", "--spp", "8", "--no-cost", *arguments, of=(of,))
@@ -80,7 +92,7 @@ class Compare(TestCase):
     def test_parameters_of_one_technique_are_its_own(self):
         _, _, data = self.compare(*BRUTE, "--set", "sun.angle=3", maps=())
         hard, pcf, pcss = (technique["changed_params"] for technique in data["scenes"][0]["techniques"])
-        self.assertEqual(pcss, {"sun.angle": 3, "pcss.filter_taps": 4, "pcss.blocker_taps": 4})
+        self.assertEqual(pcss, {"sun.angle": 3, "maps.keep": False, "pcss.filter_taps": 4, "pcss.blocker_taps": 4})
         self.assertEqual((hard["sun.angle"], hard["technique"]), (3, "hard"))
         self.assertNotIn("pcss.filter_taps", {**hard, **pcf})
         reference = data["reference"]["changed_params"]

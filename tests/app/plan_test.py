@@ -317,6 +317,25 @@ class Folder(Plans):
         shader.write_bytes((ROOT / "glsl" / "lib" / "octahedral.glsl").read_bytes())
         self.assertIn("lib/octahedral.glsl' was not there when the plan was made: plan again", self.refuse("work", self.plan))
 
+    def test_shaders_in_folders_that_are_links_count(self):
+        glsl, real = self.folder / "glsl", self.folder / "real"
+        for folder in (glsl, real):
+            folder.mkdir()
+        (glsl / "a.glsl").write_text("// one\n")
+        (real / "disc.glsl").write_bytes((ROOT / "glsl" / "lib" / "disc.glsl").read_bytes())
+        (glsl / "lib").symlink_to(real)
+        (real / "loop").symlink_to(glsl)
+        self.make("compare", *COMPARED, "--no-cost", "--glsl", glsl)
+        self.work("--item", "0")
+        (real / "disc.glsl").write_text("changed")
+        self.assertIn("lib/disc.glsl' is not as it was when the plan was made", self.refuse("work", self.plan))
+
+    def test_results_that_cannot_be_written_are_told_before_anything_is_drawn(self):
+        cache = self.folder / "cache"
+        self.make("compare", scene("steps"), "--technique", "hard", "--spp", "8", *TINY, *SMALL_MAPS, "--no-cost", "--cache", cache)
+        self.assertIn("cannot write", self.refuse("work", self.plan, "--results", "/proc/none"))
+        self.assertFalse(cache.exists())
+
     def test_files_that_a_scene_names_and_does_not_use_may_be_missing(self):
         """And a name with a percent sign may be meant as it is written, as `render` takes it."""
         (self.folder / "a%20b.bin").write_bytes(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))

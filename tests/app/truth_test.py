@@ -252,7 +252,7 @@ class Truth(TestCase):
             ("--spp", "0"): "truth.samples",
             ("--set", "truth.sample=9"): "did you mean 'truth.samples'",
             ("--set", "sun.angle=wide"): "sun.angle",
-            ("--set", "technique=truht"): "technique",
+            ("--set", "technique=hard"): "'technique=hard' can't be set here",
             ("--cache", "here", "--no-cache"): "--cache and --no-cache exclude each other",
         }.items():
             with self.subTest(more):

@@ -68,6 +68,8 @@ TEST(OutputNames, SequencesAreNumbered) {
   EXPECT_EQ(OutputNames("x.png", true).picture(123456), "x_123456.png");
   EXPECT_EQ(OutputNames("a#b/x-###_y.png", true).picture(7), "a#b/x-007_y.png");
   EXPECT_EQ(OutputNames("x%06d.exr", true).picture(7), "x000007.exr");
+  EXPECT_EQ(OutputNames("##.exr", true).picture(7), "07.exr");
+  EXPECT_NO_THROW(OutputNames(std::string(100'000, '#') + ".exr", true));
   EXPECT_EQ(OutputNames("x%d.exr", true).picture(7), "x7.exr");
   EXPECT_EQ(OutputNames("x.png", true).aov(7, "depth"), "x_0007.depth.png");
 }

@@ -106,13 +106,15 @@ TEST_F(TruthCache, LetsGoOfWhatWasNotUsedForLongest) {
     age({0, i}, static_cast<int>(10 - i));
   }
   EXPECT_TRUE(cache.find({0, 1}, 1000));  // used just now, so it is no longer the oldest
-  std::ofstream(folder_ / "of somebody else") << std::string(100'000, 'x');
+  const std::vector<std::string> others{"of somebody else", "ground.truth", ".the.truth.old",
+                                        "00000000000000000000000000000001.truths"};
+  for (const std::string& name : others) std::ofstream(folder_ / name) << std::string(100'000, 'x');
   cache.keep({0, 4}, traced(1));
   EXPECT_TRUE(cache.find({0, 1}, 1000));
   EXPECT_FALSE(cache.find({0, 2}, 1000));
   EXPECT_TRUE(cache.find({0, 3}, 1000));
   EXPECT_TRUE(cache.find({0, 4}, 1000));
-  EXPECT_TRUE(fs::exists(folder_ / "of somebody else"));
+  for (const std::string& name : others) EXPECT_TRUE(fs::exists(folder_ / name)) << name;
 }
 
 TEST_F(TruthCache, LetsGoOfWhatAKilledProcessLeft) {

@@ -117,6 +117,7 @@ class Worker {
       ++there_;
       return;
     }
+    io::check_writable(results_.file_of(planned.key));
     plan::Result result;
     try {
       result = planned_.job->work(item);

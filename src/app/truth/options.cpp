@@ -37,6 +37,7 @@ void check_together(const TruthOptions& options) {
 
 ParamSet params_of(const TruthOptions& options, const shadow::Registry& registry) {
   auto all = static_cast<const cli::ShadowOptions&>(options);
+  cli::refuse_technique(all.assignments, "what is written is the ray-traced truth; see penumbra render");
   all.technique = "truth";
   std::vector<std::string> assignments;
   const auto add = [&](const char* name, const std::optional<std::string>& text) {
