@@ -166,7 +166,7 @@ ByteImage aov_bytes(std::string_view name, int channels, const std::vector<float
   if (name == "motion") return with_third(relative_bytes(channels, pixels, /* is_signed= */ true));
   if (name.ends_with("normal")) return each(channels, pixels, [](float v) { return 0.5f + 0.5f * v; });
   if (name == "shadow" || name == "material") return each(channels, pixels, [](float v) { return v; });
-  return relative_bytes(channels, pixels, /* is_signed= */ false);
+  return relative_bytes(channels, pixels, /* is_signed= */ name == "position");
 }
 
 }  // namespace penumbra::render

@@ -86,10 +86,8 @@ class Commands(support.TestCase):
         (tree / "build").mkdir()
         (tree / "build" / "release").symlink_to(support.BUILD)
         (tree / "build" / "peers").symlink_to(PEERS)
-        program = pathlib.Path(support.PROGRAM)
         with desktop.Desktop() as screen:
-            environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}", "DISPLAY": screen.name,
-                           "XDG_CONFIG_HOME": str(self.folder / "config")}
+            environment = {**os.environ, "DISPLAY": screen.name, "XDG_CONFIG_HOME": str(self.folder / "config")}
             for block in blocks:
                 with self.subTest(page=page, block=block):
                     result = subprocess.run(["bash", "-euo", "pipefail", "-c", commands(block)], cwd=tree,
@@ -127,6 +125,28 @@ class Commands(support.TestCase):
         self.run_page("docs/engines.md")
 
 
+class JobThatChecksPictures(support.TestCase):
+    """docs/ci/pictures.yml, whose command compares with what was recorded with the same settings."""
+    def test_it_fails_when_a_picture_changed_or_is_missing(self):
+        job = (support.ROOT / "docs" / "ci" / "pictures.yml").read_text()
+        command, settings = re.search(r"- run: (docs/ci/\S+)\n +env:\n((?: {10}\w+: .*\n)+)", job).groups()
+        settings = dict(re.findall(r"(\w+): ([^\s#]+)", settings))
+        self.assertEqual(settings.pop("PENUMBRA"), "build/release/penumbra")
+        scenes = self.folder / settings["SCENES"]
+        scenes.mkdir()
+        shutil.copy(support.ROOT / "scenes" / "steps.glb", scenes)
+
+        def check(*arguments):
+            return subprocess.run([support.ROOT / command, *arguments], cwd=self.folder, capture_output=True, check=False,
+                                  env={**os.environ, **settings, "PENUMBRA": support.PROGRAM}, timeout=300).returncode
+
+        self.assertEqual(check("--record"), 0)
+        self.assertEqual(check(), 0)
+        self.assertEqual(check("--sun", "30,40"), 1)
+        next((self.folder / "recorded").iterdir()).unlink()
+        self.assertEqual(check(), 1)
+
+
 CODE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 
@@ -137,7 +157,20 @@ def anchors(page):
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
-class Links(unittest.TestCase):
+def tables_of(page):
+    """The lines of each table of a page in docs."""
+    return [table.splitlines() for table in re.findall(r"(?:^\|.*\n)+", (support.ROOT / "docs" / page).read_text(), re.MULTILINE)]
+
+
+def cells_of(line):
+    return [cell.strip() for cell in line.split("|")[1:-1]]
+
+
+def text_of(page):
+    return " ".join((support.ROOT / page).read_text().split())
+
+
+class Pages(unittest.TestCase):
     def test_every_link_leads_somewhere(self):
         folders = [support.ROOT, support.ROOT / "docs", support.ROOT / "docs" / "adr", support.ROOT / "scenes"]
         for page in [page for folder in folders for page in folder.glob("*.md")]:
@@ -154,9 +187,8 @@ class Links(unittest.TestCase):
     def test_costs_for_engines_are_those_that_were_measured(self):
         """docs/engines.md repeats figures of docs/performance.md."""
         def table(page, header):
-            tables = re.findall(r"(?:^\|.*\n)+", (support.ROOT / "docs" / page).read_text(), re.MULTILINE)
-            lines, = [one.splitlines()[2:] for one in tables if one.startswith(header)]
-            return {cells[0]: cells[1:] for cells in ([cell.strip() for cell in line.split("|")[1:-1]] for line in lines)}
+            lines, = [lines[2:] for lines in tables_of(page) if lines[0].startswith(header)]
+            return {cells[0]: cells[1:] for cells in map(cells_of, lines)}
 
         in_software = table("performance.md", "| pass | `courtyard` | `thesis` |")
         on_a_gpu = table("performance.md", "| pass | `courtyard`, 1280 × 720 | `thesis`, 1280 × 720 |")
@@ -167,9 +199,34 @@ class Links(unittest.TestCase):
             self.assertEqual(figures, [figure.split(" → ")[-1] for figure in measured], name)
         techniques = table("performance.md", "| technique | `courtyard`: mask |")
         masks = next(row for name, row in techniques.items() if name.startswith("`slices_denoised`, `driver=compute`"))
-        page = " ".join((support.ROOT / "docs" / "engines.md").read_text().split())
+        page = text_of("docs/engines.md")
         self.assertIn("its mask takes {} ms and its filters {} ms in `courtyard` on that GPU, {} and {} ms in `thesis`".format(
             *masks[:2], *masks[3:5]), page)
+
+    def test_qualities_of_the_courtyard_are_those_that_were_measured(self):
+        """README.md and docs/build-servers.md repeat figures of docs/techniques.md: PSNR over all, and in the penumbra."""
+        figures = {}
+        for lines in tables_of("techniques.md"):
+            if "| `pcss` 16/16 | `thesis_8x8` | `brute_force` |" in lines[0]:
+                for scene, *cells in map(cells_of, lines[2:]):
+                    figures[scene] = dict(zip(cells_of(lines[0])[1:], (cell.split(" / ") for cell in cells)))
+        two = {name: of[1] for name, of in figures["`courtyard` 2°"].items()}
+        page = text_of("README.md")
+        self.assertIn(f"`slices_denoised` has a PSNR of {two['`slices_denoised`']} dB", page)
+        self.assertIn(f"and of {two['with `cascades.fit=visible`']} dB with shadow maps that are fitted", page)
+        self.assertIn(f"have {two['`pcss` 16/16']} dB with the same maps as the {two['`slices_denoised`']}", page)
+        self.assertIn(f"(`brute_force`) {two['`brute_force`']} dB.", page)
+        half = {name: of[0] for name, of in figures["`courtyard` 0.53°"].items()}
+        page = text_of("docs/build-servers.md")
+        self.assertIn(f"where `pcss` has {half['`pcss` 16/16']} and `slices_denoised` {half['`slices_denoised`']}, or "
+                      f"{half['with `cascades.fit=visible`']} with maps fitted to the picture", page)
+
+    def test_every_preset_has_a_row(self):
+        rows, = [lines[2:] for lines in tables_of("techniques.md") if lines[0] == "| preset | values |"]
+        described = {cells_of(line)[0].strip("`") for line in rows}
+        files = {path.stem for path in (support.ROOT / "presets").glob("*.toml")}
+        self.assertEqual({name for name in files if not name.endswith("_compute")} - described, set())
+        self.assertEqual(described - files, {"…_compute"})
 
     def test_the_readme_stays_short(self):
         self.assertLess(len((support.ROOT / "README.md").read_text().splitlines()), 150, "docs/ has pages for more")
