@@ -221,6 +221,7 @@ class Output(TestCase):
                 deadline = time.monotonic() + 120
                 while not (self.folder / "x_1.png").exists() and time.monotonic() < deadline:
                     time.sleep(0.02)
+                self.assertTrue((self.folder / "x_1.png").exists())
                 process.send_signal(number)
                 self.assertEqual(process.wait(timeout=60), 128 + number)
                 self.assertEqual([name for name in self.files() if not name.startswith("x_")], [])

@@ -101,7 +101,7 @@ class Cluster:
             time.sleep(0.1)
         logs = "\n".join(f"{path.name}: {path.read_text(errors='replace')[-600:]}"
                          for path in sorted(self.folder.glob("*.log")) + sorted(self.folder.glob("*.out")))
-        raise unittest.SkipTest(f"{what} can't run here: {logs}")
+        raise AssertionError(f"{what} did not start: {logs}")
 
     def command(self, *command):
         return subprocess.run(command, env=self.environment, capture_output=True, text=True, timeout=60,

@@ -125,6 +125,7 @@ penumbra_frame CInterface::frame_of(const shadow::Inputs& inputs, const Geometry
   frame.exact_bounds = inputs.exact_bounds ? 1 : 0;
   frame.normals_scale = inputs.conventions.normals_scale;
   frame.normals_offset = inputs.conventions.normals_offset;
+  frame.normals_are_shading = inputs.conventions.shading_normals ? 1 : 0;
   frame.depth_layer = inputs.depth.layer;
   frame.normals_layer = inputs.normals.layer;
   frame.motion_layer = inputs.motion.layer;
@@ -153,6 +154,7 @@ GLuint CInterface::program_of(const penumbra_caster_pass& pass) {
 int32_t CInterface::draw(void* user, const penumbra_caster_pass* pass) {
   auto& self = *static_cast<CInterface*>(user);
   ++self.passes[pass->kind];
+  self.drawn.push_back(*pass);
   const GLuint program = self.program_of(*pass);
   const auto place = [program](const char* name) { return gl::glGetUniformLocation(program, name); };
   gl::glUseProgram(program);

@@ -29,7 +29,8 @@ class CInterface {
   // All values of the library's parameters.
   void set(const ParamSet& params);
 
-  std::map<int32_t, int> passes;  // how often each kind of pass was drawn
+  std::map<int32_t, int> passes;            // how often each kind of pass was drawn
+  std::vector<penumbra_caster_pass> drawn;  // all passes, in order
 
  private:
   static int32_t draw(void* user, const penumbra_caster_pass* pass);

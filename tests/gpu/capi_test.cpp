@@ -108,6 +108,62 @@ TEST_F(CapiTest, MasksOfEveryPresetAreThoseOfTheFacadeWhileCastersMove) {
   EXPECT_GT(c_->passes[PENUMBRA_PASS_MOVED_LAST], 0);
 }
 
+TEST_F(CapiTest, NormalsMayBeThoseOfShading) {
+  ParamSet params = renderer_->params();
+  params.set("sun.angle", 3.0f);
+  params.set("cascades.size", 256);
+  std::vector<float> masks[2];
+  for (const bool shading : {false, true}) {
+    const auto adjust = [&](shadow::Inputs& inputs) { inputs.conventions.shading_normals = shading; };
+    expect_same_mask(box_on_ground(48), params, adjust);
+    masks[shading ? 1 : 0] = renderer_->render(box_on_ground(48), params, adjust).mask;
+  }
+  EXPECT_NE(masks[0], masks[1]);
+}
+
+TEST_F(CapiTest, PassesSayWhereTheLightIsAndWhatNeedNotBeDrawn) {
+  const TriangleScene scene = box_on_ground(48);
+  const Geometry geometry(scene);
+  // Its maps are drawn whole, so that what is in clip space is what has to be drawn.
+  penumbra_settings_set(c_->settings, "technique", "vsm");
+  penumbra_frame frame = frame_of(scene, geometry);
+  penumbra_light lights[] = {frame.lights[0], frame.lights[0]};
+  lights[1].id = 1;
+  lights[1].kind = PENUMBRA_LAMP;
+  const glm::vec3 lamp(3, 6, 2), axis = glm::normalize(-lamp);
+  std::copy_n(glm::value_ptr(lamp), 3, lights[1].position);
+  std::copy_n(glm::value_ptr(axis), 3, lights[1].axis);
+  lights[1].cone = 0.5f;
+  lights[1].radius = 0.1f;
+  const glm::vec4 places[] = {{scene.to_light, 0}, {lamp, 1}};
+  for (const int i : {0, 1}) {
+    SCOPED_TRACE(i == 0 ? "sun" : "lamp");
+    frame.lights = &lights[i];
+    c_->drawn.clear();
+    ASSERT_EQ(result_of(frame), PENUMBRA_OK) << penumbra_last_error();
+    ASSERT_FALSE(c_->drawn.empty());
+    int inside = 0, left_out = 0;
+    for (const penumbra_caster_pass& pass : c_->drawn) {
+      EXPECT_LT(glm::length(glm::make_vec4(pass.light_place) - places[i]), 1e-5f);
+      for (int at = 0; at < 4096; ++at) {
+        const glm::dvec3 point(2 * (at & 15) - 15, 2 * (at >> 4 & 15) - 15, 2 * (at >> 8) - 15);
+        const glm::dvec4 clip = glm::dmat4(glm::make_mat4(pass.world_to_clip)) * glm::dvec4(point, 1);
+        const bool behind = std::ranges::any_of(pass.cull_planes, [&](const double(&plane)[4]) {
+          return glm::dot(glm::make_vec3(plane), point) + plane[3] < 0;
+        });
+        const double beside = std::max(std::abs(clip.x), std::abs(clip.y)) / clip.w;
+        const bool is_inside = clip.w > 0 && beside < 0.99 && clip.z > 0.01 * clip.w && clip.z < 0.99 * clip.w;
+        EXPECT_FALSE(is_inside && behind);
+        EXPECT_TRUE(behind || clip.w <= 0 || beside < 1.01);
+        inside += is_inside ? 1 : 0;
+        left_out += behind ? 1 : 0;
+      }
+    }
+    EXPECT_GT(inside, 50);
+    EXPECT_GT(left_out, 50);
+  }
+}
+
 TEST_F(CapiTest, ALightsVisibilityIsWrittenToATextureOfTheEngines) {
   const TriangleScene scene = box_on_ground(48);
   const Geometry geometry(scene);

@@ -259,6 +259,15 @@ TEST_F(ShadowMatrices, AreTakenByTheCInterface) {
     light.maps_count = static_cast<int>(matrices.size());
     light.maps_world_to_clip = glm::value_ptr(matrices[0]);
     of_c.push_back(c.render(frame));
+    // OpenGL's own clip space, whose z is stored as 0.5 z + 0.5.
+    const glm::mat4 widen(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2, 0, 0, 0, -1, 1);
+    std::vector<glm::mat4> from_minus_one;
+    for (const glm::mat4& matrix : matrices) from_minus_one.push_back(widen * matrix);
+    light.maps_world_to_clip = glm::value_ptr(from_minus_one[0]);
+    light.maps_depth_zero_to_one = 0;
+    of_c.push_back(c.render(frame));
+    light.maps_world_to_clip = glm::value_ptr(matrices[0]);
+    light.maps_depth_zero_to_one = 1;
     std::vector<std::array<int32_t, 2>> corners;
     for (const glm::ivec2& corner : atlas.corners) corners.push_back({corner.x, corner.y});
     light.maps = {atlas.texture.id(), atlas.texture.width(), atlas.texture.height()};

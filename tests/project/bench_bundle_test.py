@@ -28,8 +28,8 @@ class BenchBundle(TestCase):
     def test_is_small_and_holds_what_its_readme_names(self):
         bundle = self.unpacked()
         size = sum(path.stat().st_size for path in bundle.rglob("*") if path.is_file())
-        self.assertLess(size, 40e6)
-        self.assertLess(os.stat(f"{BUNDLE}.tar.gz").st_size, 40e6)
+        self.assertLess(size, 20e6)
+        self.assertLess(os.stat(f"{BUNDLE}.tar.gz").st_size, 8e6)
         scenes = {path.name for path in (bundle / "scenes").iterdir()}
         self.assertEqual(scenes, {path.name for path in (ROOT / "scenes").glob("*.glb")})
         text = (bundle / "README.txt").read_text()
@@ -41,7 +41,7 @@ class BenchBundle(TestCase):
                     self.assertTrue((bundle / word).exists(), word)
             # Their options exist: the command line is read before the scene.
             run = self.bench(bundle, *words[1:], "--egl-device", "200")
-            self.assertNotEqual(run.returncode, 2, run.stderr)
+            self.assertEqual(run.returncode, 1, run.stderr)  # there is no such device
 
     def test_needs_the_c_library_alone(self):
         lines = subprocess.run(["ldd", self.unpacked() / "penumbra-bench"], capture_output=True, text=True,

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <fstream>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -185,8 +186,11 @@ TEST_F(FileWatchTest, AFolderMayGoAndComeBack) {
   fs::create_directories(glsl() / "lib");
   write(glsl() / "a.glsl", "a");
   write(glsl() / "lib/b.glsl", "b");
-  Paths told = next(watch);
-  if (told.size() < both.size()) next(watch);
+  std::set<fs::path> told;
+  for (int i = 0; i < 2 && told.size() < both.size(); ++i) {
+    for (const fs::path& path : next(watch)) told.insert(path);
+  }
+  EXPECT_EQ(told, std::set<fs::path>(both.begin(), both.end()));
   write(glsl() / "lib/b.glsl", "changed");
   EXPECT_EQ(next(watch), Paths{glsl() / "lib/b.glsl"});
 
