@@ -90,6 +90,12 @@ class Bench(TestCase):
                         if each["name"] in ("shadow map", "depth pyramid"))
             self.assertEqual(drawn > 0, setting != "on")
 
+    def test_an_animation_that_plays_moves_its_casters(self):
+        for arguments, moves in ((("--play",), True), ((), False)):
+            data = self.bench(ROOT / "scenes" / "moving.glb", "--technique", "hard", "--set", "maps.keep=on", *arguments)
+            drawn = [each["max_ms"] for each in data["points"][0]["costs"][0]["passes"] if each["name"] == "shadow map"]
+            self.assertEqual(max(drawn, default=0) > 0, moves)
+
     def test_says_with_what_it_was_measured_and_not_where(self):
         shutil.copy(SCENE, self.folder)
         data = self.bench("steps.glb", "--technique", "pcss", "--set", "pcss.filter_taps=5")

@@ -29,6 +29,13 @@ class Output(TestCase):
         time.sleep(1.1)  # a time stamp counts whole seconds
         self.assertEqual(first, [self.draw(name, "--aov", "shadow,depth") for name in names])
 
+    def test_a_debug_context_gives_the_same_bytes_and_no_message(self):
+        plain, debug = self.folder / "plain.png", self.folder / "debug.png"
+        self.succeed("render", POSTS, "-o", plain, *SMALL, *SMALL_MAPS, "--quiet")
+        result = self.succeed("render", POSTS, "-o", debug, *SMALL, *SMALL_MAPS, "--quiet", "--debug")
+        self.assertEqual(result.stderr, "")
+        self.assertEqual(debug.read_bytes(), plain.read_bytes())
+
     def test_backends_and_threads_give_the_same_bytes(self):
         for name in ("x.png", "x.exr"):
             with self.subTest(name):
