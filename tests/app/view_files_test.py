@@ -66,6 +66,17 @@ class Files(WindowTest):
             self.assertEqual(viewer.signal(signal.SIGTERM), 128 + signal.SIGTERM)
         with self.view(**last, size=None) as viewer:
             self.assertEqual(viewer.rest(), wanted)
+            viewer.tap("Escape")
+            self.assertEqual(viewer.exit_code(), 0)
+        kept = {path: path.read_bytes() for path in (home / "config").rglob("*.json")}
+        self.assertNotEqual(kept, {})
+        with self.view(STEPS, "--defaults", **last, size=size) as viewer:
+            self.assertEqual(viewer.rest(), before)
+            viewer.choose("technique", "hard")
+            viewer.changed(before)
+            viewer.tap("Escape")
+            self.assertEqual(viewer.exit_code(), 0)
+        self.assertEqual({path: path.read_bytes() for path in (home / "config").rglob("*.json")}, kept)
 
 
 if __name__ == "__main__":
