@@ -57,17 +57,16 @@ Camera camera_of(const PlacedCamera& placed) {
   return camera;
 }
 
-const PlacedCamera& find_camera(const std::vector<PlacedCamera>& placed, const std::string& wanted) {
-  for (const PlacedCamera& camera : placed) {
-    if (camera.name == wanted) return camera;
-  }
-  std::size_t index = 0;
-  const char* end = wanted.data() + wanted.size();
-  const auto parsed = std::from_chars(wanted.data(), end, index);
-  if (parsed.ec == std::errc() && parsed.ptr == end && index < placed.size()) return placed[index];
-  if (placed.empty()) fail("no camera '{}': the scene has no cameras", wanted);
+std::vector<std::string> names_of(const std::vector<PlacedCamera>& placed) {
   std::vector<std::string> names;
   for (const PlacedCamera& camera : placed) names.push_back(camera.name);
+  return names;
+}
+
+const PlacedCamera& find_camera(const std::vector<PlacedCamera>& placed, const std::string& wanted) {
+  const std::vector<std::string> names = names_of(placed);
+  if (const std::optional<std::size_t> index = index_of_text(names, wanted)) return placed[*index];
+  if (placed.empty()) fail("no camera '{}': the scene has no cameras", wanted);
   constexpr std::size_t most_listed = 20;
   if (names.size() > most_listed && near_names(wanted, names).empty())
     fail("no camera '{}': the scene has {}, none of a name near it", wanted, names.size());
@@ -129,15 +128,9 @@ std::vector<std::string> names_of(const std::vector<FileLight>& lights) {
 }
 
 const FileLight& find_light(const std::vector<FileLight>& lights, const std::string& wanted) {
-  for (const FileLight& light : lights) {
-    if (light.name == wanted) return light;
-  }
-  std::size_t index = 0;
-  const char* end = wanted.data() + wanted.size();
-  const auto parsed = std::from_chars(wanted.data(), end, index);
-  if (parsed.ec == std::errc() && parsed.ptr == end && index < lights.size()) return lights[index];
-  if (lights.empty()) fail("no light '{}': the scene has no lights", wanted);
   const std::vector<std::string> names = names_of(lights);
+  if (const std::optional<std::size_t> index = index_of_text(names, wanted)) return lights[*index];
+  if (lights.empty()) fail("no light '{}': the scene has no lights", wanted);
   constexpr std::size_t most_listed = 20;
   if (names.size() > most_listed && near_names(wanted, names).empty())
     fail("no light '{}': the scene has {}, none of a name near it", wanted, names.size());
@@ -301,9 +294,25 @@ std::vector<std::size_t> light_nodes(const scene::Scene& scene) {
 }
 
 std::vector<std::string> camera_names(const scene::Scene& scene) {
-  std::vector<std::string> names;
-  for (const PlacedCamera& camera : placed_cameras(scene, scene::rest_pose(scene))) names.push_back(camera.name);
-  return names;
+  return names_of(placed_cameras(scene, scene::rest_pose(scene)));
+}
+
+std::optional<std::size_t> index_of_text(const std::vector<std::string>& names, std::string_view text) {
+  if (const auto named = std::ranges::find(names, text); named != names.end())
+    return static_cast<std::size_t>(named - names.begin());
+  if (text.starts_with('#')) text.remove_prefix(1);
+  std::size_t index = 0;
+  const char* end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, index);
+  if (parsed.ec != std::errc() || parsed.ptr != end || index >= names.size()) return {};
+  return index;
+}
+
+std::string text_of_index(const std::vector<std::string>& names, std::size_t index) {
+  std::string text = std::to_string(index);
+  const auto named = std::ranges::find(names, text);
+  const bool is_anothers = named != names.end() && named != names.begin() + static_cast<std::ptrdiff_t>(index);
+  return is_anothers ? "#" + text : text;
 }
 
 glm::vec3 direction_to(float azimuth, float elevation) {

@@ -76,6 +76,13 @@ std::vector<std::size_t> light_nodes(const scene::Scene& scene);
 // The names of the cameras that the scene places, in the order of SetupRequest's indices. None is empty.
 std::vector<std::string> camera_names(const scene::Scene& scene);
 
+// Which of these lights or cameras a text of SetupRequest means: the first of that name, or the one of that index, as
+// "2" or "#2". Nothing: none of them.
+std::optional<std::size_t> index_of_text(const std::vector<std::string>& names, std::string_view text);
+
+// A text that means the one of that index whatever its name: "2", or "#2" where another one has the name "2".
+std::string text_of_index(const std::vector<std::string>& names, std::size_t index);
+
 // A file that has lights is lit by these and the user's lamps; where there are neither, a sun suits the camera. Throws
 // Error, which lists similar names, for a camera or a light that the file lacks, and if nothing is left to light the
 // scene. Warns of lights that are too many for a frame, or to cast shadows.

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <glm/trigonometric.hpp>
+#include <optional>
 #include <utility>
 #include <variant>
+#include <vector>
 
+#include "core/log.h"
 #include "scene/animation.h"
 #include "scene/gltf.h"
 #include "scene/pose.h"
@@ -25,7 +28,28 @@ void place_camera(render::Setup& setup, const cli::SceneOptions& options, const 
   }
 }
 
+// In its scope, what this thread logs is kept; then it is logged, unless it was before.
+class LogOnce {
+ public:
+  explicit LogOnce(std::set<std::string>& told) : told_(told) { scope_.emplace(keep_); }
+  ~LogOnce() {
+    scope_.reset();
+    for (const auto& [level, message] : said_) {
+      if (told_.insert(message).second) log(level, message);
+    }
+  }
+  LogOnce(const LogOnce&) = delete;
+  LogOnce& operator=(const LogOnce&) = delete;
+
+ private:
+  std::set<std::string>& told_;
+  std::vector<std::pair<LogLevel, std::string>> said_;
+  const LogSink keep_ = [this](LogLevel level, std::string_view message) { said_.emplace_back(level, message); };
+  std::optional<ThreadLogSink> scope_;
+};
+
 void choose(PreparedScene& prepared, const cli::SceneOptions& options, render::GroundChoice ground) {
+  const LogOnce once(prepared.told);
   const float aspect = static_cast<float>(options.size.width) / static_cast<float>(options.size.height);
   prepared.setup = render::choose_setup(
       prepared.scene, scene::pose_at(prepared.scene, options.time),

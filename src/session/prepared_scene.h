@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <set>
+#include <string>
 
 #include "cli/no_effect.h"
 #include "cli/options.h"
@@ -19,6 +20,8 @@ struct PreparedScene {
   render::Setup setup;   // at --time
   // Same as FrameInputs::told_hidden, of this scene's frames.
   std::shared_ptr<std::set<int>> told_hidden = std::make_shared<std::set<int>>();
+  // What was logged while camera and lights were chosen: it is logged once, however often they are chosen again.
+  std::set<std::string> told = {};
 };
 
 // Adds the ground and chooses camera and sun. Choices that depend on the scene's bounds use the bounds at --time, so

@@ -18,9 +18,11 @@ void list_changes(const ViewerStatus& status, bool closes_window) {
     ImGui::TextUnformatted(text.c_str());
   };
   ImGui::PushTextWrapPos(wrap_width(30.0f, ImGui::GetIO().DisplaySize.x));
-  ImGui::TextUnformatted("There are changes that are not saved:");
+  if (status.unsaved.changes()) ImGui::TextUnformatted("There are changes that are not saved:");
   if (status.unsaved.view) item("sun, lights, lamps or bookmarks, in " + status.saved_to);
   if (status.unsaved.preset && closes_window) item("parameters, in the preset " + status.preset);
+  if (status.unsaved.picture && closes_window)
+    ImGui::TextUnformatted("A picture is still being written. Closing the window ends that.");
   ImGui::PopTextWrapPos();
 }
 
@@ -48,10 +50,14 @@ void closing_question(const Panel& panel) {
     panel.widgets.mark(std::string("closing=") + name);
     return taken;
   };
-  if (button("Save")) state.requests.closing = ClosingAnswer::save;
-  ImGui::SetItemDefaultFocus();
-  ImGui::SameLine();
-  if (button("Discard")) state.requests.closing = ClosingAnswer::discard;
+  if (panel.status.unsaved.changes()) {
+    if (button("Save")) state.requests.closing = ClosingAnswer::save;
+    ImGui::SetItemDefaultFocus();
+    ImGui::SameLine();
+    if (button("Discard")) state.requests.closing = ClosingAnswer::discard;
+  } else if (button("Close")) {
+    state.requests.closing = ClosingAnswer::discard;
+  }
   ImGui::SameLine();
   if (button("Cancel") || ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, /* repeat= */ false)) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();

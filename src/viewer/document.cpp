@@ -142,8 +142,8 @@ std::string text_of(const Document& document) {
 void use_light_indices(cli::SceneOptions& options, const std::vector<std::string>& names) {
   if (!options.lights) return;
   for (std::string& light : *options.lights) {
-    const auto named = std::ranges::find(names, light);
-    if (named != names.end()) light = std::to_string(named - names.begin());
+    if (const std::optional<std::size_t> index = render::index_of_text(names, light))
+      light = render::text_of_index(names, *index);
   }
 }
 

@@ -142,7 +142,8 @@ bool drag_vector(WidgetMap& widgets, const std::string& name, glm::vec3& value, 
   const std::string format = fmt::format("%.{}f", shown);
   // Dragging rounds to what is shown, unless that leaves out decimals: a lamp 1,000 m away moves by less than a metre.
   const ImGuiSliderFlags rounding = shown == decimals ? 0 : ImGuiSliderFlags_NoRoundToFormat;
-  const bool changed = ImGui::DragFloat3(id_of(name).c_str(), &value.x, 0.01f, -limit, limit, format.c_str(), rounding);
+  const bool changed = ImGui::DragFloat3(id_of(name).c_str(), &value.x, 0.01f, -limit, limit, format.c_str(),
+                                         rounding | ImGuiSliderFlags_AlwaysClamp);
   finish_vector(widgets, name, value, shown, decimals);
   return changed;
 }

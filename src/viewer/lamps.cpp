@@ -31,7 +31,7 @@ std::vector<ShownLamp> shown_lamps(const Panel& panel) {
     if (lamp == nullptr || !placed.node) continue;
     const std::optional<std::size_t> index = index_of(scene, *placed.node);
     // The scene follows the options a frame later.
-    if (index && is_chosen(options, *index)) shown.push_back({{.of_file = true, .index = *index}, *lamp});
+    if (index && is_chosen(options, *index, scene.lights)) shown.push_back({{.of_file = true, .index = *index}, *lamp});
   }
   const std::vector<render::LampLight>& own = options.lamps;
   for (std::size_t i = 0; i < own.size(); ++i) shown.push_back({{.of_file = false, .index = i}, own[i]});
@@ -44,23 +44,24 @@ LampName change_lamp(const Panel& panel, const LampName& name, const render::Lam
     options.lamps[name.index] = light;
     return name;
   }
-  choose_light(options, name.index, false, panel.status.scene->lights.size());
+  choose_light(options, name.index, false, panel.status.scene->lights);
   options.lamps.push_back(light);
   options.lamps.back().number = free_number(std::vector(options.lamps.begin(), options.lamps.end() - 1));
   return {.of_file = false, .index = options.lamps.size() - 1};
 }
 
-bool is_chosen(const cli::SceneOptions& options, std::size_t index) {
-  return !options.lights || std::ranges::find(*options.lights, std::to_string(index)) != options.lights->end();
+bool is_chosen(const cli::SceneOptions& options, std::size_t index, const std::vector<std::string>& names) {
+  return !options.lights ||
+         std::ranges::find(*options.lights, render::text_of_index(names, index)) != options.lights->end();
 }
 
-void choose_light(cli::SceneOptions& options, std::size_t index, bool on, std::size_t count) {
+void choose_light(cli::SceneOptions& options, std::size_t index, bool on, const std::vector<std::string>& names) {
   std::vector<std::string> chosen;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i == index ? on : is_chosen(options, i)) chosen.push_back(std::to_string(i));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i == index ? on : is_chosen(options, i, names)) chosen.push_back(render::text_of_index(names, i));
   }
   options.lights = std::move(chosen);
-  if (options.lights->size() == count) options.lights.reset();
+  if (options.lights->size() == names.size()) options.lights.reset();
 }
 
 int free_number(const std::vector<render::LampLight>& lamps) {

@@ -25,8 +25,8 @@ LampName change_lamp(const Panel& panel, const LampName& name, const render::Lam
 
 // Turns a light of the file on or off in the options, by index, since names may be equal or contain a comma. All of
 // them are the same as no choice.
-void choose_light(cli::SceneOptions& options, std::size_t index, bool on, std::size_t count);
-bool is_chosen(const cli::SceneOptions& options, std::size_t index);
+void choose_light(cli::SceneOptions& options, std::size_t index, bool on, const std::vector<std::string>& names);
+bool is_chosen(const cli::SceneOptions& options, std::size_t index, const std::vector<std::string>& names);
 
 // A number that no lamp of the user has.
 int free_number(const std::vector<render::LampLight>& lamps);

@@ -57,7 +57,7 @@ void emission(const Panel& panel, render::LampLight& lamp) {
       slider(panel.widgets, "lamp intensity", candela, 0.1f, 1e8f, "%.4g cd", ImGuiSliderFlags_Logarithmic);
   row("colour", "Linear.");
   const bool other = color_field(panel.widgets, "lamp colour", color);
-  if (brighter || other) lamp.intensity = candela * color;
+  if (brighter || other) lamp.intensity = candela * glm::max(color, 0.0f);
 }
 
 void spot(const Panel& panel, render::LampLight& lamp) {
@@ -143,14 +143,14 @@ void lights_of_the_file(const Panel& panel, const std::vector<ShownLamp>& lamps)
     const LampName name{.of_file = true, .index = i};
     const bool is_lamp = std::ranges::find(lamps, name, &ShownLamp::name) != lamps.end();
     const bool put_out = options.no_sun && is_sun(*panel.status.scene, i);
-    bool on = is_chosen(options, i) && !put_out;
+    bool on = is_chosen(options, i, names) && !put_out;
     // A lamp's name opens its properties, beside the box that turns it off.
     const float room = ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeightWithSpacing();
     const std::string label = is_lamp ? std::string() : shortened(names[i], room);
     ImGui::BeginDisabled(put_out);
     if (ImGui::Checkbox(fmt::format("{}##light{}", label, i).c_str(), &on)) {
       cli::SceneOptions wanted = options;
-      choose_light(wanted, i, on, names.size());
+      choose_light(wanted, i, on, names);
       take_lights(panel, std::move(wanted));
     }
     ImGui::EndDisabled();
@@ -214,9 +214,10 @@ void lights_panel(const Panel& panel) {
     const glm::vec3 lux = setup.sun_shines ? setup.sun.illuminance : glm::vec3(100);
     // A sun that only stands in for missing lights would go out.
     if (setup.sun_shines && !setup.sun_node && !options.sun) place_sun(state.document, setup.sun.to_light);
+    constexpr float largest = 1000, brightest = 1e12f;  // of what --lamp takes: metres, candela
     options.lamps.push_back({.position = place,
-                             .radius = 0.02f * away,
-                             .intensity = lux * (away * away),
+                             .radius = std::min(0.02f * away, largest),
+                             .intensity = glm::min(lux * (away * away), brightest),
                              .number = free_number(options.lamps)});
     state.lamp = LampName{.of_file = false, .index = options.lamps.size() - 1};
   }

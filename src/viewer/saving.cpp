@@ -45,11 +45,12 @@ void Viewer::take_preset_option() {
 void Viewer::update_unsaved() {
   if (!options_.defaults) status_.unsaved = unsaved(saved_, present_edit());
   if (scene_ == nullptr) status_.unsaved.view = false;
+  status_.unsaved.picture = writer_.runs();
   status_.saved_to = scene_ == nullptr ? "" : view_file(state_.document.options.scene).filename().string();
   status_.preset = saved_.preset;
   if (scene_ == nullptr) return;
   const std::string name = std::filesystem::path(state_.document.options.scene).filename().string();
-  std::string title = (status_.unsaved.any() ? "*" : "") + name + " - Penumbra";
+  std::string title = (status_.unsaved.changes() ? "*" : "") + name + " - Penumbra";
   if (title != title_) window_.set_title(title);
   title_ = std::move(title);
 }

@@ -53,7 +53,7 @@ void choose_camera(const Panel& panel) {
   panel.widgets.mark("camera=automatic");
   const std::vector<std::string>& cameras = panel.status.scene->cameras;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    if (choice(fmt::format("{}  {}", i, cameras[i]))) look_through(std::to_string(i));
+    if (choice(fmt::format("{}  {}", i, cameras[i]))) look_through(render::text_of_index(cameras, i));
     panel.widgets.mark(fmt::format("camera={}", i));
   }
   ImGui::EndCombo();
@@ -64,7 +64,8 @@ bool place_field(WidgetMap& widgets, const char* name, glm::vec3& place) {
   glm::vec3 shown = place;
   for (int i = 0; i < 3; ++i) shown[i] = shown[i] > -0.0005f && shown[i] <= 0 ? 0 : shown[i];
   if (!type_vector(widgets, name, shown, 3)) return false;
-  place = shown;
+  constexpr float farthest = 1e9f;  // of what --eye and --target take, metres
+  place = glm::clamp(shown, -farthest, farthest);
   return true;
 }
 

@@ -15,10 +15,12 @@ struct SavedState {
 
 // What closing the window would lose.
 struct Unsaved {
-  bool view = false;    // sun, lights, lamps or bookmarks
-  bool preset = false;  // values that differ from the preset's
+  bool view = false;     // sun, lights, lamps or bookmarks
+  bool preset = false;   // values that differ from the preset's
+  bool picture = false;  // or a sequence that is still being written
 
-  bool any() const { return view || preset; }
+  bool changes() const { return view || preset; }
+  bool any() const { return changes() || picture; }
 };
 
 // The camera alone is no change: everyone moves it to look around. Parameters are kept for the next run, and so are

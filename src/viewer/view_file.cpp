@@ -95,7 +95,14 @@ void write_view(const std::string& scene, const SavedView& view) {
   for (std::size_t i = 0; i < view.bookmarks.size(); ++i) {
     if (view.bookmarks[i]) bookmarks[std::to_string(i + 1)] = arguments_of(*view.bookmarks[i]);
   }
-  io::write_text(view_file(scene), io::text_of({{"view", view_arguments(view.options)}, {"bookmarks", bookmarks}}));
+  const Json file{{"view", view_arguments(view.options)}, {"bookmarks", bookmarks}};
+  // A camera may fly farther than the options go. What can't be read again would take the rest with it.
+  try {
+    view_of(file);
+  } catch (const Error& error) {
+    fail("cannot write {}: {}", io::quoted(view_file(scene)), error.what());
+  }
+  io::write_text(view_file(scene), io::text_of(file));
 }
 
 void use_view(const cli::SceneOptions& saved, cli::SceneOptions& options) {

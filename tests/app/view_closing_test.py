@@ -132,6 +132,21 @@ class Closing(WindowTest):
             viewer.wait_for(lambda: any(word.endswith("other.glb") for word in viewer.copied()), "the other scene")
             self.assertIn(sun[0], json.loads(self.saved.read_text())["view"])
 
+    def test_pictures_that_are_being_written_are_not_ended_without_a_question(self):
+        close = "closing=Close"
+        with self.view("mine.glb", "--technique", "brute_force") as viewer:
+            viewer.open_tab("Files", "write sequence")
+            viewer.click("write sequence", lambda: viewer.has("writing"), "pictures that are being written")
+            for answer in ("Cancel", "Close"):
+                self.desktop.xdotool("key", "Escape")
+                viewer.wait_for(lambda: viewer.has(close), "the question")
+                self.assertFalse(viewer.has(self.QUESTION))
+                self.answer(viewer, answer)
+                if answer == "Cancel":
+                    viewer.wait_for(lambda: not viewer.has(close), "no question")
+                    self.assertTrue(viewer.has("writing"))
+            self.assertEqual(viewer.exit_code(), 0)
+
     def test_a_window_that_is_minimised_comes_back_to_ask(self):
         with self.view("mine.glb") as viewer:
             self.drag(viewer, RIGHT, "--sun")

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "cli/usage.h"
+#include "core/error.h"
 #include "io/output_file.h"
 #include "support/temp_folder.h"
 #include "viewer/document.h"
@@ -70,6 +71,23 @@ TEST_F(ViewerViewFile, WhatWasWrittenIsReadBack) {
   options.camera = "Größe 影, 2";
   viewer::write_view(scene_, {.options = options});
   EXPECT_EQ(viewer::view_arguments(read()->options), viewer::view_arguments(options));
+}
+
+// Else the next start would ignore all of it, and nothing could be saved any more.
+TEST_F(ViewerViewFile, WhatCouldNotBeReadBackIsNotWritten) {
+  cli::SceneOptions good, far, large;
+  good.eye = {1, 2, 3};
+  good.target = {0, 0, 0};
+  viewer::write_view(scene_, {.options = good});
+  far = good;
+  far.eye = {2e10f, 0, 0};
+  large.lamps = {{.radius = 2423, .number = 0}};
+  viewer::Bookmarks bookmarks;
+  bookmarks[3] = {.eye = {0, 3e9f, 0}, .target = {0, 0, 0}, .fov = 40};
+  for (const SavedView& view :
+       {SavedView{.options = far}, SavedView{.options = large}, SavedView{.bookmarks = bookmarks}})
+    EXPECT_THROW(viewer::write_view(scene_, view), Error);
+  EXPECT_EQ(viewer::view_arguments(read()->options), viewer::view_arguments(good));
 }
 
 TEST_F(ViewerViewFile, ABrokenFileIsIgnoredAndNamed) {
