@@ -170,6 +170,7 @@ shadow::FinishedMaps maps_of(const penumbra_light& light, const shadow::Inputs& 
 }  // namespace
 
 shadow::Light light_of(const penumbra_light& light) {
+  if (light.reserved != 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_light.reserved is not 0");
   shadow::Light made{.id = light.id, .source = source_of(light), .overrides = {}, .maps = {}};
   if (light.output_texture != 0) {
     made.output = shadow::OutputTexture{.id = light.output_texture,
@@ -200,7 +201,6 @@ std::vector<shadow::Light> lights_of(const penumbra_light* lights, std::size_t c
                 light->struct_size, i, size);
     }
     const penumbra_light known = read_struct(light);
-    if (known.reserved != 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_light.reserved is not 0");
     made.push_back(light_of(known));
     if (inputs != nullptr && known.maps.id != 0) made.back().maps = maps_of(known, *inputs);
   }

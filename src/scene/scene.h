@@ -157,7 +157,7 @@ struct AnimationChannel {
   int node = -1;
   Path path = Path::translation;
   Interpolation interpolation = Interpolation::linear;
-  std::vector<float> times;   // seconds, strictly increasing
+  std::vector<float> times;   // seconds, never falling; at a time of several keys the last one holds, for a jump
   std::vector<float> values;  // keys × components (× 3 for cubic_spline: in-tangent, value, out-tangent)
   int components = 3;         // 3, 4 (quaternion xyzw) or the number of morph targets
 };

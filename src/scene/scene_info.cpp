@@ -31,6 +31,10 @@ MaterialInfo describe_material(const Scene& scene, const Material& material) {
   return info;
 }
 
+CameraInfo describe_camera(const Camera& camera, const Node& node) {
+  return {camera.name.empty() ? node.name : camera.name, camera.orthographic ? "orthographic" : "perspective"};
+}
+
 LightInfo describe_light(const PunctualLight& light, const Node& node, const glm::mat4& world) {
   LightInfo info{.name = light.name.empty() ? node.name : light.name,
                  .kind = "directional",
@@ -87,6 +91,8 @@ SceneInfo describe(const Scene& scene) {
     ++info.drawn_nodes;
     info.instances += node.instances.size();
     if (node.mesh >= 0) count_drawn(scene, node, info);
+    if (node.camera >= 0)
+      info.cameras.push_back(describe_camera(scene.cameras[static_cast<std::size_t>(node.camera)], node));
     if (node.light >= 0)
       info.lights.push_back(describe_light(scene.lights[static_cast<std::size_t>(node.light)], node, pose.world[i]));
   }
@@ -95,8 +101,6 @@ SceneInfo describe(const Scene& scene) {
   info.images = scene.images.size();
   for (const Image& image : scene.images) info.image_bytes += image.rgba.size();
   for (const Material& material : scene.materials) info.materials.push_back(describe_material(scene, material));
-  for (const Camera& camera : scene.cameras)
-    info.cameras.push_back({camera.name, camera.orthographic ? "orthographic" : "perspective"});
   const std::vector<std::size_t> played = played_animations(scene);
   for (std::size_t i = 0; i < scene.animations.size(); ++i) {
     const Animation& animation = scene.animations[i];

@@ -151,7 +151,7 @@ class SceneFaults {
                         channel.times.size() * static_cast<std::size_t>(channel.components) * (cubic ? 3 : 1),
                 "a channel's values don't fit its keys");
         for (std::size_t k = 1; k < channel.times.size(); ++k)
-          require(channel.times[k] > channel.times[k - 1], "key times don't increase");
+          require(channel.times[k] >= channel.times[k - 1], "key times fall");
         for (const float value : channel.values) require(std::isfinite(value), "a key's value is not finite");
       }
   }

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "render/setup.h"
 #include "scene/pose.h"
+#include "scene/scene_info.h"
 #include "support/gltf_files.h"
 #include "support/scene_faults.h"
 
@@ -95,6 +97,18 @@ TEST(GltfNode, ReadsCameras) {
   expect_fault(placed + R"([{"type":"orthographic","orthographic":{"xmag":0,"ymag":1,"znear":0,"zfar":9}}])", "zero");
 }
 
+// As --camera counts and names them: by the nodes that are drawn.
+TEST(GltfNode, CamerasAreListedAsTheyAreChosen) {
+  const std::string lens = R"("type":"perspective","perspective":{"yfov":0.7,"znear":0.01})";
+  const Scene scene =
+      load_text(document(R"("cameras":[{"name":"low",)" + lens + "},{" + lens + R"(},{"name":"unused",)" + lens +
+                         R"(}],"nodes":[{"name":"Top","camera":1},{"name":"x","camera":0}])"));
+  std::vector<std::string> names;
+  for (const scene::CameraInfo& camera : scene::describe(scene).cameras) names.push_back(camera.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"Top", "low"}));
+  EXPECT_EQ(names, render::camera_names(scene));
+}
+
 TEST(GltfNode, ReadsLightsAndLeavesUnknownOnesOut) {
   const Scene scene = load_text(document(
       R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"area"},{"type":"spot","color":[1,0.5,0],)"
@@ -109,6 +123,18 @@ TEST(GltfNode, ReadsLightsAndLeavesUnknownOnesOut) {
                R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":-1}]}})",
                "intensity is -1, outside");
   expect_fault(R"("nodes":[{"extensions":{"KHR_lights_punctual":{"light":0}}}])", "light is 0, but there are 0");
+}
+
+// Exporters write equal angles for a hard edge, and 0 for a light that reaches everywhere.
+TEST(GltfNode, ASpotMayHaveAHardEdgeAndALightARangeOf0) {
+  const auto spot = [](const std::string& angles) {
+    return load_text(document(R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","range":0,"spot":{)" +
+                              angles + R"(}}]}},"nodes":[{"extensions":{"KHR_lights_punctual":{"light":0}}}])"))
+        .lights.at(0);
+  };
+  EXPECT_EQ(spot(R"("innerConeAngle":0.5,"outerConeAngle":0.5)").inner_cone, 0.5f);
+  EXPECT_EQ(spot(R"("innerConeAngle":0.5,"outerConeAngle":0.5)").range, 0);
+  EXPECT_EQ(spot(R"("innerConeAngle":0.6,"outerConeAngle":0.5)").inner_cone, 0.5f) << "with a warning";
 }
 
 TEST(GltfNode, ReadsTheRadiusOfALampFromItsExtras) {
@@ -143,11 +169,17 @@ TEST(GltfAnimation, ChecksKeys) {
   EXPECT_THROW(load_text(animated({0, 1}, {0, 0, 0}, "LINEAR")), Error) << "a value is missing";
 }
 
-TEST(GltfAnimation, TheLastOfEqualKeysHolds) {
-  const Scene scene = load_text(animated({0, 1, 1, 2}, {0, 0, 0, 1, 0, 0, 5, 0, 0, 6, 0, 0}, "LINEAR"));
+// Exporters write two keys at one time for a jump, also at the beginning and at the end.
+TEST(GltfAnimation, EqualKeysAreAJump) {
+  const Scene scene = load_text(
+      animated({0, 0, 1, 1, 1, 2, 2}, {9, 0, 0, 0, 0, 0, 1, 0, 0, 7, 0, 0, 5, 0, 0, 6, 0, 0, 8, 0, 0}, "LINEAR"));
   check_scene(scene);
-  EXPECT_EQ(scene.animations[0].channels[0].times, (std::vector<float>{0, 1, 2}));
-  EXPECT_EQ(scene::pose_at(scene, 1).world[0][3].x, 5);
+  const auto place_at = [&](double time) { return scene::pose_at(scene, time).world[0][3].x; };
+  EXPECT_EQ(place_at(0), 0);
+  EXPECT_EQ(place_at(0.5), 0.5f);
+  EXPECT_NEAR(place_at(0.999), 1, 2e-3f);
+  EXPECT_EQ(place_at(1), 5);
+  EXPECT_EQ(place_at(1.5), 5.5f);
 }
 
 TEST(GltfAnimation, MovesANodeThatWasGivenByAMatrix) {

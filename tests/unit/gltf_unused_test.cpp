@@ -69,8 +69,8 @@ TEST(GltfUnused, SkinsCamerasAndLights) {
                                         R"({"yfov":0.7,"znear":1,"zfar":0.5}}])"),
                   "cameras[0]");
   expect_left_out(drawn_triangle(rest + R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot",)"
-                                        R"("spot":{"innerConeAngle":0.5,"outerConeAngle":0.2}}]}})"),
-                  "lights[0]");
+                                        R"("spot":{"innerConeAngle":0.1,"outerConeAngle":2}}]}})"),
+                  "extensions.KHR_lights_punctual.lights[0]");
   const std::string used = meshes() + R"(,"nodes":[{"mesh":0,"camera":0}],)" + scene_part + ",";
   expect_refused(drawn_triangle(used + R"("cameras":[{"type":"fisheye"}])"));
 }

@@ -29,20 +29,6 @@ int component_count(const Scene& scene, const Node& node, Path path) {
   return static_cast<int>(scene.meshes[static_cast<std::size_t>(node.mesh)].default_weights.size());
 }
 
-// Of keys at the same time, which some exporters write for a jump, only the last one is kept.
-void keep_last_of_equal_keys(AnimationChannel& channel) {
-  const std::size_t keys = channel.times.size(), width = channel.values.size() / keys;
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < keys; ++k) {
-    if (k > 0 && channel.times[k] > channel.times[k - 1]) ++kept;
-    channel.times[kept] = channel.times[k];
-    std::copy_n(channel.values.begin() + static_cast<std::ptrdiff_t>(k * width), width,
-                channel.values.begin() + static_cast<std::ptrdiff_t>(kept * width));
-  }
-  channel.times.resize(kept + 1);
-  channel.values.resize((kept + 1) * width);
-}
-
 void read_keys(Document& document, const tinygltf::AnimationSampler& sampler, AnimationChannel& channel) {
   const AccessorView input = view_accessor(document, sampler.input), output = view_accessor(document, sampler.output);
   expect_components(input, 1);
@@ -58,7 +44,6 @@ void read_keys(Document& document, const tinygltf::AnimationSampler& sampler, An
   const std::size_t values_a_key = channel.interpolation == Interpolation::cubic_spline ? 3 : 1;
   const std::size_t expected = channel.times.size() * values_a_key * static_cast<std::size_t>(channel.components);
   if (channel.values.size() != expected) fail("{} values for its keys, not {}", channel.values.size(), expected);
-  keep_last_of_equal_keys(channel);
 }
 
 // Nothing if the channel has no target that this program supports.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string_view>
 
 #include "core/log.h"
@@ -152,11 +153,12 @@ void read_textures(Document& document, const ImageDecoder& decode, std::vector<M
     for (const TextureRef* ref : references(use.material))
       if (ref->texture >= 0) images.need(image_of(document, *ref));
   images.read();
+  std::set<int> told;  // textures
   for (MaterialUse& use : materials) {
     for (TextureRef* ref : references(use.material)) {
       if (ref->texture < 0) continue;
       const int source = image_of(document, *ref);
-      if (source < 0)
+      if (source < 0 && told.insert(ref->texture).second)
         warn("material '{}': textures[{}] has no image that can be read; left out", use.material.name, ref->texture);
       const int image = source < 0 ? -1 : images.number(source);
       if (image < 0)

@@ -148,7 +148,7 @@ void add_node_rules(std::vector<Rule>& rules) {
       {lights + "[].type", required(text())},
       {lights + "[].color", numbers(3, 0, 1e6)},
       {lights + "[].intensity", number(0, 1e12)},
-      {lights + "[].range", number(tiny)},
+      {lights + "[].range", number(0)},
       {spot + ".innerConeAngle", number(0, half_pi)},
       {spot + ".outerConeAngle", number(tiny, half_pi + 1e-6)},
       {"animations[].channels", required(array())},

@@ -53,8 +53,12 @@ PunctualLight read_light(const tinygltf::Light& in, std::size_t number) {
   if (light.kind != LightKind::spot) return light;
   light.inner_cone = static_cast<float>(in.spot.innerConeAngle);
   light.outer_cone = static_cast<float>(in.spot.outerConeAngle);
-  if (light.inner_cone >= light.outer_cone)
-    fail("innerConeAngle {} is not inside outerConeAngle {}", light.inner_cone, light.outer_cone);
+  // Equal angles are a cone with a hard edge.
+  if (light.inner_cone > light.outer_cone) {
+    warn("light {}: innerConeAngle {} is outside of outerConeAngle {}; taken as equal to it", number, light.inner_cone,
+         light.outer_cone);
+    light.inner_cone = light.outer_cone;
+  }
   return light;
 }
 
