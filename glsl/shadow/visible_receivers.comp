@@ -118,10 +118,16 @@ void main() {
   float a = -view_position(middle, value_of(found.least)).z;
   float b = -view_position(middle, value_of(found.greatest)).z;
   // Distances are counted from the camera, or from the nearest receiver if an orthographic view shows it behind that.
-  float start = min(min(a, b), 0.0);
+  bool orthographic = texel_to_view[2].w == 0.0;
+  float start = orthographic ? min(min(a, b), 0.0) : 0.0;
   float far = max(a, b);
-  if (distance_limit > 0.0) far = min(far, distance_limit);
+  if (distance_limit > 0.0) {
+    start = max(start, -distance_limit);
+    far = min(far, distance_limit);
+  }
   far -= start;
+  // Under an oblique near plane the same depth may be behind the camera there, and before it elsewhere.
+  if (!(far > 0.0)) far = 1.0;
   float near = max(min(a, b) - start, far * 1e-3);
   float slices_a_ratio = float(slices) / max(log2(far / near), 1e-6);
 
@@ -133,7 +139,8 @@ void main() {
       if (!is_receiver(depth)) continue;
       vec3 position = view_position(vec2(x, y) + 0.5, depth);
       float away = -position.z - start;
-      if (away > far * 1.0001 || isnan(away)) continue;
+      if (isnan(away) || isinf(away)) continue;
+      if (distance_limit > 0.0 && abs(position.z) > distance_limit * 1.0001) continue;
       vec3 place = mat3(view_to_light) * position;
       vec4 across = along_four(place.xy);
       part = Part(part.pixels + 1u, max(part.farthest, away), min(part.low, across), max(part.high, across),

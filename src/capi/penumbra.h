@@ -376,7 +376,9 @@ typedef struct penumbra_frame {
 
   float view[16]; /**< from world to view space, in metres; it turns and moves, and mirrors for a planar reflection.
                      The camera looks along -z; default: identity */
-  float projection[16]; /**< from view to clip space, without jitter; perspective or orthographic; default: identity */
+  float projection[16]; /**< from view to clip space, without jitter; perspective or orthographic, also beside the
+                           middle of the picture, with an oblique near plane, or scaled as a whole. What turns the
+                           picture belongs into `view`; default: identity */
   /** `view` of the view's last frame, and of this one where there was none; default: identity. Where last_view or
    * last_projection are others than those of that call, the history and the kept maps are discarded. */
   float last_view[16];

@@ -47,33 +47,6 @@ double step_down(double value, double steps_an_octave) {
   return value <= 0 ? 0 : std::exp2(std::floor(std::log2(value) * steps_an_octave + 1e-9) / steps_an_octave);
 }
 
-// The range of view depths in which receivers lie, metres from `start`: the camera, or a depth behind it that an
-// orthographic view shows.
-struct ViewRange {
-  double start = 0;
-  Range range;
-};
-
-ViewRange view_range(const CascadeInputs& in, CutOff& cut_off) {
-  Range range{1e30, -1e30};
-  double farthest = 0;
-  for (const glm::dvec3& corner : in.receivers.corners()) {
-    const glm::dvec3 at(glm::dmat4(in.view) * glm::dvec4(corner, 1));
-    range = {std::min(range.min, -at.z), std::max(range.max, -at.z)};
-    farthest = std::max(farthest, glm::length(at));
-  }
-  double limit = in.distance > 0 ? in.distance : range.max;
-  double behind = std::max(-std::max(range.min, in.nearest), 0.0);
-  if (!in.exact_bounds && in.distance <= 0 && farthest > wide_bounds) {
-    limit = std::min(limit, std::max(range_in_wide_bounds, 10 * range.min));
-    cut_off.view = limit < range.max || behind > range_in_wide_bounds;
-    behind = std::min(behind, range_in_wide_bounds);
-  }
-  const double start = -step_up(behind, 3);
-  const double far = (in.distance > 0 ? limit : step_up(std::max(limit, 1e-6), 3)) - start;
-  return {start, {std::max(step_down(std::max(range.min - start, 0.0), 3), far * 1e-3), far}};
-}
-
 // The smallest sphere, with its centre on the frustum's axis, that contains the part of the frustum between two depths.
 Sphere frustum_sphere(const CascadeInputs& in, double near, double far) {
   const glm::dmat4 projection(in.projection);
@@ -120,6 +93,49 @@ Range range_within(const Column& column, const std::array<glm::dvec3, 8>& corner
     for (const glm::dvec3& point : polygon) range = {std::min(range.min, point.z), std::max(range.max, point.z)};
   }
   return range;
+}
+
+// The range of view depths in which receivers lie, metres from `start`: the camera, or a depth behind it that an
+// orthographic view shows.
+struct ViewRange {
+  double start = 0;
+  Range range;
+};
+
+// How far behind its camera an orthographic view shows receivers, metres; 0 for all other views.
+double shown_behind(const CascadeInputs& in) {
+  if (in.nearest >= 0) return 0;
+  // Places in the picture, and the view depth there: the picture is a column of the receivers' box.
+  const glm::dmat4 view(in.view), projection(in.projection);
+  std::array<glm::dvec3, 8> shown = in.receivers.corners();
+  for (glm::dvec3& corner : shown) {
+    const glm::dvec4 at = view * glm::dvec4(corner, 1);
+    corner = glm::dvec3(glm::dvec2(projection * at) / projection[3][3], -at.z);
+  }
+  const Range range = range_within({.half = glm::dvec2(1)}, shown);
+  if (range.min > range.max) return 0;
+  const double behind = std::max(-std::max(range.min, in.nearest), 0.0);
+  return in.distance > 0 ? std::min<double>(behind, in.distance) : behind;
+}
+
+ViewRange view_range(const CascadeInputs& in, CutOff& cut_off) {
+  Range range{1e30, -1e30};
+  double farthest = 0;
+  for (const glm::dvec3& corner : in.receivers.corners()) {
+    const glm::dvec3 at(glm::dmat4(in.view) * glm::dvec4(corner, 1));
+    range = {std::min(range.min, -at.z), std::max(range.max, -at.z)};
+    farthest = std::max(farthest, glm::length(at));
+  }
+  double limit = in.distance > 0 ? in.distance : range.max;
+  double behind = shown_behind(in);
+  if (!in.exact_bounds && in.distance <= 0 && farthest > wide_bounds) {
+    limit = std::min(limit, std::max(range_in_wide_bounds, 10 * range.min));
+    cut_off.view = limit < range.max || behind > range_in_wide_bounds;
+    behind = std::min(behind, range_in_wide_bounds);
+  }
+  const double start = -step_up(behind, 3);
+  const double far = (in.distance > 0 ? limit : step_up(std::max(limit, 1e-6), 3)) - start;
+  return {start, {std::max(step_down(std::max(range.min - start, 0.0), 3), far * 1e-3), far}};
 }
 
 // Split distances, the last one the far end (Zhang et al. 2006, "Parallel-split shadow maps", eq. 3).

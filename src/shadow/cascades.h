@@ -100,7 +100,7 @@ struct CascadeInputs {
   glm::mat4 projection{1};  // perspective or orthographic; its depth convention does not matter here
   double nearest = 0;       // what the view shows begins there, view depth in metres; not above 0, and below it only
                             // for an orthographic view that shows what lies behind its camera
-  glm::vec3 to_light{0, 1, 0};  // unit, world
+  glm::vec3 to_light{0, 1, 0};  // world
   float tan_half_angle = 0;     // of the light; a large light and high casters make the last cascade wider
   Box casters;                  // bounds of all casters
   Box receivers;                // bounds of all receivers; limits the last cascade's range
@@ -108,7 +108,8 @@ struct CascadeInputs {
   int count = 4;
   int size = 2048;
   float split_blend = 0.75f;  // 0 uniform, 1 logarithmic (Zhang 2006, parallel-split shadow maps, eq. 3)
-  float distance = 0;  // range of the last cascade, metres from the camera; 0: as far as receivers lie in the view
+  // Range of the last cascade, metres from the camera, before it and behind; 0: as far as receivers lie in the view.
+  float distance = 0;
   // Absent: the cascades are fitted to the frustum and the receivers' box, and seldom change size. Else they are fitted
   // to these receivers, and `split_blend` has no effect.
   std::optional<VisibleReceivers> visible = {};

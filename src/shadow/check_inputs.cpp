@@ -25,8 +25,8 @@ void check_matrix(std::string_view name, const glm::mat4& matrix) {
   if (glm::determinant(glm::dmat4(matrix)) == 0) fail("soft shadows: {} has no inverse", name);
 }
 
-// The picture's x and y must depend on x and y of view space alone, as where cascades lie and how large pixels are is
-// computed from that.
+// Where cascades lie and how large pixels are is computed for projections whose x does not depend on view space's y,
+// nor y on x, nor w on either.
 void check_axes(const glm::dmat4& projection) {
   constexpr double rounding = 1e-5;
   const double least = std::min(std::abs(projection[0][0]), std::abs(projection[1][1]));
@@ -34,8 +34,8 @@ void check_axes(const glm::dmat4& projection) {
       {std::abs(projection[1][0]), std::abs(projection[0][1]), std::abs(projection[0][3]), std::abs(projection[1][3])});
   if (others > rounding * least || least == 0)
     fail(
-        "soft shadows: the projection matrix turns or skews the picture; only what it does to view space's x and y "
-        "by scaling and moving them is allowed");
+        "soft shadows: the projection matrix turns or skews the picture: it may only scale and shift x and y; turn the "
+        "view matrix instead");
 }
 
 // Shadows are computed in view space, in metres. It may be mirrored, as for a planar reflection.

@@ -34,6 +34,9 @@ struct View {
   // From world to view space, in metres; it turns and moves, and mirrors for a planar reflection. The camera looks
   // along -z.
   glm::mat4 view{1};
+  // Perspective or orthographic, also beside the middle of the picture, with an oblique near plane, or scaled as a
+  // whole. x of clip space may depend on x and z of view space, y on y and z, w on z: what turns the picture belongs
+  // into `view`.
   glm::mat4 projection{1};
   // Used to reproject the history. They must equal the matrices of this view's last render(), else the history and the
   // kept maps are discarded (see PassContext and Inputs::moved).

@@ -14,8 +14,15 @@ namespace {
 double nearest_of(const glm::mat4& projection, const Conventions& conventions) {
   if (projection[2][3] != 0) return 0;
   const double at_near = conventions.reversed_z ? 1 : conventions.depth_zero_to_one ? 0 : -1;
-  const glm::dmat4 to_clip(projection);
-  return std::min((to_clip[3][2] - at_near * to_clip[3][3]) / to_clip[2][2], 0.0);
+  const glm::dmat4 to_view = glm::inverse(glm::dmat4(projection));
+  double nearest = 0;  // an oblique near plane is nearer in some corners
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      const glm::dvec4 corner = to_view * glm::dvec4(x, y, at_near, 1);
+      nearest = std::min(nearest, -corner.z / corner.w);
+    }
+  }
+  return nearest;
 }
 
 FitInputs fit_inputs(const Inputs& inputs, const ParamSet& params) {

@@ -24,7 +24,7 @@ namespace penumbra::shadow {
 // A directional light at infinite distance, with parallel rays. Its angular size and shape are the parameters sun.angle
 // and sun.shape.
 struct Sun {
-  glm::vec3 to_light{0, 1, 0};  // unit, world
+  glm::vec3 to_light{0, 1, 0};  // world; of any length above 0.5
 
   bool operator==(const Sun&) const = default;
 };

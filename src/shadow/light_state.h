@@ -103,7 +103,9 @@ struct ViewState {
   int width = 0, height = 0;  // of the receivers' textures
   Rect viewport;
   bool brings_normals = false;
-  bool drawn = false;  // the last frame completed without an Error
+  bool began = false;                        // a frame has completed without an Error
+  bool drawn = false;                        // the last one has
+  std::optional<bool> clip_space_of_caller;  // before the first frame: z in 0..1, not in -1..1; absent: unknown
   TextureChecks checked;
   NdcError depth_error;
   bool has_copies = false;               // of receivers' textures

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "../core/error.h"
 #include "../core/log.h"
@@ -27,14 +29,14 @@ void check_nothing_is_left_out() {
     throw gl::ContextError(fmt::format("{}: conditional rendering is active; end it before", subject));
 }
 
-// For a view's first frame: a warning, or "".
-std::string clip_control_warning_for(const Inputs& inputs, bool first_view) {
+// Whether the caller has set clip space to z in 0..1. Nothing where that can't be told: after another frame, -1..1 may
+// be what that one left.
+std::optional<bool> clip_space_of_caller(bool first_frame_of_all) {
   GLint mode = 0;
   gl::glGetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
   const bool zero_to_one = mode == GL_ZERO_TO_ONE;
-  // After another view's frame, -1..1 may be what that frame left.
-  if (!zero_to_one && !first_view) return "";
-  return clip_control_warning(inputs.view.projection, inputs.conventions, zero_to_one);
+  if (!zero_to_one && !first_frame_of_all) return {};
+  return zero_to_one;
 }
 
 // The scope of a call: OpenGL's entry points are those of the device's driver.
@@ -136,22 +138,23 @@ Mask SoftShadows::render_view(const Inputs& inputs, const ParamSet& params) {
   const Call call(device_);
   // A steady frame in the core profile asks OpenGL nothing: a driver that works on another thread would have to wait.
   check_earlier_frames();
-  const bool first = !state_->views.contains(inputs.view.id);
+  const auto known = state_->views.find(inputs.view.id);
+  const bool is_new = known == state_->views.end(), first = is_new || !known->second.began;
   if (first || gl::has_legacy_state()) gl::check_context_is_ready(subject);
   if (first) check_nothing_is_left_out();
-  const std::string warning = first ? clip_control_warning_for(inputs, state_->views.empty()) : "";
+  const std::optional<bool> clip_space = is_new ? clip_space_of_caller(state_->views.empty()) : std::nullopt;
   const gl::InitialLegacyState legacy;
   ViewState& view = state_->views[inputs.view.id];
-  if (view.prefix.empty()) view.prefix = view_prefix(inputs.view.id);
-  try {
-    Mask mask = draw(inputs, params, view);
-    if (!warning.empty()) log(LogLevel::warning, warning);
-    return mask;
-  } catch (...) {
-    // The next one is the view's first again, with what is checked then.
-    if (first) drop_view(inputs.view.id);
-    throw;
+  if (is_new) {
+    view.prefix = view_prefix(inputs.view.id);
+    view.clip_space_of_caller = clip_space;
   }
+  Mask mask = draw(inputs, params, view);
+  if (std::exchange(view.began, true) || !view.clip_space_of_caller) return mask;
+  const std::string warning =
+      clip_control_warning(inputs.view.projection, inputs.conventions, *view.clip_space_of_caller);
+  if (!warning.empty()) log(LogLevel::warning, warning);
+  return mask;
 }
 
 // Refuses this frame, so that the next one begins anew.
@@ -198,10 +201,6 @@ void SoftShadows::warm_up(const FrameKind& kind, const ParamSet& params) {
 
 void SoftShadows::forget_view(int id) {
   const Call call(device_);
-  drop_view(id);
-}
-
-void SoftShadows::drop_view(int id) {
   state_->views.erase(id);
   device_.drop(view_prefix(id));
 }

@@ -128,7 +128,6 @@ class SoftShadows {
   struct State;
   std::string view_prefix(int id) const;
   void check_earlier_frames();
-  void drop_view(int id);
   Mask render_view(const Inputs& inputs, const ParamSet& params);
   Mask draw(const Inputs& inputs, const ParamSet& params, ViewState& view);
 

@@ -14,7 +14,7 @@ namespace {
 class ViewerFirstSample : public GpuTest {
  protected:
   ViewerFirstSample() {
-    document_.options.scene = std::string(PENUMBRA_ROOT) + "/scenes/steps.glb";
+    document_.options.scene = PENUMBRA_ROOT "/scenes/steps.glb";
     document_.options.size = {64, 36};
     document_.params = ParamSet(render::Renderer::params(renderer_.registry()));
     choose("hard");

@@ -60,15 +60,15 @@ std::vector<glm::dvec3> frustum_points(const CascadeInputs& in, double distance)
 // Its near plane lies behind the camera, as in editors whose camera is somewhere in the scene.
 TEST(Cascades, TheLastHoldsWhatAnOrthographicViewShowsBehindItsCamera) {
   CascadeInputs in = courtyard();
-  in.view = glm::lookAt(glm::vec3(-20, 20, -20), glm::vec3(0), glm::vec3(0, 1, 0));
   in.projection = glm::ortho(-30.0f, 30.0f, -30.0f, 30.0f, -100.0f, 100.0f);
   in.casters = in.receivers = {{-200, 0, -200}, {200, 9, 200}};
-  const glm::dmat4 to_world = glm::inverse(glm::dmat4(in.view));
-  // How far beyond the last cascade's map the corners of the picture are at that depth, 1: on its border.
+  in.view = glm::lookAt(glm::vec3(-20, 5, -20), glm::vec3(0, 5, 0), glm::vec3(0, 1, 0));
+  // How far beyond the last cascade's map the outermost receivers of the picture are at that depth, 1: on its border.
   const auto reach = [&](double depth) {
     double most = 0;
-    for (const glm::dvec2& corner : {glm::dvec2(-30, -30), {30, -30}, {30, 30}, {-30, 30}}) {
-      const glm::dvec3 p = clip(fit_cascades(in).items.back(), to_world * glm::dvec4(corner, -depth, 1));
+    for (const glm::dvec2& corner : {glm::dvec2(-30, -5), {30, -5}, {30, 4}, {-30, 4}}) {
+      const glm::dvec4 world = glm::inverse(glm::dmat4(in.view)) * glm::dvec4(corner, -depth, 1);
+      const glm::dvec3 p = clip(fit_cascades(in).items.back(), world);
       most = std::max({most, std::abs(p.x), std::abs(p.y)});
     }
     return most;
@@ -77,6 +77,23 @@ TEST(Cascades, TheLastHoldsWhatAnOrthographicViewShowsBehindItsCamera) {
   for (const double depth : {-100.0, -60.0, 0.0, 60.0, 100.0}) EXPECT_LE(reach(depth), 1) << depth;
   in.nearest = 0;
   EXPECT_GT(reach(-100), 1) << "maps do not hold what the view does not show";
+}
+
+TEST(Cascades, TheNearPlaneOfAnOrthographicViewMayBeAnywhereBehindTheReceivers) {
+  CascadeInputs in = courtyard();
+  in.projection = glm::ortho(-30.0f, 30.0f, -30.0f, 30.0f, -100.0f, 100.0f);
+  in.casters = in.receivers = {{-200, 0, -200}, {200, 9, 200}};
+  in.view = glm::lookAt(glm::vec3(-50, 50, -50), glm::vec3(0), glm::vec3(0, 1, 0));
+  const float texel = fit_cascades(in).texel(3).x;
+  in.nearest = -20000;
+  EXPECT_EQ(fit_cascades(in).texel(3).x, texel);
+  // Where receivers may be behind the camera too, a chosen range holds there as well.
+  in.receivers = {glm::vec3(-20000), glm::vec3(20000)};
+  in.distance = 30;
+  in.nearest = 0;
+  const float before = fit_cascades(in).texel(3).x;
+  in.nearest = -20000;
+  EXPECT_LT(fit_cascades(in).texel(3).x, 3 * before);
 }
 
 // As Lengyel 2005 and others scale them, and as cameras beside the middle of their picture have them.

@@ -10,8 +10,7 @@ bool is_sky(ivec2 pixel) { return texelFetch(receiver_depth, pixel, 0).x == shad
 
 float ndc_depth(float depth) { return depth * shadow.depth_to_ndc.x + shadow.depth_to_ndc.y; }
 
-// View-space position (metres) of a point of the picture, pixels, with that stored depth: before the division by w, and
-// after it.
+// View-space position of a point of the picture, pixels, with that stored depth: homogeneous, and in metres.
 vec4 unproject_with_w(vec2 at, float depth) {
   vec2 ndc = (at - shadow.viewport.xy) / shadow.viewport.zw * 2.0 - 1.0 - shadow.jitter.xy;
   return shadow.clip_to_view * vec4(ndc, ndc_depth(depth), 1.0);
