@@ -14,7 +14,7 @@ set_target_properties(penumbra_shared PROPERTIES EXPORT_NAME penumbra VERSION "$
 # The parameters as fields of C++, from their rows, by a program that is built like the library.
 if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
   message(FATAL_ERROR "penumbra: the build runs a program that it has compiled for ${CMAKE_SYSTEM_PROCESSOR}: set "
-    "CMAKE_CROSSCOMPILING_EMULATOR to one that runs such programs, as qemu-user does.")
+    "CMAKE_CROSSCOMPILING_EMULATOR to one that runs such programs, as qemu-user does; or to env if this machine can.")
 endif()
 set(typed_settings "${PROJECT_BINARY_DIR}/include/penumbra/penumbra_settings.hpp")
 add_executable(penumbra_typed_settings EXCLUDE_FROM_ALL "${PROJECT_SOURCE_DIR}/src/capi/typed/main.cpp")

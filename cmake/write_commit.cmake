@@ -10,7 +10,7 @@ if(GIT)
   if(NOT failed AND prefix STREQUAL "")
     execute_process(COMMAND "${GIT}" -C "${ROOT}" diff --quiet HEAD RESULT_VARIABLE changed ERROR_QUIET)
     # Sources are found by their names, so that those which Git does not know are compiled too.
-    execute_process(COMMAND "${GIT}" -C "${ROOT}" ls-files --others --exclude-standard -- src glsl presets
+    execute_process(COMMAND "${GIT}" -C "${ROOT}" ls-files --others --exclude-standard -- src glsl presets python tools
       OUTPUT_VARIABLE unknown ERROR_QUIET)
     set(commit "${head}")
     if(changed OR NOT unknown STREQUAL "")

@@ -171,7 +171,10 @@ std::vector<Contender> parse_contenders(const std::string& text) {
 }
 
 bool parse_compare(const cli::Arguments& arguments, CompareOptions& options, const CommandHelp& help) {
-  CLI::App app("Compare shadow techniques with the truth: tables and an HTML page", help.name);
+  CLI::App app(
+      "Compare shadow techniques with the truth: tables and an HTML page. For the costs, shadow maps are drawn anew in "
+      "every frame unless maps.keep is set",
+      help.name);
   add_compare_options(app, options, help);
   if (!cli::parse(app, arguments)) return false;
   options.given = cli::given_options(app);

@@ -42,15 +42,15 @@ Json view_of(const render::Setup& setup) {
           {is_sun ? "sun" : "lamp", std::visit([](const auto& light) { return json_of(light); }, lights.front())}};
 }
 
-// Adds all files in the folder, at any depth. Links to folders count as those, but not one that leads back to a folder
-// in which it is: `outer`, canonical.
+// Links to folders count as those, but not one that leads back to a folder in which it is: `outer`, canonical.
 void find_files(std::vector<fs::path>& found, const fs::path& folder, std::vector<fs::path> outer = {}) {
   const fs::path own = fs::canonical(folder);
   if (std::ranges::find(outer, own) != outer.end()) return;
   outer.push_back(own);
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file()) found.push_back(entry.path());
-    if (entry.is_directory()) find_files(found, entry.path(), outer);
+    std::error_code leads_nowhere;
+    if (entry.is_regular_file(leads_nowhere)) found.push_back(entry.path());
+    if (entry.is_directory(leads_nowhere)) find_files(found, entry.path(), outer);
   }
 }
 

@@ -69,7 +69,8 @@ void render_files(RenderOptions options) {
                 options.stats.empty() ? 0 : measure(options, session, params, range));
   const std::chrono::duration<double> elapsed = Clock::now() - start;
   if (!options.quiet)
-    fmt::print(summary_stream(options), "{}\n", summary(options, params, names, range, elapsed.count()));
+    // Not by fmt::print, which throws where standard error is closed or full.
+    std::fputs((summary(options, params, names, range, elapsed.count()) + "\n").c_str(), summary_stream(options));
 }
 
 }  // namespace
