@@ -10,7 +10,8 @@ set(penumbra_public_headers
   gl/buffer.h gl/context.h gl/debug.h gl/device.h gl/handle.h gl/pass.h gl/pass_desc.h gl/program.h
   gl/shader_library.h gl/shader_source.h
   gl/texture.h gl/timer.h
-  shadow/cascades.h shadow/denoise_context.h shadow/denoiser.h shadow/filter.h shadow/inputs.h shadow/lamp_maps.h
+  shadow/cascades.h shadow/denoise_context.h shadow/denoiser.h shadow/depth_precision.h shadow/filter.h shadow/inputs.h
+  shadow/lamp_maps.h
   shadow/light_frame.h shadow/light_matrices.h
   shadow/light_projection.h shadow/pass_context.h shadow/recipe.h shadow/registry.h shadow/soft_shadows.h
   shadow/technique.h shadow/volume.h)

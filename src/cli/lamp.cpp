@@ -14,8 +14,9 @@ namespace penumbra::cli {
 
 namespace {
 
-constexpr double usual_cone = 40, least_cone = 1e-3;  // degrees
-constexpr float brightest = 1e9f;                     // of rgb
+constexpr double usual_cone = 40, least_cone = 1e-3;     // degrees
+constexpr float brightest = 1e9f, most_candela = 1e12f;  // of rgb and of cd
+constexpr float farthest = 1e9f;                         // of a range, metres
 constexpr float inner_share = 0.8f;
 
 std::string text_of(const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
@@ -33,9 +34,9 @@ void set(render::LampLight& lamp, Spot& spot, const std::string& option, std::st
   if (name == "radius") {
     lamp.radius = static_cast<float>(parse_number(full, value, 0, 1000));
   } else if (name == "cd") {
-    lamp.intensity *= static_cast<float>(parse_number(full, value, 0, 1e12) / 100);
+    lamp.intensity *= static_cast<float>(parse_number(full, value, 0, most_candela) / 100);
   } else if (name == "range") {
-    lamp.range = static_cast<float>(parse_number(full, value, 0, 1e9));
+    lamp.range = static_cast<float>(parse_number(full, value, 0, farthest));
   } else if (name == "rgb") {
     const glm::vec3 color = parse_point(full, value);
     if (glm::any(glm::lessThan(color, glm::vec3(0)))) fail_usage("{} '{}' has a negative part", full, value);
@@ -84,8 +85,14 @@ render::LampLight parse_lamp(std::string_view option, std::string_view text) {
 
 std::string lamp_text(const render::LampLight& lamp) {
   std::string text = text_of(lamp.position) + fmt::format(":radius={}", lamp.radius);
-  text += fmt::format(":rgb={}", text_of(glm::min(lamp.intensity / 100.0f, glm::vec3(brightest))));
-  if (lamp.range > 0) text += fmt::format(":range={}", lamp.range);
+  const float strongest = std::max({lamp.intensity.r, lamp.intensity.g, lamp.intensity.b});
+  if (strongest <= 100 * brightest) {
+    text += fmt::format(":rgb={}", text_of(lamp.intensity / 100.0f));
+  } else {
+    text += fmt::format(":cd={}:rgb={}", std::min(strongest, most_candela), text_of(lamp.intensity / strongest));
+  }
+  // Exporters write the largest float for a light that reaches everywhere.
+  if (lamp.range > 0 && lamp.range <= farthest) text += fmt::format(":range={}", lamp.range);
   if (lamp.axis != glm::vec3(0)) {
     // Far from the origin, a point a metre away would be rounded to another direction.
     const float away = std::max(1.0f, 1e-3f * glm::length(lamp.position));

@@ -300,7 +300,7 @@ std::vector<std::string> camera_names(const scene::Scene& scene) {
 std::optional<std::size_t> index_of_text(const std::vector<std::string>& names, std::string_view text) {
   if (const auto named = std::ranges::find(names, text); named != names.end())
     return static_cast<std::size_t>(named - names.begin());
-  if (text.starts_with('#')) text.remove_prefix(1);
+  text.remove_prefix(std::min(text.find_first_not_of('#'), text.size()));
   std::size_t index = 0;
   const char* end = text.data() + text.size();
   const auto parsed = std::from_chars(text.data(), end, index);
@@ -310,9 +310,8 @@ std::optional<std::size_t> index_of_text(const std::vector<std::string>& names, 
 
 std::string text_of_index(const std::vector<std::string>& names, std::size_t index) {
   std::string text = std::to_string(index);
-  const auto named = std::ranges::find(names, text);
-  const bool is_anothers = named != names.end() && named != names.begin() + static_cast<std::ptrdiff_t>(index);
-  return is_anothers ? "#" + text : text;
+  while (index_of_text(names, text) != index) text.insert(0, "#");
+  return text;
 }
 
 glm::vec3 direction_to(float azimuth, float elevation) {

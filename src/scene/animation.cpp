@@ -84,10 +84,20 @@ std::vector<float> sample(const AnimationChannel& channel, double time) {
 
 namespace {
 
+// What the channel comes to at the end of an animation. Of several last keys of one time it comes to the first.
+std::vector<float> end_of(const AnimationChannel& channel, double duration) {
+  const auto& times = channel.times;
+  const auto first = std::lower_bound(times.begin(), times.end(), times.back());
+  if (channel.interpolation == Interpolation::step || times.back() < duration) return sample(channel, duration);
+  std::vector<float> value = key_value(channel, static_cast<std::size_t>(first - times.begin()));
+  if (channel.path == Path::rotation) store_unit(value);
+  return value;
+}
+
 // Whether the channel ends with the values that it starts with, up to rounding: 0.01 % of its largest value, 0.2
 // degrees.
 bool closes(const AnimationChannel& channel, double duration) {
-  const std::vector<float> a = sample(channel, 0), b = sample(channel, duration);
+  const std::vector<float> a = sample(channel, 0), b = end_of(channel, duration);
   if (channel.path == Path::rotation) return std::abs(glm::dot(quaternion(a.data()), quaternion(b.data()))) > 1 - 1e-6f;
   float largest = 0;
   for (const float v : channel.values) largest = std::max(largest, std::abs(v));

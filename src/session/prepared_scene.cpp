@@ -35,8 +35,9 @@ class LogOnce {
   ~LogOnce() {
     scope_.reset();
     for (const auto& [level, message] : said_) {
-      if (told_.insert(message).second) log(level, message);
+      if (!told_.contains(message)) log(level, message);
     }
+    for (auto& [level, message] : said_) told_.insert(std::move(message));
   }
   LogOnce(const LogOnce&) = delete;
   LogOnce& operator=(const LogOnce&) = delete;

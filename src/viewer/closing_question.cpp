@@ -42,6 +42,11 @@ void closing_question(const Panel& panel) {
       title.c_str(), nullptr,
       ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
   if (!state.closing.asks) return;
+  // The picture has been written meanwhile.
+  if (!panel.status.unsaved.any()) {
+    state.requests.closing = ClosingAnswer::discard;
+    ImGui::CloseCurrentPopup();
+  }
   list_changes(panel.status, closes_window);
   ImGui::Spacing();
   const auto button = [&](const char* name) {
@@ -59,7 +64,9 @@ void closing_question(const Panel& panel) {
     state.requests.closing = ClosingAnswer::discard;
   }
   ImGui::SameLine();
-  if (button("Cancel") || ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, /* repeat= */ false)) ImGui::CloseCurrentPopup();
+  const bool cancels = button("Cancel");
+  if (!panel.status.unsaved.changes()) ImGui::SetItemDefaultFocus();
+  if (cancels || ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, /* repeat= */ false)) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
 }
 

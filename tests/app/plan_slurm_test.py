@@ -93,8 +93,8 @@ class Cluster:
         log.close()
 
     def wait(self, ready, what):
-        ended = False
-        for _ in range(600):
+        ended, deadline = False, time.monotonic() + 120
+        while time.monotonic() < deadline:
             if ready():
                 return
             ended = any(daemon.poll() is not None for daemon in self.daemons)

@@ -134,7 +134,7 @@ class Closing(WindowTest):
 
     def test_pictures_that_are_being_written_are_not_ended_without_a_question(self):
         close = "closing=Close"
-        with self.view("mine.glb", "--technique", "brute_force") as viewer:
+        with self.view("mine.glb", "--technique", "brute_force", "--set", "sun.angle=20") as viewer:
             viewer.open_tab("Files", "write sequence")
             viewer.click("write sequence", lambda: viewer.has("writing"), "pictures that are being written")
             for answer in ("Cancel", "Close"):

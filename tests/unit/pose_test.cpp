@@ -135,6 +135,16 @@ TEST(Animation, JumpsWhereALoopBeginsAgainFromOtherValues) {
   EXPECT_EQ(jumps, 33) << "once a loop in 10 s";
 }
 
+// A last key at the time of the one before it, which takes everything back to the beginning.
+TEST(Animation, JumpsWhereOnlyItsVeryLastKeyClosesALoop) {
+  const auto with_last = [](Interpolation interpolation, float before_it) {
+    return scene_with({{.channels = {channel(Path::translation, interpolation, {0, 1, 2, 2},
+                                             {5, 0, 0, 9, 0, 0, before_it, 0, 0, 5, 0, 0})}}});
+  };
+  EXPECT_TRUE(jumps_between(with_last(Interpolation::linear, 8), 1.9, 2.1));
+  EXPECT_FALSE(jumps_between(with_last(Interpolation::linear, 5), 1.9, 2.1));
+}
+
 TEST(Animation, DoesNotJumpWhereALoopEndsAsItBegan) {
   const Animation there_and_back{
       .channels = {channel(Path::translation, Interpolation::linear, {0, 1, 2}, {5, 0, 0, 9, 0, 0, 5.00001f, 0, 0})}};
