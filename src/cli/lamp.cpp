@@ -14,9 +14,9 @@ namespace penumbra::cli {
 
 namespace {
 
-constexpr double usual_cone = 40, least_cone = 1e-3;     // degrees
-constexpr float brightest = 1e9f, most_candela = 1e12f;  // of rgb and of cd
-constexpr float farthest = 1e9f;                         // of a range, metres
+constexpr double usual_cone = 40, least_cone = 1e-3;  // degrees
+constexpr float brightest = 1e9f;                     // of rgb
+constexpr float farthest = 1e9f;                      // of a range, metres
 constexpr float inner_share = 0.8f;
 
 std::string text_of(const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
@@ -32,9 +32,9 @@ void set(render::LampLight& lamp, Spot& spot, const std::string& option, std::st
          std::string_view value) {
   const std::string full = fmt::format("{} {}", option, name);
   if (name == "radius") {
-    lamp.radius = static_cast<float>(parse_number(full, value, 0, 1000));
+    lamp.radius = static_cast<float>(parse_number(full, value, 0, largest_lamp));
   } else if (name == "cd") {
-    lamp.intensity *= static_cast<float>(parse_number(full, value, 0, most_candela) / 100);
+    lamp.intensity *= static_cast<float>(parse_number(full, value, 0, brightest_lamp) / 100);
   } else if (name == "range") {
     lamp.range = static_cast<float>(parse_number(full, value, 0, farthest));
   } else if (name == "rgb") {
@@ -89,7 +89,7 @@ std::string lamp_text(const render::LampLight& lamp) {
   if (strongest <= 100 * brightest) {
     text += fmt::format(":rgb={}", text_of(lamp.intensity / 100.0f));
   } else {
-    text += fmt::format(":cd={}:rgb={}", std::min(strongest, most_candela), text_of(lamp.intensity / strongest));
+    text += fmt::format(":cd={}:rgb={}", std::min(strongest, brightest_lamp), text_of(lamp.intensity / strongest));
   }
   // Exporters write the largest float for a light that reaches everywhere.
   if (lamp.range > 0 && lamp.range <= farthest) text += fmt::format(":range={}", lamp.range);

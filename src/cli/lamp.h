@@ -7,6 +7,9 @@
 
 namespace penumbra::cli {
 
+// The most that a lamp of the user may have: its radius, metres, and its intensity, candela.
+constexpr float largest_lamp = 1000, brightest_lamp = 1e12f;
+
 // A lamp of the user: "x,y,z", its place in metres, and then, each after a colon and in any order,
 //   radius=METRES (0.03)   cd=CANDELA (100)   range=METRES (0: unlimited)   rgb=R,G,B (1,1,1)
 //   to=X,Y,Z: a spot that shines there   cone=DEGREES (40): from a spot's axis to its rim

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "cli/lamp.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "scene/pose.h"
@@ -16,8 +17,6 @@
 namespace penumbra::viewer {
 
 namespace {
-
-constexpr float brightest_lamp = 1e12f;  // of what --lamp takes, candela
 
 // The lights that the options choose; nothing where none would shine.
 std::optional<render::Setup> lit_by(const Panel& panel, const cli::SceneOptions& options) {
@@ -63,7 +62,7 @@ void emission(const Panel& panel, render::LampLight& lamp) {
       slider(panel.widgets, "lamp intensity", candela, 0.1f, 1e8f, "%.4g cd", ImGuiSliderFlags_Logarithmic);
   row("colour", "Linear.");
   const bool other = color_field(panel.widgets, "lamp colour", color);
-  if (brighter || other) lamp.intensity = glm::clamp(candela * color, 0.0f, brightest_lamp);
+  if (brighter || other) lamp.intensity = glm::clamp(candela * color, 0.0f, cli::brightest_lamp);
 }
 
 void spot(const Panel& panel, render::LampLight& lamp) {
@@ -220,10 +219,9 @@ void lights_panel(const Panel& panel) {
     const glm::vec3 lux = setup.sun_shines ? setup.sun.illuminance : glm::vec3(100);
     // A sun that only stands in for missing lights would go out.
     if (setup.sun_shines && !setup.sun_node && !options.sun) place_sun(state.document, setup.sun.to_light);
-    constexpr float largest = 1000;  // of what --lamp takes, metres
     options.lamps.push_back({.position = place,
-                             .radius = std::min(0.02f * away, largest),
-                             .intensity = glm::min(lux * (away * away), brightest_lamp),
+                             .radius = std::min(0.02f * away, cli::largest_lamp),
+                             .intensity = glm::min(lux * (away * away), cli::brightest_lamp),
                              .number = free_number(options.lamps)});
     state.lamp = LampName{.of_file = false, .index = options.lamps.size() - 1};
   }
