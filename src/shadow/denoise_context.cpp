@@ -33,7 +33,7 @@ History DenoiseContext::remembered(std::string_view name) const {
 }
 
 PackedMask DenoiseContext::evaluate_packed(const gl::Texture* last_surfaces) const {
-  PackedMask packed{target("texels", of_mask(mask(), GL_R32UI)), target("notes", of_mask(mask(), GL_R8UI))};
+  PackedMask packed{target("texels", of_mask(mask(), packed_format)), target("notes", of_mask(mask(), GL_R8UI))};
   const Technique& technique = work_.technique;
   if (technique.resolve) {
     technique.resolve(PassContext(work_, owner_of(technique)));

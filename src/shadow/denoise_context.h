@@ -11,8 +11,10 @@ struct BlockerDistances {
   const gl::Texture* decisions = nullptr;  // Tiles::decisions; null where no tiles were decided
 };
 
-// The intermediate form of a mask between a denoiser's steps: R32UI packed texels (see glsl/lib/packed_texel.glsl), and
-// R8UI notes (see LightFrame::notes), both of the mask's size.
+// The intermediate form of a mask between a denoiser's steps: packed texels (see glsl/lib/packed_texel.glsl) beside the
+// bits of their pixels' stored depths, as texel_with_depth() of glsl/shadow/drivers/gbuffer.glsl makes them, and R8UI
+// notes (see LightFrame::notes), both of the mask's size.
+constexpr GLenum packed_format = GL_RG32UI;
 struct PackedMask {
   const gl::Texture& texels;
   const gl::Texture& notes;
@@ -34,8 +36,8 @@ class DenoiseContext : public PassContext {
   // last frame), each pixel's note says whether its history is valid, so that techniques can take more sample points
   // where it is not.
   PackedMask evaluate_packed(const gl::Texture* last_surfaces = nullptr) const;
-  // Packed texels after all passes of a filter; "none": those of `source`. R32UI, the size of the mask. Filters may
-  // follow each other: each call has textures of its own, whose contents last until the next frame.
+  // Packed texels after all passes of a filter; "none": those of `source`. Filters may follow each other: each call has
+  // textures of its own, whose contents last until the next frame.
   const gl::Texture& filter(std::string_view filter, const PackedMask& source) const;
   // Fills the mask's layer (see Mask): packed texels after all passes of a filter, or as they are for "none".
   void filter_to_mask(std::string_view filter, const PackedMask& source) const;

@@ -17,7 +17,7 @@ struct Denoiser {
   // A texture of the mask's size that is kept from one frame to the next, for each light in each view.
   struct Remembered {
     std::string name;
-    GLenum format = GL_R32UI;
+    GLenum format;
   };
 
   std::string name;

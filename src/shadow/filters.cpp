@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "denoise_context.h"
 #include "tiles.h"
 
 namespace penumbra::shadow {
@@ -190,7 +191,7 @@ bool filters_all_pixels(const LightWork& work, const Filter& filter) {
 const gl::Texture& run_filter(const LightWork& work, const FilterInputs& inputs) {
   const Filter& filter = inputs.filter;
   const Form form = form_of(work, filter);
-  const gl::TextureDesc packed{.format = GL_R32UI, .width = work.mask.width(), .height = work.mask.height()};
+  const gl::TextureDesc packed{.format = packed_format, .width = work.mask.width(), .height = work.mask.height()};
   const gl::Texture* texels = &inputs.texels;
   for (int i = 0; i < filter.passes; ++i) {
     const bool to_mask = inputs.to_mask && i + 1 == filter.passes;

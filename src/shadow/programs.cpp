@@ -317,8 +317,11 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
                                         warm_up_caster_program()};
   for (gl::ProgramDesc& program : copy_programs()) programs.push_back(std::move(program));
   for (gl::ProgramDesc& program : visible_receivers_programs()) programs.push_back(std::move(program));
-  for (const MaskForm& form : {MaskForm{}, {.details = true}, {.packed = true}, {.packed = true, .history = true}}) {
-    programs.push_back(decided(form));
+  for (MaskForm form : {MaskForm{}, {.packed = true}, {.packed = true, .history = true}}) {
+    for (const bool details : {false, true}) {
+      form.details = details;
+      programs.push_back(decided(form));
+    }
   }
   for (const MovementForm form : {MovementForm::average, MovementForm::maximum}) {
     for (const bool any_size : {false, true}) programs.push_back(movement_pyramid_program(form, any_size));

@@ -11,6 +11,7 @@
 #include "gl/texture_format.h"
 #include "lib/packed_texel.glsl"
 #include "render/setup.h"
+#include "shadow/denoise_context.h"
 #include "viewer/picture_renderer.h"
 
 namespace penumbra::viewer {
@@ -48,9 +49,11 @@ const std::array<Field, 3>& notes_fields() {
   return fields;
 }
 
-const std::array<Field, 3>* fields_of(const gl::Texture& texture) {
-  if (texture.desc().format == GL_R32UI) return &texel_fields();
-  return texture.desc().format == GL_R8UI ? &notes_fields() : nullptr;
+// Of those that hold several values in one channel. A packed texel's second channel, a depth, is not shown.
+const std::array<Field, 3>* fields_of(const gl::Device::NamedTarget& target) {
+  const GLenum format = target.texture->desc().format;
+  if (format == shadow::packed_format && !target.name.ends_with("surfaces")) return &texel_fields();
+  return format == GL_R8UI ? &notes_fields() : nullptr;
 }
 
 // Without alpha, which is not shown.
@@ -108,7 +111,7 @@ bool is_of_other_view(std::string_view name) {
 
 std::vector<TargetPart> parts_of(const gl::Device::NamedTarget& target) {
   std::vector<TargetPart> parts;
-  if (const std::array<Field, 3>* fields = fields_of(*target.texture)) {
+  if (const std::array<Field, 3>* fields = fields_of(target)) {
     for (const Field& field : *fields) parts.push_back({field.name, field.mapping});
     return parts;
   }
@@ -205,7 +208,8 @@ Values read_target(const Inspection& inspection, const gl::Device& device) {
                 .height = std::max(desc.height >> level, 1),
                 .channels = channels_of(*target->texture),
                 .numbers = {}};
-  if (const std::array<Field, 3>* fields = fields_of(*target->texture)) {
+  if (const std::array<Field, 3>* fields = fields_of(*target)) {
+    values.channels = 1;
     const std::vector<unsigned> texels = gl::read_uints(*target->texture, 1, level, layer);
     std::transform(texels.begin(), texels.end(), std::back_inserter(values.numbers),
                    fields->at(static_cast<std::size_t>(part)).of);

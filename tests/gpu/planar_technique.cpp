@@ -84,15 +84,16 @@ constexpr const char* mean_text = R"(
 layout(binding = 8) uniform usampler2D now;
 layout(binding = 9) uniform sampler2D last;
 layout(location = 0) out vec2 mean;
-layout(location = 1) out uint texel;
+layout(location = 1) out uvec2 texel;
 uniform int has_last;
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec2 before = has_last != 0 ? texelFetch(last, pixel, 0).xy : vec2(0.0);
-  uint seen = texelFetch(now, pixel, 0).x;
+  uvec2 sample_and_depth = texelFetch(now, pixel, 0).xy;
+  uint seen = sample_and_depth.x;
   float frames = min(before.y + 1.0, float(mean_most_frames));
   mean = vec2(mix(before.x, texel_visibility(seen), 1.0 / frames), frames);
-  texel = pack_texel(texel_distance(seen), mean.x, false);
+  texel = uvec2(pack_texel(texel_distance(seen), mean.x, false), sample_and_depth.y);
 }
 )";
 
@@ -196,7 +197,7 @@ shadow::Recipe blur_radius() {
 void average(const shadow::DenoiseContext& context) {
   const shadow::PackedMask seen = context.evaluate_packed();
   const shadow::History means = context.remembered("mean");
-  const gl::Texture& texels = context.target("samples", of_mask(context, GL_R32UI));
+  const gl::Texture& texels = context.target("samples", of_mask(context, shadow::packed_format));
   {
     gl::Pass pass(context.device(), {.name = "average", .colors = {{.texture = &means.now}, {.texture = &texels}}});
     context.use(pass, "mean").set("has_last", means.valid ? 1 : 0);

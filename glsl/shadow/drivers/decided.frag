@@ -5,7 +5,7 @@
 #if PACKED
 #include "shadow/drivers/packed.glsl"
 
-layout(location = 0) out uint texel;
+layout(location = 0) out uvec2 texel;
 layout(location = 1) out uint notes;
 #else
 layout(location = 0) out vec4 mask;
@@ -34,9 +34,9 @@ void main() {
   ivec2 in_viewport = pixel - ivec2(shadow.viewport.xy);
   if (in_viewport / tile_size != tile) discard;
   Decision decision = unpacked_decision(texelFetch(decisions, tile, 0));
-#if PACKED
+#if PACKED && (DETAILS || HISTORY)
   if (is_sky(pixel)) {
-    texel = pack_texel(0.0, 1.0, true);
+    texel = texel_with_depth(pack_texel(0.0, 1.0, true), pixel);
     notes = pack_notes(0, false, HISTORY_NONE);
     return;
   }
@@ -48,8 +48,12 @@ void main() {
   refusal = refusal_of(receiver, light, pixel);
 #endif
   PackedPixel packed_values = packed_pixel(decided_shadow(decision, in_viewport, receiver), receiver, refusal);
-  texel = packed_values.texel;
+  texel = texel_with_depth(packed_values.texel, pixel);
   notes = packed_values.notes;
+#elif PACKED
+  bool lit = is_lit(decision, in_viewport);
+  texel = texel_with_depth(pack_texel(lit ? 0.0 : decision.blocker_distance, float(lit), true), pixel);
+  notes = pack_notes(0, false, HISTORY_NONE);
 #elif DETAILS
   // Neither its normal nor its error matters here.
   Receiver receiver = make_receiver(view_position_at(pixel), vec3(0.0, 0.0, -1.0), vec2(pixel));

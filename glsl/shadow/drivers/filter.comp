@@ -8,11 +8,11 @@ layout(binding = 12) uniform usampler2D source_texels;
 layout(binding = 0) uniform writeonly restrict image2DArray mask;  // of any format: see Mask
 uniform int mask_layer;
 #else
-layout(binding = 0, r32ui) uniform writeonly restrict uimage2D texels;
+layout(binding = 0, rg32ui) uniform writeonly restrict uimage2D texels;
 #endif
 
 uint texel_at(ivec2 pixel) { return texelFetch(source_texels, pixel, 0).x; }
-float stored_depth_at(ivec2 pixel) { return texelFetch(receiver_depth, pixel, 0).x; }
+float stored_depth_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(source_texels, pixel, 0).y); }
 
 void main() {
   ivec2 pixel = pixel_in_viewport() + lowest_pixel();
@@ -20,6 +20,6 @@ void main() {
 #if TO_MASK
   imageStore(mask, ivec3(pixel, mask_layer), unpacked(filtered(pixel), pixel));
 #else
-  imageStore(texels, pixel, uvec4(filtered(pixel)));
+  imageStore(texels, pixel, uvec4(filtered_with_depth(pixel), 0u, 0u));
 #endif
 }

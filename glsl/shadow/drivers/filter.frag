@@ -15,7 +15,7 @@ bool is_of_tile(ivec2 pixel) { return true; }
 #endif
 
 uint texel_at(ivec2 pixel) { return texelFetch(source_texels, pixel, 0).x; }
-float stored_depth_at(ivec2 pixel) { return texelFetch(receiver_depth, pixel, 0).x; }
+float stored_depth_at(ivec2 pixel) { return uintBitsToFloat(texelFetch(source_texels, pixel, 0).y); }
 
 #if TO_MASK
 layout(location = 0) out vec4 mask;
@@ -26,11 +26,11 @@ void main() {
   mask = unpacked(filtered(pixel), pixel);
 }
 #else
-layout(location = 0) out uint texel;
+layout(location = 0) out uvec2 texel;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   if (!is_of_tile(pixel)) discard;
-  texel = filtered(pixel);
+  texel = filtered_with_depth(pixel);
 }
 #endif

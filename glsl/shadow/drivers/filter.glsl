@@ -34,14 +34,15 @@ struct Surface {
 // the plane (n, −n·p) is (n, −n·p)·Q / Q.w: a quotient of two linear forms in pixel offset and stored depth, of which
 // the first is 0 and the second 1 / clip w at the receiver itself.
 Surface surface_at(ivec2 pixel) {
-  vec3 at = view_position_at(pixel);
+  float depth = stored_depth_at(pixel);
+  vec3 at = unproject(vec2(pixel) + 0.5, depth);
   vec3 normal = view_direction(light_normal_at(pixel));
   float clip_w = shadow.pixel_size.z * at.z + shadow.pixel_size.w;
   vec2 size = abs(shadow.pixel_size.xy * clip_w);
   vec3 step_of = vec3(2.0 / shadow.viewport.zw, shadow.depth_to_ndc.x);
   vec3 above = (vec4(normal, -dot(normal, at)) * shadow.clip_to_view).xyz * step_of;
   vec3 inverse_w = (vec4(0.0, 0.0, 0.0, 1.0) * shadow.clip_to_view).xyz * step_of;
-  return Surface(light_position(at), stored_depth_at(pixel), above / (filter_edge * max(size.x, size.y)), inverse_w,
+  return Surface(light_position(at), depth, above / (filter_edge * max(size.x, size.y)), inverse_w,
                  1.0 / clip_w, pixels_on_plane(at, normal));
 }
 

@@ -1,7 +1,10 @@
-// The output of a filter's last pass for a texel. Included by the drivers.
+// The outputs of a filter's passes. Included by the drivers.
+
+uvec2 filtered_with_depth(ivec2 pixel) { return uvec2(filtered(pixel), floatBitsToUint(stored_depth_at(pixel))); }
+
 layout(binding = 13) uniform usampler2D source_notes;
 
-// See Mask.
+// Of the last pass: see Mask.
 vec4 unpacked(uint texel, ivec2 pixel) {
   uint notes = texelFetch(source_notes, pixel, 0).x;
   float distance_to = blended_distance(texel);

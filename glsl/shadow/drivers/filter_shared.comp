@@ -9,7 +9,7 @@ layout(binding = 12) uniform usampler2D source_texels;
 layout(binding = 0) uniform writeonly restrict image2DArray mask;  // of any format: see Mask
 uniform int mask_layer;
 #else
-layout(binding = 0, r32ui) uniform writeonly restrict uimage2D texels;
+layout(binding = 0, rg32ui) uniform writeonly restrict uimage2D texels;
 #endif
 
 // The group's pixels, with a border as wide as Filter::border.
@@ -35,8 +35,9 @@ void load_tile() {
   for (int i = int(gl_LocalInvocationIndex); i < tile_size.x * tile_size.y; i += GROUP_X * GROUP_Y) {
     ivec2 pixel = tile_corner() + ivec2(i % tile_size.x, i / tile_size.x);
     if (any(lessThan(pixel, lowest_pixel())) || any(greaterThan(pixel, highest_pixel()))) continue;
-    tile_texels[i] = texelFetch(source_texels, pixel, 0).x;
-    tile_depths[i] = texelFetch(receiver_depth, pixel, 0).x;
+    uvec2 source = texelFetch(source_texels, pixel, 0).xy;
+    tile_texels[i] = source.x;
+    tile_depths[i] = uintBitsToFloat(source.y);
   }
   barrier();
 }
@@ -48,6 +49,6 @@ void main() {
 #if TO_MASK
   imageStore(mask, ivec3(pixel, mask_layer), unpacked(filtered(pixel), pixel));
 #else
-  imageStore(texels, pixel, uvec4(filtered(pixel)));
+  imageStore(texels, pixel, uvec4(filtered_with_depth(pixel), 0u, 0u));
 #endif
 }

@@ -27,6 +27,12 @@ vec3 position_error(vec3 position, float depth) {
   return error * clip_w * (shadow.clip_to_view[2].xyz - position * shadow.clip_to_view[2].w);
 }
 
+// A packed texel with the bits of its pixel's stored depth, as passes of denoisers hand them on: filters need both of
+// each neighbour, and so read them at once.
+uvec2 texel_with_depth(uint texel, ivec2 pixel) {
+  return uvec2(texel, floatBitsToUint(texelFetch(receiver_depth, pixel, 0).x));
+}
+
 // View-space position (metres) of a pixel that is not sky.
 vec3 view_position_at(ivec2 pixel) { return unproject(vec2(pixel) + 0.5, texelFetch(receiver_depth, pixel, 0).x); }
 

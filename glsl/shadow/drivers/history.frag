@@ -1,10 +1,11 @@
 #include "shadow/drivers/history.glsl"
 
-layout(location = 0) out uint texel;
+layout(location = 0) out uvec2 texel;
 layout(location = 1) out uvec2 surface;
 
 void main() {
-  Kept kept = blend(ivec2(gl_FragCoord.xy));
-  texel = kept.texel;
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  Kept kept = blend(pixel);
+  texel = texel_with_depth(kept.texel, pixel);
   surface = kept.surface;
 }

@@ -2,7 +2,7 @@
 #include "shadow/drivers/compute_pixels.glsl"
 
 #if PACKED
-layout(binding = 0, r32ui) uniform writeonly restrict uimage2D texels;
+layout(binding = 0, rg32ui) uniform writeonly restrict uimage2D texels;
 layout(binding = 1, r8ui) uniform writeonly restrict uimage2D notes;
 #else
 layout(binding = 0) uniform writeonly restrict image2DArray mask;  // of any format: see Mask
@@ -15,7 +15,7 @@ void main() {
   pixel += ivec2(shadow.viewport.xy);
 #if PACKED
   PackedPixel shaded = shade_pixel(pixel);
-  imageStore(texels, pixel, uvec4(shaded.texel));
+  imageStore(texels, pixel, uvec4(texel_with_depth(shaded.texel, pixel), 0u, 0u));
   imageStore(notes, pixel, uvec4(shaded.notes));
 #else
   imageStore(mask, ivec3(pixel, mask_layer), shade_pixel(pixel));

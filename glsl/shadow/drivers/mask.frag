@@ -16,15 +16,16 @@ bool is_missing(ivec2 pixel) {
 #endif
 
 #if PACKED
-layout(location = 0) out uint texel;
+layout(location = 0) out uvec2 texel;
 layout(location = 1) out uint notes;
 
 void main() {
 #if TILES
   if ((ivec2(gl_FragCoord.xy) - ivec2(shadow.viewport.xy)) / tile_size != tile) discard;
 #endif
-  PackedPixel shaded = shade_pixel(ivec2(gl_FragCoord.xy));
-  texel = shaded.texel;
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  PackedPixel shaded = shade_pixel(pixel);
+  texel = texel_with_depth(shaded.texel, pixel);
   notes = shaded.notes;
 }
 #else

@@ -5,7 +5,7 @@
 layout(binding = 12) uniform sampler2DArray resolved_mask;
 uniform int mask_layer;
 
-layout(location = 0) out uint texel;
+layout(location = 0) out uvec2 texel;
 layout(location = 1) out uint notes;
 
 PackedPixel pack_pixel(ivec2 pixel) {
@@ -24,7 +24,8 @@ PackedPixel pack_pixel(ivec2 pixel) {
 }
 
 void main() {
-  PackedPixel packed_values = pack_pixel(ivec2(gl_FragCoord.xy));
-  texel = packed_values.texel;
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  PackedPixel packed_values = pack_pixel(pixel);
+  texel = texel_with_depth(packed_values.texel, pixel);
   notes = packed_values.notes;
 }

@@ -7,7 +7,7 @@
 #endif
 
 struct PackedPixel {
-  uint texel;
+  uint texel;  // written as texel_with_depth()
   uint notes;
 };
 

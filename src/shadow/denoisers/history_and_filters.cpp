@@ -78,7 +78,7 @@ Denoiser history_and_filters() {
           .remembers =
               [](const ParamSet& params) {
                 if (!params.get_bool("history.reuse")) return std::vector<Denoiser::Remembered>{};
-                return std::vector<Denoiser::Remembered>{{"surfaces", GL_RG32UI}, {"texels", GL_R32UI}};
+                return std::vector<Denoiser::Remembered>{{"surfaces", GL_RG32UI}, {"texels", packed_format}};
               },
           .denoise = denoise,
           .programs =
