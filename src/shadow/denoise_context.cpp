@@ -62,18 +62,21 @@ void DenoiseContext::bind_history(const gl::Texture& last_surfaces) const {
   shadow::bind_history(work_, last_surfaces);
 }
 
-const gl::Texture& DenoiseContext::run(const Filter& filter, const PackedMask& source, bool to_mask) const {
-  const gl::Texture* distances = source.distances.texels;
-  const bool spares = distances != nullptr && fits_tiles(work_) && !filters_all_pixels(work_, filter);
-  if (spares && listed_distances_ != distances) {
-    filter_tiles_ = &list_filter_tiles(work_, source.distances);
-    listed_distances_ = distances;
+const gl::Buffer& DenoiseContext::changing_tiles(const BlockerDistances& distances, Filter::Keeps keeps) const {
+  for (const Listed& listed : listed_) {
+    if (listed.distances == distances.texels && listed.keeps == keeps) return listed.tiles;
   }
+  return listed_.emplace_back(distances.texels, keeps, list_filter_tiles(work_, distances, keeps)).tiles;
+}
+
+const gl::Texture& DenoiseContext::run(const Filter& filter, const PackedMask& source, bool to_mask) const {
+  const bool spares =
+      source.distances.texels != nullptr && fits_tiles(work_) && !filters_all_pixels(work_, filter);
   return run_filter(work_, {.filter = filter,
                             .texels = source.texels,
                             .notes = source.notes,
                             .context = *this,
-                            .tiles = spares ? filter_tiles_ : nullptr,
+                            .tiles = spares ? &changing_tiles(source.distances, filter.keeps) : nullptr,
                             .number = filters_run_++,
                             .to_mask = to_mask});
 }

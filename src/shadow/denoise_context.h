@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "filter.h"
 #include "pass_context.h"
 
@@ -46,12 +48,17 @@ class DenoiseContext : public PassContext {
 
  private:
   void pack(const PackedMask& target, const gl::Texture* last_surfaces) const;
+  const gl::Buffer& changing_tiles(const BlockerDistances& distances, Filter::Keeps keeps) const;
   const gl::Texture& run(const Filter& filter, const PackedMask& source, bool to_mask) const;
 
   mutable int filters_run_ = 0;  // in this frame
   // Of this frame, once a filter has asked for them: the tiles that filters change, and by what they were found.
-  mutable const gl::Buffer* filter_tiles_ = nullptr;
-  mutable const gl::Texture* listed_distances_ = nullptr;
+  struct Listed {
+    const gl::Texture* distances;
+    Filter::Keeps keeps;
+    const gl::Buffer& tiles;
+  };
+  mutable std::vector<Listed> listed_;
 };
 
 }  // namespace penumbra::shadow

@@ -13,6 +13,11 @@ struct Filter {
   // What it filters: the mean blocker distance, from which the visibility filter's kernel size is computed later, or
   // the visibility.
   enum class Of { penumbra, visibility };
+  enum class Keeps {
+    nothing,
+    unblocked,  // those with no blocker distance within 2 pixels
+    narrow      // and those whose kernel is narrower than least_sigma of glsl/shadow/drivers/kernel.glsl
+  };
 
   std::string name;
   std::string summary;  // one sentence
@@ -24,10 +29,10 @@ struct Filter {
   // work group loads its pixels with this border into shared memory; if they do not fit into 32 KiB, its invocations
   // read textures instead.
   std::vector<glm::ivec2> border = {};
-  // Whether it leaves a texel as it is if neither that one nor any within 2 pixels of it has a blocker distance. Tiles
-  // of the picture that hold such texels alone (see list_filter_tiles) need not be filtered then. A filter of blocker
-  // distances spreads them at most to neighbouring pixels.
-  bool keeps_unblocked = false;
+  // Which texels it leaves as they are, whatever their visibility: tiles of the picture that hold such texels alone (see
+  // list_filter_tiles) need not be filtered. A filter of blocker distances gives a pixel no greater one than it or a
+  // neighbour had.
+  Keeps keeps = Keeps::nothing;
 };
 
 }  // namespace penumbra::shadow

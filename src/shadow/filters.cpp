@@ -185,7 +185,7 @@ const Filter& unfiltered() {
 }
 
 bool filters_all_pixels(const LightWork& work, const Filter& filter) {
-  return form_of(work, filter) == Form::shared || !filter.keeps_unblocked;
+  return form_of(work, filter) == Form::shared || filter.keeps == Filter::Keeps::nothing;
 }
 
 const gl::Texture& run_filter(const LightWork& work, const FilterInputs& inputs) {
@@ -207,7 +207,7 @@ const gl::Texture& run_filter(const LightWork& work, const FilterInputs& inputs)
 std::vector<LibraryProgram> filter_programs(std::span<const Filter> filters) {
   std::vector<LibraryProgram> programs;
   const auto add = [&](Step step) {
-    const bool tiles = step.filter.keeps_unblocked, shared = has_shared_form(step.filter);
+    const bool tiles = step.filter.keeps != Filter::Keeps::nothing, shared = has_shared_form(step.filter);
     for (const Form form : {Form::fragment, shared ? Form::shared : Form::compute}) {
       step.form = form;
       step.over = Over::all;

@@ -236,8 +236,10 @@ gl::ProgramDesc Programs::decided(const MaskForm& form) const {
                                      {"DETAILS", form.details ? "1" : "0"}}}});
 }
 
-gl::ProgramDesc Programs::filter_tiles() const {
-  return ready({.desc = {.name = "filter tiles", .compute = "shadow/drivers/filter_tiles.comp"}});
+gl::ProgramDesc Programs::filter_tiles(bool keeps_narrow) const {
+  return ready({.desc = {.name = "filter tiles",
+                         .compute = "shadow/drivers/filter_tiles.comp",
+                         .defines = {{"KEEPS_NARROW", keeps_narrow ? "1" : "0"}}}});
 }
 
 gl::ProgramDesc Programs::upsample() const {
@@ -307,7 +309,8 @@ void Programs::add_own(std::vector<gl::ProgramDesc>& programs, const PassOwner& 
 std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
   std::vector<gl::ProgramDesc> programs{pack(true),
                                         pack(false),
-                                        filter_tiles(),
+                                        filter_tiles(false),
+                                        filter_tiles(true),
                                         output_program(),
                                         mark_frame_program(),
                                         upsample(),

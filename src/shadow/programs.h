@@ -56,7 +56,7 @@ class Programs {
   gl::ProgramDesc decide_tiles(const Technique& technique, bool lamp) const;
   gl::ProgramDesc decided(const MaskForm& form) const;
   // The program that lists the tiles that filters can change.
-  gl::ProgramDesc filter_tiles() const;
+  gl::ProgramDesc filter_tiles(bool keeps_narrow) const;
   // The program that interpolates a mask between every n-th pixel.
   gl::ProgramDesc upsample() const;
   // Whether the driver can draw tiles as points: OpenGL 4.5 guarantees neither points of their size nor storage buffers

@@ -58,12 +58,13 @@ Tiles decide_tiles(const LightWork& work) {
   return tiles;
 }
 
-const gl::Buffer& list_filter_tiles(const LightWork& work, const BlockerDistances& distances) {
+const gl::Buffer& list_filter_tiles(const LightWork& work, const BlockerDistances& distances, Filter::Keeps keeps) {
+  const bool narrow = keeps == Filter::Keeps::narrow;
   const PassOwner owner = owner_of(*work.denoiser);
   const glm::ivec2 size = tile_count(work.frame.viewport);
-  const gl::Buffer& list = begin_tile_list(PassContext(work, owner), "filter tiles", size);
+  const gl::Buffer& list = begin_tile_list(PassContext(work, owner), narrow ? "filter tiles" : "blocked tiles", size);
   gl::Pass pass(work.device, {.name = "filter tiles"});
-  const gl::Program& program = pass.use(work.programs.filter_tiles());
+  const gl::Program& program = pass.use(work.programs.filter_tiles(narrow));
   bind_inputs(work, owner);
   for (const GLuint unit : {unit_texels, unit_decisions}) work.device.sampler({}).bind(unit);
   distances.texels->bind(unit_texels);

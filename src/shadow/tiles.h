@@ -57,9 +57,9 @@ void dispatch_decisions(gl::Pass& pass, const gl::Program& program, const glm::i
 // In a pass of its own.
 Tiles decide_tiles(const LightWork& work);
 
-// In a pass of its own, the list of the tiles whose packed texels a filter with Filter::keeps_unblocked can change; its
-// "decided" ones are those that such filters leave as they are.
-const gl::Buffer& list_filter_tiles(const LightWork& work, const BlockerDistances& distances);
+// In a pass of its own, the list of the tiles whose packed texels filters that keep these can change; its "decided" ones
+// are those that such filters leave as they are. Not for Keeps::nothing.
+const gl::Buffer& list_filter_tiles(const LightWork& work, const BlockerDistances& distances, Filter::Keeps keeps);
 
 // Draws the tiles of one of a list's two commands, as points: the current program's vertex shader is tile.vert.
 void draw_tiles(gl::Pass& pass, const gl::Buffer& list, std::size_t command);

@@ -29,11 +29,11 @@ render::FrameInputs SceneRun::inputs(bool cut) const {
           .height = height_,
           .camera = setup_.camera,
           .last_camera = drawn_ ? last_camera_ : setup_.camera,
-          .lights = {setup_.sun},
+          .lights = {light_.value_or(setup_.sun)},
           .time = time_,
           .last_time = drawn_ ? last_time_ : time_,
           .cut = cut,
-          .mask_details = true};
+          .mask_details = details_};
 }
 
 Visibility SceneRun::draw(bool cut) {

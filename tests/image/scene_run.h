@@ -44,6 +44,10 @@ class SceneRun {
   // Of the next frame.
   render::Camera& camera() { return setup_.camera; }
   render::SunLight& sun() { return setup_.sun; }
+  // In place of the sun; only draw() knows it.
+  void shine(const render::FrameLight& light) { light_ = light; }
+  // Whether the mask has more than visibility; it has by default.
+  void set_details(bool details) { details_ = details; }
   double& time() { return time_; }
 
   int width() const { return width_; }
@@ -65,6 +69,8 @@ class SceneRun {
   ParamSet params_{render::Renderer::params(renderer_.registry())};
   double time_ = 0, last_time_ = 0;
   render::Camera last_camera_;
+  std::optional<render::FrameLight> light_;
+  bool details_ = true;
   bool drawn_ = false;
 };
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -196,6 +197,24 @@ void main() {
 }
 )";
 
+// A technique that draws a scene twice: as it does, and with filters that run for all tiles.
+struct FilteredRuns {
+  std::string name;
+  SceneRun run, reference;
+
+  FilteredRuns(const std::string& technique, const std::string& scene, const std::vector<std::string>& settings)
+      : name(technique + ", " + scene), run(scene, 203, 117), reference(scene, 203, 117) {
+    reference.device().shaders.files().put("shadow/drivers/filter_tiles.comp", lists_all);
+    for (SceneRun* each : {&run, &reference}) {
+      each->choose(technique);
+      each->params().set("cascades.size", 512);
+      for (const std::string& setting : settings) each->params().assign(setting);
+    }
+  }
+
+  void expect_same(const std::string& what) { EXPECT_EQ(run.draw(), reference.draw()) << name << ", " << what; }
+};
+
 // The same for every kind of technique, history and scale.
 TEST_F(Tiles, ThatFiltersLeaveOutKeepEveryBit) {
   struct Case {
@@ -209,17 +228,80 @@ TEST_F(Tiles, ThatFiltersLeaveOutKeepEveryBit) {
         Case{"slices_denoised", "foliage", {"mask.scale=3"}}, Case{"thesis", "moving", {}},
         Case{"ssss", "posts", {"filter.visibility=gaussian"}},
         Case{"vssm", "posts", {"filter.penumbra=median", "filter.visibility=box", "mask.tiles=false"}}}) {
-    SceneRun run(scene, 203, 117), reference(scene, 203, 117);
-    reference.device().shaders.files().put("shadow/drivers/filter_tiles.comp", lists_all);
-    for (SceneRun* each : {&run, &reference}) {
-      each->choose(technique);
-      each->params().set("sun.angle", 4.0f);
-      each->params().set("cascades.size", 512);
-      for (const std::string& setting : settings) each->params().assign(setting);
+    FilteredRuns runs(technique, scene, settings);
+    for (const float angle : {4.0f, 0.53f}) {
+      for (SceneRun* each : {&runs.run, &runs.reference}) each->params().set("sun.angle", angle);
+      for (int frame = 0; frame < 3; ++frame) {
+        runs.expect_same(fmt::format("{} degrees, frame {}", angle, frame));
+        for (SceneRun* each : {&runs.run, &runs.reference}) each->time() += 1 / 30.0;
+      }
     }
-    for (int frame = 0; frame < 3; ++frame) {
-      EXPECT_EQ(run.draw(), reference.draw()) << technique << " " << scene << ", frame " << frame;
-      for (SceneRun* each : {&run, &reference}) each->time() += 1 / 30.0;
+  }
+}
+
+// Kernels about as wide as the narrowest that does anything, under every filter, seen by every kind of camera.
+TEST_F(Tiles, ThatFiltersLeaveOutHaveNoKernel) {
+  for (const char* filter : {"box", "gaussian", "bilateral", "bilateral_separable", "isophote"}) {
+    for (const char* scene : {"courtyard", "fence"}) {
+      FilteredRuns runs("slices_denoised", scene, {std::string("filter.visibility=") + filter});
+      for (const int camera : {0, 1, 2}) {
+        for (SceneRun* each : {&runs.run, &runs.reference}) {
+          each->camera().fov_y = camera == 0 ? 0.8f : 2.2f;
+          each->camera().orthographic = camera == 2;
+          each->camera().half_height = 4;
+        }
+        for (const float angle : {0.2f, 0.53f, 1.0f, 2.0f}) {
+          for (SceneRun* each : {&runs.run, &runs.reference}) each->params().set("sun.angle", angle);
+          runs.expect_same(fmt::format("{}, camera {}, {} degrees", filter, camera, angle));
+        }
+      }
+    }
+  }
+}
+
+TEST_F(Tiles, ThatFiltersLeaveOutHaveNoKernelUnderLamps) {
+  for (const char* scene : {"posts", "fence"}) {
+    FilteredRuns runs("slices_denoised", scene, {});
+    for (const float radius : {0.002f, 0.01f, 0.05f}) {
+      for (SceneRun* each : {&runs.run, &runs.reference})
+        each->shine(render::LampLight{.position = {0.3f, 2.0f, 0.6f}, .radius = radius});
+      runs.expect_same(fmt::format("lamp of {} m", radius));
+    }
+  }
+}
+
+// Under the real sun most penumbrae of a scene are narrower than a pixel's kernel.
+TEST_F(Tiles, AreFilteredOnlyWhereTheyCanChange) {
+  SceneRun run("posts", 640, 360);
+  run.device().shaders.files().put("shadow/filters/isophote.glsl",
+                                   "#include \"shadow/drivers/filter.glsl\"\n"
+                                   "uint filtered(ivec2 pixel) { return with_visibility(texel_at(pixel), 0.5); }\n");
+  const auto share_filtered = [&](float angle) {
+    run.choose("slices_denoised");
+    run.params().set("sun.angle", angle);
+    const Visibility picture = run.draw();
+    const auto near_half = [](float visibility) { return std::abs(visibility - 0.5f) < 1e-3f; };
+    return static_cast<double>(std::ranges::count_if(picture, near_half)) / static_cast<double>(picture.size());
+  };
+  const double real_sun = share_filtered(0.53f), wide_sun = share_filtered(8.0f);
+  EXPECT_GT(real_sun, 0.01);
+  EXPECT_LT(real_sun, 0.1);
+  EXPECT_GT(wide_sun, 2 * real_sun);
+}
+
+// Masks of visibility alone fill decided tiles in a shorter way.
+TEST_F(Tiles, AreFilteredAlikeWhetherTheMaskHasDetails) {
+  for (const char* technique : {"slices_denoised", "thesis_8x8", "thesis", "thesis_8x8_compute"}) {
+    for (const char* scene : {"posts", "foliage"}) {
+      SceneRun run(scene, 203, 117);
+      run.choose(technique);
+      for (const float angle : {0.53f, 4.0f}) {
+        run.params().set("sun.angle", angle);
+        run.set_details(true);
+        const Visibility with = run.draw(/*cut=*/true);
+        run.set_details(false);
+        EXPECT_EQ(with, run.draw(/*cut=*/true)) << technique << ", " << scene << ", " << angle << " degrees";
+      }
     }
   }
 }

@@ -1,6 +1,7 @@
 // Functions for filters. Each filter's file includes this one and defines
 //   uint filtered(ivec2 pixel);
 #include "shadow/drivers/gbuffer.glsl"
+#include "shadow/drivers/kernel.glsl"
 #include "lib/packed_texel.glsl"
 
 // The packed texel and the stored depth of a pixel, which must be within the viewport and within Filter::border of the
@@ -85,14 +86,10 @@ float kernel_distance(ivec2 pixel, uint texel) {
   return found > 0.0 ? sum / found * narrowing(texel) : 0.0;
 }
 
-// Standard deviation of the kernel along x and y, pixels: filter.width of the penumbra's full width, as the receiver's
-// plane is seen.
+// Of the kernel along x and y.
 vec2 kernel_sigma(Surface surface, float distance_to) {
-  return min(filter_width * 2.0 * packed_radius(surface.position, distance_to) * surface.pixels, filter_max_sigma);
+  return sigma_for(surface.position, surface.pixels, distance_to);
 }
-
-// Kernels below this are narrower than a pixel: a neighbour would weigh under 0.004.
-const float least_sigma = 0.3;
 
 // Taps on a line of pixels through the filtered one: itself, and others evenly spaced over `radius`, at most
 // filter.taps to a side, within the viewport. Per-pixel noise falls with the square root of their number: 6 taps to a

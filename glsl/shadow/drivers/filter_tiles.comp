@@ -1,12 +1,12 @@
 // Lists the tiles whose texels a filter can change. The others have no pixel within `reach` of one with a blocker
-// distance: a filter of distances spreads them by one pixel, and visibility filters look two pixels far for one (see
-// Filter::keeps_unblocked).
-#include "shared/shadow_block.h"
+// distance: a filter of distances spreads them by one pixel, and visibility filters look two pixels far for one; or else
+// their kernels are too narrow (see Filter::Keeps).
+#include "shadow/drivers/gbuffer.glsl"
+#include "shadow/drivers/kernel.glsl"
+#include "lib/packed_texel.glsl"
 #include "lib/rows.glsl"
 #include "shadow/drivers/tiles.glsl"
 #include "shadow/drivers/tile_lists.glsl"
-
-layout(std140, binding = 1) uniform ShadowData { ShadowBlock shadow; };
 
 const int group = 8;             // tiles along each side that a work group lists
 const int around = group + 2;    // those whose texels it reads
@@ -15,22 +15,33 @@ layout(binding = 12) uniform usampler2D texels;
 layout(binding = 14) uniform usampler2D decisions;
 uniform int has_decisions;
 
-// Bits as in Decision::lit: pixels that have a blocker distance, of decided tiles also those that face away or lie
-// beyond the viewport.
-shared uvec2 blocked[around * around];
+struct Blocked {
+  // Bits as in Decision::lit: pixels that have a blocker distance, of decided tiles also those that face away or lie
+  // beyond the viewport.
+  uvec2 pixels;
+  uint farthest;  // the greatest distance, as in a packed texel
+};
 
-uvec2 blocked_pixels(ivec2 tile) {
+shared Blocked blocked[around * around];
+
+ivec2 lowest_pixel_of(ivec2 tile) { return ivec2(shadow.viewport.xy) + tile * tile_size; }
+ivec2 size_of(ivec2 tile) { return min(ivec2(shadow.viewport.zw) - tile * tile_size, tile_size); }
+
+Blocked blocked_in(ivec2 tile) {
   if (has_decisions != 0) {
     uvec4 decision = texelFetch(decisions, tile, 0);
-    if (is_decided(decision)) return is_unblocked(decision) ? uvec2(0u) : ~decision.xy;
+    if (is_decided(decision)) {
+      return Blocked(is_unblocked(decision) ? uvec2(0u) : ~decision.xy, decision.z & 0xffffu);
+    }
   }
-  ivec2 low = tile * tile_size, size = min(ivec2(shadow.viewport.zw) - low, tile_size);
-  uvec2 found = uvec2(0u);
+  ivec2 size = size_of(tile);
+  Blocked found = Blocked(uvec2(0u), 0u);
   ivec2 at = ivec2(0);
   do {
-    bool is_blocked = (texelFetch(texels, ivec2(shadow.viewport.xy) + low + at, 0).x & 0xffffu) != 0u;
+    uint distance_bits = texelFetch(texels, lowest_pixel_of(tile) + at, 0).x & 0xffffu;
     int bit = tile_size * at.y + at.x;
-    found[bit >> 5] |= uint(is_blocked) << (bit & 31);
+    found.pixels[bit >> 5] |= uint(distance_bits != 0u) << (bit & 31);
+    found.farthest = max(found.farthest, distance_bits);
     at = next_in_rows(at, 0, size.x - 1, 1);
   } while (at.y < size.y);
   return found;
@@ -45,25 +56,51 @@ uvec2 pixels_in_reach(ivec2 side) {
   return uvec2(row) & (side.y == 0 ? uvec2(~0u) : side.y < 0 ? uvec2(0u, high_rows) : uvec2(low_rows, 0u));
 }
 
+#if KEEPS_NARROW
+// Whether a pixel of the tile may have a kernel for a distance up to that one.
+bool has_kernels(ivec2 tile, float farthest) {
+  ivec2 size = size_of(tile);
+  ivec2 at = ivec2(0);
+  bool found;
+  do {
+    ivec2 pixel = lowest_pixel_of(tile) + at;
+    float depth = uintBitsToFloat(texelFetch(texels, pixel, 0).y);
+    vec3 position = unproject(vec2(pixel) + 0.5, depth);
+    vec2 sigma = sigma_for(light_position(position), most_pixels_on_plane(position), farthest);
+    // Filters round in another way, and distances were rounded to half floats.
+    found = depth != shadow.sky_depth && !(1.01 * max(sigma.x, sigma.y) < least_sigma);
+    at = next_in_rows(at, 0, size.x - 1, 1);
+  } while (!found && at.y < size.y);
+  return found;
+}
+#endif
+
 void main() {
   ivec2 last = (ivec2(shadow.viewport.zw) - 1) / tile_size;
   ivec2 first = ivec2(gl_WorkGroupID.xy) * group - 1;
   for (uint i = gl_LocalInvocationIndex; i < blocked.length(); i += group * group) {
     ivec2 tile = first + ivec2(i % around, i / around);
     bool exists = all(greaterThanEqual(tile, ivec2(0))) && all(lessThanEqual(tile, last));
-    blocked[i] = exists ? blocked_pixels(tile) : uvec2(0u);
+    blocked[i] = exists ? blocked_in(tile) : Blocked(uvec2(0u), 0u);
   }
   barrier();
   ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThan(tile, last))) return;
-  uvec2 near = uvec2(0u);
+  bool changes = false;
+  uint farthest = 0u;
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
       ivec2 place = ivec2(gl_LocalInvocationID.xy) + 1 + ivec2(x, y);
-      near |= blocked[place.y * around + place.x] & pixels_in_reach(ivec2(x, y));
+      Blocked near = blocked[place.y * around + place.x];
+      if ((near.pixels & pixels_in_reach(ivec2(x, y))) == uvec2(0u)) continue;
+      changes = true;
+      farthest = max(farthest, near.farthest);
     }
   }
-  if (near != uvec2(0u)) {
+#if KEEPS_NARROW
+  changes = changes && has_kernels(tile, half_value(farthest));
+#endif
+  if (changes) {
     list_tile(tile);
   } else {
     list_decided(tile);

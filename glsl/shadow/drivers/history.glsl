@@ -1,5 +1,6 @@
 // Blends a pixel with its history from the last frame: exponential smoothing (Deligiannis 2019, 2.28).
 #include "shadow/history.glsl"
+#include "shadow/drivers/kernel.glsl"
 
 layout(binding = 11) uniform usampler2D last_texels;
 layout(binding = 12) uniform usampler2D texels;
@@ -52,7 +53,7 @@ float present_weight(Reprojection last, Receiver receiver, float distance_to, fl
   vec2 part = vec2(last.weights.y + last.weights.w, last.weights.z + last.weights.w);
   vec2 variance = part * (1.0 - part);
   vec2 pixels = pixels_on_plane(view_position_of(receiver), view_normal_of(receiver));
-  vec2 sigma = min(filter_width * 2.0 * packed_radius(receiver.position, distance_to) * pixels, filter_max_sigma);
+  vec2 sigma = sigma_for(receiver.position, pixels, distance_to);
   vec2 weight = variance / max(variance + sigma * sigma, 1e-6);
   return max(alpha, max(weight.x, weight.y));
 }

@@ -180,6 +180,14 @@ vec2 pixels_on_plane(vec3 position, vec3 normal) {
               pixels_a_metre(vec3(0.0, size.y, 0.0), ray, normal));
 }
 
+// The most that pixels_on_plane() can be for any plane through the position.
+vec2 most_pixels_on_plane(vec3 position) {
+  vec2 size = abs(shadow.pixel_size.xy * (shadow.pixel_size.z * position.z + shadow.pixel_size.w));
+  vec3 ray = shadow.clip_to_view[2].xyz - position * shadow.clip_to_view[2].w;
+  // Nearest to a point of the ray beside the pixel's is the foot of the perpendicular from there.
+  return inversesqrt(max(1.0 - ray.xy * ray.xy / dot(ray, ray), 1e-6)) / size;
+}
+
 // Direction in which the camera sees a position in view space, or the opposite one.
 vec3 view_ray(vec3 position) { return normalize(shadow.pixel_size.z * position + vec3(0.0, 0.0, shadow.pixel_size.w)); }
 

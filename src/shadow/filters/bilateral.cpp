@@ -11,7 +11,7 @@ Filter bilateral() {
       .of = Filter::Of::visibility,
       .passes = 1,
       .border = {{51, 51}},
-      .keeps_unblocked = true};
+      .keeps = Filter::Keeps::narrow};
 }
 
 }  // namespace penumbra::shadow

@@ -10,7 +10,7 @@ Filter bilateral_separable() {
           .of = Filter::Of::visibility,
           .passes = 2,
           .border = {{51, 2}, {2, 51}},
-          .keeps_unblocked = true};
+          .keeps = Filter::Keeps::narrow};
 }
 
 }  // namespace penumbra::shadow

@@ -10,7 +10,7 @@ Filter box() {
           .of = Filter::Of::visibility,
           .passes = 2,
           .border = {{45, 2}, {2, 45}},
-          .keeps_unblocked = true};
+          .keeps = Filter::Keeps::narrow};
 }
 
 }  // namespace penumbra::shadow

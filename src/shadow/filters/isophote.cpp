@@ -11,7 +11,7 @@ Filter isophote() {
       .of = Filter::Of::visibility,
       .passes = 3,
       .border = {{51, 2}, {2, 51}, {51, 51}},
-      .keeps_unblocked = true};
+      .keeps = Filter::Keeps::narrow};
 }
 
 }  // namespace penumbra::shadow

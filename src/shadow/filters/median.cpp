@@ -10,7 +10,7 @@ Filter median() {
           .of = Filter::Of::penumbra,
           .passes = 1,
           .border = {{1, 1}},
-          .keeps_unblocked = true};
+          .keeps = Filter::Keeps::unblocked};
 }
 
 }  // namespace penumbra::shadow
