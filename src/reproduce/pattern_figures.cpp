@@ -68,10 +68,9 @@ Finding figure_4_4(Workbench& bench) {
   std::vector<NamedConfig> configs = at_all_taps("white", "poisson");
   for (const Taps& taps : {few_taps, some_taps}) configs.push_back(sampled("white", "uniform", taps));
   Finding finding = finding_of(bench, "4.4", "Poisson disk with white noise", configs);
-  finding.claim =
-      "There is a significant difference in noise between patterns (chapter 4): Poisson disks are less noisy than "
-      "uniform points.";
-  finding.test = std::string(by_psnr) + " At equal taps, and at least 1 dB.";
+  finding.claim = "The noise of a penumbra differs significantly between sampling patterns (chapter 4).";
+  finding.test = std::string(by_psnr) +
+                 " We expect Poisson disks to be less noisy than uniform points: at equal taps by at least 1 dB.";
   finding.expect_above_by(clear_gain, psnr(bench, configs[0]), psnr(bench, configs[3]));
   finding.expect_above_by(clear_gain, psnr(bench, configs[1]), psnr(bench, configs[4]));
   return finding;
@@ -81,9 +80,10 @@ Finding figure_4_5(Workbench& bench) {
   std::vector<NamedConfig> configs = at_all_taps("white", "hammersley");
   for (const Taps& taps : {few_taps, some_taps}) configs.push_back(sampled("white", "poisson", taps));
   Finding finding = finding_of(bench, "4.5", "Hammersley points with white noise", configs);
-  finding.claim =
-      "A low-discrepancy sequence gives a well distributed penumbra (chapter 6): less noise than a Poisson disk.";
-  finding.test = std::string(by_psnr) + " At equal taps.";
+  finding.claim = "A low-discrepancy sequence is effective in creating a well distributed penumbra (chapter 6).";
+  finding.test = std::string(by_psnr) +
+                 " The thesis calls Poisson disks low-discrepancy too (section 2.6.1). We expect Hammersley points, "
+                 "whose discrepancy is lower, to have less noise at equal taps.";
   finding.expect_above(psnr(bench, configs[0]), psnr(bench, configs[3]));
   finding.expect_above(psnr(bench, configs[1]), psnr(bench, configs[4]));
   return finding;

@@ -96,9 +96,9 @@ penumbra::report::Section overview(std::span<const Finding> findings) {
     confirmed += finding.verdict() == "confirmed" ? 1 : 0;
     in_part += finding.verdict() == "confirmed in part" ? 1 : 0;
   }
-  Html html =
-      penumbra::report::paragraph(fmt::format("Of {} figures {} are confirmed, {} in part and {} not.", findings.size(),
-                                              confirmed, in_part, findings.size() - confirmed - in_part));
+  Html html = penumbra::report::paragraph(
+      fmt::format("Of {} figures and sections {} are confirmed, {} in part and {} not.", findings.size(), confirmed,
+                  in_part, findings.size() - confirmed - in_part));
   html.add("<ul class='overview'>\n");
   for (std::size_t i = 0; i < findings.size(); ++i) {
     html.add("<li>").add(thumbnail(findings[i]));
@@ -118,8 +118,11 @@ penumbra::report::Page page_of(std::span<const Finding> findings, const Workbenc
       .title = "The thesis's figures, measured",
       .summary =
           std::string(
-              "Each figure of Deligiannis, “Real-Time Rendering of Soft Shadows” (LiU-ITN-TEK-A--19/060--SE), that "
-              "shows a result, in our version and with figures. Verdicts follow from what this run measured.") +
+              "Figures 2.8 to 2.14 and 4.1 to 4.13 of Deligiannis, “Real-Time Rendering of Soft Shadows” "
+              "(LiU-ITN-TEK-A--19/060--SE), and what its sections 2.2 and 2.3 say of other techniques, in our version "
+              "and with figures. Verdicts follow from what this run measured. The thesis's reference scene has a "
+              "single caster, and its section 2.3 is about rectangular lights; scenes/thesis.glb has casters near the "
+              "receivers too, and the sun here is a disc.") +
           (options.quick ? fmt::format(" {}", quick_warning) : ""),
       .facts = {{"Scene", scene_name(bench)},
                 {"Size", fmt::format("{} × {}{}", bench.width(), bench.height(), options.quick ? ", quick" : "")},
@@ -149,6 +152,7 @@ io::Json json_of(std::span<const Finding> findings, const Workbench& bench) {
                             {"text", quantity.text()}});
     }
     figures.push_back({{"id", finding.id},
+                       {"kind", finding.kind == "Section" ? "section" : "figure"},
                        {"title", finding.title},
                        {"claim", finding.claim},
                        {"test", finding.test},

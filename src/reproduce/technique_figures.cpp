@@ -73,14 +73,15 @@ Finding section_2_2(Workbench& bench) {
   finding.id = "2.2";
   finding.title = "Filtering before the comparison";
   finding.claim =
-      "A variance shadow map gives an upper bound of the light and may leak it; 16 terms of a Fourier series give good "
-      "results, few ring, and lowering high terms makes the step less steep; exponential shadow maps suit small "
-      "kernels.";
+      "A variance shadow map gives an upper bound of the occlusion and may leak light; 16 terms of a Fourier series "
+      "give good results, few ring, and lowering high terms makes the step less steep; exponential shadow maps suit "
+      "small kernels.";
   finding.test =
       "Mean and root mean square, over the receivers, of the difference from percentage-closer filtering with 256 "
-      "taps. Both have a radius of 20 or 80 cm: a disc for the taps, a Gaussian for the maps. The variance shadow map "
-      "must be brighter on average, and less so if its bleeding is cut; 16 terms must be nearer than 4, and nearer "
-      "than 16 lowered ones; exponentials of 20 cm must be nearer than those of 80 cm.";
+      "taps. Both have a radius of 20 or 80 cm: a disc for the taps, a Gaussian for the maps. The bound of a "
+      "variance shadow map is one of the light (Donnelly and Lauritzen 2006), so it must be brighter on average, and "
+      "less so if its bleeding is cut; 16 terms must be nearer than 4, and nearer than 16 lowered ones; "
+      "exponentials of 20 cm must be nearer than those of 80 cm.";
   finding.body = crop_tiles(bench, shown, noisiest_crop(bench));
   finding.body.add(quality_table(finding, bench, shown));
   finding.expect_at_least(brightness(bench, variance, comparison), 0);

@@ -249,7 +249,7 @@ shadow::Registry TruthTechnique::registry(const shadow::Registry& base) const {
   contents.techniques.push_back({
       .name = "truth",
       .summary = "Ray traced: the share of the light that a receiver sees. The reference for all other techniques.",
-      .source = "the visibility integral, Deligiannis 2019, 2.6; Owen-scrambled Sobol points, Embree",
+      .source = "the visibility integral, Deligiannis 2019, equation 2.6; Owen-scrambled Sobol points, Embree",
       .needs = {},
       .params =
           {

@@ -1,4 +1,4 @@
-// The thesis's reference: PCSS with so many taps that no noise is visible, or with every texel of the disc.
+// PCSS with so many taps that no noise is visible, or, as the thesis's reference, with every texel of the disc.
 const bool blocker_footprints = true;
 #include "shadow/blockers.glsl"
 

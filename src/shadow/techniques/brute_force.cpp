@@ -7,7 +7,7 @@ Technique brute_force() {
   return {
       .name = "brute_force",
       .summary = "PCSS with hundreds of taps a pixel: the result that forms with fewer taps converge to.",
-      .source = "Deligiannis 2019, section 4",
+      .source = "Deligiannis 2019, chapter 4",
       .glsl = "shadow/techniques/brute_force.glsl",
       .needs = {"shadow_map", "least_depth_pyramid"},
       .params =

@@ -39,7 +39,7 @@ Technique ssss() {
           "blockers' distance and stops at edges.",
       .source =
           "MohammadBagher et al. 2010, Screen-space percentage-closer soft shadows; Zheng and Saito 2011, Screen space "
-          "anisotropic blurred soft shadows; Deligiannis 2019, section 2.4",
+          "anisotropic blurred soft shadows; Deligiannis 2019, sections 2.4 and 2.7",
       .glsl = "shadow/techniques/ssss.glsl",
       .needs = {"shadow_map", "least_depth_pyramid"},
       .params =
