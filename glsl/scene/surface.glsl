@@ -69,11 +69,14 @@ vec3 geometric_normal() {
 // The shading normal, with the normal map applied, of unit length. It is flipped on back faces, which only double-sided
 // materials show.
 vec3 shading_normal(vec3 geometric) {
+#if TEXTURES & (1 << TEXTURE_NORMAL)
+  // Before any return: mip levels need the derivatives of the whole quad.
+  vec3 mapped = texture(normal_texture, texture_uv(TEXTURE_NORMAL, surface.uv)).xyz * 2.0 - 1.0;
+#endif
   float square = dot(surface.normal, surface.normal);
   if (!(square > 0.0)) return normalize(geometric);
   vec3 n = surface.normal * inversesqrt(square);
 #if TEXTURES & (1 << TEXTURE_NORMAL)
-  vec3 mapped = texture(normal_texture, texture_uv(TEXTURE_NORMAL, surface.uv)).xyz * 2.0 - 1.0;
   mapped.xy *= material.normal_scale;
   vec3 t = surface.tangent.xyz;
   t *= inversesqrt(max(dot(t, t), 1e-30));  // stays zero without tangents

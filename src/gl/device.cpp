@@ -88,6 +88,7 @@ Handle<delete_framebuffer> make_framebuffer(std::string_view name, std::span<con
   }
   if (depth != nullptr) attach(id, depth_attachment_point(*depth->texture), *depth);
   glNamedFramebufferDrawBuffers(id, static_cast<GLsizei>(draw_buffers.size()), draw_buffers.data());
+  if (draw_buffers.empty()) glNamedFramebufferReadBuffer(id, GL_NONE);
   const GLenum status = glCheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
     fail("pass '{}': the driver refuses the framebuffer (status {:#x})", name, status);

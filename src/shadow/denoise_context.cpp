@@ -70,8 +70,7 @@ const gl::Buffer& DenoiseContext::changing_tiles(const BlockerDistances& distanc
 }
 
 const gl::Texture& DenoiseContext::run(const Filter& filter, const PackedMask& source, bool to_mask) const {
-  const bool spares =
-      source.distances.texels != nullptr && fits_tiles(work_) && !filters_all_pixels(work_, filter);
+  const bool spares = source.distances.texels != nullptr && fits_tiles(work_) && !filters_all_pixels(work_, filter);
   return run_filter(work_, {.filter = filter,
                             .texels = source.texels,
                             .notes = source.notes,

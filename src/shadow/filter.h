@@ -29,9 +29,9 @@ struct Filter {
   // work group loads its pixels with this border into shared memory; if they do not fit into 32 KiB, its invocations
   // read textures instead.
   std::vector<glm::ivec2> border = {};
-  // Which texels it leaves as they are, whatever their visibility: tiles of the picture that hold such texels alone (see
-  // list_filter_tiles) need not be filtered. A filter of blocker distances gives a pixel no greater one than it or a
-  // neighbour had.
+  // Which texels it leaves as they are, whatever their visibility: tiles of the picture that hold such texels alone
+  // (see list_filter_tiles) need not be filtered. A filter of blocker distances gives a pixel no greater one than it or
+  // a neighbour had.
   Keeps keeps = Keeps::nothing;
 };
 

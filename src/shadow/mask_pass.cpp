@@ -165,7 +165,8 @@ void run_for_missing(const LightWork& work, const MissingPixels& missing) {
 
 void bind_history(const LightWork& work, const gl::Texture& last_surfaces) {
   const gl::Texture* movement = work.frame.movement;
-  for (const GLuint unit : {unit_motion, unit_last_surface, unit_movement}) work.device.sampler({}).bind(unit);
+  for (const GLuint unit : {unit_motion, unit_last_surface}) work.device.sampler({}).bind(unit);
+  work.device.sampler({.min_filter = GL_NEAREST_MIPMAP_NEAREST}).bind(unit_movement);
   gl::glBindTextureUnit(unit_motion, work.inputs.motion.id);
   last_surfaces.bind(unit_last_surface);
   gl::glBindTextureUnit(unit_movement, movement != nullptr ? movement->id() : 0);

@@ -160,7 +160,10 @@ void PassContext::draw_casters(gl::Pass& pass, CasterKind kind, int layer) const
 
 void PassContext::draw_second_depth(gl::Pass& pass, int layer, float gap) const {
   CasterPass casters = caster_pass(CasterKind::second_depth, layer);
-  casters.first = {.texture = work_.frame.depth, .gap = gap / work_.frame.projection.depth_range(layer)};
+  // Some GPUs compute a fragment's depth for shaders apart from the one that they store: up to four steps of a float.
+  constexpr float rounding = 4 * 0x1p-24f;
+  casters.first = {.texture = work_.frame.depth,
+                   .gap = std::max(gap / work_.frame.projection.depth_range(layer), rounding)};
   work_.inputs.draw(casters, pass);
 }
 

@@ -98,7 +98,7 @@ class LayerPasses {
 
   void blur(const Slices& from, const Slices& to, int level, const glm::ivec2& axis, float radius) {
     const gl::Program& program = context_.use(pass_, "blur");
-    from.texture.bind(first_pass_unit);
+    bind_source(from.texture);
     program.set("source_level", level);
     program.set("first_slices", glm::ivec2(from.slice, to.slice));
     program.set("axis", axis);
@@ -107,9 +107,14 @@ class LayerPasses {
     dispatch(to.texture, level);
   }
 
+  void bind_source(const gl::Texture& texture) {
+    context_.device().sampler({.min_filter = GL_NEAREST_MIPMAP_NEAREST}).bind(first_pass_unit);
+    texture.bind(first_pass_unit);
+  }
+
   void halve(int level) {
     const gl::Program& program = context_.use(pass_, "halve");
-    filtered_.bind(first_pass_unit);
+    bind_source(filtered_);
     program.set("finer_level", level - 1);
     program.set("first_slice", first_slice());
     dispatch(filtered_, level);

@@ -26,7 +26,9 @@ struct Recipe {
   std::vector<std::string> needs = {"shadow_map"};
   // Those that are compiled are constants in the programs of all that need the recipe.
   std::vector<Param> params = {};
-  gl::SamplerDesc sampler = {};  // with which its readers sample it
+  // With which its readers sample it. Without mip levels in the filter, only level 0 may be fetched (OpenGL 4.5,
+  // section 11.1.3.2).
+  gl::SamplerDesc sampler = {.min_filter = GL_NEAREST_MIPMAP_NEAREST};
   // Whether the texture depends on nothing but its `needs`, its `params`, and the light's projection and shape: not on
   // receivers, the view, casters, other parameters or the number of the frame. It is then not made again as long as
   // these are the same (parameter maps.keep).

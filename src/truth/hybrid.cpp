@@ -111,7 +111,7 @@ class HybridFrame {
     gl::Pass pass(context_.device(), {.name = "tile decisions"});
     const gl::Program& program = use(pass, "tiles");
     program.set("has_masked_casters", masked != nullptr ? 1 : 0);
-    context_.device().sampler({}).bind(unit_masked);
+    context_.device().sampler({.min_filter = GL_NEAREST_MIPMAP_NEAREST}).bind(unit_masked);
     if (masked != nullptr) masked->bind(unit_masked);
     list.bind_storage(shadow::tile_list_binding);
     shadow::dispatch_decisions(pass, program, tiles);

@@ -1,6 +1,6 @@
 // Lists the tiles whose texels a filter can change. The others have no pixel within `reach` of one with a blocker
-// distance: a filter of distances spreads them by one pixel, and visibility filters look two pixels far for one; or else
-// their kernels are too narrow (see Filter::Keeps).
+// distance: a filter of distances spreads them by one pixel, and visibility filters look two pixels far for one; or
+// else their kernels are too narrow (see Filter::Keeps).
 #include "shadow/drivers/gbuffer.glsl"
 #include "shadow/drivers/kernel.glsl"
 #include "lib/packed_texel.glsl"
