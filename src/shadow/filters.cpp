@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::string_view unpack_name = "unpack";
 
-// What a pass covers: the viewport, the tiles that the filter can change, or those that it leaves as they are.
-enum class Over { all, changing, kept };
+// What a pass covers: the viewport, or the tiles that the filter can change.
+enum class Over { all, changing };
 
 // How a pass is computed. `shared`: work groups load what they read into shared memory, for all pixels.
 enum class Form { fragment, compute, shared };
@@ -80,7 +80,7 @@ LibraryProgram program_of(const Step& step) {
     program.desc.compute = "shadow/drivers/filter.comp";
   } else {
     define("TILES", tiles ? 1 : 0);
-    if (tiles) define("DECIDED", step.over == Over::kept ? 1 : 0);
+    if (tiles) define("DECIDED", 0);
     program.desc.vertex = tiles ? "shadow/drivers/tile.vert" : "shared/full_screen.vert";
     program.desc.fragment = "shadow/drivers/filter.frag";
   }
@@ -141,7 +141,8 @@ void set_viewport(gl::Pass& pass, const LightWork& work) {
   pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
 }
 
-// Fills the tiles that the filter leaves as they are, with the texels or what they are in the mask.
+// Fills the tiles that the filter leaves as they are, with the texels or what they are in the mask. The others are
+// filled as well, because a draw of tiles costs more.
 void keep_tiles(const LightWork& work, const Step& step, const PassInputs& inputs) {
   gl::Pass pass(work.device, pass_of(work, step, inputs, /*draws=*/step.to_mask));
   // Compute shaders write the same texture as an image.
@@ -150,11 +151,10 @@ void keep_tiles(const LightWork& work, const Step& step, const PassInputs& input
   };
   if (step.to_mask) {
     set_viewport(pass, work);
-    use(pass, work, {.filter = unfiltered(), .to_mask = true, .over = Over::kept}, inputs);
-    draw_tiles(pass, *inputs.source.tiles, decided_draw_offset);
+    use(pass, work, {.filter = unfiltered(), .to_mask = true}, inputs);
+    pass.draw_full_screen();
     return barrier();
   }
-  // Copying all texels costs less than a draw of the tiles.
   const Rect& part = work.frame.viewport;
   gl::glCopyImageSubData(inputs.texels.id(), GL_TEXTURE_2D, 0, part.x, part.y, 0, inputs.target.id(), GL_TEXTURE_2D, 0,
                          part.x, part.y, 0, part.width, part.height, 1);
@@ -217,7 +217,6 @@ std::vector<LibraryProgram> filter_programs(std::span<const Filter> filters) {
     }
   };
   add({.filter = unfiltered(), .to_mask = true});
-  programs.push_back(program_of({.filter = unfiltered(), .to_mask = true, .over = Over::kept}));
   for (const Filter& filter : filters) {
     for (int i = 0; i < filter.passes; ++i) add({.filter = filter, .pass = i, .to_mask = false});
     add({.filter = filter, .pass = filter.passes - 1, .to_mask = true});

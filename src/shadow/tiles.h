@@ -57,8 +57,8 @@ void dispatch_decisions(gl::Pass& pass, const gl::Program& program, const glm::i
 // In a pass of its own.
 Tiles decide_tiles(const LightWork& work);
 
-// In a pass of its own, the list of the tiles whose packed texels filters that keep these can change; its "decided"
-// ones are those that such filters leave as they are. Not for Keeps::nothing.
+// In a pass of its own, the list of the tiles whose packed texels filters that keep these can change. Not for
+// Keeps::nothing.
 const gl::Buffer& list_filter_tiles(const LightWork& work, const BlockerDistances& distances, Filter::Keeps keeps);
 
 // Draws the tiles of one of a list's two commands, as points: the current program's vertex shader is tile.vert.

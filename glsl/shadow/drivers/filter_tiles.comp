@@ -100,9 +100,5 @@ void main() {
 #if KEEPS_NARROW
   changes = changes && has_kernels(tile, half_value(farthest));
 #endif
-  if (changes) {
-    list_tile(tile);
-  } else {
-    list_decided(tile);
-  }
+  if (changes) list_tile(tile);
 }
