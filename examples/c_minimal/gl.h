@@ -27,18 +27,26 @@
   X(PFNGLDELETEVERTEXARRAYSPROC, glDeleteVertexArrays)           \
   X(PFNGLDEPTHFUNCPROC, glDepthFunc)                             \
   X(PFNGLDEPTHMASKPROC, glDepthMask)                             \
+  X(PFNGLDEPTHRANGEFPROC, glDepthRangef)                         \
   X(PFNGLDISABLEPROC, glDisable)                                 \
   X(PFNGLDRAWARRAYSPROC, glDrawArrays)                           \
   X(PFNGLENABLEPROC, glEnable)                                   \
   X(PFNGLFRONTFACEPROC, glFrontFace)                             \
   X(PFNGLGETBOOLEANVPROC, glGetBooleanv)                         \
+  X(PFNGLGETFLOATVPROC, glGetFloatv)                             \
   X(PFNGLGETINTEGERVPROC, glGetIntegerv)                         \
   X(PFNGLGETPROGRAMIVPROC, glGetProgramiv)                       \
   X(PFNGLGETTEXTURESUBIMAGEPROC, glGetTextureSubImage)           \
   X(PFNGLISENABLEDPROC, glIsEnabled)                             \
   X(PFNGLLINKPROGRAMPROC, glLinkProgram)                         \
   X(PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, glNamedFramebufferTexture) \
+  X(PFNGLPOLYGONMODEPROC, glPolygonMode)                         \
+  X(PFNGLPOLYGONOFFSETPROC, glPolygonOffset)                     \
+  X(PFNGLSCISSORPROC, glScissor)                                 \
   X(PFNGLSHADERSOURCEPROC, glShaderSource)                       \
+  X(PFNGLSTENCILFUNCSEPARATEPROC, glStencilFuncSeparate)         \
+  X(PFNGLSTENCILMASKSEPARATEPROC, glStencilMaskSeparate)         \
+  X(PFNGLSTENCILOPSEPARATEPROC, glStencilOpSeparate)             \
   X(PFNGLTEXTURESTORAGE2DPROC, glTextureStorage2D)               \
   X(PFNGLUNIFORM4FPROC, glUniform4f)                             \
   X(PFNGLUNIFORMMATRIX4FVPROC, glUniformMatrix4fv)               \

@@ -1,10 +1,33 @@
 #include "state_guard.h"
 
-static const GLenum capabilities[8] = {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST,     GL_BLEND,
-                                       GL_CULL_FACE,  GL_DEPTH_CLAMP,  GL_FRAMEBUFFER_SRGB, GL_POLYGON_OFFSET_FILL};
+static const GLenum capabilities[9] = {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST,     GL_BLEND,
+                                       GL_CULL_FACE,  GL_DEPTH_CLAMP,  GL_FRAMEBUFFER_SRGB, GL_POLYGON_OFFSET_FILL,
+                                       GL_DITHER};
+
+static const GLenum stencil_names[2][7] = {
+    {GL_STENCIL_FUNC, GL_STENCIL_REF, GL_STENCIL_VALUE_MASK, GL_STENCIL_WRITEMASK, GL_STENCIL_FAIL,
+     GL_STENCIL_PASS_DEPTH_FAIL, GL_STENCIL_PASS_DEPTH_PASS},
+    {GL_STENCIL_BACK_FUNC, GL_STENCIL_BACK_REF, GL_STENCIL_BACK_VALUE_MASK, GL_STENCIL_BACK_WRITEMASK,
+     GL_STENCIL_BACK_FAIL, GL_STENCIL_BACK_PASS_DEPTH_FAIL, GL_STENCIL_BACK_PASS_DEPTH_PASS}};
+
+static void save_stencil(stencil_side* side, const GLenum* names) {
+  glGetIntegerv(names[0], &side->function);
+  glGetIntegerv(names[1], &side->reference);
+  glGetIntegerv(names[2], &side->value_mask);
+  glGetIntegerv(names[3], &side->write_mask);
+  glGetIntegerv(names[4], &side->fail);
+  glGetIntegerv(names[5], &side->depth_fail);
+  glGetIntegerv(names[6], &side->pass);
+}
+
+static void restore_stencil(const stencil_side* side, GLenum face) {
+  glStencilFuncSeparate(face, (GLenum)side->function, side->reference, (GLuint)side->value_mask);
+  glStencilMaskSeparate(face, (GLuint)side->write_mask);
+  glStencilOpSeparate(face, (GLenum)side->fail, (GLenum)side->depth_fail, (GLenum)side->pass);
+}
 
 void save_state(state_guard* guard) {
-  for (int i = 0; i < 8; ++i) guard->capabilities[i] = glIsEnabled(capabilities[i]);
+  for (int i = 0; i < 9; ++i) guard->capabilities[i] = glIsEnabled(capabilities[i]);
   glGetBooleanv(GL_COLOR_WRITEMASK, guard->color_mask);
   glGetBooleanv(GL_DEPTH_WRITEMASK, &guard->depth_mask);
   glGetIntegerv(GL_DEPTH_FUNC, &guard->depth_function);
@@ -12,11 +35,17 @@ void save_state(state_guard* guard) {
   glGetIntegerv(GL_FRONT_FACE, &guard->front_face);
   glGetIntegerv(GL_CLIP_ORIGIN, &guard->clip_origin);
   glGetIntegerv(GL_CLIP_DEPTH_MODE, &guard->clip_depth);
+  glGetIntegerv(GL_POLYGON_MODE, guard->polygon_mode);
+  glGetFloatv(GL_DEPTH_RANGE, guard->depth_range);
+  glGetFloatv(GL_POLYGON_OFFSET_FACTOR, &guard->polygon_offset[0]);
+  glGetFloatv(GL_POLYGON_OFFSET_UNITS, &guard->polygon_offset[1]);
+  for (int i = 0; i < 2; ++i) save_stencil(&guard->stencil[i], stencil_names[i]);
   glGetIntegerv(GL_BLEND_SRC_RGB, &guard->blend[0]);
   glGetIntegerv(GL_BLEND_DST_RGB, &guard->blend[1]);
   glGetIntegerv(GL_BLEND_SRC_ALPHA, &guard->blend[2]);
   glGetIntegerv(GL_BLEND_DST_ALPHA, &guard->blend[3]);
   glGetIntegerv(GL_VIEWPORT, guard->viewport);
+  glGetIntegerv(GL_SCISSOR_BOX, guard->scissor_box);
   glGetIntegerv(GL_CURRENT_PROGRAM, &guard->program);
   glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &guard->vertex_array);
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &guard->draw_framebuffer);
@@ -24,7 +53,7 @@ void save_state(state_guard* guard) {
 }
 
 void restore_state(const state_guard* guard) {
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < 9; ++i) {
     if (guard->capabilities[i]) {
       glEnable(capabilities[i]);
     } else {
@@ -37,9 +66,15 @@ void restore_state(const state_guard* guard) {
   glCullFace((GLenum)guard->cull_face);
   glFrontFace((GLenum)guard->front_face);
   glClipControl((GLenum)guard->clip_origin, (GLenum)guard->clip_depth);
+  glPolygonMode(GL_FRONT_AND_BACK, (GLenum)guard->polygon_mode[0]);
+  glDepthRangef(guard->depth_range[0], guard->depth_range[1]);
+  glPolygonOffset(guard->polygon_offset[0], guard->polygon_offset[1]);
+  restore_stencil(&guard->stencil[0], GL_FRONT);
+  restore_stencil(&guard->stencil[1], GL_BACK);
   glBlendFuncSeparate((GLenum)guard->blend[0], (GLenum)guard->blend[1], (GLenum)guard->blend[2],
                       (GLenum)guard->blend[3]);
   glViewport(guard->viewport[0], guard->viewport[1], guard->viewport[2], guard->viewport[3]);
+  glScissor(guard->scissor_box[0], guard->scissor_box[1], guard->scissor_box[2], guard->scissor_box[3]);
   glUseProgram((GLuint)guard->program);
   glBindVertexArray((GLuint)guard->vertex_array);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)guard->draw_framebuffer);

@@ -285,6 +285,8 @@ penumbra_result penumbra_render(penumbra_device* device, const penumbra_settings
       const std::vector<penumbra::shadow::Light> lights = lights_of(given.lights, given.light_count, &inputs);
       inputs.lights = lights;
       inputs.draw = casters_of(given, *device);
+      constexpr std::size_t most_idle_programs = 512;  // so that all that was warmed up stays
+      device->objects->device.shaders.next_frame(most_idle_programs);
       device->masks.erase(given.view_id);
       const penumbra::shadow::Mask& made = device->masks[given.view_id] = call.shadows().render(inputs, params);
       const penumbra::gl::TextureDesc& desc = made.texture->desc();

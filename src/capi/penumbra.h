@@ -107,8 +107,8 @@ typedef struct penumbra_device_desc {
 PENUMBRA_API penumbra_result penumbra_device_desc_init(penumbra_device_desc* desc, size_t struct_size);
 
 /** Makes a device for the current context, which has OpenGL 4.5 or more, of the core or the compatibility profile.
- * Makes no OpenGL object yet. `device` receives it, or null after an error: PENUMBRA_ERROR_ARGUMENT;
- * PENUMBRA_ERROR_CONTEXT.
+ * Makes one vertex array, by which it knows the context. `device` receives it, or null after an error:
+ * PENUMBRA_ERROR_ARGUMENT; PENUMBRA_ERROR_CONTEXT.
  */
 PENUMBRA_API penumbra_result penumbra_device_create(const penumbra_device_desc* desc, penumbra_device** device);
 
@@ -136,7 +136,8 @@ PENUMBRA_API penumbra_result penumbra_settings_clone(const penumbra_settings* se
 /** Null: nothing happens. */
 PENUMBRA_API void penumbra_settings_destroy(penumbra_settings* settings);
 
-/** Chooses a technique by its name, or a preset of penumbra_technique_info() with all values that it sets.
+/** Chooses a technique by its name, or a preset of penumbra_technique_info() with all values that it sets. What the
+ * preset that was chosen before had set becomes the default again, unless it was changed since.
  * PENUMBRA_ERROR_REFUSED: unknown name; the message has names that are near. */
 PENUMBRA_API penumbra_result penumbra_settings_select(penumbra_settings* settings, const char* technique);
 
@@ -234,7 +235,9 @@ typedef struct penumbra_light {
   float radius;       /**< of a lamp, m, at least 0 (hard shadows); default 0.03 */
   float axis[3];      /**< of a lamp: direction in which a spot shines, world; 0, 0, 0 (default): everywhere */
   float cone;         /**< of a spot: half angle of its cone, rad, above 0 and at most pi/2; beyond it: 0 */
-  float range;        /**< of a lamp, m: the mask is 0 beyond it; 0 (default): unlimited */
+  /** Of a lamp, m: the mask is 0 beyond it; 0 (default): unlimited. Casters nearer to the lamp than 1/2000 of it, or
+   * where it is unlimited, of the distance to the farthest corner of penumbra_frame.receivers, cast no shadow. */
+  float range;
   const char* const* overrides; /**< "name=value": values of parameters for this light alone; null if there are none */
   size_t override_count;        /**< of overrides; default 0 */
 
@@ -320,7 +323,7 @@ typedef struct penumbra_caster_pass {
                                planes need not be drawn; world space, xyz of unit length; all 0: unused */
   float light_place[4];     /**< world: xyz the direction to a sun and w 0, or the centre of a lamp and w 1 */
   uint32_t first_depth_texture; /**< PENUMBRA_PASS_SECOND_DEPTH: OpenGL's name of a GL_TEXTURE_2D_ARRAY; else 0 */
-  float first_depth_gap;        /**< PENUMBRA_PASS_SECOND_DEPTH: in stored depths, at least 0 */
+  float first_depth_gap;        /**< PENUMBRA_PASS_SECOND_DEPTH: in stored depths, at least 2^-22 */
   /** PENUMBRA_PASS_GEOMETRY: the text of a geometry shader, and of a fragment shader, for a program of the engine's;
    * else null. The engine compiles them with a vertex shader of its own, which writes gl_Position = world_to_clip *
    * world position and no other output, and draws each triangle once, as GL_TRIANGLES: opaque casters, and alpha-tested
@@ -380,7 +383,10 @@ typedef struct penumbra_frame {
                            middle of the picture, with an oblique near plane, or scaled as a whole. What turns the
                            picture belongs into `view`; default: identity */
   /** `view` of the view's last frame, and of this one where there was none; default: identity. Where last_view or
-   * last_projection are others than those of that call, the history and the kept maps are discarded. */
+   * last_projection are others than those of that call, the history and the kept maps are discarded. The world's origin
+   * must stay where it is: a world that moves around the camera, with the same `view` in each frame, would keep maps
+   * and history of another place. An engine that shifts its origin now and then sets `cut` of all views in that frame.
+   */
   float last_view[16];
   float last_projection[16]; /**< `projection` of the view's last frame: see last_view */
   float jitter[2];           /**< what was added to x and y of clip space after division by w, -1..1; default 0 */
@@ -396,17 +402,20 @@ typedef struct penumbra_frame {
    * where depth is coarse. Depth of half floats (R16F) is refused then. */
   penumbra_texture normals;
   /** Motion vectors, or none (id 0): RG, SNORM or float: place of the surface after division by w (-1..1) minus that in
-   * the last frame; the size of `depth`. Read only where penumbra_reads_motion() says so. */
+   * the last frame, both without jitter; the size of `depth`. Read only where penumbra_reads_motion() says so. */
   penumbra_texture motion;
   /** The part of the textures that was drawn to, in texels: x and y of the lower left corner, width, height. All of
-   * them if it is 0, 0, 0, 0 (default). */
+   * them if it is 0, 0, 0, 0 (default). A change discards the history, as do changes of the size, of conventions, of
+   * settings, and for one light any change of its own, such as a sun that moves. */
   int32_t viewport[4];
   /** 1: the mask has a penumbra radius, a blocker distance and a layer of the shadow map beside visibility; default 0.
    */
   uint32_t mask_details;
 
   /** World bounds of all that casts shadows; not empty, a point (min = max) is valid. Casters are drawn only to texels
-   * that lie within, so a tighter box costs less. */
+   * that lie within, so a tighter box costs less. But planes of maps follow its faces: while casters move within it, it
+   * should stay as it is, else maps are not kept. Where a light brings maps of its own, their near planes are checked
+   * against it. */
   penumbra_box casters;
   /** The same of all surfaces whose shadows are computed, those drawn forward too. */
   penumbra_box receivers;
@@ -423,8 +432,9 @@ typedef struct penumbra_frame {
 
   const penumbra_light* lights; /**< light_count of them; null if there are none */
   size_t light_count;           /**< at most 256 */
-  penumbra_draw_casters draw;   /**< required if there are lights */
-  void* draw_user;              /**< passed to draw */
+  /** Required unless all lights bring their maps; without it, and with moved_is_known 0, there is no history. */
+  penumbra_draw_casters draw;
+  void* draw_user; /**< passed to draw */
 
   /** 1: `casters` and `receivers` are no larger than what they hold. 0 (default): where they reach farther than 10 km
    * from the camera, as those of a sky's dome do, near shadows stay right, but receivers more than 1 km from the camera
@@ -481,7 +491,8 @@ PENUMBRA_API penumbra_result penumbra_reads_motion(penumbra_device* device, cons
 PENUMBRA_API penumbra_result penumbra_forget_view(penumbra_device* device, int32_t view_id);
 
 /** Compiles the programs and makes the tables that penumbra_render() needs with these settings and the frame's
- * conventions, lights and mask_details, so that no later frame of that kind has to. Draws three frames of 60 x 60
+ * conventions, lights and mask_details, so that no later frame of that kind has to. Of programs that eight calls of
+ * penumbra_render() did not use, the device keeps the 512 that were used last. Draws three frames of 60 x 60
  * pixels with one caster of its own and maps of the settings' size, which are released afterwards: boxes,
  * matrices and callbacks of `frame` are not used and need not be set. Of its textures the formats are used, if they are
  * set: drivers may compile a program anew for another format. Programs that only an engine's own callback
@@ -496,7 +507,9 @@ PENUMBRA_API penumbra_result penumbra_warm_up(penumbra_device* device, const pen
  * float, the light's visibility: penumbra_shadow_visibility(vec3 view_position, vec3 geometric_normal_world, vec2
  * pixel). Its arguments are the surface's place in view space, within the view and penumbra_frame.receivers; its
  * normal, of unit length and to the viewer's side; and gl_FragCoord.xy. `light`: for its kind and overrides; null: a
- * sun without overrides. `text`, `capacity` and `length` as in penumbra_settings_get(). */
+ * sun without overrides. The text belongs to these settings, overrides and this kind of light: ask again when one of
+ * them changes, and compile again if it differs; a program of another text reads wrong shadows, which nothing checks.
+ * `text`, `capacity` and `length` as in penumbra_settings_get(). */
 PENUMBRA_API penumbra_result penumbra_forward_source(penumbra_device* device, const penumbra_settings* settings,
                                                      const penumbra_light* light, char* text, size_t capacity,
                                                      size_t* length);
@@ -507,7 +520,8 @@ PENUMBRA_API penumbra_result penumbra_bind_forward(penumbra_device* device, int3
 PENUMBRA_API penumbra_result penumbra_unbind_forward(penumbra_device* device);
 
 /* ------------------------------------------------------------------------------------------------------------ State
- * penumbra_render() and penumbra_warm_up() rely on no OpenGL state and restore none. Of the following, what they change
+ * penumbra_render() and penumbra_warm_up() rely on no state of OpenGL 4.5 and restore none; of extensions, the depth
+ * bounds test, shading rate images and conservative rasterization must be off. Of the following, what they change
  * is back at OpenGL's initial value afterwards: depth and stencil test, scissor, blend, logic operation, culling, depth
  * clamp, dithering, GL_FRAMEBUFFER_SRGB, rasterizer discard, sample mask, coverage, shading and alpha to coverage or
  * one, line and polygon smoothing, polygon offset, primitive restart, program point size, clip distances 0 to 7; depth

@@ -28,6 +28,19 @@ ParamValue value_of(const Param& param, double number) {
   return static_cast<int>(number > most ? most : number < -most ? -most : number);
 }
 
+// The parameters with defaults for what the last preset set, but for values that were changed since.
+ParamSet without_preset(const penumbra_settings& settings) {
+  ParamSet params = settings.params;
+  if (settings.preset.empty()) return params;
+  ParamSet chosen = default_params();
+  shadow::built_in_registry().select(chosen, settings.preset);
+  for (const Param& row : chosen.rows()) {
+    if (chosen.value(row.name) != row.default_value && params.value(row.name) == chosen.value(row.name))
+      params.reset(row.name);
+  }
+  return params;
+}
+
 }  // namespace
 
 const ParamSet& default_params() {
@@ -42,14 +55,14 @@ using namespace penumbra::capi;
 penumbra_result penumbra_settings_create(penumbra_settings** settings) {
   return run("penumbra_settings_create", [&] {
     required(settings, "settings") = nullptr;
-    *settings = new penumbra_settings{default_params()};
+    *settings = new penumbra_settings{default_params(), {}};
   });
 }
 
 penumbra_result penumbra_settings_clone(const penumbra_settings* settings, penumbra_settings** copy) {
   return run("penumbra_settings_clone", [&] {
     required(copy, "copy") = nullptr;
-    *copy = new penumbra_settings{required(settings, "settings").params};
+    *copy = new penumbra_settings(required(settings, "settings"));
   });
 }
 
@@ -57,9 +70,10 @@ void penumbra_settings_destroy(penumbra_settings* settings) { delete settings; }
 
 penumbra_result penumbra_settings_select(penumbra_settings* settings, const char* technique) {
   return run("penumbra_settings_select", [&] {
-    penumbra::ParamSet changed = required(settings, "settings").params;
+    penumbra::ParamSet changed = without_preset(required(settings, "settings"));
     penumbra::shadow::built_in_registry().select(changed, &required(technique, "technique"));
     settings->params = std::move(changed);
+    settings->preset = technique;
   });
 }
 
@@ -84,6 +98,7 @@ penumbra_result penumbra_settings_reset(penumbra_settings* settings, const char*
     penumbra::ParamSet& params = required(settings, "settings").params;
     if (name == nullptr) {
       params = default_params();
+      settings->preset.clear();
     } else {
       params.reset(name);
     }

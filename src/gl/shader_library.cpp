@@ -19,15 +19,15 @@ const Program& ShaderLibrary::get(const ProgramDesc& desc) {
   return *entry.program;
 }
 
-void ShaderLibrary::next_frame() {
+void ShaderLibrary::next_frame(std::size_t most) {
   ++frame_;
   std::vector<std::map<ProgramDesc, Entry>::iterator> idle;
   for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
     if (is_idle(entry->second)) idle.push_back(entry);
   }
-  if (idle.size() <= most_idle) return;
+  if (idle.size() <= most) return;
   std::ranges::sort(idle, {}, [](const auto& entry) { return entry->second.used; });
-  idle.resize(idle.size() - most_idle);
+  idle.resize(idle.size() - most);
   for (const auto& entry : idle) entries_.erase(entry);
 }
 

@@ -27,8 +27,8 @@ class ShaderLibrary {
   // Throws Error when the program fails to compile and there is no earlier good one; the next call tries again. The
   // reference stays valid through reloads, and for this frame and the next where frames are counted.
   const Program& get(const ProgramDesc& desc);
-  // To be called when a frame begins. Deletes idle programs beyond `most_idle`.
-  void next_frame();
+  // To be called when a frame begins. Deletes idle programs beyond so many.
+  void next_frame(std::size_t most = most_idle);
 
   // To be called when a file's text changed or it was added or deleted: marks the programs that include it, and those
   // whose last rebuild failed, to be rebuilt. `file` is relative to glsl/.

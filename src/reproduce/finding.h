@@ -21,12 +21,13 @@ struct Quantity {
 // What was measured about one figure of the thesis. The verdict and its sentence follow from the measurements alone.
 class Finding {
  public:
-  std::string kind = "Figure";  // or "Section", for what the thesis says without a figure
-  std::string id;               // "4.3"
-  std::string title;            // "Uniform sampling"
-  std::string claim;            // what the thesis claims about it, in a sentence
-  std::string test;             // what is measured to test the claim, which the thesis judges by eye
-  report::Html body;            // our version
+  enum class Kind { figure, section };
+  Kind kind = Kind::figure;  // a section: what the thesis says without a figure
+  std::string id;            // "4.3"
+  std::string title;         // "Uniform sampling"
+  std::string claim;         // what the thesis claims about it, in a sentence
+  std::string test;          // what is measured to test the claim, which the thesis judges by eye
+  report::Html body;         // our version
 
   // Each records the quantities and whether the claim holds for them, for the verdict and its sentence.
   void expect_below(const Quantity& a, const Quantity& b);

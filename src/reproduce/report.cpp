@@ -27,7 +27,8 @@ std::string scene_name(const Workbench& bench) {
 }
 
 std::string heading(const Finding& finding) {
-  return fmt::format("{} {}: {}", finding.kind, finding.id, finding.title);
+  return fmt::format("{} {}: {}", finding.kind == Finding::Kind::section ? "Section" : "Figure", finding.id,
+                     finding.title);
 }
 
 Html badge(const Finding& finding) {
@@ -152,7 +153,7 @@ io::Json json_of(std::span<const Finding> findings, const Workbench& bench) {
                             {"text", quantity.text()}});
     }
     figures.push_back({{"id", finding.id},
-                       {"kind", finding.kind == "Section" ? "section" : "figure"},
+                       {"kind", finding.kind == Finding::Kind::section ? "section" : "figure"},
                        {"title", finding.title},
                        {"claim", finding.claim},
                        {"test", finding.test},

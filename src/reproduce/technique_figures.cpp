@@ -69,7 +69,7 @@ Finding section_2_2(Workbench& bench) {
   const NamedConfig large = filtered("an exponential shadow map, 80 cm", "esm", wide, {"esm.classification=none"});
   const std::vector<NamedConfig> shown{{"hard", {"hard", {}}}, comparison, variance, cut, few, many, lowered, small};
   Finding finding;
-  finding.kind = "Section";
+  finding.kind = Finding::Kind::section;
   finding.id = "2.2";
   finding.title = "Filtering before the comparison";
   finding.claim =
@@ -98,7 +98,7 @@ Finding section_2_3(Workbench& bench) {
   const NamedConfig variance{"variance soft shadow maps", {"vssm", {}}};
   const std::vector<NamedConfig> shown{fast, variance, fourier};
   Finding finding;
-  finding.kind = "Section";
+  finding.kind = Finding::Kind::section;
   finding.id = "2.3";
   finding.title = "Soft shadows from filtered maps";
   finding.claim =

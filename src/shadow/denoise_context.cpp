@@ -64,12 +64,17 @@ void DenoiseContext::bind_history(const gl::Texture& last_surfaces) const {
 
 const gl::Buffer& DenoiseContext::changing_tiles(const BlockerDistances& distances, Filter::Keeps keeps) const {
   for (const Listed& listed : listed_) {
-    if (listed.distances == distances.texels && listed.keeps == keeps) return listed.tiles;
+    if (listed.distances == distances.texels && listed.keeps == keeps) return *listed.tiles;
   }
-  return listed_.emplace_back(distances.texels, keeps, list_filter_tiles(work_, distances, keeps)).tiles;
+  // A list of the same kind is in the same buffer.
+  std::erase_if(listed_, [&](const Listed& listed) { return listed.keeps == keeps; });
+  return *listed_.emplace_back(distances.texels, keeps, &list_filter_tiles(work_, distances, keeps)).tiles;
 }
 
 const gl::Texture& DenoiseContext::run(const Filter& filter, const PackedMask& source, bool to_mask) const {
+  if (source.texels.desc().format != packed_format)
+    throw std::logic_error(
+        fmt::format("denoiser '{}' filters texels that lack depths: see packed_format", owner_.name));
   const bool spares = source.distances.texels != nullptr && fits_tiles(work_) && !filters_all_pixels(work_, filter);
   return run_filter(work_, {.filter = filter,
                             .texels = source.texels,

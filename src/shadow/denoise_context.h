@@ -21,7 +21,8 @@ struct PackedMask {
   const gl::Texture& texels;
   const gl::Texture& notes;
   // The technique's own texels. Whoever changes them hands this on with the result, if distances spread at most to the
-  // neighbours of pixels that have one; else filters have to run for all pixels, as they do where there are none.
+  // neighbours of pixels that have one, and none becomes greater than those; else filters have to run for all pixels,
+  // as they do where there are none.
   BlockerDistances distances = {};
 };
 
@@ -56,7 +57,7 @@ class DenoiseContext : public PassContext {
   struct Listed {
     const gl::Texture* distances;
     Filter::Keeps keeps;
-    const gl::Buffer& tiles;
+    const gl::Buffer* tiles;
   };
   mutable std::vector<Listed> listed_;
 };

@@ -83,7 +83,7 @@ enum class CasterKind {
 // For the kind `second_depth`: the shadow map that holds what is nearest to the light.
 struct FirstDepth {
   unsigned texture = 0;  // OpenGL name of an array of stored depths, with the layers of the pass
-  float gap = 0;         // of stored depths; at least 0
+  float gap = 0;         // of stored depths; at least 2^-22, since GPUs round what shaders see in another way
 };
 
 // One call to the caller's code: draw these casters with these matrices. The framebuffer, viewport, scissor, depth test
@@ -166,7 +166,7 @@ struct Inputs {
   // depths.
   TextureView normals;
   TextureView motion;  // optional (id 0: none), read only where a history is kept: RG, the surface's position in NDC
-                       // minus that in the last frame; the size of `depth`
+                       // minus that in the last frame, both without jitter; the size of `depth`
   Rect viewport;       // the part of the textures that the view was drawn to; all of it if the size is 0
   std::span<const Light> lights;
   // World bounds; unused when every light brings its maps. A single point (min = max) is valid; the default (min > max)

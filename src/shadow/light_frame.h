@@ -59,8 +59,8 @@ struct LightFrame {
   bool binds_forward = true;              // as in Inputs
   int scale = 1;                          // of the mask that the technique filled: see mask_scale.h
   // R8UI, of the size of that mask, only if a denoiser ran: bits 0 to 3 the layer of the shadow map that was read, bit
-  // 4 set if the kernel is smaller than a texel of the map, bits 5 to 7 why the history was rejected (see History in
-  // docs/techniques.md).
+  // 4 set if the kernel is smaller than a texel of the map (both complete only where the mask has details), bits 5 to 7
+  // why the history was rejected (see History in docs/techniques.md).
   const gl::Texture* notes = nullptr;
   std::vector<Product> products;  // all that this frame made for the light
 };

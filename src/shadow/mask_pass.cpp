@@ -90,7 +90,8 @@ void compute_all(const LightWork& work, const MaskOutput& output) {
 void fill_decided(const LightWork& work, const MaskOutput& output, const Tiles& tiles, gl::Pass& pass) {
   set_viewport(pass, work.frame.viewport);
   Programs::MaskForm form = form_of(work, output);
-  form.details = work.mask.desc().format != GL_R16F;
+  const gl::Texture& mask = output.packed != nullptr ? work.mask : *output.mask;
+  form.details = mask.desc().format != GL_R16F || work.frame.shape.lamp;
   use(pass, work, work.programs.decided(form), output);
   work.device.sampler({}).bind(unit_decisions);
   tiles.decisions.bind(unit_decisions);

@@ -233,7 +233,7 @@ gl::ProgramDesc Programs::decided(const MaskForm& form) const {
                          .defines = {{"DECIDED", "1"},
                                      {"PACKED", form.packed ? "1" : "0"},
                                      {"HISTORY", form.history ? "1" : "0"},
-                                     {"DETAILS", form.details ? "1" : "0"}}}});
+                                     {"DETAILS", form.details || form.history ? "1" : "0"}}}});
 }
 
 gl::ProgramDesc Programs::filter_tiles(bool keeps_narrow) const {
@@ -320,11 +320,12 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
                                         warm_up_caster_program()};
   for (gl::ProgramDesc& program : copy_programs()) programs.push_back(std::move(program));
   for (gl::ProgramDesc& program : visible_receivers_programs()) programs.push_back(std::move(program));
-  for (MaskForm form : {MaskForm{}, {.packed = true}, {.packed = true, .history = true}}) {
-    for (const bool details : {false, true}) {
-      form.details = details;
-      programs.push_back(decided(form));
-    }
+  for (const MaskForm& form : {MaskForm{},
+                               {.details = true},
+                               {.packed = true},
+                               {.packed = true, .details = true},
+                               {.packed = true, .history = true}}) {
+    programs.push_back(decided(form));
   }
   for (const MovementForm form : {MovementForm::average, MovementForm::maximum}) {
     for (const bool any_size : {false, true}) programs.push_back(movement_pyramid_program(form, any_size));

@@ -48,7 +48,7 @@ class Programs {
     bool history = false;  // packed, and the notes say whether the history is valid
     bool tiles = false;    // over the listed tiles alone
     bool missing = false;  // for the missing pixels alone; neither compute nor packed
-    bool details = false;  // decided tiles alone: the light's mask has, or will have, more than one channel
+    bool details = false;  // decided tiles alone: the mask has, or will have, more than one channel, or is a lamp's
     bool rim = false;      // for receivers that may read beyond the rim of the face of a lamp's cube that sees them
   };
   gl::ProgramDesc mask(const Technique& technique, const ParamSet& params, const MaskForm& form) const;

@@ -181,6 +181,16 @@ Mask SoftShadows::draw(const Inputs& inputs, const ParamSet& params, ViewState& 
                    view);
 }
 
+// Makes the points of all sets of a view's techniques: its frames have used the first ones.
+void SoftShadows::make_tables(const ViewState& view) {
+  for (const auto& [id, light] : view.lights) {
+    for (const auto& [technique, tables] : light.samples) {
+      for (int set = 0; set < tables.sets; ++set)
+        state_->samples.tables(registry_.find(technique), light.params, {.set = set, .scramble = tables.scramble});
+    }
+  }
+}
+
 void SoftShadows::warm_up(const FrameKind& kind, const ParamSet& params) {
   const Rendering rendering(state_->rendering);
   const Call call(device_);
@@ -197,6 +207,7 @@ void SoftShadows::warm_up(const FrameKind& kind, const ParamSet& params) {
   // The second has a history, and casters that may have moved.
   for (int i = 0; i < 2; ++i) draw(warm_up_inputs(device_, view.prefix, small), params, view);
   draw(other_warm_up_inputs(device_, view.prefix, small), params, view);
+  make_tables(view);
 }
 
 void SoftShadows::forget_view(int id) {

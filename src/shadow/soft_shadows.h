@@ -130,6 +130,7 @@ class SoftShadows {
   void check_earlier_frames();
   Mask render_view(const Inputs& inputs, const ParamSet& params);
   Mask draw(const Inputs& inputs, const ParamSet& params, ViewState& view);
+  void make_tables(const ViewState& view);
 
   gl::Device& device_;
   Registry registry_;

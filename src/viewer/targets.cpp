@@ -49,10 +49,15 @@ const std::array<Field, 3>& notes_fields() {
   return fields;
 }
 
+// Whether a target of packed_format holds packed texels: those of a denoiser's mask, its history, or a filter.
+bool holds_packed_texels(std::string_view name) {
+  return name.ends_with("/texels") || name.find("/history texels/") != name.npos || name.find("/filter ") != name.npos;
+}
+
 // Of those that hold several values in one channel. A packed texel's second channel, a depth, is not shown.
 const std::array<Field, 3>* fields_of(const gl::Device::NamedTarget& target) {
   const GLenum format = target.texture->desc().format;
-  if (format == shadow::packed_format && !target.name.ends_with("surfaces")) return &texel_fields();
+  if (format == shadow::packed_format && holds_packed_texels(target.name)) return &texel_fields();
   return format == GL_R8UI ? &notes_fields() : nullptr;
 }
 

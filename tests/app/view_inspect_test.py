@@ -27,6 +27,9 @@ class Inspect(WindowTest):
             colored = viewer.rest()
             self.assertFalse(is_grey(colored))
             viewer.open_tab("Inspect", "show=picture")
+            viewer.look_at(f"{LIGHT}denoisers/history_and_filters/history surfaces/0")
+            for part in ("green", "red"):  # they are no packed texels, though they have the same format
+                viewer.choose("part", part)
             raw = viewer.look_at(f"{LIGHT}denoisers/history_and_filters/texels")
             self.assertTrue(is_grey(raw))
             self.assertGreater(len(raw.colors()), 30)

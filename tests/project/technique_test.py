@@ -119,11 +119,11 @@ DENOISER_GLSL = """#include "shadow/light.glsl"
 #include "lib/packed_texel.glsl"
 
 layout(binding = 8) uniform usampler2D seen;
-layout(location = 0) out uint texel;
+layout(location = 0) out uvec2 texel;
 
 void main() {
-  uint now = texelFetch(seen, ivec2(gl_FragCoord.xy), 0).x;
-  texel = gl_FragCoord.x < 0.5 * shadow.viewport.z ? pack_texel(0.0, 0.0, false) : now;
+  texel = texelFetch(seen, ivec2(gl_FragCoord.xy), 0).xy;
+  if (gl_FragCoord.x < 0.5 * shadow.viewport.z) texel.x = pack_texel(0.0, 0.0, false);
 }
 """
 

@@ -159,6 +159,36 @@ TEST(CInterface, EveryParameterAndTechniqueIsListed) {
   EXPECT_EQ(names, shadow::built_in_registry().names());
 }
 
+std::string preset_of(const penumbra_settings* settings) {
+  std::string text(1 << 14, '\0');
+  std::size_t length = 0;
+  EXPECT_EQ(penumbra_settings_write_preset(settings, text.data(), text.size(), &length), PENUMBRA_OK);
+  return text.substr(0, length - 1);
+}
+
+TEST(CInterface, AChoiceLeavesNothingOfThePresetBefore) {
+  const std::vector<std::string> names = shadow::built_in_registry().names();
+  for (const std::string& second : names) {
+    const Settings fresh;
+    ASSERT_EQ(penumbra_settings_select(fresh.held, second.c_str()), PENUMBRA_OK);
+    for (const std::string& first : names) {
+      const Settings settings;
+      ASSERT_EQ(penumbra_settings_select(settings.held, first.c_str()), PENUMBRA_OK);
+      ASSERT_EQ(penumbra_settings_select(settings.held, second.c_str()), PENUMBRA_OK);
+      EXPECT_EQ(preset_of(settings.held), preset_of(fresh.held)) << first << ", then " << second;
+    }
+  }
+  const Settings changed;
+  ASSERT_EQ(penumbra_settings_select(changed.held, "slices_history"), PENUMBRA_OK);
+  ASSERT_EQ(penumbra_settings_set(changed.held, "history.alpha", "0.25"), PENUMBRA_OK);
+  ASSERT_EQ(penumbra_settings_select(changed.held, "slices_denoised"), PENUMBRA_OK);
+  double alpha = 0, reuse = 1;
+  EXPECT_EQ(penumbra_settings_get_number(changed.held, "history.alpha", &alpha), PENUMBRA_OK);
+  EXPECT_EQ(penumbra_settings_get_number(changed.held, "history.reuse", &reuse), PENUMBRA_OK);
+  EXPECT_EQ(alpha, 0.25);
+  EXPECT_EQ(reuse, 0);
+}
+
 TEST(CInterface, ATextTooLongForItsBufferIsLeftOut) {
   const Settings settings;
   std::size_t length = 0;

@@ -34,7 +34,7 @@ void main() {
   ivec2 in_viewport = pixel - ivec2(shadow.viewport.xy);
   if (in_viewport / tile_size != tile) discard;
   Decision decision = unpacked_decision(texelFetch(decisions, tile, 0));
-#if PACKED && (DETAILS || HISTORY)
+#if PACKED && DETAILS
   if (is_sky(pixel)) {
     texel = texel_with_depth(pack_texel(0.0, 1.0, true), pixel);
     notes = pack_notes(0, false, HISTORY_NONE);
@@ -53,7 +53,7 @@ void main() {
 #elif PACKED
   bool lit = is_lit(decision, in_viewport);
   texel = texel_with_depth(pack_texel(lit ? 0.0 : decision.blocker_distance, float(lit), true), pixel);
-  notes = pack_notes(0, false, HISTORY_NONE);
+  notes = pack_notes(decision.layer, false, HISTORY_NONE);
 #elif DETAILS
   // Neither its normal nor its error matters here.
   Receiver receiver = make_receiver(view_position_at(pixel), vec3(0.0, 0.0, -1.0), vec2(pixel));

@@ -67,7 +67,7 @@ bool has_kernels(ivec2 tile, float farthest) {
     float depth = uintBitsToFloat(texelFetch(texels, pixel, 0).y);
     vec3 position = unproject(vec2(pixel) + 0.5, depth);
     vec2 sigma = sigma_for(light_position(position), most_pixels_on_plane(position), farthest);
-    // Filters round in another way, and distances were rounded to half floats.
+    // Filters may round in another way.
     found = depth != shadow.sky_depth && !(1.01 * max(sigma.x, sigma.y) < least_sigma);
     at = next_in_rows(at, 0, size.x - 1, 1);
   } while (!found && at.y < size.y);

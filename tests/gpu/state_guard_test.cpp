@@ -1,0 +1,111 @@
+// What the C example's state guard saves, it restores, whatever a frame leaves.
+#include <array>
+#include <map>
+#include <vector>
+
+#include "gl/api.h"
+#include "gpu_test.h"
+
+namespace penumbra::test {
+namespace {
+
+using namespace gl;  // in place of the example's own loader
+#define GL_H
+#include "../../examples/c_minimal/state_guard.c"
+
+using State = std::map<GLenum, std::vector<double>>;
+
+// The state that engines set for their own passes.
+State present_state() {
+  State state;
+  for (const GLenum name : {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_BLEND, GL_CULL_FACE, GL_DEPTH_CLAMP,
+                            GL_FRAMEBUFFER_SRGB, GL_POLYGON_OFFSET_FILL, GL_DITHER})
+    state[name] = {glIsEnabled(name) != 0 ? 1.0 : 0.0};
+  const std::map<GLenum, std::size_t> values{{GL_SCISSOR_BOX, 4},
+                                             {GL_VIEWPORT, 4},
+                                             {GL_COLOR_WRITEMASK, 4},
+                                             {GL_DEPTH_RANGE, 2},
+                                             {GL_DEPTH_WRITEMASK, 1},
+                                             {GL_DEPTH_FUNC, 1},
+                                             {GL_CULL_FACE_MODE, 1},
+                                             {GL_FRONT_FACE, 1},
+                                             {GL_POLYGON_MODE, 1},
+                                             {GL_POLYGON_OFFSET_FACTOR, 1},
+                                             {GL_POLYGON_OFFSET_UNITS, 1},
+                                             {GL_STENCIL_FUNC, 1},
+                                             {GL_STENCIL_REF, 1},
+                                             {GL_STENCIL_VALUE_MASK, 1},
+                                             {GL_STENCIL_WRITEMASK, 1},
+                                             {GL_STENCIL_FAIL, 1},
+                                             {GL_STENCIL_PASS_DEPTH_FAIL, 1},
+                                             {GL_STENCIL_PASS_DEPTH_PASS, 1},
+                                             {GL_STENCIL_BACK_FUNC, 1},
+                                             {GL_STENCIL_BACK_REF, 1},
+                                             {GL_STENCIL_BACK_WRITEMASK, 1},
+                                             {GL_STENCIL_BACK_FAIL, 1},
+                                             {GL_CLIP_ORIGIN, 1},
+                                             {GL_CLIP_DEPTH_MODE, 1},
+                                             {GL_BLEND_SRC_RGB, 1},
+                                             {GL_BLEND_DST_ALPHA, 1}};
+  for (const auto& [name, count] : values) {
+    std::array<GLfloat, 4> numbers{};
+    glGetFloatv(name, numbers.data());
+    state[name].assign(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(count));
+  }
+  return state;
+}
+
+void set_state_of_an_engine() {
+  for (const GLenum name : {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE}) glEnable(name);
+  glDisable(GL_DITHER);
+  glScissor(3, 5, 7, 11);
+  glViewport(1, 2, 30, 40);
+  glColorMask(GL_TRUE, GL_FALSE, GL_TRUE, GL_FALSE);
+  glDepthRangef(0.25F, 0.75F);
+  glDepthFunc(GL_GREATER);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  glPolygonOffset(2, 3);
+  glStencilFuncSeparate(GL_FRONT, GL_EQUAL, 5, 0x0f);
+  glStencilFuncSeparate(GL_BACK, GL_NOTEQUAL, 6, 0xf0);
+  glStencilOpSeparate(GL_FRONT, GL_ZERO, GL_INCR, GL_REPLACE);
+  glStencilOpSeparate(GL_BACK, GL_INVERT, GL_DECR, GL_KEEP);
+  glStencilMask(0x3c);
+  glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+}
+
+void set_state_of_a_frame() {
+  for (const GLenum name : {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE}) glDisable(name);
+  glEnable(GL_DITHER);
+  glScissor(0, 0, 256, 256);
+  glViewport(0, 0, 64, 64);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthRangef(0, 1);
+  glDepthFunc(GL_LESS);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  glPolygonOffset(0, 0);
+  glStencilFunc(GL_ALWAYS, 0, ~0U);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  glStencilMask(~0U);
+  glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+}
+
+class StateGuard : public GpuTest {};
+
+TEST_F(StateGuard, RestoresWhatAnEngineHadSet) {
+  set_state_of_a_frame();
+  const State of_frame = present_state();
+  set_state_of_an_engine();
+  const State of_engine = present_state();
+  state_guard guard;
+  save_state(&guard);
+  set_state_of_a_frame();
+  restore_state(&guard);
+  EXPECT_EQ(present_state(), of_engine);
+  int differing = 0;
+  for (const auto& [name, values] : of_frame) differing += values != of_engine.at(name) ? 1 : 0;
+  EXPECT_GE(differing, 20);
+  set_state_of_a_frame();
+}
+
+}  // namespace
+}  // namespace penumbra::test
