@@ -11,7 +11,7 @@ namespace {
 
 using namespace gl;  // in place of the example's own loader
 #define GL_H
-#include "../../examples/c_minimal/state_guard.c"
+#include "c_minimal/state_guard.c"  // NOLINT(bugprone-suspicious-include)
 
 using State = std::map<GLenum, std::vector<double>>;
 
