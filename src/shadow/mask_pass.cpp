@@ -91,7 +91,7 @@ void fill_decided(const LightWork& work, const MaskOutput& output, const Tiles& 
   set_viewport(pass, work.frame.viewport);
   Programs::MaskForm form = form_of(work, output);
   const gl::Texture& mask = output.packed != nullptr ? work.mask : *output.mask;
-  form.details = mask.desc().format != GL_R16F || work.frame.shape.lamp;
+  form.details = mask.desc().format != GL_R16F || (form.packed && work.frame.shape.lamp);
   use(pass, work, work.programs.decided(form), output);
   work.device.sampler({}).bind(unit_decisions);
   tiles.decisions.bind(unit_decisions);

@@ -86,7 +86,7 @@ float kernel_distance(ivec2 pixel, uint texel) {
   return found > 0.0 ? sum / found * narrowing(texel) : 0.0;
 }
 
-// Of the kernel along x and y.
+// Standard deviation of a pixel's kernel along x and y, pixels.
 vec2 kernel_sigma(Surface surface, float distance_to) {
   return sigma_for(surface.position, surface.pixels, distance_to);
 }

@@ -184,7 +184,7 @@ vec2 pixels_on_plane(vec3 position, vec3 normal) {
 vec2 most_pixels_on_plane(vec3 position) {
   vec2 size = abs(shadow.pixel_size.xy * (shadow.pixel_size.z * position.z + shadow.pixel_size.w));
   vec3 ray = shadow.clip_to_view[2].xyz - position * shadow.clip_to_view[2].w;
-  // Nearest to a point of the ray beside the pixel's is the foot of the perpendicular from there.
+  // Where the rays of two neighbouring pixels meet a plane, they are at least as far apart as the rays are.
   return inversesqrt(max(1.0 - ray.xy * ray.xy / dot(ray, ray), 1e-6)) / size;
 }
 
