@@ -1,8 +1,10 @@
 // The C interface in a context: the same masks as those of the C++ facade, byte for byte, and its own promises.
 #include "capi/penumbra.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <glm/gtc/type_ptr.hpp>
 #include <set>
 
 #include "capi/device.h"
