@@ -27,6 +27,11 @@ float wrapped(scene::Wrap wrap, float coordinate) {
   return coordinate > 0 ? std::min(coordinate, 1.0f) : 0.0f;  // 0 for NaN
 }
 
+// Texels along a side of a cell, for which bounds are known.
+constexpr int cell_size = 4;
+// Of the texture's alpha: more than rounding changes the result of a bilinear read.
+constexpr float rounding = 1e-5f;
+
 // `texel` is from −1 to `size`, computed from coordinates that wrapped() returned.
 int wrapped_texel(scene::Wrap wrap, int texel, int size) {
   if (wrap != scene::Wrap::repeat) return std::clamp(texel, 0, size - 1);
@@ -49,14 +54,45 @@ AlphaTexture::AlphaTexture(const scene::Texture& texture, const scene::Image& im
       height_(image.height),
       wrap_s_(texture.wrap_s),
       wrap_t_(texture.wrap_t),
-      linear_(texture.mag == scene::Filter::linear) {
+      linear_(texture.mag == scene::Filter::linear),
+      cells_x_((image.width + cell_size - 1) / cell_size),
+      cells_y_((image.height + cell_size - 1) / cell_size) {
   alpha_.reserve(image.rgba.size() / 4);
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) alpha_.push_back(image.rgba[i]);
+  cells_.reserve(static_cast<std::size_t>(cells_x_) * static_cast<std::size_t>(cells_y_));
+  for (int y = 0; y < cells_y_; ++y) {
+    for (int x = 0; x < cells_x_; ++x) cells_.push_back(cell_bounds(x, y));
+  }
 }
 
-float AlphaTexture::texel(int x, int y) const {
-  return static_cast<float>(
-      alpha_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)]);
+// A bilinear read also needs the texels beside the cell.
+AlphaTexture::CellBounds AlphaTexture::cell_bounds(int cell_x, int cell_y) const {
+  CellBounds bounds;
+  const int x0 = cell_x * cell_size, y0 = cell_y * cell_size;
+  for (int y = y0 - 1; y <= std::min(y0 + cell_size, height_); ++y) {
+    for (int x = x0 - 1; x <= std::min(x0 + cell_size, width_); ++x) {
+      const std::uint8_t alpha =
+          alpha_[index_of(wrapped_texel(wrap_s_, x, width_), wrapped_texel(wrap_t_, y, height_))];
+      bounds.least = std::min(bounds.least, alpha);
+      bounds.greatest = std::max(bounds.greatest, alpha);
+    }
+  }
+  return bounds;
+}
+
+std::size_t AlphaTexture::index_of(int x, int y) const {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+}
+
+float AlphaTexture::texel(int x, int y) const { return static_cast<float>(alpha_[index_of(x, y)]); }
+
+AlphaTexture::Bounds AlphaTexture::bounds_at(glm::vec2 uv) const {
+  const auto x = static_cast<int>(wrapped(wrap_s_, uv.x) * static_cast<float>(width_));
+  const auto y = static_cast<int>(wrapped(wrap_t_, uv.y) * static_cast<float>(height_));
+  const int cell_x = std::min(x / cell_size, cells_x_ - 1), cell_y = std::min(y / cell_size, cells_y_ - 1);
+  const CellBounds& cell =
+      cells_[static_cast<std::size_t>(cell_y) * static_cast<std::size_t>(cells_x_) + static_cast<std::size_t>(cell_x)];
+  return {static_cast<float>(cell.least) / 255.0f - rounding, static_cast<float>(cell.greatest) / 255.0f + rounding};
 }
 
 float AlphaTexture::at(glm::vec2 uv) const {
@@ -98,8 +134,12 @@ bool AlphaTest::passes(std::size_t triangle, float u, float v) const {
   // Interpolates by differences, so that a value which all corners share stays exact.
   const Corner* c = &corners_[3 * triangle];
   float alpha = c[0].alpha + u * (c[1].alpha - c[0].alpha) + v * (c[2].alpha - c[0].alpha);
-  if (texture_ != nullptr) alpha *= texture_->at(c[0].uv + u * (c[1].uv - c[0].uv) + v * (c[2].uv - c[0].uv));
-  return alpha >= cutoff_;
+  if (texture_ == nullptr) return alpha >= cutoff_;
+  const glm::vec2 uv = c[0].uv + u * (c[1].uv - c[0].uv) + v * (c[2].uv - c[0].uv);
+  const AlphaTexture::Bounds bounds = texture_->bounds_at(uv);
+  if (alpha >= 0 && alpha * bounds.least >= cutoff_) return true;
+  if (alpha >= 0 && alpha * bounds.greatest < cutoff_) return false;
+  return alpha * texture_->at(uv) >= cutoff_;
 }
 
 }  // namespace penumbra::truth

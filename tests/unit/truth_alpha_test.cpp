@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <random>
 
+#include "truth/alpha.h"
 #include "unit/truth_scene.h"
 
 namespace penumbra::test {
@@ -184,6 +186,34 @@ TEST(TruthAlpha, SharedTrianglesHaveTheSameHoles) {
   ASSERT_EQ(tracer.stats().instances, 2U);
   EXPECT_EQ(trace_row(tracer, receivers, sun).visibility, flat.visibility);
   EXPECT_GT(std::ranges::count(flat.hard, 1), 700);
+}
+
+// Alpha tests are settled by these bounds where they can be.
+TEST(TruthAlpha, BoundsHoldWhatIsReadAndAreExactWhereAlphaIsTheSame) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> place(-2, 3);
+  for (const auto& [width, height] : {std::pair{1, 1}, {3, 5}, {4, 8}, {17, 6}, {32, 32}}) {
+    scene::Image image{.width = width, .height = height};
+    for (int i = 0; i < width * height; ++i)
+      image.rgba.insert(image.rgba.end(), {0, 0, 0, static_cast<std::uint8_t>(random() % 256)});
+    for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
+      for (const Filter filter : {Filter::nearest, Filter::linear}) {
+        const truth::AlphaTexture texture({.image = 0, .wrap_s = wrap, .wrap_t = wrap, .mag = filter}, image);
+        for (int i = 0; i < 2000; ++i) {
+          const glm::vec2 uv(place(random), place(random));
+          const truth::AlphaTexture::Bounds bounds = texture.bounds_at(uv);
+          ASSERT_GE(texture.at(uv), bounds.least) << width << " texels, " << uv.x << " " << uv.y;
+          ASSERT_LE(texture.at(uv), bounds.greatest) << width << " texels, " << uv.x << " " << uv.y;
+        }
+      }
+    }
+  }
+  scene::Image halves{.width = 32, .height = 1};
+  for (int i = 0; i < 32; ++i)
+    halves.rgba.insert(halves.rgba.end(), {0, 0, 0, i < 16 ? std::uint8_t{0} : std::uint8_t{255}});
+  const truth::AlphaTexture texture({.image = 0, .wrap_s = Wrap::clamp_to_edge}, halves);
+  EXPECT_NEAR(texture.bounds_at({0.3f, 0.5f}).greatest, 0, 1e-4);
+  EXPECT_NEAR(texture.bounds_at({0.7f, 0.5f}).least, 1, 1e-4);
 }
 
 }  // namespace
