@@ -212,11 +212,11 @@ void check_known(const ParamSet& params, const std::string& name) {
     fail("unknown parameter '{}'; see penumbra list params", name);
 }
 
-// A light's shadow maps and their pyramids take 4.3 bytes per texel.
+// A light's shadow maps and their pyramids take 4.7 bytes per texel.
 void check_map_memory(const ParamSet& params) {
   const long long size = params.get_int("cascades.size"), count = params.get_int("cascades.count");
   if (size * size * count > largest_maps)
-    fail("cascades.count={} maps of cascades.size={} are {} texels: the limit is {} (1.1 GiB), as 4 maps of 8192",
+    fail("cascades.count={} maps of cascades.size={} are {} texels: the limit is {} (1.2 GiB), as 4 maps of 8192",
          count, size, size * size * count, largest_maps);
 }
 

@@ -92,7 +92,7 @@ void check_lights(const FrameInputs& inputs, const shadow::Registry& registry, c
   long long maps = 0;
   for (const shadow::Light& light : lights) maps += shadow::lamp_map_count(light.source);
   if (maps * size * size <= most_texels) return;
-  fail("{} maps of lamps with lamps.size={} are {} texels: the limit is {} (1.1 GiB)", maps, size, maps * size * size,
+  fail("{} maps of lamps with lamps.size={} are {} texels: the limit is {} (1.2 GiB)", maps, size, maps * size * size,
        most_texels);
 }
 

@@ -95,7 +95,7 @@ class Lamps(TestCase):
                 self.assertIn("technique 'vssm' is for suns alone" if arguments[0] == "compare" else
                               "the figures are of a scene that suns alone light, and lamps shine here too", message)
         many = [word for x in range(8) for word in ("--lamp", f"{x},3,0")]
-        self.assertIn("48 maps of lamps with lamps.size=4096 are 805306368 texels: the limit is 268435456 (1.1 GiB)",
+        self.assertIn("48 maps of lamps with lamps.size=4096 are 805306368 texels: the limit is 268435456 (1.2 GiB)",
                       self.refuse("render", POSTS, "-o", self.folder / "y.png", *SIZE, "--no-sun", "--set",
                                   "lamps.size=4096", *many))
         for of, arguments, why in ((POSTS, (), "no other light than a sun shines"),
