@@ -50,7 +50,7 @@ void closing_question(const Panel& panel) {
   list_changes(panel.status, closes_window);
   ImGui::Spacing();
   const auto button = [&](const char* name) {
-    const bool taken = ImGui::Button(name);
+    const bool taken = ImGui::Button(name) || enter_on_item();
     if (taken) ImGui::CloseCurrentPopup();
     panel.widgets.mark(std::string("closing=") + name);
     return taken;

@@ -54,4 +54,11 @@ void use_scene_camera(cli::SceneOptions& options) {
   options.fov.reset();
 }
 
+void use_scene_view(cli::SceneOptions& options) {
+  use_scene_camera(options);
+  const cli::SceneOptions untouched;
+  lights_of(options) = lights_of(untouched);
+  options.sun.reset();
+}
+
 }  // namespace penumbra::viewer

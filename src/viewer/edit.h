@@ -25,5 +25,7 @@ void restore(const Edit& edit, Document& document, Comparison& comparison, Bookm
 
 // The scene's own camera, which `render` chooses by default.
 void use_scene_camera(cli::SceneOptions& options);
+// Its own camera, sun and lights.
+void use_scene_view(cli::SceneOptions& options);
 
 }  // namespace penumbra::viewer

@@ -54,6 +54,7 @@ PictureArea Viewer::build_interface() {
   status_window(panel, at.status);
   const ImVec2 corner(area.corner.x, area.corner.y);
   shader_errors_overlay(panel, corner);
+  no_scene_overlay(panel, {corner.x + area.size.x / 2, corner.y + area.size.y / 2}, area.size.x);
   legend_overlay(panel, {corner.x + area.size.x, corner.y}, area.size.x);
   messages_overlay(panel, {corner.x, corner.y + area.size.y}, ImGui::GetTime());
   help_overlay(panel);

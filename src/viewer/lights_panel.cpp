@@ -41,27 +41,32 @@ bool has_sun_of_file(const Panel& panel, cli::SceneOptions options) {
   return setup && setup->sun_node.has_value();
 }
 
-// Takes other lights, unless nothing would light the scene. A direction that the user gave to the file's sun goes with
-// it: alone it would call for a sun that the file does not have.
-void take_lights(const Panel& panel, cli::SceneOptions wanted) {
+// Takes other lights and returns true, unless nothing would light the scene. A direction that the user gave to the
+// file's sun goes with it: alone it would call for a sun that the file does not have.
+bool take_lights(const Panel& panel, cli::SceneOptions wanted) {
   cli::SceneOptions& options = panel.state.document.options;
   if (has_sun_of_file(panel, options) && !has_sun_of_file(panel, wanted)) wanted.sun.reset();
   if (lit_by(panel, wanted)) {
     options = std::move(wanted);
-  } else {
-    tell(panel.state, "the last light stays on: without it nothing would light the scene", ImGui::GetTime());
+    return true;
   }
+  tell(panel.state, "the last light stays on: without it nothing would light the scene", ImGui::GetTime());
+  return false;
 }
 
-// Brightness and hue apart: intensity is their product.
+// Brightness and hue apart: intensity is their product. The colour's strongest channel is always 1: else what the user
+// takes from it would be taken from the intensity, once more in each frame in which the mouse is held.
 void emission(const Panel& panel, render::LampLight& lamp) {
   float candela = std::max({lamp.intensity.r, lamp.intensity.g, lamp.intensity.b, 1e-3f});
   glm::vec3 color = lamp.intensity / candela;
   row("intensity", "Candela, of the strongest of red, green and blue.");
   const bool brighter =
       slider(panel.widgets, "lamp intensity", candela, 0.1f, 1e8f, "%.4g cd", ImGuiSliderFlags_Logarithmic);
-  row("colour", "Linear.");
-  const bool other = color_field(panel.widgets, "lamp colour", color);
+  row("colour", "Linear: hue and saturation, whose strongest channel is always 1.");
+  glm::vec3 wanted = color;
+  const bool other = color_field(panel.widgets, "lamp colour", wanted);
+  const float strongest = std::max({wanted.r, wanted.g, wanted.b});
+  if (other && strongest > 0) color = wanted / strongest;
   if (brighter || other) lamp.intensity = glm::clamp(candela * color, 0.0f, cli::brightest_lamp);
 }
 
@@ -69,9 +74,11 @@ void spot(const Panel& panel, render::LampLight& lamp) {
   bool is_spot = lamp.axis != glm::vec3(0);
   row("spot", "Shines within a cone, not in all directions.");
   if (ImGui::Checkbox("##spot", &is_spot)) {
-    lamp.axis = is_spot ? glm::vec3(0, -1, 0) : glm::vec3(0);
-    if (is_spot) lamp.outer_cone = glm::radians(40.0f);
-    lamp.inner_cone = 0.8f * lamp.outer_cone;
+    render::LampLight& last = panel.state.last_spot;
+    if (!is_spot) last = lamp;
+    lamp.axis = is_spot ? last.axis : glm::vec3(0);
+    lamp.outer_cone = last.outer_cone;
+    lamp.inner_cone = last.inner_cone;
   }
   panel.widgets.mark("lamp spot");
   if (!is_spot) return;
@@ -175,8 +182,7 @@ void remove_button(const Panel& panel, std::size_t index) {
   if (ImGui::Button("Remove lamp")) {
     cli::SceneOptions wanted = panel.state.document.options;
     wanted.lamps.erase(wanted.lamps.begin() + static_cast<std::ptrdiff_t>(index));
-    panel.state.lamp.reset();
-    take_lights(panel, std::move(wanted));
+    if (take_lights(panel, std::move(wanted))) panel.state.lamp.reset();
   }
   panel.widgets.mark("remove lamp");
 }

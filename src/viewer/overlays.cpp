@@ -60,13 +60,14 @@ constexpr std::array keys{
     Key{"P", "show values under the cursor"},
     Key{"L", "lock these values to their pixel, or unlock"},
     Key{"Tab", "show or hide panel and menus"},
-    Key{"/", "search parameters"},
+    Key{"/, Ctrl + F", "search parameters"},
     Key{"Ctrl + Z", "undo; with Shift, or Ctrl + Y: redo"},
     Key{"Ctrl + C", "copy the command line"},
     Key{"Ctrl + O", "open a scene or a preset"},
     Key{"Ctrl + S", "save view and preset"},
     Key{"F12", "write the picture"},
     Key{"F1, H", "show or hide this list"},
+    Key{"arrows, Space", "in an open list: move, and choose; in a question also Enter"},
     Key{"Escape, Ctrl + Q", "close the window; Escape first an open list"},
 };
 
@@ -132,11 +133,24 @@ void shader_errors_overlay(const Panel& panel, const ImVec2& corner) {
   if (panel.status.shader_errors.empty()) return;
   if (begin_overlay("shader errors", inner(corner, 1, 1), {0, 0})) {
     ImGui::PushTextWrapPos(wrap_width(44.0f, ImGui::GetIO().DisplaySize.x - corner.x));
-    ImGui::TextColored({1.0f, 0.45f, 0.38f, 1}, "A shader does not compile. Its last good version is used.");
+    ImGui::TextColored({1.0f, 0.45f, 0.38f, 1}, "%s",
+                       panel.status.undrawable ? "A shader does not compile. Nothing is drawn until it does."
+                                               : "A shader does not compile. Its last good version is used.");
     for (const std::string& error : panel.status.shader_errors) ImGui::TextUnformatted(error.c_str());
     ImGui::PopTextWrapPos();
   }
   end_overlay(panel, "shader errors");
+}
+
+void no_scene_overlay(const Panel& panel, const ImVec2& middle, float room) {
+  if (panel.status.scene != nullptr || panel.status.load_error.empty()) return;
+  if (begin_overlay("no scene", middle, {0.5f, 0.5f})) {
+    ImGui::PushTextWrapPos(wrap_width(40.0f, room));
+    ImGui::TextColored({1.0f, 0.45f, 0.38f, 1}, "%s", panel.status.load_error.c_str());
+    ImGui::TextUnformatted("The file is read again when it is saved. Ctrl + O opens another one.");
+    ImGui::PopTextWrapPos();
+  }
+  end_overlay(panel, "no scene");
 }
 
 namespace {
@@ -248,7 +262,7 @@ std::vector<StatusPart> status_parts(const Panel& panel) {
     if (detail.reads > 1) parts.push_back({2, fmt::format("taps 1/{}", detail.reads)});
     if (status.costs_a.frame() > 0) parts.push_back({4, fmt::format("{:.1f} ms", status.costs_a.frame())});
     parts.push_back({1, session::technique_label(panel.state.document.params)});
-    parts.push_back({5, status.idle ? "idle" : text_of(status.progress)});
+    parts.push_back({5, status.undrawable ? "not drawn" : status.idle ? "idle" : text_of(status.progress)});
   }
   if (status.device.software) parts.push_back({0, "software rasteriser"});
   return parts;
@@ -276,6 +290,7 @@ void status_bar(const Panel& panel) {
   ImGui::TextUnformatted(text.c_str());
   panel.widgets.mark("status");
   if (text.find("history reset") != std::string::npos) panel.widgets.mark("history reset");
+  if (panel.status.undrawable) panel.widgets.mark("not drawn");
   if (text != whole) tooltip(whole);
 
   const char* help = "F1 keys";
@@ -296,7 +311,12 @@ namespace {
 std::string without_middle(const std::string& text) {
   constexpr std::size_t most = 600;
   if (text.size() <= most) return text;
-  return text.substr(0, most / 2) + " ... " + text.substr(text.size() - most / 2);
+  // Characters of UTF-8 go on with bytes 10xxxxxx.
+  const auto begins = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xc0U) != 0x80U; };
+  std::size_t first = most / 2, last = text.size() - most / 2;
+  while (!begins(first)) --first;
+  while (!begins(last)) ++last;
+  return text.substr(0, first) + " ... " + text.substr(last);
 }
 
 void add(UiState& state, Message message) {

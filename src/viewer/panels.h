@@ -55,6 +55,8 @@ void closing_question(const Panel& panel);
 void help_overlay(const Panel& panel);
 void messages_overlay(const Panel& panel, const ImVec2& lower_left, double now);
 void shader_errors_overlay(const Panel& panel, const ImVec2& upper_left);
+// Why a window is empty.
+void no_scene_overlay(const Panel& panel, const ImVec2& middle, float room);
 void legend_overlay(const Panel& panel, const ImVec2& upper_right, float picture_width);
 // At the window's lower edge.
 void status_bar(const Panel& panel);

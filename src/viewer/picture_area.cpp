@@ -86,9 +86,13 @@ bool drag_line(const Panel& panel, const PictureArea& area, bool active) {
 }
 
 // A label on a dark backdrop, so that it can be read over bright and dark pictures: from `left` to `right`, at one of
-// these ends. If it has to be shortened, all of it is in a tooltip.
-void label(const Panel& panel, const std::string& text, float left, float right, float top, bool at_right = false) {
-  const std::string shown = shortened(text, right - left);
+// these ends. If it has to be shortened, all of it is in a tooltip; `kept` at its end is cut off last.
+void label(const Panel& panel, const std::string& name, float left, float right, float top, bool at_right = false,
+           const std::string& kept = "") {
+  const std::string text = name + kept;
+  const float room = right - left, width = ImGui::CalcTextSize(kept.c_str()).x;
+  const bool fits = width + ImGui::CalcTextSize("B: ...").x < room;
+  const std::string shown = fits ? shortened(name, room - width) + kept : shortened(text, room);
   if (shown.empty()) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 size = ImGui::CalcTextSize(shown.c_str());
@@ -106,8 +110,8 @@ void draw_line(const Panel& panel, const PictureArea& area) {
   const float top = area.corner.y, bottom = area.corner.y + area.size.y, gap = ImGui::GetFontSize();
   const float left = area.corner.x + gap, right = area.corner.x + area.size.x - gap;
   const std::string a = "A: " + session::technique_label(panel.state.document.params);
-  const std::string b =
-      "B: " + session::technique_label(comparison.params) + (panel.status.b_is_old ? " (not drawn yet)" : "");
+  const std::string b = "B: " + session::technique_label(comparison.params);
+  const std::string old = panel.status.b_is_old ? " (not drawn yet)" : "";
   float line = -1;
   if (comparison.how == CompareMode::wipe) line = area.corner.x + comparison.wipe * area.size.x;
   if (comparison.how == CompareMode::side_by_side) line = area.corner.x + 0.5f * area.size.x;
@@ -115,11 +119,11 @@ void draw_line(const Panel& panel, const PictureArea& area) {
     ImGui::GetWindowDrawList()->AddLine({line, top}, {line, bottom}, IM_COL32(255, 255, 255, 200), 1.0f);
     panel.widgets.mark("line", {line - grip, top}, {line + grip, bottom});
     label(panel, a, left, line - gap, bottom - 2 * gap, /* at_right= */ true);
-    label(panel, b, line + gap, right, bottom - 2 * gap);
+    label(panel, b, line + gap, right, bottom - 2 * gap, /* at_right= */ false, old);
   } else {
     const std::string difference = fmt::format("|A - B| × {:.0f}", comparison.gain);
     const std::string& name = comparison.how == CompareMode::a ? a : comparison.how == CompareMode::b ? b : difference;
-    label(panel, name, left, right, bottom - 2 * gap);
+    label(panel, name, left, right, bottom - 2 * gap, /* at_right= */ false, &name == &b ? old : "");
   }
 }
 
@@ -173,17 +177,36 @@ void take_letters_with_ctrl(UiState& state) {
   if (letter_pressed('s')) state.requests.save = true;
   if (letter_pressed('c')) state.requests.copy_command = true;
   if (letter_pressed('o')) state.open_files();
+  if (letter_pressed('f')) state.panel = state.focus_search = true;
   if (letter_pressed('q')) state.requests.quit = true;
   const bool z = letter_pressed('z');
   if (z && !io.KeyShift) state.requests.undo = true;
   if ((z && io.KeyShift) || letter_pressed('y')) state.requests.redo = true;
 }
 
+// Shift with a digit is "/" on some keyboards.
 void take_digits(const Panel& panel) {
+  if (ImGui::GetIO().KeyShift || ImGui::GetIO().KeyAlt) return;
   for (int i = 0; i < static_cast<int>(panel.state.bookmarks.size()); ++i) {
     if (!ImGui::IsKeyPressed(GLFW_KEY_1 + i, /* repeat= */ false)) continue;
     (ImGui::GetIO().KeyCtrl ? store_bookmark : use_bookmark)(panel, static_cast<std::size_t>(i));
   }
+}
+
+// Keys that stand alone.
+void take_letters(const Panel& panel) {
+  UiState& state = panel.state;
+  const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, /* repeat= */ false); };
+  if (pressed(GLFW_KEY_H)) state.help = !state.help;
+  if (pressed(GLFW_KEY_TAB)) state.panel = !state.panel;
+  if (pressed(GLFW_KEY_F)) state.fly = !state.fly;
+  if (pressed(GLFW_KEY_T)) toggle_cascade_tint(state.inspection);
+  if (pressed(GLFW_KEY_P)) state.probe = !state.probe;
+  if (pressed(GLFW_KEY_L)) toggle_lock(panel);
+  if (pressed(GLFW_KEY_0)) state.zoom = {};
+  if (pressed(GLFW_KEY_C)) state.compare(!state.comparison.on);
+  if (pressed(GLFW_KEY_X) && state.comparison.on)
+    state.comparison.how = state.comparison.how == CompareMode::a ? CompareMode::b : CompareMode::a;
 }
 
 void take_time_keys(const Panel& panel) {
@@ -239,6 +262,7 @@ PictureArea picture_area(const Panel& panel, const gl::Texture* shown) {
 void take_keys(const Panel& panel, float seconds) {
   UiState& state = panel.state;
   if (ImGui::GetIO().WantTextInput || state.closing.asks) return;
+  const ImGuiIO& io = ImGui::GetIO();
   const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, /* repeat= */ false); };
   if (pressed(GLFW_KEY_ESCAPE)) {
     if (state.help) {
@@ -247,20 +271,14 @@ void take_keys(const Panel& panel, float seconds) {
       state.requests.quit = true;
     }
   }
-  if (pressed(GLFW_KEY_F1) || pressed(GLFW_KEY_H)) state.help = !state.help;
+  if (pressed(GLFW_KEY_F1)) state.help = !state.help;
   if (pressed(GLFW_KEY_F12)) state.requests.write_picture = true;
-  if (pressed(GLFW_KEY_TAB)) state.panel = !state.panel;
-  if (pressed(GLFW_KEY_SLASH)) state.panel = state.focus_search = true;
-  if (pressed(GLFW_KEY_F)) state.fly = !state.fly;
-  if (pressed(GLFW_KEY_T)) toggle_cascade_tint(state.inspection);
-  if (pressed(GLFW_KEY_P)) state.probe = !state.probe;
-  if (pressed(GLFW_KEY_L)) toggle_lock(panel);
-  if (pressed(GLFW_KEY_0)) state.zoom = {};
-  if (pressed(GLFW_KEY_HOME)) state.requests.frame_casters = true;
-  if (pressed(GLFW_KEY_C) && !ImGui::GetIO().KeyCtrl) state.compare(!state.comparison.on);
-  if (pressed(GLFW_KEY_X) && state.comparison.on)
-    state.comparison.how = state.comparison.how == CompareMode::a ? CompareMode::b : CompareMode::a;
   take_letters_with_ctrl(state);
+  if (state.popup_open) return;
+  // As typed: the key is another one on each kind of keyboard.
+  if (io.InputQueueCharacters.contains('/')) state.panel = state.focus_search = true;
+  if (pressed(GLFW_KEY_HOME)) state.requests.frame_casters = true;
+  if (!io.KeyCtrl && !io.KeyAlt) take_letters(panel);
   take_digits(panel);
   take_time_keys(panel);
   fly(panel, seconds);

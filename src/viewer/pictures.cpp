@@ -116,7 +116,29 @@ std::optional<Viewer::PictureWork> Viewer::plan_pictures(const PictureArea& area
     work.plan.a = work.plan.b = {};
     work.plan.at_rest = false;
   }
+  mind_failures(work.plan);
   return work;
+}
+
+// What could not be drawn is not tried again until something changes: each try would compile the shader that fails.
+void Viewer::mind_failures(FramePlan& plan) {
+  const bool failed = failed_.shaders == device_.device.shaders.changes();
+  // A shader that was saved with an error has a last good version in full detail alone.
+  if (failed && failed_.reduced) plan.detail = {};
+  status_.undrawable = failed && failed_.full == wishes();
+  if (!status_.undrawable) return;
+  plan.a = plan.b = {};
+  plan.at_rest = false;
+}
+
+void Viewer::note_failure(const Detail& detail) {
+  const std::uint64_t shaders = device_.device.shaders.changes();
+  if (failed_.shaders != shaders) failed_ = {.shaders = shaders};
+  if (detail == Detail{}) {
+    failed_.full = wishes();
+  } else {
+    failed_.reduced = true;
+  }
 }
 
 void Viewer::draw_pictures(const PictureWork& work) {
@@ -202,7 +224,7 @@ void Viewer::draw_sides(std::span<const SideWork> work, const Detail& detail) {
   }
   last_draw_ = ImGui::GetTime();
   probe_is_old_ = true;
-  if (!readable_) return;
+  if (!readable_) return note_failure(detail);
   pacing_.drew(detail, milliseconds, turn_.beside());
   turn_.drew(milliseconds);
   status_.detail = detail;

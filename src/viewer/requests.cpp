@@ -49,7 +49,7 @@ void Viewer::do_requests() {
     if (wanted.undo || wanted.redo) go_back(wanted.redo);
     if (wanted.copy_command && scene_ != nullptr) copy_command();
     if (wanted.copy_camera && scene_ != nullptr) copy_camera();
-    if (wanted.save && scene_ != nullptr) save();
+    if (wanted.save) save();
     if (wanted.closing) answer_closing(*wanted.closing);
   });
 }
@@ -87,9 +87,11 @@ void Viewer::open_preset(const std::string& file) {
     fail("cannot read {}: it is a pipe, and the window would wait for it", io::quoted(file));
   cli::ShadowOptions options;
   options.presets = {file};
-  state_.document.params = cli::resolve_params(options, session::all_techniques());
+  const ParamSet before =
+      std::exchange(state_.document.params, cli::resolve_params(options, session::all_techniques()));
   if (is_preset(file)) {
     note_preset(file);
+    saved_.before = before;
   } else {
     saved_.preset.clear();  // one of the program's own is no file to save to
   }
@@ -106,6 +108,8 @@ void Viewer::save_preset(const std::string& file, bool overwrite) {
   std::error_code unread;
   if (!overwrite && std::filesystem::exists(file, unread)) {
     state_.overwrite = {true, file};
+    state_.panel = true;
+    state_.tab = "Shadow";  // which asks
     return;
   }
   io::write_preset(file, state_.document.params);
@@ -169,8 +173,11 @@ void Viewer::note_edit() {
 void Viewer::go_back(bool redo) {
   if (ImGui::IsAnyItemActive()) return;  // the user holds what would change
   const Edit now = present_edit();
-  if (const std::optional<Edit> edit = redo ? history_.redo(now) : history_.undo(now))
-    restore(*edit, state_.document, state_.comparison, state_.bookmarks);
+  const std::optional<Edit> edit = redo ? history_.redo(now) : history_.undo(now);
+  if (!edit) return;
+  restore(*edit, state_.document, state_.comparison, state_.bookmarks);
+  // With the values from before a preset was opened, it is not open.
+  if (!redo && state_.document.params == saved_.before) saved_.preset.clear();
 }
 
 void Viewer::copy_camera() {

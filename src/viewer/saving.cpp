@@ -1,5 +1,6 @@
 // What the user saves: the view beside the scene, and the open preset. Closing the window asks before it loses them,
 // and so does opening another scene.
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <filesystem>
@@ -9,6 +10,7 @@
 
 #include "core/error.h"
 #include "io/output_file.h"
+#include "session/techniques.h"
 #include "viewer/view_file.h"
 #include "viewer/viewer.h"
 
@@ -23,6 +25,12 @@ void Viewer::take_view() {
   if (const std::optional<SavedView> view = read_view(options.scene, view_fault_)) {
     use_view(view->options, options);
     state_.bookmarks = view->bookmarks;
+    try {
+      session::update_view(scene_->prepared, options);
+    } catch (const Error& error) {
+      leave_out_unknown();
+      tell_error(state_, fmt::format("{}: {}", io::quoted(view_file(options.scene)), error.what()), ImGui::GetTime());
+    }
   }
   if (!view_fault_.empty()) tell_error(state_, view_fault_, ImGui::GetTime());
 }
@@ -32,6 +40,7 @@ void Viewer::note_saved_view() { saved_.view = present_edit(); }
 void Viewer::note_preset(const std::string& file) {
   state_.preset_file = saved_.preset = file;
   saved_.params = state_.document.params;
+  saved_.before = {};
 }
 
 // A preset that the command line names alone can be saved as one that was opened in the window.
@@ -65,14 +74,18 @@ void Viewer::save_view() {
 
 void Viewer::save() {
   if (options_.defaults) fail("nothing is saved: --defaults was given");
-  save(/* view= */ scene_ != nullptr, status_.unsaved.preset);
+  if (scene_ == nullptr && saved_.preset.empty()) fail("nothing is saved: no scene and no preset file is open");
+  // Another technique or preset may have been chosen only to look at it.
+  const auto selected = [](const ParamSet& params) { return session::technique_label(params); };
+  const bool same = saved_.preset.empty() || selected(state_.document.params) == selected(saved_.params);
+  save(/* view= */ scene_ != nullptr, status_.unsaved.preset, /* overwrite= */ same);
 }
 
 // Where one of them can't be written, the other one is.
-void Viewer::save(bool view, bool preset) {
+void Viewer::save(bool view, bool preset, bool overwrite) {
   std::string fault;
   try {
-    if (preset) save_preset(saved_.preset, /* overwrite= */ true);
+    if (preset) save_preset(saved_.preset, overwrite);
   } catch (const Error& error) {
     fault = error.what();
   }
@@ -104,7 +117,7 @@ void Viewer::answer_closing(ClosingAnswer answer) {
     open(state_.closing.scene);
     return;
   }
-  if (answer == ClosingAnswer::save) save(status_.unsaved.view, status_.unsaved.preset);
+  if (answer == ClosingAnswer::save) save(status_.unsaved.view, status_.unsaved.preset, /* overwrite= */ true);
   // The parameters that the next run begins with.
   if (answer == ClosingAnswer::discard && status_.unsaved.preset) state_.document.params = saved_.params;
   ended_ = true;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "render/view.h"
 #include "viewer/bookmarks.h"
 #include "viewer/comparison.h"
 #include "viewer/document.h"
@@ -84,6 +85,9 @@ struct UiState {
   bool dragging_line = false;          // the user drags the line between A and B
   // The lamp whose properties are shown, and the one that the mouse drags.
   std::optional<LampName> lamp, dragged_lamp;
+  // Whose axis and cones a lamp gets that becomes a spot: those of the one that was last made a lamp that shines all
+  // round.
+  render::LampLight last_spot{.axis = {0, -1, 0}, .inner_cone = 0.5585f, .outer_cone = 0.6981f};
   std::optional<glm::ivec2> locked_pixel;  // whose values stay, wherever the cursor is
   bool popup_open = false;                 // a list was open in the last frame: Escape closes it
   bool panel = true, help = false, probe = true, vsync = true;

@@ -49,6 +49,8 @@ struct ViewerStatus {
   Unsaved unsaved;
   std::string saved_to, preset;  // the files that saving writes: the view's and, or empty, the open preset's
   std::vector<std::string> shader_errors;
+  bool undrawable = false;                      // the picture failed, and will until it or a shader changes
+  std::string load_error;                       // why the last scene could not be read; empty: it could
   std::optional<double> writing;                // share of the files that are written
   std::string command;                          // the command line that draws this picture
   std::optional<double> tracing;                // share of the ray-traced picture that is done

@@ -22,10 +22,12 @@ namespace {
 
 volatile std::sig_atomic_t caught_signal = 0;
 
-void end_on_signals() {
+void set_signals() {
   struct sigaction action {};
   action.sa_handler = [](int number) { caught_signal = number; };
   for (const int signal : cli::ending_signals()) sigaction(signal, &action, nullptr);
+  // If it is ignored, nobody learns the exit code of a program that writes a picture.
+  std::signal(SIGCHLD, SIG_DFL);
 }
 
 // The document of the command line.
@@ -93,7 +95,7 @@ Viewer::Viewer(ViewOptions options)
 Viewer::~Viewer() { truth_.stop(); }
 
 int Viewer::run() {
-  end_on_signals();
+  set_signals();
   const std::string scene = first_scene(options_, settings_);
   state_.document.options.scene = options_.scene = scene;
   if (!scene.empty()) open(scene);
@@ -192,7 +194,9 @@ void Viewer::attend() {
 
 void Viewer::take_events() {
   for (const std::string& path : window_.dropped()) {
-    (is_preset(path) ? state_.requests.open_preset : state_.requests.open) = path;
+    std::optional<std::string>& taken = is_preset(path) ? state_.requests.open_preset : state_.requests.open;
+    if (taken) tell(state_, "of the files dropped together, only the last is opened", ImGui::GetTime());
+    taken = path;
   }
   take_loaded();
   take_saved();
@@ -200,9 +204,21 @@ void Viewer::take_events() {
   status_.command = cli::command_text("penumbra", command());
 }
 
+// The scene that has been read, if one has. Why one could not be read stays in a window without a scene.
+std::optional<SceneLoader::Loaded> Viewer::finished_scene() {
+  try {
+    std::optional<SceneLoader::Loaded> loaded = loader_.finished();
+    if (loaded || !loader_.file().empty()) status_.load_error.clear();
+    return loaded;
+  } catch (const Error& error) {
+    status_.load_error = error.what();
+    throw;
+  }
+}
+
 void Viewer::take_loaded() {
   guarded([&] {
-    std::optional<SceneLoader::Loaded> loaded = loader_.finished();
+    std::optional<SceneLoader::Loaded> loaded = finished_scene();
     status_.loading = loader_.file().empty() ? "" : std::filesystem::path(loader_.file()).filename().string();
     if (!loaded) return;
     truth_.stop();
@@ -244,6 +260,10 @@ void Viewer::take_saved() {
       return std::find(changed.begin(), changed.end(), file) != changed.end();
     };
     const cli::SceneOptions& shown = state_.document.options;
+    // Lights and cameras may be others now: update_view() chooses them once the scene is read.
+    cli::SceneOptions again = shown;
+    again.lights.reset();
+    again.camera.reset();
     const cli::SceneOptions& asked = loader_.asked();
     // Another scene is being read, or could not be.
     const bool is_other = scene_ == nullptr || asked.scene != shown.scene;
@@ -251,7 +271,7 @@ void Viewer::take_saved() {
       loader_.start(asked);
     } else if (scene_ != nullptr && (!is_other || loader_.file().empty())) {
       const std::vector<std::filesystem::path>& files = scene_->prepared.scene.files;
-      if (std::any_of(files.begin(), files.end(), is_saved)) loader_.start(shown);
+      if (std::any_of(files.begin(), files.end(), is_saved)) loader_.start(again);
     }
     if (!changed.empty() && !options_.glsl.empty()) take_shaders(changed);
   });
@@ -285,8 +305,35 @@ void Viewer::update_view() {
   options.size = {window_size_.x, window_size_.y};
   std::string wanted = cli::command_text("", scene_arguments(options));
   if (wanted == view_options_) return;
-  view_options_ = std::move(wanted);  // first: what can't be chosen is told once
-  session::update_view(scene_->prepared, options);
+  try {
+    session::update_view(scene_->prepared, options);
+  } catch (const Error& error) {
+    leave_out_unknown();
+    tell_error(state_, fmt::format("{}: {}", options.scene, error.what()), ImGui::GetTime());
+    wanted = cli::command_text("", scene_arguments(options));
+  }
+  view_options_ = std::move(wanted);
+}
+
+// Leaves out of the view what the scene lacks: lights or a camera that were saved with it, or chosen before it was
+// saved with others. Where that does not help, the view is the scene's own.
+void Viewer::leave_out_unknown() {
+  const cli::SceneOptions chosen = state_.document.options;
+  cli::SceneOptions without_lights = chosen, without_camera = chosen, without_both = chosen, own = chosen;
+  without_lights.lights.reset();
+  without_camera.camera.reset();
+  without_both.lights.reset();
+  without_both.camera.reset();
+  use_scene_view(own);
+  for (const cli::SceneOptions& fitting : {without_lights, without_camera, without_both, own}) {
+    try {
+      session::update_view(scene_->prepared, fitting);
+      state_.document.options = fitting;
+      return;
+    } catch (const Error&) {
+      continue;
+    }
+  }
 }
 
 }  // namespace penumbra::viewer

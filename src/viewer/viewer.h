@@ -84,6 +84,12 @@ class Viewer {
 
     bool operator==(const Wishes&) const = default;
   };
+  // What could not be drawn.
+  struct Failed {
+    std::optional<std::uint64_t> shaders = {};  // with what ShaderLibrary::changes() counted then
+    bool reduced = false;                       // in less than full detail
+    std::optional<Wishes> full = {};            // in full detail, for these
+  };
   // What a frame does for one of them.
   struct SideWork {
     Side& side;
@@ -97,6 +103,7 @@ class Viewer {
   void begin_interface();
   void show_interface();
   void take_events();
+  std::optional<SceneLoader::Loaded> finished_scene();
   void take_loaded();
   void take_saved();
   void take_shaders(std::span<const std::filesystem::path> changed);
@@ -108,6 +115,8 @@ class Viewer {
   void status_window(const Panel& panel, const Box& box);
   PictureArea picture_window(const Panel& panel, const Box& box);
   std::optional<PictureWork> plan_pictures(const PictureArea& area, double now);
+  void mind_failures(FramePlan& plan);
+  void note_failure(const Detail& detail);
   void draw_pictures(const PictureWork& work);
   void draw_at_rest(const PictureWork& work);
   Wishes wishes() const;
@@ -152,7 +161,7 @@ class Viewer {
   void update_unsaved();
   void save_view();
   void save();
-  void save(bool view, bool preset);
+  void save(bool view, bool preset, bool overwrite);
   bool closes();
   bool leaves_scene_for(const std::string& scene);
   void answer_closing(ClosingAnswer answer);
@@ -164,6 +173,7 @@ class Viewer {
   void take_settings();
   void keep_settings();
   void update_view();
+  void leave_out_unknown();
   // Runs an action; an Error that it throws becomes a message to the user.
   void guarded(const std::function<void()>& action);
 
@@ -211,6 +221,7 @@ class Viewer {
   bool attending_ = false;       // a picture is being drawn, between two of its passes
   bool vsync_ = true;
   bool interface_changed_ = true;  // the last frame of the interface differed from the one before
+  Failed failed_;
   double last_draw_ = 0;
   double history_began_ = -1e9;  // when A's last history began, seconds
   TurnClock turn_;

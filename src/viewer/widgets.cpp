@@ -1,5 +1,7 @@
 #include "viewer/widgets.h"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -180,6 +182,11 @@ bool choice(const std::string& text, bool chosen, ImGuiSelectableFlags flags) {
   ImGui::GetWindowDrawList()->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), shown.c_str());
   if (shown != text) tooltip(text);
   return taken;
+}
+
+bool enter_on_item() {
+  const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, /* repeat= */ false); };
+  return ImGui::IsItemFocused() && (pressed(GLFW_KEY_ENTER) || pressed(GLFW_KEY_KP_ENTER));
 }
 
 void show_tooltip(const std::string& text) {

@@ -74,5 +74,7 @@ void same_line_for(const char* label, bool has_box = false);
 // A selectable line of a list with any text: ImGui's own would end it at "##". A text that is too long for the window
 // is shortened, with all of it in a tooltip. Returns whether it was clicked.
 bool choice(const std::string& text, bool chosen = false, ImGuiSelectableFlags flags = 0);
+// Whether the user presses Enter while the item that was drawn last has the keyboard's focus. ImGui itself takes Space.
+bool enter_on_item();
 
 }  // namespace penumbra::viewer

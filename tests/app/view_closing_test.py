@@ -171,6 +171,47 @@ class Closing(WindowTest):
             self.answer(viewer, "Discard")
             self.assertEqual(viewer.exit_code(), 0)
 
+    def test_lights_of_a_saved_view_that_the_scene_lacks_are_left_out(self):
+        self.saved.write_text('{"view": ["--sun=20,40", "--lights=0,1,2"], "bookmarks": {}}')
+        with self.view("mine.glb") as viewer:
+            viewer.wait_for(lambda: viewer.has("messages"), "a message")
+            before = viewer.rest()
+            self.assertEqual(self.place(viewer), ["--sun=20,40"])
+            self.assertEqual(self.place(viewer, "--lights"), [])
+            self.drag(viewer, LEFT, "--eye")
+            self.assertGreater(viewer.changed(before).differing(before, by=8), 0.01)
+
+    def test_enter_answers_the_question(self):
+        with self.view("mine.glb") as viewer:
+            sun = self.drag(viewer, RIGHT, "--sun")
+            self.ask(viewer, "Escape")
+            viewer.tap("Return")
+            self.assertEqual(viewer.exit_code(), 0)
+        self.assertEqual(json.loads(self.saved.read_text())["view"], sun)
+
+    def test_a_preset_file_is_overwritten_by_what_it_was_opened_as_alone(self):
+        preset = self.folder / "preset.toml"
+        first = 'technique = "pcf"  # mine\n'
+        preset.write_text(first)
+        with self.view("mine.glb", maps=()) as viewer:
+            self.desktop.client.drop(viewer.window, *viewer.middle("picture"), preset)
+            viewer.wait_for(lambda: "--technique=pcf" in viewer.copied(), "the preset")
+            viewer.tap("ctrl+z")
+            viewer.wait_for(lambda: "--technique=pcf" not in viewer.copied(), "what was there before")
+            viewer.tap("ctrl+s")
+            viewer.wait_for(self.saved.exists, "the view")
+            viewer.follow()
+            self.assertEqual(preset.read_text(), first)
+            self.desktop.client.drop(viewer.window, *viewer.middle("picture"), preset)
+            viewer.wait_for(lambda: "--technique=pcf" in viewer.copied(), "the preset")
+            viewer.choose("technique", "none")
+            viewer.open_tab("Scene", "eye")
+            viewer.tap("ctrl+s")
+            viewer.wait_for(lambda: viewer.has("overwrite preset"), "the question")
+            self.assertEqual(preset.read_text(), first)
+            viewer.click("overwrite preset", lambda: preset.read_text() != first, "the file")
+        self.assertIn('"none"', preset.read_text())
+
     def test_a_preset_is_saved_where_the_view_cannot_be(self):
         broken = '{"view": ["--eye=nan,0,0", "--target=0,0,0"]}'
         self.saved.write_text(broken)

@@ -94,6 +94,28 @@ class Lights(WindowTest):
         viewer.move(left + (right - left) // 6, (top + bottom) // 2)
         viewer.follow()
 
+    def test_a_colour_that_is_dragged_leaves_the_intensity(self):
+        with self.view(STEPS, "--lamp=0,3,0:cd=1000:rgb=1,0.5,0", size=(800, 700)) as viewer:
+            viewer.open_tab("Scene", "eye")
+            viewer.click("entry of lamp 0", lambda: viewer.has("lamp colour"), "its colour")
+            left, top, right, bottom = viewer.box("lamp colour")
+            lamp = [word for word in viewer.copied() if word.startswith("--lamp=")]
+            for x in (left + 20, left + (right - left) // 3 + 20):  # red, the strongest, and green
+                viewer.move(x, (top + bottom) // 2)
+                self.desktop.xdotool("mousedown", LEFT)
+                for step in range(1, 12):
+                    viewer.follow()
+                    viewer.move(x - 4 * step, (top + bottom) // 2)
+                viewer.follow()
+                self.desktop.xdotool("mouseup", LEFT)
+                viewer.follow()
+            (changed,) = [word for word in viewer.copied() if word.startswith("--lamp=")]
+            self.assertNotEqual([changed], lamp)
+            colour = [float(number) for number in re.search(r"rgb=([^:]+)", changed)[1].split(",")]
+            candela = float(re.search(r"cd=([^:]+)", changed)[1]) if "cd=" in changed else 100.0
+            self.assertAlmostEqual(candela * max(colour), 1000, delta=0.1)
+            self.assertLess(candela * colour[1], 499)
+
     def test_a_place_is_dragged_slowly_and_typed_exactly(self):
         with self.view(STEPS, "--technique", "none", "--lamp=1,2.34567,0.5", size=(800, 700)) as viewer:
             viewer.open_tab("Scene", "eye")

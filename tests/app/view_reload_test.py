@@ -4,6 +4,8 @@ import os
 import random
 import time
 
+from desktop import LEFT
+from pictures import scene
 from support import ROOT, main
 from window import KNIFE_EDGE, STEPS, WindowTest
 
@@ -83,6 +85,26 @@ class Reload(WindowTest):
             in_place(self.glsl / INCLUDE, self.texts[INCLUDE])
             viewer.wait_for(lambda: viewer.rest() == wanted, "the scene")
 
+    def test_a_camera_moves_though_less_detail_was_never_compiled(self):
+        with self.view() as viewer:
+            before = viewer.rest()
+            in_place(self.glsl / "shadow/search.glsl", self.texts["shadow/search.glsl"] + "float broken( { ;\n")
+            viewer.wait_for(lambda: viewer.has("shader errors"), "the fault")
+            seen = self.below(before, viewer)
+            viewer.drag(*viewer.middle("picture"), LEFT, lambda: self.below(viewer.picture(), viewer) != seen, "another picture")
+            self.assertGreater(self.below(viewer.rest(), viewer).differing(seen, by=8), 0.005)
+
+    def test_what_cannot_be_drawn_at_all_is_not_tried_again_and_again(self):
+        with self.view() as viewer:
+            before = viewer.rest()
+            in_place(self.glsl / "shadow/search.glsl", self.texts["shadow/search.glsl"] + "float broken( { ;\n")
+            viewer.wait_for(lambda: viewer.has("shader errors"), "the fault")
+            viewer.choose("technique", "slices")
+            viewer.wait_for(lambda: viewer.has("not drawn"), "no further try")
+            in_place(self.glsl / "shadow/search.glsl", self.texts["shadow/search.glsl"])
+            viewer.wait_for(lambda: not viewer.has("shader errors"), "no faults")
+            self.assertNotEqual(viewer.rest(), before)
+
     def test_three_hundred_saves(self):
         seed = int(os.environ.get("PENUMBRA_SEED", 7))
         dice = random.Random(seed)
@@ -131,9 +153,10 @@ class Scene(WindowTest):
         file.write_bytes(STEPS.read_bytes()[:1000])
         wanted = self.picture_of(STEPS)
         with self.view(file, rests=False) as viewer:
-            viewer.wait_for(lambda: viewer.has("messages"), "a message")
+            viewer.wait_for(lambda: viewer.has("no scene"), "why there is none")
             file.write_bytes(STEPS.read_bytes())
             viewer.wait_for(lambda: viewer.rest() == wanted, "the scene")
+            self.assertFalse(viewer.has("no scene"))
 
     def test_a_scene_that_could_not_take_the_place_of_the_last_does_so_once_it_is_mended(self):
         file = self.folder / "scene.glb"
@@ -145,6 +168,18 @@ class Scene(WindowTest):
             viewer.wait_for(lambda: viewer.has("messages"), "a message")
             file.write_bytes(KNIFE_EDGE.read_bytes())
             self.assertEqual(viewer.changed(before), wanted)
+
+    def test_a_scene_that_is_saved_again_with_fewer_lights_is_shown(self):
+        file = self.folder / "scene.glb"
+        file.write_bytes(scene("gallery").read_bytes())
+        wanted = self.picture_of(STEPS)
+        with self.view(file) as viewer:
+            viewer.open_tab("Scene", "eye")
+            gallery = viewer.rest()
+            viewer.click("light=1", lambda: any(word.startswith("--lights=") for word in viewer.copied()), "other lights")
+            file.write_bytes(STEPS.read_bytes())
+            viewer.wait_for(lambda: viewer.rest() == wanted, "the scene")
+            self.assertNotEqual(gallery, wanted)
 
     def test_a_scene_that_is_saved_again_is_shown(self):
         file = self.folder / "scene.glb"

@@ -46,6 +46,22 @@ class Size(WindowTest):
             viewer.type("cascades.count")
             viewer.wait_for(lambda: viewer.has("cascades.count"), "the parameter that was searched for")
 
+    def test_a_slash_on_any_keyboard_and_ctrl_f_search(self):
+        with self.view(STEPS) as viewer:
+            viewer.rest()
+            for layout, key in (("us", "slash"), ("de", "shift+7"), ("us", "ctrl+f")):
+                with self.subTest(layout=layout, key=key):
+                    self.desktop.keyboard(layout)
+                    viewer.open_tab("Scene", "eye")
+                    viewer.press(key, lambda: viewer.has("search"), "the search")
+                    viewer.follow()
+                    viewer.type("cascades.count")
+                    viewer.wait_for(lambda: viewer.has("cascades.count") and not viewer.has("maps.layers"),
+                                    "what was searched for")
+                    self.assertFalse(viewer.has("messages"))
+                    viewer.tap("Escape")
+                    viewer.follow()
+
     def test_windows_too_small_for_anything(self):
         with self.view(STEPS) as viewer:
             before = viewer.rest()

@@ -144,6 +144,10 @@ class Desktop:
     def xdotool(self, *arguments):
         return self._xdotool(*arguments).stdout.strip()
 
+    def keyboard(self, layout):
+        """Makes it a keyboard of that layout, such as "de"."""
+        subprocess.run(["setxkbmap", layout], check=True, env=self.environment(), timeout=PATIENCE)
+
     def find_window(self, process):
         found = self._xdotool("search", "--onlyvisible", "--pid", process, check=False).stdout.split()
         return int(found[-1]) if found else None
