@@ -52,9 +52,14 @@ PixelNoise noise_of(Receiver receiver) {
 const float golden = 0.61803399;
 const vec2 plastic = vec2(0.75487767, 0.56984029);
 
+// Metres: the least number that counts, and less where a scene is so small that texels are.
+float least_length(float most, float share, Receiver receiver, Light light) {
+  return min(most, share * texel_size(receiver, light));
+}
+
 // The distance from a receiver, metres, at which rays to the light's rim are that high above it; not 0.
 float rim_radius(Receiver receiver, float height, Light light) {
-  return max(penumbra_radius(receiver, height, light), 1e-6);
+  return max(penumbra_radius(receiver, height, light), least_length(1e-6, 1e-3, receiver, light));
 }
 
 struct Slice {
@@ -66,7 +71,10 @@ struct Slice {
 // The mean height of blockers, metres along the light, is that of their heights; with two layers their harmonic mean,
 // because of a near and a far caster at one place the near one makes the narrower penumbra, which must not be blurred.
 // Heights below the bias are not known.
-float height_term(float height, float bias) { return maps_layers == 2 ? 1.0 / max(height, max(bias, 1e-4)) : height; }
+float height_term(Receiver receiver, float height, float bias, Light light) {
+  if (maps_layers == 1) return height;
+  return 1.0 / max(height, max(bias, least_length(1e-4, 0.1, receiver, light)));
+}
 float mean_height(float height_sum, float blockers) {
   return maps_layers == 2 ? blockers / height_sum : max(height_sum / blockers, 0.0);
 }
@@ -111,7 +119,7 @@ Blocker add_texel(inout Slice slice, Receiver receiver, float depth, float block
   float high = stretch.last ? beyond_rim : stretch.end * per_metre;
   uint rings = rings_between(low, high, dither);
   slice.hidden |= rings;
-  slice.height_sum += rings != 0u ? height_term(height, bias) : 0.0;
+  slice.height_sum += rings != 0u ? height_term(receiver, height, bias, light) : 0.0;
   slice.blockers += rings != 0u ? 1.0 : 0.0;
   return Blocker(high, height, stretch.at);
 }
