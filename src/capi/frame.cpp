@@ -286,7 +286,8 @@ penumbra_result penumbra_render(penumbra_device* device, const penumbra_settings
       inputs.lights = lights;
       inputs.draw = casters_of(given, *device);
       constexpr std::size_t most_idle_programs = 512;  // so that all that was warmed up stays
-      device->objects->device.shaders.next_frame(most_idle_programs);
+      device->objects->device.shaders.keep_idle(most_idle_programs);
+      device->objects->device.shaders.next_frame();
       device->masks.erase(given.view_id);
       const penumbra::shadow::Mask& made = device->masks[given.view_id] = call.shadows().render(inputs, params);
       const penumbra::gl::TextureDesc& desc = made.texture->desc();

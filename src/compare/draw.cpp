@@ -72,6 +72,8 @@ class InterleavedRuns {
         reference_(reference),
         range_(range_of(scene.options)),
         frames_drawn_(frames_drawn(scene.device.timers)) {
+    // Programs that were deleted between two frames of a contender would be compiled again in a timed one.
+    scene.device.shaders.keep_idle(std::numeric_limits<std::size_t>::max());
     for (std::size_t i = part.first; i < part.first + part.count; ++i)
       runs_.push_back(std::make_unique<ContenderRun>(scene, scene.options.contenders[i].label, params[i]));
   }

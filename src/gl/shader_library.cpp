@@ -19,15 +19,15 @@ const Program& ShaderLibrary::get(const ProgramDesc& desc) {
   return *entry.program;
 }
 
-void ShaderLibrary::next_frame(std::size_t most) {
+void ShaderLibrary::next_frame() {
   ++frame_;
   std::vector<std::map<ProgramDesc, Entry>::iterator> idle;
   for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
     if (is_idle(entry->second)) idle.push_back(entry);
   }
-  if (idle.size() <= most) return;
+  if (idle.size() <= most_idle_) return;
   std::ranges::sort(idle, {}, [](const auto& entry) { return entry->second.used; });
-  idle.resize(idle.size() - most);
+  idle.resize(idle.size() - most_idle_);
   for (const auto& entry : idle) entries_.erase(entry);
 }
 

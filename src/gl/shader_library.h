@@ -16,10 +16,10 @@ namespace penumbra::gl {
 // and reload(), or the next get(), compiles them again in the same way as the first time. As long as that fails, get()
 // returns the last program that compiled. Each value of a compiled-in parameter needs a separate program. If the caller
 // counts frames with next_frame(), programs not used for more than `idle_after` frames are idle: reload() skips them,
-// their next get() compiles them, and if there are more than `most_idle` of them, the least recently used are deleted.
+// their next get() compiles them, and if there are more than keep_idle() says, the least recently used are deleted.
 class ShaderLibrary {
  public:
-  static constexpr std::size_t most_idle = 64;
+  static constexpr std::size_t usual_idle = 64;   // programs
   static constexpr std::uint64_t idle_after = 8;  // frames
 
   explicit ShaderLibrary(ShaderFiles files) : files_(std::move(files)) {}
@@ -27,8 +27,10 @@ class ShaderLibrary {
   // Throws Error when the program fails to compile and there is no earlier good one; the next call tries again. The
   // reference stays valid through reloads, and for this frame and the next where frames are counted.
   const Program& get(const ProgramDesc& desc);
-  // To be called when a frame begins. Deletes idle programs beyond so many.
-  void next_frame(std::size_t most = most_idle);
+  // To be called when a frame begins. Deletes idle programs beyond usual_idle, or what keep_idle() was told last.
+  void next_frame();
+  // For callers that draw more kinds of frames in turn than have room among usual_idle.
+  void keep_idle(std::size_t most) { most_idle_ = most; }
 
   // To be called when a file's text changed or it was added or deleted: marks the programs that include it, and those
   // whose last rebuild failed, to be rebuilt. `file` is relative to glsl/.
@@ -61,6 +63,7 @@ class ShaderLibrary {
 
   ShaderFiles files_;
   std::map<ProgramDesc, Entry> entries_;
+  std::size_t most_idle_ = usual_idle;
   std::uint64_t frame_ = 0, changes_ = 0;
   bool outdated_ = false;
 };

@@ -29,7 +29,7 @@ class ShaderIdleTest : public test::GpuTest {
     return library.reload();
   }
 
-  static constexpr int most = static_cast<int>(gl::ShaderLibrary::most_idle);
+  static constexpr int most = static_cast<int>(gl::ShaderLibrary::usual_idle);
   static constexpr int long_enough = static_cast<int>(gl::ShaderLibrary::idle_after) + 1;
 
   gl::ShaderLibrary library{test::shader_files({{"taps.comp", good}})};
@@ -46,6 +46,15 @@ TEST_F(ShaderIdleTest, OnlyTheLatestOfManyValuesStay) {
   }
   EXPECT_EQ(library.get(with_taps(1)).id(), id) << "what every frame uses was compiled again";
   EXPECT_EQ(in_use.id(), id);
+}
+
+TEST_F(ShaderIdleTest, AsManyStayAsTheCallerKeeps) {
+  const GLuint id = library.get(with_taps(1)).id();
+  library.keep_idle(2 * most);
+  for (int taps = 2; taps < 2 * most; ++taps) frames(1, taps);
+  frames(long_enough, 2);
+  EXPECT_EQ(library.size(), static_cast<std::size_t>(2 * most - 1));
+  EXPECT_EQ(library.get(with_taps(1)).id(), id);
 }
 
 TEST_F(ShaderIdleTest, ASaveCompilesWhatFramesUse) {
