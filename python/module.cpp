@@ -23,8 +23,10 @@ namespace py = pybind11;
 
 using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
-// Bytes, as of a display, count as shares of 255.
-image::Picture picture_of(const py::object& given, const char* name) {
+bool has_bytes(const py::object& given) { return py::isinstance<py::array_t<std::uint8_t>>(given); }
+
+// Bytes count as shares of 255. `display`: the values are those of a display, not linear.
+image::Picture picture_of(const py::object& given, const char* name, bool display) {
   const Floats values = Floats::ensure(given);
   if (!values) fail("{} is no array of numbers", name);
   if (values.ndim() != 2 && values.ndim() != 3)
@@ -36,7 +38,8 @@ image::Picture picture_of(const py::object& given, const char* name) {
   const py::ssize_t channels = values.ndim() == 3 ? values.shape(2) : 1;
   for (py::ssize_t i = 0; i < channels; ++i) picture.channels.push_back(channels == 1 ? "V" : fmt::format("{}", i));
   picture.pixels.assign(values.data(), values.data() + values.size());
-  if (py::isinstance<py::array_t<std::uint8_t>>(given)) {
+  picture.display = display;
+  if (has_bytes(given)) {
     for (float& value : picture.pixels) value /= 255.0f;
   }
   return picture;
@@ -51,8 +54,11 @@ std::vector<std::uint8_t> receivers_of(const std::optional<Floats>& values, cons
   return receivers;
 }
 
-py::dict difference(const py::object& test, const py::object& reference, const std::optional<Floats>& receivers) {
-  const image::Picture a = picture_of(test, "the test picture"), b = picture_of(reference, "the reference");
+py::dict difference(const py::object& test, const py::object& reference, const std::optional<Floats>& receivers,
+                    std::optional<bool> display) {
+  const bool shown = display.value_or(has_bytes(test) || has_bytes(reference));
+  const image::Picture a = picture_of(test, "the test picture", shown),
+                       b = picture_of(reference, "the reference", shown);
   const std::vector<std::uint8_t> measured = receivers_of(receivers, b);
   app::Difference found;
   {
@@ -139,8 +145,11 @@ PYBIND11_MODULE(_penumbra, module) {
   add_scene(module);
   module.def(
       "difference", &difference, py::arg("test"), py::arg("reference"), py::arg("receivers") = py::none(),
+      py::arg("display") = py::none(),
       "How far a picture is from a reference, as `penumbra diff` measures it: a dict of the metrics that apply.\n"
-      "Pixels whose value in `receivers` is 0 are left out.");
+      "Pixels whose value in `receivers` is 0 are left out. `display`: whether values are those of a display, which "
+      "the "
+      "metrics of colours need; None: where one of the arrays has bytes.");
   module.def("read", &read, py::arg("path"), py::arg("layer") = "",
              "A picture file as floats: a PNG as display values from 0 to 1, or a layer of an EXR as it is.");
   module.def("techniques", &techniques, "What select() takes, with a sentence about each.");

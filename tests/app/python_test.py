@@ -122,6 +122,22 @@ print(json.dumps(penumbra.difference(a, b)))
         for name, value in figures.items():
             self.assertAlmostEqual(told["figures"][name], value, places=6, msg=name)
 
+    def test_colours_have_the_metrics_of_pictures_too(self):
+        for name, sun in (("a", "1"), ("b", "3")):
+            self.succeed("render", "scenes/steps.glb", "-o", self.folder / f"{name}.png", "--size", "96x54", "--sun-angle", sun,
+                         cwd=support.ROOT)
+        told = json.loads(self.succeed("diff", self.folder / "a.png", self.folder / "b.png", "--json", "-").stdout)
+        for given in ("penumbra.difference(*[numpy.round(255 * p).astype(numpy.uint8) for p in (a, b)])",
+                      "penumbra.difference(a, b, display=True)"):
+            figures = json.loads(self.python(f"""
+import penumbra, json, numpy
+a, b = (penumbra.read(f"{self.folder}/{{name}}.png") for name in "ab")
+assert "flip" not in penumbra.difference(a, b), "floats are linear unless they are said to be of a display"
+print(json.dumps({given}))
+"""))
+            for name in ("ssim", "flip"):
+                self.assertAlmostEqual(told["figures"][name], figures[name], places=5, msg=name)
+
     def test_errors_are_exceptions_of_one_line(self):
         self.python("""
 import penumbra, numpy
