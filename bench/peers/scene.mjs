@@ -20,6 +20,10 @@ export function setupOf(scene, facts, options) {
   if (camera.fov_y_degrees === undefined) {
     throw new Failure(`${scene}: the camera is orthographic; the peers are drawn with perspective cameras only`);
   }
+  const lamps = facts.lights.filter((light) => light.kind !== 'sun').length;
+  if (!toLight || lamps > 0) {
+    throw new Failure(`${scene}: ${toLight ? `it has ${lamps} lamps` : 'it has no sun'}; the peers are drawn with one sun only`);
+  }
   const length = Math.hypot(...toLight);
   return {
     url: `/scene/${encodeURIComponent(path.basename(scene))}`,

@@ -72,6 +72,13 @@ long long triangles_of(const scene::Mesh& mesh) {
   return triangles;
 }
 
+// Of a node, with all its instances.
+long long triangles_of(const scene::Scene& scene, const Node& node) {
+  if (node.mesh < 0) return 0;
+  return triangles_of(scene.meshes[static_cast<std::size_t>(node.mesh)]) *
+         static_cast<long long>(std::max<std::size_t>(node.instances.size(), 1));
+}
+
 bool repeats(const Node& node) { return node.mesh >= 0 && node.skin < 0; }
 
 // Copies the node's instances to every offset. Offsets are in world space, instances in the node's space.
@@ -94,9 +101,7 @@ long long drawn_triangles(const scene::Scene& scene) {
   long long triangles = 0;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& node = scene.nodes[i];
-    if (node.mesh < 0 || !pose.drawn[i]) continue;
-    triangles += triangles_of(scene.meshes[static_cast<std::size_t>(node.mesh)]) *
-                 static_cast<long long>(std::max<std::size_t>(node.instances.size(), 1));
+    if (pose.drawn[i]) triangles += triangles_of(scene, node);
   }
   return triangles;
 }
@@ -122,8 +127,8 @@ scene::Scene repeated(scene::Scene scene, long long triangles) {
   const scene::Pose pose = scene::rest_pose(scene);
   const scene::Bounds bounds = scene::bounds_of(scene, pose);
   long long single = 0, all = drawn_triangles(scene);
-  for (const Node& node : scene.nodes) {
-    if (node.mesh >= 0 && !repeats(node)) single += triangles_of(scene.meshes[static_cast<std::size_t>(node.mesh)]);
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    if (pose.drawn[i] && !repeats(scene.nodes[i])) single += triangles_of(scene, scene.nodes[i]);
   }
   if (all <= single) fail("nothing in the scene can be repeated");
   const long long count = std::max(1LL, (triangles - single + all - single - 1) / (all - single));

@@ -39,7 +39,9 @@ report::Table overview(const Measured& point) {
                                   {.title = "of the first", .help = "Median of the ratios of single frames"},
                                   {.title = "frame", .unit = "ms", .help = "Median"},
                                   {.title = "CPU", .unit = "ms", .help = cpu_help},
-                                  {.title = "memory", .unit = "MiB", .help = "All targets of the frame"}}};
+                                  {.title = "memory",
+                                   .unit = "MiB",
+                                   .help = "Shadow maps, masks, history and all other textures of the technique"}}};
   const bool floor = point.costs.front().floor.has_value();
   if (floor) {
     table.columns.push_back({.title = "fetches alone", .unit = "ms", .help = "As many, from the same discs and map"});

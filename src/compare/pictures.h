@@ -10,7 +10,8 @@ ComparedPictures encoded_pictures(const std::vector<std::uint8_t>& display, cons
                                   const cli::Size& size);
 
 // The full scale of a scene's error maps, the same for all of them: the smallest of 0.05, 0.1, 0.2, 0.5 and 1 that the
-// errors of 99 % of the receivers do not exceed.
+// errors of 99 % of the receivers do not exceed with the best technique. Larger errors have the colour of the scale's
+// end.
 float error_scale(const ComparedScene& scene);
 
 // Errors as colours: blue where the technique is too dark, red where it is too bright, grey where there is no receiver.

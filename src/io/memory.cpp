@@ -44,6 +44,19 @@ std::size_t count_in(const std::filesystem::path& file, const std::string& label
   return 0;
 }
 
+struct GroupFiles {
+  const char *limit, *used, *inactive_cache, *active_cache;
+};
+
+// What a control group leaves of its own limit.
+std::size_t left_in(const std::filesystem::path& group, const GroupFiles& files) {
+  const auto limit = number_in(group / files.limit);
+  if (!limit) return unlimited;
+  const std::filesystem::path statistics = group / "memory.stat";
+  const std::size_t cache = count_in(statistics, files.inactive_cache) + count_in(statistics, files.active_cache);
+  return left(*limit, left(number_in(group / files.used).value_or(0), cache));
+}
+
 }  // namespace
 
 std::size_t available_address_space() {
@@ -52,22 +65,24 @@ std::size_t available_address_space() {
   return left(limit.rlim_cur, kilobytes("/proc/self/status", "VmSize:").value_or(0));
 }
 
-// Inside a container, the container's group is visible as the root group.
 std::size_t available_in_group(const std::filesystem::path& root) {
-  struct Files {
-    const char *limit, *used, *statistics, *inactive_cache, *active_cache;
-  };
-  constexpr Files versions[] = {{"memory.max", "memory.current", "memory.stat", "inactive_file", "active_file"},
-                                {"memory/memory.limit_in_bytes", "memory/memory.usage_in_bytes", "memory/memory.stat",
-                                 "total_inactive_file", "total_active_file"}};
-  const std::filesystem::path folder = root / "sys/fs/cgroup";
-  std::size_t least = unlimited;
-  for (const Files& files : versions) {
-    const auto limit = number_in(folder / files.limit);
-    if (!limit) continue;
-    const std::filesystem::path statistics = folder / files.statistics;
-    const std::size_t cache = count_in(statistics, files.inactive_cache) + count_in(statistics, files.active_cache);
-    least = std::min(least, left(*limit, left(number_in(folder / files.used).value_or(0), cache)));
+  constexpr GroupFiles v2{"memory.max", "memory.current", "inactive_file", "active_file"},
+      v1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file", "total_active_file"};
+  const std::filesystem::path groups = root / "sys/fs/cgroup";
+  std::size_t least = std::min(left_in(groups, v2), left_in(groups / "memory", v1));
+  // Lines "number:controllers:/path", of version 2 "0::/path".
+  std::ifstream stream(root / "proc/self/cgroup");
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (first == std::string::npos || second == std::string::npos) continue;
+    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+    const bool is_v2 = controllers == ",,";
+    if (!is_v2 && controllers.find(",memory,") == std::string::npos) continue;
+    const std::filesystem::path top = is_v2 ? groups : groups / "memory";
+    std::filesystem::path group = std::filesystem::path(line.substr(second + 1)).relative_path().lexically_normal();
+    // Inside a container, the path may be one of the host's that is not there.
+    for (; !group.empty() && *group.begin() != ".."; group = group.parent_path())
+      least = std::min(least, left_in(top / group, is_v2 ? v2 : v1));
   }
   return least;
 }

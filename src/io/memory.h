@@ -11,8 +11,8 @@ namespace penumbra::io {
 std::size_t available_address_space();
 
 // Bytes that the process's control group (a container's limit) leaves, by cgroup v1 or v2. What the kernel counts as
-// used includes the page cache, which it frees when a process needs memory, so the cache does not count here. `root`:
-// the folder in which sys/fs/cgroup is looked up.
+// used includes the page cache, which it frees when a process needs memory, so the cache does not count here. The
+// groups that hold it have limits too. `root`: the folder in which proc/self/cgroup and sys/fs/cgroup are looked up.
 std::size_t available_in_group(const std::filesystem::path& root = "/");
 
 // Bytes of memory that this process can still use before the system or a limit refuses more: the least of what the

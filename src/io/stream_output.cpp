@@ -134,6 +134,7 @@ void write_to_stream(const fs::path& path, const fs::path& name, const fs::path&
     source.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     write_all(file.number(), {bytes.data(), static_cast<std::size_t>(source.gcount())}, name);
   }
+  if (!source.eof()) fail_stream(name, EIO);
 }
 
 }  // namespace penumbra::io

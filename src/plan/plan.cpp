@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "core/error.h"
@@ -95,9 +97,12 @@ class ItemTaker {
 
   bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
     constexpr int member = 1, element = 2;
-    if (event == Json::parse_event_t::key && depth == member) in_items_ = parsed == "items";
+    if (event == Json::parse_event_t::key && depth == member) key_ = parsed.get<std::string>();
+    if (event == Json::parse_event_t::value && depth == member && key_ == "format") format_ = parsed;
+    in_items_ = key_ == "items";
     if (!in_items_ || depth != element || event != Json::parse_event_t::object_end) return true;
     if (items_.size() == most_items) fail("it has more than {} items", most_items);
+    if (items_.empty() && format_) check_format(Json{{"format", *format_}}, format);
     try {
       items_.push_back(item_of(parsed));
     } catch (const Error& error) {
@@ -108,6 +113,8 @@ class ItemTaker {
 
  private:
   std::vector<PlannedItem>& items_;
+  std::string key_;             // of the outermost object
+  std::optional<Json> format_;  // its "format", if that comes before the items
   bool in_items_ = false;
 };
 

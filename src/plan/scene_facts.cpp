@@ -6,6 +6,8 @@
 #include <system_error>
 #include <variant>
 
+#include "core/error.h"
+#include "io/output_file.h"
 #include "scene/drawn.h"
 #include "scene/scene_info.h"
 
@@ -58,6 +60,8 @@ void find_files(std::vector<fs::path>& found, const fs::path& folder, std::vecto
 void add_shaders(std::vector<SceneFile>& files, const fs::path& folder) {
   std::vector<fs::path> shaders;
   find_files(shaders, folder);
+  // A shader that is put there later would change the pictures, and nothing in the plan would tell.
+  if (shaders.empty()) fail("--glsl {}: there is no shader to plan with", io::quoted(folder));
   std::ranges::sort(shaders);
   for (const fs::path& shader : shaders)
     files.push_back({.path = shader, .shader = shader.lexically_relative(folder).generic_string()});

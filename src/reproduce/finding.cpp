@@ -16,6 +16,9 @@ Quantity limit_of(const Quantity& a, double limit) {
   return {.name = {}, .value = limit, .unit = a.unit, .decimals = a.decimals};
 }
 
+// Of a difference of two printed values.
+constexpr double rounding = 1e-9;
+
 // The value as it is printed. Claims are decided by printed values, so that a reader can check the decision.
 double shown(const Quantity& quantity) {
   const double scale = std::pow(10.0, quantity.decimals);
@@ -57,7 +60,6 @@ void Finding::expect_above(const Quantity& a, const Quantity& b) {
 }
 
 void Finding::expect_above_by(double margin, const Quantity& a, const Quantity& b) {
-  constexpr double rounding = 1e-9;
   expect(shown(a) - shown(b) >= margin - rounding, a,
          fmt::format("at least {} above {} ({})", limit_of(a, margin).text(), name_beside(b, a), b.text()));
   record(b);
@@ -68,8 +70,7 @@ void Finding::expect_at_least(const Quantity& a, double limit) {
 }
 
 void Finding::expect_near(const Quantity& a, const Quantity& b, double tolerance) {
-  const double difference = std::abs(a.value - b.value);
-  expect(difference <= tolerance, a,
+  expect(std::abs(shown(a) - shown(b)) <= tolerance + rounding, a,
          fmt::format("within {} of {} ({})", limit_of(a, tolerance).text(), b.name, b.text()));
   record(b);
 }

@@ -136,9 +136,11 @@ class Figures(Diff):
     def test_a_mask_leaves_pixels_out(self):
         a = exr(self.folder / "a.exr", 4, 3, {"shadow.V": [0.25] * 11 + [math.nan]})
         layers = {"shadow.V": [0.5] * 10 + [7.0, math.inf], "none.V": [0.0] * 12}
-        b = exr(self.folder / "b.exr", 4, 3, {**layers, "receiver.V": [1.0] * 10 + [0.0, math.nan]})
+        b = exr(self.folder / "b.exr", 4, 3, {**layers, "receiver.V": [1.0] * 10 + [0.0, math.nan],
+                                                   "sky.V": [1.0] * 9 + [0.0, math.nan, math.inf]})
         told = self.figures(a, b, "--layer", "shadow", "--mask", "receiver")
         self.assertEqual((told["samples"], told["not_finite"], told["mask"]), (10, 0, "receiver"))
+        self.assertEqual(self.figures(a, b, "--layer", "shadow", "--mask", "sky")["samples"], 9)
         self.assertEqual(told["figures"]["max"], 0.25)
         self.assertIn("flip", told["figures"], "what is left out may hold anything")
         heat = self.folder / "heat.png"

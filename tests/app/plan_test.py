@@ -308,6 +308,8 @@ class Folder(Plans):
     def test_a_shader_that_was_added_is_refused(self):
         glsl = self.folder / "glsl"
         glsl.mkdir()
+        self.assertIn("no shader to plan with",
+                      self.refuse("plan", "compare", *COMPARED, "--no-cost", "--glsl", glsl, "-o", self.plan))
         (glsl / "a.glsl").write_text("// one\n")
         self.make("compare", *COMPARED, "--no-cost", "--glsl", glsl)
         (glsl / "notes.txt").write_text("of the user's\n")

@@ -45,6 +45,11 @@ class AvailableInGroup : public testing::Test {
     std::filesystem::create_directories(path.parent_path());
     std::ofstream(path) << text << "\n";
   }
+  void join(const std::string& groups) const {
+    const std::filesystem::path path = temp_.path() / "proc/self/cgroup";
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path) << groups;
+  }
   std::size_t available() const { return available_in_group(temp_.path()); }
 
  private:
@@ -80,6 +85,24 @@ TEST_F(AvailableInGroup, IsTheLeastOfBothVersions) {
   write("memory/memory.limit_in_bytes", "9223372036854771712");  // how version 1 writes that there is no limit
   write("memory/memory.usage_in_bytes", "700");
   EXPECT_EQ(available(), 900u);
+}
+
+TEST_F(AvailableInGroup, IsTheLeastOfItsGroupAndOfThoseThatHoldIt) {
+  join("0::/slurm/job_7/step_0\n");
+  write("slurm/job_7/step_0/memory.max", "max");
+  EXPECT_EQ(available(), unlimited);
+  write("slurm/job_7/memory.max", "1000");
+  write("slurm/job_7/memory.current", "400");
+  write("slurm/memory.max", "5000");
+  write("other/memory.max", "10");
+  EXPECT_EQ(available(), 600u);
+  join("12:cpu,cpuacct:/slurm\n5:memory:/slurm/job_7\n0::/elsewhere\n");
+  EXPECT_EQ(available(), unlimited) << "version 2 has no limit there";
+  write("memory/slurm/job_7/memory.limit_in_bytes", "800");
+  write("memory/slurm/job_7/memory.usage_in_bytes", "300");
+  EXPECT_EQ(available(), 500u);
+  join("0::/../../outside\nno line of such a file");
+  EXPECT_EQ(available(), unlimited);
 }
 
 TEST_F(AvailableInGroup, IsNothingWhereMoreIsUsedThanTheLimit) {

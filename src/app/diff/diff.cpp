@@ -104,7 +104,7 @@ std::vector<std::uint8_t> receivers_of(const DiffOptions& options) {
          mask.channels.size());
   std::vector<std::uint8_t> receivers(mask.pixels.size());
   for (std::size_t i = 0; i < receivers.size(); ++i)
-    receivers[i] = mask.pixels[i] == 0 || std::isnan(mask.pixels[i]) ? 0 : 1;
+    receivers[i] = mask.pixels[i] == 0 || !std::isfinite(mask.pixels[i]) ? 0 : 1;
   if (std::count(receivers.begin(), receivers.end(), 0) == static_cast<std::ptrdiff_t>(receivers.size()))
     fail("--mask {}: that layer of {} leaves no pixel", options.mask, io::quoted(options.reference));
   return receivers;

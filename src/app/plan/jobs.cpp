@@ -26,6 +26,13 @@ namespace {
 
 shadow::Registry truth_techniques(int threads) { return truth::TruthTechnique({.threads = threads}).registry(); }
 
+// A comparison measures costs unless it is told not to.
+bool measures_times(const plan::Plan& plan) {
+  const cli::Arguments arguments = plan.arguments_with("plan.json");
+  return plan.command == "bench" ||
+         (plan.command == "compare" && std::ranges::find(arguments, "--no-cost") == arguments.end());
+}
+
 // Behind what is there, so that the place of -o stays.
 cli::Arguments with_threads(cli::Arguments arguments, std::optional<int> threads) {
   if (!threads) return arguments;
@@ -80,7 +87,8 @@ std::unique_ptr<plan::Job> make_job(const std::string& command, const cli::Argum
 PlannedJob read_job(const std::filesystem::path& path, std::optional<int> threads) {
   PlannedJob read{.plan = plan::read_plan(path, this_program()), .job = nullptr};
   try {
-    if (threads && read.plan.command == "bench") fail("times depend on --threads, which belongs to a bench's plan");
+    if (threads && measures_times(read.plan))
+      fail("times depend on --threads, which belongs to the plan that measures them");
     // The value of -o matters only to `merge`, but must not be empty.
     read.job = make_job(read.plan.command, with_threads(read.plan.arguments_with("plan.json"), threads),
                         read.plan.output, read.plan.items.size());

@@ -37,6 +37,8 @@ std::optional<std::size_t> split_output(Arguments& arguments) {
       rest = std::string_view(argument).substr(with_equals.size());
     } else if (argument.starts_with(short_name) && argument.size() > short_name.size()) {
       rest = std::string_view(argument).substr(short_name.size());
+    } else if (argument.size() > 2 && argument[0] == '-' && argument[1] != '-' && argument.back() == 'o') {
+      cli::fail_usage("{}: a plan's -o stands alone", argument);
     } else {
       continue;
     }

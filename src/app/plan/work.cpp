@@ -181,8 +181,10 @@ int run_work(const Arguments& arguments) {
   app.get_option("--items")->excludes(app.get_option("--item"));
   cli::add_value(app, "--results", "FOLDER", "Folder of the results (beside the plan: sweep.results of sweep.json)",
                  [&options](const auto& text) { options.results = text; });
-  cli::add_value(app, "--threads", "N", "Threads that draw, whatever the plan says; the results are the same",
-                 [&options](const auto& text) { options.threads = cli::parse_count("--threads", text, 1, 1024); });
+  cli::add_value(
+      app, "--threads", "N",
+      "Threads that draw, whatever the plan says; the results are the same (not for plans that measure times)",
+      [&options](const auto& text) { options.threads = cli::parse_count("--threads", text, 1, 1024); });
   app.add_flag("--quiet,-q", options.quiet, "No progress and no summary")->disable_flag_override();
   if (!cli::parse(app, arguments)) return 0;
   take_array_task(options);

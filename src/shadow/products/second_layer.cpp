@@ -29,20 +29,22 @@ const gl::Texture& build(const PassContext& context) {
 
 Recipe second_layer() {
   using enum ParamBinding;
-  return {
-      .name = "second_layer",
-      .summary = "Depth of the nearest surface behind the one in the shadow map: 1 where there is none.",
-      .source = "Everitt 2001, Interactive order-independent transparency",
-      .params = {{"maps.layers", 1, 1, 2, "",
-                  "Surfaces along each ray of light that techniques can see: 2 keeps the shadows of what lies "
-                  "below another caster, for techniques that read them (slices).",
-                  compiled},
-                 {"maps.gap", 0.0f, 0, 10, "m",
-                  "Least distance of the second layer behind the first. What is thinner counts as one surface.", host}},
-      .depends_only_on_needs = true,
-      .reads_light_discs = true,
-      .applies = [](const ParamSet& params) { return params.get_int("maps.layers") == 2; },
-      .build = build};
+  return {.name = "second_layer",
+          .summary = "Depth of the nearest surface behind the one in the shadow map: 1 where there is none.",
+          .source = "Everitt 2001, Interactive order-independent transparency",
+          .params = {{"maps.layers", 1, 1, 2, "",
+                      "Surfaces along each ray of light that techniques can see: 2 keeps the shadows of what lies "
+                      "below another caster, for techniques that read them (slices).",
+                      compiled},
+                     {"maps.gap", 0.0f, 0, 10, "m",
+                      "Least distance of the second layer behind the first. What is thinner counts as one surface. "
+                      "Under lamps it "
+                      "is that long at the far plane of their maps, and shrinks with the square of the depth.",
+                      host}},
+          .depends_only_on_needs = true,
+          .reads_light_discs = true,
+          .applies = [](const ParamSet& params) { return params.get_int("maps.layers") == 2; },
+          .build = build};
 }
 
 }  // namespace penumbra::shadow
