@@ -26,7 +26,7 @@ def techniques():
     return {f"technique_{name}": SOFT + ["--technique", name]
             for name in ("none", "hard", "shadow_volume", "pcf", "pcf_hardware", "pcf_tent", "pcf_poisson", "vsm", "evsm",
                          "msm", "esm", "csm_fourier", "cssm", "pcss", "slices", "backprojection", "ssss", "vssm",
-                         "brute_force", "hybrid", "hybrid_denoised", "thesis", "thesis_8x8")}
+                         "brute_force", "hybrid", "hybrid_denoised", "thesis_8x8")}
 
 
 def volumes():
@@ -64,7 +64,7 @@ def noises():
 
 def filters():
     rows = {f"filter_{name}": SOFT + ["--technique", "thesis_8x8", "--set", f"filter.visibility={name}"]
-            for name in ("none", "box", "gaussian", "bilateral", "bilateral_separable")}
+            for name in ("none", "box", "gaussian", "bilateral_separable")}
     for name in ("none", "median"):
         rows[f"filter_penumbra_{name}"] = (SOFT + ["--technique", "thesis_8x8", "--set", "pcss.blocker_taps=4", "--set",
                                                     f"filter.penumbra={name}"], "penumbra")
@@ -84,8 +84,8 @@ def failures():
 
 def histories():
     still = MOVING + ["--technique", "thesis", "--frames", "44:60"]
-    rows = {f"history_map_{name}": still + ["--set", f"movement.map={name}"] for name in ("none", "average", "maximum")}
-    rows["history_refused"] = (MOVING + ["--technique", "thesis", "--frames", "50:52"], "history")
+    rows = {f"history_map_{name}": still + ["--set", f"movement.map={name}"] for name in ("none", "maximum")}
+    rows["history_refused"] = (MOVING + ["--technique", "thesis", "--frames", "44:46"], "history")
     return rows
 
 
