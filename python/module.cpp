@@ -147,9 +147,8 @@ PYBIND11_MODULE(_penumbra, module) {
       "difference", &difference, py::arg("test"), py::arg("reference"), py::arg("receivers") = py::none(),
       py::arg("display") = py::none(),
       "How far a picture is from a reference, as `penumbra diff` measures it: a dict of the metrics that apply.\n"
-      "Pixels whose value in `receivers` is 0 are left out. `display`: whether values are those of a display, which "
-      "the "
-      "metrics of colours need; None: where one of the arrays has bytes.");
+      "Pixels whose value in `receivers` is 0 are left out. `display`: whether values are those of a display, as "
+      "the metrics of colours need them; None: where one of the arrays has bytes.");
   module.def("read", &read, py::arg("path"), py::arg("layer") = "",
              "A picture file as floats: a PNG as display values from 0 to 1, or a layer of an EXR as it is.");
   module.def("techniques", &techniques, "What select() takes, with a sentence about each.");

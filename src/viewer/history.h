@@ -33,6 +33,9 @@ class History {
     present_ = now;
   }
 
+  // Takes a state that differs from the present one by no step of the user's.
+  void amend(const State& now) { present_ = now; }
+
   bool can_undo() const { return !past_.empty(); }
   bool can_redo() const { return !future_.empty(); }
   // The state before the last step or after the next one, which note() then expects; nothing if there is none. `now`

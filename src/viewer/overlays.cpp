@@ -134,7 +134,7 @@ void shader_errors_overlay(const Panel& panel, const ImVec2& corner) {
   if (begin_overlay("shader errors", inner(corner, 1, 1), {0, 0})) {
     ImGui::PushTextWrapPos(wrap_width(44.0f, ImGui::GetIO().DisplaySize.x - corner.x));
     ImGui::TextColored({1.0f, 0.45f, 0.38f, 1}, "%s",
-                       panel.status.undrawable ? "A shader does not compile. Nothing is drawn until it does."
+                       panel.status.undrawable ? "A shader does not compile, and there is no version of it that did."
                                                : "A shader does not compile. Its last good version is used.");
     for (const std::string& error : panel.status.shader_errors) ImGui::TextUnformatted(error.c_str());
     ImGui::PopTextWrapPos();
@@ -147,7 +147,7 @@ void no_scene_overlay(const Panel& panel, const ImVec2& middle, float room) {
   if (begin_overlay("no scene", middle, {0.5f, 0.5f})) {
     ImGui::PushTextWrapPos(wrap_width(40.0f, room));
     ImGui::TextColored({1.0f, 0.45f, 0.38f, 1}, "%s", panel.status.load_error.c_str());
-    ImGui::TextUnformatted("The file is read again when it is saved. Ctrl + O opens another one.");
+    ImGui::TextUnformatted("Ctrl + O opens another one.");
     ImGui::PopTextWrapPos();
   }
   end_overlay(panel, "no scene");
@@ -314,7 +314,7 @@ std::string without_middle(const std::string& text) {
   // Characters of UTF-8 go on with bytes 10xxxxxx.
   const auto begins = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xc0U) != 0x80U; };
   std::size_t first = most / 2, last = text.size() - most / 2;
-  while (!begins(first)) --first;
+  while (first > 0 && !begins(first)) --first;
   while (!begins(last)) ++last;
   return text.substr(0, first) + " ... " + text.substr(last);
 }

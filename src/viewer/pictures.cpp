@@ -116,28 +116,45 @@ std::optional<Viewer::PictureWork> Viewer::plan_pictures(const PictureArea& area
     work.plan.a = work.plan.b = {};
     work.plan.at_rest = false;
   }
-  mind_failures(work.plan);
+  mind_failures(work);
   return work;
 }
 
-// What could not be drawn is not tried again until something changes: each try would compile the shader that fails.
-void Viewer::mind_failures(FramePlan& plan) {
-  const bool failed = failed_.shaders == device_.device.shaders.changes();
-  // A shader that was saved with an error has a last good version in full detail alone.
-  if (failed && failed_.reduced) plan.detail = {};
-  status_.undrawable = failed && failed_.full == wishes();
-  if (!status_.undrawable) return;
-  plan.a = plan.b = {};
-  plan.at_rest = false;
+// Of the pictures alone: what else is asked for does not change whether they can be drawn.
+Viewer::Wishes Viewer::drawn_wishes() const {
+  Wishes wanted = wishes();
+  wanted.requests = {};
+  return wanted;
 }
 
-void Viewer::note_failure(const Detail& detail) {
+bool Viewer::is_undrawable(const Side& side) const {
+  return side.failed.shaders == device_.device.shaders.changes() && side.failed.full == drawn_wishes();
+}
+
+// What could not be drawn is not tried again until it changes, or a shader does: each try would compile the shader that
+// fails.
+void Viewer::mind_failures(PictureWork& work) {
+  FramePlan& plan = work.plan;
+  status_.undrawable = false;
+  for (Side* side : {&a_, &b_}) {
+    if (side == &b_ && !work.b_shown) continue;
+    // A shader that was saved with an error has a last good version in full detail alone.
+    const bool failed = side->failed.shaders == device_.device.shaders.changes();
+    if (failed && side->failed.reduced) plan.detail = {};
+    if (!is_undrawable(*side)) continue;
+    status_.undrawable = true;
+    (side == &a_ ? plan.a : plan.b) = {};
+  }
+  plan.at_rest = plan.at_rest && (plan.a.draw || plan.b.draw);
+}
+
+void Viewer::note_failure(Side& side, const Detail& detail) {
   const std::uint64_t shaders = device_.device.shaders.changes();
-  if (failed_.shaders != shaders) failed_ = {.shaders = shaders};
+  if (side.failed.shaders != shaders) side.failed = {.shaders = shaders};
   if (detail == Detail{}) {
-    failed_.full = wishes();
+    side.failed.full = drawn_wishes();
   } else {
-    failed_.reduced = true;
+    side.failed.reduced = side.failed.reduced || !status_.shader_errors.empty();
   }
 }
 
@@ -218,13 +235,15 @@ void Viewer::draw_sides(std::span<const SideWork> work, const Detail& detail) {
   readable_ = true;
   for (const SideWork& each : work) {
     if (!each.plan.draw) continue;
-    readable_ = draw_side(each, detail) && readable_;
+    const bool drawn = draw_side(each, detail);
+    if (!drawn) note_failure(each.side, detail);
+    readable_ = drawn && readable_;
     milliseconds += each.side.renderer.milliseconds();
     last_is_b_ = &each.side == &b_;
   }
   last_draw_ = ImGui::GetTime();
   probe_is_old_ = true;
-  if (!readable_) return note_failure(detail);
+  if (!readable_) return;
   pacing_.drew(detail, milliseconds, turn_.beside());
   turn_.drew(milliseconds);
   status_.detail = detail;

@@ -79,6 +79,7 @@ void Viewer::open(const std::string& asked) {
   options.reading.follow_links = options_.reading.follow_links;
   options.reading.skies_chosen = state_.document.options.reading.skies_chosen;
   // The shown scene keeps its camera, sun, ground and time; another one starts with the defaults.
+  if (scene == state_.document.options.scene && scene_ != nullptr) return load_again();
   loader_.start(scene == state_.document.options.scene ? state_.document.options : options);
 }
 
@@ -91,9 +92,10 @@ void Viewer::open_preset(const std::string& file) {
       std::exchange(state_.document.params, cli::resolve_params(options, session::all_techniques()));
   if (is_preset(file)) {
     note_preset(file);
-    saved_.before = before;
+    if (before != state_.document.params) saved_.before = before;
   } else {
     saved_.preset.clear();  // one of the program's own is no file to save to
+    saved_.undone.clear();
   }
   tell(state_, "loaded " + file, ImGui::GetTime());
 }
@@ -176,8 +178,13 @@ void Viewer::go_back(bool redo) {
   const std::optional<Edit> edit = redo ? history_.redo(now) : history_.undo(now);
   if (!edit) return;
   restore(*edit, state_.document, state_.comparison, state_.bookmarks);
+  if (now.a == edit->a) return;
   // With the values from before a preset was opened, it is not open.
-  if (!redo && state_.document.params == saved_.before) saved_.preset.clear();
+  if (!redo && edit->a == saved_.before && !saved_.preset.empty()) {
+    saved_.undone = std::exchange(saved_.preset, {});
+  } else if (redo && edit->a == saved_.params && !saved_.undone.empty()) {
+    saved_.preset = std::exchange(saved_.undone, {});
+  }
 }
 
 void Viewer::copy_camera() {

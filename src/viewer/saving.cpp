@@ -41,6 +41,7 @@ void Viewer::note_preset(const std::string& file) {
   state_.preset_file = saved_.preset = file;
   saved_.params = state_.document.params;
   saved_.before = {};
+  saved_.undone.clear();
 }
 
 // A preset that the command line names alone can be saved as one that was opened in the window.
@@ -76,7 +77,7 @@ void Viewer::save() {
   if (options_.defaults) fail("nothing is saved: --defaults was given");
   if (scene_ == nullptr && saved_.preset.empty()) fail("nothing is saved: no scene and no preset file is open");
   // Another technique or preset may have been chosen only to look at it.
-  const auto selected = [](const ParamSet& params) { return session::technique_label(params); };
+  const auto selected = [](const ParamSet& params) { return session::selection_of(params).name; };
   const bool same = saved_.preset.empty() || selected(state_.document.params) == selected(saved_.params);
   save(/* view= */ scene_ != nullptr, status_.unsaved.preset, /* overwrite= */ same);
 }

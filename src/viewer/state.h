@@ -85,7 +85,7 @@ struct UiState {
   bool dragging_line = false;          // the user drags the line between A and B
   // The lamp whose properties are shown, and the one that the mouse drags.
   std::optional<LampName> lamp, dragged_lamp;
-  // Whose axis and cones a lamp gets that becomes a spot: those of the one that was last made a lamp that shines all
+  // A lamp that becomes a spot gets this one's axis and cones: those of the spot that the user last made shine all
   // round.
   render::LampLight last_spot{.axis = {0, -1, 0}, .inner_cone = 0.5585f, .outer_cone = 0.6981f};
   std::optional<glm::ivec2> locked_pixel;  // whose values stay, wherever the cursor is

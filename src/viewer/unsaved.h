@@ -11,7 +11,8 @@ struct SavedState {
   Edit view;           // as beside the scene, or as the scene was opened
   std::string preset;  // the file of the preset that was opened or saved last; empty if there is none
   ParamSet params;     // its values
-  ParamSet before;     // the values from before it was opened; without rows if it was not opened in the window
+  ParamSet before;     // the values from before it was opened; without rows if that changed none
+  std::string undone;  // the file whose opening was undone last
 };
 
 // What closing the window would lose.

@@ -10,6 +10,7 @@
 
 #include "cli/signals.h"
 #include "cli/text.h"
+#include "io/output_file.h"
 #include "io/presets.h"
 #include "session/render_session.h"
 #include "session/shader_reload.h"
@@ -210,7 +211,7 @@ std::optional<SceneLoader::Loaded> Viewer::finished_scene() {
     std::optional<SceneLoader::Loaded> loaded = loader_.finished();
     if (loaded || !loader_.file().empty()) status_.load_error.clear();
     return loaded;
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     status_.load_error = error.what();
     throw;
   }
@@ -247,8 +248,16 @@ void Viewer::take_loaded() {
       side->costs.clear();
     }
     view_options_.clear();
+    a_.failed = b_.failed = {};
     if (watch_) watch_->set_files(scene_->prepared.scene.files);
   });
+}
+
+// Loads the scene that is shown. Its lights and cameras may be others now: update_view() chooses once it is read.
+void Viewer::load_again() {
+  cli::SceneOptions options = state_.document.options;
+  use_scene_view(options);
+  loader_.start(std::move(options));
 }
 
 // Loads saved files again: the scene's, and shaders.
@@ -260,10 +269,6 @@ void Viewer::take_saved() {
       return std::find(changed.begin(), changed.end(), file) != changed.end();
     };
     const cli::SceneOptions& shown = state_.document.options;
-    // Lights and cameras may be others now: update_view() chooses them once the scene is read.
-    cli::SceneOptions again = shown;
-    again.lights.reset();
-    again.camera.reset();
     const cli::SceneOptions& asked = loader_.asked();
     // Another scene is being read, or could not be.
     const bool is_other = scene_ == nullptr || asked.scene != shown.scene;
@@ -271,7 +276,7 @@ void Viewer::take_saved() {
       loader_.start(asked);
     } else if (scene_ != nullptr && (!is_other || loader_.file().empty())) {
       const std::vector<std::filesystem::path>& files = scene_->prepared.scene.files;
-      if (std::any_of(files.begin(), files.end(), is_saved)) loader_.start(again);
+      if (std::any_of(files.begin(), files.end(), is_saved)) load_again();
     }
     if (!changed.empty() && !options_.glsl.empty()) take_shaders(changed);
   });
@@ -309,7 +314,8 @@ void Viewer::update_view() {
     session::update_view(scene_->prepared, options);
   } catch (const Error& error) {
     leave_out_unknown();
-    tell_error(state_, fmt::format("{}: {}", options.scene, error.what()), ImGui::GetTime());
+    history_.amend(present_edit());  // it is no step of the user's
+    tell_error(state_, fmt::format("{}: {}", io::quoted(options.scene), error.what()), ImGui::GetTime());
     wanted = cli::command_text("", scene_arguments(options));
   }
   view_options_ = std::move(wanted);

@@ -44,17 +44,35 @@ class Viewer {
   int run();
 
  private:
+  // What a picture is drawn for.
+  struct Wishes {
+    std::string picture;  // the text of A's document
+    Comparison comparison;
+    Zoom zoom;
+    Requests requests;
+    glm::ivec2 size{0};  // of the picture's area, pixels
+    bool playing = false;
+
+    bool operator==(const Wishes&) const = default;
+  };
+  // What could not be drawn of a picture.
+  struct Failed {
+    std::optional<std::uint64_t> shaders = {};  // with what ShaderLibrary::changes() counted then
+    bool reduced = false;                       // in less than full detail
+    std::optional<Wishes> full = {};            // in full detail, for these
+  };
   // One of the two pictures, A or B: what draws it, what it cost and the values read back from it.
   struct Side {
     Side(gl::Device& device, render::Renderer& shared, int view) : renderer(device, shared, view) {}
     PictureRenderer renderer;
     Costs costs;
-    Detail detail;                        // of the last frame
-    Values values;                        // of the inspected AOV or texture
-    int reads = 0;                        // how often they were read back
-    std::vector<float> visibility;        // if measured
-    bool measured = false;                // the visibility is that of the finished picture
-    bool untraced = false;                // it was drawn before the rays of all its lights were traced
+    Detail detail;                  // of the last frame
+    Values values;                  // of the inspected AOV or texture
+    int reads = 0;                  // how often they were read back
+    std::vector<float> visibility;  // if measured
+    bool measured = false;          // the visibility is that of the finished picture
+    bool untraced = false;          // it was drawn before the rays of all its lights were traced
+    Failed failed;
     const gl::Texture* colors = nullptr;  // its values in false colour, if any are inspected
     const gl::Texture* shown = nullptr;   // its picture, or these colours
   };
@@ -73,23 +91,6 @@ class Viewer {
     bool b_shown = false;
     FramePlan plan;
   };
-  // What a picture is drawn for.
-  struct Wishes {
-    std::string picture;  // the text of A's document
-    Comparison comparison;
-    Zoom zoom;
-    Requests requests;
-    glm::ivec2 size{0};  // of the picture's area, pixels
-    bool playing = false;
-
-    bool operator==(const Wishes&) const = default;
-  };
-  // What could not be drawn.
-  struct Failed {
-    std::optional<std::uint64_t> shaders = {};  // with what ShaderLibrary::changes() counted then
-    bool reduced = false;                       // in less than full detail
-    std::optional<Wishes> full = {};            // in full detail, for these
-  };
   // What a frame does for one of them.
   struct SideWork {
     Side& side;
@@ -105,6 +106,7 @@ class Viewer {
   void take_events();
   std::optional<SceneLoader::Loaded> finished_scene();
   void take_loaded();
+  void load_again();
   void take_saved();
   void take_shaders(std::span<const std::filesystem::path> changed);
   void play(float seconds);
@@ -115,8 +117,10 @@ class Viewer {
   void status_window(const Panel& panel, const Box& box);
   PictureArea picture_window(const Panel& panel, const Box& box);
   std::optional<PictureWork> plan_pictures(const PictureArea& area, double now);
-  void mind_failures(FramePlan& plan);
-  void note_failure(const Detail& detail);
+  Wishes drawn_wishes() const;
+  bool is_undrawable(const Side& side) const;
+  void mind_failures(PictureWork& work);
+  void note_failure(Side& side, const Detail& detail);
   void draw_pictures(const PictureWork& work);
   void draw_at_rest(const PictureWork& work);
   Wishes wishes() const;
@@ -221,7 +225,6 @@ class Viewer {
   bool attending_ = false;       // a picture is being drawn, between two of its passes
   bool vsync_ = true;
   bool interface_changed_ = true;  // the last frame of the interface differed from the one before
-  Failed failed_;
   double last_draw_ = 0;
   double history_began_ = -1e9;  // when A's last history began, seconds
   TurnClock turn_;

@@ -51,6 +51,12 @@ class Hostile(Plans):
                 document[path[-1]] = value
             return change
 
+        def of_another_format(document):
+            document["format"] = "penumbra.plan/2"
+            document["items"][0].pop("key")
+
+        for error in self.refused(self.changed(of_another_format)):
+            self.assertIn("its format is", error)
         for change in (put("format", value="penumbra.plan/2"), put("format", value=3), put("version", value="Penumbra 9"),
                        put("commit", value="abc"), put("build", value="0" * 32), put("build", value=[]),
                        put("arguments", value="x"), put("arguments", value=[]), put("arguments", value=[None, None]),

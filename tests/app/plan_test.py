@@ -363,6 +363,14 @@ class Folder(Plans):
         found = {path.name: path.read_bytes() for path in other.rglob("*.result")}
         self.assertEqual(found, {pathlib.Path(name).name: data for name, data in self.results().items()})
 
+    def test_other_threads_for_times_are_refused(self):
+        self.make("compare", *COMPARED)
+        self.assertIn("times depend on --threads", self.refuse("work", self.plan, "--item", "0", "--threads", "1"))
+
+    def test_the_output_among_short_flags_is_refused(self):
+        self.assertIn("'-qo': a plan's -o stands alone".replace("'", ""),
+                      self.refuse("plan", "compare", *COMPARED, "-qo", self.plan).replace("'", ""))
+
     def test_threads_in_either_spelling(self):
         for threads in (["--threads", "2"], ["--threads=2"]):
             self.make("compare", *COMPARED, "--no-cost", *threads)

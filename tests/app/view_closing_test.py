@@ -202,7 +202,7 @@ class Closing(WindowTest):
             viewer.wait_for(self.saved.exists, "the view")
             viewer.follow()
             self.assertEqual(preset.read_text(), first)
-            self.desktop.client.drop(viewer.window, *viewer.middle("picture"), preset)
+            viewer.tap("ctrl+y")  # it is open again
             viewer.wait_for(lambda: "--technique=pcf" in viewer.copied(), "the preset")
             viewer.choose("technique", "none")
             viewer.open_tab("Scene", "eye")
@@ -211,6 +211,20 @@ class Closing(WindowTest):
             self.assertEqual(preset.read_text(), first)
             viewer.click("overwrite preset", lambda: preset.read_text() != first, "the file")
         self.assertIn('"none"', preset.read_text())
+
+    def test_a_preset_with_the_values_that_are_set_stays_open(self):
+        preset = self.folder / "preset.toml"
+        preset.write_text('technique = "slices_denoised"\n')
+        with self.view("mine.glb", maps=()) as viewer:
+            self.desktop.client.drop(viewer.window, *viewer.middle("picture"), preset)
+            viewer.wait_for(lambda: viewer.has("messages"), "a message")
+            self.drag(viewer, LEFT, "--eye")
+            viewer.tap("ctrl+z")
+            viewer.wait_for(lambda: not self.place(viewer, "--eye"), "the first camera")
+            viewer.find("slices.azimuths")
+            viewer.fill_in("slices.azimuths", "5", lambda: "--set=slices.azimuths=5" in " ".join(viewer.copied()), "the value")
+            viewer.tap("ctrl+s")
+            viewer.wait_for(lambda: "azimuths" in preset.read_text(), "the file without a question")
 
     def test_a_preset_is_saved_where_the_view_cannot_be(self):
         broken = '{"view": ["--eye=nan,0,0", "--target=0,0,0"]}'

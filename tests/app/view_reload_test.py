@@ -180,6 +180,11 @@ class Scene(WindowTest):
             file.write_bytes(STEPS.read_bytes())
             viewer.wait_for(lambda: viewer.rest() == wanted, "the scene")
             self.assertNotEqual(gallery, wanted)
+            viewer.tap("ctrl+z")  # leads to before the lights were chosen, and not back again and again
+            viewer.follow()
+            viewer.tap("ctrl+z")
+            viewer.follow()
+            self.assertEqual([word for word in viewer.copied() if word.startswith("--lights")], [])
 
     def test_a_scene_that_is_saved_again_is_shown(self):
         file = self.folder / "scene.glb"

@@ -101,6 +101,7 @@ TEST_F(AvailableInGroup, IsTheLeastOfItsGroupAndOfThoseThatHoldIt) {
   write("memory/slurm/job_7/memory.limit_in_bytes", "800");
   write("memory/slurm/job_7/memory.usage_in_bytes", "300");
   EXPECT_EQ(available(), 500u);
+  write("../../outside/memory.max", "10");
   join("0::/../../outside\nno line of such a file");
   EXPECT_EQ(available(), unlimited);
 }

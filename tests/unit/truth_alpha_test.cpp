@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <functional>
 #include <random>
+#include <utility>
 
 #include "truth/alpha.h"
 #include "unit/truth_scene.h"

@@ -14,8 +14,8 @@ struct PackedPixel {
 PackedPixel packed_pixel(Shadowed shadowed, Receiver receiver, uint refusal) {
   Visibility seen = shadowed.visibility;
   // Filters derive kernel sizes from the distance, so it is computed from the radius, which some techniques give alone.
-  // A light that is hardly wider than a point has no radius to compute it from.
-  bool from_radius = shadow.light_extent >= least_packed_slope || seen.blocker_distance <= 0.0;
+  // Under a light that is hardly wider than a point, packed_distance() would take the radius for a nearer blocker's.
+  bool from_radius = !is_light_narrow() || seen.blocker_distance <= 0.0;
   float distance_to =
       from_radius ? packed_distance(receiver.position, seen.penumbra_radius) : seen.blocker_distance;
   return PackedPixel(pack_texel(distance_to, seen.visibility, refusal != HISTORY_KEPT),

@@ -35,6 +35,10 @@ vec2 stored_edge_heights(Light light) {
 // within the range of a half float.
 const float least_packed_slope = 1e-4;
 
+// Whether the light is so narrow that the bound counts. Then distances that are computed from radii are wrong, and
+// radii that are computed from distances too large, by up to 1e-4 of these.
+bool is_light_narrow() { return shadow.light_extent < least_packed_slope; }
+
 float packed_radius(vec3 position, float blocker_distance) {
   float radius = max(shadow.light_extent, least_packed_slope) * blocker_distance;
   // A lamp's blockers are nearer than the lamp.

@@ -38,8 +38,8 @@ Recipe second_layer() {
                       compiled},
                      {"maps.gap", 0.0f, 0, 10, "m",
                       "Least distance of the second layer behind the first. What is thinner counts as one surface. "
-                      "Under lamps it "
-                      "is that long at the far plane of their maps, and shrinks with the square of the depth.",
+                      "Under lamps it is that long at the far plane of their maps, and shrinks with the square of the "
+                      "depth.",
                       host}},
           .depends_only_on_needs = true,
           .reads_light_discs = true,
