@@ -12,10 +12,11 @@ layout(binding = 9) uniform usampler2D last_surface;
 struct Reprojection {
   uint refusal;  // HISTORY_KEPT, else why the history was rejected (packed_texel.glsl)
   ivec2 corner;  // lower left of the four pixels of the bilinear footprint
+  vec2 part;     // from the corner's centre to the last position, pixels
   vec4 weights;  // of (0,0) (1,0) (0,1) (1,1); their sum is 1
 };
 
-Reprojection refused(uint why) { return Reprojection(why, ivec2(0), vec4(0.0)); }
+Reprojection refused(uint why) { return Reprojection(why, ivec2(0), vec2(0.0), vec4(0.0)); }
 
 // NDC, with jitter removed, of a position in the viewport given in pixels.
 vec2 ndc_at(vec2 place, vec2 jitter) { return place / shadow.viewport.zw * 2.0 - 1.0 - jitter; }
@@ -92,5 +93,5 @@ Reprojection reproject(Receiver receiver, ivec2 pixel) {
   }
   float sum = weights.x + weights.y + weights.z + weights.w;
   if (sum < 0.01) return refused(HISTORY_OTHER_SURFACE);
-  return Reprojection(HISTORY_KEPT, corner, weights / sum);
+  return Reprojection(HISTORY_KEPT, corner, part, weights / sum);
 }

@@ -182,16 +182,20 @@ struct OnPath {
   double decibels = 0, flicker = 0;
 };
 
-// The camera circles about the scene. The ground is seen at a grazing angle, so that penumbrae are narrower in the
-// picture than their width makes them where they face the camera. `truths`: of each frame's receivers, -1 elsewhere;
-// none at first.
-OnPath on_path(std::vector<Visibility>& truths, const std::string& preset,
-               const std::vector<std::string>& settings = {}) {
+struct Path {
+  std::string scene;
+  float sun_angle = 0;             // degrees
+  std::vector<Visibility> truths;  // of each frame's receivers, -1 elsewhere; none at first
+};
+
+// The camera circles about the scene.
+OnPath on_path(Path& path, const std::string& preset, const std::vector<std::string>& settings = {}) {
   constexpr int frames = 16;
-  SceneRun run("posts", 320, 180);
+  std::vector<Visibility>& truths = path.truths;
+  SceneRun run(path.scene, 320, 180);
   run.choose(preset);
   for (const std::string& setting : settings) run.params().assign(setting);
-  run.params().set("sun.angle", 8.0f);
+  run.params().set("sun.angle", path.sun_angle);
   Visibility last;
   OnPath result;
   for (int frame = 0; frame < frames; ++frame) {
@@ -219,22 +223,33 @@ OnPath on_path(std::vector<Visibility>& truths, const std::string& preset,
     if (frame > 0) result.flicker += sum / pairs / (frames - 1);
     last = error;
   }
-  std::printf("posts.glb 320x180 under 8 degrees, the camera circles, %s: %.2f dB in the penumbra, flicker %.5f\n",
-              preset.c_str(), result.decibels, result.flicker);
+  std::printf("%s.glb 320x180 under %g degrees, the camera circles, %s: %.2f dB in the penumbra, flicker %.5f\n",
+              path.scene.c_str(), path.sun_angle, preset.c_str(), result.decibels, result.flicker);
   return result;
 }
 
+// The ground is seen at a grazing angle, so that penumbrae are narrower in the picture than their width makes them
+// where they face the camera.
 TEST_F(ShadowHistory, OnACameraPathHistoryDoesNotBlurGrazingPenumbrae) {
-  std::vector<Visibility> truths;
-  const OnPath with = on_path(truths, "slices_history"), without = on_path(truths, "slices_denoised"),
-               thesis = on_path(truths, "thesis");
+  Path path{.scene = "posts", .sun_angle = 8, .truths = {}};
+  const OnPath with = on_path(path, "slices_history"), without = on_path(path, "slices_denoised"),
+               thesis = on_path(path, "thesis");
   EXPECT_GT(with.decibels, without.decibels + 0.2);
   EXPECT_LT(with.flicker, without.flicker);
   EXPECT_LT(with.flicker, thesis.flicker);
   // A filter that leaves more noise shows what the history removes.
   const std::vector<std::string> separable{"filter.visibility=bilateral_separable", "filter.taps=6"};
-  EXPECT_GT(on_path(truths, "slices_history", separable).decibels,
-            on_path(truths, "slices_denoised", separable).decibels + 0.3);
+  EXPECT_GT(on_path(path, "slices_history", separable).decibels,
+            on_path(path, "slices_denoised", separable).decibels + 0.3);
+}
+
+// Where some of the four pixels that are read show other surfaces, the others lie to one side of the receiver's last
+// position. A history that is read from there frame after frame moves the shadow.
+TEST_F(ShadowHistory, OnACameraPathPastManyEdgesHistoryCostsNothing) {
+  Path path{.scene = "courtyard", .sun_angle = 0.53f, .truths = {}};
+  const OnPath with = on_path(path, "slices_history"), without = on_path(path, "slices_denoised");
+  EXPECT_GT(with.decibels, without.decibels - 0.05);
+  EXPECT_LT(with.flicker, 1.02 * without.flicker);
 }
 
 // Receivers that keep their history within some pixels of one that shows what the last frame did not.
@@ -283,7 +298,7 @@ TEST_F(ShadowHistory, PixelsKeepTheirHistoryWhileTheCameraMovesAndDisocclusionsT
   const double moving = mean_error(picture, reference, beside);
   run.params().set("pcss.disocclusion_taps", 16);  // as many as where a history is kept
   const double fresh = mean_error(run.draw(/*cut=*/true), reference, beside);
-  EXPECT_LE(moving, fresh + 1 / 255.0);
+  EXPECT_LE(moving, 1.25 * fresh);
   std::printf(
       "courtyard.glb 480x270, 0.8 degrees and 4 cm a frame: %.2f %% of the pixels that were on screen keep their ",
       100 * count[HISTORY_KEPT] / on_screen);

@@ -45,13 +45,14 @@ float penumbra_distance(ivec2 pixel, uint texel) {
   return least;
 }
 
-// Weight of the present frame. Each bilinear look-up blurs with a variance of x(1 − x) pixels squared, x being the
-// fractional part of the motion in pixels; with a weight of α this accumulates to (1 − α)/α times as much. `alpha` is
-// raised so that the accumulated blur is no wider than the visibility filter's kernel: narrow penumbrae, which have
-// little noise, stay sharp while the camera moves.
+// Weight of the present frame. Each look-up blurs: the squared distances, in pixels, of the weighted pixels from the
+// receiver's last position have the mean x(1 − x) where all four count, x being the fractional part of the motion, and
+// up to 1 where some show other surfaces, which also shifts what is read. With a weight of α this accumulates to
+// (1 − α)/α times as much. `alpha` is raised so that the accumulated blur is no wider than the visibility filter's
+// kernel: narrow penumbrae, which have little noise, stay sharp while the camera moves.
 float present_weight(Reprojection last, Receiver receiver, float distance_to, float alpha) {
-  vec2 part = vec2(last.weights.y + last.weights.w, last.weights.z + last.weights.w);
-  vec2 variance = part * (1.0 - part);
+  vec2 high = vec2(last.weights.y + last.weights.w, last.weights.z + last.weights.w);
+  vec2 variance = mix(last.part * last.part, (1.0 - last.part) * (1.0 - last.part), high);
   vec2 pixels = pixels_on_plane(view_position_of(receiver), view_normal_of(receiver));
   vec2 sigma = sigma_for(receiver.position, pixels, distance_to);
   vec2 weight = variance / max(variance + sigma * sigma, 1e-6);
