@@ -34,6 +34,7 @@ namespace penumbra::shadow {
 // One line for each filter; each is defined in filters/<name>.cpp.
 #define PENUMBRA_FILTERS(X) \
   X(median)                 \
+  X(median_visibility)      \
   X(box)                    \
   X(gaussian)               \
   X(bilateral)              \

@@ -193,11 +193,12 @@ TEST_F(ShadowFilter, NothingBleedsAcrossADepthEdge) {
     const std::vector<float> apart = draw(slab_over_floor(), "low", "none").visibilities();
     for (const std::string& driver : drivers) {
       params.set("driver", driver);
-      for (const std::string filter : {"box", "gaussian", "bilateral", "bilateral_separable", "isophote"}) {
+      for (const std::string filter :
+           {"median_visibility", "box", "gaussian", "bilateral", "bilateral_separable", "isophote"}) {
         const std::vector<float> filtered = draw(slab_over_floor(), "low", filter).visibilities();
         float most = 0;
         for (size_t i = 0; i < apart.size(); ++i) most = std::max(most, std::abs(filtered[i] - apart[i]));
-        if (filter.starts_with("bilateral") || filter == "isophote") {
+        if (filter != "box" && filter != "gaussian") {
           EXPECT_LE(most, 1.0f / 255) << filter;
         } else {
           EXPECT_GT(most, 0.25f) << filter;
@@ -211,7 +212,8 @@ TEST_F(ShadowFilter, AConstantMaskStaysConstant) {
   params.set("pattern.visibility", 0.37f);
   for (const std::string& driver : drivers) {
     params.set("driver", driver);
-    for (const std::string filter : {"box", "gaussian", "bilateral", "bilateral_separable", "isophote"}) {
+    for (const std::string filter :
+         {"median_visibility", "box", "gaussian", "bilateral", "bilateral_separable", "isophote"}) {
       const TriangleScene scene = ground(70, 40, true);
       for (const float visibility : draw(scene, "none", filter).visibilities()) {
         ASSERT_NEAR(visibility, 0.37f, 3e-4f) << filter;  // the mask stores half floats
@@ -250,6 +252,19 @@ TEST_F(ShadowFilter, TheMedianRemovesSingleWrongDistances) {
       for (const float one : distances(shadowed)) ASSERT_EQ(one, 4);
       EXPECT_EQ(shadowed.visibility(2, 2), 1) << "it is no filter of visibility";
       EXPECT_EQ(shadowed.visibility(3, 2), 0);
+    }
+  }
+}
+
+TEST_F(ShadowFilter, TheMedianOfVisibilityRemovesSingleWrongOnes) {
+  for (const std::string& driver : drivers) {
+    params.set("driver", driver);
+    for (const float wrong : {0.0f, 0.4f, 1.0f}) {
+      params.set("pattern.visibility", 0.5f);
+      params.set("pattern.marked_visibility", wrong);
+      ASSERT_NEAR(draw(ground(61, 50, true), "dots", "none").visibility(2, 2), wrong, 3e-4f);
+      for (const float one : draw(ground(61, 50, true), "dots", "median_visibility").visibilities())
+        ASSERT_NEAR(one, 0.5f, 3e-4f);
     }
   }
 }
