@@ -7,6 +7,9 @@
 
 #define GL_FUNCTIONS(X)                                          \
   X(PFNGLATTACHSHADERPROC, glAttachShader)                       \
+  X(PFNGLBINDBUFFERPROC, glBindBuffer)                           \
+  X(PFNGLBINDBUFFERBASEPROC, glBindBufferBase)                   \
+  X(PFNGLBINDBUFFERRANGEPROC, glBindBufferRange)                 \
   X(PFNGLBINDFRAMEBUFFERPROC, glBindFramebuffer)                 \
   X(PFNGLBINDVERTEXARRAYPROC, glBindVertexArray)                 \
   X(PFNGLBLENDFUNCSEPARATEPROC, glBlendFuncSeparate)             \
@@ -34,6 +37,8 @@
   X(PFNGLFRONTFACEPROC, glFrontFace)                             \
   X(PFNGLGETBOOLEANVPROC, glGetBooleanv)                         \
   X(PFNGLGETFLOATVPROC, glGetFloatv)                             \
+  X(PFNGLGETINTEGER64I_VPROC, glGetInteger64i_v)                 \
+  X(PFNGLGETINTEGERI_VPROC, glGetIntegeri_v)                     \
   X(PFNGLGETINTEGERVPROC, glGetIntegerv)                         \
   X(PFNGLGETPROGRAMIVPROC, glGetProgramiv)                       \
   X(PFNGLGETTEXTURESUBIMAGEPROC, glGetTextureSubImage)           \

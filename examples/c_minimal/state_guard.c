@@ -1,8 +1,19 @@
 #include "state_guard.h"
 
-static const GLenum capabilities[9] = {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST,     GL_BLEND,
-                                       GL_CULL_FACE,  GL_DEPTH_CLAMP,  GL_FRAMEBUFFER_SRGB, GL_POLYGON_OFFSET_FILL,
-                                       GL_DITHER};
+enum { capability_count = 12, uniform_count = 3, storage_binding = 7 };
+
+static const GLenum capabilities[capability_count] = {GL_DEPTH_TEST,
+                                                      GL_STENCIL_TEST,
+                                                      GL_SCISSOR_TEST,
+                                                      GL_BLEND,
+                                                      GL_CULL_FACE,
+                                                      GL_DEPTH_CLAMP,
+                                                      GL_FRAMEBUFFER_SRGB,
+                                                      GL_POLYGON_OFFSET_FILL,
+                                                      GL_DITHER,
+                                                      GL_PRIMITIVE_RESTART,
+                                                      GL_PRIMITIVE_RESTART_FIXED_INDEX,
+                                                      GL_PROGRAM_POINT_SIZE};
 
 static const GLenum stencil_names[2][7] = {
     {GL_STENCIL_FUNC, GL_STENCIL_REF, GL_STENCIL_VALUE_MASK, GL_STENCIL_WRITEMASK, GL_STENCIL_FAIL,
@@ -26,8 +37,22 @@ static void restore_stencil(const stencil_side* side, GLenum face) {
   glStencilOpSeparate(face, (GLenum)side->fail, (GLenum)side->depth_fail, (GLenum)side->pass);
 }
 
+static void save_range(buffer_range* range, GLuint index, GLenum buffer, GLenum start, GLenum size) {
+  glGetIntegeri_v(buffer, index, &range->buffer);
+  glGetInteger64i_v(start, index, &range->start);
+  glGetInteger64i_v(size, index, &range->size);
+}
+
+static void restore_range(const buffer_range* range, GLenum target, GLuint index) {
+  if (range->size == 0) {
+    glBindBufferBase(target, index, (GLuint)range->buffer);
+  } else {
+    glBindBufferRange(target, index, (GLuint)range->buffer, (GLintptr)range->start, (GLsizeiptr)range->size);
+  }
+}
+
 void save_state(state_guard* guard) {
-  for (int i = 0; i < 9; ++i) guard->capabilities[i] = glIsEnabled(capabilities[i]);
+  for (int i = 0; i < capability_count; ++i) guard->capabilities[i] = glIsEnabled(capabilities[i]);
   glGetBooleanv(GL_COLOR_WRITEMASK, guard->color_mask);
   glGetBooleanv(GL_DEPTH_WRITEMASK, &guard->depth_mask);
   glGetIntegerv(GL_DEPTH_FUNC, &guard->depth_function);
@@ -50,10 +75,16 @@ void save_state(state_guard* guard) {
   glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &guard->vertex_array);
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &guard->draw_framebuffer);
   glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &guard->read_framebuffer);
+  for (GLuint i = 0; i < uniform_count; ++i)
+    save_range(&guard->uniforms[i], i, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE);
+  save_range(&guard->storage, storage_binding, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
+             GL_SHADER_STORAGE_BUFFER_SIZE);
+  glGetIntegerv(GL_UNIFORM_BUFFER_BINDING, &guard->uniform_buffer);
+  glGetIntegerv(GL_SHADER_STORAGE_BUFFER_BINDING, &guard->storage_buffer);
 }
 
 void restore_state(const state_guard* guard) {
-  for (int i = 0; i < 9; ++i) {
+  for (int i = 0; i < capability_count; ++i) {
     if (guard->capabilities[i]) {
       glEnable(capabilities[i]);
     } else {
@@ -79,4 +110,8 @@ void restore_state(const state_guard* guard) {
   glBindVertexArray((GLuint)guard->vertex_array);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)guard->draw_framebuffer);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, (GLuint)guard->read_framebuffer);
+  for (GLuint i = 0; i < uniform_count; ++i) restore_range(&guard->uniforms[i], GL_UNIFORM_BUFFER, i);
+  restore_range(&guard->storage, GL_SHADER_STORAGE_BUFFER, storage_binding);
+  glBindBuffer(GL_UNIFORM_BUFFER, (GLuint)guard->uniform_buffer);
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, (GLuint)guard->storage_buffer);
 }

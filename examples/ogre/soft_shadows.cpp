@@ -156,6 +156,16 @@ void forget_state(Ogre::RenderSystem& renderer) {
   gl._setViewport(nullptr);
 }
 
+// Also if render() throws.
+struct ForgetsAtEnd {
+  explicit ForgetsAtEnd(Ogre::RenderSystem& of) : renderer(of) {}
+  ~ForgetsAtEnd() { forget_state(renderer); }
+  ForgetsAtEnd(const ForgetsAtEnd&) = delete;
+  ForgetsAtEnd& operator=(const ForgetsAtEnd&) = delete;
+
+  Ogre::RenderSystem& renderer;
+};
+
 }  // namespace
 
 SoftShadows::SoftShadows(const ShadowScene& scene, penumbra::api::Settings settings)
@@ -211,9 +221,8 @@ void SoftShadows::postRenderTargetUpdate(const Ogre::RenderTargetEvent&) {
   frame.moved = box_of(moved);
   frame.light_with(lights);
   frame.draw_with([&](const penumbra_caster_pass& pass) { draw_casters(pass); });
+  const ForgetsAtEnd forgets(renderer_);
   device_.render(settings_, frame);
-
-  forget_state(renderer_);
   last_ = now;
 }
 

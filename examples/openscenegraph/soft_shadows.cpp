@@ -88,6 +88,16 @@ void forget_state(osg::State& state) {
   state.setLastAppliedProgramObject(nullptr);
 }
 
+// Also if render() throws.
+struct ForgetsAtEnd {
+  explicit ForgetsAtEnd(osg::State& of) : state(of) {}
+  ~ForgetsAtEnd() { forget_state(state); }
+  ForgetsAtEnd(const ForgetsAtEnd&) = delete;
+  ForgetsAtEnd& operator=(const ForgetsAtEnd&) = delete;
+
+  osg::State& state;
+};
+
 }  // namespace
 
 SoftShadows::SoftShadows(ShadowScene scene, penumbra::api::Settings settings)
@@ -120,9 +130,8 @@ void SoftShadows::operator()(osg::RenderInfo& info) const {
   frame.moved = box_of(moved);
   frame.light_with(lights);
   frame.draw_with([&](const penumbra_caster_pass& pass) { draw_casters(info, pass); });
+  const ForgetsAtEnd forgets(state);
   mask_ = device_->render(settings_, frame).texture;
-
-  forget_state(state);
   last_view_ = view;
   last_projection_ = projection;
   last_moving_ = moving;

@@ -247,19 +247,22 @@ shadow::DrawCasters casters_of(const penumbra_frame& frame, penumbra_device& dev
 
 namespace {
 
-// Runs what draws a frame of a view, within one call with the device. If it fails otherwise than by a wrong argument,
-// the view has no mask, and its next frame begins anew.
+// Runs what draws a frame of a view, within one call with the device. If it fails, the view's next frame begins anew,
+// since what moved in this one will not be said again; and unless an argument was wrong, the view has no mask.
 template <class Draw>
 void draw_view(penumbra_device& device, int view, const Draw& draw) {
   const OneCall one(device);
+  const auto interrupt = [&] {
+    if (device.objects != nullptr) device.objects->shadows.interrupt_view(view);
+  };
   const auto drop = [&] {
     device.masks.erase(view);
-    if (device.objects != nullptr) device.objects->shadows.interrupt_view(view);
+    interrupt();
   };
   try {
     draw(DeviceCall(device, one));
   } catch (const Failure& failure) {
-    if (failure.result() != PENUMBRA_ERROR_ARGUMENT) drop();
+    failure.result() == PENUMBRA_ERROR_ARGUMENT ? interrupt() : drop();
     throw;
   } catch (...) {
     drop();

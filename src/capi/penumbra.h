@@ -113,7 +113,8 @@ PENUMBRA_API penumbra_result penumbra_device_desc_init(penumbra_device_desc* des
 PENUMBRA_API penumbra_result penumbra_device_create(const penumbra_device_desc* desc, penumbra_device** device);
 
 /** Deletes the device and all its OpenGL objects. Its context must be current. If it is not, the objects are left
- * to their context, and the result is PENUMBRA_ERROR_CONTEXT; the device is gone nevertheless. Null: nothing happens.
+ * to their context, and where that shares objects to its whole share group, and the result is PENUMBRA_ERROR_CONTEXT;
+ * the device is gone nevertheless. Null: nothing happens.
  * PENUMBRA_ERROR_ARGUMENT: called from within a callback of a device, or while another thread is in a call with this
  * one, which stays then. */
 PENUMBRA_API penumbra_result penumbra_device_destroy(penumbra_device* device);
@@ -327,8 +328,8 @@ typedef struct penumbra_caster_pass {
   /** PENUMBRA_PASS_GEOMETRY: the text of a geometry shader, and of a fragment shader, for a program of the engine's;
    * else null. The engine compiles them with a vertex shader of its own, which writes gl_Position = world_to_clip *
    * world position and no other output, and draws each triangle once, as GL_TRIANGLES: opaque casters, and alpha-tested
-   * ones as whole triangles. It must leave all bindings of textures, samplers, uniform buffers and storage buffers from
-   * 4 on as they are. The texts are valid as long as the device. */
+   * ones as whole triangles. Textures and samplers of units 0 to 8, uniform buffers 0 to 2 and all storage buffers from
+   * 4 on must stay as they are bound; the engine's own use others. The texts are valid as long as the device. */
   const char* geometry_shader;
   const char* fragment_shader; /**< see geometry_shader; null too if only depth and stencil are written */
   uint64_t program_id;         /**< from 1: the same for the same texts; 0 for other kinds */
@@ -477,8 +478,9 @@ typedef struct penumbra_mask {
   int32_t view_id;  /**< of the frame */
 } penumbra_mask;
 
-/** Computes the shadows of a frame. After an error other than PENUMBRA_ERROR_ARGUMENT the view has no mask until a call
- * succeeds, and the next frame of it has no history. PENUMBRA_ERROR_ARGUMENT, REFUSED, CONTEXT, CALLBACK, MEMORY. */
+/** Computes the shadows of a frame. After an error the view's next frame has no history and draws all maps anew; after
+ * one other than PENUMBRA_ERROR_ARGUMENT the view has no mask until a call succeeds. PENUMBRA_ERROR_ARGUMENT, REFUSED,
+ * CONTEXT, CALLBACK, MEMORY. */
 PENUMBRA_API penumbra_result penumbra_render(penumbra_device* device, const penumbra_settings* settings,
                                              const penumbra_frame* frame, penumbra_mask* mask);
 
@@ -521,7 +523,9 @@ PENUMBRA_API penumbra_result penumbra_unbind_forward(penumbra_device* device);
 
 /* ------------------------------------------------------------------------------------------------------------ State
  * penumbra_render() and penumbra_warm_up() rely on no state of OpenGL 4.5 and restore none; of extensions, the depth
- * bounds test, shading rate images and conservative rasterization must be off. Of the following, what they change
+ * bounds test, shading rate images, conservative rasterization, window rectangles, representative fragment tests,
+ * viewport swizzles, w scaling, coverage to color and raster multisampling must be off, and in a compatibility profile
+ * the render mode must be GL_RENDER. Of the following, what they change
  * is back at OpenGL's initial value afterwards: depth and stencil test, scissor, blend, logic operation, culling, depth
  * clamp, dithering, GL_FRAMEBUFFER_SRGB, rasterizer discard, sample mask, coverage, shading and alpha to coverage or
  * one, line and polygon smoothing, polygon offset, primitive restart, program point size, clip distances 0 to 7; depth

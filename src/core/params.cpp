@@ -271,6 +271,8 @@ std::vector<std::byte> uniform_bytes(const ParamSet& params) {
       append(choice_index(param, std::get<std::string>(value)));
     }
   }
+  constexpr std::size_t block_step = 16;  // std140 rounds a block's size up to it
+  bytes.resize((bytes.size() + block_step - 1) / block_step * block_step);
   return bytes;
 }
 

@@ -16,6 +16,8 @@ constexpr std::array<GLenum, InitialLegacyState::tests> tests{
     0x0B10,  // GL_POINT_SMOOTH
 };
 constexpr GLenum clamp_fragment_color = 0x891B;  // GL_CLAMP_FRAGMENT_COLOR: if true, to 0..1 in float textures too
+constexpr std::array<GLenum, 2> point_sizes{0x8126, 0x8127};  // GL_POINT_SIZE_MIN, GL_POINT_SIZE_MAX
+constexpr float greatest_point = 8192;                        // pixels: more than any point of a pass
 constexpr std::array<GLenum, InitialLegacyState::switches> switches{
     0x0D10,  // GL_MAP_COLOR
     0x0D11,  // GL_MAP_STENCIL
@@ -43,28 +45,31 @@ void find_legacy_state(Api& api, const std::function<void*(const char*)>& get_pr
 
 bool has_legacy_state() { return current_api->glPixelTransferf != nullptr; }
 
+void set_initial_legacy_state() {
+  if (!has_legacy_state()) return;
+  for (const GLenum test : tests) glDisable(test);
+  glClampColor(clamp_fragment_color, GL_FIXED_ONLY);
+  glPointParameterf(point_sizes[0], 0.0f);
+  glPointParameterf(point_sizes[1], greatest_point);
+  for (const GLenum name : switches) current_api->glPixelTransferi(name, 0);
+  for (std::size_t i = 0; i < scales.size(); ++i) current_api->glPixelTransferf(scales[i], initial_scale(i));
+}
+
 InitialLegacyState::InitialLegacyState() {
   if (!has_legacy_state()) return;
-  for (std::size_t i = 0; i < tests_.size(); ++i) {
-    tests_[i] = glIsEnabled(gl::tests[i]) == GL_TRUE;
-    glDisable(gl::tests[i]);
-  }
+  for (std::size_t i = 0; i < tests_.size(); ++i) tests_[i] = glIsEnabled(gl::tests[i]) == GL_TRUE;
   glGetIntegerv(clamp_fragment_color, &fragment_clamp_);
-  glClampColor(clamp_fragment_color, GL_FIXED_ONLY);
-  for (std::size_t i = 0; i < switches_.size(); ++i) {
-    glGetIntegerv(gl::switches[i], &switches_[i]);
-    current_api->glPixelTransferi(gl::switches[i], 0);
-  }
-  for (std::size_t i = 0; i < scales_.size(); ++i) {
-    glGetFloatv(gl::scales[i], &scales_[i]);
-    current_api->glPixelTransferf(gl::scales[i], initial_scale(i));
-  }
+  for (std::size_t i = 0; i < point_sizes_.size(); ++i) glGetFloatv(gl::point_sizes[i], &point_sizes_[i]);
+  for (std::size_t i = 0; i < switches_.size(); ++i) glGetIntegerv(gl::switches[i], &switches_[i]);
+  for (std::size_t i = 0; i < scales_.size(); ++i) glGetFloatv(gl::scales[i], &scales_[i]);
+  set_initial_legacy_state();
 }
 
 InitialLegacyState::~InitialLegacyState() {
   if (!has_legacy_state()) return;
   for (std::size_t i = 0; i < tests_.size(); ++i) set_enabled(gl::tests[i], tests_[i]);
   glClampColor(clamp_fragment_color, static_cast<GLenum>(fragment_clamp_));
+  for (std::size_t i = 0; i < point_sizes_.size(); ++i) glPointParameterf(gl::point_sizes[i], point_sizes_[i]);
   for (std::size_t i = 0; i < switches_.size(); ++i) current_api->glPixelTransferi(gl::switches[i], switches_[i]);
   for (std::size_t i = 0; i < scales_.size(); ++i) current_api->glPixelTransferf(gl::scales[i], scales_[i]);
 }

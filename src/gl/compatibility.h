@@ -19,6 +19,10 @@ void find_legacy_state(Api& api, const std::function<void*(const char*)>& get_pr
 // Whether the context has legacy state whose entry points the calling thread uses.
 bool has_legacy_state();
 
+// Gives legacy state that could change what is drawn or how texels are transferred its initial values. Does nothing in
+// contexts of the core profile. For each pass, since the caller's functions that draw may set such state.
+void set_initial_legacy_state();
+
 // In this scope legacy state that could change what is drawn or how texels are transferred has its initial values;
 // afterwards it is as before. Does nothing in contexts of the core profile.
 class InitialLegacyState {
@@ -33,6 +37,7 @@ class InitialLegacyState {
  private:
   std::array<bool, tests> tests_{};       // capabilities
   int fragment_clamp_ = 0;                // of what fragment shaders write
+  std::array<float, 2> point_sizes_{};    // the least and the greatest, pixels
   std::array<int, switches> switches_{};  // of pixel transfer: maps of colours and stencil
   std::array<float, scales> scales_{};    // and the factors and offsets of its channels
 };

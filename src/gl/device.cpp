@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <thread>
 #include <tuple>
 #include <utility>
 
@@ -95,6 +94,13 @@ Handle<delete_framebuffer> make_framebuffer(std::string_view name, std::span<con
   return handle;
 }
 
+// Not std::this_thread::get_id(), which a later thread may have again.
+std::uint64_t this_thread() {
+  static std::atomic<std::uint64_t> threads = 0;
+  thread_local const std::uint64_t number = ++threads;
+  return number;
+}
+
 void attach_foreign(GLuint framebuffer, std::span<const Attachment> colors, const Attachment* depth) {
   for (std::size_t i = 0; i < colors.size(); ++i) {
     if (colors[i].texture->is_foreign()) attach(framebuffer, GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i), colors[i]);
@@ -108,7 +114,7 @@ void attach_foreign(GLuint framebuffer, std::span<const Attachment> colors, cons
 
 struct Device::Impl {
   Api* api = current_api;
-  std::thread::id thread = std::this_thread::get_id();  // the last one that used the device
+  std::uint64_t thread = this_thread();  // the last one that used the device
   const std::string name = next_name();
   std::map<std::string, Texture, std::less<>> targets;
   std::map<std::string, Buffer, std::less<>> buffers;
@@ -283,13 +289,13 @@ DeviceScope::~DeviceScope() { current_api = outer_; }
 
 void DeviceScope::mark_context() { device_.empty_vertex_array(); }
 
-bool DeviceScope::has_context() { return device_.impl_->thread == std::this_thread::get_id() || finds_context(); }
+bool DeviceScope::has_context() { return device_.impl_->thread == this_thread() || finds_context(); }
 
 bool DeviceScope::finds_context() {
   Device::Impl& impl = *device_.impl_;
   const GLuint mark = impl.empty_vertex_array.id();
   if (mark != 0 && (glIsVertexArray(mark) == GL_FALSE || label_of(GL_VERTEX_ARRAY, mark) != impl.name)) return false;
-  impl.thread = std::this_thread::get_id();
+  impl.thread = this_thread();
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "../core/error.h"
+#include "compatibility.h"
 #include "pass.h"
 #include "texture_format.h"
 
@@ -183,6 +184,7 @@ void begin_raster_state(GLuint framebuffer, const PassDesc& desc) {
   if (desc.stencil && (!desc.depth || !has_stencil(*desc.depth->texture))) {
     fail("pass '{}': it tests stencil, and its depth texture has none", desc.name);
   }
+  set_initial_legacy_state();
   set_fixed_state(GL_ZERO_TO_ONE);
   invalidate(framebuffer, desc);
   clear(framebuffer, desc);

@@ -92,7 +92,7 @@ struct SoftShadows::State {
 
   // The registry's parameters with the caller's values and the light's overrides. Valid until the next call.
   const ParamSet& params_of(const Registry& registry, const ParamSet& params, const Light& light) {
-    constexpr std::size_t most_lights = 16;
+    constexpr std::size_t most_lights = 256;  // of a frame
     if (forward.size() >= most_lights && !forward.contains(light.id)) forward.clear();
     LightState& state = forward[light.id];
     take_params(state, {.registry = registry, .defaults = defaults, .values = params}, light);

@@ -303,6 +303,7 @@ TEST_F(CapiTest, AfterARefusedFrameMapsAreDrawnAnew) {
   penumbra_frame wrong = frame;
   wrong.reserved = 1;
   EXPECT_EQ(result_of(wrong), PENUMBRA_ERROR_ARGUMENT);
+  EXPECT_EQ(drawn(), all);
   EXPECT_EQ(drawn(), 0);
 }
 

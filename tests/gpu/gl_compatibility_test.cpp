@@ -31,6 +31,7 @@ struct Engine {
 
 constexpr GLenum alpha_test = 0x0BC0, polygon_stipple = 0x0B42, line_stipple = 0x0B24, point_smooth = 0x0B10;
 constexpr GLenum clamp_fragment_color = 0x891B, map_color = 0x0D10, red_scale = 0x0D14, red_bias = 0x0D15;
+constexpr GLenum point_size_max = 0x8127;
 constexpr GLenum clip_plane_0 = 0x3000, lighting = 0x0B50, fog = 0x0B60;
 constexpr std::array capabilities{alpha_test, polygon_stipple, line_stipple, point_smooth, lighting, fog};
 
@@ -45,6 +46,7 @@ void set_hostile_state(const Engine& engine) {
   engine.call("glPixelTransferf", red_bias, 0.25f);
   engine.call("glPixelTransferi", map_color, GLint{1});
   engine.call("glShadeModel", GLenum{0x1D00});  // GL_FLAT
+  gl::glPointParameterf(point_size_max, 2.0f);
 }
 
 void expect_hostile_state(const Engine& engine) {
@@ -62,6 +64,9 @@ void expect_hostile_state(const Engine& engine) {
   EXPECT_EQ(mapped, 1);
   EXPECT_EQ(scale, 0.5f);
   EXPECT_EQ(bias, 0.25f);
+  GLfloat greatest = 0;
+  gl::glGetFloatv(point_size_max, &greatest);
+  EXPECT_EQ(greatest, 2.0f);
   // Else the test would read its own results by it.
   gl::glClampColor(clamp_fragment_color, GL_FIXED_ONLY);
   engine.call("glPixelTransferf", red_scale, 1.0f);
@@ -86,7 +91,12 @@ std::vector<float> masks(const Engine& engine, const std::string& technique, boo
           inputs.mask_details = true;
           inputs.view.last_view = inputs.view.view;
           inputs.view.last_projection = inputs.view.projection;
-          if (legacy == LegacyState::hostile) set_hostile_state(engine);
+          if (legacy != LegacyState::hostile) return;
+          set_hostile_state(engine);
+          inputs.draw = [&, draw = inputs.draw](const shadow::CasterPass& casters, gl::Pass& pass) {
+            draw(casters, pass);
+            set_hostile_state(engine);
+          };
         },
         [&] {
           if (legacy == LegacyState::hostile) expect_hostile_state(engine);

@@ -19,7 +19,8 @@ using State = std::map<GLenum, std::vector<double>>;
 State present_state() {
   State state;
   for (const GLenum name : {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_BLEND, GL_CULL_FACE, GL_DEPTH_CLAMP,
-                            GL_FRAMEBUFFER_SRGB, GL_POLYGON_OFFSET_FILL, GL_DITHER})
+                            GL_FRAMEBUFFER_SRGB, GL_POLYGON_OFFSET_FILL, GL_DITHER, GL_PRIMITIVE_RESTART,
+                            GL_PRIMITIVE_RESTART_FIXED_INDEX, GL_PROGRAM_POINT_SIZE})
     state[name] = {glIsEnabled(name) != 0 ? 1.0 : 0.0};
   const std::map<GLenum, std::size_t> values{{GL_SCISSOR_BOX, 4},
                                              {GL_VIEWPORT, 4},
@@ -52,10 +53,27 @@ State present_state() {
     glGetFloatv(name, numbers.data());
     state[name].assign(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(count));
   }
+  const auto add_range = [&](GLenum buffer, GLenum start, GLenum size, GLuint index) {
+    GLint bound = 0;
+    GLint64 first = 0, bytes = 0;
+    glGetIntegeri_v(buffer, index, &bound);
+    glGetInteger64i_v(start, index, &first);
+    glGetInteger64i_v(size, index, &bytes);
+    state[buffer].insert(state[buffer].end(),
+                         {static_cast<double>(bound), static_cast<double>(first), static_cast<double>(bytes)});
+  };
+  for (const GLuint index : {0U, 1U, 2U})
+    add_range(GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE, index);
+  add_range(GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START, GL_SHADER_STORAGE_BUFFER_SIZE, 7);
   return state;
 }
 
-void set_state_of_an_engine() {
+// `buffer`: one of the engine's.
+void set_state_of_an_engine(GLuint buffer) {
+  for (const GLenum name : {GL_PRIMITIVE_RESTART_FIXED_INDEX, GL_PROGRAM_POINT_SIZE}) glEnable(name);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, buffer);
+  glBindBufferRange(GL_UNIFORM_BUFFER, 1, buffer, 256, 64);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, buffer);
   for (const GLenum name : {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE}) glEnable(name);
   glDisable(GL_DITHER);
   glScissor(3, 5, 7, 11);
@@ -74,6 +92,9 @@ void set_state_of_an_engine() {
 }
 
 void set_state_of_a_frame() {
+  for (const GLenum name : {GL_PRIMITIVE_RESTART_FIXED_INDEX, GL_PROGRAM_POINT_SIZE}) glDisable(name);
+  for (const GLuint index : {0U, 1U, 2U}) glBindBufferBase(GL_UNIFORM_BUFFER, index, 0);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, 0);
   for (const GLenum name : {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_CULL_FACE}) glDisable(name);
   glEnable(GL_DITHER);
   glScissor(0, 0, 256, 256);
@@ -94,7 +115,10 @@ class StateGuard : public GpuTest {};
 TEST_F(StateGuard, RestoresWhatAnEngineHadSet) {
   set_state_of_a_frame();
   const State of_frame = present_state();
-  set_state_of_an_engine();
+  GLuint buffer = 0;
+  glCreateBuffers(1, &buffer);
+  glNamedBufferStorage(buffer, 1024, nullptr, 0);
+  set_state_of_an_engine(buffer);
   const State of_engine = present_state();
   state_guard guard;
   save_state(&guard);
@@ -103,8 +127,9 @@ TEST_F(StateGuard, RestoresWhatAnEngineHadSet) {
   EXPECT_EQ(present_state(), of_engine);
   int differing = 0;
   for (const auto& [name, values] : of_frame) differing += values != of_engine.at(name) ? 1 : 0;
-  EXPECT_GE(differing, 20);
+  EXPECT_GE(differing, 24);
   set_state_of_a_frame();
+  glDeleteBuffers(1, &buffer);
 }
 
 }  // namespace
