@@ -1,5 +1,7 @@
 #include "compare/comparison.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <functional>
 #include <glm/trigonometric.hpp>
@@ -14,6 +16,11 @@ Angles angles_of(const glm::vec3& to_light) {
   const glm::dvec3 v(to_light);
   return {.azimuth = glm::degrees(std::atan2(v.x, v.z)),
           .elevation = glm::degrees(std::atan2(v.y, std::hypot(v.x, v.z)))};
+}
+
+std::string not_finite_text(const ComparedTechnique& technique) {
+  return fmt::format("'{}' gives values that are not finite: {}; each counts as an error of 1", technique.label,
+                     technique.figures.not_finite);
 }
 
 Comparison compare(const CompareOptions& options, const ComparedValues& values) {

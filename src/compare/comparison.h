@@ -21,6 +21,7 @@ struct ComparedFigures {
   double bias = 0, max = 0, p99 = 0;
   double ssim = 0, flip = 0, width_error = 0;  // means over the frames
   double width_lost = 0;                       // share of penumbra pixels in which the shadow has no width to measure
+  std::size_t not_finite = 0;  // values of receivers that are NaN or infinite, of all frames; each counts as |e| = 1
   std::optional<metrics::SequenceFigures> sequence;  // set if there is more than one frame
 };
 
@@ -64,6 +65,9 @@ struct Angles {
   double elevation = 0;  // over the horizon
 };
 Angles angles_of(const glm::vec3& to_light);
+
+// How many of a technique's values are not finite, in words.
+std::string not_finite_text(const ComparedTechnique& technique);
 
 // What drew the pictures.
 struct DrawnBy {

@@ -92,7 +92,11 @@ Html table_of(const ComparedScene& scene, const Comparison& comparison, bool seq
                       .columns = columns_of(sequence),
                       .rows = {}};
   for (const ComparedTechnique& technique : scene.techniques) table.rows.push_back(row_of(technique, sequence));
-  return report::to_html(table);
+  Html html = report::to_html(table);
+  for (const ComparedTechnique& technique : scene.techniques) {
+    if (technique.figures.not_finite > 0) html.add(report::note(not_finite_text(technique) + "."));
+  }
+  return html;
 }
 
 Html plot_of(const ComparedScene& scene) {

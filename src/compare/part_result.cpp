@@ -139,6 +139,7 @@ Json json_of(const ComparedTechnique& technique) {
   for (const auto& [name, value] : figure_names) figures[name] = number(technique.figures.*value);
   const std::optional<metrics::SequenceFigures>& sequence = technique.figures.sequence;
   figures["sequence"] = sequence ? json_of(*sequence) : Json();
+  figures["not_finite"] = technique.figures.not_finite;
   return {{"shadow_bytes", technique.shadow_bytes},
           {"cost",
            {{"median", number(technique.cost.median)},
@@ -160,6 +161,7 @@ ComparedTechnique technique_from(const Json& json) {
   for (const auto& [name, value] : figure_names) technique.figures.*value = any_number_in(figures, name);
   if (const Json& sequence = member_of(figures, "sequence"); !sequence.is_null())
     technique.figures.sequence = sequence_from(sequence);
+  technique.figures.not_finite = whole_in(figures, "not_finite", SIZE_MAX);
   return technique;
 }
 

@@ -139,6 +139,30 @@ class Compare(TestCase):
             self.assertNotEqual(rows[0]["psnr_penumbra"], "inf")
             self.assertGreater(float(rows[0]["psnr_penumbra"]), 40)
 
+    def test_values_that_are_not_finite_are_counted_and_told(self):
+        shader = self.folder / "glsl" / "shadow" / "techniques" / "none.glsl"
+        shader.parent.mkdir(parents=True)
+        shader.write_text("""#include "shadow/light.glsl"
+float read_radius(Receiver receiver, Light light) { return 0.0; }
+Visibility visibility(Receiver receiver, Light light) { return Visibility(uintBitsToFloat(0x7fc00000u), 0.0, 0.0, true); }
+""")
+        arguments = ("--reference", "brute_force", "--technique", "none,hard", "--glsl", self.folder / "glsl", "--no-cost")
+        counts = []
+        for more in ((), ("--frames", "0:1")):
+            command = ("compare", POSTS, "-o", self.folder / "report", *SMALL, *SMALL_MAPS, *arguments, *more)
+            result = self.succeed(*command)
+            rows = rows_of(self.folder / "report" / "results.csv")
+            data = json.loads((self.folder / "report" / "results.json").read_text())["scenes"][0]
+            counts.append(int(rows[0]["not_finite"]))
+            self.assertEqual(list(rows[0])[-1], "not_finite")
+            self.assertEqual([int(row["not_finite"]) for row in rows],
+                             [technique["figures"]["not_finite"] for technique in data["techniques"]])
+            self.assertEqual(rows[1]["not_finite"], "0")
+            told = f"'none' gives values that are not finite: {counts[-1]}; each counts as an error of 1"
+            self.assertEqual(result.stderr, f"warning: '{POSTS}': {told}\n")
+            self.assertIn(told.replace("'", "&#39;"), (self.folder / "report" / "index.html").read_text())
+        self.assertEqual(counts, [data["receivers"], 2 * data["receivers"]])
+
     def test_penumbrae_without_a_width_are_told(self):
         table, rows, data = self.compare("--reference", "brute_force", "--technique", "none,brute_force", "--set",
                                          "sun.angle=4")
