@@ -15,6 +15,7 @@
 #include "report/plot.h"
 #include "report/table.h"
 #include "report/text_blocks.h"
+#include "truth/reference.h"
 
 namespace penumbra::compare {
 
@@ -29,7 +30,7 @@ constexpr double mebibyte = 1024.0 * 1024.0;
 std::string reference_name(const Comparison& comparison) {
   const ParamSet& params = comparison.reference_params;
   if (params.get_word("technique") != "truth") return params.get_word("technique");
-  return fmt::format("the ray-traced truth, {} rays a pixel", params.get_int("truth.samples"));
+  return "the ray-traced truth, " + truth::rays_text(params);
 }
 
 std::vector<report::Column> columns_of(bool sequence) {

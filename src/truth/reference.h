@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "core/params.h"
@@ -12,5 +13,8 @@ bool is_reference(std::string_view technique);
 // Changes parameters so that their technique serves as a reference: without denoiser, history and filters, and, where
 // it samples, with another seed, so that its errors are independent of those of the technique that is compared with it.
 void make_reference(ParamSet& params);
+
+// How many rays the technique `truth` traces with these parameters, in words: "104 rays a pixel".
+std::string rays_text(const ParamSet& params);
 
 }  // namespace penumbra::truth

@@ -66,10 +66,18 @@ class Compare(TestCase):
         data = self.compare("--technique", "hard", "--spp", "8", "--set", "truth.samples=16", "--no-cost")[2]
         self.assertEqual(data["reference"]["changed_params"]["truth.samples"], 16)
 
+    def page(self, *arguments, of=POSTS):
+        self.compare("--technique", "hard", "--no-cost", *arguments, of=(of,))
+        return (self.folder / "report" / "index.html").read_text(encoding="utf-8")
+
+    def test_the_page_names_as_many_rays_as_were_traced(self):
+        self.assertIn("against the ray-traced truth, 16 rays a pixel.", self.page("--spp", "9"))
+        self.assertIn("against the ray-traced truth, 64 rays a pixel, or as many as a standard error of 0.1 takes.",
+                      self.page("--spp", "8", "--set", "truth.error=0.1"))
+
     def test_the_page_speaks_of_the_lights_that_there_are(self):
         def page(*arguments, of):
-            self.compare("--technique", "hard", "--spp", "8", "--no-cost", *arguments, of=(of,))
-            return (self.folder / "report" / "index.html").read_text(encoding="utf-8")
+            return self.page("--spp", "8", *arguments, of=of)
 
         sun = page(of=POSTS)
         self.assertRegex(sun, r"where the light can shine: \d+ of \d+ pixels\.")
