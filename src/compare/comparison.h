@@ -73,6 +73,7 @@ std::string not_finite_text(const ComparedTechnique& technique);
 struct DrawnBy {
   io::Json device;  // as reports describe it
   std::string backend;
+  std::string timed_on;  // what times depend on (bench::described()); empty if there are none
 };
 
 // A whole comparison, as its reports need it: scenes are added in order by add_scene() (page.h).

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "bench/machine.h"
 #include "cli/no_effect.h"
 #include "compare/command.h"
 #include "compare/draw.h"
@@ -42,13 +43,15 @@ class CompareJob : public plan::Job {
     return part.count == 1 ? fmt::format("{}, {}", scene, options_.contenders[part.first].label) : scene;
   }
 
-  // Options that are in the values of the parameters already, or that are of other items, are left out.
+  // Options that are in the values of the parameters already, or that are of other items, are left out. Times depend on
+  // the number of threads.
   Json depends(std::size_t item) const override {
     const Part part = part_of(item);
     Json techniques = Json::array();
     for (std::size_t i = 0; i < part.count; ++i) techniques.push_back(io::to_json(values_.contenders[part.first + i]));
     return {{"options", plan::json_of(options_.given, {"SCENE", "--technique", "--preset", "--set", "--sun-angle",
                                                        "--exposure", "--spp"})},
+            {"threads", options_.no_cost ? Json() : Json(options_.threads.value_or(0))},
             {"reference", io::to_json(values_.reference)},
             {"with_reference", part.first == 0},
             {"techniques", techniques}};
@@ -112,7 +115,8 @@ class CompareJob : public plan::Job {
         const std::size_t item = i * options.scenes.size() + scene;
         KeptPart kept = kept_part(read(item), options, values_, part_of(item));
         devices.add(kept.by.device.at("renderer").get<std::string>());
-        if (scene == 0 && i == 0) comparison.drawn_by = kept.by;
+        if (item == 0) comparison.drawn_by = kept.by;
+        bench::check_same_machine(comparison.drawn_by.timed_on, kept.by.timed_on, item);
         if (i == 0) {
           whole = std::move(kept.scene);
           continue;

@@ -196,6 +196,7 @@ plan::Result result_of(const ComparedScene& drawn, const DrawnBy& by) {
   for (const ComparedTechnique& technique : drawn.techniques) techniques.push_back(json_of(technique));
   plan::Result result{.data = {{"backend", by.backend},
                                {"device", by.device},
+                               {"timed_on", by.timed_on},
                                {"pixels", drawn.pixels},
                                {"receivers", drawn.receivers},
                                {"camera", json_of(drawn.camera)},
@@ -217,7 +218,9 @@ KeptPart kept_part(const plan::Result& result, const CompareOptions& options, co
                           .pixels = whole_in(data, "pixels", SIZE_MAX),
                           .camera = camera_from(member_of(data, "camera")),
                           .lights = lights_from(array_in(data, "lights"))},
-                .by = {.device = member_of(data, "device"), .backend = plan::text_in(data, "backend")}};
+                .by = {.device = member_of(data, "device"),
+                       .backend = plan::text_in(data, "backend"),
+                       .timed_on = plan::text_in(data, "timed_on")}};
   plan::text_in(kept.by.device, "renderer");
   read_list(data, "target", &kept.scene.target[0], 3);
   const Json& techniques = array_in(data, "techniques");
