@@ -121,7 +121,15 @@ std::string figures_text(const ComparedTechnique& technique) {
                      report::fixed(technique.figures.psnr_penumbra, 2), report::fixed(technique.figures.bias, 5));
 }
 
-Html pictures_of(const ComparedScene& scene, const Comparison& comparison) {
+// Below the pictures of the masks.
+std::string masks_note(std::size_t lights, bool sequence) {
+  return fmt::format(
+      "White: all of {} is visible{}. {}", lights > 1 ? "a light" : "it",
+      lights > 1 ? "; one light below the other" : "",
+      sequence ? "The figures are of all frames, these pictures of the last." : "The figures are of these pictures.");
+}
+
+Html pictures_of(const ComparedScene& scene, const Comparison& comparison, bool sequence) {
   const std::string& reference = comparison.reference_params.get_word("technique");
   const float scale = error_scale(scene);
   const std::size_t lights = scene.lights.size();
@@ -139,9 +147,7 @@ Html pictures_of(const ComparedScene& scene, const Comparison& comparison) {
           .body = report::picture_slider(figure(label, "The scene", technique.pictures.display),
                                          figure(reference, "The scene", scene.reference.display))},
          {.title = lights > 1 ? "Visibility of the lights" : "Visibility of the light",
-          .note = lights > 1 ? "White: all of a light is visible; one light below the other. The "
-                               "figures are of these pictures."
-                             : "White: all of it is visible. The figures are of these pictures.",
+          .note = masks_note(lights, sequence),
           .body =
               report::picture_slider(figure(label, "The visible share of the light", technique.pictures.visibility),
                                      figure(reference, "The visible share of the light", scene.reference.visibility))},
@@ -244,7 +250,7 @@ void add_scene(Comparison& comparison, const CompareOptions& options, ComparedSc
         report::note("Lower and further left is better. The steps join the techniques that no other one beats in both "
                      "cost and error."));
   }
-  body.add(pictures_of(scene, comparison));
+  body.add(pictures_of(scene, comparison, options.frames.has_value()));
   comparison.sections.push_back({.title = scene_name(scene.path), .body = std::move(body)});
   scene.reference = {};
   for (ComparedTechnique& technique : scene.techniques) technique.pictures = {};

@@ -233,11 +233,15 @@ Visibility visibility(Receiver receiver, Light light) { return Visibility(uintBi
             self.assertIn(f"{path}\n", table)
 
     def test_a_sequence_has_flicker_and_a_picture_has_none(self):
+        page = self.folder / "report" / "index.html"
         _, rows, _ = self.compare("--reference", "brute_force", "--technique", "hard")
         self.assertEqual(rows[0]["flicker"], "")
+        self.assertIn("The figures are of these pictures.", page.read_text())
         _, rows, data = self.compare("--reference", "brute_force", "--technique", "hard,thesis", "--frames", "0:5",
                                      of=(scene("moving"),))
         self.assertEqual(data["frames"], 6)
+        self.assertNotIn("The figures are of these pictures.", page.read_text())
+        self.assertIn("The figures are of all frames, these pictures of the last.", page.read_text())
         for row in rows:
             self.assertGreater(float(row["flicker"]), 0)
 
