@@ -111,6 +111,11 @@ class Compare(TestCase):
         self.assertEqual(data["reference"]["changed_params"]["denoiser"], "none")
         self.assertEqual(data["scenes"][0]["techniques"][0]["changed_params"]["filter.visibility"], "box")
 
+    def test_a_reference_is_of_all_pixels(self):
+        _, _, data = self.compare(*BRUTE, "--set", "mask.scale=4")
+        self.assertNotIn("mask.scale", data["reference"]["changed_params"])
+        self.assertEqual(data["scenes"][0]["techniques"][1]["changed_params"]["mask.scale"], 4)
+
     def test_two_runs_give_the_same_figures(self):
         first, second = (self.compare(*BRUTE, into=name) for name in ("a", "b"))
         for rows in (first[1], second[1]):
@@ -315,6 +320,12 @@ class Refusals(TestCase):
         self.assertIn("follows no technique", self.refused("--technique", "pcss,pcss.filter_taps=4"))
         self.assertIn("a name is missing", self.refused("--technique", "hard,,pcss"))
         self.assertIn("see --technique", self.refused("--technique", "pcss", "--set", "technique=hard"))
+
+    def test_lights_and_casters_are_the_references(self):
+        for value, what in (("sun.angle=2", "another sun"), ("casters.skies=on", "other casters"),
+                            ("lamps.near=0.5", "other casters")):
+            error = self.refused("--technique", f"hard,pcss:{value}")
+            self.assertIn(f"'{value}' would give a technique {what} than the reference's", error)
 
     def test_options_that_do_not_go_together(self):
         self.assertIn("--frames", self.refused("--technique", "pcss", "--orbit", "2"))
