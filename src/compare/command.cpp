@@ -15,7 +15,6 @@
 #include "compare/tables.h"
 #include "core/log.h"
 #include "io/output_file.h"
-#include "io/text.h"
 #include "session/render_session.h"
 #include "session/techniques.h"
 

@@ -9,6 +9,7 @@
 #include "cli/progress.h"
 #include "compare/drawing.h"
 #include "compare/page.h"
+#include "compare/scene_names.h"
 
 namespace penumbra::compare {
 
@@ -26,7 +27,9 @@ std::string not_finite_text(const ComparedTechnique& technique) {
 Comparison compare(const CompareOptions& options, const ComparedValues& values) {
   Drawing drawing(options, values, 0);
   drawing.check_scenes();  // before minutes of drawing
-  Comparison comparison{.drawn_by = drawing.drawn_by(), .reference_params = values.reference};
+  Comparison comparison{.drawn_by = drawing.drawn_by(),
+                        .reference_params = values.reference,
+                        .names = scene_names(options.scenes, &std::filesystem::path::stem)};
   const std::size_t drawings = options.scenes.size() * (values.contenders.size() + 1);
   const int frames = options.frames ? options.frames->count() : 1;
   cli::Progress progress("picture", static_cast<int>(drawings) * frames, !options.quiet);

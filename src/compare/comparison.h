@@ -80,6 +80,7 @@ struct DrawnBy {
 struct Comparison {
   DrawnBy drawn_by;
   ParamSet reference_params;
+  std::vector<std::string> names;         // of all scenes, as the page has them
   std::vector<ComparedScene> scenes;      // without pictures
   std::vector<report::Section> sections;  // of the page, one for each scene, with the pictures
 };

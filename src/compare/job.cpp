@@ -12,6 +12,7 @@
 #include "compare/page.h"
 #include "compare/part_result.h"
 #include "compare/reports.h"
+#include "compare/scene_names.h"
 #include "image/probe.h"
 #include "session/techniques.h"
 
@@ -28,6 +29,7 @@ class CompareJob : public plan::Job {
         output_(output),
         options_(std::move(options)),
         values_(values_of(options_, session::all_techniques())),
+        names_(scene_names(options_.scenes, &std::filesystem::path::filename)),
         parts_(options_.no_cost ? values_.contenders.size() : 1) {
     options_.reading.skies_chosen = cli::is_chosen(options_, values_.reference, "casters.skies");
     session::limit_threads(options_);
@@ -39,7 +41,7 @@ class CompareJob : public plan::Job {
 
   std::string name(std::size_t item) const override {
     const Part part = part_of(item);
-    const std::string scene = std::filesystem::path(options_.scenes[part.scene]).filename().string();
+    const std::string& scene = names_[part.scene];
     return part.count == 1 ? fmt::format("{}, {}", scene, options_.contenders[part.first].label) : scene;
   }
 
@@ -107,7 +109,8 @@ class CompareJob : public plan::Job {
   std::vector<std::filesystem::path> merge(const Read& read, const std::filesystem::path& folder) const override {
     CompareOptions options = options_;
     options.output = folder.string();
-    Comparison comparison{.reference_params = values_.reference};
+    Comparison comparison{.reference_params = values_.reference,
+                          .names = scene_names(options.scenes, &std::filesystem::path::stem)};
     plan::DeviceCheck devices;
     for (std::size_t scene = 0; scene < options.scenes.size(); ++scene) {
       ComparedScene whole;
@@ -145,7 +148,8 @@ class CompareJob : public plan::Job {
   std::size_t output_;
   CompareOptions options_;
   ComparedValues values_;
-  std::size_t parts_;  // of a scene
+  std::vector<std::string> names_;  // of the scenes, for messages
+  std::size_t parts_;               // of a scene
 };
 
 }  // namespace

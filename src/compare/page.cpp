@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <glm/trigonometric.hpp>
 #include <variant>
 
@@ -179,8 +178,6 @@ Html params_section(const Comparison& comparison) {
   return html;
 }
 
-std::string scene_name(const std::string& path) { return std::filesystem::path(path).stem().string(); }
-
 std::string point_text(const glm::vec3& v) { return fmt::format("{:.6g},{:.6g},{:.6g}", v.x, v.y, v.z); }
 
 std::string light_text(const render::SunLight& light) {
@@ -208,8 +205,8 @@ Html command_section(const Comparison& comparison, const cli::Arguments& argumen
   // For a POSIX shell.
   Html html = report::code_block(cli::command_text("penumbra compare", arguments));
   std::vector<std::pair<std::string, std::string>> views;
-  for (const ComparedScene& scene : comparison.scenes)
-    views.emplace_back("View and lights of " + scene_name(scene.path), view_text(scene));
+  for (std::size_t i = 0; i < comparison.scenes.size(); ++i)
+    views.emplace_back("View and lights of " + comparison.names[i], view_text(comparison.scenes[i]));
   return html.add(report::definition_list(views));
 }
 
@@ -251,17 +248,15 @@ void add_scene(Comparison& comparison, const CompareOptions& options, ComparedSc
                      "cost and error."));
   }
   body.add(pictures_of(scene, comparison, options.frames.has_value()));
-  comparison.sections.push_back({.title = scene_name(scene.path), .body = std::move(body)});
+  comparison.sections.push_back({.title = comparison.names[comparison.scenes.size()], .body = std::move(body)});
   scene.reference = {};
   for (ComparedTechnique& technique : scene.techniques) technique.pictures = {};
   comparison.scenes.push_back(std::move(scene));
 }
 
 report::Page comparison_page(Comparison& comparison, const CompareOptions& options, const cli::Arguments& arguments) {
-  std::string names;
-  for (const ComparedScene& scene : comparison.scenes) names += (names.empty() ? "" : ", ") + scene_name(scene.path);
   report::Page page{
-      .title = "Shadow techniques on " + names,
+      .title = fmt::format("Shadow techniques on {}", fmt::join(comparison.names, ", ")),
       .summary = fmt::format("{} measured against {}.", count_of(options.contenders.size(), "technique", "techniques"),
                              reference_name(comparison)),
       .facts = facts_of(comparison, options),

@@ -246,6 +246,21 @@ class Folder(Plans):
         self.assertIn("2 of 6 items", result.stderr)
         self.assertFalse((self.folder / "report").exists())
 
+    def test_scenes_of_one_name_are_told_apart(self):
+        scenes = [self.folder / name / "same.glb" for name in ("one", "two")]
+        for path, name in zip(scenes, ("steps", "posts")):
+            path.parent.mkdir()
+            path.write_bytes(scene(name).read_bytes())
+        self.make("compare", *scenes, *COMPARED[2:], "--no-cost")
+        listed = run("merge", self.plan, "-o", self.folder / "report").stdout.splitlines()
+        self.assertEqual(listed[:2], ["item 0 (one/same.glb, hard): not drawn", "item 1 (two/same.glb, hard): not drawn"])
+        self.work()
+        page = self.merge("report")["index.html"].decode()
+        self.assertIn("<title>Shadow techniques on one/same, two/same</title>", page)
+        for name in ("one/same", "two/same"):
+            self.assertIn(f">{name}</h2>", page)
+            self.assertIn(f"View and lights of {name}<", page)
+
     def test_a_damaged_result_stops_a_merge(self):
         self.work()
         data = bytearray(self.file(3).read_bytes())
