@@ -60,7 +60,7 @@ Workbench::Workbench(const Options& options, std::function<void()> drawn)
       session_(options, options, session::open_context(options, options), prepared_, techniques_, /* timed= */ true),
       device_(session_.device_info()) {
   truth_picture_ = picture_of(truth_config());
-  receivers_ = render::receivers_of(session_.renderer(), session_.setup().sun, sun_angle());
+  receivers_ = render::receivers_of(session_.renderer(), session_.setup().sun, params_of(pcss_config()));
   pcss_picture_ = picture_of(pcss_config());
   drawings_.emplace(pcss_config().key(), measured(pcss_picture_));
 }

@@ -298,8 +298,7 @@ void Viewer::measure_difference() {
   const int rows = size.y * static_cast<int>(lights.size());
   const metrics::ImageView a{size.x, rows, a_.visibility}, b{size.x, rows, b_.visibility};
   if (a.pixels.size() != a.pixel_count() || b.pixels.size() != b.pixel_count()) return;
-  const std::vector<std::uint8_t> receivers =
-      render::receivers_of(renderer_, lights, state_.document.params.get_float("sun.angle"));
+  const std::vector<std::uint8_t> receivers = render::receivers_of(renderer_, lights, state_.document.params);
   status_.difference = PictureDifference{.figures = metrics::error_figures(a, b, receivers),
                                          .flip = mean_flip(a, b, receivers, lights.size())};
 }
