@@ -46,12 +46,10 @@ image::Picture picture_of(const py::object& given, const char* name, bool displa
 }
 
 std::vector<std::uint8_t> receivers_of(const std::optional<Floats>& values, const image::Picture& reference) {
-  std::vector<std::uint8_t> receivers;
-  if (!values) return receivers;
+  if (!values) return {};
   if (values->ndim() != 2 || values->shape(0) != reference.height || values->shape(1) != reference.width)
     fail("the receivers are not one value for each pixel of the reference");
-  for (py::ssize_t i = 0; i < values->size(); ++i) receivers.push_back(values->data()[i] > 0 ? 1 : 0);
-  return receivers;
+  return app::selected_by({values->data(), static_cast<std::size_t>(values->size())}, "the array of receivers");
 }
 
 py::dict difference(const py::object& test, const py::object& reference, const std::optional<Floats>& receivers,
@@ -67,8 +65,8 @@ py::dict difference(const py::object& test, const py::object& reference, const s
     found = app::difference_of(a, b, measured);
   }
   py::dict figures;
-  for (const app::Figure& figure : found.figures)
-    if (figure.unfit.empty()) figures[figure.metric->name] = figure.value;
+  for (const auto& [name, value] : app::named_figures(found)) figures[name] = value;
+  figures["not_finite"] = found.not_finite;
   return figures;
 }
 
@@ -146,8 +144,9 @@ PYBIND11_MODULE(_penumbra, module) {
   module.def(
       "difference", &difference, py::arg("test"), py::arg("reference"), py::arg("receivers") = py::none(),
       py::arg("display") = py::none(),
-      "How far a picture is from a reference, as `penumbra diff` measures it: a dict of the metrics that apply.\n"
-      "Pixels whose value in `receivers` is 0 are left out. `display`: whether values are those of a display, as "
+      "How far a picture is from a reference, as `penumbra diff` measures it: a dict of the metrics that apply, and\n"
+      "\"not_finite\": how many values are NaN or infinite, which count as errors of 1. Pixels whose value in\n"
+      "`receivers` is 0 or not finite are left out. `display`: whether values are those of a display, as\n"
       "the metrics of colours need them; None: where one of the arrays has bytes.");
   module.def("read", &read, py::arg("path"), py::arg("layer") = "",
              "A picture file as floats: a PNG as display values from 0 to 1, or a layer of an EXR as it is.");

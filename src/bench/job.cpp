@@ -5,6 +5,7 @@
 
 #include "bench/bench.h"
 #include "bench/device.h"
+#include "bench/machine.h"
 #include "bench/measure.h"
 #include "bench/options.h"
 #include "bench/part_result.h"
@@ -119,7 +120,8 @@ class BenchJob : public plan::Job {
         whole = std::move(kept);
         continue;
       }
-      check_same(whole, kept, item);
+      check_same_machine(described(whole.machine, whole.device.renderer), described(kept.machine, kept.device.renderer),
+                         item);
       whole.points.push_back(std::move(kept.points.front()));
     }
     whole.version = cli::version();
@@ -140,16 +142,6 @@ class BenchJob : public plan::Job {
   }
 
  private:
-  // Times of different machines can't be compared, so they are not put into one table.
-  static void check_same(const Results& first, const Results& other, std::size_t item) {
-    const auto text = [](const Results& results) {
-      return fmt::format("{} with {} cores, {}", results.machine.cpu, results.machine.cores, results.device.renderer);
-    };
-    if (text(first) != text(other))
-      fail("item {} was measured on another machine ({}) than item 0 ({}): their times can't be compared", item,
-           text(other), text(first));
-  }
-
   void check_costs(const Measured& point) const {
     const std::size_t axes = make_sweep(options_.sweep, {}).axes.size();
     if (point.costs.size() != entries_.size() || point.point.at.size() != axes || point.point.names.size() != axes)

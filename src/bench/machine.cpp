@@ -1,9 +1,13 @@
 #include "bench/machine.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <string_view>
 #include <thread>
+
+#include "core/error.h"
 
 namespace penumbra::bench {
 
@@ -25,6 +29,16 @@ std::string cpu_name() {
 
 Machine machine() {
   return {.cpu = cpu_name(), .cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U))};
+}
+
+std::string described(const Machine& machine, const std::string& renderer) {
+  return fmt::format("{} with {} cores, {}", machine.cpu, machine.cores, renderer);
+}
+
+void check_same_machine(const std::string& first, const std::string& other, std::size_t item) {
+  if (other != first)
+    fail("item {} was measured on another machine ({}) than item 0 ({}): their times can't be compared", item, other,
+         first);
 }
 
 }  // namespace penumbra::bench

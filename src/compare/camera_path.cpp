@@ -9,13 +9,13 @@ namespace penumbra::compare {
 
 namespace {
 
-// The point on the camera's axis, in front of it, that is nearest to the scene's centre.
-glm::vec3 target_of(const CompareOptions& options, const session::PreparedScene& prepared) {
+// The point on the axis of the camera at that time, in front of it, that is nearest to the scene's centre.
+glm::vec3 target_of(const CompareOptions& options, const session::PreparedScene& prepared, double time) {
   if (options.target) return *options.target;
-  const render::Camera& camera = prepared.setup.camera;
+  const render::Camera camera = session::setup_at(prepared, time).camera;
   const glm::vec3 eye = render::position_of(camera);
   const glm::vec3 forward = -glm::vec3(camera.view[0][2], camera.view[1][2], camera.view[2][2]);
-  const scene::Bounds bounds = scene::bounds_of(prepared.scene, scene::pose_at(prepared.scene, options.time));
+  const scene::Bounds bounds = scene::bounds_of(prepared.scene, scene::pose_at(prepared.scene, time));
   const float distance = glm::dot(bounds.center() - eye, forward);
   return eye + forward * (distance > 0 ? distance : bounds.radius());
 }
@@ -34,7 +34,7 @@ CameraPath::CameraPath(const CompareOptions& options, const session::PreparedSce
     : options_(options),
       prepared_(prepared),
       range_(options.frames.value_or(cli::FrameRange{})),
-      target_(target_of(options, prepared)) {
+      target_(target_of(options, prepared, session::time_of(options, range_.first))) {
   if (options.orbit && range_.count() > 1) cut_ = options.cut_at.value_or(range_.first + range_.count() / 2);
 }
 

@@ -13,6 +13,7 @@
 #include "compare/page.h"
 #include "compare/reports.h"
 #include "compare/tables.h"
+#include "core/log.h"
 #include "io/output_file.h"
 #include "session/render_session.h"
 #include "session/techniques.h"
@@ -36,6 +37,14 @@ void print(const Comparison& comparison, const CompareOptions& options) {
     fmt::print("{}", terminal_table(scene));
   }
   fmt::print("wrote {}\n", options.page().string());
+}
+
+void warn_of_values(const Comparison& comparison) {
+  for (const ComparedScene& scene : comparison.scenes) {
+    for (const ComparedTechnique& technique : scene.techniques) {
+      if (technique.figures.not_finite > 0) warn("{}: {}", io::quoted(scene.path), not_finite_text(technique));
+    }
+  }
 }
 
 // In large parts, whatever those of the page are.
@@ -65,6 +74,7 @@ void warn_of_settings(const CompareOptions& options, const ComparedValues& value
 }
 
 void write_reports(Comparison& comparison, const CompareOptions& options, const cli::Arguments& arguments) {
+  warn_of_values(comparison);
   write_page(options.page(), comparison_page(comparison, options, arguments));
   io::write_text(options.csv(), csv_table(comparison));
   io::write_text(options.json(), io::text_of(json_of(comparison, options, arguments)));

@@ -21,6 +21,7 @@ struct ComparedFigures {
   double bias = 0, max = 0, p99 = 0;
   double ssim = 0, flip = 0, width_error = 0;  // means over the frames
   double width_lost = 0;                       // share of penumbra pixels in which the shadow has no width to measure
+  std::size_t not_finite = 0;  // values of receivers that are NaN or infinite, of all frames; each counts as |e| = 1
   std::optional<metrics::SequenceFigures> sequence;  // set if there is more than one frame
 };
 
@@ -65,16 +66,21 @@ struct Angles {
 };
 Angles angles_of(const glm::vec3& to_light);
 
+// How many of a technique's values are not finite, in words.
+std::string not_finite_text(const ComparedTechnique& technique);
+
 // What drew the pictures.
 struct DrawnBy {
   io::Json device;  // as reports describe it
   std::string backend;
+  std::string timed_on;  // what times depend on (bench::described()); empty if there are none
 };
 
 // A whole comparison, as its reports need it: scenes are added in order by add_scene() (page.h).
 struct Comparison {
   DrawnBy drawn_by;
   ParamSet reference_params;
+  std::vector<std::string> names;         // of all scenes, as the page has them
   std::vector<ComparedScene> scenes;      // without pictures
   std::vector<report::Section> sections;  // of the page, one for each scene, with the pictures
 };

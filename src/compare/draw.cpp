@@ -143,8 +143,7 @@ std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamS
   std::vector<ReferenceFrame> frames;
   for (int frame = range.first; frame <= range.last; ++frame) {
     renderer.draw(scene.scene, scene.path.frame(frame), params);
-    frames.push_back({renderer.read_visibilities(),
-                      render::receivers_of(renderer, scene.path.lights(frame), params.get_float("sun.angle"))});
+    frames.push_back({renderer.read_visibilities(), render::receivers_of(renderer, scene.path.lights(frame), params)});
     scene.drawn();
   }
   last = encoded_pictures(renderer.read_display(), frames.back().visibility, scene.options.size);

@@ -27,7 +27,7 @@ struct DrawnScene {
 // A frame of the reference: of the lights that cast shadows, one below the other.
 struct ReferenceFrame {
   std::vector<float> visibility;
-  std::vector<std::uint8_t> receivers;  // 1: geometric normal · to light > sin(θ / 2)
+  std::vector<std::uint8_t> receivers;  // render::receivers_of()
 };
 
 // How many frames are drawn besides the one that counts: a single picture of a technique with a history is drawn until

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "bench/machine.h"
 #include "compare/draw.h"
 #include "core/log.h"
 #include "image/read.h"
@@ -128,7 +129,9 @@ ComparedScene Drawing::draw(const Part& part, const std::function<void()>& drawn
 }
 
 DrawnBy Drawing::drawn_by() const {
-  return {.device = io::to_json(device_->info), .backend = std::string(gl::to_string(context_->backend()))};
+  return {.device = io::to_json(device_->info),
+          .backend = std::string(gl::to_string(context_->backend())),
+          .timed_on = options_.no_cost ? "" : bench::described(bench::machine(), device_->info.renderer)};
 }
 
 }  // namespace penumbra::compare

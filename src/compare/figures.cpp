@@ -31,6 +31,7 @@ void FigureSums::add_light(const metrics::ImageView& test, const metrics::ImageV
   squared_penumbra_.add(mean_squared(errors.psnr_penumbra), errors.penumbra_samples);
   bias_.add(errors.bias, errors.samples);
   p99_.add(errors.p99);
+  not_finite_ += errors.not_finite;
   if (!std::isnan(errors.max)) max_ = std::max(max_, errors.max);
   ssim_.add(quality.ssim);
   flip_.add(quality.flip);
@@ -65,6 +66,7 @@ ComparedFigures FigureSums::figures() const {
                           .flip = flip_.mean(),
                           .width_error = width_error_.mean(),
                           .width_lost = widths_.lost_share(),
+                          .not_finite = not_finite_,
                           .sequence = {}};
   if (frames_ > 1) figures.sequence = sequence_.figures();
   return figures;

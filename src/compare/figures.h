@@ -40,6 +40,7 @@ class FigureSums {
   std::size_t frames_ = 0;
   Mean squared_, squared_penumbra_, bias_, ssim_, flip_, width_error_, p99_;
   double max_ = 0;
+  std::size_t not_finite_ = 0;
   metrics::PenumbraWidth widths_;  // only its counts are used, summed over all frames
   metrics::SequenceMetrics sequence_;
 };

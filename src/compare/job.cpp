@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "bench/machine.h"
 #include "cli/no_effect.h"
 #include "compare/command.h"
 #include "compare/draw.h"
@@ -11,6 +12,7 @@
 #include "compare/page.h"
 #include "compare/part_result.h"
 #include "compare/reports.h"
+#include "compare/scene_names.h"
 #include "image/probe.h"
 #include "session/techniques.h"
 
@@ -27,6 +29,7 @@ class CompareJob : public plan::Job {
         output_(output),
         options_(std::move(options)),
         values_(values_of(options_, session::all_techniques())),
+        names_(scene_names(options_.scenes, &std::filesystem::path::filename)),
         parts_(options_.no_cost ? values_.contenders.size() : 1) {
     options_.reading.skies_chosen = cli::is_chosen(options_, values_.reference, "casters.skies");
     session::limit_threads(options_);
@@ -38,17 +41,19 @@ class CompareJob : public plan::Job {
 
   std::string name(std::size_t item) const override {
     const Part part = part_of(item);
-    const std::string scene = std::filesystem::path(options_.scenes[part.scene]).filename().string();
+    const std::string& scene = names_[part.scene];
     return part.count == 1 ? fmt::format("{}, {}", scene, options_.contenders[part.first].label) : scene;
   }
 
-  // Options that are in the values of the parameters already, or that are of other items, are left out.
+  // Options that are in the values of the parameters already, or that are of other items, are left out. Times depend on
+  // the number of threads.
   Json depends(std::size_t item) const override {
     const Part part = part_of(item);
     Json techniques = Json::array();
     for (std::size_t i = 0; i < part.count; ++i) techniques.push_back(io::to_json(values_.contenders[part.first + i]));
     return {{"options", plan::json_of(options_.given, {"SCENE", "--technique", "--preset", "--set", "--sun-angle",
                                                        "--exposure", "--spp"})},
+            {"threads", options_.no_cost ? Json() : Json(options_.threads.value_or(0))},
             {"reference", io::to_json(values_.reference)},
             {"with_reference", part.first == 0},
             {"techniques", techniques}};
@@ -104,7 +109,8 @@ class CompareJob : public plan::Job {
   std::vector<std::filesystem::path> merge(const Read& read, const std::filesystem::path& folder) const override {
     CompareOptions options = options_;
     options.output = folder.string();
-    Comparison comparison{.reference_params = values_.reference};
+    Comparison comparison{.reference_params = values_.reference,
+                          .names = scene_names(options.scenes, &std::filesystem::path::stem)};
     plan::DeviceCheck devices;
     for (std::size_t scene = 0; scene < options.scenes.size(); ++scene) {
       ComparedScene whole;
@@ -112,7 +118,8 @@ class CompareJob : public plan::Job {
         const std::size_t item = i * options.scenes.size() + scene;
         KeptPart kept = kept_part(read(item), options, values_, part_of(item));
         devices.add(kept.by.device.at("renderer").get<std::string>());
-        if (scene == 0 && i == 0) comparison.drawn_by = kept.by;
+        if (item == 0) comparison.drawn_by = kept.by;
+        bench::check_same_machine(comparison.drawn_by.timed_on, kept.by.timed_on, item);
         if (i == 0) {
           whole = std::move(kept.scene);
           continue;
@@ -141,7 +148,8 @@ class CompareJob : public plan::Job {
   std::size_t output_;
   CompareOptions options_;
   ComparedValues values_;
-  std::size_t parts_;  // of a scene
+  std::vector<std::string> names_;  // of the scenes, for messages
+  std::size_t parts_;               // of a scene
 };
 
 }  // namespace

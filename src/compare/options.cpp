@@ -94,13 +94,12 @@ void check_together(const CompareOptions& o) {
                o.size.width, o.size.height);
 }
 
-// All contenders are drawn with the reference's sun and casters, so no assignment of one contender may change those.
+// All contenders are drawn with the reference's lights and casters, so no assignment of one contender may change those.
 void check_own_assignment(const std::string& assignment) {
   cli::refuse_technique({&assignment, 1}, "see --technique");
-  if (assignment.starts_with("sun."))
-    fail_usage("'{}' would give a technique another sun than the reference's: see --set", assignment);
-  if (assignment.starts_with("casters."))
-    fail_usage("'{}' would give a technique other casters than the reference's: see --set", assignment);
+  if (truth::is_of_scene(assignment.substr(0, assignment.find('='))))
+    fail_usage("'{}' would give a technique {} than the reference's: see --set", assignment,
+               assignment.starts_with("sun.") ? "another sun" : "other casters");
 }
 
 // Checks each value alone. Whether they can be combined also depends on preset files, which are not read yet.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <glm/trigonometric.hpp>
 #include <variant>
 
@@ -15,6 +14,7 @@
 #include "report/plot.h"
 #include "report/table.h"
 #include "report/text_blocks.h"
+#include "truth/reference.h"
 
 namespace penumbra::compare {
 
@@ -29,7 +29,7 @@ constexpr double mebibyte = 1024.0 * 1024.0;
 std::string reference_name(const Comparison& comparison) {
   const ParamSet& params = comparison.reference_params;
   if (params.get_word("technique") != "truth") return params.get_word("technique");
-  return fmt::format("the ray-traced truth, {} rays a pixel", params.get_int("truth.samples"));
+  return "the ray-traced truth, " + truth::rays_text(params);
 }
 
 std::vector<report::Column> columns_of(bool sequence) {
@@ -92,7 +92,11 @@ Html table_of(const ComparedScene& scene, const Comparison& comparison, bool seq
                       .columns = columns_of(sequence),
                       .rows = {}};
   for (const ComparedTechnique& technique : scene.techniques) table.rows.push_back(row_of(technique, sequence));
-  return report::to_html(table);
+  Html html = report::to_html(table);
+  for (const ComparedTechnique& technique : scene.techniques) {
+    if (technique.figures.not_finite > 0) html.add(report::note(not_finite_text(technique) + "."));
+  }
+  return html;
 }
 
 Html plot_of(const ComparedScene& scene) {
@@ -116,7 +120,15 @@ std::string figures_text(const ComparedTechnique& technique) {
                      report::fixed(technique.figures.psnr_penumbra, 2), report::fixed(technique.figures.bias, 5));
 }
 
-Html pictures_of(const ComparedScene& scene, const Comparison& comparison) {
+// Below the pictures of the masks.
+std::string masks_note(std::size_t lights, bool sequence) {
+  return fmt::format(
+      "White: all of {} is visible{}. {}", lights > 1 ? "a light" : "it",
+      lights > 1 ? "; one light below the other" : "",
+      sequence ? "The figures are of all frames, these pictures of the last." : "The figures are of these pictures.");
+}
+
+Html pictures_of(const ComparedScene& scene, const Comparison& comparison, bool sequence) {
   const std::string& reference = comparison.reference_params.get_word("technique");
   const float scale = error_scale(scene);
   const std::size_t lights = scene.lights.size();
@@ -134,9 +146,7 @@ Html pictures_of(const ComparedScene& scene, const Comparison& comparison) {
           .body = report::picture_slider(figure(label, "The scene", technique.pictures.display),
                                          figure(reference, "The scene", scene.reference.display))},
          {.title = lights > 1 ? "Visibility of the lights" : "Visibility of the light",
-          .note = lights > 1 ? "White: all of a light is visible; one light below the other. The "
-                               "figures are of these pictures."
-                             : "White: all of it is visible. The figures are of these pictures.",
+          .note = masks_note(lights, sequence),
           .body =
               report::picture_slider(figure(label, "The visible share of the light", technique.pictures.visibility),
                                      figure(reference, "The visible share of the light", scene.reference.visibility))},
@@ -168,8 +178,6 @@ Html params_section(const Comparison& comparison) {
   return html;
 }
 
-std::string scene_name(const std::string& path) { return std::filesystem::path(path).stem().string(); }
-
 std::string point_text(const glm::vec3& v) { return fmt::format("{:.6g},{:.6g},{:.6g}", v.x, v.y, v.z); }
 
 std::string light_text(const render::SunLight& light) {
@@ -197,8 +205,8 @@ Html command_section(const Comparison& comparison, const cli::Arguments& argumen
   // For a POSIX shell.
   Html html = report::code_block(cli::command_text("penumbra compare", arguments));
   std::vector<std::pair<std::string, std::string>> views;
-  for (const ComparedScene& scene : comparison.scenes)
-    views.emplace_back("View and lights of " + scene_name(scene.path), view_text(scene));
+  for (std::size_t i = 0; i < comparison.scenes.size(); ++i)
+    views.emplace_back("View and lights of " + comparison.names[i], view_text(comparison.scenes[i]));
   return html.add(report::definition_list(views));
 }
 
@@ -239,18 +247,16 @@ void add_scene(Comparison& comparison, const CompareOptions& options, ComparedSc
         report::note("Lower and further left is better. The steps join the techniques that no other one beats in both "
                      "cost and error."));
   }
-  body.add(pictures_of(scene, comparison));
-  comparison.sections.push_back({.title = scene_name(scene.path), .body = std::move(body)});
+  body.add(pictures_of(scene, comparison, options.frames.has_value()));
+  comparison.sections.push_back({.title = comparison.names[comparison.scenes.size()], .body = std::move(body)});
   scene.reference = {};
   for (ComparedTechnique& technique : scene.techniques) technique.pictures = {};
   comparison.scenes.push_back(std::move(scene));
 }
 
 report::Page comparison_page(Comparison& comparison, const CompareOptions& options, const cli::Arguments& arguments) {
-  std::string names;
-  for (const ComparedScene& scene : comparison.scenes) names += (names.empty() ? "" : ", ") + scene_name(scene.path);
   report::Page page{
-      .title = "Shadow techniques on " + names,
+      .title = fmt::format("Shadow techniques on {}", fmt::join(comparison.names, ", ")),
       .summary = fmt::format("{} measured against {}.", count_of(options.contenders.size(), "technique", "techniques"),
                              reference_name(comparison)),
       .facts = facts_of(comparison, options),

@@ -139,6 +139,7 @@ Json json_of(const ComparedTechnique& technique) {
   for (const auto& [name, value] : figure_names) figures[name] = number(technique.figures.*value);
   const std::optional<metrics::SequenceFigures>& sequence = technique.figures.sequence;
   figures["sequence"] = sequence ? json_of(*sequence) : Json();
+  figures["not_finite"] = technique.figures.not_finite;
   return {{"shadow_bytes", technique.shadow_bytes},
           {"cost",
            {{"median", number(technique.cost.median)},
@@ -160,6 +161,7 @@ ComparedTechnique technique_from(const Json& json) {
   for (const auto& [name, value] : figure_names) technique.figures.*value = any_number_in(figures, name);
   if (const Json& sequence = member_of(figures, "sequence"); !sequence.is_null())
     technique.figures.sequence = sequence_from(sequence);
+  technique.figures.not_finite = whole_in(figures, "not_finite", SIZE_MAX);
   return technique;
 }
 
@@ -194,6 +196,7 @@ plan::Result result_of(const ComparedScene& drawn, const DrawnBy& by) {
   for (const ComparedTechnique& technique : drawn.techniques) techniques.push_back(json_of(technique));
   plan::Result result{.data = {{"backend", by.backend},
                                {"device", by.device},
+                               {"timed_on", by.timed_on},
                                {"pixels", drawn.pixels},
                                {"receivers", drawn.receivers},
                                {"camera", json_of(drawn.camera)},
@@ -215,7 +218,9 @@ KeptPart kept_part(const plan::Result& result, const CompareOptions& options, co
                           .pixels = whole_in(data, "pixels", SIZE_MAX),
                           .camera = camera_from(member_of(data, "camera")),
                           .lights = lights_from(array_in(data, "lights"))},
-                .by = {.device = member_of(data, "device"), .backend = plan::text_in(data, "backend")}};
+                .by = {.device = member_of(data, "device"),
+                       .backend = plan::text_in(data, "backend"),
+                       .timed_on = plan::text_in(data, "timed_on")}};
   plan::text_in(kept.by.device, "renderer");
   read_list(data, "target", &kept.scene.target[0], 3);
   const Json& techniques = array_in(data, "techniques");

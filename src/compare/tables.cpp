@@ -94,6 +94,7 @@ Json json_of(const ComparedTechnique& technique) {
   Json figures = Json::object(), cost;
   for (const NamedFigure& figure : figures_of(technique.figures)) figures[figure.name] = rounded(figure.value);
   figures["recoveries"] = recoveries(technique.figures);
+  figures["not_finite"] = technique.figures.not_finite;
   if (!std::isnan(technique.cost.median)) {
     for (const NamedFigure& figure : costs_of(technique.cost)) cost[figure.name] = rounded(figure.value);
     cost["frames"] = technique.cost.frames;
@@ -173,7 +174,7 @@ std::string csv_table(const Comparison& comparison) {
   const ComparedTechnique empty;
   for (const NamedFigure& figure : figures_of(empty.figures)) text += fmt::format(",{}", figure.name);
   for (const NamedFigure& figure : costs_of(empty.cost)) text += fmt::format(",cost_{}", figure.name);
-  text += "\n";
+  text += ",not_finite\n";
   for (const ComparedScene& scene : comparison.scenes) {
     for (const ComparedTechnique& technique : scene.techniques) {
       text += fmt::format("{},{},{},{}", io::csv_field(scene.path), io::csv_field(technique.label),
@@ -181,7 +182,7 @@ std::string csv_table(const Comparison& comparison) {
       for (const NamedFigure& figure : figures_of(technique.figures))
         text += fmt::format(",{}", csv_number(figure.value));
       for (const NamedFigure& figure : costs_of(technique.cost)) text += fmt::format(",{}", csv_number(figure.value));
-      text += "\n";
+      text += fmt::format(",{}\n", technique.figures.not_finite);
     }
   }
   return text;

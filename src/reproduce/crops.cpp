@@ -138,6 +138,8 @@ report::Html quality_table(Finding& finding, Workbench& bench, const std::vector
     finding.record(psnr_blurred_of(named, drawing));
     finding.record(flip_of(named, drawing));
     finding.record(psnr_truth_of(named, drawing));
+    if (const std::size_t count = drawing.to_pcss.not_finite; count > 0)
+      finding.record({"the number of values that are not finite of " + named.name, static_cast<double>(count), "", 0});
     table.rows.push_back({{named.name},
                           report::cell_of(drawing.psnr_pcss, 2),
                           report::cell_of(drawing.psnr_blurred, 2),

@@ -39,7 +39,8 @@ struct NamedConfig {
 };
 // Crops side by side, each with its figures.
 report::Html crop_tiles(Workbench& bench, const std::vector<NamedConfig>& configs, const Crop& crop);
-// A table of each picture's figures, which are recorded in the finding too.
+// A table of each picture's figures, which are recorded in the finding too, with the number of values that are not
+// finite, if there are any.
 report::Html quality_table(Finding& finding, Workbench& bench, const std::vector<NamedConfig>& configs);
 
 // How much better counts as "significantly" or "much" better: a fifth less squared error.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,17 +41,18 @@ class Finding {
   void record(const Quantity& quantity);
 
   const std::vector<Quantity>& quantities() const { return quantities_; }
-  // "confirmed", "confirmed in part" or "not confirmed".
+  // "confirmed", "confirmed in part", "not confirmed", or "not measured": nothing that the claim is tested by has a
+  // value.
   std::string verdict() const;
   // One sentence, with the figures that the verdict rests on in brackets.
   std::string sentence() const;
 
  private:
   struct Check {
-    bool holds;
+    std::optional<bool> holds;  // nothing if a value could not be measured (NaN)
     std::string words;
   };
-  void expect(bool holds, const Quantity& a, const std::string& relation);
+  void expect(std::optional<bool> holds, const Quantity& a, const std::string& relation);
   std::string joined(bool holding) const;
 
   std::vector<Quantity> quantities_;

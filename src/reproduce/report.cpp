@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string_view>
@@ -35,6 +36,7 @@ Html badge(const Finding& finding) {
   const std::string verdict = finding.verdict();
   const char* style = verdict == "confirmed"           ? "background:var(--best);color:var(--best-ink)"
                       : verdict == "confirmed in part" ? "border:1px solid var(--line-6);color:var(--line-6)"
+                      : verdict == "not measured"      ? "border:1px solid var(--line);color:var(--quiet)"
                                                        : "border:1px solid var(--line-4);color:var(--line-4)";
   Html html(
       fmt::format("<span style='display:inline-block;border-radius:4px;padding:0 8px;font-size:13px;"
@@ -92,14 +94,14 @@ Html thumbnail(const Finding& finding) {
 }
 
 penumbra::report::Section overview(std::span<const Finding> findings) {
-  std::size_t confirmed = 0, in_part = 0;
-  for (const Finding& finding : findings) {
-    confirmed += finding.verdict() == "confirmed" ? 1 : 0;
-    in_part += finding.verdict() == "confirmed in part" ? 1 : 0;
-  }
+  const auto count = [&](const std::string& verdict) {
+    return std::ranges::count(findings, verdict, &Finding::verdict);
+  };
+  const auto unmeasured = count("not measured");
   Html html = penumbra::report::paragraph(
-      fmt::format("Of {} figures and sections {} are confirmed, {} in part and {} not.", findings.size(), confirmed,
-                  in_part, findings.size() - confirmed - in_part));
+      fmt::format("Of {} figures and sections {} are confirmed, {} in part and {} not{}.", findings.size(),
+                  count("confirmed"), count("confirmed in part"), count("not confirmed"),
+                  unmeasured == 0 ? "" : fmt::format("; {} could not be measured", unmeasured)));
   html.add("<ul class='overview'>\n");
   for (std::size_t i = 0; i < findings.size(); ++i) {
     html.add("<li>").add(thumbnail(findings[i]));

@@ -7,6 +7,7 @@
 
 #include "bench/times.h"
 #include "cli/input_files.h"
+#include "core/log.h"
 #include "image/read.h"
 #include "io/output_file.h"
 #include "metrics/convolve.h"
@@ -46,7 +47,9 @@ void check_inputs(const Options& options, std::span<const std::filesystem::path>
     inputs.check("-o", output);
 }
 
-std::string ShadowConfig::key() const { return fmt::format("{} {}", technique, fmt::join(values, " ")); }
+std::string ShadowConfig::key() const {
+  return values.empty() ? technique : fmt::format("{} {}", technique, fmt::join(values, " "));
+}
 
 Workbench::Workbench(const Options& options, std::function<void()> drawn)
     : options_(options),
@@ -57,7 +60,7 @@ Workbench::Workbench(const Options& options, std::function<void()> drawn)
       session_(options, options, session::open_context(options, options), prepared_, techniques_, /* timed= */ true),
       device_(session_.device_info()) {
   truth_picture_ = picture_of(truth_config());
-  receivers_ = render::receivers_of(session_.renderer(), session_.setup().sun, sun_angle());
+  receivers_ = render::receivers_of(session_.renderer(), session_.setup().sun, params_of(pcss_config()));
   pcss_picture_ = picture_of(pcss_config());
   drawings_.emplace(pcss_config().key(), measured(pcss_picture_));
 }
@@ -89,8 +92,11 @@ metrics::ImageView Workbench::as_picture(const std::vector<float>& pixels) const
 
 const MeasuredPicture& Workbench::draw(const ShadowConfig& config) {
   const std::string key = config.key();
-  const auto known = drawings_.find(key);
-  return known != drawings_.end() ? known->second : drawings_.emplace(key, measured(picture_of(config))).first->second;
+  if (const auto known = drawings_.find(key); known != drawings_.end()) return known->second;
+  const MeasuredPicture& drawing = drawings_.emplace(key, measured(picture_of(config))).first->second;
+  if (const std::size_t count = drawing.to_pcss.not_finite; count > 0)
+    warn("'{}' gives values that are not finite: {}; each counts as an error of 1", key, count);
+  return drawing;
 }
 
 MeasuredPicture Workbench::measured(std::vector<float> visibility) const {

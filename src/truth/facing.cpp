@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 namespace penumbra::truth {
 
@@ -12,7 +13,8 @@ std::vector<float> before_light(std::span<const Receiver> receivers, const Trace
     bool all = receiver.there;
     if (all) {
       const SeenLight seen = seen_from(light, receiver.position);
-      const double radius = glm::length(seen.side_x), distance = glm::length(seen.center);
+      const double side = glm::length(seen.side_x), distance = glm::length(seen.center);
+      const double radius = seen.square ? std::numbers::sqrt2 * side : side;  // a square's is that of its corners
       all = seen.shines && glm::dot(receiver.normal, seen.center) > distance * radius / std::hypot(distance, radius);
     }
     before.push_back(all ? 1.0f : 0.0f);

@@ -16,15 +16,12 @@ namespace penumbra::truth {
 namespace {
 
 constexpr std::size_t tile_size = 8;  // pixels: small enough that all threads finish at nearly the same time
-constexpr int least_first_samples = 64;
 constexpr double allowed_over = 0.001;
 constexpr double agreeing_samples = 2;  // divided by the error: samples that must agree in a pixel beside a penumbra
 constexpr double fall_of_error = 0.75;  // the error across an edge falls as samples^-0.75
 constexpr std::chrono::milliseconds report_interval(100);
 
-std::uint32_t points_for(int samples) {
-  return (static_cast<std::uint32_t>(std::max(samples, 1)) + scrambling_count - 1) / scrambling_count;
-}
+std::uint32_t points_for(int samples) { return static_cast<std::uint32_t>(samples / scrambling_count); }
 
 std::size_t tiles_across(std::size_t pixels) { return (pixels + tile_size - 1) / tile_size; }
 
@@ -55,8 +52,8 @@ PictureTrace::PictureTrace(const EmbreeScene& scene, std::span<const Receiver> r
   out_.visibility.assign(receivers.size(), 1.0f);
   out_.standard_error.assign(receivers.size(), 0.0f);
   out_.hard.assign(receivers.size(), 1.0f);
-  const int first = options.error > 0 ? std::max(options.samples, least_first_samples) : options.samples;
-  for (const Receiver& receiver : receivers) wanted_.push_back(receiver.there ? points_for(first) : 0);
+  const std::uint32_t first = points_for(first_samples(options));
+  for (const Receiver& receiver : receivers) wanted_.push_back(receiver.there ? first : 0);
   points_.resize(receivers.size());
   if (options.error > 0) lit_.resize(receivers.size());
 }

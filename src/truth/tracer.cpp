@@ -1,9 +1,17 @@
 #include "truth/tracer.h"
 
+#include <algorithm>
+
 #include "truth/embree_scene.h"
 #include "truth/picture_trace.h"
 
 namespace penumbra::truth {
+
+int first_samples(const TraceOptions& options) {
+  constexpr int least_adaptive = 64;
+  const int least = options.error > 0 ? least_adaptive : 1;
+  return (std::max(options.samples, least) + scrambling_count - 1) / scrambling_count * scrambling_count;
+}
 
 struct Tracer::State {
   EmbreeScene scene;

@@ -55,6 +55,9 @@ struct TraceOptions {
   std::function<bool(double share_done)> progress;
 };
 
+// The samples of each pixel in the first round; without `error` there is no other.
+int first_samples(const TraceOptions& options);
+
 // The most samples of a pixel with adaptive sampling.
 constexpr int max_samples = 65536;
 

@@ -31,9 +31,8 @@ void choose_b(const Panel& panel) {
   const shadow::Registry& registry = panel.status.techniques;
   const std::string current = session::selection_of(comparison.params).name;
   row("B is",
-      "The technique of picture B. Choosing one copies A's values; after that only sun, exposure and render options "
-      "follow "
-      "A. Truth and brute force are drawn without history and filters.");
+      "The technique of picture B. Choosing one copies A's values; after that only sun, casters, exposure and render "
+      "options follow A. Truth and brute force are drawn without history and filters.");
   const bool open = begin_combo("##b", session::technique_label(comparison.params), ImGuiComboFlags_HeightLargest);
   panel.widgets.mark("b");
   if (!open) return;

@@ -46,18 +46,6 @@ double mean_flip(const metrics::ImageView& a, const metrics::ImageView& b, const
 
 }  // namespace
 
-// B has A's camera, time, sun, casters, exposure and render options; its own are those of shadows.
-Document Viewer::document_b() const {
-  Document document = state_.document;
-  document.params = state_.comparison.params;
-  for (const Param& row : document.params.rows()) {
-    const bool shared = row.name.starts_with("sun.") || row.name.starts_with("casters.") ||
-                        row.name.starts_with("exposure.") || row.name.starts_with("render.");
-    if (shared) document.params.set(row.name, state_.document.params.value(row.name));
-  }
-  return document;
-}
-
 FrameState Viewer::frame_state(const Document& b, const PictureArea& area, double now) {
   const auto state_of = [this](Side& side, const Document& document) {
     PictureState state{.current = side.renderer.shows(document),
@@ -102,7 +90,7 @@ void Viewer::take_traced(const Document& b) {
 std::optional<Viewer::PictureWork> Viewer::plan_pictures(const PictureArea& area, double now) {
   if (scene_ == nullptr) return {};
   if (!state_.comparison.on) forget_b();
-  PictureWork work{.b = document_b(), .plan = {}};
+  PictureWork work{.b = state_.document_b(), .plan = {}};
   take_traced(work.b);
   const FrameState frame = frame_state(work.b, area, now);
   note_progress();
@@ -310,8 +298,7 @@ void Viewer::measure_difference() {
   const int rows = size.y * static_cast<int>(lights.size());
   const metrics::ImageView a{size.x, rows, a_.visibility}, b{size.x, rows, b_.visibility};
   if (a.pixels.size() != a.pixel_count() || b.pixels.size() != b.pixel_count()) return;
-  const std::vector<std::uint8_t> receivers =
-      render::receivers_of(renderer_, lights, state_.document.params.get_float("sun.angle"));
+  const std::vector<std::uint8_t> receivers = render::receivers_of(renderer_, lights, state_.document.params);
   status_.difference = PictureDifference{.figures = metrics::error_figures(a, b, receivers),
                                          .flip = mean_flip(a, b, receivers, lights.size())};
 }

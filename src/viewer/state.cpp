@@ -13,4 +13,15 @@ void UiState::compare(bool on) {
   truth::make_reference(comparison.params);
 }
 
+Document UiState::document_b() const {
+  Document b = document;
+  b.params = comparison.params;
+  for (const Param& row : b.params.rows()) {
+    const bool shared =
+        truth::is_of_scene(row.name) || row.name.starts_with("exposure.") || row.name.starts_with("render.");
+    if (shared) b.params.set(row.name, document.params.value(row.name));
+  }
+  return b;
+}
+
 }  // namespace penumbra::viewer

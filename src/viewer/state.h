@@ -112,6 +112,8 @@ struct UiState {
   }
   // Compares A with B or not. The first time, B gets A's values, and is the truth if A is another picture at rest.
   void compare(bool on);
+  // Picture B: it has A's camera, time, lights, casters, exposure and render options; its own are those of shadows.
+  Document document_b() const;
 };
 
 }  // namespace penumbra::viewer

@@ -135,7 +135,6 @@ class Viewer {
   void forget_b();
   bool is_last_of_refined(const Side& side, const Document& document) const;
   bool draw_side(const SideWork& work, const Detail& detail);
-  Document document_b() const;
   void inspect(Side& side);
   void color_values(bool differ);
   void color(Side& side, const Values& values, int number);

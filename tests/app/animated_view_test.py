@@ -137,6 +137,17 @@ class AnimatedView(TestCase):
         self.assertEqual(self.bytes_of("a_0006.png"), self.bytes_of("b_0006.png"))
         self.assertNotEqual(self.bytes_of("a_0003.png"), self.bytes_of("a_0006.png"))
 
+    def test_a_comparison_tells_eye_and_target_of_its_first_frame(self):
+        self.succeed("compare", self.scene, "-o", self.folder / "report", "--size", "32x18", "--quiet", "--fps", FPS,
+                     "--frames", "4:5", "--technique", "hard", "--reference", "brute_force", "--no-cost", *SMALL_MAPS)
+        camera = json.loads((self.folder / "report" / "results.json").read_text())["scenes"][0]["camera"]
+        seconds = 4 / FPS
+        away = math.dist(camera["target"], camera["eye"])
+        wanted = (-math.sin(mix(YAW, seconds)) * away, 0, -math.cos(mix(YAW, seconds)) * away)
+        for eye, at, target, offset in zip(camera["eye"], eye_at(seconds), camera["target"], wanted):
+            self.assertAlmostEqual(eye, at, places=4)
+            self.assertAlmostEqual(target, eye + offset, places=3)
+
     def test_motion_of_what_stands_still_is_the_cameras(self):
         frame = 4
         self.draw("x.exr", "--frames", f"{frame}:{frame}", "--aov", "depth,motion")

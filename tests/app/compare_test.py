@@ -66,10 +66,18 @@ class Compare(TestCase):
         data = self.compare("--technique", "hard", "--spp", "8", "--set", "truth.samples=16", "--no-cost")[2]
         self.assertEqual(data["reference"]["changed_params"]["truth.samples"], 16)
 
+    def page(self, *arguments, of=POSTS):
+        self.compare("--technique", "hard", "--no-cost", *arguments, of=(of,))
+        return (self.folder / "report" / "index.html").read_text(encoding="utf-8")
+
+    def test_the_page_names_as_many_rays_as_were_traced(self):
+        self.assertIn("against the ray-traced truth, 16 rays a pixel.", self.page("--spp", "9"))
+        self.assertIn("against the ray-traced truth, 64 rays a pixel, or as many as a standard error of 0.1 takes.",
+                      self.page("--spp", "8", "--set", "truth.error=0.1"))
+
     def test_the_page_speaks_of_the_lights_that_there_are(self):
         def page(*arguments, of):
-            self.compare("--technique", "hard", "--spp", "8", "--no-cost", *arguments, of=(of,))
-            return (self.folder / "report" / "index.html").read_text(encoding="utf-8")
+            return self.page("--spp", "8", *arguments, of=of)
 
         sun = page(of=POSTS)
         self.assertRegex(sun, r"where the light can shine: \d+ of \d+ pixels\.")
@@ -102,6 +110,11 @@ class Compare(TestCase):
         _, _, data = self.compare(*BRUTE, "--set", "history.reuse=true", "--set", "filter.visibility=box")
         self.assertEqual(data["reference"]["changed_params"]["denoiser"], "none")
         self.assertEqual(data["scenes"][0]["techniques"][0]["changed_params"]["filter.visibility"], "box")
+
+    def test_a_reference_is_of_all_pixels(self):
+        _, _, data = self.compare(*BRUTE, "--set", "mask.scale=4")
+        self.assertNotIn("mask.scale", data["reference"]["changed_params"])
+        self.assertEqual(data["scenes"][0]["techniques"][1]["changed_params"]["mask.scale"], 4)
 
     def test_two_runs_give_the_same_figures(self):
         first, second = (self.compare(*BRUTE, into=name) for name in ("a", "b"))
@@ -138,6 +151,30 @@ class Compare(TestCase):
                                       f"sampling.seed={seed}")
             self.assertNotEqual(rows[0]["psnr_penumbra"], "inf")
             self.assertGreater(float(rows[0]["psnr_penumbra"]), 40)
+
+    def test_values_that_are_not_finite_are_counted_and_told(self):
+        shader = self.folder / "glsl" / "shadow" / "techniques" / "none.glsl"
+        shader.parent.mkdir(parents=True)
+        shader.write_text("""#include "shadow/light.glsl"
+float read_radius(Receiver receiver, Light light) { return 0.0; }
+Visibility visibility(Receiver receiver, Light light) { return Visibility(uintBitsToFloat(0x7fc00000u), 0.0, 0.0, true); }
+""")
+        arguments = ("--reference", "brute_force", "--technique", "none,hard", "--glsl", self.folder / "glsl", "--no-cost")
+        counts = []
+        for more in ((), ("--frames", "0:1")):
+            command = ("compare", POSTS, "-o", self.folder / "report", *SMALL, *SMALL_MAPS, *arguments, *more)
+            result = self.succeed(*command)
+            rows = rows_of(self.folder / "report" / "results.csv")
+            data = json.loads((self.folder / "report" / "results.json").read_text())["scenes"][0]
+            counts.append(int(rows[0]["not_finite"]))
+            self.assertEqual(list(rows[0])[-1], "not_finite")
+            self.assertEqual([int(row["not_finite"]) for row in rows],
+                             [technique["figures"]["not_finite"] for technique in data["techniques"]])
+            self.assertEqual(rows[1]["not_finite"], "0")
+            told = f"'none' gives values that are not finite: {counts[-1]}; each counts as an error of 1"
+            self.assertEqual(result.stderr, f"warning: '{POSTS}': {told}\n")
+            self.assertIn(told.replace("'", "&#39;"), (self.folder / "report" / "index.html").read_text())
+        self.assertEqual(counts, [data["receivers"], 2 * data["receivers"]])
 
     def test_penumbrae_without_a_width_are_told(self):
         table, rows, data = self.compare("--reference", "brute_force", "--technique", "none,brute_force", "--set",
@@ -201,11 +238,15 @@ class Compare(TestCase):
             self.assertIn(f"{path}\n", table)
 
     def test_a_sequence_has_flicker_and_a_picture_has_none(self):
+        page = self.folder / "report" / "index.html"
         _, rows, _ = self.compare("--reference", "brute_force", "--technique", "hard")
         self.assertEqual(rows[0]["flicker"], "")
+        self.assertIn("The figures are of these pictures.", page.read_text())
         _, rows, data = self.compare("--reference", "brute_force", "--technique", "hard,thesis", "--frames", "0:5",
                                      of=(scene("moving"),))
         self.assertEqual(data["frames"], 6)
+        self.assertNotIn("The figures are of these pictures.", page.read_text())
+        self.assertIn("The figures are of all frames, these pictures of the last.", page.read_text())
         for row in rows:
             self.assertGreater(float(row["flicker"]), 0)
 
@@ -279,6 +320,12 @@ class Refusals(TestCase):
         self.assertIn("follows no technique", self.refused("--technique", "pcss,pcss.filter_taps=4"))
         self.assertIn("a name is missing", self.refused("--technique", "hard,,pcss"))
         self.assertIn("see --technique", self.refused("--technique", "pcss", "--set", "technique=hard"))
+
+    def test_lights_and_casters_are_the_references(self):
+        for value, what in (("sun.angle=2", "another sun"), ("casters.skies=on", "other casters"),
+                            ("lamps.near=0.5", "other casters")):
+            error = self.refused("--technique", f"hard,pcss:{value}")
+            self.assertIn(f"'{value}' would give a technique {what} than the reference's", error)
 
     def test_options_that_do_not_go_together(self):
         self.assertIn("--frames", self.refused("--technique", "pcss", "--orbit", "2"))

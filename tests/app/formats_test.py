@@ -40,6 +40,7 @@ class Formats(SchemaTest):
         folder = self.folder / "report"
         for arguments in ([scene("steps"), scene("gallery"), "--technique", "hard,pcss:pcss.filter_taps=4"],
                           [scene("moving"), "--technique", "thesis", "--frames", "0:17", "--orbit", "1"],
+                          [scene("posts"), "--technique", "hard", "--frames", "0:33", "--orbit", "1"],
                           [scene("gallery"), "--lights", "sculpture spot", "--technique", "hard"],
                           [scene("knife_edge"), "--camera", "top", "--technique", "hard"]):
             self.succeed("compare", *arguments, "--spp", "8", *TINY, "-o", folder)

@@ -60,6 +60,23 @@ class Compared(Plans):
                     self.assertGreater(technique.pop("cost")["median_ms"], 0)
         self.assertEqual(merged, whole)
 
+    def test_times_of_different_machines_are_not_merged(self):
+        """Mesa's vectors of 128 bits stand for another processor: the renderer's name has their width."""
+        other = {**os.environ, "GALLIUM_OVERRIDE_CPU_CAPS": "sse4.1"}
+        for costs in ((), ("--no-cost",)):
+            self.make("compare", *COMPARED, *costs)
+            self.work("--item", 0)
+            self.work("--item", 1, env=other)
+            self.work()
+        renderers = {json.loads(data.split(b"\n", 1)[0])["data"]["device"]["renderer"] for data in self.results().values()}
+        if len(renderers) == 1:
+            self.skipTest("this renderer's name is the same with other vectors")
+        told = self.succeed("merge", self.plan, "-o", self.folder / "report").stderr
+        self.assertIn("warning: 1 of 6 results were drawn by other devices", told)
+        self.make("compare", *COMPARED)
+        self.assertIn("item 1 was measured on another machine", self.refuse("merge", self.plan, "-o", self.folder / "timed"))
+        self.assertFalse((self.folder / "timed").exists())
+
     def test_a_report_without_costs_has_none(self):
         self.succeed("compare", *COMPARED, "--no-cost", "-o", self.folder / "report")
         report = self.contents("report")
@@ -229,6 +246,21 @@ class Folder(Plans):
         self.assertIn("2 of 6 items", result.stderr)
         self.assertFalse((self.folder / "report").exists())
 
+    def test_scenes_of_one_name_are_told_apart(self):
+        scenes = [self.folder / name / "same.glb" for name in ("one", "two")]
+        for path, name in zip(scenes, ("steps", "posts")):
+            path.parent.mkdir()
+            path.write_bytes(scene(name).read_bytes())
+        self.make("compare", *scenes, *COMPARED[2:], "--no-cost")
+        listed = run("merge", self.plan, "-o", self.folder / "report").stdout.splitlines()
+        self.assertEqual(listed[:2], ["item 0 (one/same.glb, hard): not drawn", "item 1 (two/same.glb, hard): not drawn"])
+        self.work()
+        page = self.merge("report")["index.html"].decode()
+        self.assertIn("<title>Shadow techniques on one/same, two/same</title>", page)
+        for name in ("one/same", "two/same"):
+            self.assertIn(f">{name}</h2>", page)
+            self.assertIn(f"View and lights of {name}<", page)
+
     def test_a_damaged_result_stops_a_merge(self):
         self.work()
         data = bytearray(self.file(3).read_bytes())
@@ -296,6 +328,15 @@ class Folder(Plans):
         self.assertEqual([error.message for error in validator("plan").iter_errors(self.document())], [])
         (glsl / "b.glsl").write_text("// two\n")
         self.assertFalse((with_shaders | renamed) & keys("--glsl", glsl, of=copied))
+
+    def test_keys_of_times_depend_on_the_number_of_threads(self):
+        def keys(*more):
+            self.make("compare", *COMPARED, *more)
+            return {item["key"] for item in self.document()["items"]}
+
+        usual, one = keys(), keys("--threads", "1")
+        self.assertFalse(usual & one)
+        self.assertEqual(one, keys("--threads=1"))
 
     def test_a_scene_that_changed_is_refused(self):
         path = self.folder / "scene.glb"

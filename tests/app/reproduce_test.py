@@ -129,6 +129,25 @@ class Reproduce(SchemaTest):
             window.screenshot(browser.results_folder() / "reproduce.png")
 
 
+class ReproduceCounts(TestCase):
+    def test_values_that_are_not_finite(self):
+        shader = self.folder / "glsl" / "shadow" / "techniques" / "hard.glsl"
+        shader.parent.mkdir(parents=True)
+        shader.write_text("""#include "shadow/light.glsl"
+float read_radius(Receiver receiver, Light light) { return 0.0; }
+Visibility visibility(Receiver receiver, Light light) { return Visibility(uintBitsToFloat(0x7fc00000u), 0.0, 0.0, true); }
+""")
+        result = self.succeed("reproduce", "-o", self.folder / "report", "--quick", "--quiet", "--no-cache", "--size", "32x18",
+                              "--glsl", self.folder / "glsl", cwd=ROOT)
+        figures = json.loads((self.folder / "report" / "figures.json").read_text())["figures"]
+        counted = {measured["name"]: measured["value"] for measured in figures[0]["quantities"] if "finite" in measured["name"]}
+        self.assertEqual(list(counted), ["the number of values that are not finite of hard"])
+        (count,) = counted.values()
+        self.assertGreater(count, 32 * 18 / 2)
+        self.assertEqual(result.stderr, f"warning: 'hard' gives values that are not finite: {count:.0f}; each counts as an "
+                                        "error of 1\n")
+
+
 class ReproduceRefuses(TestCase):
     def test_a_folder_that_cannot_be_written_before_anything_is_drawn(self):
         place = self.folder / "file"

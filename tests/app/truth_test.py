@@ -299,6 +299,22 @@ class Truth(TestCase):
         self.assertLess(worst, 0.0006)  # the mask holds half floats
         self.assertEqual(len(self.kept()), 1)
 
+    def test_no_part_of_a_square_sun_is_below_a_receiver(self):
+        """And compare measures the same receivers."""
+        counts = []
+        for shape in ("disc", "square"):
+            # The ground sees the whole disc of 10° about 12°, but not the corners of its square.
+            view = (scene("posts"), *SMALL, *SMALL_MAPS, "--sun", "0,12", "--sun-angle", "20", "--set", f"sun.shape={shape}",
+                    "--no-cache", "--quiet", "--spp", "8")
+            self.succeed("truth", *view, "-o", self.folder / "x.exr")
+            receivers = sum(sum(row) for row in read_exr(self.folder / "x.exr")["receiver.V"])
+            self.succeed("compare", *view, "-o", self.folder / "report", "--technique", "hard", "--no-cost")
+            document = json.loads((self.folder / "report" / "results.json").read_text())
+            self.assertAlmostEqual(document["scenes"][0]["receivers"], receivers, delta=receivers // 100)
+            counts.append(receivers)
+        self.assertGreater(counts[1], 0)  # posts face the sun
+        self.assertLess(counts[1], counts[0] / 4)
+
     def test_receivers_are_a_mask_for_diff(self):
         # Seen from the side, half of what the posts show faces away from the sun or lies along its rays.
         of, view = scene("posts"), ("--eye", "0,4,14", "--target", "0,2,0", "--fov", "50", *SMALL)

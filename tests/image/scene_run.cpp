@@ -69,9 +69,7 @@ Visibility SceneRun::draw_truth(int rays) {
   return draw_by("truth", params);
 }
 
-std::vector<std::uint8_t> SceneRun::receivers() const {
-  return render::receivers_of(reference_, setup_.sun, params_.get_float("sun.angle"));
-}
+std::vector<std::uint8_t> SceneRun::receivers() const { return render::receivers_of(reference_, setup_.sun, params_); }
 
 Visibility SceneRun::picture_of(const render::Renderer& renderer) const {
   Visibility picture = renderer.read_aov("shadow");

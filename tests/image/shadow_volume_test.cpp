@@ -143,7 +143,9 @@ ShadowVolumeImage::Shown ShadowVolumeImage::show(const fs::path& path, double ti
   const std::vector<float> picture = renderer_.read_aov("shadow");
   rays_.set_alpha(SunRays::Alpha::as_volumes);
   draw("sun_rays");
-  const std::vector<std::uint8_t> receivers = render::receivers_of(renderer_, setup.sun, 0);
+  ParamSet point = params_;
+  point.set("sun.angle", 0.0f);
+  const std::vector<std::uint8_t> receivers = render::receivers_of(renderer_, setup.sun, point);
   Shown shown{.whole = compare(picture, receivers),
               .masked = rays_.masked_casters(),
               .blended = rays_.blended_casters(),

@@ -102,12 +102,8 @@ std::vector<std::uint8_t> receivers_of(const DiffOptions& options) {
   if (mask.channels.size() != 1)
     fail("--mask {}: that layer of {} has {} channels, not 1", options.mask, io::quoted(options.reference),
          mask.channels.size());
-  std::vector<std::uint8_t> receivers(mask.pixels.size());
-  for (std::size_t i = 0; i < receivers.size(); ++i)
-    receivers[i] = mask.pixels[i] == 0 || !std::isfinite(mask.pixels[i]) ? 0 : 1;
-  if (std::count(receivers.begin(), receivers.end(), 0) == static_cast<std::ptrdiff_t>(receivers.size()))
-    fail("--mask {}: that layer of {} leaves no pixel", options.mask, io::quoted(options.reference));
-  return receivers;
+  return selected_by(mask.pixels,
+                     fmt::format("--mask {}: that layer of {}", options.mask, io::quoted(options.reference)));
 }
 
 // Called before measuring, which can take minutes. Throws if a result can't be written, or would overwrite another one

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "cli/usage.h"
 #include "metrics/error_figures.h"
@@ -105,6 +106,14 @@ void check_comparable(const image::Picture& test, const image::Picture& referenc
        pixel / width);
 }
 
+std::vector<std::uint8_t> selected_by(std::span<const float> mask, const std::string& name) {
+  std::vector<std::uint8_t> selected;
+  selected.reserve(mask.size());
+  for (const float value : mask) selected.push_back(value == 0 || !std::isfinite(value) ? 0 : 1);
+  if (std::ranges::find(selected, 1) == selected.end()) fail("{} leaves no pixel", name);
+  return selected;
+}
+
 Difference difference_of(const image::Picture& test, const image::Picture& reference, metrics::Receivers receivers) {
   const metrics::ImageView a = view(test), b = view(reference);
   const Kind kind = kind_of(reference, receivers);
@@ -165,11 +174,20 @@ std::string text_of(const Difference& difference) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+std::vector<std::pair<const char*, double>> named_figures(const Difference& difference) {
+  std::vector<std::pair<const char*, double>> named;
+  for (const Figure& figure : difference.figures) {
+    if (!figure.unfit.empty()) continue;
+    named.emplace_back(figure.metric->name, figure.value);
+    if (std::string_view(figure.metric->name) == "penumbra_width_error")
+      named.emplace_back("penumbra_width_lost", difference.width_lost);
+  }
+  return named;
+}
+
 io::Json to_json(const Difference& difference) {
   io::Json figures = io::Json::object();
-  for (const Figure& figure : difference.figures)
-    if (figure.unfit.empty()) figures[figure.metric->name] = io::json_number(figure.value);
-  if (figures.contains("penumbra_width_error")) figures["penumbra_width_lost"] = io::json_number(difference.width_lost);
+  for (const auto& [name, value] : named_figures(difference)) figures[name] = io::json_number(value);
   return figures;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "image/picture.h"
@@ -46,12 +48,18 @@ void check_comparable(const image::Picture& test, const image::Picture& referenc
                       const std::string& test_name, const std::string& reference_name);
 Difference difference_of(const image::Picture& test, const image::Picture& reference, metrics::Receivers receivers);
 
+// Which pixels a mask of one channel selects: those whose value is finite and not 0. Throws Error, whose message begins
+// with `name`, if there are none.
+std::vector<std::uint8_t> selected_by(std::span<const float> mask, const std::string& name);
+
+// The figures that apply to these pictures, by name, and penumbra_width_lost; NaN where there is no penumbra.
+std::vector<std::pair<const char*, double>> named_figures(const Difference& difference);
+
 // "rmse 0.0123, psnr 38.20 dB, …": every figure that applies to these pictures. The share of penumbra pixels without a
 // measurable width follows the width error.
 std::string text_of(const Difference& difference);
 std::string text_of(const Figure& figure);  // with its unit; "inf" for an infinite one
-// The figures by name, and penumbra_width_lost. Infinite figures are "inf", figures of an empty penumbra are null, and
-// figures that do not apply are left out.
+// The named figures. Infinite ones are "inf", those of an empty penumbra are null.
 io::Json to_json(const Difference& difference);
 
 }  // namespace penumbra::app
