@@ -149,6 +149,25 @@ TEST(CapiThreads, ADeviceFollowsItsContextToAnotherThread) {
   });
 }
 
+// Threads that follow each other often have the same std::thread::id.
+TEST(CapiThreads, ALaterThreadIsNotTakenForOneThatEnded) {
+  const auto context = gl::make_context(backend_name(), {});
+  const CInterface c(context->get_proc_address());
+  const Made made;
+  ASSERT_EQ(penumbra_warm_up(c.device, c.settings, &made.frame), PENUMBRA_OK) << penumbra_last_error();
+  gl::make_context(backend_name(), {});  // made and destroyed: none is current now
+  elsewhere([&] {
+    context->make_current();
+    EXPECT_EQ(penumbra_warm_up(c.device, c.settings, &made.frame), PENUMBRA_OK) << penumbra_last_error();
+    gl::make_context(backend_name(), {});
+  });
+  elsewhere([&] {
+    EXPECT_EQ(penumbra_warm_up(c.device, c.settings, &made.frame), PENUMBRA_ERROR_CONTEXT);
+    EXPECT_STREQ(penumbra_last_error(), not_current);
+  });
+  context->make_current();
+}
+
 TEST(CapiThreads, ADeviceThatIsInUseOnAnotherThreadIsOneClearError) {
   const auto context = gl::make_context(backend_name(), {});
   CInterface c(context->get_proc_address());
