@@ -9,9 +9,10 @@ namespace penumbra::reproduce {
 // needed.
 using MakeFigure = Finding (*)(Workbench& bench);
 
-// What chapter 2 says of other techniques, without a figure.
+// What chapter 2 says of other techniques and of histories, without a figure.
 Finding section_2_2(Workbench& bench);
 Finding section_2_3(Workbench& bench);
+Finding section_2_5(Workbench& bench);
 
 // Points and noise: no scene.
 Finding figure_2_8(Workbench& bench);

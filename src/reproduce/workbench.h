@@ -21,7 +21,8 @@ namespace penumbra::reproduce {
 
 // What `penumbra reproduce` was asked for; every value is parsed and in range.
 struct Options : cli::SceneOptions, cli::DeviceOptions, session::CacheOptions {
-  std::string output;  // a folder
+  std::string output;        // a folder
+  std::string moving_scene;  // scenes/moving.glb, for what the thesis says of motion
   std::filesystem::path page() const { return std::filesystem::path(output) / "index.html"; }
   std::filesystem::path json() const { return std::filesystem::path(output) / "figures.json"; }
   std::filesystem::path csv() const { return std::filesystem::path(output) / "figures.csv"; }
@@ -68,6 +69,8 @@ class Workbench {
   std::vector<double> costs(const std::vector<ShadowConfig>& configs);
   // RGB, 8 bits.
   std::vector<std::uint8_t> display(const ShadowConfig& config);
+  // Counts a picture that a figure draws by itself.
+  void count_drawn() const { drawn_(); }
   // A picture's errors within some of the receivers, against converged PCSS.
   metrics::ErrorFigures errors_at(const MeasuredPicture& drawing, const std::vector<std::uint8_t>& mask) const;
 
@@ -80,12 +83,12 @@ class Workbench {
   const gl::DeviceInfo& device() const { return device_; }
   double sun_angle() const;  // full angle, degrees
 
+  ParamSet params_of(const ShadowConfig& config) const;
   ShadowConfig truth_config() const;
   // Uses another seed than the measured pictures, so that their errors are independent.
   static ShadowConfig pcss_config();
 
  private:
-  ParamSet params_of(const ShadowConfig& config) const;
   std::vector<float> picture_of(const ShadowConfig& config);
   MeasuredPicture measured(std::vector<float> visibility) const;
   metrics::ImageView as_picture(const std::vector<float>& pixels) const;

@@ -1,5 +1,5 @@
-"""reproduce: figures 2.8 to 2.14 and 4.1 to 4.13 of the thesis and its sections 2.2 and 2.3, with verdicts that rest on
-what was measured."""
+"""reproduce: figures 2.8 to 2.14 and 4.1 to 4.13 of the thesis and its sections 2.2, 2.3 and 2.5, with verdicts that
+rest on what was measured."""
 
 import csv
 import json
@@ -9,7 +9,7 @@ import browser
 from schemas import SchemaTest
 from support import ROOT, TestCase, main, run, temporary_folder
 
-SECTIONS = ["2.2", "2.3"]
+SECTIONS = ["2.2", "2.3", "2.5"]
 IDS = [*SECTIONS, *(f"2.{n}" for n in (8, 9, 10, 11, 12, 13, 14)), *(f"4.{n}" for n in range(1, 14))]
 BRACKETED = re.compile(r"\(([^()]*)\)")
 
@@ -73,6 +73,21 @@ class Reproduce(SchemaTest):
                 self.assertEqual(float(a) - float(b) >= float(margin) - 1e-6, not negated, figure["sentence"])
                 found += 1
         self.assertGreaterEqual(found, 4)
+
+    def test_what_histories_and_movement_maps_do_is_measured(self):
+        section, = (figure for figure in self.data["figures"] if figure["id"] == "2.5")
+        measured = {quantity["name"]: quantity["value"] for quantity in section["quantities"]}
+        trail = "the mean error of the trail "
+        self.assertGreater(measured[f"{trail}without a movement map"], 0.05, "there is no ghost to be avoided")
+        self.assertLess(measured[f"{trail}with a movement map"], measured[f"{trail}in a frame without a history"] + 0.004)
+        self.assertGreater(measured["the PSNR in the penumbra of frame 16 at rest"],
+                           measured["the PSNR in the penumbra of the first frame at rest"] - 0.5)
+        for moves in ("a ball moves", "a ball moves under a sun of 8°", "six casters move"):
+            changed = measured[f"the share of the picture whose shadow changes while {moves}"]
+            refused = measured[f"the share of the picture refused while {moves}"]
+            self.assertTrue(0 < changed < refused < 50, (moves, changed, refused))
+        for name in (f"{trail}with a movement map", "frame 16 at rest", "refused while a ball moves"):
+            self.assertIn(name, section["sentence"])
 
     def test_json_is_as_its_schema_says(self):
         self.check("reproduce", self.data)
