@@ -16,7 +16,8 @@ Contender::Contender(const Entry& entry, const shadow::Registry& registry, const
       scene_(device_.device, scene),
       renderer_(device_.device, registry) {
   const shadow::Technique& technique = renderer_.registry().find(entry.params.get_word("technique"));
-  if (what.floor) floor_.emplace(technique, scene, gl::ShaderFiles(options.glsl), device_.device.timers.mode());
+  if (what.floor)
+    floor_.emplace(technique, entry.params, scene, gl::ShaderFiles(options.glsl), device_.device.timers.mode());
 }
 
 void Contender::draw(const render::FrameInputs& inputs, const ParamSet& params) {

@@ -12,33 +12,41 @@ namespace {
 constexpr const char* floor_name = "fetch_floor";
 constexpr unsigned unit_source = shadow::first_pass_unit;
 
-void copy_mask(const shadow::PassContext& context, const gl::Texture& mask) {
-  const gl::Texture& target = context.target("mask copy", mask.desc());
+// A texture that holds the light's layer of a mask alone.
+const gl::Texture& copied_layer(const shadow::PassContext& context, const gl::Texture& mask) {
+  gl::TextureDesc desc = mask.desc();
+  desc.layers = 1;
+  const gl::Texture& target = context.target("mask copy", desc);
   gl::Pass pass(context.device(), {.name = "mask copy", .colors = {{.texture = &target}}});
-  context.use(pass, "copy mask");
+  context.use(pass, "copy mask").set("layer", context.frame().layer);
   context.device().sampler({}).bind(unit_source);
   mask.bind(unit_source);
   pass.draw_full_screen();
+  return target;
 }
 
 std::vector<Param> floor_rows() {
   using enum ParamBinding;
   return {
       {"fetch_floor.blocker_taps", 0, 0, 256, "taps", "As the technique's own.", compiled},
+      {.name = "fetch_floor.blocker_reads",
+       .default_value = "footprint",
+       .help = "As the technique's own.",
+       .binding = compiled,
+       .choices = {"footprint", "texel"}},
       {"fetch_floor.filter_taps", 0, 0, 256, "taps", "As the technique's own.", compiled},
       {"fetch_floor.radius", 0.0f, 0, 1000, "m", "As the technique's own, if it is constant; else 0.", uniform},
   };
 }
 
-// The technique's mask, whose channel G is the radius of its filter. Building it also copies the mask once.
+// The light's layer of the technique's mask, whose channel G is the radius of its filter.
 shadow::Recipe kernel_radii(const gl::Texture& kernels) {
   return {.name = "kernel_radii",
-          .summary = "A mask of the technique that is measured.",
+          .summary = "A layer of a mask of the technique that is measured.",
           .source = "none",
           .needs = {},
           .build = [&kernels](const shadow::PassContext& context) -> const gl::Texture& {
-            copy_mask(context, kernels);
-            return kernels;
+            return copied_layer(context, kernels);
           },
           .programs =
               [](const ParamSet&) {
@@ -65,17 +73,19 @@ shadow::Registry floor_registry(const shadow::Technique& of, const gl::Texture& 
   return shadow::Registry(std::move(contents));
 }
 
-bool has_row(const shadow::Technique& technique, const char* row) {
-  const std::string name = technique.name + "." + row;
-  return std::ranges::any_of(technique.params, [&name](const Param& param) { return param.name == name; });
+// Whether the technique reads as many points as its parameters say.
+bool declares_taps(const shadow::Technique& technique, const ParamSet& params) {
+  const auto name_of = [&technique](const char* row) { return technique.name + "." + row; };
+  const bool reads_all = params.contains(name_of("every_texel")) && params.get_bool(name_of("every_texel"));
+  return !reads_all && (params.contains(name_of("filter_taps")) || params.contains(name_of("blocker_taps")));
 }
 
 }  // namespace
 
-Floor::Floor(const shadow::Technique& technique, const scene::Scene& scene, gl::ShaderFiles shaders,
-             gl::Timers::Mode timing)
+Floor::Floor(const shadow::Technique& technique, const ParamSet& params, const scene::Scene& scene,
+             gl::ShaderFiles shaders, gl::Timers::Mode timing)
     : technique_(technique),
-      has_fetches_(has_row(technique, "filter_taps") || has_row(technique, "blocker_taps")),
+      has_fetches_(declares_taps(technique, params)),
       kernels_(std::make_unique<gl::Texture>()),
       device_(std::move(shaders), timing),
       scene_(device_, scene),
@@ -100,8 +110,15 @@ ParamSet Floor::params_for(const ParamSet& params) const {
   return own;
 }
 
-void Floor::draw(const render::FrameInputs& inputs, const ParamSet& params) {
-  renderer_.draw(scene_, inputs, params_for(params));
+const render::Frame& Floor::draw(const render::FrameInputs& inputs, const ParamSet& params) {
+  return renderer_.draw(scene_, inputs, params_for(params));
+}
+
+std::vector<std::pair<std::string, ParamValue>> values_for_floor(const ParamSet& params) {
+  std::vector<std::pair<std::string, ParamValue>> values{{"mask.tiles", false}, {"mask.scale", 1}};
+  const std::string exits = params.get_word("technique") + ".early_exit";
+  if (params.contains(exits)) values.emplace_back(exits, false);
+  return values;
 }
 
 }  // namespace penumbra::bench

@@ -42,13 +42,14 @@ report::Table overview(const Measured& point) {
                                   {.title = "memory",
                                    .unit = "MiB",
                                    .help = "Shadow maps, masks, history and all other textures of the technique"}}};
-  const bool floor = point.costs.front().floor.has_value();
+  const bool floor = has_floor(point);
   if (floor) {
     table.columns.push_back({.title = "fetches alone", .unit = "ms", .help = "As many, from the same discs and map"});
     table.columns.push_back({.title = "mask over fetches",
                              .help = "How near the mask's pass is to the machine's limit: 1 is at the limit",
                              .best = Best::lowest});
-    table.columns.push_back({.title = "mask copy", .unit = "ms", .help = "One read and one write of the mask"});
+    table.columns.push_back(
+        {.title = "mask copy", .unit = "ms", .help = "One read and one write of the mask with its details"});
   }
   for (const Cost& cost : point.costs) {
     std::vector<Cell> row{{cost.label},
@@ -79,7 +80,7 @@ Html passes(const Cost& cost) {
     table.rows.push_back(
         {{name}, milliseconds(ms.median), milliseconds(ms.min), milliseconds(ms.max), cell_of(100 * share, 1)});
   };
-  for (const PassCost& pass : cost.passes) row(pass.name, pass.ms, pass.share);
+  for (const PassCost& pass : cost.passes) row(pass.name + drawn_in(pass, cost), pass.ms, pass.share);
   if (cost.has_passes()) row("sum of passes", cost.passes_sum, cost.sum_ratio);
   row("frame", cost.frame, 1);
   row("CPU", cost.cpu, cost.frame.median > 0 ? cost.cpu.median / cost.frame.median : 0);
@@ -94,7 +95,9 @@ Html passes(const Cost& cost) {
 
 // The passes of each technique's frame, one bar for each. Empty where passes were not timed.
 Html pass_bars(const Measured& point) {
-  report::BarPlot plot{.title = "What each technique's frame is made of, medians of its passes",
+  report::BarPlot plot{.title =
+                           "What each technique's frame is made of: medians of its passes, less where not all frames "
+                           "drew them",
                        .x = {.label = "time of the passes", .unit = "ms"},
                        .parts = {},
                        .bars = {}};
@@ -109,7 +112,8 @@ Html pass_bars(const Measured& point) {
     report::Bar bar{.label = cost.label, .values = std::vector<double>(plot.parts.size(), 0.0)};
     for (const PassCost& pass : cost.passes) {
       const auto part = std::ranges::find(plot.parts, pass.name);
-      if (part != plot.parts.end()) bar.values[static_cast<std::size_t>(part - plot.parts.begin())] = pass.ms.median;
+      if (part != plot.parts.end())
+        bar.values[static_cast<std::size_t>(part - plot.parts.begin())] = cost.per_frame(pass);
     }
     plot.bars.push_back(std::move(bar));
   }

@@ -95,6 +95,7 @@ std::string json_of(const Results& results) {
                     {"device", io::to_json(results.device)},
                     {"timing", results.timing},
                     {"maps", maps_of(results)},
+                    {"mask_details", has_floor(results.points.front())},
                     {"scene", results.scene},
                     {"measured_frames", results.frames.measured},
                     {"warmup_frames", results.frames.warmup},

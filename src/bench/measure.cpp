@@ -12,6 +12,7 @@
 #include "bench/caster_grid.h"
 #include "cli/command_line.h"
 #include "cli/input_files.h"
+#include "cli/no_effect.h"
 #include "cli/progress.h"
 #include "core/error.h"
 #include "gl/api.h"
@@ -135,8 +136,9 @@ class Bench {
     if (prepared_ && !point.triangles) return;
     contenders_.clear();
     prepared_.emplace(scene_at(point));
-    if (!std::exchange(told_lights_, true))
-      cli::warn_without_lights(options_, options_, session::kinds_of_light(*prepared_));
+    const cli::LightKinds lights = session::kinds_of_light(*prepared_);
+    if (!std::exchange(told_lights_, true)) cli::warn_without_lights(options_, options_, lights);
+    results_.sun = lights.sun;
     const cli::InputFiles inputs = inputs_of(options_, prepared_->scene.files);
     for (const std::string& output : options_.outputs) inputs.check("-o", output);
     results_.scene = options_.scene.empty() ? "generated grid of casters"

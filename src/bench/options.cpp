@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "bench/floor.h"
 #include "bench/sweep.h"
 #include "cli/usage.h"
 #include "io/output_file.h"
@@ -21,6 +22,14 @@ std::vector<std::string> names_of(std::string_view option, const std::string& te
   std::vector<std::string> names = io::split(text, ',');
   if (std::ranges::find(names, "") != names.end()) fail_usage("{} can't be '{}': a name in it is empty", option, text);
   return names;
+}
+
+void set_for_floor(ParamSet& params, const cli::ShadowOptions& options) {
+  for (const auto& [name, value] : values_for_floor(params)) {
+    if (params.value(name) != value && cli::is_chosen(options, params, name))
+      fail_usage("--floor measures with {}={}, and can't with {}", name, to_text(value), to_text(params.value(name)));
+    params.set(name, value);
+  }
 }
 
 bool is_preset(const std::string& name) { return std::filesystem::path(name).extension() == ".toml"; }
@@ -51,8 +60,10 @@ void add_bench_options(CLI::App& app, Options& o) {
             [&o](const auto& text) { o.time = cli::parse_number("--time", text, 0, 1e6); });
   app.add_flag("--play", o.play, "Play the animation, 60 frames per second, instead of one time of it")
       ->disable_flag_override();
-  app.add_flag("--floor", o.floor,
-               "Also measure each technique's texture fetches alone, and one read and write of the mask")
+  app.add_flag(
+         "--floor", o.floor,
+         "Also measure each technique's texture fetches alone, and one read and write of the mask, which then has "
+         "details, and of which every pixel is computed by all fetches")
       ->disable_flag_override();
   app.add_flag("--whole-frames", o.whole_frames,
                "In software: finish each frame, not each pass, and time frames alone, as an application would")
@@ -113,6 +124,7 @@ std::vector<Entry> entries_of(const Options& options, const shadow::Registry& re
       fail_usage("the technique truth is traced by the CPU: see penumbra truth, which prints its rays per second");
     // The camera stands still, unlike in most uses, so that maps would be drawn in the first frame only.
     if (!cli::is_chosen(one, entry.params, "maps.keep")) entry.params.set("maps.keep", false);
+    if (options.floor) set_for_floor(entry.params, one);
     if (is_preset(name)) entry.label = std::filesystem::path(name).stem().string();
     if (name.empty()) entry.label = entry.params.get_word("technique");
     for (const Entry& other : entries) {

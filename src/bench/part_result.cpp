@@ -138,6 +138,7 @@ plan::Result result_of(const Results& measured) {
                    {"backend", measured.backend},
                    {"timing", measured.timing},
                    {"scene", measured.scene},
+                   {"sun", measured.sun},
                    {"frames", {{"measured", measured.frames.measured}, {"warmup", measured.frames.warmup}}},
                    {"point", json_of(point.point)},
                    {"width", point.size.width},
@@ -157,6 +158,7 @@ Results kept_point(const plan::Result& result) {
   kept.backend = text_in(data, "backend");
   kept.timing = text_in(data, "timing");
   kept.scene = text_in(data, "scene");
+  kept.sun = member_of(data, "sun") == true;
   kept.frames = {.measured = int_in(frames, "measured"), .warmup = int_in(frames, "warmup")};
   Measured point{.point = point_from(member_of(data, "point")),
                  .size = {int_in(data, "width"), int_in(data, "height")},

@@ -37,6 +37,7 @@ struct Results {
   std::string backend;
   std::string timing;  // "GPU timestamps"
   std::string scene;   // its file's name
+  bool sun = false;    // shines on it
   FrameCounts frames;
   std::vector<Entry> entries;
   Sweep sweep;
@@ -46,13 +47,18 @@ struct Results {
 
 // "ms = 0.12 + 0.034 · blocker_taps + 0.05 · filter_taps"
 std::string equation_of(const Model& model, const Sweep& sweep);
+// ", in 3 of 20 frames", or empty if all frames drew the pass
+std::string drawn_in(const PassCost& pass, const Cost& cost);
+// Whether lower bounds were measured. Masks then have details (see shadow::Mask), which costs all techniques some time.
+bool has_floor(const Measured& point);
 // "shadow passes" or the one pass that the sweep is about
 std::string subject_of(const Sweep& sweep);
 // "drawn anew in every frame": whether shadow maps were, with these parameters or with all of these; at least one.
 std::string maps_of(const ParamSet& params);
 std::string maps_of(std::span<const ParamSet* const> of_all);
 std::string maps_of(const Results& results);
-// "courtyard.glb, 1280×720, 4 cascades of 2048×2048, maps drawn anew in every frame"
+// "courtyard.glb, 1280×720, 4 cascades of 2048×2048, maps drawn anew in every frame"; without a sun no cascades. With
+// lower bounds also what they make different.
 std::string setting_of(const Results& results);
 
 std::string json_of(const Results& results);

@@ -77,7 +77,7 @@ Sweep cascades() {
 
 Sweep casters(const SweepLimits& limits) {
   constexpr long long fewest = 1'000, most = 10'000'000, most_in_software = 1'000'000;
-  Sweep sweep{.axes = {{"triangles", "million", /* log= */ true}}};
+  Sweep sweep{.axes = {{"caster_triangles", "million", /* log= */ true}}};
   const long long first = limits.own_triangles > 0 ? limits.own_triangles : fewest;
   for (long long triangles = first; triangles <= (limits.software ? most_in_software : most); triangles *= 10) {
     Point point = point_of(static_cast<double>(triangles) / million, std::to_string(triangles));

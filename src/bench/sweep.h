@@ -23,7 +23,7 @@ struct Point {
 
 // A quantity that a sweep varies. Cost is expected to grow about linearly with it.
 struct Axis {
-  std::string name;  // "blocker_taps"
+  std::string name;  // "blocker_taps"; a column of CSV files and a key of JSON, so unlike those of every point
   std::string unit;  // "taps"
   bool log = false;  // plot it on a logarithmic scale
 };

@@ -11,12 +11,13 @@ namespace penumbra::bench {
 namespace {
 
 std::string pass_lines(const Cost& cost) {
-  const auto line = [](const std::string& name, const Summary& ms, double share) {
-    return fmt::format("  {:<22}{:>10.3f}{:>10.3f}{:>10.3f}{:>8.1f} %\n", name, ms.median, ms.min, ms.max, 100 * share);
+  const auto line = [](const std::string& name, const Summary& ms, double share, const std::string& note = {}) {
+    return fmt::format("  {:<22}{:>10.3f}{:>10.3f}{:>10.3f}{:>8.1f} %{}\n", name, ms.median, ms.min, ms.max,
+                       100 * share, note);
   };
   std::string text =
       fmt::format("{:<24}{:>10}{:>10}{:>10}{:>10}\n", cli::printable(cost.label), "median ms", "min", "max", "share");
-  for (const PassCost& pass : cost.passes) text += line(pass.name, pass.ms, pass.share);
+  for (const PassCost& pass : cost.passes) text += line(pass.name, pass.ms, pass.share, drawn_in(pass, cost));
   if (cost.has_passes()) text += line("sum of passes", cost.passes_sum, cost.sum_ratio);
   text += line("frame", cost.frame, 1);
   text += line("CPU", cost.cpu, cost.frame.median > 0 ? cost.cpu.median / cost.frame.median : 0);
@@ -24,10 +25,6 @@ std::string pass_lines(const Cost& cost) {
     text += fmt::format("  warning: the passes make up {:.0f} % of the frame: a time is missing or counted twice\n",
                         100 * cost.sum_ratio);
   return text + "\n";
-}
-
-bool has_floor(const Measured& point) {
-  return std::ranges::any_of(point.costs, [](const Cost& cost) { return cost.floor.has_value(); });
 }
 
 std::string floor_cells(const FloorCost& floor) {
@@ -55,15 +52,26 @@ std::string summary_lines(const Measured& point) {
 // One line a point: its place, and the shadow passes of each entry.
 std::string sweep_lines(const Results& results) {
   std::string text;
-  for (const Axis& axis : results.sweep.axes) text += fmt::format("{:>14}", axis.name);
+  for (const Axis& axis : results.sweep.axes) text += fmt::format("{:>18}", axis.name);
   for (const Entry& entry : results.entries) text += fmt::format("{:>24}", cli::printable(entry.label) + " ms");
   text += "\n";
   for (const Measured& point : results.points) {
-    for (const std::string& name : point.point.names) text += fmt::format("{:>14}", name);
+    for (const std::string& name : point.point.names) text += fmt::format("{:>18}", name);
     for (const Cost& cost : point.costs) text += fmt::format("{:>24.3f}", cost.swept.median);
     text += "\n";
   }
   return text;
+}
+
+// "4 cascades of 2048×2048"
+std::string cascades_of(const Results& results) {
+  const auto text_of = [](const Entry& entry) {
+    const int count = entry.params.get_int("cascades.count"), side = entry.params.get_int("cascades.size");
+    return fmt::format("{} cascade{} of {}×{}", count, count == 1 ? "" : "s", side, side);
+  };
+  const std::string first = text_of(results.entries.front());
+  const bool same = std::ranges::all_of(results.entries, [&](const Entry& entry) { return text_of(entry) == first; });
+  return same ? first : "cascades as cascades.count and cascades.size say of each";
 }
 
 }  // namespace
@@ -85,18 +93,25 @@ std::string maps_of(const Results& results) {
 }
 
 std::string setting_of(const Results& results) {
-  const ParamSet& params = results.entries.front().params;
   const auto swept = [&results](const char* name) { return results.sweep.name == name; };
   std::string text = cli::printable(results.scene);
   if (!swept("resolution")) {
     const cli::Size& size = results.points.front().size;
     text += fmt::format(", {}×{}", size.width, size.height);
   }
-  if (!swept("cascades") && !swept("map_size")) {
-    const int side = params.get_int("cascades.size");
-    text += fmt::format(", {} cascades of {}×{}", params.get_int("cascades.count"), side, side);
-  }
-  return text + ", maps " + maps_of(results);
+  if (results.sun && !swept("cascades") && !swept("map_size")) text += ", " + cascades_of(results);
+  text += ", maps " + maps_of(results);
+  if (has_floor(results.points.front())) text += ", masks with details, of which every pixel is computed";
+  return text;
+}
+
+bool has_floor(const Measured& point) {
+  return std::ranges::any_of(point.costs, [](const Cost& cost) { return cost.floor.has_value(); });
+}
+
+std::string drawn_in(const PassCost& pass, const Cost& cost) {
+  if (pass.ms.count == cost.frame.count) return {};
+  return fmt::format(", in {} of {} frames", pass.ms.count, cost.frame.count);
 }
 
 std::string subject_of(const Sweep& sweep) { return sweep.pass.empty() ? "shadow passes" : sweep.pass; }

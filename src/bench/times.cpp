@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <numeric>
+#include <utility>
 
 namespace penumbra::bench {
 
@@ -26,6 +28,8 @@ std::vector<double>& times_of(PassTimes& times, const std::string& name) {
   times.passes.push_back({name, {}});
   return times.passes.back().milliseconds;
 }
+
+double total(const std::vector<double>& times) { return std::accumulate(times.begin(), times.end(), 0.0); }
 
 }  // namespace
 
@@ -62,8 +66,13 @@ bool is_shadow_pass(std::string_view name) {
   return std::find(own.begin(), own.end(), name.substr(0, name.find('/'))) == own.end();
 }
 
+double Cost::per_frame(const PassCost& pass) const {
+  return frame.count > 0 ? pass.ms.median * static_cast<double>(pass.ms.count) / static_cast<double>(frame.count) : 0;
+}
+
 Cost cost_of(const PassTimes& times, const PassTimes& first) {
   const std::vector<double> shadow = times.shadow_sums(), sums = times.sums();
+  const double all_frames = total(times.frames);
   Cost cost;
   cost.frame = summary_of(times.frames);
   cost.cpu = summary_of(times.cpu);
@@ -74,10 +83,9 @@ Cost cost_of(const PassTimes& times, const PassTimes& first) {
   for (const gl::Timers::Row& pass : times.passes) {
     std::vector<double> drawn = pass.milliseconds;
     std::erase(drawn, 0.0);
-    const Summary ms = summary_of(drawn);
     cost.passes.push_back({.name = pass.name,
-                           .ms = ms,
-                           .share = cost.frame.median > 0 ? ms.median / cost.frame.median : 0,
+                           .ms = summary_of(std::move(drawn)),
+                           .share = all_frames > 0 ? total(pass.milliseconds) / all_frames : 0,
                            .shadow = is_shadow_pass(pass.name)});
   }
   if (!cost.has_passes()) cost.of_first = paired_ratio(times.frames, first.frames);

@@ -33,15 +33,15 @@ bool is_shadow_pass(std::string_view name);
 struct PassCost {
   std::string name;
   Summary ms;        // over the frames that drew it
-  double share = 0;  // of the frame's time, by medians
+  double share = 0;  // of the time of all measured frames
   bool shadow = false;
 };
 
 // The lower bound of a technique's cost, in milliseconds: see Floor.
 struct FloorCost {
-  std::optional<Summary> fetch;      // its fetches alone; absent if the technique does not declare its taps
+  std::optional<Summary> fetch;      // its fetches alone; absent if it is not known how many these are
   std::optional<double> mask_ratio;  // paired ratio of its mask pass to `fetch`
-  Summary copy;                      // one read and one write of the mask
+  Summary copy;                      // one read and one write of the mask with details
 };
 
 // What one contender cost.
@@ -60,6 +60,8 @@ struct Cost {
 
   // Else only its frames are known: the members about passes are empty.
   bool has_passes() const { return !passes.empty(); }
+  // The time of a pass in a frame that stands for all: its median, as often as frames drew it.
+  double per_frame(const PassCost& pass) const;
   // Whether the sum of the passes is within 10 % of the frame's time.
   bool adds_up() const { return sum_ratio > 0.9 && sum_ratio < 1.1; }
 };

@@ -49,7 +49,8 @@ std::optional<std::size_t> recovery_frames(std::span<const double> errors, doubl
 // Recovery: the frames after a stop or a cut until the region's mean |e| is, and stays, at most 1/255 above its static
 // error. The region of a cut is all receivers; that of a stop is where the reference changed by more than 1/255 in the
 // 8 frames before it, the frame of the stop included. The static error is measured over the last 8 frames before the
-// next event or the end, so at least 16 frames must follow the event, and enough for the technique to converge.
+// next event or the end, so there must be at least 16 frames from the event's own on, and enough for the technique to
+// converge.
 //
 // Memory: 12 bytes per pixel and 8 bytes per frame, whatever the length of the sequence. Results are deterministic.
 class SequenceMetrics {

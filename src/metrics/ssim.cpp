@@ -14,6 +14,8 @@ namespace {
 // Subtracted from all values, so that rounding does not cancel small variances.
 constexpr float middle = 0.5f;
 constexpr float c1 = 0.01f * 0.01f, c2 = 0.03f * 0.03f;
+// Test values beyond it count as it: the index is 0 to many digits there, and their squares would overflow.
+constexpr float most = 1e6f;
 
 float value_at(const ImageView& picture, std::size_t pixel) {
   if (picture.channels == 1) return picture.pixels[pixel];
@@ -40,7 +42,8 @@ double ssim(const ImageView& test, const ImageView& reference, Receivers receive
   const auto truth = [&](std::size_t i) { return value_at(reference, i) - middle; };
   const auto shown = [&](std::size_t i) {
     const float value = value_at(test, i);
-    return (std::isfinite(value) ? value : truth(i) <= 0 ? 1.0f : 0.0f) - middle;
+    if (!std::isfinite(value)) return (truth(i) <= 0 ? 1.0f : 0.0f) - middle;
+    return std::clamp(value, -most, most) - middle;
   };
   const auto product = [](const auto& a, const auto& b) { return [&](std::size_t i) { return a(i) * b(i); }; };
   const Plane weight = sums(reference, receivers, [](std::size_t) { return 1.0f; });

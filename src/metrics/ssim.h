@@ -13,8 +13,8 @@ namespace penumbra::metrics {
 //
 // A window includes only receivers inside the picture: other pixels have weight 0, and the remaining weights are
 // renormalised to sum to 1. So pixels near the border are measured too, which the paper leaves out. A test value that
-// is not finite counts as 0 or 1, whichever is farther from the reference. NaN without receivers. Throws Error as
-// check() does, and for channels other than 1 and 3.
+// is not finite counts as 0 or 1, whichever is farther from the reference, one beyond ±10⁶ as that. NaN without
+// receivers. Throws Error as check() does, and for channels other than 1 and 3.
 double ssim(const ImageView& test, const ImageView& reference, Receivers receivers = {});
 
 }  // namespace penumbra::metrics

@@ -1,5 +1,6 @@
 #include "truth/sampling.h"
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 
@@ -92,7 +93,12 @@ PicturePoints::PicturePoints(std::uint32_t seed, std::uint32_t count)
     : count_(count), seed_x_(hash(hash(seed) ^ 0x85ebca6bU)), seed_y_(hash(hash(seed) ^ 0xc2b2ae35U)) {}
 
 std::uint32_t PicturePoints::first(std::uint32_t x, std::uint32_t y) const {
-  return (spread_bits(x) | spread_bits(y) << 1U) * count_;
+  constexpr std::uint64_t all_points = 1ULL << 32U;
+  const std::uint32_t pixel = spread_bits(x) | spread_bits(y) << 1U;
+  if ((static_cast<std::uint64_t>(pixel) + 1) * count_ <= all_points) return pixel * count_;
+  const auto pixels = static_cast<std::uint32_t>(std::bit_floor(all_points / count_));  // of a block
+  constexpr std::uint32_t in_group = 3;  // pixels of 2 × 2 stay as they are
+  return ((pixel ^ (hash(pixel / pixels) & ~in_group)) & (pixels - 1)) * count_;
 }
 
 TRUTH_WIDE_VECTORS void PicturePoints::square(const std::array<std::uint32_t, packet_width>& indices,

@@ -45,7 +45,9 @@ class PixelPoints {
 // follow each other, and blocks of 2 × 2, 4 × 4, … pixels do too, because pixels are in Morton order. So the points of
 // a pixel cover the light evenly, those of its block do so even better, and neighbours' errors cancel when they are
 // averaged (after Ahmed and Wonka 2020, "Screen-space blue-noise diffusion of Monte Carlo sampling error via
-// hierarchical ordering of pixels").
+// hierarchical ordering of pixels"). The sequence has 2^32 points. Where they do not suffice, such as beyond 1024 ×
+// 1024 pixels of 4096 points, further blocks take them again in another order of pixels, so that no pixel has the
+// points of one that is always as far away.
 class PicturePoints {
  public:
   PicturePoints(std::uint32_t seed, std::uint32_t count);

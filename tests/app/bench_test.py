@@ -136,6 +136,19 @@ class Bench(TestCase):
         for cost in costs:
             self.assertGreater(cost["floor"]["mask_copy"]["median_ms"], 0)
 
+    def test_floor_measures_masks_of_which_every_pixel_is_computed(self):
+        for arguments, has_floor in ((("--floor",), True), ((), False)):
+            text = self.succeed("bench", SCENE, "--technique", "pcss", *arguments, *SMALL, "-o",
+                                self.folder / "bench.json", "-o", self.folder / "bench.csv").stdout
+            data = json.loads((self.folder / "bench.json").read_text())
+            params = data["techniques"][0]["params"]
+            self.assertEqual((params["mask.tiles"], params["pcss.early_exit"]), (not has_floor, not has_floor))
+            passes = {each["name"] for each in data["points"][0]["costs"][0]["passes"]}
+            self.assertEqual("tile decisions" in passes, not has_floor)
+            self.assertEqual(data["mask_details"], has_floor)
+            self.assertEqual({row["mask_details"] for row in self.read_csv()}, {str(has_floor).lower()})
+            self.assertEqual("masks with details, of which every pixel is computed" in text, has_floor)
+
     def test_sweep_of_taps_fits_a_cost_model(self):
         page = self.folder / "bench.html"
         data = self.bench(SCENE, "--sweep", "taps", "-o", self.folder / "bench.csv", "-o", page)
@@ -205,6 +218,8 @@ class Bench(TestCase):
             ("--frames", "0"): "--frames",
             ("-o", "bench.xml"): ".json, .csv, .html",
             ("--quiet",): "-o",
+            ("--floor", "--set", "mask.tiles=on"): "--floor measures with mask.tiles=false",
+            ("--floor", "--set", "mask.scale=2"): "--floor measures with mask.scale=1",
         }.items():
             self.assertIn(said, self.refuse("bench", SCENE, *arguments, code=2), arguments)
         self.assertIn("SCENE", self.refuse("bench", code=2))

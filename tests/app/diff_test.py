@@ -151,6 +151,18 @@ class Figures(Diff):
         self.assertIn("no pixel", self.refuse("diff", a, b, "--layer", "shadow", "--mask", "none"))
         self.assertIn("'receiver'", self.refuse("diff", a, b, "--layer", "shadow", "--mask", "reciever"))
 
+    def test_huge_values_are_measured_or_told(self):
+        grey = exr(self.folder / "grey.exr", 4, 3, {"V": [0.5] * 12})
+        huge = exr(self.folder / "huge.exr", 4, 3, {"V": [0.5] * 11 + [1e30]})
+        self.assertAlmostEqual(self.figures(huge, grey)["figures"]["ssim"], 0, delta=1e-3)
+        self.assertIn("under the limit", self.refuse("diff", huge, grey, "--metric", "ssim", "--min", "0.5"))
+        most = [3e38, -3e38] * 6
+        one, other = (exr(self.folder / f"{name}.exr", 4, 3, {"V": most[shift:] + most[:shift]})
+                      for name, shift in (("one", 0), ("other", 1)))
+        error = self.refuse("diff", one, other, "--metric", "bias", "--max", "1")
+        self.assertIn("bias is not a number", error)
+        self.assertNotIn("no penumbra", error)
+
     def test_values_that_are_not_finite_keep_no_limit(self):
         good = exr(self.folder / "good.exr", 4, 3, {"V": [0.5] * 12})
         bad = exr(self.folder / "bad.exr", 4, 3, {"V": [0.5] * 10 + [math.nan, math.inf]})

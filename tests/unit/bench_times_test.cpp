@@ -57,6 +57,21 @@ TEST(Cost, ComparesFrameByFrame) {
   EXPECT_DOUBLE_EQ(cost.passes.front().share, 2.0 / 13);
 }
 
+// A map that one frame of four draws: its median is that of this frame, its share and its bar are of all four.
+TEST(Cost, OfAPassThatFewFramesDrewIsSpreadOverAll) {
+  PassTimes times;
+  times.append({{"shadow map", {0, 0, 8, 0}}, {"shadow mask", {2, 2, 2, 2}}, {"frame", {2, 2, 10, 2}}}, {1, 1, 1, 1},
+               4);
+  const Cost cost = bench::cost_of(times, times);
+  const bench::PassCost &map = cost.passes[0], &mask = cost.passes[1];
+  EXPECT_DOUBLE_EQ(map.ms.median, 8);
+  EXPECT_EQ(map.ms.count, 1U);
+  EXPECT_DOUBLE_EQ(map.share, 0.5);
+  EXPECT_DOUBLE_EQ(cost.per_frame(map), 2);
+  EXPECT_DOUBLE_EQ(mask.share, 0.5);
+  EXPECT_DOUBLE_EQ(cost.per_frame(mask), 2);
+}
+
 TEST(Cost, SaysWhetherThePassesAddUp) {
   EXPECT_FALSE(bench::cost_of(times_of(4), times_of(4)).adds_up());  // 7 of 8, 9 of 10
   EXPECT_TRUE(bench::cost_of(times_of(20), times_of(20)).adds_up());

@@ -128,6 +128,17 @@ TEST(Recovery, AfterAStopLooksWhereTheShadowMoved) {
   EXPECT_EQ(figures.recoveries[0].static_error, 0) << "of the region alone";
 }
 
+TEST(Recovery, IsToldFromSixteenFramesThatOfTheEventIncluded) {
+  for (const auto event : {Event::cut, Event::stop}) {
+    for (const int frames : {15, 16}) {
+      SequenceMetrics metrics;
+      metrics.add(dark, dark);
+      for (int frame = 0; frame < frames; ++frame) metrics.add(lit, lit, {}, frame == 0 ? event : Event::none);
+      EXPECT_EQ(metrics.figures().recoveries.at(0).frames.has_value(), frames == 16) << frames;
+    }
+  }
+}
+
 TEST(Recovery, IsNotToldFromTooFewFramesOrAnEmptyRegion) {
   SequenceMetrics metrics;
   metrics.add(lit, lit);

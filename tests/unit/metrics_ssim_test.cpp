@@ -85,6 +85,17 @@ TEST(Ssim, OfNearlyEqualPicturesIsNotOverOne) {
   }
 }
 
+TEST(Ssim, OfHugeValuesIsANumber) {
+  const Grey a = pattern(3);
+  for (const float huge : {1e7f, 1e20f, std::numeric_limits<float>::max(), -std::numeric_limits<float>::max()}) {
+    Grey one = a;
+    one.at(11, 8) = huge;
+    EXPECT_GT(ssim(one, a), -1) << huge;
+    EXPECT_LT(ssim(one, a), 0.9) << huge;
+    EXPECT_NEAR(ssim(Grey(a.width, a.height, huge), a), 0, 1e-3) << huge;
+  }
+}
+
 TEST(Ssim, IgnoresWhatIsNoReceiver) {
   const Grey a = pattern(3);
   Grey b = a;

@@ -90,6 +90,25 @@ TEST(TruthTrace, PointsOfBlocksOfPixelsCoverTheLightEvenly) {
   }
 }
 
+// Of sets of 4096 points there are only as many as 1024 × 1024 pixels take.
+TEST(TruthTrace, PointsThatAreTakenAgainAreNotThoseOfPixelsAsFarAway) {
+  const PicturePoints points(3, 4096), fewer(3, 1024);
+  std::set<std::uint32_t> taken;
+  for (std::uint32_t y = 0; y < 720; y += 16) {
+    for (std::uint32_t x = 0; x < 256; x += 16) {
+      const std::uint32_t beyond = points.first(x + 1024, y);
+      EXPECT_NE(beyond, points.first(x, y)) << x << ", " << y;
+      EXPECT_EQ(points.first(x, y), 4 * fewer.first(x, y)) << "pixels within keep theirs";
+      EXPECT_EQ(beyond % (4 * 4096), 0U) << "groups of 2 × 2 pixels stay together";
+      EXPECT_TRUE(taken.insert(beyond).second);
+      EXPECT_EQ(points.first(x + 1025, y), beyond + 4096);
+      EXPECT_EQ(points.first(x + 1024, y + 1), beyond + 2 * 4096);
+    }
+  }
+  EXPECT_NE(points.first(1024, 0), points.first(2048, 0));
+  EXPECT_EQ(PicturePoints(3, 24).first(16383, 1), 24U * 0x5555557U) << "a count that is no power of two";
+}
+
 TEST(TruthSampling, ScramblingsAreIndependent) {
   const auto correlation = [](auto first, auto second) {
     double sum = 0;

@@ -137,10 +137,13 @@ std::string verdict(const DiffOptions& options, const Figure& figure, const Diff
   if (!options.max && !options.min) return {};
   if (difference.not_finite > 0)
     return fmt::format("{}: {} values of the first picture are not finite", names, difference.not_finite);
-  if (std::isnan(figure.value) && difference.width_lost > 0)
-    return fmt::format("{}: no penumbra of the first picture has a width that can be measured", names);
-  if (std::isnan(figure.value))
+  if (std::isnan(figure.value)) {
+    if (!figure.metric->of_penumbrae)
+      return fmt::format("{}: {} is not a number: values are too large", names, figure.metric->name);
+    if (difference.width_lost > 0)
+      return fmt::format("{}: no penumbra of the first picture has a width that can be measured", names);
     return fmt::format("{}: there is no penumbra to measure {} of", names, figure.metric->name);
+  }
   const double value = options.max ? std::abs(figure.value) : figure.value;
   if (options.max && value > *options.max)
     return fmt::format("{}: {} is {}, over the limit of {:g}", names, figure.metric->name, text_of(figure),

@@ -18,13 +18,14 @@ namespace {
 constexpr std::array<Metric, 9> all_metrics{{
     {"rmse", "Root of the mean squared error", "", false},
     {"psnr", "Peak signal-to-noise ratio", "dB", true},
-    {"psnr_penumbra", "PSNR where the reference is from 0.02 to 0.98", "dB", true},
+    {"psnr_penumbra", "PSNR where the reference is from 0.02 to 0.98", "dB", true, /*of_penumbrae=*/true},
     {"bias", "Mean error, above 0 where A is brighter; --max limits its absolute value", "", false},
     {"max", "Greatest error", "", false},
     {"p99", "Error that 99 of 100 values don't exceed", "", false},
     {"ssim", "Mean structural similarity, 1 at best", "", true},
     {"flip", "Mean FLIP: how different the two look to a viewer who flips between them", "", false},
-    {"penumbra_width_error", "Mean relative error of the penumbrae's widths", "", false},
+    {"penumbra_width_error", "Mean relative error of the penumbrae's widths", "", false,
+     /*of_penumbrae=*/true},
 }};
 
 metrics::ImageView view(const image::Picture& picture) {

@@ -20,6 +20,7 @@ struct Metric {
   const char* help;
   const char* unit;       // empty for none
   bool higher_is_better;  // then a limit on it is a minimum, else a maximum
+  bool of_penumbrae = false;
 };
 std::span<const Metric> diff_metrics();
 // Throws UsageError with near names for an unknown name.
