@@ -19,8 +19,8 @@ namespace penumbra::bench {
 // "mask copy" reads and writes the mask, with its details, once. The filter's discs are those of the technique's mask,
 // which a denoiser may have changed.
 //
-// Techniques whose parameters do not say how many texels they read have no fetch floor. It bounds a technique that
-// skips no fetches because it knows their result: see values_for_floor().
+// Techniques whose parameters do not say how many texels they read have no fetch floor. It bounds the
+// others only where they make all fetches, also those whose result they know: see values_for_floor().
 class Floor {
  public:
   // `params`: the technique's. `technique` is copied; `scene` must outlive this object.

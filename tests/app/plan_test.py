@@ -198,8 +198,8 @@ class Timed(Plans):
         # But for times, which are of other frames, it is what one process writes.
         self.succeed("bench", *arguments, "-o", self.folder / "whole.json")
         whole = json.loads((self.folder / "whole.json").read_text())
-        for key in ("techniques", "sweep", "sweep_measures", "device", "backend", "timing", "maps", "scene",
-                    "measured_frames", "warmup_frames"):
+        for key in ("techniques", "sweep", "sweep_measures", "device", "backend", "timing", "maps", "mask_details",
+                    "scene", "measured_frames", "warmup_frames"):
             self.assertEqual(merged[key], whole[key], key)
         for one, other in zip(merged["points"], whole["points"], strict=True):
             costs = [one.pop("costs"), other.pop("costs")]
@@ -213,6 +213,9 @@ class Timed(Plans):
             self.work()
             first = self.merge()
             self.assertTrue(validator("bench").is_valid(json.loads(first["results.json"])))
+            page = first["index.html"].decode()
+            self.assertIn("4 cascades of 256×256", page)
+            self.assertEqual("masks with details" in page, "--floor" in more)
             self.assertEqual(first, self.merge())
 
 

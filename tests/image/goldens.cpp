@@ -96,6 +96,7 @@ std::span<const Golden> goldens() {
       {"visible_posts", "posts", "pcss", {"cascades.fit=visible", "cascades.size=256"}, &rounding, {"cascades.fit=stable"}},
       // Every filter.
       {"filter_median", "foliage", "thesis", {"sun.angle=4", "filter.penumbra=median"}, &rounding, {"filter.penumbra=none"}, "blocker", 1, 0, 6},
+      {"filter_median_visibility", "thesis", "thesis", {"filter.visibility=median_visibility"}, &rounding, {"filter.visibility=none"}},
       {"filter_box", "thesis", "thesis", {"filter.visibility=box"}, &rounding, {"filter.visibility=none"}},
       {"filter_gaussian", "thesis", "thesis", {"filter.visibility=gaussian"}, &rounding, {"filter.visibility=none"}},
       {"filter_bilateral", "thesis", "thesis", {"filter.visibility=bilateral"}, &rounding, {"filter.visibility=none"}},
