@@ -39,7 +39,8 @@ GLSL_FUNCTION uint with_frames(uint texel, uint frames) {
 
 GLSL_FUNCTION uint texel_frames(uint texel) { return (texel & 15u) | ((texel >> 11) & 16u); }
 
-// The note stored with each packed texel, eight bits: bits 0 to 3 the layer of the shadow map that was read; bit 4 set
+// The note stored with each packed texel, eight bits: bits 0 to 2 the layer of the shadow map that was read; bit 3 set
+// if the shadow is narrow (see Shadowed); bit 4 set
 // if the kernel is smaller than a texel of the map; bits 5 to 7 whether the history was used, or why it was rejected.
 #define HISTORY_KEPT 0u
 #define HISTORY_NONE 1u            // there is no history: a first frame, a cut, a new size
@@ -47,13 +48,19 @@ GLSL_FUNCTION uint texel_frames(uint texel) { return (texel & 15u) | ((texel >> 
 #define HISTORY_OTHER_SURFACE 3u   // another surface was visible there
 #define HISTORY_CASTER_MOVED 4u    // a caster moved that may block the light
 
-GLSL_FUNCTION uint pack_notes(int layer, bool under_texel, uint refusal) {
-  return uint(layer) | (under_texel ? 16u : 0u) | (refusal << 5);
+GLSL_FUNCTION uint pack_notes(int layer, bool under_texel, bool narrow, uint refusal) {
+  return uint(layer) | (narrow ? 8u : 0u) | (under_texel ? 16u : 0u) | (refusal << 5);
 }
 
-GLSL_FUNCTION int notes_layer(uint notes) { return int(notes & 15u); }
+GLSL_FUNCTION int notes_layer(uint notes) { return int(notes & 7u); }
+GLSL_FUNCTION bool notes_narrow(uint notes) { return (notes & 8u) != 0u; }
 GLSL_FUNCTION bool notes_under_texel(uint notes) { return (notes & 16u) != 0u; }
 GLSL_FUNCTION uint notes_refusal(uint notes) { return notes >> 5; }
+
+// What a mask holds of a pixel's visibility: the visibility, or -1 to -2 where the shadow is narrow.
+GLSL_FUNCTION float stored_visibility(float visibility, bool narrow) {
+  return narrow ? -1.0f - visibility : visibility;
+}
 
 GLSL_END
 

@@ -22,10 +22,11 @@ Light light_for_layer(Receiver seen, Light light, int layer) {
 }
 
 Shadowed shadow_of(Receiver receiver, Light light) {
-  if (!faces_light(receiver)) return Shadowed(Visibility(0.0, 0.0, 0.0, false), 0);
+  if (!faces_light(receiver)) return Shadowed(Visibility(0.0, 0.0, 0.0, false), 0, false);
 #if CHOOSES_LAYER
   LayerChoice choice = choose_layer(receiver, light.read_radius, light);
-  if (choice.outside) return Shadowed(fully_lit(), choice.layer);
+  if (choice.outside) return Shadowed(fully_lit(), choice.layer, false);
+  float reach = light.read_radius;
   int first = choice.layer;
   vec2 fades = choice.fades;
   if (cascades_seam == cascades_seam_dither) {
@@ -47,8 +48,8 @@ Shadowed shadow_of(Receiver receiver, Light light) {
     mixed.blocker_distance += weight * metres_to_blocker(seen, one.blocker_distance);
     mixed.under_texel = mixed.under_texel || one.under_texel;
   } while (++i < readings);
-  return Shadowed(mixed, first);
+  return Shadowed(mixed, first, is_narrow(receiver, mixed.penumbra_radius > 0.0 ? mixed.penumbra_radius : reach));
 #else
-  return Shadowed(visibility(receiver, light), 0);
+  return Shadowed(visibility(receiver, light), 0, false);
 #endif
 }

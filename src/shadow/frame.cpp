@@ -169,6 +169,7 @@ void draw_layer_at(int scale, const LightWork& work, ScaledViews& views) {
   desc.height = scaled.inputs.depth.height;
   LightFrame frame = work.frame;
   frame.viewport = viewport_of(scaled.inputs);
+  frame.scale = scale;
   const LightWork small{.device = work.device,
                         .registry = work.registry,
                         .programs = work.programs,
@@ -188,8 +189,8 @@ void draw_layer_at(int scale, const LightWork& work, ScaledViews& views) {
   draw_layer(small);
   work.state.shadow_block = of_view;
   work.frame.notes = frame.notes;
+  upsample(work, {small.mask, scaled.inputs.depth.id}, scale);
   work.frame.scale = scale;
-  upsample(work, small.mask, scale);
 }
 
 // Releases what scales that no light of the frame has used.

@@ -64,10 +64,13 @@ std::vector<Param> map_rows() {
        "Added to bias.constant for each unit of the receiver's slope against the light."},
       {"bias.normal_offset", 0.0f, 0, 10, "texels", "Shift of receivers along their normal."},
       {"mask.tiles", true, 0, 1, "",
-       "Computes only the tiles of 8 × 8 pixels that a penumbra can reach, and decides all others at once.", host},
+       "Computes only the tiles of 8 × 8 pixels that a penumbra can reach, and decides all others at once; always if "
+       "mask.scale is above 1.",
+       host},
       {"mask.scale", 1, 1, 4, "px",
-       "Computes only every n-th pixel of each row and column, and those between that show another surface or a sharp "
-       "edge; the others are interpolated.",
+       "Computes only every n-th pixel of each row and column, and those between that show another surface, a sharp "
+       "edge "
+       "or a narrow shadow; the others are interpolated.",
        host},
   };
 }

@@ -58,9 +58,10 @@ struct LightFrame {
   bool history = false;                   // the history of the last frame is valid
   bool binds_forward = true;              // as in Inputs
   int scale = 1;                          // of the mask that the technique filled: see mask_scale.h
-  // R8UI, of the size of that mask, only if a denoiser ran: bits 0 to 3 the layer of the shadow map that was read, bit
-  // 4 set if the kernel is smaller than a texel of the map (both complete only where the mask has details), bits 5 to 7
-  // why the history was rejected (see History in docs/techniques.md).
+  // R8UI, of the size of that mask, only if a denoiser ran: bits 0 to 2 the layer of the shadow map that was read, bit
+  // 3 set if the shadow is narrow (docs/adr/0033-mask-scale.md; never if `scale` is 1), bit 4 set if the kernel is
+  // smaller than a texel of the map (bits 0 to 2 and 4 are complete only where the mask has details), bits 5 to 7 why
+  // the history was rejected (see History in docs/techniques.md).
   const gl::Texture* notes = nullptr;
   std::vector<Product> products;  // all that this frame made for the light
 };

@@ -61,12 +61,10 @@ gl::PassDesc pass_of(const MaskOutput& output, const std::optional<gl::TexelRect
 Programs::MaskForm form_of(const LightWork& work, const MaskOutput& output) {
   return {.compiled = Programs::compiled_for(work.technique, work.params(), work.frame.shape),
           .compute = work.params().get_word("driver") == "compute",
+          .scaled = work.frame.scale > 1 && work.technique.decides_tiles,
           .packed = output.packed != nullptr,
           .history = output.last_surfaces != nullptr};
 }
-
-// Whether a receiver may read beyond the rim of the map that sees it, where the next face of a cube goes on.
-bool has_rims(const LightWork& work) { return work.frame.shape.lamp && work.frame.projection.layers() > 1; }
 
 void compute_all(const LightWork& work, const MaskOutput& output) {
   Programs::MaskForm form = form_of(work, output);
@@ -122,6 +120,8 @@ void compute_listed(const LightWork& work, const MaskOutput& output, const Tiles
 
 }  // namespace
 
+bool has_rims(const LightWork& work) { return work.frame.shape.lamp && work.frame.projection.layers() > 1; }
+
 const gl::Texture* run_mask_pass(const LightWork& work, const MaskOutput& output) {
   if (!decides_tiles(work)) {
     compute_all(work, output);
@@ -146,22 +146,25 @@ const gl::Texture* run_mask_pass(const LightWork& work, const MaskOutput& output
   return &tiles.decisions;
 }
 
-void run_for_missing(const LightWork& work, const MissingPixels& missing) {
-  Programs::MaskForm form{.compiled = Programs::compiled_for(work.technique, work.params(), work.frame.shape)};
-  form.missing = true;
-  form.tiles = fits_tiles(work);
-  form.rim = has_rims(work);
+Tiles fill_decided_tiles(const LightWork& work) {
+  const Tiles tiles = decide_tiles(work, "all pixels: ");
   const MaskOutput output{.mask = &work.mask, .layer = work.frame.layer};
-  gl::Pass pass(work.device, pass_of("missing pixels", output));
-  set_viewport(pass, work.frame.viewport);
-  use(pass, work, work.programs.mask(work.technique, work.params(), form), output);
-  work.device.sampler({}).bind(unit_decisions);
-  missing.pixels.bind(unit_decisions);
-  if (form.tiles) {
-    draw_tiles(pass, missing.list, listed_draw_offset);
-  } else {
-    pass.draw_full_screen();
-  }
+  gl::Pass pass(work.device, pass_of("decided tiles", output));
+  fill_decided(work, output, tiles, pass);
+  return tiles;
+}
+
+void run_for_pixels(const LightWork& work, const gl::Buffer& pixels) {
+  const Programs::MaskForm form{.compiled = Programs::compiled_for(work.technique, work.params(), work.frame.shape),
+                                .compute = true,
+                                .listed_pixels = true,
+                                .rim = has_rims(work)};
+  const MaskOutput output{.mask = &work.mask, .layer = work.frame.layer};
+  gl::Pass pass(work.device, {.name = "missing pixels"});
+  const gl::Program& program = use(pass, work, work.programs.mask(work.technique, work.params(), form), output);
+  bind_images(program, output);
+  pixels.bind_storage(pixel_list_binding);
+  pass.dispatch_indirect(pixels, 0);
 }
 
 void bind_history(const LightWork& work, const gl::Texture& last_surfaces) {

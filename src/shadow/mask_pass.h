@@ -1,6 +1,7 @@
 #pragma once
 
 #include "denoise_context.h"
+#include "tiles.h"
 
 namespace penumbra::shadow {
 
@@ -17,15 +18,17 @@ struct MaskOutput {
 // tiles were decided.
 const gl::Texture* run_mask_pass(const LightWork& work, const MaskOutput& output);
 
-// The pixels of a mask that are yet to be computed: RG32UI, one texel a tile of 8 × 8, bit 8 y + x for each pixel; and
-// a list of the tiles that have any.
-struct MissingPixels {
-  const gl::Texture& pixels;
-  const gl::Buffer& list;
-};
+// Decides tiles and fills the light's layer of the mask with those that are decided. The others are listed.
+Tiles fill_decided_tiles(const LightWork& work);
 
-// Runs the technique's visibility() for these pixels of the light's layer of the mask, always in fragment shaders.
-void run_for_missing(const LightWork& work, const MissingPixels& missing);
+// The storage buffer of a list of pixels: PixelList in glsl/shadow/drivers/pixel_list.glsl.
+constexpr GLuint pixel_list_binding = 5;
+
+// Whether a receiver may read beyond the rim of the map that sees it, where the next face of a cube goes on.
+bool has_rims(const LightWork& work);
+
+// Runs the technique's visibility() for listed pixels of the light's layer of the mask, always in compute shaders.
+void run_for_pixels(const LightWork& work, const gl::Buffer& pixels);
 
 // Binds what glsl/shadow/history.glsl and movement.glsl read; `last_surfaces` as above.
 void bind_history(const LightWork& work, const gl::Texture& last_surfaces);

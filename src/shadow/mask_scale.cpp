@@ -2,12 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <optional>
+#include <span>
+
 #include "mask_pass.h"
 #include "tiles.h"
 
 namespace penumbra::shadow {
 
 namespace {
+
+// The beginning of PixelList in glsl/shadow/drivers/pixel_list.glsl, of a list without pixels.
+struct PixelListHead {
+  gl::DispatchCommand dispatch{.groups_x = 0, .groups_y = 0};
+  std::uint32_t count = 0;
+};
+constexpr PixelListHead no_pixels;
+
+std::size_t pixel_list_bytes(const Rect& viewport) {
+  const std::size_t pixels = static_cast<std::size_t>(viewport.width) * static_cast<std::size_t>(viewport.height);
+  return sizeof(PixelListHead) + sizeof(std::uint32_t) * pixels;
+}
 
 glm::ivec2 scaled_size(const Rect& viewport, int scale) {
   return {(viewport.width + scale - 1) / scale, (viewport.height + scale - 1) / scale};
@@ -93,28 +109,41 @@ ScaledInputs scaled_inputs(const LightWork& work, const std::string& prefix, int
   return scaled;
 }
 
-void upsample(const LightWork& work, const gl::Texture& scaled_mask, int scale) {
+void upsample(const LightWork& work, const ScaledMask& scaled, int scale) {
   const PassOwner owner = owner_of(work.technique);
   const PassContext context(work, owner);
   const Rect& viewport = work.frame.viewport;
-  const glm::ivec2 tiles = tile_count({0, 0, work.mask.width(), work.mask.height()});
-  const gl::Texture& missing =
-      context.target("missing pixels", {.format = GL_RG32UI, .width = tiles.x, .height = tiles.y});
-  const gl::Buffer& list = begin_tile_list(context, "missing tiles", tiles);
+  const gl::Buffer& missing = context.scratch("missing pixels", pixel_list_bytes(viewport));
+  missing.write(std::as_bytes(std::span(&no_pixels, 1)));
+  std::optional<Tiles> tiles;
+  if (decides_tiles(work)) tiles.emplace(fill_decided_tiles(work));
   {
     gl::Pass pass(work.device, {.name = "upsample mask"});
-    const gl::Program& program = pass.use(work.programs.upsample());
-    bind_inputs(work, owner);
-    program.set("mask_layer", work.frame.layer);
-    program.set("scale", scale);
-    work.device.sampler({}).bind(unit_texels);
-    scaled_mask.bind(unit_texels);
-    work.mask.bind_image(0, GL_WRITE_ONLY);
-    missing.bind_image(1, GL_WRITE_ONLY);
-    list.bind_storage(tile_list_binding);
-    pass.dispatch(viewport.width, viewport.height);
+    const auto use = [&](Programs::UpsampledTiles of) {
+      const gl::Program& program = pass.use(work.programs.upsample(of, work.mask.desc().format != GL_R16F));
+      bind_inputs(work, owner);
+      program.set("mask_layer", work.frame.layer);
+      program.set("scale", scale);
+      for (const GLuint unit : {unit_motion, unit_texels}) work.device.sampler({}).bind(unit);
+      gl::glBindTextureUnit(unit_motion, scaled.depth);
+      scaled.mask.bind(unit_texels);
+      work.mask.bind_image(0, GL_WRITE_ONLY);
+      missing.bind_storage(pixel_list_binding);
+    };
+    if (tiles) {
+      use(Programs::UpsampledTiles::listed);
+      tiles->list.bind_storage(tile_list_binding);
+      pass.dispatch_indirect(tiles->list, listed_dispatch_offset);
+      if (has_rims(work)) {
+        use(Programs::UpsampledTiles::at_rim);
+        pass.dispatch_indirect(tiles->list, rim_dispatch_offset);
+      }
+    } else {
+      use(Programs::UpsampledTiles::all);
+      pass.dispatch(viewport.width, viewport.height);
+    }
   }
-  run_for_missing(work, {.pixels = missing, .list = list});
+  run_for_pixels(work, missing);
 }
 
 }  // namespace penumbra::shadow

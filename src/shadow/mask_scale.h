@@ -21,9 +21,15 @@ struct ScaledInputs {
 };
 ScaledInputs scaled_inputs(const LightWork& work, const std::string& prefix, int scale);
 
-// Fills the light's layer of the mask from that layer of a mask for every scale-th pixel. Pixels that none of the four
-// around them can stand for are left to the technique's visibility().
-void upsample(const LightWork& work, const gl::Texture& scaled_mask, int scale);
+// A mask for every scale-th pixel, and these pixels' depths.
+struct ScaledMask {
+  const gl::Texture& mask;
+  unsigned depth = 0;
+};
+
+// Fills the light's layer of the mask: decided tiles as ever, and the others' pixels from that layer of a scaled mask.
+// Those that the four around them can't stand for are left to the technique's visibility().
+void upsample(const LightWork& work, const ScaledMask& scaled, int scale);
 
 gl::ProgramDesc scaled_receivers_program();
 

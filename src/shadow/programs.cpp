@@ -38,14 +38,24 @@ std::vector<ParamSet> compiled_variants(const std::vector<Param>& own, const Par
   return variants;
 }
 
-std::vector<Programs::MaskForm> mask_forms(const Programs::Compiled& compiled) {
+std::vector<Programs::MaskForm> mask_forms(const Programs::Compiled& compiled, bool decides_tiles) {
   std::vector<Programs::MaskForm> forms;
-  for (const bool tiles : {false, true}) forms.push_back({.compiled = compiled, .tiles = tiles, .missing = true});
-  for (const bool compute : {false, true}) {
-    for (const bool tiles : {false, true}) {
-      forms.push_back({.compiled = compiled, .compute = compute, .tiles = tiles});
-      forms.push_back({.compiled = compiled, .compute = compute, .packed = true, .tiles = tiles});
-      forms.push_back({.compiled = compiled, .compute = compute, .packed = true, .history = true, .tiles = tiles});
+  forms.push_back({.compiled = compiled, .compute = true, .listed_pixels = true});
+  for (Programs::MaskForm form{.compiled = compiled}; const bool compute : {false, true}) {
+    form.compute = compute;
+    for (const bool scaled : {false, true}) {
+      if (scaled && !decides_tiles) continue;
+      form.scaled = scaled;
+      for (const bool tiles : {false, true}) {
+        form.tiles = tiles;
+        for (const bool packed : {false, true}) {
+          form.packed = packed;
+          form.history = false;
+          forms.push_back(form);
+          form.history = true;
+          if (packed) forms.push_back(form);
+        }
+      }
     }
   }
   if (!compiled.lamp) return forms;
@@ -205,14 +215,15 @@ gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& param
   program.defines.push_back({"PACKED", form.packed ? "1" : "0"});
   program.defines.push_back({"HISTORY", form.history ? "1" : "0"});
   program.defines.push_back({"TILES", form.tiles ? "1" : "0"});
+  program.defines.push_back({"SCALED", form.scaled ? "1" : "0"});
   program.defines.push_back({"RIM", form.rim ? "1" : "0"});
-  program.defines.push_back({"RIM_LIST", form.rim && !form.missing ? "1" : "0"});
+  program.defines.push_back({"RIM_LIST", form.rim && !form.listed_pixels ? "1" : "0"});
   if (form.compute) {
     program.compute = driver_file(technique, "mask.comp");
+    program.defines.push_back({"LISTED_PIXELS", form.listed_pixels ? "1" : "0"});
   } else {
     program.vertex = form.tiles ? "shadow/drivers/tile.vert" : "shared/full_screen.vert";
     program.fragment = driver_file(technique, "mask.frag");
-    program.defines.push_back({"MISSING", form.missing ? "1" : "0"});
     if (form.tiles) program.defines.push_back({"DECIDED", "0"});
   }
   return program;
@@ -233,6 +244,7 @@ gl::ProgramDesc Programs::decided(const MaskForm& form) const {
                          .defines = {{"DECIDED", "1"},
                                      {"PACKED", form.packed ? "1" : "0"},
                                      {"HISTORY", form.history ? "1" : "0"},
+                                     {"SCALED", form.scaled ? "1" : "0"},
                                      {"DETAILS", form.details || form.history ? "1" : "0"}}}});
 }
 
@@ -242,8 +254,12 @@ gl::ProgramDesc Programs::filter_tiles(bool keeps_narrow) const {
                          .defines = {{"KEEPS_NARROW", keeps_narrow ? "1" : "0"}}}});
 }
 
-gl::ProgramDesc Programs::upsample() const {
-  return ready({.desc = {.name = "upsample mask", .compute = "shadow/drivers/upsample.comp"}});
+gl::ProgramDesc Programs::upsample(UpsampledTiles tiles, bool details) const {
+  return ready({.desc = {.name = "upsample mask",
+                         .compute = "shadow/drivers/upsample.comp",
+                         .defines = {{"TILES", tiles == UpsampledTiles::all ? "0" : "1"},
+                                     {"RIM_LIST", tiles == UpsampledTiles::at_rim ? "1" : "0"},
+                                     {"DETAILS", details ? "1" : "0"}}}});
 }
 
 gl::ProgramDesc Programs::pack(bool history) const {
@@ -313,7 +329,6 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
                                         filter_tiles(true),
                                         output_program(),
                                         mark_frame_program(),
-                                        upsample(),
                                         scaled_receivers_program(),
                                         ready(depth_normals_program(false)),
                                         ready(depth_normals_program(true)),
@@ -325,7 +340,14 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
                                {.packed = true},
                                {.packed = true, .details = true},
                                {.packed = true, .history = true}}) {
-    programs.push_back(decided(form));
+    for (const bool scaled : {false, true}) {
+      MaskForm decided_form = form;
+      decided_form.scaled = scaled;
+      programs.push_back(decided(decided_form));
+    }
+  }
+  for (const UpsampledTiles tiles : {UpsampledTiles::all, UpsampledTiles::listed, UpsampledTiles::at_rim}) {
+    for (const bool details : {false, true}) programs.push_back(upsample(tiles, details));
   }
   for (const MovementForm form : {MovementForm::average, MovementForm::maximum}) {
     for (const bool any_size : {false, true}) programs.push_back(movement_pyramid_program(form, any_size));
@@ -337,8 +359,8 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
     for (const ParamSet& params :
          compiled_variants(params_of(technique.params, technique.needs, registry_), defaults)) {
       for (const Compiled& compiled : all_compiled(technique)) {
-        for (const MaskForm& form : mask_forms(compiled)) {
-          const bool runs = form.missing ? !technique.resolve : !form.tiles || technique.decides_tiles;
+        for (const MaskForm& form : mask_forms(compiled, technique.decides_tiles)) {
+          const bool runs = form.listed_pixels ? !technique.resolve : !form.tiles || technique.decides_tiles;
           if (technique.glsl.empty() || !runs) continue;
           programs.push_back(mask(technique, params, form));
         }

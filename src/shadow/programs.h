@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <set>
@@ -44,10 +45,11 @@ class Programs {
   struct MaskForm {
     Compiled compiled;
     bool compute = false;
-    bool packed = false;   // packed texels and notes, for denoisers; else the mask itself
-    bool history = false;  // packed, and the notes say whether the history is valid
-    bool tiles = false;    // over the listed tiles alone
-    bool missing = false;  // for the missing pixels alone; neither compute nor packed
+    bool scaled = false;         // the pixels are every n-th of a mask: marks those that can't stand for the others
+    bool packed = false;         // packed texels and notes, for denoisers; else the mask itself
+    bool history = false;        // packed, and the notes say whether the history is valid
+    bool tiles = false;          // over the listed tiles alone
+    bool listed_pixels = false;  // for a list of pixels alone; compute, not packed
     bool details = false;  // decided tiles alone: the mask has, or will have, more than one channel, or is a lamp's
     bool rim = false;      // for receivers that may read beyond the rim of the face of a lamp's cube that sees them
   };
@@ -57,8 +59,10 @@ class Programs {
   gl::ProgramDesc decided(const MaskForm& form) const;
   // The program that lists the tiles that filters can change.
   gl::ProgramDesc filter_tiles(bool keeps_narrow) const;
-  // The program that interpolates a mask between every n-th pixel.
-  gl::ProgramDesc upsample() const;
+  // The program that interpolates a mask between every n-th pixel: in all tiles, in those that are listed, or in those
+  // that are listed as at a rim. `details`: the mask has more than one channel.
+  enum class UpsampledTiles : std::uint8_t { all, listed, at_rim };
+  gl::ProgramDesc upsample(UpsampledTiles tiles, bool details) const;
   // Whether the driver can draw tiles as points: OpenGL 4.5 guarantees neither points of their size nor storage buffers
   // in vertex shaders. Asked of OpenGL once, by the first frame: programs are listed without a context too.
   bool draws_tiles() const;

@@ -15,7 +15,7 @@ int tiles_across(int pixels) { return (pixels + Tiles::size - 1) / Tiles::size; 
 
 glm::ivec2 tile_count(const Rect& viewport) { return {tiles_across(viewport.width), tiles_across(viewport.height)}; }
 
-const gl::Buffer& begin_tile_list(const PassContext& context, const char* name, const glm::ivec2& tiles) {
+const gl::Buffer& begin_tile_list(const PassContext& context, std::string_view name, const glm::ivec2& tiles) {
   const std::size_t count = static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
   const TileListHead head{.capacity = static_cast<std::uint32_t>(count)};
   const gl::Buffer& list = context.scratch(name, sizeof(head) + sizeof(std::uint32_t) * 2 * count);
@@ -29,7 +29,8 @@ bool fits_tiles(const LightWork& work) {
 }
 
 bool decides_tiles(const LightWork& work) {
-  return work.technique.decides_tiles && fits_tiles(work) && work.params().get_bool("mask.tiles");
+  return work.technique.decides_tiles && fits_tiles(work) &&
+         (work.params().get_bool("mask.tiles") || work.params().get_int("mask.scale") > 1);
 }
 
 void dispatch_decisions(gl::Pass& pass, const gl::Program& program, const glm::ivec2& tiles) {
@@ -41,14 +42,14 @@ void dispatch_decisions(gl::Pass& pass, const gl::Program& program, const glm::i
   pass.dispatch(tiles.x, tiles.y);
 }
 
-Tiles decide_tiles(const LightWork& work) {
+Tiles decide_tiles(const LightWork& work, const std::string& of) {
   const PassOwner owner = owner_of(work.technique);
   const PassContext context(work, owner);
   const glm::ivec2 size = tile_count(work.frame.viewport);
   // As large as the mask, not the viewport: a view whose size varies from frame to frame then keeps its texture.
   const gl::TextureDesc of_mask{
       .format = GL_RGBA32UI, .width = tiles_across(work.mask.width()), .height = tiles_across(work.mask.height())};
-  const Tiles tiles{context.target("tile decisions", of_mask), begin_tile_list(context, "tile list", size)};
+  const Tiles tiles{context.target(of + "tile decisions", of_mask), begin_tile_list(context, of + "tile list", size)};
   gl::Pass pass(work.device, {.name = "tile decisions"});
   const gl::Program& program = pass.use(work.programs.decide_tiles(work.technique, work.frame.shape.lamp));
   bind_inputs(work, owner);

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <string>
+#include <string_view>
 
 #include "denoise_context.h"
 #include "light_work.h"
@@ -44,7 +46,7 @@ constexpr std::size_t rim_draw_offset = offsetof(TileListHead, draw_rim);
 // How many tiles cover a viewport along each axis.
 glm::ivec2 tile_count(const Rect& viewport);
 // A list without tiles for a viewport of so many.
-const gl::Buffer& begin_tile_list(const PassContext& context, const char* name, const glm::ivec2& tiles);
+const gl::Buffer& begin_tile_list(const PassContext& context, std::string_view name, const glm::ivec2& tiles);
 
 // Whether tiles can be drawn. Not in viewports smaller than a tile: they are points, whose centres must lie inside.
 bool fits_tiles(const LightWork& work);
@@ -54,8 +56,8 @@ bool decides_tiles(const LightWork& work);
 // Runs a program that decides tiles: its main function asks tile_of_invocation() (glsl/shadow/decide_tile.glsl).
 void dispatch_decisions(gl::Pass& pass, const gl::Program& program, const glm::ivec2& tiles);
 
-// In a pass of its own.
-Tiles decide_tiles(const LightWork& work);
+// In a pass of its own. `of`: of which mask, if a frame decides the tiles of two: the beginning of its textures' names.
+Tiles decide_tiles(const LightWork& work, const std::string& of = "");
 
 // In a pass of its own, the list of the tiles whose packed texels filters that keep these can change. Not for
 // Keeps::nothing.

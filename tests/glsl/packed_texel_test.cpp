@@ -70,12 +70,15 @@ TEST(PackedTexel, VisibilityIsRoundedToTheNearest) {
 TEST(PackedTexel, NotesComeBack) {
   for (int layer = 0; layer < 8; ++layer) {
     for (const bool under_texel : {false, true}) {
-      for (uint refusal = HISTORY_KEPT; refusal <= HISTORY_CASTER_MOVED; ++refusal) {
-        const uint notes = pack_notes(layer, under_texel, refusal);
-        ASSERT_LT(notes, 256u);
-        ASSERT_EQ(notes_layer(notes), layer);
-        ASSERT_EQ(notes_under_texel(notes), under_texel);
-        ASSERT_EQ(notes_refusal(notes), refusal);
+      for (const bool narrow : {false, true}) {
+        for (uint refusal = HISTORY_KEPT; refusal <= HISTORY_CASTER_MOVED; ++refusal) {
+          const uint notes = pack_notes(layer, under_texel, narrow, refusal);
+          ASSERT_LT(notes, 256u);
+          ASSERT_EQ(notes_layer(notes), layer);
+          ASSERT_EQ(notes_under_texel(notes), under_texel);
+          ASSERT_EQ(notes_narrow(notes), narrow);
+          ASSERT_EQ(notes_refusal(notes), refusal);
+        }
       }
     }
   }

@@ -158,6 +158,57 @@ TEST_F(ShadowScale, ThinSurfacesKeepTheirOwnLight) {
   }
 }
 
+// Bars whose shadows are about a pixel wide, so that most of them fall between the pixels that are computed at first.
+TEST_F(ShadowScale, NarrowShadowsAreNotLost) {
+  TriangleScene scene;
+  scene.add_quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10});
+  for (int i = 0; i < 24; ++i) {
+    const float z = -3.0f + 0.25f * static_cast<float>(i);
+    scene.add_box({-2, 0.3f, z}, {2, 0.34f, z + 0.04f});
+  }
+  scene.view = glm::lookAt(glm::vec3(0, 5, 7), glm::vec3(0, 0, 0), glm::vec3(0, 1, 0));
+  scene.width = 200;
+  scene.height = 150;
+  scene.projection = perspective(0.8f, 4.0f / 3, 0.1f);
+  params.set("sun.angle", 0.5f);
+  params.set("cascades.size", 2048);
+  for (const char* technique : {"pcss", "slices"}) {
+    params.set("technique", std::string(technique));
+    const Shadowed full = render(scene, 1);
+    int narrow = 0;
+    for (int y = 1; y + 1 < scene.height; ++y) {
+      for (int x = 0; x < scene.width; ++x) {
+        narrow += full.visibility(x, y) < 0.5f && full.visibility(x, y - 1) > 0.9f && full.visibility(x, y + 1) > 0.9f;
+      }
+    }
+    EXPECT_GT(narrow, 200) << technique;
+    for (const int scale : {2, 3, 4}) {
+      const Shadowed scaled = render(scene, scale);
+      int lost = 0;
+      for (std::size_t i = 0; i < full.visibilities().size(); ++i)
+        lost += std::abs(scaled.visibilities()[i] - full.visibilities()[i]) > 0.2f;
+      EXPECT_EQ(lost, 0) << technique << " scale " << scale;
+    }
+  }
+}
+
+// Wide penumbrae are what the scale is for: under a wide sun, few of the other pixels are computed.
+TEST_F(ShadowScale, MostOfAWidePenumbraIsInterpolated) {
+  params.set("technique", std::string("slices"));
+  params.set("sun.angle", 12.0f);
+  const TriangleScene scene = box_on_ground(600, 450);
+  const std::vector<float> full = render(scene, 1).visibilities(), scaled = render(scene, 2).visibilities();
+  int penumbra = 0, interpolated = 0;
+  for (std::size_t i = 0; i < full.size(); ++i) {
+    if (full[i] <= 0.02f || full[i] >= 0.98f) continue;
+    ++penumbra;
+    interpolated += scaled[i] != full[i] ? 1 : 0;
+  }
+  EXPECT_GT(penumbra, 3000);
+  EXPECT_GT(interpolated, penumbra / 2);
+  EXPECT_LT(rms(full, scaled), 0.02);
+}
+
 TEST_F(ShadowScale, AnEdgeStaysSharp) {
   params.set("technique", std::string("hard"));
   const TriangleScene scene = box_on_ground(160, 120);

@@ -1,11 +1,25 @@
-// The pixels of the compute driver's work groups: of all pixels, or with TILES 1 of the listed tiles.
+// The pixels of the compute driver's work groups: of all pixels, with TILES 1 of the listed tiles, or with
+// LISTED_PIXELS 1 those of a list.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #ifndef RIM_LIST
 #define RIM_LIST 0  // 1: the tiles at the rim of a cube's face
 #endif
 
-#if TILES
+#ifndef LISTED_PIXELS
+#define LISTED_PIXELS 0
+#endif
+
+#if LISTED_PIXELS
+#include "shadow/drivers/pixel_list.glsl"
+
+ivec2 pixel_in_viewport() {
+  uint group = gl_WorkGroupID.y * pixel_list_row + gl_WorkGroupID.x;
+  uint index = group * pixel_list_group + gl_LocalInvocationIndex;
+  if (index >= pixel_list.count) return ivec2(shadow.viewport.zw);
+  return listed_pixel(index);
+}
+#elif TILES
 #include "shadow/drivers/tiles.glsl"
 
 // An invocation's pixel; beyond the viewport where the group has no tile.

@@ -20,13 +20,16 @@ bool is_lit(Decision decision, ivec2 pixel) {
   return ((decision.lit[bit >> 5] >> (bit & 31)) & 1u) != 0u;
 }
 
+// A tile that is decided for every n-th pixel can't stand for those between, whose own tiles may be undecided.
+const bool narrow = SCALED != 0;
+
 Shadowed decided_shadow(Decision decision, ivec2 pixel, Receiver receiver) {
   int layer = layer_seen_through(receiver, decision.layer);
-  if (is_lit(decision, pixel)) return Shadowed(fully_lit(), layer);
+  if (is_lit(decision, pixel)) return Shadowed(fully_lit(), layer, narrow);
   float radius = packed_radius(receiver.position, decision.blocker_distance);
   Light light = with_layer(light_at(receiver), layer);
   bool under_texel = decision.blocker_distance > 0.0 && radius < texel_size(receiver, light);
-  return Shadowed(Visibility(0.0, radius, decision.blocker_distance, under_texel), layer);
+  return Shadowed(Visibility(0.0, radius, decision.blocker_distance, under_texel), layer, narrow);
 }
 
 void main() {
@@ -37,7 +40,7 @@ void main() {
 #if PACKED && DETAILS
   if (is_sky(pixel)) {
     texel = texel_with_depth(pack_texel(0.0, 1.0, true), pixel);
-    notes = pack_notes(0, false, HISTORY_NONE);
+    notes = pack_notes(0, false, false, HISTORY_NONE);
     return;
   }
   Receiver receiver = receiver_at(pixel);
@@ -53,12 +56,13 @@ void main() {
 #elif PACKED
   bool lit = is_lit(decision, in_viewport);
   texel = texel_with_depth(pack_texel(lit ? 0.0 : decision.blocker_distance, float(lit), true), pixel);
-  notes = pack_notes(decision.layer, false, HISTORY_NONE);
+  notes = pack_notes(decision.layer, false, narrow, HISTORY_NONE);
 #elif DETAILS
   // Neither its normal nor its error matters here.
   Receiver receiver = make_receiver(view_position_at(pixel), vec3(0.0, 0.0, -1.0), vec2(pixel));
   mask = mask_texel(decided_shadow(decision, in_viewport, receiver));
 #else
-  mask = vec4(is_lit(decision, in_viewport), 0.0, 0.0, 0.0);
+  float visibility = float(is_lit(decision, in_viewport));
+  mask = vec4(stored_visibility(visibility, narrow), 0.0, 0.0, 0.0);
 #endif
 }

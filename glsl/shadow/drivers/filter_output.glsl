@@ -10,6 +10,6 @@ vec4 unpacked(uint texel, ivec2 pixel) {
   float distance_to = blended_distance(texel);
   // The sky has distance 0, whatever its position.
   float radius = distance_to > 0.0 ? packed_radius(light_position(view_position_at(pixel)), distance_to) : 0.0;
-  return vec4(texel_visibility(texel), radius, distance_to,
+  return vec4(stored_visibility(texel_visibility(texel), notes_narrow(notes)), radius, distance_to,
               float(notes_layer(notes)) + (notes_under_texel(notes) ? 0.5 : 0.0));
 }

@@ -5,7 +5,7 @@
 #include "shadow/drivers/packed.glsl"
 
 PackedPixel shade_pixel(ivec2 pixel) {
-  if (is_sky(pixel)) return PackedPixel(pack_texel(0.0, 1.0, true), pack_notes(0, false, HISTORY_NONE));
+  if (is_sky(pixel)) return PackedPixel(pack_texel(0.0, 1.0, true), pack_notes(0, false, false, HISTORY_NONE));
   Receiver receiver = receiver_at(pixel);
   Light light = light_for(receiver);
   uint refusal = HISTORY_NONE;

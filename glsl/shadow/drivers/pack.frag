@@ -9,7 +9,7 @@ layout(location = 0) out uvec2 texel;
 layout(location = 1) out uint notes;
 
 PackedPixel pack_pixel(ivec2 pixel) {
-  if (is_sky(pixel)) return PackedPixel(pack_texel(0.0, 1.0, true), pack_notes(0, false, HISTORY_NONE));
+  if (is_sky(pixel)) return PackedPixel(pack_texel(0.0, 1.0, true), pack_notes(0, false, false, HISTORY_NONE));
   Receiver receiver = receiver_at(pixel);
   vec4 mask = texelFetch(resolved_mask, ivec3(pixel, mask_layer), 0);
   Visibility seen = Visibility(mask.x, mask.y, mask.z, fract(mask.w) >= 0.5);
@@ -20,7 +20,7 @@ PackedPixel pack_pixel(ivec2 pixel) {
   light.read_radius = seen.penumbra_radius;
   refusal = refusal_of(receiver, light, pixel);
 #endif
-  return packed_pixel(Shadowed(seen, int(mask.w)), receiver, refusal);
+  return packed_pixel(Shadowed(seen, int(mask.w), false), receiver, refusal);
 }
 
 void main() {

@@ -19,7 +19,7 @@ PackedPixel packed_pixel(Shadowed shadowed, Receiver receiver, uint refusal) {
   float distance_to =
       from_radius ? packed_distance(receiver.position, seen.penumbra_radius) : seen.blocker_distance;
   return PackedPixel(pack_texel(distance_to, seen.visibility, refusal != HISTORY_KEPT),
-                     pack_notes(shadowed.layer, seen.under_texel, refusal));
+                     pack_notes(shadowed.layer, seen.under_texel, shadowed.narrow, refusal));
 }
 
 #if HISTORY

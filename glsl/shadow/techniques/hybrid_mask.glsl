@@ -6,7 +6,7 @@ layout(binding = 0, rgba16f) uniform writeonly restrict image2DArray mask;
 uniform int mask_layer;
 
 void store(ivec2 pixel, Visibility seen, int layer) {
-  imageStore(mask, ivec3(pixel, mask_layer), mask_texel(Shadowed(seen, layer)));
+  imageStore(mask, ivec3(pixel, mask_layer), mask_texel(Shadowed(seen, layer, false)));
 }
 
 // A pixel for which no rays are traced.
