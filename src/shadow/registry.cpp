@@ -121,6 +121,11 @@ std::vector<Preset> presets() {
       "The technique slices with few samples a pixel, and a filter that removes their noise.",
       {"slices.azimuths=6", "slices.samples=9", "slices.narrow=8", "sampling.noise=interleaved_gradient",
        "denoiser=history_and_filters", "filter.penumbra=none", "filter.visibility=isophote", "filter.taps=4"}};
+  Preset sparse = denoised;
+  sparse.name = "slices_sparse";
+  sparse.summary =
+      "slices_denoised for a quarter of the pixels, and for the others where shadows are narrow or surfaces end.";
+  sparse.assignments.emplace_back("mask.scale=2");
   Preset history = denoised;
   history.name = "slices_history";
   history.summary =
@@ -134,7 +139,7 @@ std::vector<Preset> presets() {
                    preset.name + " in compute shaders instead of fragment shaders.", preset.assignments});
     all.back().assignments.emplace_back("driver=compute");
   }
-  all.insert(all.begin(), {denoised, history});
+  all.insert(all.begin(), {denoised, sparse, history});
   return all;
 }
 

@@ -66,6 +66,8 @@ std::span<const Golden> goldens() {
       {"vssm_posts", "posts", "vssm", {"sun.angle=2"}, &rounding, {"technique=hard"}},
       {"vssm_foliage", "foliage", "vssm", {"sun.angle=4"}, &rounding, {"technique=pcss"}},
       {"slices_denoised_posts", "posts", "slices_denoised", {"sun.angle=2"}, &rounding, {"technique=hard"}},
+      {"slices_sparse_posts", "posts", "slices_sparse", {"sun.angle=2"}, &rounding, {"technique=hard"}},
+      {"slices_sparse_foliage", "foliage", "slices_sparse", {"sun.angle=4"}, &rounding, {"technique=pcss"}},
       {"slices_denoised_foliage", "foliage", "slices_denoised", {"sun.angle=4"}, &rounding, {"technique=pcss"}},
       {"slices_history_thesis", "thesis", "slices_history", {}, &history, {"technique=hard", "history.mean=false"}, "shadow", 4},
       {"slices_history_foliage", "foliage", "slices_history", {"sun.angle=4"}, &history, {"technique=hard", "history.mean=false"}, "shadow", 4},
