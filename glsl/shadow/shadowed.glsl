@@ -21,7 +21,7 @@ bool is_narrow(Receiver receiver, float radius) {
 #if SCALED
   vec3 position = view_position_of(receiver);
   vec3 view_ray = shadow.clip_to_view[2].xyz - position * shadow.clip_to_view[2].w;
-  float foreshortening = abs(dot(view_direction(receiver.normal), view_ray)) / length(view_ray);
+  float foreshortening = abs(dot(view_normal_of(receiver), view_ray)) / length(view_ray);
   return radius * foreshortening < pixel_width(position);
 #else
   return false;

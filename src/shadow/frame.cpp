@@ -299,7 +299,7 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   upload_blocks(work);
   if (from.inputs.makes_normals() && view.normals == nullptr) view.normals = &make_normals(work);
   build_products(work, wanted.recipes);
-  const int scale = mask_scale(technique, state.params);
+  const int scale = mask_scale(technique, state.params, mask);
   if (scale == 1) {
     draw_layer(work);
   } else {

@@ -61,7 +61,8 @@ gl::PassDesc pass_of(const MaskOutput& output, const std::optional<gl::TexelRect
 Programs::MaskForm form_of(const LightWork& work, const MaskOutput& output) {
   return {.compiled = Programs::compiled_for(work.technique, work.params(), work.frame.shape),
           .compute = work.params().get_word("driver") == "compute",
-          .scaled = work.frame.scale > 1 && work.technique.decides_tiles,
+          .scaled = work.frame.scale > 1 && work.technique.decides_tiles &&
+                    (output.packed != nullptr || output.mask == &work.mask),
           .packed = output.packed != nullptr,
           .history = output.last_surfaces != nullptr};
 }
@@ -147,14 +148,15 @@ const gl::Texture* run_mask_pass(const LightWork& work, const MaskOutput& output
 }
 
 Tiles fill_decided_tiles(const LightWork& work) {
-  const Tiles tiles = decide_tiles(work, "all pixels: ");
+  const Tiles tiles = decide_all_tiles(work);
   const MaskOutput output{.mask = &work.mask, .layer = work.frame.layer};
   gl::Pass pass(work.device, pass_of("decided tiles", output));
   fill_decided(work, output, tiles, pass);
+  pass.barrier();  // compute shaders write the same texture as an image
   return tiles;
 }
 
-void run_for_pixels(const LightWork& work, const gl::Buffer& pixels) {
+void run_for_pixels(const LightWork& work, const gl::Buffer& list) {
   const Programs::MaskForm form{.compiled = Programs::compiled_for(work.technique, work.params(), work.frame.shape),
                                 .compute = true,
                                 .listed_pixels = true,
@@ -163,8 +165,8 @@ void run_for_pixels(const LightWork& work, const gl::Buffer& pixels) {
   gl::Pass pass(work.device, {.name = "missing pixels"});
   const gl::Program& program = use(pass, work, work.programs.mask(work.technique, work.params(), form), output);
   bind_images(program, output);
-  pixels.bind_storage(pixel_list_binding);
-  pass.dispatch_indirect(pixels, 0);
+  list.bind_storage(tile_list_binding);
+  pass.dispatch_indirect(list, pixels_dispatch_offset);
 }
 
 void bind_history(const LightWork& work, const gl::Texture& last_surfaces) {

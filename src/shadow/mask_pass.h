@@ -18,17 +18,14 @@ struct MaskOutput {
 // tiles were decided.
 const gl::Texture* run_mask_pass(const LightWork& work, const MaskOutput& output);
 
-// Decides tiles and fills the light's layer of the mask with those that are decided. The others are listed.
+// Fills the light's layer of the mask with the tiles that decide_all_tiles() decides. The others are listed.
 Tiles fill_decided_tiles(const LightWork& work);
-
-// The storage buffer of a list of pixels: PixelList in glsl/shadow/drivers/pixel_list.glsl.
-constexpr GLuint pixel_list_binding = 5;
 
 // Whether a receiver may read beyond the rim of the map that sees it, where the next face of a cube goes on.
 bool has_rims(const LightWork& work);
 
-// Runs the technique's visibility() for listed pixels of the light's layer of the mask, always in compute shaders.
-void run_for_pixels(const LightWork& work, const gl::Buffer& pixels);
+// Runs the technique's visibility() for the listed pixels of the light's layer of the mask, always in compute shaders.
+void run_for_pixels(const LightWork& work, const gl::Buffer& list);
 
 // Binds what glsl/shadow/history.glsl and movement.glsl read; `last_surfaces` as above.
 void bind_history(const LightWork& work, const gl::Texture& last_surfaces);

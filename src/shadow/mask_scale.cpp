@@ -2,28 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-#include <optional>
-#include <span>
-
 #include "mask_pass.h"
 #include "tiles.h"
 
 namespace penumbra::shadow {
 
 namespace {
-
-// The beginning of PixelList in glsl/shadow/drivers/pixel_list.glsl, of a list without pixels.
-struct PixelListHead {
-  gl::DispatchCommand dispatch{.groups_x = 0, .groups_y = 0};
-  std::uint32_t count = 0;
-};
-constexpr PixelListHead no_pixels;
-
-std::size_t pixel_list_bytes(const Rect& viewport) {
-  const std::size_t pixels = static_cast<std::size_t>(viewport.width) * static_cast<std::size_t>(viewport.height);
-  return sizeof(PixelListHead) + sizeof(std::uint32_t) * pixels;
-}
 
 glm::ivec2 scaled_size(const Rect& viewport, int scale) {
   return {(viewport.width + scale - 1) / scale, (viewport.height + scale - 1) / scale};
@@ -56,8 +40,10 @@ glm::mat4 mapped(const glm::mat4& projection, const NdcMap& map) {
 
 }  // namespace
 
-int mask_scale(const Technique& technique, const ParamSet& params) {
-  return technique.resolve ? 1 : params.get_int("mask.scale");
+int mask_scale(const Technique& technique, const ParamSet& params, const gl::Texture& mask) {
+  // Lists of pixels must fit into the storage buffers that OpenGL guarantees, 2^27 bytes.
+  constexpr std::size_t most_pixels = 30'000'000;
+  return technique.resolve || pixel_count(mask) > most_pixels ? 1 : params.get_int("mask.scale");
 }
 
 gl::ProgramDesc scaled_receivers_program() {
@@ -113,10 +99,9 @@ void upsample(const LightWork& work, const ScaledMask& scaled, int scale) {
   const PassOwner owner = owner_of(work.technique);
   const PassContext context(work, owner);
   const Rect& viewport = work.frame.viewport;
-  const gl::Buffer& missing = context.scratch("missing pixels", pixel_list_bytes(viewport));
-  missing.write(std::as_bytes(std::span(&no_pixels, 1)));
-  std::optional<Tiles> tiles;
-  if (decides_tiles(work)) tiles.emplace(fill_decided_tiles(work));
+  const bool decides = decides_tiles(work);
+  const gl::Buffer& list = decides ? fill_decided_tiles(work).list
+                                   : begin_tile_list(context, "missing pixels", glm::ivec2(0), pixel_count(work.mask));
   {
     gl::Pass pass(work.device, {.name = "upsample mask"});
     const auto use = [&](Programs::UpsampledTiles of) {
@@ -128,22 +113,21 @@ void upsample(const LightWork& work, const ScaledMask& scaled, int scale) {
       gl::glBindTextureUnit(unit_motion, scaled.depth);
       scaled.mask.bind(unit_texels);
       work.mask.bind_image(0, GL_WRITE_ONLY);
-      missing.bind_storage(pixel_list_binding);
+      list.bind_storage(tile_list_binding);
     };
-    if (tiles) {
+    if (decides) {
       use(Programs::UpsampledTiles::listed);
-      tiles->list.bind_storage(tile_list_binding);
-      pass.dispatch_indirect(tiles->list, listed_dispatch_offset);
-      if (has_rims(work)) {
-        use(Programs::UpsampledTiles::at_rim);
-        pass.dispatch_indirect(tiles->list, rim_dispatch_offset);
-      }
+      pass.dispatch_indirect(list, listed_dispatch_offset);
     } else {
       use(Programs::UpsampledTiles::all);
       pass.dispatch(viewport.width, viewport.height);
     }
+    if (decides && has_rims(work)) {
+      use(Programs::UpsampledTiles::at_rim);
+      pass.dispatch_indirect(list, rim_dispatch_offset);
+    }
   }
-  run_for_pixels(work, missing);
+  run_for_pixels(work, list);
 }
 
 }  // namespace penumbra::shadow

@@ -9,8 +9,9 @@ namespace penumbra::shadow {
 // Masks of fewer pixels than the view has (parameter mask.scale): the technique and the denoiser see every scale-th
 // pixel of each row and column, and the mask is interpolated between these. See docs/adr/0033-mask-scale.md.
 
-// What the light's technique allows: those that fill the mask by passes of their own do so for all pixels.
-int mask_scale(const Technique& technique, const ParamSet& params);
+// What the light's technique allows: those that fill the mask by passes of their own do so for all pixels. In masks of
+// more than 30 million pixels all are computed, too.
+int mask_scale(const Technique& technique, const ParamSet& params, const gl::Texture& mask);
 
 // The receivers at these pixels, as if they were the caller's: textures that are targets of the device and begin with
 // `prefix`, and the matrices of a view that has just these pixels. Normals that are made from depths are those that

@@ -88,7 +88,8 @@ class PassContext {
   // the pass's own inputs, from `first_pass_unit` on.
   const gl::Program& use(gl::Pass& pass, std::string_view program) const;
   // Runs the technique's visibility() for every pixel, with fragment or compute shaders as the parameter "driver" says,
-  // and writes a layer of an array that has the mask's size and one of its formats, R16F or RGBA16F (see Mask).
+  // and writes a layer of an array that has the mask's size and one of its formats, R16F or RGBA16F (see Mask). Written
+  // to the mask itself it must stay as it is: with mask.scale, some visibilities have a mark there (ADR 33).
   void evaluate(const gl::Texture& target, int layer) const;
   // Whether the parameters ask for compute shaders.
   bool uses_compute() const;

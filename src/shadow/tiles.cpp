@@ -13,12 +13,17 @@ int tiles_across(int pixels) { return (pixels + Tiles::size - 1) / Tiles::size; 
 
 }  // namespace
 
+std::size_t pixel_count(const gl::Texture& mask) {
+  return static_cast<std::size_t>(mask.width()) * static_cast<std::size_t>(mask.height());
+}
+
 glm::ivec2 tile_count(const Rect& viewport) { return {tiles_across(viewport.width), tiles_across(viewport.height)}; }
 
-const gl::Buffer& begin_tile_list(const PassContext& context, std::string_view name, const glm::ivec2& tiles) {
+const gl::Buffer& begin_tile_list(const PassContext& context, std::string_view name, const glm::ivec2& tiles,
+                                  std::size_t pixels) {
   const std::size_t count = static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
   const TileListHead head{.capacity = static_cast<std::uint32_t>(count)};
-  const gl::Buffer& list = context.scratch(name, sizeof(head) + sizeof(std::uint32_t) * 2 * count);
+  const gl::Buffer& list = context.scratch(name, sizeof(head) + sizeof(std::uint32_t) * (2 * count + pixels));
   list.write(std::as_bytes(std::span(&head, 1)));
   return list;
 }
@@ -42,14 +47,21 @@ void dispatch_decisions(gl::Pass& pass, const gl::Program& program, const glm::i
   pass.dispatch(tiles.x, tiles.y);
 }
 
-Tiles decide_tiles(const LightWork& work, const std::string& of) {
+namespace {
+
+struct TileNames {
+  const char *decisions, *list;
+};
+
+Tiles decide(const LightWork& work, const TileNames& names, std::size_t listed_pixels) {
   const PassOwner owner = owner_of(work.technique);
   const PassContext context(work, owner);
   const glm::ivec2 size = tile_count(work.frame.viewport);
   // As large as the mask, not the viewport: a view whose size varies from frame to frame then keeps its texture.
   const gl::TextureDesc of_mask{
       .format = GL_RGBA32UI, .width = tiles_across(work.mask.width()), .height = tiles_across(work.mask.height())};
-  const Tiles tiles{context.target(of + "tile decisions", of_mask), begin_tile_list(context, of + "tile list", size)};
+  const Tiles tiles{context.target(names.decisions, of_mask),
+                    begin_tile_list(context, names.list, {of_mask.width, of_mask.height}, listed_pixels)};
   gl::Pass pass(work.device, {.name = "tile decisions"});
   const gl::Program& program = pass.use(work.programs.decide_tiles(work.technique, work.frame.shape.lamp));
   bind_inputs(work, owner);
@@ -59,11 +71,20 @@ Tiles decide_tiles(const LightWork& work, const std::string& of) {
   return tiles;
 }
 
+}  // namespace
+
+Tiles decide_tiles(const LightWork& work) { return decide(work, {"tile decisions", "tile list"}, 0); }
+
+Tiles decide_all_tiles(const LightWork& work) {
+  return decide(work, {"tile decisions of all pixels", "tile list of all pixels"}, pixel_count(work.mask));
+}
+
 const gl::Buffer& list_filter_tiles(const LightWork& work, const BlockerDistances& distances, Filter::Keeps keeps) {
   const bool narrow = keeps == Filter::Keeps::narrow;
   const PassOwner owner = owner_of(*work.denoiser);
   const glm::ivec2 size = tile_count(work.frame.viewport);
-  const gl::Buffer& list = begin_tile_list(PassContext(work, owner), narrow ? "filter tiles" : "blocked tiles", size);
+  const gl::Buffer& list = begin_tile_list(PassContext(work, owner), narrow ? "filter tiles" : "blocked tiles",
+                                           {tiles_across(work.mask.width()), tiles_across(work.mask.height())});
   gl::Pass pass(work.device, {.name = "filter tiles"});
   const gl::Program& program = pass.use(work.programs.filter_tiles(narrow));
   bind_inputs(work, owner);

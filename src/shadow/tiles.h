@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <string>
 #include <string_view>
 
 #include "denoise_context.h"
@@ -31,10 +30,12 @@ struct TileListHead {
   gl::DrawArraysCommand draw_listed, draw_decided;
   gl::DispatchCommand dispatch_rim{256, 0, 1};
   gl::DrawArraysCommand draw_rim;
+  gl::DispatchCommand dispatch_pixels{0, 0, 1};
+  std::uint32_t pixel_count = 0;
   std::uint32_t capacity = 0;
 };
 
-static_assert(sizeof(TileListHead) == 76, "must match TileList in glsl/shadow/drivers/tiles.glsl");
+static_assert(sizeof(TileListHead) == 92, "must match TileList in glsl/shadow/drivers/tiles.glsl");
 
 // Where the commands are in the list, bytes.
 constexpr std::size_t listed_dispatch_offset = offsetof(TileListHead, dispatch_listed);
@@ -42,11 +43,15 @@ constexpr std::size_t listed_draw_offset = offsetof(TileListHead, draw_listed);
 constexpr std::size_t decided_draw_offset = offsetof(TileListHead, draw_decided);
 constexpr std::size_t rim_dispatch_offset = offsetof(TileListHead, dispatch_rim);
 constexpr std::size_t rim_draw_offset = offsetof(TileListHead, draw_rim);
+constexpr std::size_t pixels_dispatch_offset = offsetof(TileListHead, dispatch_pixels);
 
+std::size_t pixel_count(const gl::Texture& mask);
 // How many tiles cover a viewport along each axis.
 glm::ivec2 tile_count(const Rect& viewport);
-// A list without tiles for a viewport of so many.
-const gl::Buffer& begin_tile_list(const PassContext& context, std::string_view name, const glm::ivec2& tiles);
+// A list without tiles, with room for so many and for that number of pixels. As large as the mask needs, not the
+// viewport: a view whose size varies from frame to frame then keeps its buffer.
+const gl::Buffer& begin_tile_list(const PassContext& context, std::string_view name, const glm::ivec2& tiles,
+                                  std::size_t pixels = 0);
 
 // Whether tiles can be drawn. Not in viewports smaller than a tile: they are points, whose centres must lie inside.
 bool fits_tiles(const LightWork& work);
@@ -56,8 +61,10 @@ bool decides_tiles(const LightWork& work);
 // Runs a program that decides tiles: its main function asks tile_of_invocation() (glsl/shadow/decide_tile.glsl).
 void dispatch_decisions(gl::Pass& pass, const gl::Program& program, const glm::ivec2& tiles);
 
-// In a pass of its own. `of`: of which mask, if a frame decides the tiles of two: the beginning of its textures' names.
-Tiles decide_tiles(const LightWork& work, const std::string& of = "");
+// In a pass of its own.
+Tiles decide_tiles(const LightWork& work);
+// The same for all pixels of a view of which others have decided every n-th; their list has room for all pixels.
+Tiles decide_all_tiles(const LightWork& work);
 
 // In a pass of its own, the list of the tiles whose packed texels filters that keep these can change. Not for
 // Keeps::nothing.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "core/names.h"
@@ -38,12 +39,15 @@ const std::array<Field, 3>& texel_fields() {
   return fields;
 }
 
-const std::array<Field, 3>& notes_fields() {
-  static const std::array<Field, 3> fields{
+const std::array<Field, 4>& notes_fields() {
+  static const std::array<Field, 4> fields{
       Field{"layer of the map", mapping_of("cascade"),
             [](unsigned notes) { return static_cast<float>(glsl::notes_layer(notes)); }},
       Field{"under a texel", mapping_of("under_texel"),
             [](unsigned notes) { return glsl::notes_under_texel(notes) ? 1.0f : 0.0f; }},
+      Field{"narrow",
+            {.scale = ColorScale::labels, .labels = {"stands for pixels around it", "narrow"}},
+            [](unsigned notes) { return glsl::notes_narrow(notes) ? 1.0f : 0.0f; }},
       Field{"history", mapping_of("history"),
             [](unsigned notes) { return static_cast<float>(glsl::notes_refusal(notes)); }}};
   return fields;
@@ -54,11 +58,11 @@ bool holds_packed_texels(std::string_view name) {
   return name.ends_with("/texels") || name.find("/history texels/") != name.npos || name.find("/filter ") != name.npos;
 }
 
-// Of those that hold several values in one channel. A packed texel's second channel, a depth, is not shown.
-const std::array<Field, 3>* fields_of(const gl::Device::NamedTarget& target) {
+// Of those that hold several values in one channel; else empty. A packed texel's second channel, a depth, is not shown.
+std::span<const Field> fields_of(const gl::Device::NamedTarget& target) {
   const GLenum format = target.texture->desc().format;
-  if (format == shadow::packed_format && holds_packed_texels(target.name)) return &texel_fields();
-  return format == GL_R8UI ? &notes_fields() : nullptr;
+  if (format == shadow::packed_format && holds_packed_texels(target.name)) return texel_fields();
+  return format == GL_R8UI ? std::span<const Field>(notes_fields()) : std::span<const Field>();
 }
 
 // Without alpha, which is not shown.
@@ -116,8 +120,8 @@ bool is_of_other_view(std::string_view name) {
 
 std::vector<TargetPart> parts_of(const gl::Device::NamedTarget& target) {
   std::vector<TargetPart> parts;
-  if (const std::array<Field, 3>* fields = fields_of(target)) {
-    for (const Field& field : *fields) parts.push_back({field.name, field.mapping});
+  if (const std::span<const Field> fields = fields_of(target); !fields.empty()) {
+    for (const Field& field : fields) parts.push_back({field.name, field.mapping});
     return parts;
   }
   constexpr std::array names{"red", "green", "blue"};
@@ -160,9 +164,10 @@ std::string about_target(std::string_view name) {
   };
   static constexpr std::array list{
       About{"/history_and_filters/texels", "The shadow mask with its history, before the first filter: packed texels."},
-      About{"/history_and_filters/notes",
-            "Beside the packed mask: the shadow map's layer, whether the kernel is under a texel, and why the history "
-            "was refused."},
+      About{
+          "/history_and_filters/notes",
+          "Beside the packed mask: the shadow map's layer, whether the kernel is under a texel, whether the shadow is "
+          "narrow (with mask.scale), and why the history was refused."},
       About{"/history_and_filters/history texels",
             "The packed mask that the next frame blends with; two textures take turns."},
       About{"/history_and_filters/history surfaces",
@@ -176,6 +181,7 @@ std::string about_target(std::string_view name) {
       About{"/tile decisions",
             "A texel for each tile of 8 × 8 pixels: which of them are lit, where no penumbra is near."},
       About{"/noise/", "The tile of noise that rotates or shifts the sample points of each pixel."},
+      About{"/scale ", "With mask.scale: every n-th pixel. In its mask, narrow shadows are -1 - visibility."},
       About{"/mask", "What lighting reads: visibility in red."}};
   const auto found =
       std::find_if(list.begin(), list.end(), [&](const About& about) { return name.find(about.in_name) != name.npos; });
@@ -213,11 +219,11 @@ Values read_target(const Inspection& inspection, const gl::Device& device) {
                 .height = std::max(desc.height >> level, 1),
                 .channels = channels_of(*target->texture),
                 .numbers = {}};
-  if (const std::array<Field, 3>* fields = fields_of(*target)) {
+  if (const std::span<const Field> fields = fields_of(*target); !fields.empty()) {
     values.channels = 1;
     const std::vector<unsigned> texels = gl::read_uints(*target->texture, 1, level, layer);
     std::transform(texels.begin(), texels.end(), std::back_inserter(values.numbers),
-                   fields->at(static_cast<std::size_t>(part)).of);
+                   fields[static_cast<std::size_t>(part)].of);
   } else if (gl::format_info(desc.format).kind == gl::ChannelKind::unsigned_integer) {
     const std::vector<unsigned> numbers = gl::read_uints(*target->texture, values.channels, level, layer);
     values.numbers.assign(numbers.begin(), numbers.end());

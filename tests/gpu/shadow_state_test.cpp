@@ -73,6 +73,8 @@ constexpr std::array kept_buffers{std::pair{GL_PIXEL_UNPACK_BUFFER, GL_PIXEL_UNP
                                   std::pair{GL_TEXTURE_BUFFER, GL_TEXTURE_BUFFER_BINDING},
                                   std::pair{GL_QUERY_BUFFER, GL_QUERY_BUFFER_BINDING}};
 
+constexpr GLuint kept_storage = 7;  // bindings of storage buffers, from 0 on
+
 // State that no engine has all at once. Some of it would break a pass that inherited it; render() must not change the
 // rest.
 class Disturbed {
@@ -107,7 +109,7 @@ class Disturbed {
     for (const Kept& kept : kept_layout) gl::glPixelStorei(kept.name, kept.value);
     for (const auto& [target, query] : kept_buffers) gl::glBindBuffer(target, buffer_.id());
     gl::glBindBufferBase(GL_UNIFORM_BUFFER, 3, buffer_.id());
-    gl::glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer_.id());
+    for (GLuint i = 0; i < kept_storage; ++i) gl::glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffer_.id());
     gl::glActiveTexture(GL_TEXTURE5);
     gl::glClearColor(0.25f, 0.5f, 0.75f, 1.0f);
     gl::glBlendColor(0.25f, 0.5f, 0.75f, 1.0f);
@@ -134,11 +136,12 @@ class Disturbed {
     const auto id = static_cast<GLint>(buffer_.id());
     for (const Kept& kept : kept_layout) EXPECT_EQ(integers(kept.name)[0], kept.value) << std::hex << kept.name;
     for (const auto& [target, query] : kept_buffers) EXPECT_EQ(integers(query)[0], id) << std::hex << target;
-    for (const auto& [query, index] :
-         {std::pair{GL_UNIFORM_BUFFER_BINDING, 3}, {GL_SHADER_STORAGE_BUFFER_BINDING, 0}}) {
-      GLint bound = 0;
-      gl::glGetIntegeri_v(static_cast<GLenum>(query), static_cast<GLuint>(index), &bound);
-      EXPECT_EQ(bound, id);
+    GLint bound = 0;
+    gl::glGetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, 3, &bound);
+    EXPECT_EQ(bound, id);
+    for (GLuint i = 0; i < kept_storage; ++i) {
+      gl::glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, i, &bound);
+      EXPECT_EQ(bound, id) << "storage buffer " << i;
     }
     EXPECT_EQ(integers(GL_ACTIVE_TEXTURE)[0], GL_TEXTURE5);
     EXPECT_EQ(integers(GL_PROVOKING_VERTEX)[0], GL_FIRST_VERTEX_CONVENTION);

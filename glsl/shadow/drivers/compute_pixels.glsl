@@ -10,21 +10,16 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #define LISTED_PIXELS 0
 #endif
 
-#if LISTED_PIXELS
-#include "shadow/drivers/pixel_list.glsl"
-
-ivec2 pixel_in_viewport() {
-  uint group = gl_WorkGroupID.y * pixel_list_row + gl_WorkGroupID.x;
-  uint index = group * pixel_list_group + gl_LocalInvocationIndex;
-  if (index >= pixel_list.count) return ivec2(shadow.viewport.zw);
-  return listed_pixel(index);
-}
-#elif TILES
+#if TILES || LISTED_PIXELS
 #include "shadow/drivers/tiles.glsl"
 
 // An invocation's pixel; beyond the viewport where the group has no tile.
 ivec2 pixel_in_viewport() {
   uint index = gl_WorkGroupID.y * list_row + gl_WorkGroupID.x;
+#if LISTED_PIXELS
+  index = index * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
+  return index < tile_list.pixel_count ? listed_pixel(index) : ivec2(shadow.viewport.zw);
+#else
 #if RIM_LIST
   if (index >= tile_list.rim.count) return ivec2(shadow.viewport.zw);
   ivec2 tile = rim_tile(index);
@@ -33,6 +28,7 @@ ivec2 pixel_in_viewport() {
   ivec2 tile = listed_tile(index);
 #endif
   return tile * tile_size + ivec2(gl_LocalInvocationID.xy);
+#endif
 }
 #else
 ivec2 pixel_in_viewport() { return ivec2(gl_GlobalInvocationID.xy); }

@@ -29,7 +29,7 @@ Decision unpacked_decision(uvec4 texel) {
 
 // The commands are for the listed tiles in the compute driver, the listed tiles in the fragment driver, and the decided
 // tiles. Tiles whose receivers may read beyond the rim of a lamp's face are listed apart, with commands for both
-// drivers.
+// drivers. The last command is for pixels that are listed one by one, in groups of 64, in the compute driver.
 struct DrawPoints {
   uint count, instance_count, first_vertex, base_instance;
 };
@@ -39,9 +39,11 @@ layout(std430, binding = 7) restrict buffer TileList {
   DrawPoints listed, decided;
   uint rim_groups_x, rim_groups_y, rim_groups_z;
   DrawPoints rim;
+  uint pixel_groups_x, pixel_groups_y, pixel_groups_z;  // rows of `list_row` groups, and fewer in the only row
+  uint pixel_count;
   uint capacity;  // tiles, of each of both halves of `tiles`
   // x in the lower 16 bits, y in the upper ones; of the first half listed ones from the front, decided ones from the
-  // end; of the second half those at a rim.
+  // end; of the second half those at a rim. Behind both, in the same way, the pixels of the viewport that are listed.
   uint tiles[];
 } tile_list;
 
@@ -53,3 +55,4 @@ ivec2 unpacked_tile(uint tile) { return ivec2(tile & 0xffffu, tile >> 16); }
 ivec2 listed_tile(uint index) { return unpacked_tile(tile_list.tiles[index]); }
 ivec2 rim_tile(uint index) { return unpacked_tile(tile_list.tiles[tile_list.capacity + index]); }
 ivec2 decided_tile(uint index) { return unpacked_tile(tile_list.tiles[tile_list.capacity - 1u - index]); }
+ivec2 listed_pixel(uint index) { return unpacked_tile(tile_list.tiles[2u * tile_list.capacity + index]); }

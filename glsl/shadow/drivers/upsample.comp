@@ -1,6 +1,7 @@
 // Interpolates the mask between every n-th pixel. Pixels that these can't stand for are listed.
 #include "shadow/drivers/gbuffer.glsl"
-#include "shadow/drivers/pixel_list.glsl"
+#include "shadow/drivers/tiles.glsl"
+#include "shadow/drivers/tile_lists.glsl"
 #include "shadow/drivers/compute_pixels.glsl"
 #include "shadow/shadowed.glsl"
 
@@ -92,5 +93,5 @@ void main() {
   barrier();
   if (gl_LocalInvocationIndex == 0u && missing != 0u) first_missing = extend_pixel_list(missing);
   barrier();
-  if (!found) pixel_list.pixels[first_missing + index] = packed_pixel_place(place);
+  if (!found) list_pixel(first_missing + index, place);
 }
