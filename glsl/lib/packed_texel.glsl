@@ -40,8 +40,8 @@ GLSL_FUNCTION uint with_frames(uint texel, uint frames) {
 GLSL_FUNCTION uint texel_frames(uint texel) { return (texel & 15u) | ((texel >> 11) & 16u); }
 
 // The note stored with each packed texel, eight bits: bits 0 to 2 the layer of the shadow map that was read; bit 3 set
-// if the shadow is narrow (see Shadowed); bit 4 set
-// if the kernel is smaller than a texel of the map; bits 5 to 7 whether the history was used, or why it was rejected.
+// if the shadow is narrow (see Shadowed); bit 4 set if the kernel is smaller than a texel of the map; bits 5 to 7
+// whether the history was used, or why it was rejected.
 #define HISTORY_KEPT 0u
 #define HISTORY_NONE 1u            // there is no history: a first frame, a cut, a new size
 #define HISTORY_OFF_SCREEN 2u      // the surface was outside of the picture

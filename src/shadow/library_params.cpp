@@ -69,8 +69,7 @@ std::vector<Param> map_rows() {
        host},
       {"mask.scale", 1, 1, 4, "px",
        "Computes only every n-th pixel of each row and column, and those between that show another surface, a sharp "
-       "edge "
-       "or a narrow shadow; the others are interpolated.",
+       "edge or a narrow shadow; the others are interpolated.",
        host},
   };
 }
