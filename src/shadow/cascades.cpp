@@ -339,14 +339,16 @@ Cascades fit_cascades(const CascadeInputs& in) {
         i + 1 < in.count ? glm::min(glm::dvec2(all_discs), 0.25 * half_width) : glm::dvec2(all_discs);
     const glm::dvec2 half = step_up(half_width + margin, 16) * (1.0 + 4.0 / in.size);
     const glm::dvec2 texel = 2.0 * half / static_cast<double>(in.size);
-    const glm::dvec2 snapped = glm::floor(glm::dvec2(center + anchor) / texel) * texel - glm::dvec2(anchor);
+    // At most a texel from the centre, so what is to be held stays inside.
+    const glm::dvec2 placed =
+        (glm::floor(glm::dvec2(center + anchor) / texel) + in.jitter) * texel - glm::dvec2(anchor);
 
-    Range range = held_range(range_within({snapped, half}, corners), region, in, cascades.cut_off);
+    Range range = held_range(range_within({placed, half}, corners), region, in, cascades.cut_off);
     const double wider = glm::max(half_width.x, half_width.y);
     if (range.max < range.min) range = {center.z - wider, center.z + wider};
     const double pad = 1e-3 * (range.max - range.min) + glm::max(texel.x, texel.y);
     Cascade cascade;
-    cascade.center = glm::vec2(snapped);
+    cascade.center = glm::vec2(placed);
     cascade.half_extent = glm::vec2(half);
     cascade.near_z = static_cast<float>(range.min - pad);
     cascade.far_z = static_cast<float>(range.max + pad);

@@ -50,7 +50,8 @@ using VisibleReceivers = std::vector<ReceiverSlice>;  // nearest slice first; no
 
 // One cascade: a layer of the shadow map. The map's depth is linear: 0 at near_z, 1 at far_z.
 struct Cascade {
-  glm::vec2 center{0};       // light space, metres; by fit_cascades(), whole texels from the world's origin
+  // Light space, metres; by fit_cascades(), whole texels from the world's origin, and CascadeInputs::jitter.
+  glm::vec2 center{0};
   glm::vec2 half_extent{1};  // of the layer, metres
   float near_z = 0;  // nearer to the light than every caster that can shadow the cascade, so depths need no clamping
   float far_z = 1;
@@ -114,6 +115,9 @@ struct CascadeInputs {
   // to these receivers, and `split_blend` has no effect.
   std::optional<VisibleReceivers> visible = {};
   bool may_turn = true;  // the x and y axes, to fit `visible`; not for a light whose shape has corners
+  // How far each cascade is moved along x and y, in its own texels, 0 to 1: so that frames see edges at other places
+  // within a texel.
+  glm::dvec2 jitter{0};
   // Bounds of the receivers that `visible` may leave out (min > max: none).
   Box others{glm::vec3(1), glm::vec3(-1)};
 };

@@ -275,7 +275,8 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   if (wanted.shadow_map || may_draw_casters) {
     visible = find_visible_receivers(from.device, from.inputs, light, state.params, state.prefix);
   }
-  frame.projection = projection_of(from.inputs, light, state.params, visible);
+  begin_frame(view, state, light, same_params);
+  frame.projection = projection_of(work, visible);
   if (const std::string fault = frame.projection.fault(); !fault.empty())
     fail("soft shadows: no maps of light {} fit the view: {}", light.id, fault);
   frame.shape = shape_of(light.source, state.params);
@@ -288,7 +289,6 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   if (light.maps) check_compared_maps(light, view.checked, technique, wanted);
   take_shape(state, frame.shape);
   if (std::exchange(state.bound_forward, frame.binds_forward) != frame.binds_forward) state.changed = true;
-  begin_frame(state, light, frame.projection.layers(), same_params);
   // Whether anything is visible, and so what the maps are fitted to, may change though nothing else does.
   if (state.params.get_word("cascades.fit") == "visible") state.drawn_texels.reset();
   narrow_projection(work, wanted.recipes);

@@ -51,6 +51,10 @@ std::vector<Param> map_rows() {
        "Keeps shadow maps, and what is made from them, where nothing has moved since the last frame; off: draws all "
        "anew.",
        host},
+      {"maps.jitter", false, 0, 1, "",
+       "Moves the sun's maps by a part of a texel in each frame in which the view rests, so that a history averages "
+       "what one map can't resolve; and with sampling.seed. Such frames draw their maps.",
+       host},
       {"lamps.size", 1024, 16, 8192, "texels", "Side of each map of a lamp: a spot has one, other lamps have six.",
        host},
       {"lamps.near", 0.02f, 1e-4, 100, "m",

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 
 #include "movement_map.h"
+#include "sampling.h"
 
 namespace penumbra::shadow {
 
@@ -43,22 +45,36 @@ bool reads_light_discs(const LightWork& work, const std::vector<const Recipe*>& 
          std::ranges::all_of(recipes, &Recipe::reads_light_discs);
 }
 
+// Where a frame's maps lie within a texel: Halton's points, of which each beginning covers it evenly, and the first is
+// 0. The seed shifts them on the torus, by the generalised golden ratio (Roberts 2018, "The unreasonable effectiveness
+// of quasirandom sequences"): a pixel's samples, which differ by it, are themselves at Halton's points.
+glm::dvec2 map_jitter(const LightWork& work) {
+  if (!work.params().get_bool("maps.jitter")) return glm::dvec2(0);
+  const std::uint64_t moves = work.remembered.empty() ? 0 : work.state.rests;
+  const auto number = static_cast<unsigned>(moves);
+  constexpr double root = 1.32471795724474602596;  // of x³ = x + 1
+  const double seed = work.params().get_int("sampling.seed");
+  const glm::dvec2 shift = seed * glm::dvec2(1 / root, 1 / (root * root));
+  return glm::fract(glm::dvec2(radical_inverse(2, number), radical_inverse(3, number)) + shift);
+}
+
 bool is_for(const LightState::DrawnTexels& drawn, const LightWork& work, const ReadBounds& read) {
   const Inputs& inputs = work.inputs;
   return drawn.view == inputs.view.view && drawn.projection == inputs.view.projection &&
          drawn.casters == inputs.casters && drawn.receivers == inputs.receivers &&
-         drawn.exact_bounds == inputs.exact_bounds && drawn.source == work.light.source && drawn.read == read;
+         drawn.exact_bounds == inputs.exact_bounds && drawn.source == work.light.source &&
+         drawn.jitter == map_jitter(work) && drawn.read == read;
 }
 
 }  // namespace
 
-LightProjection projection_of(const Inputs& inputs, const Light& light, const ParamSet& params,
-                              const std::optional<VisibleReceivers>& visible) {
-  if (light.maps) return light.maps->projection;
-  FitInputs fit = fit_inputs(inputs, params);
+LightProjection projection_of(const LightWork& work, const std::optional<VisibleReceivers>& visible) {
+  if (work.light.maps) return work.light.maps->projection;
+  FitInputs fit = fit_inputs(work.inputs, work.params());
   fit.visible = visible;
-  fit.others = inputs.forward_receivers;
-  return fit_projection(light.source, fit);
+  fit.others = work.inputs.forward_receivers;
+  fit.jitter = map_jitter(work);
+  return fit_projection(work.light.source, fit);
 }
 
 std::string bounds_warning(const CutOff& cut_off) {
@@ -89,6 +105,7 @@ void narrow_projection(const LightWork& work, const std::vector<const Recipe*>& 
             .receivers = inputs.receivers,
             .exact_bounds = inputs.exact_bounds,
             .source = work.light.source,
+            .jitter = map_jitter(work),
             .read = read,
             .of_layers = {}};
     const LightProjection limited = narrowed(projection, work.light.source, fit_inputs(inputs, work.params()), read);

@@ -116,6 +116,7 @@ CascadeInputs cascade_inputs(const Sun& sun, const FitInputs& inputs) {
           .distance = params.get_float("cascades.distance"),
           .visible = inputs.visible,
           .may_turn = !shape_of(sun, params).square,
+          .jitter = inputs.jitter,
           .others = inputs.others};
 }
 

@@ -55,12 +55,13 @@ struct LightState {
 
   LightSource source;
   LightShape shape;
-  int layers = 0;              // of the shadow map
+  int given_layers = 0;        // of the caller's maps; 0: it brings none
   bool drawn = false;          // in this frame
   bool uninterrupted = false;  // the previous frame of the view drew this light, and its history is valid
   bool follows = false;        // the previous frame of the view drew this light, and Inputs::moved is what moved since
   std::uint64_t frames = 0;    // drawn
   std::uint64_t age = 0;       // of them, since the history began
+  std::uint64_t rests = 0;     // of these, those whose view is that of the frame before
 
   // A double-buffered history: two textures, swapped every frame.
   struct KeptTexture {
@@ -76,6 +77,7 @@ struct LightState {
     Box casters, receivers;
     bool exact_bounds = false;
     LightSource source;
+    glm::dvec2 jitter{0};  // of the maps
     ReadBounds read;
     std::array<TexelRange, max_layers> of_layers;
   };
@@ -105,6 +107,7 @@ struct ViewState {
   bool brings_normals = false;
   bool began = false;                        // a frame has completed without an Error
   bool drawn = false;                        // the last one has
+  bool rests = false;                        // this frame has the matrices of the last one
   std::optional<bool> clip_space_of_caller;  // before the first frame: z in 0..1, not in -1..1; absent: unknown
   TextureChecks checked;
   NdcError depth_error;
@@ -129,6 +132,6 @@ bool take_params(LightState& state, const GivenParams& given, const Light& light
 // Sets the light's size and shape, which programs and sample points depend on.
 void take_shape(LightState& state, const LightShape& shape);
 // Decides whether the history of the light's last frame is valid in this one.
-void begin_frame(LightState& state, const Light& light, int layers, bool same_params);
+void begin_frame(const ViewState& view, LightState& state, const Light& light, bool same_params);
 
 }  // namespace penumbra::shadow

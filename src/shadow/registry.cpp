@@ -129,10 +129,10 @@ std::vector<Preset> presets() {
   Preset history = denoised;
   history.name = "slices_history";
   history.summary =
-      "slices_denoised for sequences: other samples in each frame, which add up, and a filter that narrows.";
+      "slices_denoised for sequences: other samples and moved maps each frame, which add up, and a narrowing filter.";
   history.assignments.insert(history.assignments.end(),
                              {"sampling.blocker_sequence=shift", "sampling.filter_sequence=shift", "history.reuse=true",
-                              "history.mean=true", "history.alpha=0.03"});
+                              "history.mean=true", "history.alpha=0.03", "maps.jitter=true"});
   for (const Preset& preset :
        std::vector{Preset{"pcss", "pcss", "", {}}, Preset{"brute_force", "brute_force", "", {}}, all[0], all[1]}) {
     all.push_back({preset.name + "_compute", preset.technique,

@@ -144,6 +144,25 @@ TEST_F(ShadowKeep, TuningWhatReadsTheMapsDoesNotDrawThem) {
   EXPECT_EQ(last.mask, kept);
 }
 
+TEST_F(ShadowKeep, MapsMoveByPartsOfATexelWithAHistoryAndWithTheSeed) {
+  settle();
+  params.set("sampling.seed", 1);
+  EXPECT_EQ(frame(), Layers());
+  params.set("maps.jitter", true);
+  EXPECT_EQ(frame(), all_layers);
+  EXPECT_EQ(frame(), Layers());
+  params.set("sampling.seed", 0);
+  EXPECT_EQ(frame(), all_layers);
+  EXPECT_EQ(frame(), Layers());
+  params.set("denoiser", std::string("history_and_filters"));
+  params.set("history.reuse", false);
+  frame();
+  EXPECT_EQ(frame(), Layers());
+  params.set("history.reuse", true);
+  frame();
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(frame(), all_layers);
+}
+
 TEST_F(ShadowKeep, AProductIsMadeAgainWhereItsOwnParameterChanges) {
   settle();
   params.set("counted.value", 0.25f);

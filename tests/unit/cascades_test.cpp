@@ -192,6 +192,27 @@ TEST(Cascades, TexelsStayPutInTheWorldWhileTheCameraMoves) {
   }
 }
 
+TEST(Cascades, AJitterMovesTexelsByThatPartOfOneAndLeavesNothingOut) {
+  CascadeInputs in = courtyard();
+  in.distance = 20;
+  const Cascades still = fit_cascades(in);
+  for (const glm::dvec2 jitter : {glm::dvec2(0.25, 0.75), {0.999, 0.001}, {0.999, 0.999}}) {
+    in.jitter = jitter;
+    const Cascades moved = fit_cascades(in);
+    for (int i = 0; i < in.count; ++i) {
+      const auto& before = still.items.at(static_cast<size_t>(i));
+      const auto& after = moved.items.at(static_cast<size_t>(i));
+      EXPECT_EQ(before.half_extent, after.half_extent);
+      const glm::dvec2 texels = glm::dvec2(after.center - before.center) / glm::dvec2(still.texel(i));
+      EXPECT_LT(glm::length(texels - jitter), 1e-2) << "cascade " << i;
+    }
+    for (const glm::dvec3& point : frustum_points(in, in.distance)) {
+      const glm::dvec3 p = clip(moved.items.back(), point);
+      EXPECT_LE(std::max(std::abs(p.x), std::abs(p.y)), 1.0);
+    }
+  }
+}
+
 TEST(Cascades, AFarAwayObjectOnTheGroundLeavesNearCascadesTheirDepthRange) {
   CascadeInputs in = courtyard();
   const Cascades near = fit_cascades(in);
