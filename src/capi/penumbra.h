@@ -420,8 +420,9 @@ typedef struct penumbra_frame {
   penumbra_box casters;
   /** The same of all surfaces whose shadows are computed, those drawn forward too. */
   penumbra_box receivers;
-  /** World bounds of those receivers that `depth` does not hold, such as glass; default: empty. Read only with the
-   * parameter cascades.fit=visible. */
+  /** World bounds of those receivers that `depth` does not hold, such as glass; default: empty. Maps with the parameter
+   * cascades.fit=visible hold them, too, and where there are some, maps.jitter does not move maps from frame to frame:
+   * these receivers have no history. */
   penumbra_box forward_receivers;
   uint32_t moved_is_known; /**< 1: `moved` is right; 0 (default): anything may have moved */
   /** World bounds of the casters that moved since the view's last frame, at their present and their last positions, of

@@ -84,6 +84,7 @@ bool reads(const Technique& technique, const std::string& name, const Registry& 
   if (name == "sun.angle" || name == "sun.shape") return technique.soft;
   if (name == "mask.tiles") return technique.decides_tiles;
   if (name == "mask.scale") return !technique.resolve;
+  if (name == "maps.jitter") return !technique.needs.empty();
   if (name == "sampling.blocker_pattern") return takes_pattern(technique, SampleSet::Step::blocker);
   if (name == "sampling.filter_pattern") return takes_pattern(technique, SampleSet::Step::filter);
   if (name == "sampling.scramble") return !technique.samples.empty() && technique.scramble.empty();
@@ -105,6 +106,7 @@ bool is_of_denoisers(const std::string& name, const Registry& registry) {
 
 std::string why_without_effect(const std::string& name, const ParamSet& params, const Registry& registry) {
   const Technique& technique = registry.find(params.get_word("technique"));
+  if (name == "sampling.seed" && params.get_bool("maps.jitter")) return {};
   if (is_of_denoisers(name, registry)) {
     if (!technique.denoisable) return fmt::format("what the technique {} draws is not denoised", technique.name);
     if (registry.find_denoiser(params.get_word("denoiser")) == nullptr) return "denoiser is none";
@@ -147,6 +149,7 @@ bool is_of_lamps(const std::string& name) { return name.starts_with("lamps.") &&
 // Lamps read cascades.seam and cascades.blend where the maps of a cube meet.
 bool is_of_suns(const std::string& name) {
   constexpr std::array<std::string_view, 3> exempt{"cascades.size", "cascades.seam", "cascades.blend"};
+  if (name == "maps.jitter") return true;
   return name.starts_with("sun.") || (name.starts_with("cascades.") && std::ranges::find(exempt, name) == exempt.end());
 }
 

@@ -112,7 +112,7 @@ ShadedSample shade_by_first(gl::Device& device, const ShadingInputs& shading, co
                            {.mask = shading.mask, .first = of_first, .gbuffer = sample.gbuffer, .view = sample.view})};
 }
 
-// The maps of the further sample before it are kept, unless they are fitted to what is visible.
+// The maps of the further sample before it are kept, unless they are fitted to what is visible or moved (maps.jitter).
 ShadedSample shade_alone(gl::Device& device, const ShadingInputs& shading, const FurtherSample& sample,
                          bool read_mask) {
   const FrameInputs& frame = shading.frame;

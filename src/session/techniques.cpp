@@ -19,7 +19,7 @@ struct PresetValues {
   std::string name;
   ParamSet params;                   // with the preset chosen
   std::vector<std::string> changed;  // the parameters that it sets to other values than their defaults
-  std::vector<std::string> groups;   // of all that it sets, and of its technique
+  std::vector<std::string> groups;   // of all that it sets but for the maps, and of its technique
 };
 
 std::vector<PresetValues> presets_with_values() {
@@ -32,7 +32,8 @@ std::vector<PresetValues> presets_with_values() {
     added.groups.push_back(added.params.get_word("technique"));
     for (const std::string& assignment : preset.assignments) {
       const std::string name = assignment.substr(0, assignment.find('='));
-      if (!group_of(name).empty()) added.groups.push_back(group_of(name));
+      // The parameters of maps concern all techniques.
+      if (!group_of(name).empty() && group_of(name) != "maps") added.groups.push_back(group_of(name));
       if (added.params.value(name) != defaults.value(name)) added.changed.push_back(name);
     }
   }

@@ -17,11 +17,13 @@
 #include "depth_normals.h"
 #include "light_block.h"
 #include "light_fit.h"
+#include "mask_pass.h"
 #include "mask_scale.h"
 #include "movement_map.h"
 #include "outputs.h"
 #include "products.h"
 #include "shadow_map.h"
+#include "tiles.h"
 #include "visible_receivers.h"
 
 namespace penumbra::shadow {
@@ -160,7 +162,7 @@ using ScaledViews = std::map<int, ScaledInputs>;
 std::string scaled_prefix(const ViewState& view, int scale) { return fmt::format("{}scale {}/", view.prefix, scale); }
 
 // Runs the technique and the denoiser for every scale-th pixel, and fills the light's layer of the mask from these.
-void draw_layer_at(int scale, const LightWork& work, ScaledViews& views) {
+void draw_layer_at(int scale, LightWork work, ScaledViews& views) {
   const std::string prefix = scaled_prefix(work.view, scale);
   if (!views.contains(scale)) views.emplace(scale, scaled_inputs(work, prefix, scale));
   const ScaledInputs& scaled = views.at(scale);
@@ -170,20 +172,24 @@ void draw_layer_at(int scale, const LightWork& work, ScaledViews& views) {
   LightFrame frame = work.frame;
   frame.viewport = viewport_of(scaled.inputs);
   frame.scale = scale;
-  const LightWork small{.device = work.device,
-                        .registry = work.registry,
-                        .programs = work.programs,
-                        .samples = work.samples,
-                        .inputs = scaled.inputs,
-                        .light = work.light,
-                        .mask = work.device.target(prefix + "mask", desc),
-                        .view = work.view,
-                        .state = work.state,
-                        .frame = frame,
-                        .technique = work.technique,
-                        .forward = work.forward,
-                        .denoiser = work.denoiser,
-                        .remembered = work.remembered};
+  std::optional<Tiles> tiles, of_scaled;
+  if (decides_tiles(work)) work.tiles = &tiles.emplace(fill_decided_tiles(work));
+  LightWork small{.device = work.device,
+                  .registry = work.registry,
+                  .programs = work.programs,
+                  .samples = work.samples,
+                  .inputs = scaled.inputs,
+                  .light = work.light,
+                  .mask = work.device.target(prefix + "mask", desc),
+                  .view = work.view,
+                  .state = work.state,
+                  .frame = frame,
+                  .technique = work.technique,
+                  .forward = work.forward,
+                  .denoiser = work.denoiser,
+                  .remembered = work.remembered};
+  if (tiles && decides_tiles(small))
+    small.tiles = &of_scaled.emplace(scaled_tiles(small, *tiles, tile_count(work.frame.viewport)));
   const gl::Buffer* of_view = work.state.shadow_block;
   upload_light(small, "scaled light", scaled.ndc * work.view.last_jitter, scale);
   draw_layer(small);
@@ -275,7 +281,7 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   if (wanted.shadow_map || may_draw_casters) {
     visible = find_visible_receivers(from.device, from.inputs, light, state.params, state.prefix);
   }
-  begin_frame(view, state, light, same_params);
+  begin_frame(view, state, light, layer_count(light, state.params), same_params);
   frame.projection = projection_of(work, visible);
   if (const std::string fault = frame.projection.fault(); !fault.empty())
     fail("soft shadows: no maps of light {} fit the view: {}", light.id, fault);

@@ -39,7 +39,8 @@ struct View {
   // into `view`.
   glm::mat4 projection{1};
   // Used to reproject the history. They must equal the matrices of this view's last render(), else the history and the
-  // kept maps are discarded (see PassContext and Inputs::moved).
+  // kept maps are discarded (see PassContext and Inputs::moved). Where they are also those of this frame, the view
+  // rests, and the parameter maps.jitter moves the maps.
   glm::mat4 last_view{1}, last_projection{1};
   glm::vec2 jitter{0};
   int id = 0;            // identifies the view: each has its own shadow maps, mask and history
@@ -184,8 +185,9 @@ struct Inputs {
   // (core/log.h) says so once for a view.
   bool exact_bounds = false;
   // World bounds of those receivers that `depth` does not hold, such as blended surfaces that are drawn forward; empty
-  // (min > max in every axis): there are none. Only read where maps are fitted to what `depth` shows (cascades.fit):
-  // elsewhere in the view no map holds anything, and receivers are lit.
+  // (min > max in every axis): there are none. Where maps are fitted to what `depth` shows (cascades.fit) they hold
+  // these, too: elsewhere in the view no map holds anything, and receivers are lit. Where there are some, maps.jitter
+  // does not move maps from frame to frame, since these receivers have no history.
   Box forward_receivers{glm::vec3(1), glm::vec3(-1)};
   // Whether SoftShadows::bind_forward() may follow this frame. If not, a technique that fills the mask by itself needs
   // no maps for its stand-in (Technique::stand_in), and bind_forward() throws Error for its lights.

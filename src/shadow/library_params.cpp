@@ -96,7 +96,8 @@ std::vector<Param> sampling_rows() {
            "The blocker search's points from frame to frame: the same (still), shifted, or the next of 16 sets."),
       word("sampling.filter_sequence", sequences,
            "The filter's points from frame to frame: the same (still), shifted, or the next of 16 sets."),
-      {"sampling.seed", 0, 0, 65535, "", "Shifts the noise: another number rotates or shifts all points differently.",
+      {"sampling.seed", 0, 0, 65535, "",
+       "Shifts the noise, and with maps.jitter the maps: another number rotates or shifts all points differently.",
        ParamBinding::host},
   };
 }

@@ -50,7 +50,10 @@ bool reads_light_discs(const LightWork& work, const std::vector<const Recipe*>& 
 // of quasirandom sequences"): a pixel's samples, which differ by it, are themselves at Halton's points.
 glm::dvec2 map_jitter(const LightWork& work) {
   if (!work.params().get_bool("maps.jitter")) return glm::dvec2(0);
-  const std::uint64_t moves = work.remembered.empty() ? 0 : work.state.rests;
+  // Surfaces that are drawn forward read the frame's maps without a history.
+  const Box& forward = work.inputs.forward_receivers;
+  const bool has_forward = glm::all(glm::lessThanEqual(forward.min, forward.max));
+  const std::uint64_t moves = work.remembered.empty() || has_forward ? 0 : work.state.rests;
   const auto number = static_cast<unsigned>(moves);
   constexpr double root = 1.32471795724474602596;  // of x³ = x + 1
   const double seed = work.params().get_int("sampling.seed");
@@ -75,6 +78,12 @@ LightProjection projection_of(const LightWork& work, const std::optional<Visible
   fit.others = work.inputs.forward_receivers;
   fit.jitter = map_jitter(work);
   return fit_projection(work.light.source, fit);
+}
+
+int layer_count(const Light& light, const ParamSet& params) {
+  if (light.maps) return light.maps->projection.layers();
+  const int of_lamp = lamp_map_count(light.source);
+  return of_lamp > 0 ? of_lamp : params.get_int("cascades.count");
 }
 
 std::string bounds_warning(const CutOff& cut_off) {

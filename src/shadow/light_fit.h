@@ -11,6 +11,9 @@ namespace penumbra::shadow {
 // The caller's projection of the light's maps, or one fitted to the view. `visible`: see find_visible_receivers().
 LightProjection projection_of(const LightWork& work, const std::optional<VisibleReceivers>& visible);
 
+// How many layers that has.
+int layer_count(const Light& light, const ParamSet& params);
+
 // A warning of one line if a sun's maps leave something out because bounds are wide (Inputs::exact_bounds); else empty.
 std::string bounds_warning(const CutOff& cut_off);
 

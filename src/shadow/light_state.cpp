@@ -57,8 +57,7 @@ void begin_frame(ViewState& view, const Inputs& inputs, bool last_completed) {
     light.follows = is_next && light.drawn;
     light.drawn = false;
   }
-  view.rests = same_matrix(inputs.view.view, inputs.view.last_view) &&
-               same_matrix(inputs.view.projection, inputs.view.last_projection);
+  view.rests = inputs.view.view == inputs.view.last_view && inputs.view.projection == inputs.view.last_projection;
   view.last_jitter = view.jitter;
   view.jitter = inputs.view.jitter;
   view.view = inputs.view.view;
@@ -94,15 +93,13 @@ void take_shape(LightState& state, const LightShape& shape) {
   state.programs.clear();
 }
 
-void begin_frame(const ViewState& view, LightState& state, const Light& light, bool same_params) {
-  const int given_layers = light.maps ? light.maps->projection.layers() : 0;
-  const bool holds =
-      state.uninterrupted && same_params && state.source == light.source && state.given_layers == given_layers;
+void begin_frame(const ViewState& view, LightState& state, const Light& light, int layers, bool same_params) {
+  const bool holds = state.uninterrupted && same_params && state.source == light.source && state.layers == layers;
   state.age = holds ? state.age + 1 : 0;
   state.rests = holds ? state.rests + (view.rests ? 1 : 0) : 0;
   ++state.frames;
   state.source = light.source;
-  state.given_layers = given_layers;
+  state.layers = layers;
 }
 
 }  // namespace penumbra::shadow

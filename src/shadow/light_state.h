@@ -55,7 +55,7 @@ struct LightState {
 
   LightSource source;
   LightShape shape;
-  int given_layers = 0;        // of the caller's maps; 0: it brings none
+  int layers = 0;              // of the shadow map
   bool drawn = false;          // in this frame
   bool uninterrupted = false;  // the previous frame of the view drew this light, and its history is valid
   bool follows = false;        // the previous frame of the view drew this light, and Inputs::moved is what moved since
@@ -132,6 +132,6 @@ bool take_params(LightState& state, const GivenParams& given, const Light& light
 // Sets the light's size and shape, which programs and sample points depend on.
 void take_shape(LightState& state, const LightShape& shape);
 // Decides whether the history of the light's last frame is valid in this one.
-void begin_frame(const ViewState& view, LightState& state, const Light& light, bool same_params);
+void begin_frame(const ViewState& view, LightState& state, const Light& light, int layers, bool same_params);
 
 }  // namespace penumbra::shadow

@@ -7,6 +7,8 @@
 
 namespace penumbra::shadow {
 
+struct Tiles;
+
 // One light of one view in one frame: the data that the steps of frame.cpp pass on to each other.
 struct LightWork {
   gl::Device& device;
@@ -23,6 +25,7 @@ struct LightWork {
   const Technique& forward;                      // used for blended surfaces: the technique itself, or its stand-in
   const Denoiser* denoiser = nullptr;            // null where none applies
   std::vector<Denoiser::Remembered> remembered;  // what the denoiser keeps for the next frame
+  const Tiles* tiles = nullptr;                  // of the mask, if they are decided already
 
   const ParamSet& params() const { return state.params; }
   const std::string& prefix() const { return state.prefix; }  // of the names of targets and buffers

@@ -128,7 +128,7 @@ const gl::Texture* run_mask_pass(const LightWork& work, const MaskOutput& output
     compute_all(work, output);
     return nullptr;
   }
-  const Tiles tiles = decide_tiles(work);
+  const Tiles tiles = work.tiles != nullptr ? *work.tiles : decide_tiles(work);
   if (form_of(work, output).compute) {
     {
       gl::Pass pass(work.device, pass_of("decided tiles", output));

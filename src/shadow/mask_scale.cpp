@@ -99,9 +99,9 @@ void upsample(const LightWork& work, const ScaledMask& scaled, int scale) {
   const PassOwner owner = owner_of(work.technique);
   const PassContext context(work, owner);
   const Rect& viewport = work.frame.viewport;
-  const bool decides = decides_tiles(work);
-  const gl::Buffer& list = decides ? fill_decided_tiles(work).list
-                                   : begin_tile_list(context, "missing pixels", glm::ivec2(0), pixel_count(work.mask));
+  const bool decides = work.tiles != nullptr;
+  const gl::Buffer& list =
+      decides ? work.tiles->list : begin_tile_list(context, "missing pixels", glm::ivec2(0), pixel_count(work.mask));
   {
     gl::Pass pass(work.device, {.name = "upsample mask"});
     const auto use = [&](Programs::UpsampledTiles of) {

@@ -28,8 +28,9 @@ struct ScaledMask {
   unsigned depth = 0;
 };
 
-// Fills the light's layer of the mask: decided tiles as ever, and the others' pixels from that layer of a scaled mask.
-// Those that the four around them can't stand for are left to the technique's visibility().
+// Fills the light's layer of the mask from that layer of a scaled mask: all of it, or, where the tiles are decided and
+// fill_decided_tiles() has filled its part, the others. Pixels that the four around them can't stand for are left to
+// the technique's visibility().
 void upsample(const LightWork& work, const ScaledMask& scaled, int scale);
 
 gl::ProgramDesc scaled_receivers_program();

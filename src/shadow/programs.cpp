@@ -330,6 +330,7 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
                                         output_program(),
                                         mark_frame_program(),
                                         scaled_receivers_program(),
+                                        scaled_tiles_program(),
                                         ready(depth_normals_program(false)),
                                         ready(depth_normals_program(true)),
                                         warm_up_caster_program()};

@@ -53,30 +53,53 @@ struct TileNames {
   const char *decisions, *list;
 };
 
-Tiles decide(const LightWork& work, const TileNames& names, std::size_t listed_pixels) {
-  const PassOwner owner = owner_of(work.technique);
-  const PassContext context(work, owner);
-  const glm::ivec2 size = tile_count(work.frame.viewport);
-  // As large as the mask, not the viewport: a view whose size varies from frame to frame then keeps its texture.
+constexpr TileNames usual_names{"tile decisions", "tile list"},
+    names_of_all{"tile decisions of all pixels", "tile list of all pixels"};
+
+// As large as the mask, not the viewport: a view whose size varies from frame to frame then keeps its texture.
+Tiles undecided(const LightWork& work, const TileNames& names, std::size_t listed_pixels) {
+  const PassContext context(work, owner_of(work.technique));
   const gl::TextureDesc of_mask{
       .format = GL_RGBA32UI, .width = tiles_across(work.mask.width()), .height = tiles_across(work.mask.height())};
-  const Tiles tiles{context.target(names.decisions, of_mask),
-                    begin_tile_list(context, names.list, {of_mask.width, of_mask.height}, listed_pixels)};
+  return {context.target(names.decisions, of_mask),
+          begin_tile_list(context, names.list, {of_mask.width, of_mask.height}, listed_pixels)};
+}
+
+Tiles decide(const LightWork& work, const TileNames& names, std::size_t listed_pixels) {
+  const Tiles tiles = undecided(work, names, listed_pixels);
   gl::Pass pass(work.device, {.name = "tile decisions"});
   const gl::Program& program = pass.use(work.programs.decide_tiles(work.technique, work.frame.shape.lamp));
-  bind_inputs(work, owner);
+  bind_inputs(work, owner_of(work.technique));
   tiles.decisions.bind_image(0, GL_WRITE_ONLY);
   tiles.list.bind_storage(tile_list_binding);
-  dispatch_decisions(pass, program, size);
+  dispatch_decisions(pass, program, tile_count(work.frame.viewport));
   return tiles;
 }
 
 }  // namespace
 
-Tiles decide_tiles(const LightWork& work) { return decide(work, {"tile decisions", "tile list"}, 0); }
+Tiles decide_tiles(const LightWork& work) { return decide(work, usual_names, 0); }
 
-Tiles decide_all_tiles(const LightWork& work) {
-  return decide(work, {"tile decisions of all pixels", "tile list of all pixels"}, pixel_count(work.mask));
+Tiles decide_all_tiles(const LightWork& work) { return decide(work, names_of_all, pixel_count(work.mask)); }
+
+Tiles scaled_tiles(const LightWork& scaled, const Tiles& of_all, const glm::ivec2& count_of_all) {
+  const Tiles tiles = undecided(scaled, usual_names, 0);
+  const glm::ivec2 count = tile_count(scaled.frame.viewport);
+  gl::Pass pass(scaled.device, {.name = "tile decisions"});
+  const gl::Program& program = pass.use(scaled_tiles_program());
+  program.set("tile_count", count);
+  program.set("tile_count_of_all", count_of_all);
+  program.set("scale", scaled.frame.scale);
+  scaled.device.sampler({}).bind(unit_decisions);
+  of_all.decisions.bind(unit_decisions);
+  tiles.decisions.bind_image(0, GL_WRITE_ONLY);
+  tiles.list.bind_storage(tile_list_binding);
+  pass.dispatch(count.x, count.y);
+  return tiles;
+}
+
+gl::ProgramDesc scaled_tiles_program() {
+  return {.name = "scaled tiles", .compute = "shadow/drivers/scaled_tiles.comp"};
 }
 
 const gl::Buffer& list_filter_tiles(const LightWork& work, const BlockerDistances& distances, Filter::Keeps keeps) {

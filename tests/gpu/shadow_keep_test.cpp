@@ -161,6 +161,32 @@ TEST_F(ShadowKeep, MapsMoveByPartsOfATexelWithAHistoryAndWithTheSeed) {
   params.set("history.reuse", true);
   frame();
   for (int i = 0; i < 3; ++i) EXPECT_EQ(frame(), all_layers);
+  const auto see_glass = [](shadow::Inputs& in) { in.forward_receivers = {{-1, 0, -1}, {1, 1, 1}}; };
+  frame(see_glass);
+  EXPECT_EQ(frame(see_glass), Layers());
+}
+
+// However little the camera moves: far from the world's origin its matrix hardly changes.
+TEST_F(ShadowKeep, MapsOfAMovingCameraDoNotMoveByPartsOfATexel) {
+  params.set("denoiser", std::string("history_and_filters"));
+  params.set("history.reuse", true);
+  params.set("maps.jitter", true);
+  const auto part_of_texel = [&](float walked) {
+    const auto walk = [&](shadow::Inputs& in) {
+      in.view.last_view = glm::translate(in.view.view, glm::vec3(0, 0, walked - (walked > 0 ? 1e-6f : 0)));
+      in.view.view = glm::translate(in.view.view, glm::vec3(0, 0, walked));
+    };
+    frame(walk);
+    const shadow::Cascades& cascades = renderer.mask().lights[0].projection.cascades();
+    const glm::dvec3 anchor = cascades.world_to_light * cascades.anchor;
+    const glm::dvec2 texels =
+        (glm::dvec2(cascades.items[0].center) + glm::dvec2(anchor)) / glm::dvec2(cascades.texel(0));
+    return texels - glm::round(texels);
+  };
+  part_of_texel(0);
+  EXPECT_GT(glm::length(part_of_texel(0)), 0.1);
+  const glm::dvec2 at_rest = part_of_texel(0);
+  EXPECT_LT(glm::length(part_of_texel(1e-6f) - at_rest), 0.01);
 }
 
 TEST_F(ShadowKeep, AProductIsMadeAgainWhereItsOwnParameterChanges) {

@@ -51,6 +51,13 @@ TEST(NoEffect, OfAFilterThatIsOff) {
   EXPECT_EQ(why("filter.edge", "thesis_8x8", {"filter.visibility=box"}), "filter.visibility is box");
 }
 
+TEST(NoEffect, OfMapsThatMove) {
+  EXPECT_EQ(why("maps.jitter", "pcss"), "");
+  EXPECT_NE(why("maps.jitter", "none"), "");
+  EXPECT_NE(why("sampling.seed", "hard"), "");
+  EXPECT_EQ(why("sampling.seed", "hard", {"maps.jitter=on"}), "");
+}
+
 TEST(NoEffect, OfPatternsThatATechniqueHasItself) {
   EXPECT_EQ(why("sampling.filter_pattern", "pcss"), "");
   EXPECT_NE(why("sampling.filter_pattern", "brute_force"), "");

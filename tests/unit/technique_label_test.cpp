@@ -40,6 +40,14 @@ TEST(TechniqueLabel, SaysWhichPresetWasModified) {
   EXPECT_EQ(session::unmodified(params).get_int("pcss.filter_taps"), 8);
 }
 
+TEST(TechniqueLabel, MapsAreNoPartOfAPresetButForWhatItSets) {
+  ParamSet params = selected("slices_history");
+  params.set("maps.keep", false);
+  EXPECT_EQ(session::technique_label(params), "slices_history");
+  params.set("maps.jitter", false);
+  EXPECT_EQ(session::technique_label(params), "slices_history (modified)");
+}
+
 TEST(TechniqueLabel, IsTheTechniqueWhereMostOfAPresetIsMissing) {
   ParamSet params = selected("pcss");
   params.set_text("filter.visibility", "bilateral_separable");

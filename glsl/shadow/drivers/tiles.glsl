@@ -15,9 +15,11 @@ uvec4 packed_decision(Decision decision) {
   return uvec4(decision.lit, packHalf2x16(vec2(decision.blocker_distance, radius)), uint(decision.layer));
 }
 
-const uvec4 no_decision = uvec4(0u, 0u, 0u, ~0u);  // of a tile in the list of those to compute
+// Of a tile in the list of those to compute, and in that of those at a rim.
+const uvec4 no_decision = uvec4(0u, 0u, 0u, ~0u), no_decision_at_rim = uvec4(1u, 0u, 0u, ~0u);
 
 bool is_decided(uvec4 texel) { return texel.w != no_decision.w; }
+bool is_at_rim(uvec4 texel) { return texel == no_decision_at_rim; }
 
 // Whether no pixel of a decided tile has a blocker distance.
 bool is_unblocked(uvec4 texel) { return (texel.z & 0xffffu) == 0u; }

@@ -119,6 +119,13 @@ void warn_without_effect(const RenderOptions& o, const ParamSet& params) {
   cli::warn_without_effect(o, {&params, 1}, session::all_techniques());
   cli::warn_of_rate(o);
   constexpr std::string_view one_sample = "each pixel has one sample";
+  const bool asks_for_jitter = std::ranges::any_of(
+      o.assignments, [](const std::string& assignment) { return assignment.starts_with("maps.jitter="); });
+  const bool has_history = o.frames && params.get_bool("history.reuse");
+  const bool may_move = params.get_bool("maps.jitter") &&
+                        cli::why_without_effect("maps.jitter", params, session::all_techniques()).empty();
+  if (asks_for_jitter && may_move && !has_history && !o.own_shadows)
+    warn("maps.jitter has no effect here: there is neither a history nor --sample-shadows");
   if (o.own_shadows && o.samples == 1) warn("--sample-shadows has no effect here: {}", one_sample);
   if (!o.average_aovs) return;
   const bool has_means = std::ranges::any_of(render::aovs(), [&](const render::Aov& aov) {
