@@ -77,8 +77,7 @@ std::string cascades_of(const Results& results) {
 }  // namespace
 
 std::string maps_of(const ParamSet& params) {
-  const bool moved = params.get_bool("maps.jitter") && params.get_bool("history.reuse");
-  return params.get_bool("maps.keep") && !moved ? "kept where nothing moved" : "drawn anew in every frame";
+  return params.get_bool("maps.keep") ? "kept where nothing moved" : "drawn anew in every frame";
 }
 
 std::string maps_of(std::span<const ParamSet* const> of_all) {

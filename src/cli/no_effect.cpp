@@ -106,7 +106,8 @@ bool is_of_denoisers(const std::string& name, const Registry& registry) {
 
 std::string why_without_effect(const std::string& name, const ParamSet& params, const Registry& registry) {
   const Technique& technique = registry.find(params.get_word("technique"));
-  if (name == "sampling.seed" && params.get_bool("maps.jitter")) return {};
+  if (name == "sampling.seed" && params.get_bool("maps.jitter"))
+    return why_without_effect("maps.jitter", params, registry);
   if (is_of_denoisers(name, registry)) {
     if (!technique.denoisable) return fmt::format("what the technique {} draws is not denoised", technique.name);
     if (registry.find_denoiser(params.get_word("denoiser")) == nullptr) return "denoiser is none";

@@ -189,7 +189,8 @@ void draw_layer_at(int scale, LightWork work, ScaledViews& views) {
                   .denoiser = work.denoiser,
                   .remembered = work.remembered};
   if (tiles && decides_tiles(small))
-    small.tiles = &of_scaled.emplace(scaled_tiles(small, *tiles, tile_count(work.frame.viewport)));
+    small.tiles = &of_scaled.emplace(
+        scaled_tiles(small, {.tiles = *tiles, .viewport = work.frame.viewport, .has_rims = has_rims(work)}));
   const gl::Buffer* of_view = work.state.shadow_block;
   upload_light(small, "scaled light", scaled.ndc * work.view.last_jitter, scale);
   draw_layer(small);

@@ -53,7 +53,8 @@ std::vector<Param> map_rows() {
        host},
       {"maps.jitter", false, 0, 1, "",
        "Moves the sun's maps by a part of a texel in each frame in which the view rests, so that a history averages "
-       "what one map can't resolve; and with sampling.seed. Such frames draw their maps.",
+       "what one map can't resolve, unless blended surfaces read them; and with sampling.seed. Such frames draw their "
+       "maps.",
        host},
       {"lamps.size", 1024, 16, 8192, "texels", "Side of each map of a lamp: a spot has one, other lamps have six.",
        host},

@@ -64,8 +64,8 @@ struct FrameKind {
 // Shadow maps. Layers in which nothing has changed since the view's last frame are not drawn again, and neither are the
 // products of recipes that depend on the map alone: see Inputs::moved, which must be right for that, and the parameter
 // maps.keep. All are drawn anew after View::cut, after an Error, in frames whose View::last_view or last_projection are
-// not the matrices of the view's last frame, when a shader changed (gl::ShaderLibrary::changed()), and with the
-// parameter maps.jitter and a history in frames whose matrices are those of the last one.
+// not the matrices of the view's last frame, and when a shader changed (gl::ShaderLibrary::changed()); those of suns
+// also with maps.jitter and a history in frames whose matrices are the last one's, without Inputs::forward_receivers.
 //
 // Waiting. With the parameter cascades.fit=visible, render() waits once a light until the GPU has finished all earlier
 // work and has found what the depth texture shows. No other step of the library's own reads back what the GPU computes.

@@ -82,18 +82,20 @@ Tiles decide_tiles(const LightWork& work) { return decide(work, usual_names, 0);
 
 Tiles decide_all_tiles(const LightWork& work) { return decide(work, names_of_all, pixel_count(work.mask)); }
 
-Tiles scaled_tiles(const LightWork& scaled, const Tiles& of_all, const glm::ivec2& count_of_all) {
+Tiles scaled_tiles(const LightWork& scaled, const TilesOfAll& of_all) {
   const Tiles tiles = undecided(scaled, usual_names, 0);
-  const glm::ivec2 count = tile_count(scaled.frame.viewport);
+  const Rect& viewport = scaled.frame.viewport;
   gl::Pass pass(scaled.device, {.name = "tile decisions"});
   const gl::Program& program = pass.use(scaled_tiles_program());
-  program.set("tile_count", count);
-  program.set("tile_count_of_all", count_of_all);
+  program.set("size", glm::ivec2(viewport.width, viewport.height));
+  program.set("size_of_all", glm::ivec2(of_all.viewport.width, of_all.viewport.height));
   program.set("scale", scaled.frame.scale);
+  program.set("has_rims", of_all.has_rims ? 1 : 0);
   scaled.device.sampler({}).bind(unit_decisions);
-  of_all.decisions.bind(unit_decisions);
+  of_all.tiles.decisions.bind(unit_decisions);
   tiles.decisions.bind_image(0, GL_WRITE_ONLY);
   tiles.list.bind_storage(tile_list_binding);
+  const glm::ivec2 count = tile_count(viewport);
   pass.dispatch(count.x, count.y);
   return tiles;
 }

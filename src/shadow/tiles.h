@@ -65,8 +65,14 @@ void dispatch_decisions(gl::Pass& pass, const gl::Program& program, const glm::i
 Tiles decide_tiles(const LightWork& work);
 // The same for all pixels of a view of which every n-th is computed (mask_scale.h); their list has room for all pixels.
 Tiles decide_all_tiles(const LightWork& work);
-// Those of every n-th pixel, `scaled`, by those of all.
-Tiles scaled_tiles(const LightWork& scaled, const Tiles& of_all, const glm::ivec2& count_of_all);
+// Those of every n-th pixel: decided where all tiles of all pixels that they lie in are, unless one of these faces away
+// and another is blocked. With `has_rims` the others are listed as at a rim.
+struct TilesOfAll {
+  const Tiles& tiles;
+  const Rect& viewport;
+  bool has_rims = false;
+};
+Tiles scaled_tiles(const LightWork& scaled, const TilesOfAll& of_all);
 gl::ProgramDesc scaled_tiles_program();
 
 // In a pass of its own, the list of the tiles whose packed texels filters that keep these can change. Not for

@@ -1,5 +1,7 @@
 // Masks of which the technique computes only every n-th pixel (mask.scale).
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -61,6 +63,39 @@ TEST_F(ShadowScale, PixelsThatAreComputedAreThoseOfTheFullMaskWhateverTheSize) {
           apart += std::abs(full.visibility(x, y) - scaled.visibility(x, y)) > 0.01f ? 1 : 0;
       }
       EXPECT_LE(apart, of / 200);
+    }
+  }
+}
+
+// Before others are interpolated from them; denoisers and histories read these. Those of decided tiles come from the
+// decisions for all pixels.
+TEST_F(ShadowScale, TheMaskOfEveryNthPixelIsTheFullOneThere) {
+  const auto scaled_mask = [&](int scale) {
+    const std::string end = fmt::format("scale {}/mask", scale);
+    for (const gl::Device::NamedTarget& target : renderer_->device().targets()) {
+      if (target.name.ends_with(end)) return target.texture;
+    }
+    throw Error("no mask of " + end);
+  };
+  for (const auto& [width, height] : {std::pair{320, 240}, {243, 137}, {169, 203}}) {
+    const TriangleScene scene = box_on_ground(width, height);
+    const Shadowed full = render(scene, 1);
+    for (const int scale : {2, 3, 4}) {
+      SCOPED_TRACE(testing::Message() << width << "×" << height << " scale " << scale);
+      render(scene, scale);
+      const gl::Texture& mask = *scaled_mask(scale);
+      const std::vector<float> values = gl::read_floats(mask, 1);
+      int apart = 0, marked = 0, of = 0;
+      for (int y = 0; y * scale < height; ++y) {
+        for (int x = 0; x * scale < width; ++x, ++of) {
+          const float value = values.at(static_cast<std::size_t>(y * mask.width() + x));
+          marked += value < 0 ? 1 : 0;
+          const float visibility = value < 0 ? -1 - value : value;
+          apart += std::abs(full.visibility(x * scale, y * scale) - visibility) > 0.01f ? 1 : 0;
+        }
+      }
+      EXPECT_LE(apart, of / 200);
+      EXPECT_GT(marked, of / 4);
     }
   }
 }

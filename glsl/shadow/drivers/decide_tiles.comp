@@ -8,8 +8,7 @@ void main() {
   if (!in_viewport(tile)) return;
   Decision decision;
   int outcome = decide_tile(pixels_of(tile), decision);
-  uvec4 undecided = outcome == tile_at_rim ? no_decision_at_rim : no_decision;
-  imageStore(decisions, tile, outcome == tile_decided ? packed_decision(decision) : undecided);
+  imageStore(decisions, tile, outcome == tile_decided ? packed_decision(decision) : no_decision);
   if (outcome == tile_decided) {
     list_decided(tile);
   } else if (outcome == tile_listed) {

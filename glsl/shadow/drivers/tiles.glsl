@@ -5,7 +5,7 @@ const int tile_size = 8;
 // A tile that needs no more than this.
 struct Decision {
   uvec2 lit;               // bit 8 y + x, from .x to .y: the pixel is lit, else it is in shadow or faces away
-  float blocker_distance;  // metres, the mean over the pixels in shadow; 0 if there are none
+  float blocker_distance;  // metres, a mean over the pixels in shadow; 0 if there are none
   float radius;            // metres, of the disc that holds what can block light of any of its receivers
   int layer;               // of the shadow map
 };
@@ -15,11 +15,9 @@ uvec4 packed_decision(Decision decision) {
   return uvec4(decision.lit, packHalf2x16(vec2(decision.blocker_distance, radius)), uint(decision.layer));
 }
 
-// Of a tile in the list of those to compute, and in that of those at a rim.
-const uvec4 no_decision = uvec4(0u, 0u, 0u, ~0u), no_decision_at_rim = uvec4(1u, 0u, 0u, ~0u);
+const uvec4 no_decision = uvec4(0u, 0u, 0u, ~0u);  // of a tile in the list of those to compute
 
 bool is_decided(uvec4 texel) { return texel.w != no_decision.w; }
-bool is_at_rim(uvec4 texel) { return texel == no_decision_at_rim; }
 
 // Whether no pixel of a decided tile has a blocker distance.
 bool is_unblocked(uvec4 texel) { return (texel.z & 0xffffu) == 0u; }

@@ -121,7 +121,7 @@ void warn_without_effect(const RenderOptions& o, const ParamSet& params) {
   constexpr std::string_view one_sample = "each pixel has one sample";
   const bool asks_for_jitter = std::ranges::any_of(
       o.assignments, [](const std::string& assignment) { return assignment.starts_with("maps.jitter="); });
-  const bool has_history = o.frames && params.get_bool("history.reuse");
+  const bool has_history = o.frames && session::earlier_frames_matter(params) == "history.reuse";
   const bool may_move = params.get_bool("maps.jitter") &&
                         cli::why_without_effect("maps.jitter", params, session::all_techniques()).empty();
   if (asks_for_jitter && may_move && !has_history && !o.own_shadows)

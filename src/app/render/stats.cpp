@@ -108,10 +108,9 @@ Json stats_of(const RenderOptions& options, const session::PreparedScene& prepar
        {"ground", ground_of(prepared)},
        {"params", io::to_json(params)},
        {"measured_frames", measured},
-       {"maps",
-        options.frames && options.frames->count() > 1 && params.get_bool("maps.keep") && !params.get_bool("maps.jitter")
-            ? "kept where nothing moved"
-            : "drawn anew in every frame"},
+       {"maps", options.frames && options.frames->count() > 1 && params.get_bool("maps.keep")
+                    ? "kept where nothing moved"
+                    : "drawn anew in every frame"},
        {"timing", session.device().timers.mode() == gl::Timers::Mode::query ? "gpu timestamps" : "finish"},
        {"frame", frame},
        {"passes", passes},
