@@ -45,9 +45,10 @@ bool reads_light_discs(const LightWork& work, const std::vector<const Recipe*>& 
          std::ranges::all_of(recipes, &Recipe::reads_light_discs);
 }
 
-// Where a frame's maps lie within a texel: Halton's points, of which each beginning covers it evenly and
-// begins at 0. The seed shifts them on the torus, by the generalised golden ratio (Roberts 2018, "The unreasonable
-// effectiveness of quasirandom sequences"): a pixel's samples, which differ by it, are themselves at Halton's points.
+// Where a frame's maps lie within a texel: at Halton's points, which cover it evenly however many there are, and of
+// which the first is 0. The seed shifts them on the torus, by the generalised golden ratio (Roberts 2018, "The
+// unreasonable effectiveness of quasirandom sequences"): a pixel's samples, which differ by it, are themselves at
+// Halton's points.
 glm::dvec2 map_jitter(const LightWork& work) {
   if (!work.params().get_bool("maps.jitter")) return glm::dvec2(0);
   // Surfaces that are drawn forward read the frame's maps without a history.
