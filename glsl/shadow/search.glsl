@@ -102,10 +102,9 @@ float fine_search_radius(Receiver receiver, Light light) {
   return narrowed_radius(receiver, radius, nearest, widest);
 }
 
-// edge_radius() in up to three steps, of which the last two follow where it is above `wide` metres: bounds over at most
-// 3 × 3 texels of a level, and then over at most 5 × 5.
-float fine_edge_radius(Receiver receiver, float wide, Light light) {
-  float radius = light.read_radius;
+// edge_radius(), from that radius, in up to three steps, of which the last two follow where it is above `wide` metres:
+// bounds over at most 3 × 3 texels of a level, and then over at most 5 × 5.
+float fine_edge_radius(Receiver receiver, float radius, float wide, Light light) {
   int i = 0;
   do {
     float with_margin = radius + 1.5 * texel_size(receiver, light);

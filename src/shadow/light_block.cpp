@@ -56,6 +56,7 @@ glsl::ShadowBlock shadow_block(const Inputs& inputs, const LightFrame& light, co
   if (traits.made_normals) block.normal_decode = {1, 0};
   block.depth_error = {traits.depth_error.absolute, traits.depth_error.relative};
   block.vertex_rounding = traits.vertex_rounding;
+  block.maps_are_moved = traits.moved_maps ? 1 : 0;
   block.sky_depth = conventions.reversed_z ? 0.0f : 1.0f;
   block.octahedral_normals = traits.made_normals || conventions.octahedral_normals ? 1 : 0;
   block.light_extent = light.shape.extent;

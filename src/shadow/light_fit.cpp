@@ -45,10 +45,16 @@ bool reads_light_discs(const LightWork& work, const std::vector<const Recipe*>& 
          std::ranges::all_of(recipes, &Recipe::reads_light_discs);
 }
 
-// Where a frame's maps lie within a texel: at Halton's points, which cover it evenly however many there are, and of
-// which the first is 0. The seed shifts them on the torus, by the generalised golden ratio (Roberts 2018, "The
-// unreasonable effectiveness of quasirandom sequences"): a pixel's samples, which differ by it, are themselves at
-// Halton's points.
+bool is_for(const LightState::DrawnTexels& drawn, const LightWork& work, const ReadBounds& read) {
+  const Inputs& inputs = work.inputs;
+  return drawn.view == inputs.view.view && drawn.projection == inputs.view.projection &&
+         drawn.casters == inputs.casters && drawn.receivers == inputs.receivers &&
+         drawn.exact_bounds == inputs.exact_bounds && drawn.source == work.light.source &&
+         drawn.jitter == map_jitter(work) && drawn.read == read;
+}
+
+}  // namespace
+
 glm::dvec2 map_jitter(const LightWork& work) {
   if (!work.params().get_bool("maps.jitter")) return glm::dvec2(0);
   // Surfaces that are drawn forward read the frame's maps without a history.
@@ -61,16 +67,6 @@ glm::dvec2 map_jitter(const LightWork& work) {
   const glm::dvec2 shift = seed * glm::dvec2(1 / root, 1 / (root * root));
   return glm::fract(glm::dvec2(radical_inverse(2, number), radical_inverse(3, number)) + shift);
 }
-
-bool is_for(const LightState::DrawnTexels& drawn, const LightWork& work, const ReadBounds& read) {
-  const Inputs& inputs = work.inputs;
-  return drawn.view == inputs.view.view && drawn.projection == inputs.view.projection &&
-         drawn.casters == inputs.casters && drawn.receivers == inputs.receivers &&
-         drawn.exact_bounds == inputs.exact_bounds && drawn.source == work.light.source &&
-         drawn.jitter == map_jitter(work) && drawn.read == read;
-}
-
-}  // namespace
 
 LightProjection projection_of(const LightWork& work, const std::optional<VisibleReceivers>& visible) {
   if (work.light.maps) return work.light.maps->projection;

@@ -11,6 +11,12 @@ namespace penumbra::shadow {
 // The caller's projection of the light's maps, or one fitted to the view. `visible`: see find_visible_receivers().
 LightProjection projection_of(const LightWork& work, const std::optional<VisibleReceivers>& visible);
 
+// Where a frame's maps lie within a texel: at Halton's points, which cover it evenly however many there are, and of
+// which the first is 0. The seed shifts them on the torus, by the generalised golden ratio (Roberts 2018, "The
+// unreasonable effectiveness of quasirandom sequences"): a pixel's samples, which differ by it, are themselves at
+// Halton's points.
+glm::dvec2 map_jitter(const LightWork& work);
+
 // How many layers that has.
 int layer_count(const Light& light, const ParamSet& params);
 

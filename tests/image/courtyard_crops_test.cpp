@@ -32,9 +32,9 @@ struct Crop {
   double bias;  // of the mean, either way
 };
 
-const std::vector<Crop> crops{{"under the string course", {660, 165}, {180, 60}, 0.058, 40, 0.002},
-                              {"slots of the shutters", {755, 68}, {150, 105}, 0.078, 120, 0.002},
-                              {"foot of the fountain", {420, 500}, {240, 80}, 0.023, 6, 0.002}};
+const std::vector<Crop> crops{{"under the string course", {660, 165}, {180, 60}, 0.047, 14, 0.002},
+                              {"slots of the shutters", {755, 68}, {150, 105}, 0.067, 85, 0.002},
+                              {"foot of the fountain", {420, 500}, {240, 80}, 0.017, 3, 0.002}};
 
 struct Maps {
   const char* fit;
@@ -117,7 +117,7 @@ TEST_F(CourtyardCrops, AreNearTheTruthWithMapsFittedToThePicture) {
     EXPECT_GT(stable[i].rmse, crops[i].rmse);
     // What is left is the maps' resolution, and no fault of the technique: it goes as texels get smaller.
     EXPECT_LE(fine[i].rmse, 0.65 * fitted[i].rmse);
-    EXPECT_LE(fine[i].wrong, fitted[i].wrong / 2);
+    EXPECT_LE(fine[i].wrong, std::max(fitted[i].wrong / 2, 1));
   }
 }
 

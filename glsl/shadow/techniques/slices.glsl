@@ -1,7 +1,7 @@
 // All rays from a receiver to the light that share an azimuth lie in one plane, a slice, which cuts the shadow map in a
 // line. One walk along that line, outwards, finds which of these rays are blocked: a bit mask holds rings of equal area
 // of the light, from its centre to its rim, and each texel hides those behind it. See docs/techniques.md.
-#include "shadow/search.glsl"
+#include "shadow/texel_filter.glsl"
 #include "shadow/sampling.glsl"
 
 float read_radius(Receiver receiver, Light light) { return fine_search_radius(receiver, light); }
@@ -10,7 +10,9 @@ const int ring_count = 32;
 
 // A slice has more samples than a narrower disc has texels.
 float walk_radius(Receiver receiver, Light light) {
-  return fine_edge_radius(receiver, 0.5 * float(slices_samples) * texel_size(receiver, light), light);
+  // The widest layer may lack a thin caster that this one shows, and then its fine bounds are too narrow.
+  float radius = max(search_radius(receiver, light), light.read_radius);
+  return fine_edge_radius(receiver, radius, 0.5 * float(slices_samples) * texel_size(receiver, light), light);
 }
 
 // A point of the light's rim, -1..1. Equal shares of the argument, 0..1, are sectors of equal area.
@@ -178,7 +180,7 @@ Slice walk(Receiver receiver, float share, int index, int samples, float radius,
 // How many times slices.azimuths slices a pixel in a penumbra gets, whose mean blocker is that high: more where the
 // penumbra is narrow on the screen, since there no filter finds neighbours that it could average.
 int rounds_for(Receiver receiver, float height, Light light) {
-  const int most = clamp(32767 / (slices_azimuths * (slices_samples + 2)), 1, 4);
+  const int most = clamp(32000 / (slices_azimuths * (slices_samples + 2)), 1, 4);
   float width = 2.0 * penumbra_radius(receiver, height, light) / pixel_width(view_position_of(receiver));
   return min(1 + int(float(slices_narrow) / max(width, 0.01)), most);
 }
@@ -188,8 +190,14 @@ Visibility visibility(Receiver receiver, Light light) {
   receiver = with_surroundings(receiver, bias, cone_slope(receiver, light), light);
   Visibility centre = centre_shadow(receiver, bias, light);
   float radius = walk_radius(receiver, reading_centre(centre, light));
-  // The map can't show a penumbra so narrow. Where none is near, pixels of decided tiles are computed in this way too.
-  if (radius < 0.5 * texel_size(receiver, light)) return centre;
+  float texel = texel_size(receiver, light);
+  // Where no penumbra is near, a pixel is what it is in decided tiles.
+  bool decided = centre.visibility == 0.0 || centre.visibility == 1.0;
+  if (radius < 0.5 * texel && (decided || slices_filter_radius == 0)) return centre;
+  if (radius < float(slices_filter_radius) * texel) {
+    FilteredTexels filtered = filter_texels(receiver, radius, bias, light);
+    if (!filtered.fails) return filtered.seen;
+  }
   Counts counts = counts_for(receiver, radius, light);
   PixelNoise noise = noise_of(receiver);
   int hidden = 0, rounds = 1;
@@ -214,5 +222,5 @@ Visibility visibility(Receiver receiver, Light light) {
   float mean = mean_height(height_sum, blockers);
   float penumbra = penumbra_radius(receiver, mean, light);
   return Visibility(1.0 - float(hidden) / float(ring_count * counts.azimuths * rounds), penumbra, mean,
-                    penumbra < texel_size(receiver, light));
+                    penumbra < texel);
 }

@@ -26,6 +26,10 @@ Technique slices() {
                "Where a penumbra is narrower than this in the picture, up to four times as many slices are followed, "
                "since no filter can smooth it there.",
                compiled},
+              {"slices.filter_radius", 8, 0, 16, "texels",
+               "Where everything that can block the light lies within so many texels, and at nearly one height, all of "
+               "these texels are filtered, without slices and without noise. 0: nowhere.",
+               compiled},
           },
       .decides_tiles = true,
       .reads_light_discs = true};
