@@ -102,6 +102,13 @@ float fine_search_radius(Receiver receiver, Light light) {
   return narrowed_radius(receiver, radius, nearest, widest);
 }
 
+// The read radius, or up to `most` metres the radius of search_radius(): the widest layer may lack a caster that is
+// narrower than its texels, and finer bounds over that layer miss it, too.
+float radius_with_thin_casters(Receiver receiver, float most, Light light) {
+  if (light.read_radius >= most) return light.read_radius;
+  return max(light.read_radius, min(search_radius(receiver, light), most));
+}
+
 // edge_radius(), from that radius, in up to three steps, of which the last two follow where it is above `wide` metres:
 // bounds over at most 3 × 3 texels of a level, and then over at most 5 × 5.
 float fine_edge_radius(Receiver receiver, float radius, float wide, Light light) {

@@ -14,8 +14,8 @@ float outline_error() { return shadow.maps_are_moved != 0 ? 0.08 : 0.14; }
 // Variance, along an axis, of what is drawn across an outline whose penumbra has that radius: of a disc, r² / 4.
 vec4 drawn_variance(vec4 radii) { return 0.25 * radii * radii + outline_error(); }
 
-// A kernel has this variance, but where the penumbra is below a texel that of the narrowest one that smooths
-// staircases, which is also that of the cubic B-spline.
+// Variance of the narrowest kernel, which stands in where a penumbra is narrower: with less, staircases show. That of
+// the cubic B-spline, but where maps are moved.
 float least_variance() { return shadow.maps_are_moved != 0 ? 0.1 : 1.0 / 3.0; }
 
 bvec4 are_least(vec4 radii) { return lessThan(drawn_variance(radii), vec4(least_variance())); }
@@ -70,8 +70,16 @@ vec4 squared_distances(Receiver receiver, Offsets offsets, Light light) {
   return light.square ? max(x, y) : x + y;
 }
 
+// Offsets of the texels `first` to first + (1, 1), as in footprint_from().
+Offsets square_offsets(Receiver receiver, ivec2 first, Light light) {
+  if (has_faces(light) && leaves_map(first, first + 1)) {
+    return footprint_beyond(receiver, first, vec2(0.0), light).offsets;
+  }
+  return footprint_offsets(receiver, texel_offset(receiver, first, light), vec2(0.0), light);
+}
+
 struct HiddenLight {
-  float share;  // as if texels were infinitely small
+  float share;  // times a constant: see most_hidden()
   float height_sum, least_height, most_height;
   bool everywhere;  // all texels block
 };
@@ -82,11 +90,11 @@ bool heights_differ(HiddenLight hidden) {
   return hidden.least_height < least_share * hidden.most_height;
 }
 
-// What the texels hide of which each has the kernel for its own height; `radius` bounds their discs. `one_height`: ends
-// where heights differ.
+// What the texels hide, each with the kernel for its own height. `radius` bounds these discs: a surface without an edge
+// may be far higher than the edges. `one_height`: ends where heights differ.
 HiddenLight hidden_light(Receiver receiver, float radius, bool one_height, float bias, Light light) {
   TexelRange texels = kernel_texels(receiver, radius, light);
-  float per_texel = 1.0 / texel_size(receiver, light);
+  float per_texel = 1.0 / texel_size(receiver, light), end = kernel_end(radius);
   HiddenLight hidden = HiddenLight(0.0, 0.0, 1e30, 0.0, true);
   ivec2 at = texels.low;
   do {
@@ -98,23 +106,25 @@ HiddenLight hidden_light(Receiver receiver, float radius, bool one_height, float
     vec4 shares = blocks * kernel_weights(radii, squared) / kernel_mass(radii);
     hidden.share += dot(shares, vec4(1.0));
     hidden.height_sum += dot(shares, heights);
-    vec4 low = mix(vec4(1e30), heights, blocks), high = blocks * heights;
+    bvec4 is_blocker = greaterThan(blocks, vec4(0.0));
+    vec4 low = mix(vec4(1e30), heights, is_blocker), high = mix(vec4(0.0), heights, is_blocker);
     hidden.least_height = min(hidden.least_height, min(min(low.x, low.y), min(low.z, low.w)));
     hidden.most_height = max(hidden.most_height, max(max(high.x, high.y), max(high.z, high.w)));
-    hidden.everywhere = hidden.everywhere && blocks == vec4(1.0);
+    hidden.everywhere = hidden.everywhere && all(greaterThan(blocks + step(end * end, squared), vec4(0.0)));
     at = next_square(at, texels);
   } while (at.y <= texels.high.y && !(one_height && heights_differ(hidden)));
   return hidden;
 }
 
-// The share that would be hidden if all texels blocked at a height whose disc has that radius: not quite 1.
+// What `share` would be if all texels blocked at a height whose disc has that radius. It is nearly the same everywhere,
+// but not quite, since texels are few.
 float most_hidden(Receiver receiver, float radius, Light light) {
   TexelRange texels = kernel_texels(receiver, radius, light);
   float sum = 0.0;
   ivec2 at = texels.low;
   do {
-    Offsets offsets = footprint_offsets(receiver, texel_offset(receiver, at, light), vec2(0.0), light);
-    sum += dot(kernel_weights(vec4(radius), squared_distances(receiver, offsets, light)), vec4(1.0));
+    vec4 squared = squared_distances(receiver, square_offsets(receiver, at, light), light);
+    sum += dot(kernel_weights(vec4(radius), squared), vec4(1.0));
     at = next_square(at, texels);
   } while (at.y <= texels.high.y);
   return sum / kernel_mass(vec4(radius)).x;
@@ -130,7 +140,7 @@ float drawn_share(float seen, float radius) {
 
 struct FilteredTexels {
   Visibility seen;
-  bool fails;  // heights differ
+  bool heights_differ;  // then nothing else is known
 };
 
 // For a receiver that everything which can block its light lies within `radius` metres of. Discs below a texel can't be

@@ -52,7 +52,7 @@ struct ShadowBlock {
   float lamp_range;        // of a lamp: distance to which it shines, metres
   int normals_from_depth;  // 1: the caller brings no normals: they were made from depths
   float vertex_rounding;   // pixels along each axis by which the rasteriser may have moved the receivers' vertices
-  int maps_are_moved;      // 1: by a part of a texel, in this frame alone
+  int maps_are_moved;      // 1: the last frame or sample had them elsewhere within a texel, and a mean is taken
   vec4 lamp;               // xyz: its centre, view space, metres; w: the cosine of its cone's half angle
   // The layer that contains every caster; apart from `layers`, because a load at an index costs more.
   LayerBlock widest;

@@ -120,14 +120,13 @@ DepthRounding map_rounding(const LightWork& work) {
 // Uploads the uniforms of the view and the light.
 // `scale`: pixels of the caller's depths from one receiver to the next.
 void upload_light(const LightWork& work, const char* name, const glm::vec2& last_jitter, int scale = 1) {
-  const LightTraits traits{
-      .noise = noise_read(work.params(), static_cast<int>(work.state.age)),
-      .last_jitter = last_jitter,
-      .depth_error = work.view.depth_error,
-      .vertex_rounding = work.device.vertex_rounding() / static_cast<float>(scale),
-      .made_normals = !work.view.brings_normals,
-      .moved_maps = !work.light.maps && !work.frame.shape.lamp && map_jitter(work) != glm::dvec2(0),
-      .map_rounding = map_rounding(work)};
+  const LightTraits traits{.noise = noise_read(work.params(), static_cast<int>(work.state.age)),
+                           .last_jitter = last_jitter,
+                           .depth_error = work.view.depth_error,
+                           .vertex_rounding = work.device.vertex_rounding() / static_cast<float>(scale),
+                           .made_normals = !work.view.brings_normals,
+                           .moved_maps = moves_maps(work),
+                           .map_rounding = map_rounding(work)};
   work.state.shadow_block = &work.device.scratch(work.prefix() + name, sizeof(glsl::ShadowBlock));
   gl::write_value(*work.state.shadow_block, shadow_block(work.inputs, work.frame, traits));
 }

@@ -16,7 +16,7 @@ struct LightTraits {
   NdcError depth_error;
   float vertex_rounding = 0;        // see ShadowBlock
   bool made_normals = false;        // from depths, since the caller brings none
-  bool moved_maps = false;          // see map_jitter()
+  bool moved_maps = false;          // see moves_maps()
   DepthRounding map_rounding = {};  // by the format of the caller's maps; 0 of Penumbra's own
 };
 

@@ -45,6 +45,13 @@ bool reads_light_discs(const LightWork& work, const std::vector<const Recipe*>& 
          std::ranges::all_of(recipes, &Recipe::reads_light_discs);
 }
 
+// Whether a history averages maps. Surfaces that are drawn forward read the frame's maps without one.
+bool adds_up_maps(const LightWork& work) {
+  const Box& forward = work.inputs.forward_receivers;
+  const bool has_forward = glm::all(glm::lessThanEqual(forward.min, forward.max));
+  return !work.remembered.empty() && !has_forward;
+}
+
 bool is_for(const LightState::DrawnTexels& drawn, const LightWork& work, const ReadBounds& read) {
   const Inputs& inputs = work.inputs;
   return drawn.view == inputs.view.view && drawn.projection == inputs.view.projection &&
@@ -57,15 +64,18 @@ bool is_for(const LightState::DrawnTexels& drawn, const LightWork& work, const R
 
 glm::dvec2 map_jitter(const LightWork& work) {
   if (!work.params().get_bool("maps.jitter")) return glm::dvec2(0);
-  // Surfaces that are drawn forward read the frame's maps without a history.
-  const Box& forward = work.inputs.forward_receivers;
-  const bool has_forward = glm::all(glm::lessThanEqual(forward.min, forward.max));
-  const std::uint64_t moves = work.remembered.empty() || has_forward ? 0 : work.state.rests;
-  const auto number = static_cast<unsigned>(moves);
+  const auto number = static_cast<unsigned>(adds_up_maps(work) ? work.state.rests : 0);
   constexpr double root = 1.32471795724474602596;  // of x³ = x + 1
   const double seed = work.params().get_int("sampling.seed");
   const glm::dvec2 shift = seed * glm::dvec2(1 / root, 1 / (root * root));
   return glm::fract(glm::dvec2(radical_inverse(2, number), radical_inverse(3, number)) + shift);
+}
+
+bool moves_maps(const LightWork& work) {
+  if (work.light.maps || work.frame.shape.lamp || !work.params().get_bool("maps.jitter")) return false;
+  if (adds_up_maps(work)) return work.view.rests && work.state.rests > 0;
+  // Samples of one picture differ by their seeds.
+  return work.remembered.empty() && work.params().get_int("sampling.seed") != 0;
 }
 
 LightProjection projection_of(const LightWork& work, const std::optional<VisibleReceivers>& visible) {

@@ -17,6 +17,9 @@ LightProjection projection_of(const LightWork& work, const std::optional<Visible
 // Halton's points.
 glm::dvec2 map_jitter(const LightWork& work);
 
+// Whether that is another place than in the frame or sample before, so that a mean over these sees more than one map.
+bool moves_maps(const LightWork& work);
+
 // How many layers that has.
 int layer_count(const Light& light, const ParamSet& params);
 

@@ -245,12 +245,9 @@ void add_cells(inout Cover cover, Grid grid, Receiver receiver, float bias, vec2
   } while (++y < grid.cells.y);
 }
 
-// The disc to read, of which `wide` metres can be read without gaps. A caster that is narrower than a texel of the
-// widest layer may be missing from it, and so from light.read_radius.
+// The disc to read, of which `wide` metres can be read without gaps.
 float radius_to_read(Receiver receiver, float wide, Light light) {
-  float radius = light.read_radius;
-  if (radius < wide) radius = max(radius, min(search_radius(receiver, light), wide));
-  return fine_edge_radius(receiver, radius, wide, light);
+  return fine_edge_radius(receiver, radius_with_thin_casters(receiver, wide, light), wide, light);
 }
 
 // Where penumbrae are narrower than a texel: the bilinear shadow of the light's centre, as the mean of four points

@@ -8,11 +8,11 @@ float read_radius(Receiver receiver, Light light) { return fine_search_radius(re
 
 const int ring_count = 32;
 
-// A slice has more samples than a narrower disc has texels.
+// Slices have more samples than a disc of half as many texels as radius has texels.
 float walk_radius(Receiver receiver, Light light) {
-  // The widest layer may lack a thin caster that this one shows, and then its fine bounds are too narrow.
-  float radius = max(search_radius(receiver, light), light.read_radius);
-  return fine_edge_radius(receiver, radius, 0.5 * float(slices_samples) * texel_size(receiver, light), light);
+  float texel = texel_size(receiver, light);
+  float radius = radius_with_thin_casters(receiver, float(max(slices_filter_radius, 4)) * texel, light);
+  return fine_edge_radius(receiver, radius, 0.5 * float(slices_samples) * texel, light);
 }
 
 // A point of the light's rim, -1..1. Equal shares of the argument, 0..1, are sectors of equal area.
@@ -180,7 +180,7 @@ Slice walk(Receiver receiver, float share, int index, int samples, float radius,
 // How many times slices.azimuths slices a pixel in a penumbra gets, whose mean blocker is that high: more where the
 // penumbra is narrow on the screen, since there no filter finds neighbours that it could average.
 int rounds_for(Receiver receiver, float height, Light light) {
-  const int most = clamp(32000 / (slices_azimuths * (slices_samples + 2)), 1, 4);
+  const int most = clamp(20000 / (slices_azimuths * (slices_samples + 2)), 1, 4);
   float width = 2.0 * penumbra_radius(receiver, height, light) / pixel_width(view_position_of(receiver));
   return min(1 + int(float(slices_narrow) / max(width, 0.01)), most);
 }
@@ -194,9 +194,11 @@ Visibility visibility(Receiver receiver, Light light) {
   // Where no penumbra is near, a pixel is what it is in decided tiles.
   bool decided = centre.visibility == 0.0 || centre.visibility == 1.0;
   if (radius < 0.5 * texel && (decided || slices_filter_radius == 0)) return centre;
-  if (radius < float(slices_filter_radius) * texel) {
+  // A caster that only the second layer shows may be at another height.
+  float most_filtered = maps_layers == 1 ? float(slices_filter_radius) : min(float(slices_filter_radius), 1.0);
+  if (radius < most_filtered * texel) {
     FilteredTexels filtered = filter_texels(receiver, radius, bias, light);
-    if (!filtered.fails) return filtered.seen;
+    if (!filtered.heights_differ) return filtered.seen;
   }
   Counts counts = counts_for(receiver, radius, light);
   PixelNoise noise = noise_of(receiver);

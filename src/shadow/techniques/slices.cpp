@@ -14,7 +14,8 @@ Technique slices() {
       .needs = {"shadow_map", "least_depth_pyramid", "second_layer"},
       .params =
           {
-              // Mesa's software rasteriser ends loops after 65,535 iterations in total, and a seam draws two layers.
+              // Mesa's software rasteriser ends loops after 65,535 iterations in total, and seams draw up to three
+              // layers.
               {"slices.azimuths", 8, 1, 128, "slices",
                "Directions in which a pixel's light is followed: about half as many again under a narrow light, with "
                "one layer.",
@@ -28,7 +29,8 @@ Technique slices() {
                compiled},
               {"slices.filter_radius", 8, 0, 16, "texels",
                "Where everything that can block the light lies within so many texels, and at nearly one height, all of "
-               "these texels are filtered, without slices and without noise. 0: nowhere.",
+               "these texels are filtered, without slices and without noise. With two layers only below a texel. 0: "
+               "nowhere.",
                compiled},
           },
       .decides_tiles = true,
