@@ -159,12 +159,22 @@ TEST_F(ShadowMatrices, DepthsOf16BitsLeaveLitSurfacesLit) {
   for (const char* technique : {"hard", "pcss", "slices"}) {
     const Shadowed fine = draw_with(matrices, technique);
     const Shadowed coarse = draw_with(matrices, technique, {}, GL_DEPTH_COMPONENT16);
+    // Filtered texels of slices reach a little beyond a shadow's rim, in one map farther than in the other.
+    const int beside = technique == std::string("slices") ? 1 : 0;
+    const auto is_lit = [&](int x, int y) {
+      bool all = true;
+      for (int row = std::max(y - beside, 0); row <= std::min(y + beside, fine.height - 1); ++row) {
+        for (int column = std::max(x - beside, 0); column <= std::min(x + beside, fine.width - 1); ++column)
+          all = all && (fine.sky(column, row) || fine.visibility(column, row) == 1);
+      }
+      return all;
+    };
     int lit = 0, darker = 0, dark = 0, still_dark = 0;
     for (int y = 0; y < fine.height; ++y) {
       for (int x = 0; x < fine.width; ++x) {
         if (fine.sky(x, y)) continue;
-        lit += fine.visibility(x, y) == 1 ? 1 : 0;
-        darker += fine.visibility(x, y) == 1 && coarse.visibility(x, y) < 1 ? 1 : 0;
+        lit += is_lit(x, y) ? 1 : 0;
+        darker += is_lit(x, y) && coarse.visibility(x, y) < 1 ? 1 : 0;
         dark += fine.visibility(x, y) == 0 ? 1 : 0;
         still_dark += fine.visibility(x, y) == 0 && coarse.visibility(x, y) == 0 ? 1 : 0;
       }
