@@ -143,8 +143,8 @@ struct FilteredTexels {
   bool heights_differ;  // then nothing else is known
 };
 
-// For a receiver that everything which can block its light lies within `radius` metres of. Discs below a texel can't be
-// told apart, so there it never fails.
+// `radius`, metres: everything that can block the receiver's light lies within it. Below a texel heights are not
+// compared, since the map can't tell such discs apart.
 FilteredTexels filter_texels(Receiver receiver, float radius, float bias, Light light) {
   float texel = texel_size(receiver, light);
   bool one_height = radius >= texel;

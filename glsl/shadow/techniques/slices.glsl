@@ -8,7 +8,7 @@ float read_radius(Receiver receiver, Light light) { return fine_search_radius(re
 
 const int ring_count = 32;
 
-// Slices have more samples than a disc of half as many texels as radius has texels.
+// The radius of the disc that is read, metres. Below half a texel a sample it is narrow enough.
 float walk_radius(Receiver receiver, Light light) {
   float texel = texel_size(receiver, light);
   float radius = radius_with_thin_casters(receiver, float(max(slices_filter_radius, 4)) * texel, light);
@@ -191,7 +191,7 @@ Visibility visibility(Receiver receiver, Light light) {
   Visibility centre = centre_shadow(receiver, bias, light);
   float radius = walk_radius(receiver, reading_centre(centre, light));
   float texel = texel_size(receiver, light);
-  // Where no penumbra is near, a pixel is what it is in decided tiles.
+  // Where the penumbra is so narrow and the four texels agree, a pixel is what it is in decided tiles.
   bool decided = centre.visibility == 0.0 || centre.visibility == 1.0;
   if (radius < 0.5 * texel && (decided || slices_filter_radius == 0)) return centre;
   // A caster that only the second layer shows may be at another height.
