@@ -45,5 +45,5 @@ Visibility visibility(Receiver receiver, Light light) {
     } while (++i < fetch_floor_filter_taps);
   }
 #endif
-  return Visibility(dot(sum, vec4(1e-3)), radius, 0.0, false);
+  return Visibility(dot(sum, vec4(1e-3)), radius, 0.0, false, false);
 }

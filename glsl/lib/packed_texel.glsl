@@ -1,5 +1,6 @@
-// A pixel's shadow in 32 bits (Deligiannis 2019, section 3.3): bits 0 to 15 mean blocker distance, half precision, 0
-// for none; 16 to 30 visibility; 31 history invalid. For integer textures: float ones may change bit patterns.
+// A pixel's shadow in 32 bits (Deligiannis 2019, section 3.3): bits 0 to 14 mean blocker distance, half precision, 0
+// for none; 15 set if it has no noise, so that filters of visibility keep it; 16 to 30 visibility; 31 history invalid.
+// For integer textures: float ones may change bit patterns.
 #ifndef PENUMBRA_PACKED_TEXEL_GLSL
 #define PENUMBRA_PACKED_TEXEL_GLSL
 
@@ -25,12 +26,16 @@ GLSL_FUNCTION uint pack_texel(float distance_to, float visibility, bool invalid)
   return half_bits(distance_to) | (uint(v * 32767.0f + 0.5f) << 16) | (invalid ? 0x80000000u : 0u);
 }
 
-GLSL_FUNCTION float texel_distance(uint texel) { return half_value(texel & 0xffffu); }
+const uint distance_bits = 0x7fffu;
+const uint noise_free_bit = 0x8000u;
+
+GLSL_FUNCTION float texel_distance(uint texel) { return half_value(texel & distance_bits); }
 GLSL_FUNCTION float texel_visibility(uint texel) { return float((texel >> 16) & 0x7fffu) / 32767.0f; }
+GLSL_FUNCTION bool texel_noise_free(uint texel) { return (texel & noise_free_bit) != 0u; }
 GLSL_FUNCTION bool texel_invalid(uint texel) { return (texel & 0x80000000u) != 0u; }
 
-// With history.mean a texel that was blended with its history also holds how many frames it averages, in bits 15 and 0
-// to 3. Its distance then has bits 4 to 14 alone: see blended_distance().
+// With history.mean a texel that was blended with its history instead holds how many frames it averages, in bits 15 and
+// 0 to 3. Its distance then has bits 4 to 14 alone: see blended_distance().
 const uint most_frames = 31u;
 
 GLSL_FUNCTION uint with_frames(uint texel, uint frames) {

@@ -96,7 +96,7 @@ float filtered_share(Receiver receiver, float radius, FilterPoints points, float
 Visibility filtered(Receiver receiver, float mean, FilterPoints points, float bias, Light light) {
   float radius = penumbra_radius(receiver, mean, light);
   return Visibility(filtered_share(receiver, radius, points, bias, light), radius, mean,
-                    radius < texel_size(receiver, light));
+                    radius < texel_size(receiver, light), false);
 }
 
 // Both steps with the given numbers of taps, and with another number where the history is rejected. With early exit,

@@ -8,9 +8,15 @@ struct Visibility {
   float penumbra_radius;   // metres; 0 where there is no blocker
   float blocker_distance;  // mean, along the light, metres; 0 where there is no blocker
   bool under_texel;        // the kernel is smaller than a texel of the map
+  bool noise_free;         // filters leave it as it is
 };
 
-Visibility fully_lit() { return Visibility(1.0, 0.0, 0.0, false); }
+Visibility fully_lit() { return Visibility(1.0, 0.0, 0.0, false, false); }
+
+Visibility without_noise(Visibility seen) {
+  seen.noise_free = true;
+  return seen;
+}
 
 // The half width, metres, of the square that stands for the light's shape of that radius: that of a disc has the same
 // variance.

@@ -103,5 +103,5 @@ vec4 filtered_texel(sampler2DArray map, FilteredPlace place, int slice, int slic
 
 // What a technique returns that filters with a kernel of constant radius.
 Visibility of_constant_kernel(float lit, float radius, Receiver receiver, Light light) {
-  return Visibility(lit, lit < 1.0 ? radius : 0.0, 0.0, radius < texel_size(receiver, light));
+  return Visibility(lit, lit < 1.0 ? radius : 0.0, 0.0, radius < texel_size(receiver, light), false);
 }

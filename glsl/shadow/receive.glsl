@@ -22,7 +22,7 @@ Light light_for_layer(Receiver seen, Light light, int layer) {
 }
 
 Shadowed shadow_of(Receiver receiver, Light light) {
-  if (!faces_light(receiver)) return Shadowed(Visibility(0.0, 0.0, 0.0, false), 0, false);
+  if (!faces_light(receiver)) return Shadowed(Visibility(0.0, 0.0, 0.0, false, false), 0, false);
 #if CHOOSES_LAYER
   LayerChoice choice = choose_layer(receiver, light.read_radius, light);
   if (choice.outside) return Shadowed(fully_lit(), choice.layer, false);
@@ -34,7 +34,7 @@ Shadowed shadow_of(Receiver receiver, Light light) {
     first = noise < fades.x ? choice.others.x : noise < fades.x + fades.y ? choice.others.y : first;
     fades = vec2(0.0);
   }
-  Visibility mixed = Visibility(0.0, 0.0, 0.0, false);
+  Visibility mixed = Visibility(0.0, 0.0, 0.0, false, true);
   int readings = fades.y > 0.0 ? 3 : fades.x > 0.0 ? 2 : 1;
   int i = 0;
   do {
@@ -47,6 +47,7 @@ Shadowed shadow_of(Receiver receiver, Light light) {
     mixed.penumbra_radius += weight * one.penumbra_radius;
     mixed.blocker_distance += weight * metres_to_blocker(seen, one.blocker_distance);
     mixed.under_texel = mixed.under_texel || one.under_texel;
+    mixed.noise_free = mixed.noise_free && one.noise_free;
   } while (++i < readings);
   return Shadowed(mixed, first, is_narrow(receiver, mixed.penumbra_radius > 0.0 ? mixed.penumbra_radius : reach));
 #else

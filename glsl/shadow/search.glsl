@@ -131,7 +131,7 @@ Visibility centre_shadow(Receiver receiver, float bias, Light light) {
   float height_sum = bilinear(blocks * (receiver.position.z - footprint.depths), footprint.weight);
   float mean = max(height_sum / covered, 0.0);
   float penumbra = penumbra_radius(receiver, mean, light);
-  return Visibility(1.0 - covered, penumbra, mean, penumbra < texel_size(receiver, light));
+  return Visibility(1.0 - covered, penumbra, mean, penumbra < texel_size(receiver, light), false);
 }
 
 // The light with a read radius that also holds what covers a receiver's centre. A caster that is narrower than a texel

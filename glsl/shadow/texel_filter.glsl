@@ -150,7 +150,7 @@ FilteredTexels filter_texels(Receiver receiver, float radius, float bias, Light 
   bool one_height = radius >= texel;
   HiddenLight hidden = hidden_light(receiver, radius / texel, one_height, bias, light);
   if (one_height && heights_differ(hidden)) return FilteredTexels(fully_lit(), true);
-  if (hidden.share == 0.0) return FilteredTexels(fully_lit(), false);
+  if (hidden.share == 0.0) return FilteredTexels(without_noise(fully_lit()), false);
   float mean = max(hidden.height_sum / hidden.share, 0.0);
   float penumbra = penumbra_radius(receiver, mean, light);
   float lit = 0.0;
@@ -158,5 +158,5 @@ FilteredTexels filter_texels(Receiver receiver, float radius, float bias, Light 
     float drawn = min(penumbra, radius) / texel;
     lit = drawn_share(max(1.0 - hidden.share / most_hidden(receiver, drawn, light), 0.0), drawn);
   }
-  return FilteredTexels(Visibility(lit, penumbra, mean, penumbra < texel), false);
+  return FilteredTexels(Visibility(lit, penumbra, mean, penumbra < texel, true), false);
 }

@@ -157,7 +157,7 @@ class Compare(TestCase):
         shader.parent.mkdir(parents=True)
         shader.write_text("""#include "shadow/light.glsl"
 float read_radius(Receiver receiver, Light light) { return 0.0; }
-Visibility visibility(Receiver receiver, Light light) { return Visibility(uintBitsToFloat(0x7fc00000u), 0.0, 0.0, true); }
+Visibility visibility(Receiver receiver, Light light) { return Visibility(uintBitsToFloat(0x7fc00000u), 0.0, 0.0, true, false); }
 """)
         arguments = ("--reference", "brute_force", "--technique", "none,hard", "--glsl", self.folder / "glsl", "--no-cost")
         counts = []

@@ -150,7 +150,7 @@ class ReproduceCounts(TestCase):
         shader.parent.mkdir(parents=True)
         shader.write_text("""#include "shadow/light.glsl"
 float read_radius(Receiver receiver, Light light) { return 0.0; }
-Visibility visibility(Receiver receiver, Light light) { return Visibility(uintBitsToFloat(0x7fc00000u), 0.0, 0.0, true); }
+Visibility visibility(Receiver receiver, Light light) { return Visibility(uintBitsToFloat(0x7fc00000u), 0.0, 0.0, true, false); }
 """)
         result = self.succeed("reproduce", "-o", self.folder / "report", "--quick", "--quiet", "--no-cache", "--size", "32x18",
                               "--glsl", self.folder / "glsl", cwd=ROOT)

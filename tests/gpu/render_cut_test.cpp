@@ -10,7 +10,7 @@ namespace {
 constexpr const char* technique_text = R"(
 #include "shadow/light.glsl"
 float read_radius(Receiver receiver, Light light) { return 0.0; }
-Visibility visibility(Receiver receiver, Light light) { return Visibility(1.0, 0.0, 0.0, false); }
+Visibility visibility(Receiver receiver, Light light) { return Visibility(1.0, 0.0, 0.0, false, false); }
 )";
 
 // Counts the frames in a row that have had a history at this pixel.

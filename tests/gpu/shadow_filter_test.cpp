@@ -35,7 +35,7 @@ Visibility visibility(Receiver receiver, Light light) {
   bool marked = is_marked(receiver);
   float distance_to = marked ? pattern_marked_distance : pattern_distance;
   return Visibility(marked ? pattern_marked_visibility : pattern_visibility, penumbra_radius(receiver, distance_to, light),
-                    distance_to, false);
+                    distance_to, false, marked && pattern_marked_noise == 0.0);
 }
 )";
 
@@ -60,7 +60,8 @@ shadow::Technique pattern() {
                      number("pattern.visibility", 0),
                      number("pattern.marked_visibility", 1),
                      number("pattern.distance", 4),
-                     number("pattern.marked_distance", 4)}};
+                     number("pattern.marked_distance", 4),
+                     number("pattern.marked_noise", 1)}};
 }
 
 // A filter that a program adds is one value and one GLSL file.
@@ -184,6 +185,29 @@ TriangleScene slab_over_floor() {
   return scene;
 }
 constexpr float between = 4;  // metres below the camera: slab 3, floor 5
+
+TEST_F(ShadowFilter, PixelsWithoutNoiseAreKept) {
+  const TriangleScene scene = ground(64, 89.9f, true);
+  for (const std::string& driver : drivers) {
+    params.set("driver", driver);
+    for (const std::string filter :
+         {"median_visibility", "box", "gaussian", "bilateral", "bilateral_separable", "isophote"}) {
+      params.set("pattern.marked_noise", 0.0f);
+      const Shadowed kept = draw(scene, "dots", filter);
+      params.set("pattern.marked_noise", 1.0f);
+      const Shadowed filtered = draw(scene, "dots", filter);
+      for (int y = 2; y < 64; y += 5) {
+        for (int x = 2; x < 64; x += 5) {
+          ASSERT_EQ(kept.visibility(x, y), 1) << filter << " in " << driver << " at " << x << " " << y;
+          ASSERT_LT(filtered.visibility(x, y), 0.9) << filter << " in " << driver << " at " << x << " " << y;
+        }
+      }
+      // Pixels beside them take part in their light all the same.
+      if (filter == "median_visibility") continue;
+      EXPECT_GT(kept.visibility(33, 32), 0) << filter << " in " << driver;
+    }
+  }
+}
 
 TEST_F(ShadowFilter, NothingBleedsAcrossADepthEdge) {
   params.set("pattern.depth", between);

@@ -19,7 +19,7 @@ layout(binding = UNIT_level) uniform sampler2DArray levels;
 float read_radius(Receiver receiver, Light light) { return 0.0; }
 
 Visibility visibility(Receiver receiver, Light light) {
-  return Visibility(counted_scale * texelFetch(levels, ivec3(0), 0).x, 0.0, 0.0, false);
+  return Visibility(counted_scale * texelFetch(levels, ivec3(0), 0).x, 0.0, 0.0, false, false);
 }
 )";
 

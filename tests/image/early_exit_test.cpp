@@ -40,7 +40,7 @@ Receiver noted(Receiver receiver) {
 #undef with_surroundings
 Visibility visibility(Receiver receiver, Light light) {
   pcss_visibility(receiver, light);
-  return Visibility(did_steps ? 0.0 : 1.0, 0.0, 0.0, false);
+  return Visibility(did_steps ? 0.0 : 1.0, 0.0, 0.0, false, false);
 }
 )";
 

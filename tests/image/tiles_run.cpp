@@ -17,7 +17,7 @@ namespace {
 constexpr const char* marks_text = R"(
 #include "shadow/search.glsl"
 float read_radius(Receiver receiver, Light light) { return search_radius(receiver, light); }
-Visibility visibility(Receiver receiver, Light light) { return Visibility(0.5, 0.0, 0.0, false); }
+Visibility visibility(Receiver receiver, Light light) { return Visibility(0.5, 0.0, 0.0, false, false); }
 )";
 
 shadow::Registry registry_of_marks() {

@@ -283,17 +283,22 @@ TEST_F(Tiles, AreFilteredOnlyWhereTheyCanChange) {
   run.device().shaders.files().put("shadow/filters/isophote.glsl",
                                    "#include \"shadow/drivers/filter.glsl\"\n"
                                    "uint filtered(ivec2 pixel) { return with_visibility(texel_at(pixel), 0.5); }\n");
-  const auto share_filtered = [&](float angle) {
+  const auto share_filtered = [&](float angle, int filter_radius) {
     run.choose("slices_denoised");
     run.params().set("sun.angle", angle);
+    run.params().set("slices.filter_radius", filter_radius);
     const Visibility picture = run.draw();
     const auto near_half = [](float visibility) { return std::abs(visibility - 0.5f) < 1e-3f; };
     return static_cast<double>(std::ranges::count_if(picture, near_half)) / static_cast<double>(picture.size());
   };
-  const double real_sun = share_filtered(0.53f), wide_sun = share_filtered(8.0f);
+  const double real_sun = share_filtered(0.53f, 0), wide_sun = share_filtered(8.0f, 0);
   EXPECT_GT(real_sun, 0.01);
   EXPECT_LT(real_sun, 0.1);
   EXPECT_GT(wide_sun, 2 * real_sun);
+  // Filtered texels have no noise.
+  const double of_few_texels = share_filtered(0.53f, 8);
+  EXPECT_GT(of_few_texels, 0);
+  EXPECT_LT(of_few_texels, 0.7 * real_sun);
 }
 
 // Masks of visibility alone fill decided tiles in a shorter way.

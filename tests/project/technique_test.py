@@ -32,7 +32,7 @@ float read_radius(Receiver receiver, Light light) { return 0.0; }
 Visibility visibility(Receiver receiver, Light light) {
   ivec2 square = ivec2(receiver.pixel) / checker_side;
   float lit = ((square.x + square.y) & 1) == 1 ? 1.0 : texelFetch(dark, ivec2(0), 0).x;
-  return Visibility(lit, 0.0, 0.0, false);
+  return Visibility(lit, 0.0, 0.0, false, false);
 }
 """
 

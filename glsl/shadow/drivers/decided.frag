@@ -29,7 +29,7 @@ Shadowed decided_shadow(Decision decision, ivec2 pixel, Receiver receiver) {
   float radius = packed_radius(receiver.position, decision.blocker_distance);
   Light light = with_layer(light_at(receiver), layer);
   bool under_texel = decision.blocker_distance > 0.0 && radius < texel_size(receiver, light);
-  return Shadowed(Visibility(0.0, radius, decision.blocker_distance, under_texel), layer, narrow);
+  return Shadowed(Visibility(0.0, radius, decision.blocker_distance, under_texel, false), layer, narrow);
 }
 
 void main() {

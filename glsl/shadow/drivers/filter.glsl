@@ -54,9 +54,6 @@ float plane_distance(Surface surface, ivec2 offset, float depth) {
   return dot(surface.above, from_receiver) / (surface.own_inverse_w + dot(surface.inverse_w, from_receiver));
 }
 
-// Whether texels hold how many frames they average.
-bool counts_frames() { return history_reuse != 0 && history_mean != 0; }
-
 // Mean blocker distance, metres, of a texel that was blended with its history if there is one.
 float blended_distance(uint texel) { return counts_frames() ? half_value(texel & 0x7ff0u) : texel_distance(texel); }
 
@@ -66,19 +63,21 @@ float narrowing(uint texel) {
   return counts_frames() ? inversesqrt(float(max(texel_frames(texel), 1u))) : 1.0;
 }
 
-// Mean blocker distance from which a pixel's kernel size is computed, metres; 0: the pixel is not filtered. A pixel
-// that found no blocker may still lie in a penumbra, since few taps often miss a blocker that covers little of the
-// light; then the neighbours that found one decide.
+// Mean blocker distance from which a kernel size is computed, metres, of a texel; 0: it has none, or no noise.
+float noisy_distance(uint texel) { return is_noise_free(texel) ? 0.0 : blended_distance(texel); }
+
+// The same of a pixel; 0: the pixel is not filtered. A pixel that found no blocker may still lie in a penumbra, since
+// few taps often miss a blocker that covers little of the light; then the neighbours that found one decide.
 float kernel_distance(ivec2 pixel, uint texel) {
-  float own = blended_distance(texel);
+  float own = noisy_distance(texel);
   float sum = own;
   float found = own > 0.0 ? 1.0 : 0.0;
   // Not a constant, so that compilers do not unroll the loop: unrolled, its reads would cost time even where it is
   // skipped.
   ivec2 move = ivec2(1, 2);
-  int count = own > 0.0 || is_sky_depth(stored_depth_at(pixel)) ? 0 : 8;
+  int count = own > 0.0 || is_noise_free(texel) || is_sky_depth(stored_depth_at(pixel)) ? 0 : 8;
   for (int i = 0; i < count; ++i) {
-    float of_neighbour = blended_distance(texel_at(clamp(pixel + move, lowest_pixel(), highest_pixel())));
+    float of_neighbour = noisy_distance(texel_at(clamp(pixel + move, lowest_pixel(), highest_pixel())));
     sum += of_neighbour;
     found += of_neighbour > 0.0 ? 1.0 : 0.0;
     move = i == 3 ? ivec2(2, 1) : ivec2(-move.y, move.x);

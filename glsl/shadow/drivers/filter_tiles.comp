@@ -16,8 +16,8 @@ layout(binding = 14) uniform usampler2D decisions;
 uniform int has_decisions;
 
 struct Blocked {
-  // Bits as in Decision::lit: pixels that have a blocker distance, of decided tiles also those that face away or lie
-  // beyond the viewport.
+  // Bits as in Decision::lit: pixels that have a blocker distance, for filters of visibility only those with noise, and
+  // of decided tiles also those that face away or lie beyond the viewport.
   uvec2 pixels;
   uint farthest;  // the greatest distance, as in a packed texel
 };
@@ -38,10 +38,11 @@ Blocked blocked_in(ivec2 tile) {
   Blocked found = Blocked(uvec2(0u), 0u);
   ivec2 at = ivec2(0);
   do {
-    uint distance_bits = texelFetch(texels, lowest_pixel_of(tile) + at, 0).x & 0xffffu;
+    uint texel = texelFetch(texels, lowest_pixel_of(tile) + at, 0).x;
+    uint distance_to = KEEPS_NARROW != 0 && is_noise_free(texel) ? 0u : texel & distance_bits;
     int bit = tile_size * at.y + at.x;
-    found.pixels[bit >> 5] |= uint(distance_bits != 0u) << (bit & 31);
-    found.farthest = max(found.farthest, distance_bits);
+    found.pixels[bit >> 5] |= uint(distance_to != 0u) << (bit & 31);
+    found.farthest = max(found.farthest, distance_to);
     at = next_in_rows(at, 0, size.x - 1, 1);
   } while (at.y < size.y);
   return found;

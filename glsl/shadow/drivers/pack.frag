@@ -12,7 +12,7 @@ PackedPixel pack_pixel(ivec2 pixel) {
   if (is_sky(pixel)) return PackedPixel(pack_texel(0.0, 1.0, true), pack_notes(0, false, false, HISTORY_NONE));
   Receiver receiver = receiver_at(pixel);
   vec4 mask = texelFetch(resolved_mask, ivec3(pixel, mask_layer), 0);
-  Visibility seen = Visibility(mask.x, mask.y, mask.z, fract(mask.w) >= 0.5);
+  Visibility seen = Visibility(mask.x, mask.y, mask.z, fract(mask.w) >= 0.5, false);
   uint refusal = HISTORY_NONE;
 #if HISTORY
   // How far such a technique reads is not known; its penumbrae are no wider than what casts them.

@@ -18,7 +18,8 @@ PackedPixel packed_pixel(Shadowed shadowed, Receiver receiver, uint refusal) {
   bool from_radius = !is_light_narrow() || seen.blocker_distance <= 0.0;
   float distance_to =
       from_radius ? packed_distance(receiver.position, seen.penumbra_radius) : seen.blocker_distance;
-  return PackedPixel(pack_texel(distance_to, seen.visibility, refusal != HISTORY_KEPT),
+  uint texel = pack_texel(distance_to, seen.visibility, refusal != HISTORY_KEPT);
+  return PackedPixel(seen.noise_free ? texel | noise_free_bit : texel,
                      pack_notes(shadowed.layer, seen.under_texel, shadowed.narrow, refusal));
 }
 

@@ -3,12 +3,14 @@
 // of a penumbra have no distance. Such pixels take part with distance 0. But if most of the nine found no blocker and
 // the pixel itself did, it keeps its own distance: it is darkened, and without a kernel it would remain a dark dot.
 // Non-negative half floats are compared by their bits, which are in the same order.
-uint value_of(uint texel) { return texel & 0xffffu; }
+#include "lib/packed_texel.glsl"
+
+uint value_of(uint texel) { return texel & distance_bits; }
 #include "shadow/drivers/median_around.glsl"
 
 uint filtered(ivec2 pixel) {
   uint texel = texel_at(pixel);
   if (is_sky_depth(stored_depth_at(pixel))) return texel;
   uint own = value_of(texel), median = median_around(pixel);
-  return (texel & 0xffff0000u) | (median == 0u ? own : median);
+  return (texel & ~distance_bits) | (median == 0u ? own : median);
 }

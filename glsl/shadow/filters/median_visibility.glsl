@@ -5,6 +5,6 @@ uint value_of(uint texel) { return (texel >> 16) & 0x7fffu; }
 
 uint filtered(ivec2 pixel) {
   uint texel = texel_at(pixel);
-  if (is_sky_depth(stored_depth_at(pixel))) return texel;
+  if (is_sky_depth(stored_depth_at(pixel)) || is_noise_free(texel)) return texel;
   return (texel & 0x8000ffffu) | (median_around(pixel) << 16);
 }

@@ -284,5 +284,5 @@ Visibility visibility(Receiver receiver, Light light) {
   if (hidden == 0) return fully_lit();
   float mean = max(cover.height_sum / cover.blockers, 0.0);
   float penumbra = penumbra_radius(receiver, mean, light);
-  return Visibility(1.0 - float(hidden) / float(points), penumbra, mean, penumbra < texel_size(receiver, light));
+  return Visibility(1.0 - float(hidden) / float(points), penumbra, mean, penumbra < texel_size(receiver, light), false);
 }

@@ -67,7 +67,7 @@ Visibility visibility(Receiver receiver, Light light) {
   float mean = max(sum / count, 0.0);
   float radius = penumbra_radius(receiver, mean, light);
   if (radius < texel_size(receiver, light)) {
-    return Visibility(lit_share(receiver, vec2(0.0), bias, light), radius, mean, true);
+    return Visibility(lit_share(receiver, vec2(0.0), bias, light), radius, mean, true, false);
   }
   region = texels_within(receiver, radius, light);
   float lit = 0.0, all = 0.0;
@@ -80,7 +80,7 @@ Visibility visibility(Receiver receiver, Light light) {
     }
     at = next_texel(at, region);
   } while (at.y <= region.high.y);
-  return Visibility(lit / max(all, 1.0), radius, mean, false);
+  return Visibility(lit / max(all, 1.0), radius, mean, false, false);
 }
 
 #else

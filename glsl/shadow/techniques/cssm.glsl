@@ -75,5 +75,5 @@ Visibility visibility(Receiver receiver, Light light) {
   float radius = penumbra_radius(receiver, mean, light);
   Square kernel = square_around(receiver, square_half(radius, light), light);
   float lit = 1.0 - blocked_share(kernel, depth, light);
-  return Visibility(lit, radius, mean, radius < texel_size(receiver, light));
+  return Visibility(lit, radius, mean, radius < texel_size(receiver, light), false);
 }

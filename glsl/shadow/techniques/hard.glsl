@@ -9,5 +9,5 @@ Visibility visibility(Receiver receiver, Light light) {
   if (lit < 1.0) {
     lit = lit_share(with_surroundings(receiver, bias, max_plane_slope, light), vec2(0.0), bias, light);
   }
-  return Visibility(lit, 0.0, 0.0, true);
+  return Visibility(lit, 0.0, 0.0, true, false);
 }

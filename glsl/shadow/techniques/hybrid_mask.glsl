@@ -16,7 +16,7 @@ void store_decided(ivec2 pixel, bool is_lit, float blocker_distance, Light light
     vec3 position = light_position(view_position_at(pixel));
     float radius = packed_radius(position, blocker_distance);
     bool under_texel = blocker_distance > 0.0 && radius < texel_size_at(position, light);
-    seen = Visibility(0.0, radius, blocker_distance, under_texel);
+    seen = Visibility(0.0, radius, blocker_distance, under_texel, false);
   }
   store(pixel, seen, light.layer);
 }

@@ -12,5 +12,5 @@ void main() {
   ivec2 pixel = ivec2(left.pixels[index].at & 0xffffu, left.pixels[index].at >> 16);
   vec2 result = unpackHalf2x16(results[index]);
   float radius = packed_radius(light_position(view_position_at(pixel)), result.y);
-  store(pixel, Visibility(result.x, radius, result.y, false), 0);
+  store(pixel, Visibility(result.x, radius, result.y, false, false), 0);
 }

@@ -13,5 +13,5 @@ Visibility visibility(Receiver receiver, Light light) {
     lit += lit_share(receiver, pcf_radius * filter_point(i, scramble, light), bias, light);
   } while (++i < pcf_filter_taps);
   lit /= float(pcf_filter_taps);
-  return Visibility(lit, lit < 1.0 ? pcf_radius : 0.0, 0.0, pcf_radius < texel_size(receiver, light));
+  return Visibility(lit, lit < 1.0 ? pcf_radius : 0.0, 0.0, pcf_radius < texel_size(receiver, light), false);
 }

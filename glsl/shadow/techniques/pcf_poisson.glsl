@@ -15,5 +15,6 @@ Visibility visibility(Receiver receiver, Light light) {
     lit += compared_share(compared_depth, receiver, offset, bias, light);
   } while (++i < pcf_poisson_taps);
   lit /= float(pcf_poisson_taps);
-  return Visibility(lit, lit < 1.0 ? pcf_poisson_radius : 0.0, 0.0, pcf_poisson_radius < texel_size(receiver, light));
+  bool under_texel = pcf_poisson_radius < texel_size(receiver, light);
+  return Visibility(lit, lit < 1.0 ? pcf_poisson_radius : 0.0, 0.0, under_texel, false);
 }

@@ -45,5 +45,5 @@ Visibility visibility(Receiver receiver, Light light) {
   if (blocked == 0.0) return fully_lit();
   receiver = with_surroundings(receiver, bias, max_plane_slope, light);
   float lit = max(1.0 - blocked_share(receiver, bias, light), 0.0);
-  return Visibility(lit, lit < 1.0 ? tent_radius * texel_size(receiver, light) : 0.0, 0.0, false);
+  return Visibility(lit, lit < 1.0 ? tent_radius * texel_size(receiver, light) : 0.0, 0.0, false, false);
 }

@@ -164,5 +164,5 @@ vec4 soft_pixel(ivec2 pixel) {
   float radius = penumbra_radius(surface.receiver, distance_to, light);
   float visible = hard.y > 0.0 && radius > 0.0 ? softened(surface, hard.x, radius, light) : hard.x;
   bool under_texel = distance_to > 0.0 && radius < texel_size(surface.receiver, light);
-  return mask_texel(Shadowed(Visibility(visible, radius, distance_to, under_texel), light.layer, false));
+  return mask_texel(Shadowed(Visibility(visible, radius, distance_to, under_texel, false), light.layer, false));
 }

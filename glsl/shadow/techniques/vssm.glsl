@@ -154,5 +154,5 @@ Visibility visibility(Receiver receiver, Light light) {
   float mean = clamp(found.height_sum / max(found.hidden, 1e-6), 0.0, receiver.position.z - search.nearest);
   float penumbra = penumbra_radius(receiver, mean, light);
   float hidden = dark ? 1.0 : min(kernel_share(receiver, penumbra, filter_step, bias, light).hidden, 1.0);
-  return Visibility(1.0 - hidden, penumbra, mean, penumbra < texel);
+  return Visibility(1.0 - hidden, penumbra, mean, penumbra < texel, false);
 }
