@@ -34,8 +34,8 @@ GLSL_FUNCTION float texel_visibility(uint texel) { return float((texel >> 16) & 
 GLSL_FUNCTION bool texel_noise_free(uint texel) { return (texel & noise_free_bit) != 0u; }
 GLSL_FUNCTION bool texel_invalid(uint texel) { return (texel & 0x80000000u) != 0u; }
 
-// With history.mean a texel that was blended with its history instead holds how many frames it averages, in bits 15 and
-// 0 to 3. Its distance then has bits 4 to 14 alone: see blended_distance().
+// With history.mean each texel holds, after the blend, how many frames it averages instead, in bits 15 and 0 to 3. Its
+// distance then has bits 4 to 14 alone: see blended_distance().
 const uint most_frames = 31u;
 
 GLSL_FUNCTION uint with_frames(uint texel, uint frames) {

@@ -29,12 +29,13 @@ Shadowed shadow_of(Receiver receiver, Light light) {
   float reach = light.read_radius;
   int first = choice.layer;
   vec2 fades = choice.fades;
+  bool dithers = cascades_seam == cascades_seam_dither && fades.x > 0.0;
   if (cascades_seam == cascades_seam_dither) {
     float noise = white_noise(uvec2(receiver.pixel), 977u).x;
     first = noise < fades.x ? choice.others.x : noise < fades.x + fades.y ? choice.others.y : first;
     fades = vec2(0.0);
   }
-  Visibility mixed = Visibility(0.0, 0.0, 0.0, false, true);
+  Visibility mixed = Visibility(0.0, 0.0, 0.0, false, !dithers);
   int readings = fades.y > 0.0 ? 3 : fades.x > 0.0 ? 2 : 1;
   int i = 0;
   do {

@@ -16,7 +16,9 @@ struct Filter {
   enum class Keeps {
     nothing,
     unblocked,  // those with no blocker distance within 2 pixels
-    narrow      // and those whose kernel is narrower than least_sigma of glsl/shadow/drivers/kernel.glsl
+    // And those whose kernel is narrower than least_sigma of glsl/shadow/drivers/kernel.glsl or that have no noise, as
+    // is_noise_free() there says: those to which kernel_distance() of filter.glsl gives 0.
+    narrow
   };
 
   std::string name;

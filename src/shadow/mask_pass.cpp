@@ -91,7 +91,7 @@ void fill_decided(const LightWork& work, const MaskOutput& output, const Tiles& 
   Programs::MaskForm form = form_of(work, output);
   const gl::Texture& mask = output.packed != nullptr ? work.mask : *output.mask;
   form.details = mask.desc().format != GL_R16F || (form.packed && work.frame.shape.lamp);
-  use(pass, work, work.programs.decided(form), output);
+  use(pass, work, work.programs.decided(form), output).set("noise_free", work.technique.tells_noise ? 1 : 0);
   work.device.sampler({}).bind(unit_decisions);
   tiles.decisions.bind(unit_decisions);
   draw_tiles(pass, tiles.list, decided_draw_offset);
@@ -165,6 +165,7 @@ void run_for_pixels(const LightWork& work, const gl::Buffer& list) {
   gl::Pass pass(work.device, {.name = "missing pixels"});
   const gl::Program& program = use(pass, work, work.programs.mask(work.technique, work.params(), form), output);
   bind_images(program, output);
+  program.set("lists_noisy", listed_pixels(work) == ListedPixels::filtered ? 1 : 0);
   list.bind_storage(tile_list_binding);
   pass.dispatch_indirect(list, pixels_dispatch_offset);
 }

@@ -95,13 +95,31 @@ ScaledInputs scaled_inputs(const LightWork& work, const std::string& prefix, int
   return scaled;
 }
 
+namespace {
+
+void filter_noisy_pixels(const LightWork& work, const gl::Buffer& list) {
+  gl::Pass pass(work.device, {.name = "filter missing pixels"});
+  for (const bool stores : {false, true}) {
+    const gl::Program& program = pass.use(work.programs.filter_noisy(stores));
+    bind_inputs(work, owner_of(*work.denoiser));
+    program.set("mask_layer", work.frame.layer);
+    work.device.sampler({}).bind(unit_texels);
+    work.mask.bind(unit_texels);
+    work.mask.bind_image(0, GL_WRITE_ONLY);
+    list.bind_storage(tile_list_binding);
+    pass.dispatch_indirect(list, noisy_dispatch_offset);
+  }
+}
+
+}  // namespace
+
 void upsample(const LightWork& work, const ScaledMask& scaled, int scale) {
   const PassOwner owner = owner_of(work.technique);
   const PassContext context(work, owner);
   const Rect& viewport = work.frame.viewport;
   const bool decides = work.tiles != nullptr;
   const gl::Buffer& list =
-      decides ? work.tiles->list : begin_tile_list(context, "missing pixels", glm::ivec2(0), pixel_count(work.mask));
+      decides ? work.tiles->list : begin_tile_list(context, "missing pixels", glm::ivec2(0), listed_pixels(work));
   {
     gl::Pass pass(work.device, {.name = "upsample mask"});
     const auto use = [&](Programs::UpsampledTiles of) {
@@ -128,6 +146,7 @@ void upsample(const LightWork& work, const ScaledMask& scaled, int scale) {
     }
   }
   run_for_pixels(work, list);
+  if (listed_pixels(work) == ListedPixels::filtered) filter_noisy_pixels(work, list);
 }
 
 }  // namespace penumbra::shadow

@@ -262,6 +262,12 @@ gl::ProgramDesc Programs::upsample(UpsampledTiles tiles, bool details) const {
                                      {"DETAILS", details ? "1" : "0"}}}});
 }
 
+gl::ProgramDesc Programs::filter_noisy(bool stores) const {
+  return ready({.desc = {.name = "filter missing pixels",
+                         .compute = "shadow/drivers/filter_noisy.comp",
+                         .defines = {{"FILTER_PASS", "0"}, {"STORES", stores ? "1" : "0"}}}});
+}
+
 gl::ProgramDesc Programs::pack(bool history) const {
   return ready({.desc = {.name = "pack mask",
                          .vertex = "shared/full_screen.vert",
@@ -327,6 +333,8 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
                                         pack(false),
                                         filter_tiles(false),
                                         filter_tiles(true),
+                                        filter_noisy(false),
+                                        filter_noisy(true),
                                         output_program(),
                                         mark_frame_program(),
                                         scaled_receivers_program(),

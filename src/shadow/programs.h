@@ -63,6 +63,8 @@ class Programs {
   // that are listed as at a rim. `details`: the mask has more than one channel.
   enum class UpsampledTiles : std::uint8_t { all, listed, at_rim };
   gl::ProgramDesc upsample(UpsampledTiles tiles, bool details) const;
+  // The program that filters pixels with noise that are listed one by one, and the one that stores the results.
+  gl::ProgramDesc filter_noisy(bool stores) const;
   // Whether the driver can draw tiles as points: OpenGL 4.5 guarantees neither points of their size nor storage buffers
   // in vertex shaders. Asked of OpenGL once, by the first frame: programs are listed without a context too.
   bool draws_tiles() const;

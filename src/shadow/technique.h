@@ -56,6 +56,8 @@ struct Technique {
   // "shadow_map" and "least_depth_pyramid", and its result must be the share of the light that the casters in the map
   // leave free. Under lamps it must moreover read texels as reads_light_discs says.
   bool decides_tiles = false;
+  // Whether its visibility() says which results have no noise (`noise_free`): those of decided tiles have none either.
+  bool tells_noise = false;
   // Whether the denoiser that the parameters choose is applied to its result.
   bool denoisable = true;
   // Whether its penumbrae get wider with the light's size.

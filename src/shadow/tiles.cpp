@@ -9,6 +9,9 @@ namespace penumbra::shadow {
 
 namespace {
 
+// Their lists must fit into the storage buffers that OpenGL guarantees, 2^27 bytes.
+constexpr std::size_t most_filtered_pixels = 10'000'000;
+
 int tiles_across(int pixels) { return (pixels + Tiles::size - 1) / Tiles::size; }
 
 }  // namespace
@@ -19,11 +22,21 @@ std::size_t pixel_count(const gl::Texture& mask) {
 
 glm::ivec2 tile_count(const Rect& viewport) { return {tiles_across(viewport.width), tiles_across(viewport.height)}; }
 
+ListedPixels listed_pixels(const LightWork& work) {
+  if (work.denoiser == nullptr || pixel_count(work.mask) > most_filtered_pixels) return ListedPixels::computed;
+  const std::string& name = work.params().get_word("filter.visibility");
+  const bool has_kernel = name != "none" && work.registry.find_filter(name).keeps == Filter::Keeps::narrow;
+  return has_kernel ? ListedPixels::filtered : ListedPixels::computed;
+}
+
 const gl::Buffer& begin_tile_list(const PassContext& context, std::string_view name, const glm::ivec2& tiles,
-                                  std::size_t pixels) {
+                                  ListedPixels pixels) {
   const std::size_t count = static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y);
   const TileListHead head{.capacity = static_cast<std::uint32_t>(count)};
-  const gl::Buffer& list = context.scratch(name, sizeof(head) + sizeof(std::uint32_t) * (2 * count + pixels));
+  // A pixel to be filtered has a packed texel, too.
+  const std::size_t words = pixels == ListedPixels::none ? 0 : pixels == ListedPixels::computed ? 1 : 3;
+  const std::size_t entries = 2 * count + words * pixel_count(context.mask());
+  const gl::Buffer& list = context.scratch(name, sizeof(head) + sizeof(std::uint32_t) * entries);
   list.write(std::as_bytes(std::span(&head, 1)));
   return list;
 }
@@ -57,16 +70,16 @@ constexpr TileNames usual_names{"tile decisions", "tile list"},
     names_of_all{"tile decisions of all pixels", "tile list of all pixels"};
 
 // As large as the mask, not the viewport: a view whose size varies from frame to frame then keeps its texture.
-Tiles undecided(const LightWork& work, const TileNames& names, std::size_t listed_pixels) {
+Tiles undecided(const LightWork& work, const TileNames& names, ListedPixels pixels) {
   const PassContext context(work, owner_of(work.technique));
   const gl::TextureDesc of_mask{
       .format = GL_RGBA32UI, .width = tiles_across(work.mask.width()), .height = tiles_across(work.mask.height())};
   return {context.target(names.decisions, of_mask),
-          begin_tile_list(context, names.list, {of_mask.width, of_mask.height}, listed_pixels)};
+          begin_tile_list(context, names.list, {of_mask.width, of_mask.height}, pixels)};
 }
 
-Tiles decide(const LightWork& work, const TileNames& names, std::size_t listed_pixels) {
-  const Tiles tiles = undecided(work, names, listed_pixels);
+Tiles decide(const LightWork& work, const TileNames& names, ListedPixels pixels) {
+  const Tiles tiles = undecided(work, names, pixels);
   gl::Pass pass(work.device, {.name = "tile decisions"});
   const gl::Program& program = pass.use(work.programs.decide_tiles(work.technique, work.frame.shape.lamp));
   bind_inputs(work, owner_of(work.technique));
@@ -78,12 +91,12 @@ Tiles decide(const LightWork& work, const TileNames& names, std::size_t listed_p
 
 }  // namespace
 
-Tiles decide_tiles(const LightWork& work) { return decide(work, usual_names, 0); }
+Tiles decide_tiles(const LightWork& work) { return decide(work, usual_names, ListedPixels::none); }
 
-Tiles decide_all_tiles(const LightWork& work) { return decide(work, names_of_all, pixel_count(work.mask)); }
+Tiles decide_all_tiles(const LightWork& work) { return decide(work, names_of_all, listed_pixels(work)); }
 
 Tiles scaled_tiles(const LightWork& scaled, const TilesOfAll& of_all) {
-  const Tiles tiles = undecided(scaled, usual_names, 0);
+  const Tiles tiles = undecided(scaled, usual_names, ListedPixels::none);
   const Rect& viewport = scaled.frame.viewport;
   gl::Pass pass(scaled.device, {.name = "tile decisions"});
   const gl::Program& program = pass.use(scaled_tiles_program());
@@ -117,6 +130,7 @@ const gl::Buffer& list_filter_tiles(const LightWork& work, const BlockerDistance
   distances.texels->bind(unit_texels);
   if (distances.decisions != nullptr) distances.decisions->bind(unit_decisions);
   program.set("has_decisions", distances.decisions != nullptr ? 1 : 0);
+  program.set("decided_have_noise", work.technique.tells_noise ? 0 : 1);
   list.bind_storage(tile_list_binding);
   pass.dispatch(size.x, size.y);
   return list;

@@ -32,10 +32,12 @@ struct TileListHead {
   gl::DrawArraysCommand draw_rim;
   gl::DispatchCommand dispatch_pixels{0, 0, 1};
   std::uint32_t pixel_count = 0;
+  gl::DispatchCommand dispatch_noisy{0, 0, 1};
+  std::uint32_t noisy_count = 0;
   std::uint32_t capacity = 0;
 };
 
-static_assert(sizeof(TileListHead) == 92, "must match TileList in glsl/shadow/drivers/tiles.glsl");
+static_assert(sizeof(TileListHead) == 108, "must match TileList in glsl/shadow/drivers/tiles.glsl");
 
 // Where the commands are in the list, bytes.
 constexpr std::size_t listed_dispatch_offset = offsetof(TileListHead, dispatch_listed);
@@ -44,14 +46,20 @@ constexpr std::size_t decided_draw_offset = offsetof(TileListHead, draw_decided)
 constexpr std::size_t rim_dispatch_offset = offsetof(TileListHead, dispatch_rim);
 constexpr std::size_t rim_draw_offset = offsetof(TileListHead, draw_rim);
 constexpr std::size_t pixels_dispatch_offset = offsetof(TileListHead, dispatch_pixels);
+constexpr std::size_t noisy_dispatch_offset = offsetof(TileListHead, dispatch_noisy);
 
 std::size_t pixel_count(const gl::Texture& mask);
 // How many tiles cover a viewport along each axis.
 glm::ivec2 tile_count(const Rect& viewport);
-// A list without tiles, with room for so many and for that number of pixels. As large as the mask needs, not the
-// viewport: a view whose size varies from frame to frame then keeps its buffer.
+// Which pixels a list has room for, besides tiles: none, all of the mask, and all once more to be filtered.
+enum class ListedPixels : std::uint8_t { none, computed, filtered };
+// Those that a light needs whose mask has fewer pixels than the view: in masks of more than ten million none are
+// filtered, nor where the filter of visibility has no kernel.
+ListedPixels listed_pixels(const LightWork& work);
+// A list without tiles, with room for so many. As large as the mask needs, not the viewport: a view whose size varies
+// from frame to frame then keeps its buffer.
 const gl::Buffer& begin_tile_list(const PassContext& context, std::string_view name, const glm::ivec2& tiles,
-                                  std::size_t pixels = 0);
+                                  ListedPixels pixels = ListedPixels::none);
 
 // Whether tiles can be drawn. Not in viewports smaller than a tile: they are points, whose centres must lie inside.
 bool fits_tiles(const LightWork& work);

@@ -29,15 +29,12 @@ struct Field {
 };
 
 // A shadow mask between history and filters.
-const std::array<Field, 4>& texel_fields() {
-  static const std::array<Field, 4> fields{
+const std::array<Field, 3>& texel_fields() {
+  static const std::array<Field, 3> fields{
       Field{"visibility", {.scale = ColorScale::grey, .fixed = true}, glsl::texel_visibility},
       Field{"mean blocker distance", {.unit = "m"}, glsl::texel_distance},
-      Field{"history invalid",
-            {.scale = ColorScale::labels, .labels = {"kept", "invalid"}},
-            [](unsigned texel) { return glsl::texel_invalid(texel) ? 1.0f : 0.0f; }},
-      Field{"noise", {.scale = ColorScale::labels, .labels = {"may have noise", "none"}}, [](unsigned texel) {
-              return glsl::texel_noise_free(texel) ? 1.0f : 0.0f;
+      Field{"history invalid", {.scale = ColorScale::labels, .labels = {"kept", "invalid"}}, [](unsigned texel) {
+              return glsl::texel_invalid(texel) ? 1.0f : 0.0f;
             }}};
   return fields;
 }

@@ -53,7 +53,9 @@ TEST(PackedTexel, FieldsComeBackAndDoNotTouchEachOther) {
         ASSERT_EQ(texel_distance(texel), distance_to);
         ASSERT_EQ(texel_visibility(texel), visibility);
         ASSERT_EQ(texel_invalid(texel), invalid);
-        ASSERT_EQ(texel & noise_free_bit, 0u);
+        ASSERT_FALSE(texel_noise_free(texel));
+        ASSERT_TRUE(texel_noise_free(texel | noise_free_bit));
+        ASSERT_EQ(texel_frames(with_frames(texel | noise_free_bit, 1)), 1u);
         ASSERT_EQ(texel_distance(texel | noise_free_bit), distance_to);
         ASSERT_EQ(texel_visibility(texel | noise_free_bit), visibility);
       }

@@ -202,7 +202,7 @@ TEST_F(ShadowFilter, PixelsWithoutNoiseAreKept) {
           ASSERT_LT(filtered.visibility(x, y), 0.9) << filter << " in " << driver << " at " << x << " " << y;
         }
       }
-      // Pixels beside them take part in their light all the same.
+      // Neighbours are still averaged with them.
       if (filter == "median_visibility") continue;
       EXPECT_GT(kept.visibility(33, 32), 0) << filter << " in " << driver;
     }

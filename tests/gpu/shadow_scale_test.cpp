@@ -232,6 +232,54 @@ TEST_F(ShadowScale, NarrowShadowsAreNotLost) {
   }
 }
 
+// On ground that is seen at a slant, penumbrae are wide along rows of pixels and narrow from row to row, so that many
+// pixels are computed between the others.
+TEST_F(ShadowScale, PixelsThatAreComputedBetweenOthersAreFilteredIfTheyHaveNoise) {
+  TriangleScene scene;
+  scene.add_quad({-20, 0, 8}, {40, 0, 0}, {0, 0, -40});
+  for (int i = 0; i < 16; ++i) scene.add_quad({-8.0f + static_cast<float>(i), 3, 3}, {0.4f, 0, 0}, {0, 0, -6});
+  scene.view = glm::lookAt(glm::vec3(0, 0.7f, 8), glm::vec3(0, 0.2f, 0), glm::vec3(0, 1, 0));
+  scene.width = 320;
+  scene.height = 120;
+  scene.projection = perspective(0.4f, 8.0f / 3, 0.1f);
+  scene.to_light = sun_direction(200, 40);
+  params.set("cascades.size", 1024);
+  params.set("sun.angle", 2.0f);
+  params.set("technique", std::string("slices"));
+  params.set("sampling.noise", std::string("interleaved_gradient"));
+  const auto draw = [&](int scale, int azimuths, const char* filter) {
+    params.set("slices.azimuths", azimuths);
+    params.set("filter.visibility", std::string(filter));
+    return render(scene, scale).visibilities();
+  };
+  for (const int filter_radius : {0, 16}) {
+    params.set("slices.filter_radius", filter_radius);
+    const std::vector<float> converged = draw(1, 128, "none"), full = draw(1, 6, "none");
+    const std::vector<float> sampled = draw(2, 6, "none"), filtered = draw(2, 6, "isophote");
+    int computed = 0, changed = 0;
+    double before = 0, after = 0;
+    for (std::size_t i = 0; i < full.size(); ++i) {
+      const std::size_t x = i % static_cast<std::size_t>(scene.width), y = i / static_cast<std::size_t>(scene.width);
+      const bool between = x % 2 != 0 || y % 2 != 0;
+      if (!between || sampled[i] != full[i] || full[i] <= 0.02f || full[i] >= 0.98f) continue;
+      ++computed;
+      changed += filtered[i] != sampled[i] ? 1 : 0;
+      before += std::pow(sampled[i] - converged[i], 2);
+      after += std::pow(filtered[i] - converged[i], 2);
+    }
+    std::printf("filter_radius %d: %d pixels, %d changed, RMS %.4f to %.4f\n", filter_radius, computed, changed,
+                std::sqrt(before / computed), std::sqrt(after / computed));
+    EXPECT_GT(computed, 2000);
+    EXPECT_LT(after, 0.6 * before);
+    if (filter_radius == 0) {
+      EXPECT_GT(changed, 0.9 * computed);
+    } else {
+      EXPECT_LT(changed, 0.6 * computed) << "filtered texels have no noise";
+    }
+    EXPECT_EQ(draw(2, 6, "isophote"), filtered);
+  }
+}
+
 // Wide penumbrae are what the scale is for: under a wide sun, few of the other pixels are computed.
 TEST_F(ShadowScale, MostOfAWidePenumbraIsInterpolated) {
   params.set("technique", std::string("slices"));

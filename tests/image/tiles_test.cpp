@@ -122,7 +122,7 @@ TEST_F(Tiles, LeaveDenoisedMasksAsTheyAre) {
   for (const char* scene : {"courtyard", "foliage"}) {
     SCOPED_TRACE(scene);
     load(scene, 320, 180);
-    for (const char* technique : {"thesis", "thesis_8x8", "thesis_compute"}) {
+    for (const char* technique : {"thesis", "thesis_8x8", "thesis_compute", "slices_denoised"}) {
       SCOPED_TRACE(technique);
       const std::vector<float> with = mask(renderer_, technique, 2.0f, true);
       const std::vector<float> without = mask(renderer_, technique, 2.0f, false);
@@ -225,6 +225,8 @@ TEST_F(Tiles, ThatFiltersLeaveOutKeepEveryBit) {
        {Case{"hybrid_denoised", "posts", {}}, Case{"hybrid_denoised", "posts", {"driver=compute"}},
         Case{"hybrid", "posts", {"filter.penumbra=median", "filter.visibility=bilateral"}},
         Case{"slices_denoised", "moving", {"filter.penumbra=median", "history.reuse=true", "history.mean=true"}},
+        Case{"slices_denoised", "foliage", {"filter.penumbra=median"}},
+        Case{"slices_denoised", "moving", {"filter.penumbra=median", "history.reuse=true"}},
         Case{"slices_denoised", "foliage", {"mask.scale=3"}}, Case{"thesis", "moving", {}},
         Case{"ssss", "posts", {"filter.visibility=gaussian"}},
         Case{"vssm", "posts", {"filter.penumbra=median", "filter.visibility=box", "mask.tiles=false"}}}) {

@@ -14,6 +14,7 @@ layout(location = 0) out vec4 mask;
 layout(location = 0) flat in ivec2 tile;
 
 layout(binding = 14) uniform usampler2D decisions;
+uniform int noise_free;  // 1: filters keep the pixels
 
 bool is_lit(Decision decision, ivec2 pixel) {
   int bit = tile_size * (pixel.y % tile_size) + pixel.x % tile_size;
@@ -25,11 +26,12 @@ const bool narrow = SCALED != 0;
 
 Shadowed decided_shadow(Decision decision, ivec2 pixel, Receiver receiver) {
   int layer = layer_seen_through(receiver, decision.layer);
-  if (is_lit(decision, pixel)) return Shadowed(fully_lit(), layer, narrow);
+  if (is_lit(decision, pixel)) return Shadowed(Visibility(1.0, 0.0, 0.0, false, noise_free != 0), layer, narrow);
   float radius = packed_radius(receiver.position, decision.blocker_distance);
   Light light = with_layer(light_at(receiver), layer);
   bool under_texel = decision.blocker_distance > 0.0 && radius < texel_size(receiver, light);
-  return Shadowed(Visibility(0.0, radius, decision.blocker_distance, under_texel, false), layer, narrow);
+  return Shadowed(Visibility(0.0, radius, decision.blocker_distance, under_texel, noise_free != 0), layer,
+                  narrow);
 }
 
 void main() {
@@ -55,7 +57,8 @@ void main() {
   notes = packed_values.notes;
 #elif PACKED
   bool lit = is_lit(decision, in_viewport);
-  texel = texel_with_depth(pack_texel(lit ? 0.0 : decision.blocker_distance, float(lit), true), pixel);
+  uint shown = pack_texel(lit ? 0.0 : decision.blocker_distance, float(lit), true);
+  texel = texel_with_depth(noise_free != 0 ? shown | noise_free_bit : shown, pixel);
   notes = pack_notes(decision.layer, false, narrow, HISTORY_NONE);
 #elif DETAILS
   // Neither its normal nor its error matters here.

@@ -1,6 +1,6 @@
 // Lists the tiles whose texels a filter can change. The others have no pixel within `reach` of one with a blocker
-// distance: a filter of distances spreads them by one pixel, and visibility filters look two pixels far for one; or
-// else their kernels are too narrow (see Filter::Keeps).
+// distance, and with noise if the filter has kernels: a filter of distances spreads them by one pixel, and visibility
+// filters look two pixels far for one; or else their kernels are too narrow (see Filter::Keeps).
 #include "shadow/drivers/gbuffer.glsl"
 #include "shadow/drivers/kernel.glsl"
 #include "lib/packed_texel.glsl"
@@ -14,6 +14,7 @@ layout(local_size_x = group, local_size_y = group) in;
 layout(binding = 12) uniform usampler2D texels;
 layout(binding = 14) uniform usampler2D decisions;
 uniform int has_decisions;
+uniform int decided_have_noise;
 
 struct Blocked {
   // Bits as in Decision::lit: pixels that have a blocker distance, for filters of visibility only those with noise, and
@@ -31,6 +32,7 @@ Blocked blocked_in(ivec2 tile) {
   if (has_decisions != 0) {
     uvec4 decision = texelFetch(decisions, tile, 0);
     if (is_decided(decision)) {
+      if (KEEPS_NARROW != 0 && history_reuse == 0 && decided_have_noise == 0) return Blocked(uvec2(0u), 0u);
       return Blocked(is_unblocked(decision) ? uvec2(0u) : ~decision.xy, decision.z & 0xffffu);
     }
   }

@@ -74,7 +74,7 @@ Kept blend(ivec2 pixel) {
   float alpha = counts && frames <= most_frames ? max(history_alpha, 1.0 / float(frames)) : history_alpha;
   float weight = present_weight(last, receiver, penumbra_distance(pixel, now), alpha);
   float visibility = mix(last_visibility(last), texel_visibility(now), weight);
-  uint texel = pack_texel(texel_distance(now), visibility, false) | (now & noise_free_bit);
+  uint texel = pack_texel(texel_distance(now), visibility, false);
   // An exponential mean with a weight of α has the variance of a mean over 2/α − 1 frames.
   if (counts) texel = with_frames(texel, min(min(frames, uint(2.0 / weight - 0.5)), most_frames));
   return Kept(texel, surface);

@@ -4,8 +4,8 @@
 // Whether texels hold how many frames they average.
 bool counts_frames() { return history_reuse != 0 && history_mean != 0; }
 
-// Whether filters keep a texel as it is.
-bool is_noise_free(uint texel) { return !counts_frames() && texel_noise_free(texel); }
+// Whether filters keep a texel as it is. One that was blended with a history has the noise of other frames.
+bool is_noise_free(uint texel) { return history_reuse == 0 && texel_noise_free(texel); }
 
 // Kernels below this are narrower than a pixel: a neighbour would weigh under 0.004.
 const float least_sigma = 0.3;

@@ -1,8 +1,8 @@
 // Computes a pixel of the mask. Included after a technique.
 #include "shadow/receive.glsl"
 #include "shadow/drivers/gbuffer.glsl"
-#if PACKED
 #include "shadow/drivers/packed.glsl"
+#if PACKED
 
 PackedPixel shade_pixel(ivec2 pixel) {
   if (is_sky(pixel)) return PackedPixel(pack_texel(0.0, 1.0, true), pack_notes(0, false, false, HISTORY_NONE));

@@ -193,7 +193,10 @@ Visibility visibility(Receiver receiver, Light light) {
   float texel = texel_size(receiver, light);
   // Where the penumbra is so narrow and the four texels agree, a pixel is what it is in decided tiles.
   bool decided = centre.visibility == 0.0 || centre.visibility == 1.0;
-  if (radius < 0.5 * texel && (decided || slices_filter_radius == 0)) return without_noise(centre);
+  if (radius < 0.5 * texel && (decided || slices_filter_radius == 0)) {
+    centre.noise_free = decided;
+    return centre;
+  }
   // A caster that only the second layer shows may be at another height.
   float most_filtered = maps_layers == 1 ? float(slices_filter_radius) : min(float(slices_filter_radius), 1.0);
   if (radius < most_filtered * texel) {

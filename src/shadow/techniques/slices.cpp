@@ -34,6 +34,7 @@ Technique slices() {
                compiled},
           },
       .decides_tiles = true,
+      .tells_noise = true,
       .reads_light_discs = true};
 }
 
