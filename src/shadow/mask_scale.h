@@ -30,7 +30,7 @@ struct ScaledMask {
 
 // Fills the light's layer of the mask from that layer of a scaled mask: all of it, or, where the tiles are decided and
 // fill_decided_tiles() has filled its part, the others. Pixels that the four around them can't stand for are left to
-// the technique's visibility().
+// the technique's visibility(), and then to a filter, as listed_pixels() says.
 void upsample(const LightWork& work, const ScaledMask& scaled, int scale);
 
 gl::ProgramDesc scaled_receivers_program();

@@ -305,7 +305,7 @@ TEST_F(Tiles, AreFilteredOnlyWhereTheyCanChange) {
 
 // Masks of visibility alone fill decided tiles in a shorter way.
 TEST_F(Tiles, AreFilteredAlikeWhetherTheMaskHasDetails) {
-  for (const char* technique : {"slices_denoised", "thesis_8x8", "thesis", "thesis_8x8_compute"}) {
+  for (const char* technique : {"slices_denoised", "slices_sparse", "thesis_8x8", "thesis", "thesis_8x8_compute"}) {
     for (const char* scene : {"posts", "foliage"}) {
       SceneRun run(scene, 203, 117);
       run.choose(technique);
