@@ -109,7 +109,7 @@ float radius_with_thin_casters(Receiver receiver, float most, Light light) {
   return max(light.read_radius, min(search_radius(receiver, light), most));
 }
 
-// edge_radius(), from that radius, in one or two steps, of which the second follows where it is above `wide` metres:
+// edge_radius(), from that radius, in up to three steps, of which the last two follow where it is above `wide` metres:
 // bounds over at most 3 × 3 texels of a level, and then over at most 5 × 5.
 float fine_edge_radius(Receiver receiver, float radius, float wide, Light light) {
   int i = 0;
@@ -118,7 +118,7 @@ float fine_edge_radius(Receiver receiver, float radius, float wide, Light light)
     int level = disc_level(receiver.position, (i == 0 ? 0.5 : 0.25) * with_margin, light);
     float edge = rectangle_bounds(receiver.position, vec2(with_margin), level, light).edge;
     radius = narrowed_radius(receiver, radius, edge, light);
-  } while (++i < 2 && radius > wide);
+  } while (++i < 3 && radius > wide);
   return radius;
 }
 
