@@ -44,7 +44,10 @@ Pixels own_pixels() {
   return Pixels(ivec2(viewport.xy) + at, ivec2(viewport.xy) + min(at + block_size, ivec2(viewport.zw)));
 }
 
-bool is_receiver(float depth) { return depth != sky_depth && !isnan(depth) && !isinf(depth); }
+const float most_finite = 3e38;
+
+// False for sky, and for what is not a number.
+bool is_receiver(float depth) { return depth != sky_depth && abs(depth) <= most_finite; }
 
 #if BOUNDS
 
@@ -69,9 +72,9 @@ struct Part {
   vec2 depths;
 };
 
-vec4 along_four(vec2 place) {
-  return vec4(place.x, (place.x + place.y) * sqrt(0.5), place.y, (place.y - place.x) * sqrt(0.5));
-}
+// Along the diagonals as sums, which are longer than distances by a factor of sqrt(2).
+vec4 along_four(vec2 place) { return vec4(place.x, place.x + place.y, place.y, place.y - place.x); }
+const vec4 per_sum = vec4(1.0, sqrt(0.5), 1.0, sqrt(0.5));
 
 // Most parts change nothing, and looking first is cheaper than an atomic operation.
 void add_range(uint index, float low, float high) {
@@ -131,22 +134,34 @@ void main() {
   float near = max(min(a, b) - start, far * 1e-3);
   float slices_a_ratio = float(slices) / max(log2(far / near), 1e-6);
 
+  // Places in light space and depths in the view are quotients of forms that are linear in the pixel and its depth.
+  mat4 to_light = mat4(mat3(view_to_light)) * texel_to_view;
+  vec4 to_depth = vec4(texel_to_view[0].z, texel_to_view[1].z, texel_to_view[2].z, texel_to_view[3].z);
+  float most_away = distance_limit > 0.0 ? distance_limit * 1.0001 : most_finite;
+
   Pixels pixels = own_pixels();
   Part part = Part(0u, 0.0, vec4(1e30), vec4(-1e30), vec2(1e30, -1e30));
   for (int y = pixels.low.y; y < pixels.high.y; ++y) {
+    vec4 first = vec4(vec2(pixels.low.x, y) + 0.5, 0.0, 1.0);
+    vec4 place_at = to_light * first;
+    float depth_at = dot(to_depth, first);
     for (int x = pixels.low.x; x < pixels.high.x; ++x) {
       float depth = texelFetch(receiver_depth, ivec2(x, y), 0).x;
-      if (!is_receiver(depth)) continue;
-      vec3 position = view_position(vec2(x, y) + 0.5, depth);
-      float away = -position.z - start;
-      if (isnan(away) || isinf(away)) continue;
-      if (distance_limit > 0.0 && abs(position.z) > distance_limit * 1.0001) continue;
-      vec3 place = mat3(view_to_light) * position;
-      vec4 across = along_four(place.xy);
-      part = Part(part.pixels + 1u, max(part.farthest, away), min(part.low, across), max(part.high, across),
-                  vec2(min(part.depths.x, place.z), max(part.depths.y, place.z)));
+      vec4 form = place_at + to_light[2] * depth;
+      float per_w = 1.0 / form.w;
+      float away = -(depth_at + to_depth.z * depth) * per_w;
+      place_at += to_light[0];
+      depth_at += to_depth.x;
+      if (is_receiver(depth) && abs(away) <= most_away) {
+        vec3 place = form.xyz * per_w;
+        vec4 across = along_four(place.xy);
+        part = Part(part.pixels + 1u, max(part.farthest, away - start), min(part.low, across), max(part.high, across),
+                    vec2(min(part.depths.x, place.z), max(part.depths.y, place.z)));
+      }
     }
   }
+  part.low *= per_sum;
+  part.high *= per_sum;
   if (part.pixels > 0u) {
     add(part, clamp(int(log2(max(part.farthest, near) / near) * slices_a_ratio), 0, int(slices) - 1));
   }

@@ -204,59 +204,77 @@ glm::dvec2 half_width_of(const LightBounds& bounds) {
   return glm::max(half, std::max(glm::max(half.x, half.y) / most, 1e-9));
 }
 
-// The x axis of the cascades' light space, a measured direction, and the last slice of each cascade.
+// The side of each of so many maps that have the texels of `count` maps of `size`; whole blocks of 16, as far as there
+// are any, which is how the depth pyramid reads them.
+int side_of(const CascadeInputs& in, size_t maps) {
+  constexpr int block = 16;
+  const double side = in.size * std::sqrt(in.count / static_cast<double>(maps));
+  const int whole = static_cast<int>(side + 1e-9) / block * block;
+  return std::clamp(whole, in.size, std::max(in.size, max_cascade_size));
+}
+
+// The x axis of the cascades' light space, a measured direction, the last slice of each cascade, and their texels along
+// a side.
 struct VisibleFit {
-  double sum = 0;  // over the pixels of the logarithm of their texels' longer sides
+  double length = 1e30;  // mean over the pixels of the logarithm of their texels' longer sides
   int x_axis = 0;
   std::vector<size_t> ends;
+  int side = 0;
 };
 
-// With so many cascades along an axis, so that the longer sides of the texels of the pixels' cascades, in units of the
-// pixels' own sizes, have the least geometric mean. `up_to`: see accumulated(). Some ends may be equal, where there are
-// fewer slices than cascades.
-VisibleFit best_splits(const VisibleReceivers& up_to, int count, int x_axis) {
-  // Of the longer sides of the texels of a cascade that ends at each slice: they decide how wide most edges appear.
+// Along an axis, so that the longer sides of the texels of the pixels' cascades, in units of the pixels' own sizes,
+// have the least geometric mean. `up_to`: see accumulated().
+VisibleFit best_splits(const VisibleReceivers& up_to, const CascadeInputs& in, int x_axis) {
+  // Of the longer sides of a cascade that ends at each slice: they decide how wide most edges appear.
   std::vector<double> logarithms;
   for (const ReceiverSlice& slice : up_to) {
     const glm::dvec2 half = half_width_of(slice.bounds(x_axis));
     logarithms.push_back(std::log2(glm::max(half.x, half.y)));
   }
-  // The sum over the pixels up to a slice of the logarithm of their texels, with the best cascades of which the last
-  // one ends there, and where the one before it ends.
+  // The sum over the pixels up to a slice of the logarithm of their cascades' sides, with the best cascades of which
+  // the last one ends there, and where the one before it ends. Each ends behind the one before it.
   struct Best {
-    double sum = 0;
+    double sum = 1e30;
     size_t before = 0;
   };
-  std::vector<std::vector<Best>> best(static_cast<size_t>(count), std::vector<Best>(up_to.size()));
+  const size_t most = std::min(static_cast<size_t>(in.count), up_to.size());
+  std::vector<std::vector<Best>> best(most, std::vector<Best>(up_to.size()));
   for (size_t last = 0; last < up_to.size(); ++last) best[0][last] = {logarithms[last] * up_to[last].pixels, 0};
-  for (size_t cascade = 1; cascade < best.size(); ++cascade) {
-    for (size_t last = 0; last < up_to.size(); ++last) {
-      best[cascade][last] = {best[cascade - 1][last].sum, last};
-      for (size_t before = 0; before < last; ++before) {
+  for (size_t cascade = 1; cascade < most; ++cascade) {
+    for (size_t last = cascade; last < up_to.size(); ++last) {
+      for (size_t before = cascade - 1; before < last; ++before) {
         const double sum =
             best[cascade - 1][before].sum + logarithms[last] * (up_to[last].pixels - up_to[before].pixels);
         if (sum < best[cascade][last].sum) best[cascade][last] = {sum, before};
       }
     }
   }
-  VisibleFit fit{best.back().back().sum, x_axis, std::vector<size_t>(best.size(), up_to.size() - 1)};
-  for (size_t cascade = best.size() - 1; cascade > 0; --cascade) {
+  // With fewer cascades each has more texels. A single one is never chosen: nearest surfaces lose by more than the
+  // mean.
+  constexpr size_t fewest = 2;
+  VisibleFit fit;
+  for (size_t maps = std::min(fewest, most); maps <= most; ++maps) {
+    const int side = side_of(in, maps);
+    const double length = best[maps - 1].back().sum / up_to.back().pixels - std::log2(side);
+    if (length < fit.length) fit = {length, x_axis, std::vector<size_t>(maps, up_to.size() - 1), side};
+  }
+  for (size_t cascade = fit.ends.size() - 1; cascade > 0; --cascade) {
     fit.ends[cascade - 1] = best[cascade][fit.ends[cascade]].before;
   }
   return fit;
 }
 
 VisibleFit best_fit(const VisibleReceivers& up_to, const CascadeInputs& in) {
-  VisibleFit best = best_splits(up_to, in.count, 0);
+  VisibleFit best = best_splits(up_to, in, 0);
   for (int x_axis = 1; in.may_turn && x_axis < measured_directions / 2; ++x_axis) {
-    VisibleFit fit = best_splits(up_to, in.count, x_axis);
-    if (fit.sum < best.sum) best = std::move(fit);
+    VisibleFit fit = best_splits(up_to, in, x_axis);
+    if (fit.length < best.length) best = std::move(fit);
   }
   return best;
 }
 
 // About what the view shows up to each cascade's range; the last one about all other receivers too. Turns the light
-// space.
+// space and chooses the maps' size.
 std::vector<Region> visible_regions(const CascadeInputs& in, Cascades& cascades) {
   // Receivers are computed from the same depths on the GPU, in floats.
   constexpr double rounding = 1e-4;
@@ -264,10 +282,11 @@ std::vector<Region> visible_regions(const CascadeInputs& in, Cascades& cascades)
   const VisibleFit fit = best_fit(up_to, in);
   cascades.turn = fit.x_axis * (glm::pi<double>() / measured_directions);
   cascades.world_to_light = light_axes(in.to_light, cascades.turn);
+  cascades.size = fit.side;
   std::vector<Region> regions;
   for (const size_t end : fit.ends) {
     LightBounds bounds = up_to[end].bounds(fit.x_axis);
-    const bool last = regions.size() + 1 == static_cast<size_t>(in.count);
+    const bool last = regions.size() + 1 == fit.ends.size();
     if (last) bounds = joined(bounds, seen_bounds(in.others, in, cascades));
     const glm::dvec3 center = 0.5 * (bounds.low + bounds.high), half = 0.5 * (bounds.high - bounds.low);
     const double pad = rounding * (glm::length(center) + glm::length(half));
@@ -325,8 +344,8 @@ Cascades fit_cascades(const CascadeInputs& in) {
   for (glm::dvec3& corner : corners) corner = cascades.world_to_light * (corner - cascades.anchor);
   const glm::dvec3 anchor = cascades.world_to_light * cascades.anchor;
 
-  for (int i = 0; i < in.count; ++i) {
-    const Region& region = regions[static_cast<size_t>(i)];
+  for (const Region& region : regions) {
+    const bool last = &region == &regions.back();
     const auto& [center, half_width, shallowest, deepest] = region;
 
     // Margin for the search discs of receivers at the border: their radius follows from the light's size and the height
@@ -335,10 +354,9 @@ Cascades fit_cascades(const CascadeInputs& in) {
     const Range in_cone = range_within({center, half_width, deepest, in.tan_half_angle}, corners);
     const double nearest = held_range(in_cone, region, in, cascades.cut_off).min;
     const double all_discs = in.tan_half_angle * std::max(deepest - nearest, 0.0);
-    const glm::dvec2 margin =
-        i + 1 < in.count ? glm::min(glm::dvec2(all_discs), 0.25 * half_width) : glm::dvec2(all_discs);
-    const glm::dvec2 half = step_up(half_width + margin, 16) * (1.0 + 4.0 / in.size);
-    const glm::dvec2 texel = 2.0 * half / static_cast<double>(in.size);
+    const glm::dvec2 margin = last ? glm::dvec2(all_discs) : glm::min(glm::dvec2(all_discs), 0.25 * half_width);
+    const glm::dvec2 half = step_up(half_width + margin, 16) * (1.0 + 4.0 / cascades.size);
+    const glm::dvec2 texel = 2.0 * half / static_cast<double>(cascades.size);
     // At most a texel from the centre, so what is to be held stays inside.
     const glm::dvec2 placed =
         (glm::floor(glm::dvec2(center + anchor) / texel) + in.jitter) * texel - glm::dvec2(anchor);

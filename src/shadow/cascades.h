@@ -11,6 +11,7 @@
 namespace penumbra::shadow {
 
 constexpr int max_cascades = 8;
+constexpr int max_cascade_size = 8192;  // texels along a side
 
 // Light space: metres, origin at `anchor` (the camera, so that floats stay exact near it), axes the rows of
 // `world_to_light`: x and y across the light, z along its rays, growing away from the light. It is left-handed: the
@@ -106,6 +107,9 @@ struct CascadeInputs {
   Box casters;                  // bounds of all casters
   Box receivers;                // bounds of all receivers; limits the last cascade's range
   bool exact_bounds = false;    // both are no larger than what they hold, and nothing is left out
+  // Cascades, and texels along a side of each; for `visible`, at most so many cascades, and as many texels in all of
+  // them together: where fewer have finer texels in the pixels' mean, there are fewer, but not one alone, of more
+  // texels.
   int count = 4;
   int size = 2048;
   float split_blend = 0.75f;  // 0 uniform, 1 logarithmic (Zhang 2006, parallel-split shadow maps, eq. 3)
@@ -136,7 +140,7 @@ glm::dmat4 clip_from_world(const Cascades& cascades, const Cascade& cascade);
 // box, light space, in the order of Box::corners().
 double nearest_within(const Cascade& cascade, const std::array<glm::dvec3, 8>& corners);
 
-// Fits `count` cascades to what the camera sees of the receivers. The inputs must be finite, the matrices invertible.
+// Fits cascades to what the camera sees of the receivers. The inputs must be finite, the matrices invertible.
 // Unless the bounds are exact: where receivers reach farther than wide_bounds from the camera, those beyond
 // range_in_wide_bounds are left out if no `distance` and no `visible` says how far to go; and so is what lies along the
 // light more than wide_bounds before a cascade's receivers or behind them.

@@ -32,9 +32,9 @@ struct Crop {
   double bias;  // of the mean, either way
 };
 
-const std::vector<Crop> crops{{"under the string course", {660, 165}, {180, 60}, 0.047, 14, 0.002},
-                              {"slots of the shutters", {755, 68}, {150, 105}, 0.067, 85, 0.002},
-                              {"foot of the fountain", {420, 500}, {240, 80}, 0.017, 3, 0.002}};
+const std::vector<Crop> crops{{"under the string course", {660, 165}, {180, 60}, 0.034, 4, 0.002},
+                              {"slots of the shutters", {755, 68}, {150, 105}, 0.052, 42, 0.002},
+                              {"foot of the fountain", {420, 500}, {240, 80}, 0.0195, 3, 0.002}};
 
 struct Maps {
   const char* fit;
