@@ -40,6 +40,10 @@ constexpr std::array rules{
     Rule{"filter.edge", "filter.visibility", "box"},
     Rule{"filter.edge", "filter.visibility", "gaussian"},
     Rule{"maps.gap", "maps.layers", "1"},
+    Rule{"mask.tiles", "mask.scale", "2"},
+    Rule{"mask.tiles", "mask.scale", "3"},
+    Rule{"mask.tiles", "mask.scale", "4"},
+    Rule{"cascades.split", "cascades.fit", "visible"},
     Rule{"cascades.blend", "cascades.seam", "none"},
     Rule{"brute_force.blocker_taps", "brute_force.every_texel", "true"},
     Rule{"brute_force.filter_taps", "brute_force.every_texel", "true"},
@@ -55,6 +59,13 @@ std::string why_by_rule(const std::string& name, const ParamSet& params) {
       return fmt::format("{} is {}", rule.other, rule.value);
   }
   return {};
+}
+
+// Pixels that mask.scale computes between the others are filtered on the receiver's plane, whatever the filter.
+bool filters_between(const ParamSet& params, const Registry& registry) {
+  const std::string& filter = params.get_word("filter.visibility");
+  return params.get_int("mask.scale") > 1 && filter != "none" &&
+         registry.find_filter(filter).keeps == shadow::Filter::Keeps::narrow;
 }
 
 bool lists(const std::vector<Param>& params, const std::string& name) {
@@ -119,6 +130,7 @@ std::string why_without_effect(const std::string& name, const ParamSet& params, 
   if (!read && name.starts_with("sun."))
     return fmt::format("the shadows of the technique {} do not soften with the sun's size", technique.name);
   if (!read) return fmt::format("the technique {} does not read it", technique.name);
+  if (name == "filter.edge" && filters_between(params, registry)) return {};
   return why_by_rule(name, params);
 }
 

@@ -148,7 +148,7 @@ class Params(TestCase):
         lamp = ("--no-sun", "--lamp", "1,2,3")
         for arguments, told in (
             ((*lamp, "--sun-angle", "3"), "sun.angle has no effect here: no sun shines"),
-            ((*lamp, "--set", "cascades.split=0.5"), "cascades.split has no effect here: no sun shines"),
+            ((*lamp, "--set", "cascades.distance=50"), "cascades.distance has no effect here: no sun shines"),
             (("--set", "lamps.near=1"), "lamps.near has no effect here: no spot or point light shines"),
             (("--lamp-radius", "1"), "--lamp-radius has no effect here: no spot or point light shines"),
         ):
@@ -157,7 +157,7 @@ class Params(TestCase):
                 self.assertEqual([line for line in result.stderr.splitlines() if line.startswith("warning: ")],
                                  [f"warning: {told}"])
         result = self.succeed("render", POSTS, "-o", self.folder / "x.png", *SMALL, "--quiet", "--lamp", "1,2,3",
-                              "--sun-angle", "3", "--set", "lamps.near=0.1", "--set", "cascades.split=0.5")
+                              "--sun-angle", "3", "--set", "lamps.near=0.1", "--set", "cascades.distance=50")
         self.assertNotIn("warning", result.stderr)
 
     def test_the_later_of_a_preset_and_a_technique_counts(self):

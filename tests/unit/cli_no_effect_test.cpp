@@ -51,6 +51,19 @@ TEST(NoEffect, OfAFilterThatIsOff) {
   EXPECT_EQ(why("filter.edge", "thesis_8x8", {"filter.visibility=box"}), "filter.visibility is box");
 }
 
+TEST(NoEffect, OfWhatAMaskOfFewerPixelsDecides) {
+  EXPECT_EQ(why("mask.tiles", "pcss"), "");
+  EXPECT_EQ(why("mask.tiles", "slices_sparse"), "mask.scale is 2");
+  EXPECT_EQ(why("filter.edge", "slices_sparse", {"filter.visibility=box"}), "");
+  EXPECT_EQ(why("filter.edge", "slices_sparse", {"filter.visibility=box", "mask.scale=1"}), "filter.visibility is box");
+  EXPECT_EQ(why("filter.edge", "slices_sparse", {"filter.visibility=none"}), "filter.visibility is none");
+}
+
+TEST(NoEffect, OfSplitsThatTheViewDecides) {
+  EXPECT_EQ(why("cascades.split", "pcss"), "");
+  EXPECT_EQ(why("cascades.split", "pcss", {"cascades.fit=visible"}), "cascades.fit is visible");
+}
+
 TEST(NoEffect, OfMapsThatMove) {
   EXPECT_EQ(why("maps.jitter", "pcss"), "");
   EXPECT_NE(why("maps.jitter", "none"), "");

@@ -10,8 +10,10 @@ const int ring_count = 32;
 
 // The radius of the disc that is read, metres. Below half a texel a sample it is narrow enough.
 float walk_radius(Receiver receiver, Light light) {
+  const int least_with_thin_casters = 4;  // texels
   float texel = texel_size(receiver, light);
-  float radius = radius_with_thin_casters(receiver, float(max(slices_filter_radius, 4)) * texel, light);
+  float with_thin_casters = float(max(slices_filter_radius, least_with_thin_casters)) * texel;
+  float radius = radius_with_thin_casters(receiver, with_thin_casters, light);
   return fine_edge_radius(receiver, radius, 0.5 * float(slices_samples) * texel, light);
 }
 
