@@ -68,8 +68,8 @@ std::string cascades_of(const Results& results) {
   const auto text_of = [](const Entry& entry) {
     const int count = entry.params.get_int("cascades.count"), side = entry.params.get_int("cascades.size");
     const bool fitted = entry.params.get_word("cascades.fit") == "visible";
-    return fmt::format("{}{} cascade{} of {}×{}", fitted ? "the texels of " : "", count, count == 1 ? "" : "s", side,
-                       side);
+    return fmt::format("{}{} cascade{} of {}×{}", fitted && count > 1 ? "the texels of " : "", count,
+                       count == 1 ? "" : "s", side, side);
   };
   const std::string first = text_of(results.entries.front());
   const bool same = std::ranges::all_of(results.entries, [&](const Entry& entry) { return text_of(entry) == first; });

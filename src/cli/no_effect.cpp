@@ -61,7 +61,8 @@ std::string why_by_rule(const std::string& name, const ParamSet& params) {
   return {};
 }
 
-// Pixels that mask.scale computes between the others are filtered on the receiver's plane, whatever the filter.
+// Pixels that mask.scale computes between the others are filtered on the receiver's plane, if the filter's kernel has a
+// width.
 bool filters_between(const ParamSet& params, const Registry& registry) {
   const std::string& filter = params.get_word("filter.visibility");
   return params.get_int("mask.scale") > 1 && filter != "none" &&

@@ -204,8 +204,8 @@ glm::dvec2 half_width_of(const LightBounds& bounds) {
   return glm::max(half, std::max(glm::max(half.x, half.y) / most, 1e-9));
 }
 
-// The side of each of so many maps that have the texels of `count` maps of `size`; whole blocks of 16, as far as there
-// are any, which is how the depth pyramid reads them.
+// The side of each of so many maps that have the texels of `count` maps of `size`: a multiple of 16, but not below
+// `size`.
 int side_of(const CascadeInputs& in, size_t maps) {
   constexpr int block = 16;
   const double side = in.size * std::sqrt(in.count / static_cast<double>(maps));
@@ -223,12 +223,14 @@ struct VisibleFit {
 };
 
 // Along an axis, so that the longer sides of the texels of the pixels' cascades, in units of the pixels' own sizes,
-// have the least geometric mean. `up_to`: see accumulated().
-VisibleFit best_splits(const VisibleReceivers& up_to, const CascadeInputs& in, int x_axis) {
+// have the least geometric mean. `up_to`: see accumulated(). `others`: what the last cascade holds besides, in the
+// light space with that axis.
+VisibleFit best_splits(const VisibleReceivers& up_to, const LightBounds& others, const CascadeInputs& in, int x_axis) {
   // Of the longer sides of a cascade that ends at each slice: they decide how wide most edges appear.
   std::vector<double> logarithms;
   for (const ReceiverSlice& slice : up_to) {
-    const glm::dvec2 half = half_width_of(slice.bounds(x_axis));
+    const LightBounds bounds = slice.bounds(x_axis);
+    const glm::dvec2 half = half_width_of(&slice == &up_to.back() ? joined(bounds, others) : bounds);
     logarithms.push_back(std::log2(glm::max(half.x, half.y)));
   }
   // The sum over the pixels up to a slice of the logarithm of their cascades' sides, with the best cascades of which
@@ -249,14 +251,15 @@ VisibleFit best_splits(const VisibleReceivers& up_to, const CascadeInputs& in, i
       }
     }
   }
-  // With fewer cascades each has more texels. A single one is never chosen: nearest surfaces lose by more than the
-  // mean.
-  constexpr size_t fewest = 2;
+  // With fewer cascades each has more texels. Where there may be two, a single one is not chosen: nearest surfaces lose
+  // by more than the mean.
+  const size_t fewest = in.divides_texels ? std::min<size_t>(2, most) : most;
   VisibleFit fit;
-  for (size_t maps = std::min(fewest, most); maps <= most; ++maps) {
-    const int side = side_of(in, maps);
+  for (size_t maps = fewest; maps <= most; ++maps) {
+    const int side = in.divides_texels ? side_of(in, maps) : in.size;
     const double length = best[maps - 1].back().sum / up_to.back().pixels - std::log2(side);
-    if (length < fit.length) fit = {length, x_axis, std::vector<size_t>(maps, up_to.size() - 1), side};
+    if (fit.ends.empty() || length < fit.length)
+      fit = {length, x_axis, std::vector<size_t>(maps, up_to.size() - 1), side};
   }
   for (size_t cascade = fit.ends.size() - 1; cascade > 0; --cascade) {
     fit.ends[cascade - 1] = best[cascade][fit.ends[cascade]].before;
@@ -264,10 +267,18 @@ VisibleFit best_splits(const VisibleReceivers& up_to, const CascadeInputs& in, i
   return fit;
 }
 
-VisibleFit best_fit(const VisibleReceivers& up_to, const CascadeInputs& in) {
-  VisibleFit best = best_splits(up_to, in, 0);
+double turn_of(int x_axis) { return x_axis * (glm::pi<double>() / measured_directions); }
+
+VisibleFit best_fit(const VisibleReceivers& up_to, const glm::dvec3& anchor, const CascadeInputs& in) {
+  const auto fit_along = [&](int x_axis) {
+    Cascades space;
+    space.world_to_light = light_axes(in.to_light, turn_of(x_axis));
+    space.anchor = anchor;
+    return best_splits(up_to, seen_bounds(in.others, in, space), in, x_axis);
+  };
+  VisibleFit best = fit_along(0);
   for (int x_axis = 1; in.may_turn && x_axis < measured_directions / 2; ++x_axis) {
-    VisibleFit fit = best_splits(up_to, in, x_axis);
+    VisibleFit fit = fit_along(x_axis);
     if (fit.length < best.length) best = std::move(fit);
   }
   return best;
@@ -279,8 +290,8 @@ std::vector<Region> visible_regions(const CascadeInputs& in, Cascades& cascades)
   // Receivers are computed from the same depths on the GPU, in floats.
   constexpr double rounding = 1e-4;
   const VisibleReceivers up_to = accumulated(*in.visible);
-  const VisibleFit fit = best_fit(up_to, in);
-  cascades.turn = fit.x_axis * (glm::pi<double>() / measured_directions);
+  const VisibleFit fit = best_fit(up_to, cascades.anchor, in);
+  cascades.turn = turn_of(fit.x_axis);
   cascades.world_to_light = light_axes(in.to_light, cascades.turn);
   cascades.size = fit.side;
   std::vector<Region> regions;

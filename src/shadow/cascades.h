@@ -107,11 +107,12 @@ struct CascadeInputs {
   Box casters;                  // bounds of all casters
   Box receivers;                // bounds of all receivers; limits the last cascade's range
   bool exact_bounds = false;    // both are no larger than what they hold, and nothing is left out
-  // Cascades, and texels along a side of each; for `visible`, at most so many cascades, and as many texels in all of
-  // them together: where fewer have finer texels in the pixels' mean, there are fewer, but not one alone, of more
-  // texels.
+  // Cascades, and texels along a side of each. With `visible` the most cascades, and the most texels of all together:
+  // there are fewer and larger ones where that makes the pixels' texels finer in the mean.
   int count = 4;
   int size = 2048;
+  bool divides_texels =
+      true;  // false: `visible` has maps of that size, too, and of that number if it has as many slices
   float split_blend = 0.75f;  // 0 uniform, 1 logarithmic (Zhang 2006, parallel-split shadow maps, eq. 3)
   // Range of the last cascade, metres from the camera, before it and behind; 0: as far as receivers lie in the view.
   float distance = 0;

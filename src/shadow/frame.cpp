@@ -284,7 +284,7 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
     visible = find_visible_receivers(from.device, from.inputs, light, state.params, state.prefix);
   }
   begin_frame(view, state, light, layer_count(light, state.params), same_params);
-  frame.projection = projection_of(work, visible);
+  frame.projection = projection_of(work, visible, wanted.recipes);
   if (const std::string fault = frame.projection.fault(); !fault.empty())
     fail("soft shadows: no maps of light {} fit the view: {}", light.id, fault);
   frame.shape = shape_of(light.source, state.params);

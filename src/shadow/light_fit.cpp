@@ -78,12 +78,14 @@ bool moves_maps(const LightWork& work) {
   return work.remembered.empty() && work.params().get_int("sampling.seed") != 0;
 }
 
-LightProjection projection_of(const LightWork& work, const std::optional<VisibleReceivers>& visible) {
+LightProjection projection_of(const LightWork& work, const std::optional<VisibleReceivers>& visible,
+                              const std::vector<const Recipe*>& recipes) {
   if (work.light.maps) return work.light.maps->projection;
   FitInputs fit = fit_inputs(work.inputs, work.params());
   fit.visible = visible;
   fit.others = work.inputs.forward_receivers;
   fit.jitter = map_jitter(work);
+  fit.divides_texels = reads_light_discs(work, recipes);
   return fit_projection(work.light.source, fit);
 }
 

@@ -9,7 +9,10 @@
 namespace penumbra::shadow {
 
 // The caller's projection of the light's maps, or one fitted to the view. `visible`: see find_visible_receivers().
-LightProjection projection_of(const LightWork& work, const std::optional<VisibleReceivers>& visible);
+// `recipes`: those that the frame makes. Maps that are averaged have the size that the parameters say, since what is
+// made of them has a power of two as its size.
+LightProjection projection_of(const LightWork& work, const std::optional<VisibleReceivers>& visible,
+                              const std::vector<const Recipe*>& recipes);
 
 // Where a frame's maps lie within a texel: at Halton's points, which cover it evenly however many there are, and of
 // which the first is 0. The seed shifts them on the torus, by the generalised golden ratio (Roberts 2018, "The
@@ -20,7 +23,8 @@ glm::dvec2 map_jitter(const LightWork& work);
 // Whether that is another place than in the frame or sample before, so that a mean over these sees more than one map.
 bool moves_maps(const LightWork& work);
 
-// How many layers that has.
+// How many layers the caller's maps have, or the most that the parameters allow. A change of it ends the history;
+// another number of fitted cascades does not.
 int layer_count(const Light& light, const ParamSet& params);
 
 // A warning of one line if a sun's maps leave something out because bounds are wide (Inputs::exact_bounds); else empty.

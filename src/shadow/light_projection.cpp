@@ -112,6 +112,7 @@ CascadeInputs cascade_inputs(const Sun& sun, const FitInputs& inputs) {
           .exact_bounds = inputs.exact_bounds,
           .count = params.get_int("cascades.count"),
           .size = params.get_int("cascades.size"),
+          .divides_texels = inputs.divides_texels,
           .split_blend = params.get_float("cascades.split"),
           .distance = params.get_float("cascades.distance"),
           .visible = inputs.visible,

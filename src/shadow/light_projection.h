@@ -122,7 +122,8 @@ struct FitInputs {
   // Where the maps are fitted to what the view shows: that, and the bounds of the receivers that it does not hold.
   std::optional<VisibleReceivers> visible = {};
   Box others{glm::vec3(1), glm::vec3(-1)};
-  glm::dvec2 jitter{0};  // of a sun's layers: see CascadeInputs
+  bool divides_texels = true;  // see CascadeInputs
+  glm::dvec2 jitter{0};        // of a sun's layers: see CascadeInputs
 };
 
 // What receivers of the view may read besides their discs; see narrowed().

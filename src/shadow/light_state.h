@@ -55,7 +55,7 @@ struct LightState {
 
   LightSource source;
   LightShape shape;
-  int layers = 0;              // of the shadow map
+  int layers = 0;              // see layer_count()
   bool drawn = false;          // in this frame
   bool uninterrupted = false;  // the previous frame of the view drew this light, and its history is valid
   bool follows = false;        // the previous frame of the view drew this light, and Inputs::moved is what moved since

@@ -57,9 +57,10 @@ struct FrameKind {
 // they can't be put back. In a context with Penumbra's debug output every pass throws Error for all errors so far,
 // including the caller's.
 //
-// Memory. No texture is created after the first frame of a size, and no OpenGL object at all after the first frame in
-// which a caster moved (where a history is kept). Shadow maps, masks and histories are kept for each view id until
-// forget_view(); those of a light are released in the first frame of the view that does not list it.
+// Memory. No texture is created after the first frame of a size, unless cascades.fit=visible chooses another number of
+// cascades for what a frame shows (which cascades.count of 1 or 2 prevents), and no OpenGL object at all after the
+// first frame in which a caster moved (where a history is kept). Shadow maps, masks and histories are kept for each
+// view id until forget_view(); those of a light are released in the first frame of the view that does not list it.
 //
 // Shadow maps. Layers in which nothing has changed since the view's last frame are not drawn again, and neither are the
 // products of recipes that depend on the map alone: see Inputs::moved, which must be right for that, and the parameter

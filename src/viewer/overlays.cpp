@@ -256,8 +256,9 @@ std::vector<StatusPart> status_parts(const Panel& panel) {
     const Detail detail = effective(panel.state.document.params, status.detail);
     if (detail.maps > 1) {
       const ParamSet drawn = reduced(panel.state.document.params, {.maps = detail.maps});
-      parts.push_back(
-          {2, fmt::format("maps {} × {}²", drawn.get_int("cascades.count"), drawn.get_int("cascades.size"))});
+      const bool fitted = drawn.get_word("cascades.fit") == "visible";
+      parts.push_back({2, fmt::format("maps {}{} × {}²", fitted ? "with the texels of " : "",
+                                      drawn.get_int("cascades.count"), drawn.get_int("cascades.size"))});
     }
     if (detail.reads > 1) parts.push_back({2, fmt::format("taps 1/{}", detail.reads)});
     if (status.costs_a.frame() > 0) parts.push_back({4, fmt::format("{:.1f} ms", status.costs_a.frame())});

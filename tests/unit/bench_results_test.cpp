@@ -78,6 +78,11 @@ TEST(BenchResults, TellTheCascadesThatAllTechniquesHave) {
     EXPECT_EQ(setting_of(results).find("2048"), std::string::npos) << name;
     EXPECT_NE(setting_of(results).find("cascades.count and cascades.size say of each"), std::string::npos) << name;
   }
+  results.entries.resize(1);
+  results.entries[0].params.set("cascades.fit", "visible");
+  EXPECT_NE(setting_of(results).find(", the texels of 4 cascades of 2048×2048,"), std::string::npos);
+  results.entries[0].params.set("cascades.count", 1);
+  EXPECT_NE(setting_of(results).find(", 1 cascade of 2048×2048,"), std::string::npos);
   results.sun = false;
   EXPECT_EQ(setting_of(results).find("cascades"), std::string::npos);
 }

@@ -149,6 +149,30 @@ TEST(VisibleCascades, AreAsManyAsMakeTheFinestTexels) {
   }
 }
 
+TEST(VisibleCascades, HaveTheSizeThatIsAskedForWhereTexelsAreNotDivided) {
+  CascadeInputs in = inputs({slice(100, 10), slice(100, 10.5), slice(100, 11), slice(100, 12), slice(100, 13)}, 4);
+  in.divides_texels = false;
+  const Cascades cascades = fit_cascades(in);
+  EXPECT_EQ(cascades.items.size(), 4u);
+  EXPECT_EQ(cascades.size, 1024);
+}
+
+// The last cascade also holds what is drawn forward. Where that is far wider than the rest, more cascades stay fine.
+TEST(VisibleCascades, AreMoreWhereOtherReceiversWidenTheLastOne) {
+  CascadeInputs in = inputs({slice(100, 1), slice(100, 4), slice(100, 16), slice(5, 17)}, 4);
+  const std::size_t alone = fit_cascades(in).items.size();
+  in.others = {{-150, 0, -150}, {150, 1, 150}};
+  EXPECT_GT(fit_cascades(in).items.size(), alone);
+}
+
+TEST(VisibleCascades, OfPlacesThatAreNoNumbersAreOne) {
+  VisibleReceivers slices{slice(100, 10)};
+  for (const double end : {1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    for (glm::dvec2& extent : slices[0].extents) extent = {-end, end};
+    for (const int count : {1, 4}) EXPECT_EQ(fit_cascades(inputs(slices, count)).items.size(), 1u);
+  }
+}
+
 TEST(VisibleCascades, HaveNoMoreTexelsThanTheyMay) {
   const VisibleReceivers slices{slice(100, 10), slice(100, 10.5), slice(100, 11)};
   for (const int size : {16, 17, 100, 1000, 2048, 8191, 8192}) {
@@ -203,6 +227,7 @@ TEST(VisibleCascades, TheLastHoldsTheDiscsOfItsReceivers) {
 TEST(VisibleCascades, TheLastHoldsOtherReceiversInTheViewAlone) {
   const VisibleReceivers slices{slice(1000, 1), slice(1000, 2)};
   CascadeInputs in = inputs(slices, 2);
+  in.may_turn = false;  // else the axes would turn for the others, too
   const Cascades without = fit_cascades(in);
   in.others = {{-1, 0, -40}, {1, 2, -38}};
   const Cascades ahead = fit_cascades(in);
