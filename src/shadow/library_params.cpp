@@ -39,13 +39,13 @@ std::vector<Param> map_rows() {
   using enum ParamBinding;
   return {
       {"cascades.count", 4, 1, max_cascades, "",
-       "Cascades of the sun's shadow map; with cascades.fit=visible at most so many.", host},
+       "Cascades of the sun's shadow map; the most, where they are fitted to what is visible.", host},
       {"cascades.size", 2048, 16, max_cascade_size, "texels",
-       "Side of each cascade's map; larger where cascades.fit=visible draws fewer maps.", host},
+       "Side of each cascade's map; larger where fewer are fitted to what is visible.", host},
       word("cascades.fit", {"stable", "visible"},
            "What the shadow maps cover: all that the camera could see, so that shadows stay still while it moves "
-           "(stable), or only what each frame shows, in more detail; its texels are then divided among as many maps, "
-           "at most cascades.count, as make them finest (visible)."),
+           "(stable), or only what each frame shows, in more detail; all their texels are then divided among as many "
+           "maps as make them finest (visible)."),
       {"cascades.split", 0.75f, 0, 1, "", "Spacing of the cascades: 0 uniform, 1 logarithmic.", host},
       {"cascades.distance", 0.0f, 0, 1e7, "m", "Range of the last cascade; 0: as far as the view sees the scene.",
        host},
