@@ -118,7 +118,8 @@ PROJECTION_FOLDER = "shadow/projection/"
 CASCADES = re.compile(r"\b(Cascades?|LampMaps|fit_cascades|fit_lamp|get(_if)?<(Sun|Lamp)>)(?!\w)")
 # light_projection.cpp alone uses the other files: they are its parts for suns and for lamps. light_matrices.cpp makes its
 # cascades of an engine's matrices.
-CASCADES_FILES = {"shadow/cascades.h", "shadow/cascades.cpp", "shadow/receiver_region.h", "shadow/receiver_region.cpp",
+CASCADES_FILES = {"shadow/cascades.h", "shadow/cascades.cpp", "shadow/visible_cascades.h", "shadow/visible_cascades.cpp",
+                  "shadow/receiver_region.h", "shadow/receiver_region.cpp",
                   "shadow/lamp_maps.h", "shadow/lamp_maps.cpp", "shadow/light_projection.h",
                   "shadow/light_projection.cpp", "shadow/light_matrices.h", "shadow/light_matrices.cpp"}
 
