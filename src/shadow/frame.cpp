@@ -13,17 +13,14 @@
 #include "../core/error.h"
 #include "../core/log.h"
 #include "copies.h"
-#include "denoise_context.h"
 #include "depth_normals.h"
-#include "light_block.h"
 #include "light_fit.h"
-#include "mask_pass.h"
-#include "mask_scale.h"
+#include "mask_layer.h"
 #include "movement_map.h"
 #include "outputs.h"
 #include "products.h"
 #include "shadow_map.h"
-#include "tiles.h"
+#include "uploads.h"
 #include "visible_receivers.h"
 
 namespace penumbra::shadow {
@@ -111,102 +108,6 @@ void draw_maps(const LightWork& work) {
                               .depth = depth,
                               .moved = inputs.moved,
                               .present_is_drawn = in_one_pass});
-}
-
-DepthRounding map_rounding(const LightWork& work) {
-  return work.light.maps ? work.view.checked.source_of(*work.light.maps).rounding : DepthRounding{};
-}
-
-// Uploads the uniforms of the view and the light.
-// `scale`: pixels of the caller's depths from one receiver to the next.
-void upload_light(const LightWork& work, const char* name, const glm::vec2& last_jitter, int scale = 1) {
-  const LightTraits traits{.noise = noise_read(work.params(), static_cast<int>(work.state.age)),
-                           .last_jitter = last_jitter,
-                           .depth_error = work.view.depth_error,
-                           .vertex_rounding = work.device.vertex_rounding() / static_cast<float>(scale),
-                           .made_normals = !work.view.brings_normals,
-                           .moved_maps = moves_maps(work),
-                           .map_rounding = map_rounding(work)};
-  work.state.shadow_block = &work.device.scratch(work.prefix() + name, sizeof(glsl::ShadowBlock));
-  gl::write_value(*work.state.shadow_block, shadow_block(work.inputs, work.frame, traits));
-}
-
-// Uploads the uniforms that every program reads: the parameters, the view and the light.
-void upload_blocks(const LightWork& work) {
-  LightState& state = work.state;
-  if (!state.uploaded) {
-    const std::vector<std::byte> params = uniform_bytes(state.params);
-    state.params_block = &work.device.scratch(work.prefix() + "params", params.size());
-    state.params_block->write(params);
-    state.noise = &work.samples.noise(state.params.get_word("sampling.noise"));
-  }
-  upload_samples(work, work.technique, "samples");
-  if (&work.forward != &work.technique) upload_samples(work, work.forward, "samples of the stand-in");
-  state.uploaded = true;
-  upload_light(work, "light", work.view.last_jitter);
-}
-
-void draw_layer(const LightWork& work) {
-  const PassContext context(work, owner_of(work.technique));
-  if (work.denoiser != nullptr) {
-    work.denoiser->denoise(DenoiseContext(work, owner_of(*work.denoiser)));
-  } else if (work.technique.resolve) {
-    work.technique.resolve(context);
-  } else {
-    context.evaluate(work.mask, work.frame.layer);
-  }
-}
-
-// The receivers of masks of fewer pixels, by scale.
-using ScaledViews = std::map<int, ScaledInputs>;
-
-std::string scaled_prefix(const ViewState& view, int scale) { return fmt::format("{}scale {}/", view.prefix, scale); }
-
-// Runs the technique and the denoiser for every scale-th pixel, and fills the light's layer of the mask from these.
-void draw_layer_at(int scale, LightWork work, ScaledViews& views) {
-  const std::string prefix = scaled_prefix(work.view, scale);
-  if (!views.contains(scale)) views.emplace(scale, scaled_inputs(work, prefix, scale));
-  const ScaledInputs& scaled = views.at(scale);
-  gl::TextureDesc desc = work.mask.desc();
-  desc.width = scaled.inputs.depth.width;
-  desc.height = scaled.inputs.depth.height;
-  LightFrame frame = work.frame;
-  frame.viewport = viewport_of(scaled.inputs);
-  frame.scale = scale;
-  std::optional<Tiles> tiles, of_scaled;
-  if (decides_tiles(work)) work.tiles = &tiles.emplace(fill_decided_tiles(work));
-  LightWork small{.device = work.device,
-                  .registry = work.registry,
-                  .programs = work.programs,
-                  .samples = work.samples,
-                  .inputs = scaled.inputs,
-                  .light = work.light,
-                  .mask = work.device.target(prefix + "mask", desc),
-                  .view = work.view,
-                  .state = work.state,
-                  .frame = frame,
-                  .technique = work.technique,
-                  .forward = work.forward,
-                  .denoiser = work.denoiser,
-                  .remembered = work.remembered};
-  if (tiles && decides_tiles(small))
-    small.tiles = &of_scaled.emplace(
-        scaled_tiles(small, {.tiles = *tiles, .viewport = work.frame.viewport, .has_rims = has_rims(work)}));
-  const gl::Buffer* of_view = work.state.shadow_block;
-  upload_light(small, "scaled light", scaled.ndc * work.view.last_jitter, scale);
-  draw_layer(small);
-  work.state.shadow_block = of_view;
-  work.frame.notes = frame.notes;
-  upsample(work, {small.mask, scaled.inputs.depth.id}, scale);
-  work.frame.scale = scale;
-}
-
-// Releases what scales that no light of the frame has used.
-void release_scales(gl::Device& device, const ViewState& view, const ScaledViews& used) {
-  constexpr int most = 4;
-  for (int scale = 2; scale <= most; ++scale) {
-    if (!used.contains(scale)) device.drop(scaled_prefix(view, scale));
-  }
 }
 
 // Releases the maps and histories that the last frame used and this one did not, and, after a change of parameters, all
@@ -307,12 +208,7 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   upload_blocks(work);
   if (from.inputs.makes_normals() && view.normals == nullptr) view.normals = &make_normals(work);
   build_products(work, wanted.recipes);
-  const int scale = mask_scale(technique, state.params, mask);
-  if (scale == 1) {
-    draw_layer(work);
-  } else {
-    draw_layer_at(scale, work, scaled);
-  }
+  draw_layer(work, scaled);
   release_unused(work, has_shadow_map && (!light.maps || light.maps->is_copied()));
   state.drawn = true;
   return frame;
