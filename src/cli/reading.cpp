@@ -110,7 +110,8 @@ scene::ReadLimits limits_of(const ReadingOptions& options) {
 }
 
 scene::Scene read_scene(const std::string& file, const ReadingOptions& options, const scene::ImageDecoder& decode) {
-  scene::ReadOptions read{.limits = limits_of(options), .follow_links = options.follow_links, .progress = {}};
+  scene::ReadOptions read{
+      .limits = limits_of(options), .follow_links = options.follow_links, .names_files = options.names_files};
   ReadingProgress progress;
   if (options.progress) read.progress = std::ref(progress);
   scene::Scene scene = scene::read_gltf(file, decode, read);

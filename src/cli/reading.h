@@ -15,7 +15,8 @@ struct ReadingOptions {
   std::vector<std::pair<std::string, scene::CastSetting>> casters;  // by material
   bool follow_links = false;
   bool skies_chosen = false;  // casters.skies is set, so no warning says that skies cast none; set by the program
-  bool progress = false;      // show it on the terminal; set by the program, not by an option
+  scene::ReadOptions::NamesFiles names_files = {};  // set by the program, not by an option
+  bool progress = false;                            // show it on the terminal; set by the program, not by an option
 };
 
 void add_reading_options(CLI::App& app, ReadingOptions& options);

@@ -75,7 +75,11 @@ struct ReadOptions {
   // Files beside the scene may be symbolic links that lead out of its folder.
   bool follow_links = false;
   // Called repeatedly on the thread that reads. An exception that it throws ends the reading.
-  std::function<void(const ReadProgress&)> progress;
+  std::function<void(const ReadProgress&)> progress = {};
+  // Called once the glTF's JSON is read, with the files that it names besides itself, used or not, also those that then
+  // can't be read.
+  using NamesFiles = std::function<void(const std::vector<std::filesystem::path>&)>;
+  NamesFiles names_files = {};
 };
 
 // Reads a .gltf or .glb with all files that it refers to. Throws Error: one line that names the file and the fault.

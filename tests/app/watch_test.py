@@ -164,6 +164,17 @@ class Watch(TestCase):
         write_triangle(data, 2.0)
         self.assertRegex(watch.next("wrote"), r"^\S+data\.bin changed: .*differs by")
 
+    def test_a_file_that_a_changed_scene_lacked_is_read_once_it_is_there(self):
+        model = self.folder / "model.gltf"
+        write_triangle(self.folder / "data.bin", 1.0)
+        model.write_text(json.dumps(triangle("data.bin")))
+        watch = self.watch("--ground", "on", "--eye", "0,2,6", "--target", "0,0,0", of=model)
+        watch.next("^wrote")
+        model.write_text(json.dumps(triangle("other.bin")))
+        watch.next(r"^error: .*model\.gltf.*other\.bin")
+        write_triangle(self.folder / "other.bin", 2.0)
+        self.assertRegex(watch.next("wrote"), r"^\S+other\.bin changed: .*differs by")
+
     def test_a_technique_whose_shader_is_broken_when_it_is_first_needed(self):
         preset = self.folder / "mine.toml"
         preset.write_text('technique = "hard"\n')

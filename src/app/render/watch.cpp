@@ -103,6 +103,7 @@ class Watch {
   RenderOptions options_;
   cli::OutputNames names_;
   session::FileWatch files_;
+  Paths named_;  // by the scene file when it was read last, whether or not they could be read
   ParamSet params_;
   truth::TruthTechnique truth_;
   std::unique_ptr<session::PreparedScene> prepared_;
@@ -123,6 +124,7 @@ Watch::Watch(RenderOptions options)
   params_ = params_of(options_);  // files may have changed before the watch began
   warn_without_effect(options_, params_);
   options_.reading.skies_chosen = cli::is_chosen(options_, params_, "casters.skies");
+  options_.reading.names_files = [this](const Paths& files) { named_ = files; };
   prepared_ = std::make_unique<session::PreparedScene>(
       session::load_scene(options_, image::image_decoder(cli::limits_of(options_.reading))));
   check_scene_files(prepared_->scene.files, options_, names_);
@@ -132,9 +134,11 @@ Watch::Watch(RenderOptions options)
                                                       *prepared_, truth_.registry(), /* timed= */ true);
 }
 
-// The single files to watch: the scene's, including those that could not be read, and the presets.
+// The single files to watch: the scene's, including those that could not be read, those of the scene that is shown,
+// and the presets.
 Paths Watch::inputs() const {
   Paths files{options_.scene};
+  files.insert(files.end(), named_.begin(), named_.end());
   if (prepared_) files.insert(files.end(), prepared_->scene.files.begin(), prepared_->scene.files.end());
   files.insert(files.end(), options_.presets.begin(), options_.presets.end());
   return files;
@@ -160,7 +164,7 @@ void Watch::take(const Paths& changed) {
   Change change;
   for (const fs::path& file : changed) {
     const bool is_preset = is_among(file, presets);
-    const bool is_scene = file == options_.scene || is_among(file, prepared_->scene.files);
+    const bool is_scene = file == options_.scene || is_among(file, named_) || is_among(file, prepared_->scene.files);
     params_due_ |= is_preset;
     scene_due_ |= is_scene;
     if (is_preset || is_scene) change.files.push_back(file);
@@ -202,8 +206,14 @@ void Watch::print_faults() {
 }
 
 void Watch::reload_scene() {
-  auto prepared = std::make_unique<session::PreparedScene>(
-      session::load_scene(options_, image::image_decoder(cli::limits_of(options_.reading))));
+  std::unique_ptr<session::PreparedScene> prepared;
+  try {
+    prepared = std::make_unique<session::PreparedScene>(
+        session::load_scene(options_, image::image_decoder(cli::limits_of(options_.reading))));
+  } catch (const Error&) {
+    files_.set_files(inputs());  // a file that the new scene lacks may appear
+    throw;
+  }
   check_scene_files(prepared->scene.files, options_, names_);
   session_->show(*prepared);
   prepared_ = std::move(prepared);

@@ -232,10 +232,11 @@ Document read_document(const std::filesystem::path& path, const ReadOptions& opt
   check_asset(container.json);
   check_extensions(container.json);
 
+  list_files(document, container.json);
+  if (options.names_files) options.names_files(document.files);
   const std::vector<Bytes> buffers = load_buffers(document, container);
   cut_views(document, container.json, buffers);
   list_images(document, container.json);
-  list_files(document, container.json);
   document.model = parse_model(std::move(container.json));
   document.storage.push_back(std::move(container.file));  // moving a vector leaves its bytes where they are
   return document;
