@@ -99,6 +99,8 @@ void difference(const Panel& panel) {
   figure("bias", fmt::format("{:+.5f}", figures.bias), "Mean error: above 0 where A is too bright.");
   figure("largest", fmt::format("{:.4f}", figures.max), "The greatest error of a pixel.");
   figure("FLIP", fmt::format("{:.5f}", panel.status.difference->flip), "How different the two look, 0 to 1.");
+  if (figures.not_finite > 0)
+    figure("not finite", fmt::format("{} values", figures.not_finite), "Of A; each counts as an error of 1.");
   end_rows();
   panel.widgets.mark("distance");
 }

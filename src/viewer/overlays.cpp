@@ -175,11 +175,18 @@ void color_bar(const Panel& panel) {
   ImGui::TextUnformatted(high.c_str());
 }
 
+// The maps of the light that has most.
+DrawnMaps most_maps(const ViewerStatus& status) {
+  DrawnMaps most;
+  for (const DrawnMaps& maps : status.drawn_maps) most = maps.layers > most.layers ? maps : most;
+  return most;
+}
+
 void label_list(const Panel& panel) {
   const ColorMapping& mapping = panel.status.mapping;
   std::size_t count = mapping.labels.size();
   if (panel.state.inspection.what == "cascade")
-    count = std::min(count, static_cast<std::size_t>(panel.state.document.params.get_int("cascades.count")));
+    count = std::min(count, static_cast<std::size_t>(most_maps(panel.status).layers));
   for (std::size_t i = 0; i < count; ++i) {
     const glm::vec3 color = color_at(mapping.scale, static_cast<float>(i));
     ImGui::ColorButton(mapping.labels[i].c_str(), {color.r, color.g, color.b, 1},
@@ -187,6 +194,7 @@ void label_list(const Panel& panel) {
                        {ImGui::GetFontSize(), ImGui::GetFontSize()});
     ImGui::SameLine();
     ImGui::TextUnformatted(mapping.labels[i].c_str());
+    panel.widgets.mark("label=" + mapping.labels[i]);
   }
 }
 
@@ -254,12 +262,8 @@ std::vector<StatusPart> status_parts(const Panel& panel) {
     if (status.drawn_size != full) size += fmt::format(" of {} × {}", full.x, full.y);
     parts.push_back({3, size});
     const Detail detail = effective(panel.state.document.params, status.detail);
-    if (detail.maps > 1) {
-      const ParamSet drawn = reduced(panel.state.document.params, {.maps = detail.maps});
-      const bool fitted = drawn.get_word("cascades.fit") == "visible";
-      parts.push_back({2, fmt::format("maps {}{} × {}²", fitted ? "with the texels of " : "",
-                                      drawn.get_int("cascades.count"), drawn.get_int("cascades.size"))});
-    }
+    const DrawnMaps maps = most_maps(status);
+    if (detail.maps > 1 && maps.layers > 0) parts.push_back({2, fmt::format("maps {} × {}²", maps.layers, maps.size)});
     if (detail.reads > 1) parts.push_back({2, fmt::format("taps 1/{}", detail.reads)});
     if (status.costs_a.frame() > 0) parts.push_back({4, fmt::format("{:.1f} ms", status.costs_a.frame())});
     parts.push_back({1, session::technique_label(panel.state.document.params)});

@@ -36,6 +36,13 @@ bool differ_in_shadows(const ParamSet& one, const ParamSet& other) {
   });
 }
 
+std::vector<DrawnMaps> maps_of(const shadow::Mask& mask) {
+  std::vector<DrawnMaps> maps;
+  for (const shadow::LightFrame& light : mask.lights)
+    maps.push_back(light.depth == 0 ? DrawnMaps{} : DrawnMaps{light.projection.layers(), light.projection.size()});
+  return maps;
+}
+
 }  // namespace
 
 PictureRenderer::PictureRenderer(gl::Device& device, render::Renderer& renderer, int view)
@@ -93,6 +100,7 @@ void PictureRenderer::draw(LoadedScene& scene, const Document& document, const D
   try {
     const render::Frame& frame = renderer_.draw(scene.gpu, inputs, reduced(document.params, detail));
     keep(*frame.display, inputs.samples < document.options.samples);
+    maps_ = maps_of(frame.mask);
   } catch (const GivenUp&) {
     drawn_ = before;
     if (!refined) frames_ = 0;

@@ -27,6 +27,12 @@ struct LoadedScene {
   std::vector<std::size_t> light_nodes = render::light_nodes(prepared.scene);
 };
 
+// The shadow maps of a light in a drawing.
+struct DrawnMaps {
+  int layers = 0;  // cascades, or maps of a lamp; 0: none were needed
+  int size = 0;    // texels along a side of each
+};
+
 // Ends a drawing that is no longer wanted, from gl::Device::before_pass.
 struct GivenUp {};
 
@@ -80,6 +86,8 @@ class PictureRenderer {
   // Goes up whenever either has other content.
   std::uint64_t version() const { return version_; }
   bool has_picture() const { return picture_ != nullptr; }
+  // The maps of each light in the last drawing.
+  const std::vector<DrawnMaps>& maps() const { return maps_; }
   // The view in which the last drawing's maps and masks are.
   int view() const { return small_maps_ ? view_of_small_maps(view_) : view_; }
 
@@ -97,6 +105,7 @@ class PictureRenderer {
   ParamSet params_;                      // its parameters, in full detail
   std::vector<std::string> lights_;      // the options that choose its lights
   Detail detail_;
+  std::vector<DrawnMaps> maps_;
   int frames_ = 0;
   double milliseconds_ = 0, last_time_ = 0;
   render::Camera last_camera_;

@@ -235,6 +235,7 @@ void Viewer::draw_sides(std::span<const SideWork> work, const Detail& detail) {
   pacing_.drew(detail, milliseconds, turn_.beside());
   turn_.drew(milliseconds);
   status_.detail = detail;
+  status_.drawn_maps = a_.renderer.maps();
   status_.drawn_size = {a_.renderer.picture().width(), a_.renderer.picture().height()};
   note_progress();
 }

@@ -41,10 +41,11 @@ struct ViewerStatus {
   std::string loading;                 // the file that is being read, or empty
   const Costs& costs_a;
   const Costs& costs_b;
-  glm::ivec2 drawn_size{0};  // of the last picture, pixels
-  Detail detail;             // of it
-  Progress progress;         // of A
-  bool idle = false;         // all pictures are finished: nothing will be drawn until something changes
+  glm::ivec2 drawn_size{0};           // of the last picture, pixels
+  Detail detail;                      // of it
+  std::vector<DrawnMaps> drawn_maps;  // of each light in it
+  Progress progress;                  // of A
+  bool idle = false;                  // all pictures are finished: nothing will be drawn until something changes
   bool can_undo = false, can_redo = false;
   Unsaved unsaved;
   std::string saved_to, preset;  // the files that saving writes: the view's and, or empty, the open preset's

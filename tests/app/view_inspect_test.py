@@ -212,6 +212,15 @@ class Tint(WindowTest):
             viewer.press("t", lambda: not viewer.has("legend"), "no legend")
             self.assertEqual(viewer.rest(), lit)
 
+    def test_the_legend_lists_the_cascades_that_were_drawn(self):
+        # Maps fitted to a view are fewer and larger than the parameters say, where that makes their texels finer.
+        for fit, drawn in ("stable", 4), ("visible", 2):
+            with self.subTest(fit=fit), self.view(STEPS, "--set", f"cascades.fit={fit}") as viewer:
+                viewer.rest()
+                viewer.press("t", lambda: viewer.has("legend"), "the legend")
+                viewer.wait_for(lambda: viewer.has(f"label={drawn - 1}"), "the last cascade")
+                self.assertFalse(viewer.has(f"label={drawn}"))
+
 
 class Lock(WindowTest):
     def test_locked_values_stay_while_the_mouse_moves(self):
