@@ -1,17 +1,22 @@
 // Finds what the view's depth texture shows of the receivers, for cascades that are fitted to it (Lauritzen, Salvi and
 // Lefohn 2010, Sample distribution shadow maps). The first run, with BOUNDS 0, finds the least and the greatest stored
 // depth. The second one divides the distances between them into slices, of equal ratios of far to near, and finds for
-// each slice how many pixels show it and its extents along several directions across the light.
+// each slice how many pixels show it and its extents along several directions across the light. With UNDECIDED 1, what
+// is shown in decided tiles is left out.
 #include "shared/language.h"
+#include "shadow/drivers/decisions.glsl"
 
 const uint slices = 32u;
 // Each invocation reads a block of pixels, and adds it to one slice: that of its farthest pixel. Cascades hold what the
 // slices before them hold too, so that near slices stay as small as what they show.
-const int block_size = 8;
+const int block_size = tile_size;
 layout(local_size_x = 8, local_size_y = 8) in;
 const uint invocations = 64u;
 
 layout(binding = 2) uniform sampler2D receiver_depth;
+#if UNDECIDED
+layout(binding = 14) uniform usampler2D decisions;
+#endif
 
 // Of each slice: the extents along DIRECTIONS directions in light space's x and y, of which the first is the x axis and
 // each other one is turned by half a turn / DIRECTIONS more; then the depths along the light.
@@ -40,8 +45,11 @@ struct Pixels {
 };
 
 Pixels own_pixels() {
-  ivec2 at = block_size * ivec2(gl_GlobalInvocationID.xy);
-  return Pixels(ivec2(viewport.xy) + at, ivec2(viewport.xy) + min(at + block_size, ivec2(viewport.zw)));
+  ivec2 at = block_size * ivec2(gl_GlobalInvocationID.xy), end = min(at + block_size, ivec2(viewport.zw));
+#if UNDECIDED
+  if (all(lessThan(at, end)) && is_decided(texelFetch(decisions, at / tile_size, 0))) end = at;
+#endif
+  return Pixels(ivec2(viewport.xy) + at, ivec2(viewport.xy) + end);
 }
 
 const float most_finite = 3e38;

@@ -125,8 +125,10 @@ std::vector<Entry> entries_of(const Options& options, const shadow::Registry& re
     // The camera stands still, unlike in most uses, so that maps would be drawn in the first frame only.
     if (!cli::is_chosen(one, entry.params, "maps.keep")) entry.params.set("maps.keep", false);
     if (options.floor) set_for_floor(entry.params, one);
-    if (options.sweep == "cascades" && entry.params.get_word("cascades.fit") == "visible")
-      fail_usage("--sweep cascades can't be measured with cascades.fit=visible, which chooses their number and size");
+    if (options.sweep == "cascades" && entry.params.get_word("cascades.fit") != "stable") {
+      fail_usage("--sweep cascades can't be measured with cascades.fit={}, which chooses their number and size",
+                 entry.params.get_word("cascades.fit"));
+    }
     if (is_preset(name)) entry.label = std::filesystem::path(name).stem().string();
     if (name.empty()) entry.label = entry.params.get_word("technique");
     for (const Entry& other : entries) {

@@ -67,7 +67,7 @@ std::string sweep_lines(const Results& results) {
 std::string cascades_of(const Results& results) {
   const auto text_of = [](const Entry& entry) {
     const int count = entry.params.get_int("cascades.count"), side = entry.params.get_int("cascades.size");
-    const bool fitted = entry.params.get_word("cascades.fit") == "visible";
+    const bool fitted = entry.params.get_word("cascades.fit") != "stable";
     return fmt::format("{}{} cascade{} of {}×{}", fitted && count > 1 ? "the texels of " : "", count,
                        count == 1 ? "" : "s", side, side);
   };

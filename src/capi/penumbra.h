@@ -316,7 +316,9 @@ enum {
 typedef struct penumbra_caster_pass {
   size_t struct_size;       /**< sizeof(penumbra_caster_pass) of the library */
   int32_t kind;             /**< PENUMBRA_PASS_... */
-  int32_t layer;            /**< of the light's shadow map: a cascade of a sun, a face of a lamp's cube */
+  int32_t layer;            /**< of the light's shadow map: a cascade of a sun, a face of a lamp's cube; with
+                               cascades.fit=penumbrae also of smaller maps that are drawn first, so that a layer may come
+                               twice in a frame, with another matrix */
   int32_t view_id;          /**< of the frame */
   uint32_t reserved;        /**< 0 */
   float world_to_clip[16];  /**< clip space has z in 0..1 (GL_ZERO_TO_ONE is set), 0 at the light */
@@ -421,8 +423,8 @@ typedef struct penumbra_frame {
   /** The same of all surfaces whose shadows are computed, those drawn forward too. */
   penumbra_box receivers;
   /** World bounds of those receivers that `depth` does not hold, such as glass; default: empty. Maps with the parameter
-   * cascades.fit=visible hold them, too, and where there are some, maps.jitter does not move maps from frame to frame:
-   * these receivers have no history. */
+   * cascades.fit=visible or penumbrae hold them, too, and where there are some, maps.jitter does not move maps from
+   * frame to frame: these receivers have no history. */
   penumbra_box forward_receivers;
   uint32_t moved_is_known; /**< 1: `moved` is right; 0 (default): anything may have moved */
   /** World bounds of the casters that moved since the view's last frame, at their present and their last positions, of
@@ -440,8 +442,8 @@ typedef struct penumbra_frame {
 
   /** 1: `casters` and `receivers` are no larger than what they hold. 0 (default): where they reach farther than 10 km
    * from the camera, as those of a sky's dome do, near shadows stay right, but receivers more than 1 km from the camera
-   * are lit (unless cascades.distance says how far shadows reach, or cascades.fit=visible measures it), and so is what
-   * casters shadow from more than 10 km along a sun's light. A warning says so once for a view. */
+   * are lit (unless cascades.distance says how far shadows reach, or cascades.fit=visible or penumbrae measures it),
+   * and so is what casters shadow from more than 10 km along a sun's light. A warning says so once for a view. */
   uint32_t exact_bounds;
   uint32_t reserved_2; /**< 0 */
   /** What `normals` holds, times normals_scale (default 1, not 0) and plus normals_offset (default 0), is in -1..1: 2

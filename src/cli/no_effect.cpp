@@ -44,6 +44,7 @@ constexpr std::array rules{
     Rule{"mask.tiles", "mask.scale", "3"},
     Rule{"mask.tiles", "mask.scale", "4"},
     Rule{"cascades.split", "cascades.fit", "visible"},
+    Rule{"cascades.split", "cascades.fit", "penumbrae"},
     Rule{"cascades.blend", "cascades.seam", "none"},
     Rule{"brute_force.blocker_taps", "brute_force.every_texel", "true"},
     Rule{"brute_force.filter_taps", "brute_force.every_texel", "true"},

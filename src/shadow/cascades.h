@@ -119,6 +119,8 @@ struct CascadeInputs {
   // Absent: the cascades are fitted to the frustum and the receivers' box, and seldom change size. Else they are fitted
   // to these receivers, and `split_blend` has no effect.
   std::optional<VisibleReceivers> visible = {};
+  // Those of them that a penumbra may reach; absent: all. Of several cascades all but the last are fitted to these.
+  std::optional<VisibleReceivers> near_penumbrae = {};
   bool may_turn = true;  // the x and y axes, to fit `visible`; not for a light whose shape has corners
   // How far each cascade is moved along x and y, in its own texels, 0 to 1: so that frames see edges at other places
   // within a texel.

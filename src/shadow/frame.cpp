@@ -15,100 +15,17 @@
 #include "copies.h"
 #include "depth_normals.h"
 #include "light_fit.h"
+#include "light_maps.h"
 #include "mask_layer.h"
-#include "movement_map.h"
+#include "near_penumbrae.h"
 #include "outputs.h"
 #include "products.h"
-#include "shadow_map.h"
 #include "uploads.h"
 #include "visible_receivers.h"
 
 namespace penumbra::shadow {
 
 namespace {
-
-constexpr const char* movement_map_name = "movement map";  // names of their targets
-constexpr const char* shadow_map_name = "shadow map";
-
-MovementForm movement_form(const ParamSet& params) {
-  return params.get_word("movement.map") == "average" ? MovementForm::average : MovementForm::maximum;
-}
-
-// Whether the denoiser needs a movement map, and the parameters do not turn it off.
-bool asks_for_movement(const LightWork& work) {
-  const auto listed = [&] {
-    const std::vector<std::string>& needs = work.denoiser->needs;
-    return std::ranges::find(needs, "movement_map") != needs.end();
-  };
-  return !work.remembered.empty() && work.params().get_word("movement.map") != "none" && listed();
-}
-
-// Decides whether the history of the last frame may be used: not if casters may have moved and no movement map can show
-// where.
-void plan_history(const LightWork& work, bool has_shadow_map) {
-  LightFrame& frame = work.frame;
-  frame.history = work.state.age > 0 && !work.remembered.empty();
-  const bool asks = has_shadow_map && asks_for_movement(work);
-  const bool none_moved = nothing_moved(work.inputs.moved);
-  if (asks && work.inputs.draw) {
-    // Allocated whether or not something moved in this frame, so that memory use stays constant.
-    frame.movement = &movement_target(work.device, work.prefix() + movement_map_name, frame.projection.size(),
-                                      frame.projection.layers(), movement_form(work.params()));
-    frame.casters_moved = work.state.age > 0 && !none_moved;
-  }
-  if (asks && !work.inputs.draw && !none_moved) frame.history = false;
-}
-
-// Decides which layers of the shadow map still hold what they would be drawn with.
-void keep_layers(const LightWork& work, const gl::Texture& map) {
-  LightProjection& projection = work.frame.projection;
-  MapContent& last = work.state.map;
-  const MapContent now = content_of(work.device, map, projection, work.light.source);
-  if (work.state.follows && work.params().get_bool("maps.keep"))
-    work.frame.kept_layers = unchanged_layers(last, now, work.inputs.moved);
-  for (int i = 0; i < projection.layers(); ++i) {
-    const auto layer = static_cast<size_t>(i);
-    if (work.frame.kept_layers[layer]) projection.set_drawn_texels(i, last.layers[layer].drawn);
-  }
-  last = content_of(work.device, map, projection, work.light.source);
-}
-
-// The shadow map, drawn or supplied by the caller, and the movement map.
-void draw_maps(const LightWork& work) {
-  const Inputs& inputs = work.inputs;
-  LightFrame& frame = work.frame;
-  const bool finished = work.light.maps.has_value();
-  const bool in_one_pass =
-      frame.casters_moved && !finished && work.params().get_word("movement.present") == "shadow_pass";
-  const gl::Texture* depth = nullptr;
-  if (!finished) {
-    depth = &shadow_map_target(work.device, work.prefix() + shadow_map_name, frame.projection);
-    keep_layers(work, *depth);
-    draw_shadow_map(work.device, {.map = *depth,
-                                  .projection = frame.projection,
-                                  .source = work.light.source,
-                                  .draw = inputs.draw,
-                                  .moved = in_one_pass ? frame.movement : nullptr,
-                                  .moved_bounds = inputs.moved,
-                                  .kept = frame.kept_layers});
-  }
-  if (!finished) {
-    frame.depth = depth->id();
-  } else if (work.light.maps->is_copied()) {
-    frame.depth = copy_maps(work.device, work.prefix() + shadow_map_name, *work.light.maps).id();
-  } else {
-    frame.depth = work.light.maps->depth.id;
-  }
-  if (!frame.casters_moved) return;
-  draw_movement(work.device, {.map = *frame.movement,
-                              .form = movement_form(work.params()),
-                              .projection = frame.projection,
-                              .source = work.light.source,
-                              .draw = inputs.draw,
-                              .depth = depth,
-                              .moved = inputs.moved,
-                              .present_is_drawn = in_one_pass});
-}
 
 // Releases the maps and histories that the last frame used and this one did not, and, after a change of parameters, all
 // other targets of techniques, recipes and denoisers that this frame did not use.
@@ -180,15 +97,15 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   // A technique's own passes and recipes may draw casters without a shadow map, but only the movement map, which is
   // drawn with the shadow map, shows where casters moved.
   const bool may_draw_casters = technique.resolve || !wanted.recipes.empty();
-  std::optional<VisibleReceivers> visible;
+  ShownReceivers shown;
   if (wanted.shadow_map || may_draw_casters) {
-    visible = find_visible_receivers(from.device, from.inputs, light, state.params, state.prefix);
+    shown.visible = find_visible_receivers(from.device, from.inputs, light, state.params, state.prefix);
   }
   begin_frame(view, state, light, layer_count(light, state.params), same_params);
-  frame.projection = projection_of(work, visible, wanted.recipes);
-  if (const std::string fault = frame.projection.fault(); !fault.empty())
-    fail("soft shadows: no maps of light {} fit the view: {}", light.id, fault);
+  if (std::exchange(state.bound_forward, frame.binds_forward) != frame.binds_forward) state.changed = true;
   frame.shape = shape_of(light.source, state.params);
+  shown.near_penumbrae = find_near_penumbrae(work, shown.visible, wanted.recipes, view);
+  frame.projection = projection_of(work, shown, wanted.recipes);
   if (frame.shape.lamp && technique.suns_only) {
     fail("soft shadows: light {} is a lamp, and technique '{}' is for suns alone", light.id, technique.name);
   }
@@ -197,9 +114,8 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   }
   if (light.maps) check_compared_maps(light, view.checked, technique, wanted);
   take_shape(state, frame.shape);
-  if (std::exchange(state.bound_forward, frame.binds_forward) != frame.binds_forward) state.changed = true;
   // Whether anything is visible, and so what the maps are fitted to, may change though nothing else does.
-  if (state.params.get_word("cascades.fit") == "visible") state.drawn_texels.reset();
+  if (fits_to_view(state.params)) state.drawn_texels.reset();
   narrow_projection(work, wanted.recipes);
   const bool has_shadow_map = wanted.shadow_map || (may_draw_casters && asks_for_movement(work));
   plan_history(work, has_shadow_map);

@@ -94,7 +94,9 @@ struct FirstDepth {
 // The kinds from depth_and_moved to moved_last are requested only when the denoiser keeps a history.
 struct CasterPass {
   CasterKind kind = CasterKind::depth;
-  int layer = 0;               // of the light's shadow map; 0 for kind `geometry`
+  // Of the light's shadow map; 0 for kind `geometry`. With cascades.fit=penumbrae also of smaller maps that are drawn
+  // first, so that a layer may come twice, with another matrix.
+  int layer = 0;
   glm::mat4 world_to_clip{1};  // of this frame, also for moved_last
   CullVolume cull;
   LightSource source;  // of the light: where only one face of a surface casts shadows, which one faces the light
@@ -181,8 +183,8 @@ struct Inputs {
   // Whether `casters` and `receivers` are no larger than what they hold. If not, boxes of more than 10 km, such as
   // those of a sky's dome, limit what a sun's maps hold, so that near shadows stay right. Receivers more than 1 km from
   // the camera are then lit, unless the parameter cascades.distance says how far shadows reach or cascades.fit=visible
-  // measures it; and casters more than 10 km before the receivers, along the light, cast no shadow. A warning
-  // (core/log.h) says so once for a view.
+  // or penumbrae measures it; and casters more than 10 km before the receivers, along the light, cast no shadow. A
+  // warning (core/log.h) says so once for a view.
   bool exact_bounds = false;
   // World bounds of those receivers that `depth` does not hold, such as blended surfaces that are drawn forward; empty
   // (min > max in every axis): there are none. Where maps are fitted to what `depth` shows (cascades.fit) they hold

@@ -42,10 +42,11 @@ std::vector<Param> map_rows() {
        "Cascades of the sun's shadow map; the most, where they are fitted to what is visible.", host},
       {"cascades.size", 2048, 16, max_cascade_size, "texels",
        "Side of each cascade's map; larger where fewer are fitted to what is visible.", host},
-      word("cascades.fit", {"stable", "visible"},
+      word("cascades.fit", {"stable", "visible", "penumbrae"},
            "What the shadow maps cover: all that the camera could see, so that shadows stay still while it moves "
            "(stable), or only what each frame shows, in more detail; all their texels are then divided among as many "
-           "maps as make them finest (visible)."),
+           "maps as make them finest (visible); or all but one of these maps only where penumbrae may be, as small "
+           "maps that are drawn first show (penumbrae)."),
       {"cascades.split", 0.75f, 0, 1, "", "Spacing of the cascades: 0 uniform, 1 logarithmic.", host},
       {"cascades.distance", 0.0f, 0, 1e7, "m", "Range of the last cascade; 0: as far as the view sees the scene.",
        host},

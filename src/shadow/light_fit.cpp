@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "../core/error.h"
 #include "movement_map.h"
 #include "sampling.h"
 
@@ -78,15 +79,27 @@ bool moves_maps(const LightWork& work) {
   return work.remembered.empty() && work.params().get_int("sampling.seed") != 0;
 }
 
-LightProjection projection_of(const LightWork& work, const std::optional<VisibleReceivers>& visible,
+namespace {
+
+void check_fits(const LightWork& work, const LightProjection& projection) {
+  if (const std::string fault = projection.fault(); !fault.empty())
+    fail("soft shadows: no maps of light {} fit the view: {}", work.light.id, fault);
+}
+
+}  // namespace
+
+LightProjection projection_of(const LightWork& work, const ShownReceivers& shown,
                               const std::vector<const Recipe*>& recipes) {
   if (work.light.maps) return work.light.maps->projection;
   FitInputs fit = fit_inputs(work.inputs, work.params());
-  fit.visible = visible;
+  fit.visible = shown.visible;
+  fit.near_penumbrae = shown.near_penumbrae;
   fit.others = work.inputs.forward_receivers;
   fit.jitter = map_jitter(work);
   fit.divides_texels = reads_light_discs(work, recipes);
-  return fit_projection(work.light.source, fit);
+  LightProjection projection = fit_projection(work.light.source, fit);
+  check_fits(work, projection);
+  return projection;
 }
 
 int layer_count(const Light& light, const ParamSet& params) {

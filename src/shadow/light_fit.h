@@ -8,10 +8,16 @@
 
 namespace penumbra::shadow {
 
-// The caller's projection of the light's maps, or one fitted to the view. `visible`: see find_visible_receivers().
-// `recipes`: those that the frame makes. Maps that are averaged have the size that the parameters say, since what is
-// made of them has a power of two as its size.
-LightProjection projection_of(const LightWork& work, const std::optional<VisibleReceivers>& visible,
+// What the view shows of the receivers, where maps are fitted to that: see find_visible_receivers() and
+// find_near_penumbrae().
+struct ShownReceivers {
+  std::optional<VisibleReceivers> visible, near_penumbrae;
+};
+
+// The caller's projection of the light's maps, or one fitted to the view; throws Error if none fits. `recipes`: those
+// that the frame makes. Maps that are averaged have the size that the parameters say, since what is made of them has a
+// power of two as its size.
+LightProjection projection_of(const LightWork& work, const ShownReceivers& shown,
                               const std::vector<const Recipe*>& recipes);
 
 // Where a frame's maps lie within a texel: at Halton's points, which cover it evenly however many there are, and of

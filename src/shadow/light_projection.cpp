@@ -116,6 +116,7 @@ CascadeInputs cascade_inputs(const Sun& sun, const FitInputs& inputs) {
           .split_blend = params.get_float("cascades.split"),
           .distance = params.get_float("cascades.distance"),
           .visible = inputs.visible,
+          .near_penumbrae = inputs.near_penumbrae,
           .may_turn = !shape_of(sun, params).square,
           .jitter = inputs.jitter,
           .others = inputs.others};
@@ -297,6 +298,7 @@ LightProjection narrowed(const LightProjection& projection, const LightSource& s
 }
 
 bool fits_to_view(const LightSource& source) { return std::holds_alternative<Sun>(source); }
+bool fits_to_view(const ParamSet& params) { return params.get_word("cascades.fit") != "stable"; }
 
 LightShape shape_of(const LightSource& source, const ParamSet& params) {
   if (const auto* lamp = std::get_if<Lamp>(&source)) return {.extent = lamp->radius, .square = false, .lamp = true};

@@ -121,6 +121,7 @@ struct FitInputs {
   const ParamSet& params;
   // Where the maps are fitted to what the view shows: that, and the bounds of the receivers that it does not hold.
   std::optional<VisibleReceivers> visible = {};
+  std::optional<VisibleReceivers> near_penumbrae = {};  // see CascadeInputs
   Box others{glm::vec3(1), glm::vec3(-1)};
   bool divides_texels = true;  // see CascadeInputs
   glm::dvec2 jitter{0};        // of a sun's layers: see CascadeInputs
@@ -151,8 +152,10 @@ LightProjection fit_projection(const LightSource& source, const FitInputs& input
 LightProjection narrowed(const LightProjection& projection, const LightSource& source, const FitInputs& inputs,
                          const ReadBounds& read);
 
-// Whether the projection can be fitted to what the view's depth texture shows (cascades.fit).
+// Whether the projection can be fitted to what the view's depth texture shows, and whether the parameters ask for that
+// (cascades.fit).
 bool fits_to_view(const LightSource& source);
+bool fits_to_view(const ParamSet& params);
 
 // The size of the light; that of a sun is in the parameters.
 LightShape shape_of(const LightSource& source, const ParamSet& params);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -92,6 +93,7 @@ struct LightState {
     bool kept = false;        // in this frame, instead of being made again
   };
   std::map<std::string, KeptProduct, std::less<>> products;  // by recipe
+  std::unique_ptr<LightState> first;                         // of the maps that find_near_penumbrae() draws
   bool had_movement_map = false, had_shadow_map = false;     // which the library drew in the last frame
   bool bound_forward = true;                                 // Inputs::binds_forward of the last frame
 };

@@ -57,10 +57,11 @@ struct FrameKind {
 // they can't be put back. In a context with Penumbra's debug output every pass throws Error for all errors so far,
 // including the caller's.
 //
-// Memory. No texture is created after the first frame of a size, unless cascades.fit=visible chooses another number of
-// cascades for what a frame shows (which cascades.count of 1 or 2 prevents), and no OpenGL object at all after the
-// first frame in which a caster moved (where a history is kept). Shadow maps, masks and histories are kept for each
-// view id until forget_view(); those of a light are released in the first frame of the view that does not list it.
+// Memory. No texture is created after the first frame of a size, unless cascades.fit=visible or penumbrae chooses
+// another number of cascades for what a frame shows (which cascades.count of 1 or 2 prevents), and no OpenGL object at
+// all after the first frame in which a caster moved (where a history is kept). Shadow maps, masks and histories are
+// kept for each view id until forget_view(); those of a light are released in the first frame of the view that does not
+// list it.
 //
 // Shadow maps. Layers in which nothing has changed since the view's last frame are not drawn again, and neither are the
 // products of recipes that depend on the map alone: see Inputs::moved, which must be right for that, and the parameter
@@ -69,7 +70,9 @@ struct FrameKind {
 // also with maps.jitter and a history in frames whose matrices are the last one's, without Inputs::forward_receivers.
 //
 // Waiting. With the parameter cascades.fit=visible, render() waits once a light until the GPU has finished all earlier
-// work and has found what the depth texture shows. No other step of the library's own reads back what the GPU computes.
+// work and has found what the depth texture shows; with cascades.fit=penumbrae twice where the technique decides tiles
+// (Technique::decides_tiles), and small maps are drawn in between. No other step of the library's own reads back what
+// the GPU computes.
 //
 // Threads. A device, and all that draws with it, is used on one thread at a time, with its context current there.
 // Devices of several contexts, of one driver or of several, can be used on several threads at the same time.

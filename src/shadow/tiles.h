@@ -16,9 +16,9 @@ namespace penumbra::shadow {
 struct Tiles {
   static constexpr int size = 8;  // pixels along each side
 
-  // RGBA32UI, one texel a tile: its Decision (see glsl/shadow/drivers/tiles.glsl), or no_decision.
+  // RGBA32UI, one texel a tile: its Decision (see glsl/shadow/drivers/decisions.glsl), or no_decision.
   const gl::Texture& decisions;
-  // See TileList there.
+  // See TileList in glsl/shadow/drivers/tiles.glsl.
   const gl::Buffer& list;
 };
 

@@ -100,6 +100,18 @@ VisibleFit best_splits(const VisibleReceivers& up_to, const LightBounds& others,
   return fit;
 }
 
+// What cascades hold that end at each slice. Behind the slices that a penumbra may reach, one more adds no pixels, but
+// holds all that the view shows: the last cascade ends there.
+VisibleReceivers held_up_to(const CascadeInputs& in) {
+  VisibleReceivers all = accumulated(*in.visible);
+  if (!in.near_penumbrae || in.count < 2) return all;
+  VisibleReceivers fine = accumulated(*in.near_penumbrae);
+  ReceiverSlice last = all.back();
+  last.pixels = fine.back().pixels;
+  fine.push_back(last);
+  return fine;
+}
+
 double turn_of(int x_axis) { return x_axis * (glm::pi<double>() / measured_directions); }
 
 VisibleFit best_fit(const VisibleReceivers& up_to, const glm::dvec3& anchor, const CascadeInputs& in) {
@@ -122,7 +134,7 @@ VisibleFit best_fit(const VisibleReceivers& up_to, const glm::dvec3& anchor, con
 std::vector<Region> visible_regions(const CascadeInputs& in, Cascades& cascades) {
   // Receivers are computed from the same depths on the GPU, in floats.
   constexpr double rounding = 1e-4;
-  const VisibleReceivers up_to = accumulated(*in.visible);
+  const VisibleReceivers up_to = held_up_to(in);
   const VisibleFit fit = best_fit(up_to, cascades.anchor, in);
   cascades.turn = turn_of(fit.x_axis);
   cascades.world_to_light = light_axes(in.to_light, cascades.turn);

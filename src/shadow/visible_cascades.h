@@ -13,9 +13,9 @@ struct Region {
   double shallowest = 0, deepest = 0;
 };
 
-// One for each cascade, finest first: about what the view shows of the receivers up to its range; the last one about
-// all other receivers too. Chooses how many there are, and in `cascades`, which has its anchor, how light space is
-// turned and the maps' size.
+// One for each cascade, finest first: about what the view shows of the receivers, or of those that a penumbra may
+// reach, up to its range; the last one about all receivers. Chooses how many there are, and in `cascades`, which has
+// its anchor, how light space is turned and the maps' size.
 std::vector<Region> visible_regions(const CascadeInputs& inputs, Cascades& cascades);
 
 }  // namespace penumbra::shadow

@@ -1,5 +1,7 @@
 #include "visible_receivers.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -38,10 +40,12 @@ float value_of(std::uint32_t code) {
   return std::bit_cast<float>((code & sign) != 0 ? code & ~sign : ~code);
 }
 
-gl::ProgramDesc program(bool bounds) {
-  return {.name = bounds ? "bounds of visible receivers" : "depths of visible receivers",
+gl::ProgramDesc program(bool bounds, bool undecided) {
+  return {.name = fmt::format("{} of {} receivers", bounds ? "bounds" : "depths", undecided ? "undecided" : "visible"),
           .compute = "shadow/visible_receivers.comp",
-          .defines = {{"BOUNDS", bounds ? "1" : "0"}, {"DIRECTIONS", std::to_string(measured_directions)}}};
+          .defines = {{"BOUNDS", bounds ? "1" : "0"},
+                      {"UNDECIDED", undecided ? "1" : "0"},
+                      {"DIRECTIONS", std::to_string(measured_directions)}}};
 }
 
 // From x and y in texels and the stored depth to view space, before the division by w.
@@ -73,8 +77,9 @@ VisibleReceivers visible_of(const Found& found) {
 }  // namespace
 
 std::optional<VisibleReceivers> find_visible_receivers(gl::Device& device, const Inputs& inputs, const Light& light,
-                                                       const ParamSet& params, const std::string& prefix) {
-  if (light.maps || !fits_to_view(light.source) || params.get_word("cascades.fit") != "visible") return {};
+                                                       const ParamSet& params, const std::string& prefix,
+                                                       const gl::Texture* decisions) {
+  if (light.maps || !fits_to_view(light.source) || !fits_to_view(params)) return {};
   const Rect viewport = viewport_of(inputs);
   const glm::dmat3 world_to_view(glm::dmat4(inputs.view.view));
   const gl::Buffer& buffer = device.scratch(prefix + "visible receivers", sizeof(Found));
@@ -84,9 +89,13 @@ std::optional<VisibleReceivers> find_visible_receivers(gl::Device& device, const
     gl::Pass pass(device, {.name = "visible receivers"});
     device.sampler({}).bind(unit_receiver_depth);
     gl::glBindTextureUnit(unit_receiver_depth, inputs.depth.id);
+    if (decisions != nullptr) {
+      device.sampler({}).bind(unit_decisions);
+      decisions->bind(unit_decisions);
+    }
     buffer.bind_storage(found_binding);
     for (const bool bounds : {false, true}) {
-      const gl::Program& reduce = pass.use(program(bounds));
+      const gl::Program& reduce = pass.use(program(bounds, decisions != nullptr));
       reduce.set("viewport", glm::vec4(viewport.x, viewport.y, viewport.width, viewport.height));
       reduce.set("sky_depth", inputs.conventions.reversed_z ? 0.0f : 1.0f);
       if (bounds) {
@@ -103,6 +112,8 @@ std::optional<VisibleReceivers> find_visible_receivers(gl::Device& device, const
   return visible;
 }
 
-std::vector<gl::ProgramDesc> visible_receivers_programs() { return {program(false), program(true)}; }
+std::vector<gl::ProgramDesc> visible_receivers_programs() {
+  return {program(false, false), program(true, false), program(false, true), program(true, true)};
+}
 
 }  // namespace penumbra::shadow

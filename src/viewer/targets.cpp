@@ -175,6 +175,7 @@ std::string about_target(std::string_view name) {
       About{"/history_and_filters/", "The shadow mask after this filter's step: packed texels."},
       About{"/movement map",
             "How much of the area around a texel has moving casters: 0 none, 1 all. Of the last frame with motion."},
+      About{"/first maps/", "Of the small maps that show where penumbrae may be (cascades.fit=penumbrae)."},
       About{"/shadow map", "Depth from the light, 0 to 1, a layer for each cascade."},
       About{"/recipes/least_depth_pyramid/",
             "The least depth from the light that a texel of each mip level covers, in green beside edges of the map."},

@@ -66,9 +66,9 @@ class Sequence(TestCase):
             path = self.folder / ("x_0000.png" if "--frames" in arguments else "x.png")
             return path.read_bytes()
 
-        stable, visible = (("--set", f"cascades.fit={fit}") for fit in ("stable", "visible"))
+        stable, fitted = (("--set", f"cascades.fit={fit}") for fit in ("stable", "penumbrae"))
         single = drawn()
-        self.assertEqual(single, drawn(*visible))
+        self.assertEqual(single, drawn(*fitted))
         self.assertNotEqual(single, drawn(*stable))
         self.assertEqual(drawn("--technique", "slices_denoised"), drawn(*stable))
         self.assertEqual(drawn("--frames", "0:0"), drawn(*stable))

@@ -238,7 +238,7 @@ TEST_F(ShadowInputs, AnOrthographicViewMayShowWhatLiesBehindItsCamera) {
   TriangleScene scene = box_on_ground(96);
   scene.receivers = shadow::Box{glm::vec3(-200), glm::vec3(200)};
   const glm::mat4 view = scene.view;
-  for (const char* fit : {"stable", "visible"}) {
+  for (const char* fit : {"stable", "visible", "penumbrae"}) {
     params.set("cascades.fit", fit);
     params.set("cascades.distance", 0.0f);
     const auto from = [&](float forward) {
@@ -285,9 +285,9 @@ TEST_F(ShadowInputs, TheLengthOfASunsDirectionDoesNotMatter) {
 TEST_F(ShadowInputs, ObliqueNearPlanesChangeNoShadow) {
   // The second one nearly lies in the ground: depths of the picture's middle lie behind the camera elsewhere.
   for (const glm::vec4& plane : {slanted_plane, glm::vec4(-0.007f, -0.96f, -0.27f, -0.15f)}) {
-    for (const int i : {0, 1, 2, 3, 4, 5, 6, 7}) {
+    for (int i = 0; i < 12; ++i) {
       const bool reversed = (i & 1) != 0, zero_to_one = (i & 2) != 0;
-      params.set("cascades.fit", (i & 4) != 0 ? "visible" : "stable");
+      params.set("cascades.fit", i < 4 ? "stable" : i < 8 ? "visible" : "penumbrae");
       const Shadowed plain = renderer.render(box_on_ground(), params);
       TriangleScene scene = box_on_ground();
       scene.conventions.reversed_z = reversed;

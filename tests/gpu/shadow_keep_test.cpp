@@ -100,6 +100,20 @@ TEST_F(ShadowKeep, NothingIsDrawnAgainWhereNothingChanged) {
   EXPECT_EQ(frame(), Layers());
 }
 
+// Those that show first where penumbrae are, too.
+TEST_F(ShadowKeep, MapsFittedToPenumbraeRestWithThePicture) {
+  params.set("cascades.fit", "penumbrae");
+  const Layers all = frame();
+  const int of_light = renderer.mask().lights[0].projection.layers();
+  EXPECT_GT(static_cast<int>(all.size()), of_light);
+  const std::vector<float> first = last.mask;
+  EXPECT_EQ(frame(), Layers());
+  EXPECT_EQ(builds, 0);
+  EXPECT_EQ(last.mask, first);
+  EXPECT_EQ(frame([](shadow::Inputs& in) { in.moved = shadow::Box{{-5, 0, -5}, {5, 3, 5}}; }), all);
+  EXPECT_EQ(last.mask, first);
+}
+
 // Where a view shows only sky, its maps are fitted to the frustum, for surfaces that are drawn forward.
 TEST_F(ShadowKeep, MapsOfAViewThatShowsNothingAnyMoreAreDrawnWhole) {
   params.set("cascades.size", 512);

@@ -1,9 +1,15 @@
 // Maps that are fitted to what the view's depth texture shows (cascades.fit).
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <numeric>
+#include <span>
+#include <string_view>
 
 #include "gpu/gpu_test.h"
 #include "gpu/triangle_scene.h"
@@ -141,6 +147,179 @@ TEST_F(ShadowVisible, ForwardReceiversAreWithinTheLastCascade) {
     const glm::dvec4 clip = cascades().items.back().world_to_clip * glm::dvec4(corner, 1);
     EXPECT_LE(std::max(std::abs(clip.x), std::abs(clip.y)), 1.0);
   }
+}
+
+constexpr std::size_t ground_triangles = 2;
+
+// A box of 40 cm on a ground whose borders are not seen.
+TriangleScene small_box_in_large() {
+  TriangleScene scene = small_in_large();
+  scene.width = scene.height = 512;
+  scene.triangles.clear();
+  scene.add_quad({-50, 0, 50}, {100, 0, 0}, {0, 0, -100});
+  scene.receivers = scene.casters = shadow::Box{{-50, 0, -50}, {50, 0.4f, 50}};  // no wider than what they hold
+  scene.add_box({-0.2f, 0, -0.2f}, {0.2f, 0.4f, 0.2f});
+  return scene;
+}
+
+// With maps of which the small ones, too, have texels that are small beside what is seen.
+ParamSet fine_params(ParamSet params) {
+  params.set("cascades.size", 1024);
+  return params;
+}
+
+// Pixels that differ by more than a quarter.
+std::ptrdiff_t differing(const Shadowed& one, const Shadowed& other) {
+  const std::vector<float> a = one.visibilities(), b = other.visibilities();
+  return std::inner_product(a.begin(), a.end(), b.begin(), std::ptrdiff_t{0}, std::plus<>(),
+                            [](float x, float y) { return std::ptrdiff_t{std::abs(x - y) > 0.25f}; });
+}
+
+std::ptrdiff_t dark(const Shadowed& picture) {
+  const std::vector<float> seen = picture.visibilities();
+  return std::ranges::count_if(seen, [](float visibility) { return visibility < 0.5f; });
+}
+
+double longest_texel(const shadow::Cascades& cascades, int index) {
+  const glm::vec2 texel = cascades.texel(index);
+  return std::max(texel.x, texel.y);
+}
+
+TEST_F(ShadowVisible, TexelsGoToPenumbrae) {
+  const TriangleScene scene = small_box_in_large();
+  const Shadowed visible = renderer_->render(scene, fine_params(params()));
+  const double of_visible = longest_texel(cascades(), 0);
+  const Shadowed penumbrae = renderer_->render(scene, fine_params(params("penumbrae")));
+  EXPECT_LE(longest_texel(cascades(), 0), 0.6 * of_visible);
+  EXPECT_LE(excess_width(shown(penumbrae)), 1.15);  // the last cascade holds all
+  // Whatever may be in a penumbra lies in a finer cascade.
+  const shadow::Cascade& finest = cascades().items.front();
+  int partly_lit = 0;
+  for (int y = 0; y < penumbrae.height; ++y) {
+    for (int x = 0; x < penumbrae.width; ++x) {
+      const float seen = penumbrae.visibility(x, y);
+      if (penumbrae.sky(x, y) || seen < 0.05f || seen > 0.95f) continue;
+      ++partly_lit;
+      const glm::dvec4 clip = finest.world_to_clip * glm::dvec4(glm::dvec3(penumbrae.point(x, y)), 1);
+      EXPECT_LE(std::max(std::abs(clip.x), std::abs(clip.y)), 1.0) << x << ", " << y;
+    }
+  }
+  EXPECT_GT(partly_lit, 10);
+  EXPECT_GT(dark(penumbrae), 300);
+  EXPECT_LE(differing(penumbrae, visible), dark(penumbrae) / 20);
+}
+
+TEST_F(ShadowVisible, AllIsFittedToWhereNoPenumbraIsLookedFor) {
+  const TriangleScene scene = small_box_in_large();
+  const auto cascades_with = [&](const char* fit, const char* technique, int count) {
+    ParamSet own = fine_params(params(fit));
+    own.set("technique", std::string(technique));
+    own.set("cascades.count", count);
+    renderer_->render(scene, own);
+    std::vector<glm::vec2> extents;
+    for (const shadow::Cascade& cascade : cascades().items) extents.push_back(cascade.half_extent);
+    return extents;
+  };
+  // One technique decides no tiles, and a single map holds all.
+  EXPECT_EQ(cascades_with("penumbrae", "brute_force", 4), cascades_with("visible", "brute_force", 4));
+  EXPECT_EQ(cascades_with("penumbrae", "pcss", 1), cascades_with("visible", "pcss", 1));
+  EXPECT_NE(cascades_with("penumbrae", "pcss", 4), cascades_with("visible", "pcss", 4));
+}
+
+TEST_F(ShadowVisible, ShadowsAreTheSameWithMapsForPenumbrae) {
+  struct Case {
+    const char* what;
+    std::vector<const char*> settings;
+    bool normals = true;
+  };
+  const TriangleScene scene = small_box_in_large();
+  for (const Case& way :
+       {Case{"a wide sun", {"sun.angle=6"}}, Case{"a square sun", {"sun.angle=4", "sun.shape=square"}},
+        Case{"no normals", {"sun.angle=2"}, false}, Case{"a quarter of the pixels", {"sun.angle=4", "mask.scale=2"}},
+        Case{"all tiles computed", {"mask.tiles=false"}}, Case{"two layers", {"technique=slices", "maps.layers=2"}},
+        Case{"a history", {"technique=slices", "denoiser=history_and_filters", "history.reuse=true"}}}) {
+    const auto draw = [&](const char* fit) {
+      ParamSet own = fine_params(params(fit));
+      for (const char* setting : way.settings) own.assign(setting);
+      return renderer_->render(scene, own, [&](shadow::Inputs& in) {
+        if (!way.normals) in.normals = {};
+      });
+    };
+    const Shadowed expected = draw("visible"), found = draw("penumbrae");
+    EXPECT_GT(dark(expected), 300) << way.what;
+    EXPECT_LE(differing(found, expected), dark(expected) / 20) << way.what;
+  }
+}
+
+// Each light of each view has its own.
+TEST_F(ShadowVisible, LightsAndViewsHaveTheirOwnPenumbrae) {
+  const TriangleScene scene = small_box_in_large();
+  const std::array lights{shadow::Light{.source = shadow::Sun{scene.to_light}},
+                          shadow::Light{.id = 1, .source = shadow::Sun{sun_direction(-60, 30)}}};
+  const auto finest = [&](int view, std::span<const shadow::Light> of) {
+    renderer_->render(scene, fine_params(params("penumbrae")), [&](shadow::Inputs& in) {
+      in.view.id = view;
+      in.lights = of;
+    });
+    std::vector<glm::vec2> extents;
+    for (const shadow::LightFrame& light : renderer_->mask().lights)
+      extents.push_back(light.projection.cascades().items.front().half_extent);
+    return extents;
+  };
+  const glm::vec2 first = finest(0, std::span(lights).first(1)).at(0);
+  const glm::vec2 second = finest(1, std::span(lights).last(1)).at(0);
+  EXPECT_NE(first, second);
+  EXPECT_EQ(finest(0, lights), (std::vector{first, second}));
+  EXPECT_EQ(finest(1, lights), (std::vector{first, second}));
+}
+
+// While only sky is seen the small maps rest, and what moves meanwhile is not lost.
+TEST_F(ShadowVisible, PenumbraeAreFoundAgainBelowTheSky) {
+  TriangleScene scene = small_box_in_large();
+  const gl::Texture sky("sky", {.format = GL_DEPTH_COMPONENT32F, .width = scene.width, .height = scene.height});
+  const float far = 0;
+  gl::glClearTexImage(sky.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &far);
+  const auto frame = [&](bool shows_sky, const shadow::Box& moved) {
+    return renderer_->render(scene, fine_params(params("penumbrae")), [&](shadow::Inputs& in) {
+      in.view.last_view = in.view.view;
+      in.view.last_projection = in.view.projection;
+      in.moved = moved;
+      if (shows_sky) in.depth.id = sky.id();
+    });
+  };
+  const shadow::Box nothing{glm::vec3(1), glm::vec3(-1)}, all{{-50, 0, -50}, {50, 0.4f, 50}};
+  frame(false, nothing);
+  scene.move_from(ground_triangles, {1.5f, 0, 0});
+  frame(true, all);
+  const Shadowed found = frame(false, nothing);
+  TriangleRenderer fresh;
+  const Shadowed expected = fresh.render(scene, fine_params(params("penumbrae")));
+  EXPECT_GT(dark(expected), 300);
+  EXPECT_EQ(found.mask, expected.mask);
+}
+
+TEST_F(ShadowVisible, MapsThatAreDrawnFirstAreReleased) {
+  const TriangleScene scene = small_box_in_large();
+  const auto first_maps = [&] {
+    const auto names = renderer_->device().names("");
+    return std::ranges::count_if(
+        names, [](std::string_view name) { return name.find("first maps") != std::string_view::npos; });
+  };
+  renderer_->render(scene, fine_params(params("penumbrae")));
+  EXPECT_GT(first_maps(), 0);
+  for (const char* fit : {"visible", "stable"}) {
+    renderer_->render(scene, fine_params(params("penumbrae")));
+    renderer_->render(scene, fine_params(params(fit)));
+    EXPECT_EQ(first_maps(), 0) << fit;
+  }
+  // Of another technique nothing stays behind.
+  renderer_->render(scene, fine_params(params("penumbrae")));
+  const auto expected = first_maps();
+  ParamSet other = fine_params(params("penumbrae"));
+  other.set("technique", std::string("vssm"));
+  renderer_->render(scene, other);
+  renderer_->render(scene, fine_params(params("penumbrae")));
+  EXPECT_EQ(first_maps(), expected);
 }
 
 // A long strip of ground, seen along its length and aslant to the light's axes.

@@ -62,6 +62,7 @@ TEST(NoEffect, OfWhatAMaskOfFewerPixelsDecides) {
 TEST(NoEffect, OfSplitsThatTheViewDecides) {
   EXPECT_EQ(why("cascades.split", "pcss"), "");
   EXPECT_EQ(why("cascades.split", "pcss", {"cascades.fit=visible"}), "cascades.fit is visible");
+  EXPECT_EQ(why("cascades.split", "pcss", {"cascades.fit=penumbrae"}), "cascades.fit is penumbrae");
 }
 
 TEST(NoEffect, OfMapsThatMove) {

@@ -105,6 +105,25 @@ TEST(VisibleCascades, EndWhereThePixelsTexelsBecomeFinest) {
   }
 }
 
+// All cascades but the last are for the receivers that a penumbra may reach.
+TEST(VisibleCascades, ThoseForPenumbraeEndWithThem) {
+  CascadeInputs in = inputs({slice(1000, 30), slice(3000, 60), slice(500, 90)}, 4);
+  in.near_penumbrae = VisibleReceivers{slice(100, 1), slice(300, 1.5)};
+  const Cascades cascades = fit_cascades(in);
+  ASSERT_EQ(cascades.items.size(), 2u);
+  EXPECT_EQ(cascades.size, 1440);  // the texels of four maps of 1024²
+  const auto width = [&](std::size_t i) {
+    return 2 * glm::max(cascades.items[i].half_extent.x, cascades.items[i].half_extent.y);
+  };
+  // With margins for the light's discs, of up to a quarter of the width.
+  EXPECT_GE(width(0), 1.5f);
+  EXPECT_LE(width(0), 1.5f * 1.25f * 1.06f);
+  EXPECT_GE(width(1), 90);
+  // A single cascade holds all.
+  in.count = 1;
+  EXPECT_GE(2 * fit_cascades(in).items.at(0).half_extent.x, 45);
+}
+
 // A cascade is as long and as wide as what it shows, whichever way that lies.
 TEST(VisibleCascades, TurnWithWhatTheyShow) {
   constexpr double step = glm::pi<double>() / measured_directions;

@@ -110,7 +110,7 @@ ParamSet params_of(const RenderOptions& options) {
   shadows.otherwise = session::usual_technique;
   if (!options.frames && !cli::names_technique(options)) {
     // In the first place, so that the user's own value counts.
-    shadows.assignments.insert(shadows.assignments.begin(), "cascades.fit=visible");
+    shadows.assignments.insert(shadows.assignments.begin(), "cascades.fit=penumbrae");
   }
   return cli::resolve_params(shadows, session::all_techniques());
 }
