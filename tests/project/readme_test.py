@@ -214,13 +214,13 @@ class Pages(unittest.TestCase):
         two = {name: of[1] for name, of in figures["`courtyard` 2°"].items()}
         page = text_of("README.md")
         self.assertIn(f"`slices_denoised` has a PSNR of {two['`slices_denoised`']} dB", page)
-        self.assertIn(f"and of {two['with `cascades.fit=visible`']} dB with shadow maps that are fitted", page)
+        self.assertIn(f"and of {two['with `cascades.fit=penumbrae`']} dB with shadow maps that are fitted", page)
         self.assertIn(f"have {two['`pcss` 16/16']} dB with the same maps as the {two['`slices_denoised`']}", page)
         self.assertIn(f"(`brute_force`) {two['`brute_force`']} dB.", page)
         half = {name: of[0] for name, of in figures["`courtyard` 0.53°"].items()}
         page = text_of("docs/build-servers.md")
         self.assertIn(f"where `pcss` has {half['`pcss` 16/16']} and `slices_denoised` {half['`slices_denoised`']}, or "
-                      f"{half['with `cascades.fit=visible`']} with maps fitted to the picture", page)
+                      f"{half['with `cascades.fit=penumbrae`']} with maps fitted to its penumbrae", page)
 
     def test_every_preset_has_a_row(self):
         rows, = [lines[2:] for lines in tables_of("techniques.md") if lines[0] == "| preset | values |"]
