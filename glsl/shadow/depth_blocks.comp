@@ -45,8 +45,8 @@ void add_row(Row row, float height, inout Blocks two) {
   two.edges_right = min(min(two.edges_right, up_to_right), vec4(last));
 }
 
-// The two rows that meet at a corner of texels, from the texel before the corner on. Texels outside of the map are as
-// those at its border, or empty (their depth is 1), as the texture's sampler says.
+// The two rows that meet at a corner of texels, from the texel before the corner on. Texels outside of the map are
+// empty: their depth is 1.
 void read_rows(ivec2 corner, Light light, out Row row, out Row next) {
   vec4 cells[5];
   for (int i = 0; i < 5; ++i) cells[i] = gather_stored(vec2(corner + ivec2(2 * i, 0)), light);

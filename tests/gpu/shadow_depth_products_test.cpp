@@ -67,14 +67,11 @@ std::vector<float> random_depths(int size, unsigned seed) {
   return depths;
 }
 
-// Of two depths, the farther one with squares of the nearer one here and there; outside of the map all is empty, or as
-// at its border.
+// Of two depths, the farther one with squares of the nearer one here and there; outside of the map all is empty.
 class TwoDepths {
  public:
-  TwoDepths(int size, unsigned seed, bool border_is_edge)
-      : size_(size),
-        border_is_edge_(border_is_edge),
-        depths_(static_cast<size_t>(size) * static_cast<size_t>(size), far) {
+  TwoDepths(int size, unsigned seed)
+      : size_(size), depths_(static_cast<size_t>(size) * static_cast<size_t>(size), far) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> place(-3, size), side(1, 5);
     for (int i = 0; i < 1 + size * size / 150; ++i) {
@@ -115,16 +112,11 @@ class TwoDepths {
   static constexpr float near = 0.25f, far = 0.75f;
 
   float at(int x, int y) const {
-    if (!border_is_edge_) {
-      x = std::clamp(x, 0, size_ - 1);
-      y = std::clamp(y, 0, size_ - 1);
-    }
     const bool inside = std::min(x, y) >= 0 && std::max(x, y) < size_;
     return inside ? depths_[static_cast<size_t>(y) * static_cast<size_t>(size_) + static_cast<size_t>(x)] : 1;
   }
 
   int size_;
-  bool border_is_edge_;
   std::vector<float> depths_;
 };
 
@@ -287,10 +279,10 @@ TEST_F(DepthProducts, GreatestDepthsAreExactAtEveryLevel) {
 }
 
 // Of maps that are drawn whole, and of maps that are drawn in part: blocks that are not, or whose neighbouring texels
-// are not, count as empty. The border of the last layer alone is an edge: others hold the discs of all that read them.
+// are not, count as empty.
 TEST_F(DepthProducts, LeastDepthsAndThoseBesideEdgesAreExactAtEveryLevel) {
   for (const int size : {1, 3, 4, 5, 8, 9, 12, 64, 100, 136, 530}) {
-    const std::vector<TwoDepths> maps{{size, 6, false}, {size, 7, false}, {size, 8, true}};
+    const std::vector<TwoDepths> maps{{size, 6}, {size, 7}, {size, 8}};
     for (const bool in_part : {false, true}) {
       shadow::TexelRange drawn{glm::ivec2(0), glm::ivec2(size - 1)};
       if (in_part) drawn = {{size / 5, size / 3}, {size - 1 - size / 4, size - 1 - size / 7}};

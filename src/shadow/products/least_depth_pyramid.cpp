@@ -8,8 +8,6 @@ namespace penumbra::shadow {
 
 namespace {
 
-constexpr gl::SamplerDesc empty_beyond{.wrap_s = GL_CLAMP_TO_BORDER, .wrap_t = GL_CLAMP_TO_BORDER};
-
 constexpr int invocation_side = 8;  // texels of the map along a side for each invocation: must match depth_blocks.comp
 
 // The two finest levels, of what casters were drawn to; all else is empty. Layers are dispatched one by one, since a
@@ -21,10 +19,6 @@ void build_finest(const PassContext& context, gl::Pass& pass, const gl::Texture&
   for (int level = 0; level < 2; ++level) pyramid.bind_image(static_cast<GLuint>(level), GL_WRITE_ONLY, level);
   const LightProjection& projection = context.frame().projection;
   for (int layer = 0; layer < projection.layers(); ++layer) {
-    // Receivers of a sun read a layer that holds their whole disc: its border is no edge. But they read the last one
-    // although it may not, and a lamp's faces go on beyond their borders.
-    const bool holds_discs = layer + 1 < projection.layers() && !context.frame().shape.lamp;
-    context.device().sampler(holds_discs ? gl::SamplerDesc{} : empty_beyond).bind(unit_shadow_map);
     const TexelRange drawn = projection.drawn_texels(layer);
     program.set("layer", layer);
     program.set("drawn", glm::ivec4(drawn.first, drawn.last));
