@@ -46,7 +46,7 @@ void add_row(Row row, float height, inout Blocks two) {
 }
 
 // The two rows that meet at a corner of texels, from the texel before the corner on. Texels outside of the map are
-// empty: their depth is 1.
+// empty (their depth is 1), or as those at its border, as the texture's sampler says.
 void read_rows(ivec2 corner, Light light, out Row row, out Row next) {
   vec4 cells[5];
   for (int i = 0; i < 5; ++i) cells[i] = gather_stored(vec2(corner + ivec2(2 * i, 0)), light);

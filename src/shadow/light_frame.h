@@ -57,6 +57,7 @@ struct LightFrame {
   bool casters_moved = false;             // since the last frame: `movement` shows where
   bool history = false;                   // the history of the last frame is valid
   bool binds_forward = true;              // as in Inputs
+  bool borders_are_edges = true;          // of the shadow map's layers but the last one, in the least_depth_pyramid
   int scale = 1;                          // of the mask that the technique filled: see mask_scale.h
   // R8UI, of the size of that mask, only if a denoiser ran: bits 0 to 2 the layer of the shadow map that was read, bit
   // 3 set if the shadow is narrow (docs/adr/0033-mask-scale.md; never if `scale` is 1), bit 4 set if the kernel is

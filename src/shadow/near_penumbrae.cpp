@@ -92,7 +92,8 @@ std::optional<VisibleReceivers> find_near_penumbrae(const LightWork& work,
                    .light = work.frame.light,
                    .layer = work.frame.layer,
                    .viewport = work.frame.viewport,
-                   .binds_forward = work.frame.binds_forward};
+                   .binds_forward = work.frame.binds_forward,
+                   .borders_are_edges = false};
   const LightWork first{.device = work.device,
                         .registry = work.registry,
                         .programs = work.programs,

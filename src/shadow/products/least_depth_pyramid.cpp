@@ -8,6 +8,8 @@ namespace penumbra::shadow {
 
 namespace {
 
+constexpr gl::SamplerDesc empty_beyond{.wrap_s = GL_CLAMP_TO_BORDER, .wrap_t = GL_CLAMP_TO_BORDER};
+
 constexpr int invocation_side = 8;  // texels of the map along a side for each invocation: must match depth_blocks.comp
 
 // The two finest levels, of what casters were drawn to; all else is empty. Layers are dispatched one by one, since a
@@ -19,6 +21,11 @@ void build_finest(const PassContext& context, gl::Pass& pass, const gl::Texture&
   for (int level = 0; level < 2; ++level) pyramid.bind_image(static_cast<GLuint>(level), GL_WRITE_ONLY, level);
   const LightProjection& projection = context.frame().projection;
   for (int layer = 0; layer < projection.layers(); ++layer) {
+    // Receivers of a sun read a layer that holds their whole disc, so its border could never be an edge; but where only
+    // a part of the map is drawn, that would leave pixels to other layers than where all is. They read the last layer
+    // although it may not hold it.
+    const bool is_edge = context.frame().borders_are_edges || layer + 1 == projection.layers();
+    context.device().sampler(is_edge ? empty_beyond : gl::SamplerDesc{}).bind(unit_shadow_map);
     const TexelRange drawn = projection.drawn_texels(layer);
     program.set("layer", layer);
     program.set("drawn", glm::ivec4(drawn.first, drawn.last));
