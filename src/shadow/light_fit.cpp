@@ -90,7 +90,10 @@ void check_fits(const LightWork& work, const LightProjection& projection) {
 
 LightProjection projection_of(const LightWork& work, const ShownReceivers& shown,
                               const std::vector<const Recipe*>& recipes) {
-  if (work.light.maps) return work.light.maps->projection;
+  if (work.light.maps) {
+    check_fits(work, work.light.maps->projection);
+    return work.light.maps->projection;
+  }
   FitInputs fit = fit_inputs(work.inputs, work.params());
   fit.visible = shown.visible;
   fit.near_penumbrae = shown.near_penumbrae;
