@@ -216,9 +216,10 @@ shadow::Technique hybrid(int threads) {
 shadow::Preset hybrid_denoised() {
   return {"hybrid_denoised",
           "hybrid",
-          "The technique hybrid with more rays in narrow penumbrae, and a filter that removes their noise.",
-          {"hybrid.rays=16", "hybrid.narrow=16", "denoiser=history_and_filters", "filter.penumbra=none",
-           "filter.visibility=isophote", "filter.taps=8", "filter.width=0.14"}};
+          "The technique hybrid with small maps, more rays in narrow penumbrae, and a filter that removes their noise.",
+          {"cascades.fit=visible", "cascades.size=1024", "hybrid.rays=16", "hybrid.narrow=16",
+           "denoiser=history_and_filters", "filter.penumbra=none", "filter.visibility=isophote", "filter.taps=8",
+           "filter.width=0.14"}};
 }
 
 }  // namespace penumbra::truth
