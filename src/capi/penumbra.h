@@ -162,10 +162,11 @@ PENUMBRA_API penumbra_result penumbra_settings_get(const penumbra_settings* sett
 PENUMBRA_API penumbra_result penumbra_settings_get_number(const penumbra_settings* settings, const char* name,
                                                           double* value);
 
-/** Applies the text of a preset file (TOML, as `penumbra view` and --preset write and read it; docs/techniques.md), of
- * `length` bytes, at most 1 MiB. Parameters that it does not mention keep their values. `file`: what messages call the
- * text, such as the file's name. PENUMBRA_ERROR_REFUSED: not TOML, unknown names, values that they can't have; the
- * message begins with "file:line:", and nothing is changed. */
+/** Applies the text of a preset file (TOML, as `penumbra view` and --preset write and read it; docs/formats.md), of
+ * `length` bytes, at most 1 MiB. Parameters that it does not mention keep their values, and those of the program alone
+ * (groups exposure, render, casters, truth and hybrid) are left out. `file`: what messages call the text, such as the
+ * file's name. PENUMBRA_ERROR_REFUSED: not TOML, unknown names, values that they can't have, a technique of the program
+ * alone; the message begins with "file:line:", and nothing is changed. */
 PENUMBRA_API penumbra_result penumbra_settings_read_preset(penumbra_settings* settings, const char* file,
                                                            const char* text, size_t length);
 /** Writes the text of a preset file with the technique and every value that is not the default. */
@@ -436,7 +437,9 @@ typedef struct penumbra_frame {
 
   const penumbra_light* lights; /**< light_count of them; null if there are none */
   size_t light_count;           /**< at most 256 */
-  /** Required unless all lights bring their maps; without it, and with moved_is_known 0, there is no history. */
+  /** Required unless all lights bring their maps. Without it no movement map can be drawn: if the parameter
+   * movement.map is on, a history is then used only in frames in which nothing moves (moved_is_known is 1 and `moved`
+   * empty). */
   penumbra_draw_casters draw;
   void* draw_user; /**< passed to draw */
 

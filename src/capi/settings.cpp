@@ -1,5 +1,6 @@
 #include "settings.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "../core/error.h"
@@ -39,6 +40,13 @@ ParamSet without_preset(const penumbra_settings& settings) {
       params.reset(row.name);
   }
   return params;
+}
+
+// What presets of the program say of its own scene and pictures is nothing to the library.
+bool is_of_program(std::string_view param) {
+  return std::ranges::any_of(groups_of_program, [&](std::string_view group) {
+    return param.starts_with(group) && param.substr(group.size()).starts_with('.');
+  });
 }
 
 }  // namespace
@@ -136,9 +144,15 @@ penumbra_result penumbra_settings_read_preset(penumbra_settings* settings, const
     const std::string name = &required(file, "file");
     if (text == nullptr && length > 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "'text' is null and 'length' is not 0");
     if (length > penumbra::largest_preset) penumbra::fail("{}: a preset is at most 1 MiB", name);
-    penumbra::apply_preset({text, length}, name, params, [](penumbra::ParamSet& set, std::string_view technique) {
-      penumbra::shadow::built_in_registry().select(set, technique);
-    });
+    std::string chosen;
+    penumbra::apply_preset(
+        {text, length}, name, params,
+        [&](penumbra::ParamSet& set, std::string_view technique) {
+          penumbra::shadow::built_in_registry().select(set, technique);
+          chosen = technique;
+        },
+        is_of_program);
+    if (!chosen.empty()) settings->preset = chosen;
   });
 }
 

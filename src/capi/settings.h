@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 
 #include "../core/params.h"
 
@@ -11,6 +13,9 @@ struct penumbra_settings {
 };
 
 namespace penumbra::capi {
+
+// The groups of parameters that the program has and the library has not.
+constexpr std::array<std::string_view, 5> groups_of_program{"casters", "exposure", "hybrid", "render", "truth"};
 
 // The default values of all parameters.
 const ParamSet& default_params();

@@ -111,7 +111,8 @@ std::string toml_value(const ParamValue& value) {
 
 }  // namespace
 
-void apply_preset(std::string_view text, const std::string& file, ParamSet& params, const SelectTechnique& select) {
+void apply_preset(std::string_view text, const std::string& file, ParamSet& params, const SelectTechnique& select,
+                  const IsLeftOut& left_out) {
   const auto fail_at = [&file](const toml::source_region& at, std::string_view fault) {
     fail("{}:{}: {}", file, at.begin.line, fault);
   };
@@ -121,6 +122,7 @@ void apply_preset(std::string_view text, const std::string& file, ParamSet& para
     const toml::table table = toml::parse(text, file);
     std::vector<Entry> entries;
     collect(table, "", entries);
+    if (left_out) std::erase_if(entries, [&](const Entry& entry) { return left_out(entry.name); });
     sort_as_written(entries);
     std::stable_partition(entries.begin(), entries.end(), [](const Entry& e) { return e.name == technique_key; });
     for (const Entry& entry : entries) {

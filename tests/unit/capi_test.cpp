@@ -83,6 +83,30 @@ TEST(CInterface, APresetsTextIsAppliedAsAFileIs) {
   }
 }
 
+// Its own scene and pictures are nothing to the library.
+TEST(CInterface, WhatAPresetSaysOfTheProgramAloneIsLeftOut) {
+  const Settings settings;
+  const std::string text =
+      "[exposure]\nauto = false\nev = 14.0\n[render]\nhaze = 0.3\n[sun]\nangle = 2.5\n[hybrid]\nrays = 8\n";
+  EXPECT_EQ(penumbra_settings_read_preset(settings.held, "mine.toml", text.data(), text.size()), PENUMBRA_OK);
+  EXPECT_EQ(settings.get("sun.angle"), "2.5");
+  const std::string near = "[renders]\nhaze = 0.3\n";
+  expect_refused(penumbra_settings_read_preset(settings.held, "mine.toml", near.data(), near.size()),
+                 PENUMBRA_ERROR_REFUSED, "mine.toml:2: unknown parameter 'renders.haze'; see penumbra list params");
+  const std::string rays = "technique = \"hybrid\"\n";
+  EXPECT_EQ(penumbra_settings_read_preset(settings.held, "mine.toml", rays.data(), rays.size()),
+            PENUMBRA_ERROR_REFUSED);
+}
+
+TEST(CInterface, AnotherTechniqueTakesBackAPresetThatATextNamed) {
+  const Settings settings;
+  const std::string text = "technique = \"slices_denoised\"\n";
+  ASSERT_EQ(penumbra_settings_read_preset(settings.held, "mine.toml", text.data(), text.size()), PENUMBRA_OK);
+  EXPECT_EQ(settings.get("filter.visibility"), "isophote");
+  ASSERT_EQ(penumbra_settings_select(settings.held, "pcss"), PENUMBRA_OK);
+  EXPECT_EQ(settings.get("filter.visibility"), "none");
+}
+
 TEST(CInterface, AFaultOfAPresetChangesNothing) {
   const Settings settings;
   const std::string text = "[sun]\nangle = 2.5\nangel = 3.0\n";
