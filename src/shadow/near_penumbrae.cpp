@@ -43,7 +43,6 @@ ParamSet params_of_first_maps(ParamSet params) {
 
 LightState& state_of_first_maps(const LightWork& work) {
   std::unique_ptr<LightState>& first = work.state.first;
-  if (work.state.changed) release_first_maps(work);
   if (first == nullptr) {
     first = std::make_unique<LightState>();
     first->prefix = work.prefix() + "first maps/";
@@ -79,10 +78,9 @@ void build_pyramid(const LightWork& first, const std::vector<const Recipe*>& rec
 std::optional<VisibleReceivers> find_near_penumbrae(const LightWork& work,
                                                     const std::optional<VisibleReceivers>& visible,
                                                     const std::vector<const Recipe*>& recipes, ViewState& view) {
-  if (!asks_for_penumbrae(work)) {
-    release_first_maps(work);
-    return {};
-  }
+  const bool asks = asks_for_penumbrae(work);
+  if (!asks || work.state.changed) release_first_maps(work);
+  if (!asks) return {};
   if (!visible) {
     // What moves in this frame would not be known in the next one.
     if (work.state.first != nullptr) work.state.first->map = {};
@@ -111,7 +109,7 @@ std::optional<VisibleReceivers> find_near_penumbrae(const LightWork& work,
   frame.projection = projection_of(first, {.visible = widened(*visible)}, recipes);
   draw_maps(first);
   upload_blocks(first);
-  if (work.inputs.makes_normals() && view.normals == nullptr) view.normals = &make_normals(first);
+  make_normals(first, view);
   build_pyramid(first, recipes);
   const Tiles tiles = decide_tiles(first);
   return find_visible_receivers(work.device, work.inputs, work.light, work.params(), first.prefix(), &tiles.decisions);

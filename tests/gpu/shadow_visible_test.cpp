@@ -298,6 +298,28 @@ TEST_F(ShadowVisible, PenumbraeAreFoundAgainBelowTheSky) {
   EXPECT_EQ(found.mask, expected.mask);
 }
 
+// Parameters that change while only sky is seen reach the small maps, too.
+TEST_F(ShadowVisible, SmallMapsFollowParametersThatChangeBelowTheSky) {
+  const TriangleScene scene = small_box_in_large();
+  const gl::Texture sky("sky", {.format = GL_DEPTH_COMPONENT32F, .width = scene.width, .height = scene.height});
+  const float far = 0;
+  gl::glClearTexImage(sky.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &far);
+  const auto frame = [&](TriangleRenderer& renderer, float angle, bool shows_sky) {
+    ParamSet own = fine_params(params("penumbrae"));
+    own.set("sun.angle", angle);
+    return renderer.render(scene, own, [&](shadow::Inputs& in) {
+      if (shows_sky) in.depth.id = sky.id();
+    });
+  };
+  frame(*renderer_, 0.53f, false);
+  frame(*renderer_, 12, true);
+  const Shadowed found = frame(*renderer_, 12, false);
+  const glm::vec2 extent = cascades().items.front().half_extent;
+  TriangleRenderer fresh;
+  EXPECT_EQ(found.mask, frame(fresh, 12, false).mask);
+  EXPECT_EQ(extent, fresh.mask().lights.front().projection.cascades().items.front().half_extent);
+}
+
 TEST_F(ShadowVisible, MapsThatAreDrawnFirstAreReleased) {
   const TriangleScene scene = small_box_in_large();
   const auto first_maps = [&] {
