@@ -8,7 +8,10 @@ std::string target_name(const ViewState& view) { return view.prefix + "normals f
 
 }  // namespace
 
-void drop_normals(gl::Device& device, const ViewState& view) { device.drop(target_name(view)); }
+void drop_normals(gl::Device& device, ViewState& view) {
+  if (view.has_normals) device.drop(target_name(view));
+  view.has_normals = false;
+}
 
 LibraryProgram depth_normals_program(bool guided) {
   return {.desc = {.name = "normals from depth",
@@ -17,7 +20,9 @@ LibraryProgram depth_normals_program(bool guided) {
                    .defines = {{"GUIDED", guided ? "1" : "0"}}}};
 }
 
-const gl::Texture& make_normals(const LightWork& work) {
+void make_normals(const LightWork& work, ViewState& view) {
+  if (!work.inputs.makes_normals() || view.normals != nullptr) return;
+  view.has_normals = true;
   const gl::Texture& normals =
       work.device.target(target_name(work.view),
                          {.format = GL_RGBA32F, .width = work.inputs.depth.width, .height = work.inputs.depth.height});
@@ -35,7 +40,7 @@ const gl::Texture& make_normals(const LightWork& work) {
   const Rect& viewport = work.frame.viewport;
   pass.set_viewport(viewport.x, viewport.y, viewport.width, viewport.height);
   pass.draw_full_screen();
-  return normals;
+  view.normals = &normals;
 }
 
 }  // namespace penumbra::shadow

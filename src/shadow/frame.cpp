@@ -122,7 +122,7 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   if (!has_shadow_map || light.maps) state.map = {};
   if (has_shadow_map) draw_maps(work);
   upload_blocks(work);
-  if (from.inputs.makes_normals() && view.normals == nullptr) view.normals = &make_normals(work);
+  make_normals(work, view);
   build_products(work, wanted.recipes);
   draw_layer(work, scaled);
   release_unused(work, has_shadow_map && (!light.maps || light.maps->is_copied()));
@@ -186,7 +186,7 @@ Mask draw_mask(const MaskInputs& given, ViewState& view) {
                         .defaults = given.defaults,
                         .inputs = inputs,
                         .params = given.params};
-  if (view.normals != nullptr && !from.inputs.makes_normals()) drop_normals(from.device, view);
+  if (!from.inputs.makes_normals()) drop_normals(from.device, view);
   view.normals = nullptr;
   begin_frame(view, from.inputs, last_completed);
   find_depth_error(view, from.inputs);

@@ -114,6 +114,7 @@ struct ViewState {
   TextureChecks checked;
   NdcError depth_error;
   bool has_copies = false;               // of receivers' textures
+  bool has_normals = false;              // that were made from depths
   const gl::Texture* normals = nullptr;  // made from depths in this frame; null where the caller brings some
   bool warned_of_depth = false, warned_of_bounds = false;
   std::map<int, LightState> lights;

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gpu/triangle_scene.h"
@@ -200,6 +202,23 @@ TEST_F(ShadowNormals, ThoseOfShadingLeaveNoSpeckle) {
       EXPECT_GE(unsaid.wrong, 3 * said.wrong) << technique << ", sun at " << elevation;
     }
   }
+}
+
+// Also those of a frame after which one had no lights.
+TEST_F(ShadowNormals, ThatWereMadeAreReleasedOnceTheCallerBringsSome) {
+  const TriangleScene scene = yard();
+  const auto frame = [&](bool brings, bool lit) {
+    renderer_->render(scene, renderer_->params(), [&](shadow::Inputs& in) {
+      if (!brings) in.normals = {};
+      if (!lit) in.lights = {};
+    });
+    const auto names = renderer_->device().names("");
+    return std::ranges::count_if(
+        names, [](std::string_view name) { return name.find("normals from depth") != std::string_view::npos; });
+  };
+  EXPECT_EQ(frame(false, true), 1);
+  EXPECT_EQ(frame(false, false), 1);
+  EXPECT_EQ(frame(true, true), 0);
 }
 
 // The warm-up reads textures of the frame's formats.
