@@ -173,6 +173,19 @@ TEST_F(Tiles, AreLeftOutByFiltersThatWouldNotChangeThem) {
     mask(renderer_, "thesis_8x8_compute", 4.0f, true);
     EXPECT_EQ(fragment, layers());
   }
+  // Of a technique that knows no blocker distance, too.
+  for (const char* technique : {"hard", "pcf_hardware", "pcss"}) {
+    SCOPED_TRACE(technique);
+    settings_ = {"filter.visibility=median_visibility", "cascades.size=256", "driver=fragment"};
+    mask(renderer_, technique, 4.0f, true);
+    const std::vector<std::vector<float>> fragment = layers();
+    settings_.back() = "driver=compute";
+    mask(renderer_, technique, 4.0f, true);
+    EXPECT_EQ(fragment, layers());
+    settings_.front() = "filter.visibility=none";
+    mask(renderer_, technique, 4.0f, true);
+    EXPECT_NE(fragment, layers());
+  }
   for (const auto& [width, height] : {std::pair(3, 3), {2, 16}, {1, 1}}) {
     SCOPED_TRACE(fmt::format("{} x {}", width, height));
     load("thesis", width, height);

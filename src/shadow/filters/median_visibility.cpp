@@ -10,7 +10,7 @@ Filter median_visibility() {
           .of = Filter::Of::visibility,
           .passes = 1,
           .border = {{1, 1}},
-          .keeps = Filter::Keeps::unblocked};
+          .keeps = Filter::Keeps::nothing};
 }
 
 }  // namespace penumbra::shadow
