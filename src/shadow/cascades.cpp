@@ -223,7 +223,11 @@ Cascades fit_cascades(const CascadeInputs& in) {
     const double nearest = held_range(in_cone, region, in, cascades.cut_off).min;
     const double all_discs = in.tan_half_angle * std::max(deepest - nearest, 0.0);
     const glm::dvec2 margin = last ? glm::dvec2(all_discs) : glm::min(glm::dvec2(all_discs), 0.25 * half_width);
-    const glm::dvec2 half = step_up(half_width + margin, 16) * (1.0 + 4.0 / cascades.size);
+    const glm::dvec2 stepped = step_up(half_width + margin, 16);
+    // Texels on each side: one to be placed, and what layer_edge() asks for beside a receiver, 1.5 of the longer side.
+    const glm::dvec2 beside = 1.0 + 1.5 * glm::max(stepped.x, stepped.y) / stepped;
+    const glm::dvec2 half = in.visible ? stepped / (1.0 - 2.0 * beside / static_cast<double>(cascades.size))
+                                       : stepped * (1.0 + 4.0 / cascades.size);
     const glm::dvec2 texel = 2.0 * half / static_cast<double>(cascades.size);
     // At most a texel from the centre, so what is to be held stays inside.
     const glm::dvec2 placed =

@@ -243,6 +243,30 @@ TEST(VisibleCascades, TheLastHoldsTheDiscsOfItsReceivers) {
   }
 }
 
+// A receiver reads 1.5 texels of the longer side beside it (layer_edge() in glsl/shadow/projection/layers.glsl), also
+// where texels are long and the light is a point, so that no margin for discs covers them.
+TEST(VisibleCascades, TheLastHoldsTheTexelsBesideItsReceivers) {
+  for (int i = 0; i < 400; ++i) {
+    const double width = 2 + 0.01 * i;
+    ReceiverSlice long_slice = slice(100, width);
+    for (glm::dvec2& extent : long_slice.extents) extent += 0.37 * width;
+    CascadeInputs in = inputs({long_slice}, 1);
+    in.may_turn = false;
+    in.size = 64;
+    in.jitter = glm::dvec2(0.01 * (i % 100));
+    const Cascades cascades = fit_cascades(in);
+    const Cascade& last = cascades.items.back();
+    const LightBounds bounds = long_slice.bounds(x_axis(cascades));
+    const glm::vec2 texel = cascades.texel(0);
+    const glm::dvec2 beside(1.5 * std::max(texel.x, texel.y));
+    const glm::dvec2 low = glm::dvec2(bounds.low) - beside, high = glm::dvec2(bounds.high) + beside;
+    const glm::dvec2 center(last.center), half(last.half_extent);
+    EXPECT_TRUE(glm::all(glm::greaterThanEqual(low, center - half)) &&
+                glm::all(glm::lessThanEqual(high, center + half)))
+        << width;
+  }
+}
+
 TEST(VisibleCascades, TheLastHoldsOtherReceiversInTheViewAlone) {
   const VisibleReceivers slices{slice(1000, 1), slice(1000, 2)};
   CascadeInputs in = inputs(slices, 2);
