@@ -78,10 +78,13 @@ class DroppedView {
 
 // The values with which a further sample computes shadows of its own.
 ParamSet params_of_sample(const ParamSet& params, int index) {
-  constexpr int seeds = 65536;
   ParamSet own = params;
   own.set("history.reuse", false);
-  own.set("sampling.seed", (params.get_int("sampling.seed") + index) % seeds);
+  for (const Param& row : params.rows()) {
+    if (!row.name.ends_with(".seed")) continue;
+    const auto seeds = static_cast<std::int64_t>(row.max) + 1;
+    own.set(row.name, static_cast<int>((params.get_int(row.name) + index) % seeds));
+  }
   return own;
 }
 

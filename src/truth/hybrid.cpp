@@ -144,6 +144,17 @@ class HybridFrame {
     return left;
   }
 
+  // Of the points: another one in each frame where the parameters ask for other samples.
+  std::uint32_t seed() const {
+    constexpr std::uint32_t frames_apart = 65536;  // more than sampling.seed can be
+    const ParamSet& params = context_.params();
+    const auto shifts = [&](const char* sequence) { return params.get_word(sequence) == "shift"; };
+    const bool any = shifts("sampling.blocker_sequence") || shifts("sampling.filter_sequence");
+    const int frame = any ? context_.age() : shadow::set_number(params, context_.age());
+    return static_cast<std::uint32_t>(params.get_int("sampling.seed")) +
+           frames_apart * static_cast<std::uint32_t>(frame);
+  }
+
   void trace(std::span<const DrawnPixel> left) const {
     gl::Pass pass(context_.device(), {.name = "rays"});
     const std::vector<PenumbraPixel> traced =
@@ -154,7 +165,7 @@ class HybridFrame {
                          .sun = std::get<TracedSun>(traced_light(context_)),
                          .rays = (static_cast<std::uint32_t>(context_.params().get_int("hybrid.rays")) + 7) / 8 * 8,
                          .narrow = static_cast<float>(context_.params().get_int("hybrid.narrow")),
-                         .seed = static_cast<std::uint32_t>(shadow::set_number(context_.params(), context_.age())),
+                         .seed = seed(),
                          .threads = threads_});
     std::vector<std::uint32_t> packed;
     packed.reserve(traced.size());

@@ -152,6 +152,18 @@ TEST_F(Hybrid, DrawsTheSameEachTime) {
   EXPECT_EQ(once, draw(second, "hybrid"));
 }
 
+// Samples of one picture and frames of a history differ by these.
+TEST_F(Hybrid, OtherSeedsHaveOtherRays) {
+  SceneRun run("posts", 160, 90);
+  const Visibility first = draw(run, "hybrid");
+  run.params().set("sampling.seed", 1);
+  EXPECT_NE(draw(run, "hybrid"), first);
+  run.params().set("sampling.seed", 0);
+  run.params().set_text("sampling.filter_sequence", "shift");
+  EXPECT_EQ(draw(run, "hybrid"), first);
+  EXPECT_NE(run.draw(/*cut=*/false), first);
+}
+
 // Nothing moves but the sun's angle, so the tracer of the frame before serves again; a sky alone needs none.
 TEST_F(Hybrid, FollowsItsParametersAndDrawsASky) {
   SceneRun run("posts", 160, 90);
