@@ -64,6 +64,9 @@ SearchRadii search_radii(Receiver shallowest, Receiver deepest, float box_radius
     int level = disc_level(shallowest.position, near_disc + footprint, widest);
     nearest = level_bounds(shallowest.position, shared_disc, level, widest).least;
     radii.least = min(near_disc, penumbra_radius(shallowest, shallowest.position.z - nearest, widest));
+    // Some techniques narrow it by finer texels: see fine_search_radius().
+    nearest = depth_bounds(shallowest.position, vec2(max(radii.least + footprint - box_radius, 0.0)), widest).least;
+    radii.least = min(radii.least, penumbra_radius(shallowest, shallowest.position.z - nearest, widest));
   }
   return radii;
 }
