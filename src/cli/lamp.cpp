@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <optional>
+#include <vector>
 
 #include "cli/usage.h"
 
@@ -24,8 +25,7 @@ std::string text_of(const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.
 // What a spot's attributes say before all are known.
 struct Spot {
   std::optional<glm::vec3> to;
-  double cone = usual_cone;
-  std::optional<double> inner;
+  std::optional<double> cone, inner;
 };
 
 void set(render::LampLight& lamp, Spot& spot, const std::string& option, std::string_view name,
@@ -53,15 +53,17 @@ void set(render::LampLight& lamp, Spot& spot, const std::string& option, std::st
 }
 
 void make_spot(render::LampLight& lamp, const Spot& spot, std::string_view option) {
+  if (!spot.to && (spot.cone || spot.inner))
+    fail_usage("{}: cone and inner are of a spot, which needs to=X,Y,Z", option);
   if (!spot.to) return;
+  const double cone = spot.cone.value_or(usual_cone);
   const glm::vec3 axis = *spot.to - lamp.position;
   if (!(glm::length(axis) > 0)) fail_usage("{}: the lamp stands where it shines to", option);
   lamp.axis = glm::normalize(axis);
-  lamp.outer_cone = glm::radians(static_cast<float>(spot.cone));
+  lamp.outer_cone = glm::radians(static_cast<float>(cone));
   lamp.inner_cone = inner_share * lamp.outer_cone;
   if (!spot.inner) return;
-  if (*spot.inner > spot.cone)
-    fail_usage("{}: inner={} is wider than the cone of {} degrees", option, *spot.inner, spot.cone);
+  if (*spot.inner > cone) fail_usage("{}: inner={} is wider than the cone of {} degrees", option, *spot.inner, cone);
   lamp.inner_cone = glm::radians(static_cast<float>(*spot.inner));
 }
 
@@ -71,12 +73,16 @@ render::LampLight parse_lamp(std::string_view option, std::string_view text) {
   render::LampLight lamp;
   lamp.position = parse_point(option, text.substr(0, text.find(':')));
   Spot spot;
+  std::vector<std::string_view> given;
   for (std::size_t colon = text.find(':'); colon != std::string_view::npos;) {
     const std::size_t end = text.find(':', colon + 1);
     const std::string_view attribute = text.substr(colon + 1, end == std::string_view::npos ? end : end - colon - 1);
     const std::size_t equals = attribute.find('=');
     if (equals == std::string_view::npos) fail_usage("{}: '{}' is not NAME=VALUE", option, attribute);
-    set(lamp, spot, std::string(option), attribute.substr(0, equals), attribute.substr(equals + 1));
+    const std::string_view name = attribute.substr(0, equals);
+    if (std::ranges::find(given, name) != given.end()) fail_usage("{}: {} is given twice", option, name);
+    given.push_back(name);
+    set(lamp, spot, std::string(option), name, attribute.substr(equals + 1));
     colon = end;
   }
   make_spot(lamp, spot, option);
@@ -89,7 +95,8 @@ std::string lamp_text(const render::LampLight& lamp) {
   if (strongest <= 100 * brightest) {
     text += fmt::format(":rgb={}", text_of(lamp.intensity / 100.0f));
   } else {
-    text += fmt::format(":cd={}:rgb={}", std::min(strongest, brightest_lamp), text_of(lamp.intensity / strongest));
+    text += fmt::format(":cd={}:rgb={}", std::min(strongest, static_cast<float>(brightest_lamp)),
+                        text_of(lamp.intensity / strongest));
   }
   // Exporters write the largest float for a light that reaches everywhere.
   if (lamp.range > 0 && lamp.range <= farthest) text += fmt::format(":range={}", lamp.range);

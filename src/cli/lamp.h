@@ -8,7 +8,8 @@
 namespace penumbra::cli {
 
 // The most that a lamp of the user may have: its radius, metres, and its intensity, candela.
-constexpr float largest_lamp = 1000, brightest_lamp = 1e12f;
+constexpr float largest_lamp = 1000;
+constexpr double brightest_lamp = 1e12;
 
 // A lamp of the user: "x,y,z", its place in metres, and then, each after a colon and in any order,
 //   radius=METRES (0.03)   cd=CANDELA (100)   range=METRES (0: unlimited)   rgb=R,G,B (1,1,1)

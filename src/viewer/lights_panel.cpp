@@ -18,6 +18,8 @@ namespace penumbra::viewer {
 
 namespace {
 
+constexpr auto brightest_lamp = static_cast<float>(cli::brightest_lamp);
+
 // The lights that the options choose; nothing where none would shine.
 std::optional<render::Setup> lit_by(const Panel& panel, const cli::SceneOptions& options) {
   const scene::Scene& scene = panel.status.scene->prepared.scene;
@@ -67,7 +69,7 @@ void emission(const Panel& panel, render::LampLight& lamp) {
   const bool other = color_field(panel.widgets, "lamp colour", wanted);
   const float strongest = std::max({wanted.r, wanted.g, wanted.b});
   if (other && strongest > 0) color = wanted / strongest;
-  if (brighter || other) lamp.intensity = glm::clamp(candela * color, 0.0f, cli::brightest_lamp);
+  if (brighter || other) lamp.intensity = glm::clamp(candela * color, 0.0f, brightest_lamp);
 }
 
 void spot(const Panel& panel, render::LampLight& lamp) {
@@ -227,7 +229,7 @@ void lights_panel(const Panel& panel) {
     if (setup.sun_shines && !setup.sun_node && !options.sun) place_sun(state.document, setup.sun.to_light);
     options.lamps.push_back({.position = place,
                              .radius = std::min(0.02f * away, cli::largest_lamp),
-                             .intensity = glm::min(lux * (away * away), cli::brightest_lamp),
+                             .intensity = glm::min(lux * (away * away), brightest_lamp),
                              .number = free_number(options.lamps)});
     state.lamp = LampName{.of_file = false, .index = options.lamps.size() - 1};
   }

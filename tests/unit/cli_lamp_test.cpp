@@ -40,7 +40,7 @@ TEST(CliLamp, ItsTextReadsBackAsTheSame) {
        {"1,2,3", "0.1,-2,3.3:radius=0:cd=0.5:rgb=0.2,1,0.3", "0,3,0:to=1,0,2:cone=55:range=4",
         "0,3,0:to=0,0,0:cone=55:inner=0", "0,3,0:to=0,0,0:cone=30:inner=29", "0,3,0:to=0,0,0:cone=0.05",
         "0,3,0:to=0,0,0:cone=0.001:inner=0.001", "0,3,0:to=0,0,0:cone=30:inner=30",
-        "987654,321098,-765432:to=123456,-7890,4321", "1,2,3:cd=5e11:rgb=1,0.5,0.25"}) {
+        "987654,321098,-765432:to=123456,-7890,4321", "1,2,3:cd=5e11:rgb=1,0.5,0.25", "1,2,3:cd=1e12"}) {
     const render::LampLight lamp = parse(text), again = parse(cli::lamp_text(lamp));
     EXPECT_EQ(again.position, lamp.position);
     EXPECT_NEAR(glm::length(again.axis - lamp.axis), 0, 1e-4f);
@@ -53,12 +53,31 @@ TEST(CliLamp, ItsTextReadsBackAsTheSame) {
 }
 
 TEST(CliLamp, FaultsAreNamed) {
-  for (const char* text : {"", "1,2", "1,2,x", "1,2,3:", "1,2,3:radius", "1,2,3:size=1", "1,2,3:radius=-1",
-                           "1,2,3:radius=nan", "1,2,3:cd=1e30", "1,2,3:cone=0", "1,2,3:cone=91", "1,2,3:to=1,2,3",
-                           "1,2,3:rgb=-1,0,0", "1,2,3::cd=1", "1,2,inf", "1,2,3:to=0,0,0:cone=20:inner=30"})
+  for (const char* text : {"",
+                           "1,2",
+                           "1,2,x",
+                           "1,2,3:",
+                           "1,2,3:radius",
+                           "1,2,3:size=1",
+                           "1,2,3:radius=-1",
+                           "1,2,3:radius=nan",
+                           "1,2,3:cd=1e30",
+                           "1,2,3:cone=0",
+                           "1,2,3:cone=91",
+                           "1,2,3:to=1,2,3",
+                           "1,2,3:rgb=-1,0,0",
+                           "1,2,3::cd=1",
+                           "1,2,inf",
+                           "1,2,3:to=0,0,0:cone=20:inner=30",
+                           "1,2,3:cd=9e11:cd=9e11",
+                           "1,2,3:radius=1:radius=1",
+                           "1,2,3:cone=10",
+                           "1,2,3:inner=5"})
     EXPECT_NE(fault_of(text), "") << text;
   EXPECT_EQ(fault_of("1,2,3:size=1"),
             "--lamp: no attribute 'size'; there are radius, cd, range, rgb, to, cone and inner");
+  EXPECT_EQ(fault_of("1,2,3:cd=5:rgb=1,1,1:cd=5"), "--lamp: cd is given twice");
+  EXPECT_EQ(fault_of("1,2,3:cone=10"), "--lamp: cone and inner are of a spot, which needs to=X,Y,Z");
 }
 
 }  // namespace
